@@ -1,0 +1,32 @@
+/*
+ * Errors and exit codes, the same in every stage outside the traced program.
+ *
+ * Functions return 0 or a negative ERR_*; results go out by pointer. The text goes to standard error once, where the
+ * facts are known, through err_report; callers above only hand the code on. The command exits with the negated code.
+ */
+#ifndef BASE_ERR_H
+#define BASE_ERR_H
+
+enum {
+	ERR_FAILED   = -1, /* compared, and the comparison failed */
+	ERR_USAGE    = -2, /* wrong usage: options, ranges, names */
+	ERR_INPUT    = -3, /* an input is missing, unreadable or not what it should be */
+	ERR_BASELINE = -4, /* a baseline is new or missing */
+	ERR_SYSTEM   = -5, /* a device or the system failed: memory, disk, OpenCL, a child process */
+	ERR_GL       = -6  /* the recorded program made a GL error; it is state of the replay and never leaves it */
+};
+
+/**
+ * Print "relume: WHERE: TEXT" as one line on standard error.
+ *
+ * @param code   ERR_*, returned unchanged so that `return err_report(...)` reads well
+ * @param where  file, or file and frame or call ("gears.trace: frame 12"); NULL leaves it out
+ * @param fmt    printf format: what is wrong, and what to do about it; no newline
+ * @return code
+ */
+int err_report(int code, const char *where, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
+/** The same line, prefixed "warning: "; for what the user should know and that stops nothing. */
+void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,51 @@
+/*
+ * Frame ranges and file name patterns, as every verb takes them.
+ *
+ * A range list is "1-500", "1-500x5" (every fifth), "7", or several of these with commas. Frames count from 0, in the
+ * order of the trace's frame ends.
+ * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d" or "$F4" ("$F" alone: no padding).
+ */
+#ifndef BASE_FRAMES_H
+#define BASE_FRAMES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct frame_range {
+	uint64_t first, last, step; /* last is included; step >= 1 */
+};
+
+struct frame_list {
+	struct frame_range *ranges; /* owned; sorted by first */
+	size_t n_ranges;            /* 0: every frame */
+};
+
+/**
+ * Parse a range list.
+ * @param text  as typed by the user
+ * @param out   zero-initialised; filled on success, untouched on failure; free with frame_list_free
+ * @return 0, ERR_USAGE (reported) or ERR_SYSTEM (reported)
+ */
+int frame_list_parse(const char *text, struct frame_list *out);
+void frame_list_free(struct frame_list *list);
+
+/** 1 where the list holds the frame (an empty list holds every frame), 0 otherwise. */
+int frame_list_contains(const struct frame_list *list, uint64_t frame);
+
+/** The last frame the list asks for; UINT64_MAX for an empty list. */
+uint64_t frame_list_last(const struct frame_list *list);
+
+/** How many frames below `end` the list asks for. */
+uint64_t frame_list_count(const struct frame_list *list, uint64_t end);
+
+/** 1 where the pattern holds a place for a frame number. */
+int frame_pattern_has_number(const char *pattern);
+
+/**
+ * Put a frame number into a pattern.
+ * @param out, size  receives the name, NUL-terminated
+ * @return 0, or ERR_USAGE (reported) where the name does not fit
+ */
+int frame_pattern_expand(const char *pattern, uint64_t frame, char *out, size_t size);
+
+#endif

@@ -1,0 +1,21 @@
+/*
+ * The verbs of the command: one function each, defined in the stage that does the work.
+ *
+ * Each takes argc and argv with argv[0] the verb's name and argv[argc] NULL (as getopt_long expects), prints its own
+ * --help, and returns the exit code: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,
+ * 4 baseline new or missing, 5 a device or the system failed.
+ */
+#ifndef BASE_VERBS_H
+#define BASE_VERBS_H
+
+int record_main(int argc, char **argv);  /* capture/record.c */
+int info_main(int argc, char **argv);    /* replay/info.c */
+int dump_main(int argc, char **argv);    /* replay/dump.c */
+int scene_main(int argc, char **argv);   /* replay/scene_json.c */
+int render_main(int argc, char **argv);  /* tracer/render.c */
+int devices_main(int argc, char **argv); /* tracer/devices.c */
+int bench_main(int argc, char **argv);   /* tracer/bench.c */
+int raster_main(int argc, char **argv);  /* diff/raster.c */
+int diff_main(int argc, char **argv);    /* diff/diff.c */
+
+#endif

@@ -1,0 +1,65 @@
+"""Khronos' XML registries (Debian package khronos-api) as plain Python objects, for the generators of capture/ and replay/.
+
+Standard library only. Everything comes back in a fixed order, so that what is generated from it is the same each time.
+"""
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass, field
+
+DIRECTORY = "/usr/share/khronos-api"
+
+
+@dataclass
+class Param:
+    name: str
+    type: str            # C type as declared: "const GLfloat *"
+    group: str = ""      # enum group, if the registry names one
+    length: str = ""     # the registry's len attribute: "4", "count*3", "COMPSIZE(pname)", ""
+
+    @property
+    def pointer(self):
+        return self.type.count("*")
+
+
+@dataclass
+class Command:
+    name: str
+    result: str          # C type; "void" for none
+    params: list
+    alias: str = ""      # the command it is the same as
+    versions: list = field(default_factory=list)    # features that require it: ["GL_VERSION_1_0"]
+    extensions: list = field(default_factory=list)  # extensions that require it
+
+
+def _declaration(element):
+    """The C type of a <proto> or <param>: all its text but the name."""
+    text = element.text or ""
+    for child in element:
+        if child.tag != "name":
+            text += child.text or ""
+        text += child.tail or ""
+    return re.sub(r"\s*\*\s*", " *", re.sub(r"\s+", " ", text)).replace("* *", "**").strip()
+
+
+def read(file_name):
+    """(commands, enums) of one registry: {name: Command} and {name: int}, both sorted by name."""
+    root = ElementTree.parse(f"{DIRECTORY}/{file_name}").getroot()
+    commands = {}
+    for element in root.iterfind("commands/command"):
+        proto = element.find("proto")
+        alias = element.find("alias")
+        params = [Param(p.find("name").text, _declaration(p), p.get("group", ""), p.get("len", ""))
+                  for p in element.iterfind("param")]
+        name = proto.find("name").text
+        commands[name] = Command(name, _declaration(proto), params, alias.get("name") if alias is not None else "")
+    for feature in root.iterfind("feature"):
+        for required in feature.iterfind("require/command"):
+            commands[required.get("name")].versions.append(feature.get("name"))
+    for extension in root.iterfind("extensions/extension"):
+        for required in extension.iterfind("require/command"):
+            commands[required.get("name")].extensions.append(extension.get("name"))
+    enums = {}
+    for element in root.iterfind("enums/enum"):
+        if element.get("api") in (None, "gl") and not element.get("value").startswith('"'):
+            enums[element.get("name")] = int(element.get("value"), 0)
+    return dict(sorted(commands.items())), dict(sorted(enums.items()))

@@ -1,0 +1,125 @@
+/*
+ * Structs that the host and the kernels share, beside those of scene.h. Included by C and by OpenCL C 1.2: plain
+ * structs of 4-byte fields, no pointers. Sizes are asserted on the host (tracer/device.c).
+ *
+ * Terms
+ *   order      number of a primitive in the frame's draw order (scene.h)
+ *   BLAS       bottom level: one mesh's triangles in object space; all BLASes share pools of nodes and triangles
+ *   TLAS       top level: instances in eye space; one per view for camera rays, one per eye space for the others
+ *   fragment   what one primitive leaves at one pixel centre, before any per-fragment operation
+ */
+#ifndef KERNELS_SHARED_H
+#define KERNELS_SHARED_H
+
+#ifdef __OPENCL_VERSION__
+#define SHARED_SIZE(type, bytes)
+#else
+#include "replay/scene.h"
+#define SHARED_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
+#endif
+
+/* A ray in eye space; d need not be normalised, t counts in its length. */
+struct ray {
+	float o[3], t_min;
+	float d[3], t_max;
+};
+SHARED_SIZE(struct ray, 32);
+
+/* Nearest hit of a ray. instance == SCENE_NONE: none. b1, b2 weigh vertices 1 and 2 in object space. */
+struct hit {
+	float t, b1, b2;
+	uint32_t instance;  /* index in the frame's instances */
+	uint32_t primitive; /* number in the mesh */
+};
+SHARED_SIZE(struct hit, 20);
+
+/*
+ * What a primitive leaves at a pixel centre. b1, b2 are weights of vertices 1 and 2 on the SCREEN (linear in window
+ * space, not perspective-correct); attributes divide by w (GL 2.1 equation 3.6).
+ */
+struct fragment {
+	uint32_t order;     /* SCENE_NONE: no fragment */
+	uint32_t instance;
+	uint32_t primitive; /* number in the mesh */
+	float b1, b2;
+	float depth;        /* window depth after depth range, before polygon offset, [0,1] */
+};
+SHARED_SIZE(struct fragment, 24);
+
+/* A vertex in window space, snapped as llvmpipe does; w_inv <= 0 or a NaN: the primitive needs clipping, use clip. */
+struct window_vertex {
+	int32_t x, y; /* 1/256 pixel, origin lower left, relative to the pixel corner (0,0) of the drawable */
+	float z;      /* window depth, after depth range */
+	float w_inv;  /* 1 / clip w; 0 where the vertex lies outside of the clip volume's near/far planes or the safe range */
+};
+SHARED_SIZE(struct window_vertex, 16);
+
+/* A binary node: bounds of both children, so that a node is one fetch. */
+struct node2 {
+	float lo[2][3], hi[2][3];
+	uint32_t child[2]; /* inner: index of the node; leaf: index of the first item */
+	uint32_t count[2]; /* 0: inner; else the number of items in the leaf. An empty side has lo > hi */
+};
+SHARED_SIZE(struct node2, 64);
+
+/* An eight-wide node in rows, for one ray against eight boxes at once. */
+struct node8 {
+	float lo[3][8], hi[3][8];
+	uint32_t child[8], count[8]; /* as in node2; leaves point to blocks of eight triangles: child is the first block */
+};
+SHARED_SIZE(struct node8, 256);
+
+/* One triangle of a BLAS in leaf order, object space, for geometric tests (Moeller and Trumbore 1997). */
+struct triangle {
+	float v0[3], e1[3], e2[3];
+	uint32_t primitive;
+	uint32_t vertex[3]; /* indices in the mesh, for tests on window vertices */
+};
+SHARED_SIZE(struct triangle, 52);
+
+/* Eight triangles in rows; unused lanes are degenerate (all zero) with primitive SCENE_NONE. */
+struct triangle8 {
+	float v0[3][8], e1[3][8], e2[3][8];
+	uint32_t primitive[8];
+};
+SHARED_SIZE(struct triangle8, 320);
+
+/* bits of instance.flags */
+#define INSTANCE_OPAQUE 1u       /* hides what lies behind it: nothing of the draw lets light through */
+#define INSTANCE_SECONDARY 2u    /* seen by secondary rays: depth-tested and writes colour */
+#define INSTANCE_CULL_FRONT 4u   /* camera rays pass faces that are front in window space */
+#define INSTANCE_CULL_BACK 8u
+#define INSTANCE_FRONT_CW 16u    /* front faces run clockwise in window space */
+#define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
+                                    pixels, camera rays meet it as points; never secondary */
+#define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
+
+/* One instance as the kernels see it. */
+struct instance {
+	float eye_from_obj[12]; /* 3 rows of 4 */
+	float obj_from_eye[12];
+	uint32_t node2_first, node8_first, triangle_first, triangle8_first; /* where its BLAS lies in the pools */
+	uint32_t vertex_first;    /* its first vertex in the frame's vertex buffers */
+	uint32_t primitive_first; /* order number of its first primitive */
+	uint32_t flags;
+	float pad; /* by how much camera rays widen its boxes, object units: snapping moves edges by 1/256 pixel */
+	uint32_t material, view;  /* in scene.h's arrays */
+	uint32_t draw;
+	uint32_t scene_instance;  /* index in scene.instances (screen geometry may split one up) */
+};
+SHARED_SIZE(struct instance, 144);
+
+/* One view as the camera kernels see it. */
+struct view {
+	float projection[16], inverse[16];
+	float viewport[4];
+	float depth_range[2];
+	int32_t scissor[4];
+	uint32_t tlas_first;    /* its TLAS: first node2 in the pool of top nodes; leaves list instances */
+	uint32_t tlas_count;    /* nodes in it; 0: nothing to hit */
+	uint32_t screen_first;  /* screen instances of the view: instances[screen_first .. +screen_count) */
+	uint32_t screen_count;
+};
+SHARED_SIZE(struct view, 184);
+
+#endif

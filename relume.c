@@ -1,0 +1,69 @@
+/* The command: finds the verb, nothing else. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/verbs.h"
+
+static const struct verb {
+	const char *name;
+	int (*main)(int argc, char **argv);
+	const char *summary;
+} verbs[] = {
+	{ "record", record_main, "run a program and record its OpenGL calls" },
+	{ "info", info_main, "what a trace holds: frames, calls, what is not handled" },
+	{ "dump", dump_main, "print a trace's calls as text" },
+	{ "scene", scene_main, "print the scene of a frame" },
+	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
+	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
+	{ "diff", diff_main, "score traced frames against rasterized ones, or any two sets" },
+	{ "devices", devices_main, "list the OpenCL devices" },
+	{ "bench", bench_main, "measure the tracer's kernels" },
+};
+
+static void print_help(FILE *out)
+{
+	fputs("usage: relume VERB [OPTIONS] ...\n"
+	      "\n"
+	      "Ray trace what a legacy OpenGL program draws, from a recording.\n"
+	      "\n",
+	      out);
+	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++)
+		fprintf(out, "  %-9s %s\n", verbs[i].name, verbs[i].summary);
+	fputs("  help      this text, or 'relume help VERB' for a verb's own\n"
+	      "\n"
+	      "Exit codes: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,\n"
+	      "4 baseline new or missing, 5 a device or the system failed.\n",
+	      out);
+}
+
+static const struct verb *find_verb(const char *name)
+{
+	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++)
+		if (strcmp(verbs[i].name, name) == 0)
+			return &verbs[i];
+	return NULL;
+}
+
+int main(int argc, char **argv)
+{
+	const struct verb *verb;
+	int wants_help;
+
+	if (argc < 2) {
+		print_help(stderr);
+		return -ERR_USAGE;
+	}
+	wants_help = strcmp(argv[1], "help") == 0;
+	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || (wants_help && argc == 2)) {
+		print_help(stdout);
+		return 0;
+	}
+	verb = find_verb(argv[wants_help ? 2 : 1]);
+	if (!verb)
+		return -err_report(ERR_USAGE, NULL, "there is no verb '%s'; 'relume help' lists them",
+		                   argv[wants_help ? 2 : 1]);
+	if (wants_help)
+		return verb->main(2, (char *[]){ argv[2], "--help", NULL });
+	return verb->main(argc - 1, argv + 1);
+}
