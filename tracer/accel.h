@@ -1,0 +1,55 @@
+/*
+ * Acceleration structures: one BLAS per mesh, kept for as long as the mesh is used, and the top levels of one frame.
+ */
+#ifndef TRACER_ACCEL_H
+#define TRACER_ACCEL_H
+
+#include "kernels/shared.h"
+#include "replay/scene.h"
+
+/* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
+struct accel {
+	struct node2 *nodes2;         /* BLASes, one after the other */
+	struct node8 *nodes8;
+	struct triangle *triangles;   /* leaf order of nodes2 */
+	struct triangle8 *triangles8; /* leaf order of nodes8 */
+	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8;
+	uint64_t generation; /* grows whenever the pools above changed: upload again */
+
+	/* Of the current frame: leaves of both hold indices into instance_list. */
+	struct node2 *top2;
+	struct node8 *top8;
+	uint32_t *instance_list;
+	size_t n_top2, n_top8, n_instance_list;
+
+	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
+};
+
+int accel_create(struct accel **out);
+void accel_destroy(struct accel **accel);
+
+/* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY. */
+struct accel_space {
+	uint32_t space;      /* number as in scene_view.space */
+	uint32_t top2_first; /* in accel.top2 */
+	uint32_t top8_first; /* in accel.top8 */
+	uint32_t n_nodes;    /* 0: nothing to hit */
+};
+
+/**
+ * Find or build the BLASes of a frame's instances (binned SAH), then its top levels.
+ *
+ * @param scene      meshes and views
+ * @param eye_vertices  eye-space positions [4] of the vertices of INSTANCE_BAKED instances, at instance.vertex_first of
+ *                   each; NULL where there is none of these
+ * @param instances  [n]; matrices, flags, pad, view, vertex_first and scene_instance are filled in by the caller;
+ *                   node2_first, node8_first, triangle_first and triangle8_first are filled in here
+ * @param views      [scene->n_views]; tlas_first and tlas_count are filled in here
+ * @param spaces     receives an array owned by accel, valid until the next call
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int accel_build_frame(struct accel *accel, const struct scene *scene, const float (*eye_vertices)[4],
+                      struct instance *instances, uint32_t n, struct view *views, const struct accel_space **spaces,
+                      uint32_t *n_spaces);
+
+#endif

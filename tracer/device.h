@@ -1,0 +1,90 @@
+/*
+ * A device: where kernels run and buffers live. Either an OpenCL device, or "reference": the scalar C twins of
+ * kernels/ref, in this process. The tracer is written once against this header and does not know which one it has.
+ *
+ * Every kernel has an enumerator, one OpenCL function "NAME" and one C twin "NAME_c" that does the work items
+ * first .. last-1. Both take the same arguments in the same order; the kernel's own header comment is their
+ * specification. Work items beyond the count given must do nothing: OpenCL rounds the global size up to work groups.
+ */
+#ifndef TRACER_DEVICE_H
+#define TRACER_DEVICE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* X(name): kernel NAME in kernels/, twin NAME_c in kernels/ref/. */
+#define DEVICE_KERNELS(X) \
+	X(camera_packet)    /* camera rays, 8 pixels (4 x 2) a work item, BVH2; nearest fragment or a column of them */ \
+	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
+	X(occlude_packet)   /* shadow rays, 8 consecutive rays a work item, BVH2 */ \
+	X(occlude_wide)     /* the same, one ray a work item, 8-wide nodes */ \
+	X(intersect_packet) /* nearest hit, 8 consecutive coherent rays a work item, BVH2 */ \
+	X(intersect_wide)   /* the same, one ray a work item, 8-wide nodes */ \
+	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
+	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
+	X(shade_hit)        /* one hit of a secondary ray a work item */ \
+	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */
+
+enum device_kernel {
+#define DEVICE_KERNEL_ENUM(name) KERNEL_##name,
+	DEVICE_KERNELS(DEVICE_KERNEL_ENUM)
+	N_DEVICE_KERNELS
+};
+
+/* One kernel argument. */
+struct device_arg {
+	const struct device_buffer *buffer; /* NULL: a value */
+	const void *value;                  /* of `bytes` bytes, copied at the launch */
+	size_t bytes;
+};
+#define ARG_BUFFER(b) ((struct device_arg){ .buffer = (b) })
+#define ARG_VALUE(v) ((struct device_arg){ .value = &(v), .bytes = sizeof(v) })
+
+/*
+ * A C twin: does work items first .. last-1. args[i] points to the buffer's memory, or to the value.
+ */
+typedef void device_twin(const void *const *args, size_t first, size_t last);
+
+struct device;
+struct device_buffer; /* memory on one device */
+
+/**
+ * Open a device.
+ * @param choice  NULL: the first GPU, else the first CPU found by OpenCL. "reference": the C twins. Else a number from
+ *                `relume devices` or part of a device's name.
+ * @param threads compute threads where the device is a CPU, 0: all cores
+ * @param out     owned by the caller, device_close
+ * @return 0; ERR_SYSTEM (reported: no OpenCL device at all names the package to install); ERR_USAGE (no such choice)
+ */
+int device_open(const char *choice, unsigned threads, struct device **out);
+void device_close(struct device **dev);
+
+/** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
+const char *device_name(const struct device *dev);
+
+/** 1 where one work item should hold eight rays (CPU families: the *_packet kernels), 0 where one (GPUs). */
+int device_prefers_packets(const struct device *dev);
+
+/**
+ * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
+ * @return 0 or ERR_SYSTEM (reported with the size)
+ */
+int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes);
+void device_release(struct device *dev, struct device_buffer **buffer);
+
+/** Copy into or out of a buffer; both return when the bytes have been copied and all earlier kernels are done. */
+int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
+int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes);
+
+/**
+ * Queue a kernel; kernels of a device run one after the other, in the order queued.
+ * @param n_items  work items; 0: nothing is queued
+ * @return 0 or ERR_SYSTEM (reported: kernel, OpenCL's error by name)
+ */
+int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+               size_t n_args);
+
+/** Wait until everything queued is done. @return 0 or ERR_SYSTEM (reported) */
+int device_finish(struct device *dev);
+
+#endif
