@@ -1,0 +1,187 @@
+/* The reader of reference frames: whole files, files cut at every byte, and files that lie. */
+#include <check.h>
+#include <snappy-c.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "capture/ref.h"
+
+enum { WIDTH = 5, HEIGHT = 3, PIXEL_BYTES = WIDTH * HEIGHT * 4, N_FRAMES = 4 };
+
+static char path[] = "/tmp/relume-test-ref-XXXXXX";
+static uint8_t file[4096];
+static size_t file_bytes;
+static size_t record_end[N_FRAMES * 2];
+
+static void put_le(uint64_t v, unsigned n)
+{
+	while (n--) {
+		file[file_bytes++] = (uint8_t)v;
+		v >>= 8;
+	}
+}
+
+static void put_record(enum ref_kind kind, uint64_t frame, const void *pixels)
+{
+	char packed[256];
+	size_t packed_bytes = sizeof(packed);
+
+	ck_assert_int_eq(snappy_compress(pixels, PIXEL_BYTES, packed, &packed_bytes), SNAPPY_OK);
+	put_le(kind, 4);
+	put_le(WIDTH, 4);
+	put_le(HEIGHT, 4);
+	put_le(frame, 8);
+	put_le(packed_bytes, 8);
+	memcpy(file + file_bytes, packed, packed_bytes);
+	file_bytes += packed_bytes;
+}
+
+static void fill_color(uint8_t *pixels, uint64_t frame)
+{
+	for (int i = 0; i < PIXEL_BYTES; i++)
+		pixels[i] = (uint8_t)(i * 7 + frame * 31);
+}
+
+static void fill_depth(float *depth, uint64_t frame)
+{
+	for (int i = 0; i < WIDTH * HEIGHT; i++)
+		depth[i] = (float)i / (float)(frame + 20);
+}
+
+static void make_file(void)
+{
+	uint8_t color[PIXEL_BYTES];
+	float depth[WIDTH * HEIGHT];
+
+	file_bytes = 0;
+	memcpy(file, REF_MAGIC, 8);
+	file_bytes = 8;
+	for (int i = 0; i < N_FRAMES; i++) { /* frames 0, 3, 6, 9 as --ref-every 3 makes them */
+		fill_color(color, (uint64_t)i * 3);
+		fill_depth(depth, (uint64_t)i * 3);
+		put_record(REF_COLOR, (uint64_t)i * 3, color);
+		record_end[i * 2] = file_bytes;
+		put_record(REF_DEPTH, (uint64_t)i * 3, depth);
+		record_end[i * 2 + 1] = file_bytes;
+	}
+}
+
+static void write_file(size_t bytes)
+{
+	FILE *f = fopen(path, "wb");
+
+	ck_assert_ptr_nonnull(f);
+	ck_assert_uint_eq(fwrite(file, 1, bytes, f), bytes);
+	ck_assert_int_eq(fclose(f), 0);
+}
+
+START_TEST(test_reads_back_what_was_written)
+{
+	struct ref_file ref = { 0 };
+	uint8_t color[PIXEL_BYTES];
+	float depth[WIDTH * HEIGHT];
+
+	make_file();
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), 0);
+	ck_assert_uint_eq(ref.n_entries, N_FRAMES * 2);
+	for (uint64_t frame = 0; frame < 12; frame++) {
+		const struct ref_entry *c = ref_find(&ref, REF_COLOR, frame), *d = ref_find(&ref, REF_DEPTH, frame);
+		void *got;
+
+		if (frame % 3) {
+			ck_assert_ptr_null(c);
+			ck_assert_ptr_null(d);
+			continue;
+		}
+		fill_color(color, frame);
+		fill_depth(depth, frame);
+		ck_assert_uint_eq(c->width, WIDTH);
+		ck_assert_uint_eq(c->height, HEIGHT);
+		ck_assert_int_eq(ref_read(&ref, c, &got), 0);
+		ck_assert_mem_eq(got, color, PIXEL_BYTES);
+		free(got);
+		ck_assert_int_eq(ref_read(&ref, d, &got), 0);
+		ck_assert_mem_eq(got, depth, PIXEL_BYTES);
+		free(got);
+	}
+	ref_close(&ref);
+	ck_assert_ptr_null(ref.entries);
+}
+END_TEST
+
+START_TEST(test_cut_at_any_byte_keeps_whole_records)
+{
+	make_file();
+	for (size_t cut = 0; cut <= file_bytes; cut++) {
+		struct ref_file ref = { 0 };
+		size_t whole = 0;
+
+		write_file(cut);
+		if (cut < 8) {
+			ck_assert_int_eq(ref_open(&ref, path), ERR_INPUT);
+			continue;
+		}
+		while (whole < N_FRAMES * 2 && record_end[whole] <= cut)
+			whole++;
+		ck_assert_int_eq(ref_open(&ref, path), 0);
+		ck_assert_uint_eq(ref.n_entries, whole);
+		ref_close(&ref);
+	}
+}
+END_TEST
+
+START_TEST(test_lies_are_refused)
+{
+	struct ref_file ref = { 0 };
+	void *got = NULL;
+
+	ck_assert_int_eq(ref_open(&ref, "/nonexistent/x.ref"), ERR_INPUT);
+	ck_assert_int_eq(ref_open(&ref, "/tmp"), ERR_INPUT);
+
+	make_file();
+	file[8] = 9; /* a kind that does not exist */
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), ERR_INPUT);
+
+	make_file();
+	file[8 + 4] = WIDTH + 1; /* a size that the block does not have */
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), 0);
+	ck_assert_int_eq(ref_read(&ref, &ref.entries[0], &got), ERR_INPUT);
+	ck_assert_ptr_null(got);
+	ref_close(&ref);
+
+	make_file();
+	memset(file + 8 + 28 + 1, 0xFF, 8); /* a block that is no Snappy */
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), 0);
+	ck_assert_int_eq(ref_read(&ref, &ref.entries[0], &got), ERR_INPUT);
+	ref_close(&ref);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("ref");
+	TCase *tcase = tcase_create("ref");
+	SRunner *runner;
+	int failed, fd = mkstemp(path);
+
+	if (fd < 0)
+		return 1;
+	close(fd);
+	tcase_add_test(tcase, test_reads_back_what_was_written);
+	tcase_add_test(tcase, test_cut_at_any_byte_keeps_whole_records);
+	tcase_add_test(tcase, test_lies_are_refused);
+	suite_add_tcase(suite, tcase);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	unlink(path);
+	return failed != 0;
+}
