@@ -50,7 +50,8 @@ const char *image_attribute(const struct image *img, const char *name);
 
 /**
  * Write as OpenEXR: one part, ZIP (level 4), half or float as the channels say, channels sorted by name, written to a
- * temporary name beside `path` and renamed when whole. Same image, same bytes.
+ * temporary name beside `path` and renamed when whole. Same image, same bytes. Attributes are strings, but for
+ * worldToCamera and worldToNDC, whose text is 16 numbers in the file's order (rows of a matrix for row vectors).
  * @return 0, or ERR_SYSTEM (reported; nothing is left under either name)
  */
 int image_write_exr(const struct image *img, const char *path);

@@ -1,0 +1,212 @@
+/* struct image and its OpenEXR form: what is written is what is read, byte for byte the same twice, or not at all. */
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "tracer/image.h"
+
+static char folder[] = "/tmp/test_image.XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+	static char path[256];
+
+	snprintf(path, sizeof(path), "%s/%s", folder, name);
+	return path;
+}
+
+static float noise(uint32_t *seed)
+{
+	*seed = *seed * 1664525u + 1013904223u;
+	return (float)(*seed >> 8) / 16777216.0f;
+}
+
+static struct image make_image(uint32_t width, uint32_t height)
+{
+	struct image img = { .width = width, .height = height };
+	float *half = image_add_channel(&img, "gl.R", 0), *full = image_add_channel(&img, "Z", 1);
+	uint32_t seed = 1;
+
+	for (size_t i = 0; i < (size_t)width * height; i++) {
+		half[i] = (float)(i % 2048) / 1024; /* representable as half */
+		full[i] = noise(&seed);
+	}
+	image_set_attribute(&img, "relume:frame", "%d", 17);
+	image_set_attribute(&img, "worldToCamera", "1 0 0 0 0 1 0 0 0 0 -1 0 0.5 0 0 1");
+	return img;
+}
+
+static long file_size(const char *path)
+{
+	struct stat status;
+
+	return stat(path, &status) == 0 ? (long)status.st_size : -1;
+}
+
+static char *file_bytes(const char *path, long *size)
+{
+	FILE *f = fopen(path, "rb");
+	char *bytes;
+
+	*size = file_size(path);
+	ck_assert_ptr_nonnull(f);
+	bytes = malloc((size_t)*size);
+	ck_assert_uint_eq(fread(bytes, 1, (size_t)*size, f), (size_t)*size);
+	fclose(f);
+	return bytes;
+}
+
+START_TEST(test_round_trip)
+{
+	struct image img = make_image(61, 37), back = { 0 };
+
+	ck_assert_int_eq(image_write_exr(&img, in_folder("round.exr")), 0);
+	ck_assert_int_eq(image_read_exr(&back, in_folder("round.exr")), 0);
+	ck_assert_uint_eq(back.width, 61);
+	ck_assert_uint_eq(back.height, 37);
+	ck_assert_uint_eq(back.n_channels, 2);
+	for (size_t i = 0; i < img.n_channels; i++)
+		ck_assert_mem_eq(image_channel(&back, img.channels[i].name), img.channels[i].values, 61 * 37 * sizeof(float));
+	ck_assert_str_eq(image_attribute(&back, "relume:frame"), "17");
+	ck_assert_str_eq(image_attribute(&back, "worldToCamera"), "1 0 0 0 0 1 0 0 0 0 -1 0 0.5 0 0 1");
+	image_free(&img);
+	image_free(&back);
+	ck_assert_ptr_null(img.channels);
+}
+END_TEST
+
+/* One row per chunk size, noise of every kind: sizes where compressed and raw meet are among them. */
+START_TEST(test_every_small_size)
+{
+	for (uint32_t width = 1; width < 40; width++)
+		for (uint32_t height = 1; height < 4; height++) {
+			struct image img = { .width = width, .height = height }, back = { 0 };
+			float *full = image_add_channel(&img, "Z", 1);
+			uint32_t seed = width;
+
+			for (uint32_t i = 0; i < width * height; i++)
+				full[i] = i % 3 ? noise(&seed) : 1.0f;
+			ck_assert_int_eq(image_write_exr(&img, in_folder("small.exr")), 0);
+			ck_assert_int_eq(image_read_exr(&back, in_folder("small.exr")), 0);
+			ck_assert_mem_eq(image_channel(&back, "Z"), full, width * height * sizeof(float));
+			image_free(&img);
+			image_free(&back);
+		}
+}
+END_TEST
+
+START_TEST(test_same_bytes)
+{
+	struct image img = make_image(100, 50);
+	long n1, n2;
+	char *a, *b;
+
+	ck_assert_int_eq(image_write_exr(&img, in_folder("a.exr")), 0);
+	ck_assert_int_eq(image_write_exr(&img, in_folder("b.exr")), 0);
+	a = file_bytes(in_folder("a.exr"), &n1);
+	b = file_bytes(in_folder("b.exr"), &n2);
+	ck_assert_int_eq(n1, n2);
+	ck_assert_mem_eq(a, b, (size_t)n1);
+	free(a);
+	free(b);
+	image_free(&img);
+}
+END_TEST
+
+START_TEST(test_half_rounds_to_nearest_even)
+{
+	struct image img = { .width = 3, .height = 1 }, back = { 0 };
+	float *v = image_add_channel(&img, "R", 0);
+
+	v[0] = 1 + 1 / 2048.0f; /* halfway: to even, down */
+	v[1] = 1 + 3 / 2048.0f; /* halfway: to even, up */
+	v[2] = INFINITY;
+	ck_assert_int_eq(image_write_exr(&img, in_folder("half.exr")), 0);
+	ck_assert_int_eq(image_read_exr(&back, in_folder("half.exr")), 0);
+	v = image_channel(&back, "R");
+	ck_assert_float_eq(v[0], 1);
+	ck_assert_float_eq(v[1], 1 + 2 / 1024.0f);
+	ck_assert(isinf(v[2]));
+	image_free(&img);
+	image_free(&back);
+}
+END_TEST
+
+/* A file cut anywhere is refused or, where the cut is beyond the pixels, read; it never crashes and never half fills. */
+START_TEST(test_cut_file)
+{
+	struct image img = make_image(40, 40);
+	long size;
+	char *bytes;
+
+	ck_assert_int_eq(image_write_exr(&img, in_folder("whole.exr")), 0);
+	bytes = file_bytes(in_folder("whole.exr"), &size);
+	for (long n = 0; n < size; n += 1 + size / 97) {
+		struct image back = { 0 };
+		FILE *f = fopen(in_folder("cut.exr"), "wb");
+
+		fwrite(bytes, 1, (size_t)n, f);
+		fclose(f);
+		ck_assert_int_eq(image_read_exr(&back, in_folder("cut.exr")), ERR_INPUT);
+		ck_assert_ptr_null(back.channels);
+	}
+	free(bytes);
+	image_free(&img);
+}
+END_TEST
+
+START_TEST(test_refuses)
+{
+	struct image img = make_image(4, 4), back = { 0 };
+
+	ck_assert_int_eq(image_read_exr(&back, in_folder("missing.exr")), ERR_INPUT);
+	ck_assert_int_eq(image_read_exr(&back, folder), ERR_INPUT);
+	ck_assert_int_eq(image_write_exr(&img, in_folder("no/such/folder.exr")), ERR_SYSTEM);
+	ck_assert_int_eq(image_write_exr(&img, folder), ERR_SYSTEM);
+	image_free(&img);
+}
+END_TEST
+
+START_TEST(test_encoding)
+{
+	for (int code = 0; code < 256; code++) {
+		float x = (float)code / 255;
+
+		ck_assert_float_eq_tol(image_display_from_linear(image_linear_from_display(x)), x, 1e-6f);
+	}
+	ck_assert_float_eq_tol(image_linear_from_display(0.5f), 0.21404114f, 1e-6f);
+	ck_assert_float_eq_tol(image_linear_from_display(-0.5f), -0.21404114f, 1e-6f);
+	ck_assert_float_eq(image_linear_from_display(1), 1);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("image");
+	TCase *tests = tcase_create("image");
+	SRunner *runner;
+	char command[64];
+	int failed;
+
+	if (!mkdtemp(folder))
+		return 1;
+	tcase_add_test(tests, test_round_trip);
+	tcase_add_test(tests, test_every_small_size);
+	tcase_add_test(tests, test_same_bytes);
+	tcase_add_test(tests, test_half_rounds_to_nearest_even);
+	tcase_add_test(tests, test_cut_file);
+	tcase_add_test(tests, test_refuses);
+	tcase_add_test(tests, test_encoding);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	snprintf(command, sizeof(command), "rm -rf %s", folder);
+	return system(command) != 0 || failed != 0;
+}
