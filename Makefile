@@ -38,6 +38,14 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(CPPFLAGS) $(ALL_CXXFLAGS) -c -o $@ $<
 
+# Generated headers come before whatever includes them; the .d files know the rest.
+GENERATED_H := $(BUILD)/gen/gl_tokens.h
+$(COMMAND_OBJ): | $(GENERATED_H)
+
+$(BUILD)/gen/gl_tokens.h: replay/gen.py capture/registry.py
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
+
 # Rebuilt when flags change.
 $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)

@@ -1,0 +1,90 @@
+/*
+ * A recording, played back frame by frame: what the renderer, `relume info` and `relume scene` use of replay/.
+ *
+ * A replay runs a trace's calls through a GL state machine of its own (no GL, no window) and hands out one scene per
+ * frame. It is used by one thread at a time. Scenes are independent of it: a scene stays valid after the next
+ * replay_next_frame and after replay_close, and may be released by another thread.
+ *
+ * Frame n (from 0) ends with the trace's n-th swap of buffers; calls after the last one are executed but are no frame.
+ */
+#ifndef REPLAY_REPLAY_H
+#define REPLAY_REPLAY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "replay/scene.h"
+
+struct replay;
+
+/**
+ * Open a trace.
+ * @param out   receives the replay; owned by the caller, replay_close. NULL on failure
+ * @param path  apitrace's format: Snappy, gzip or Brotli container
+ * @return 0, ERR_INPUT (reported: what is wrong with the file, and where) or ERR_SYSTEM (reported)
+ */
+int replay_open(struct replay **out, const char *path);
+void replay_close(struct replay **rp);
+
+/**
+ * Execute the calls up to the end of the next frame.
+ * @param want   0: execute only (skip a frame; cheaper), *scene is set to NULL. 1: build the frame's scene
+ * @param scene  receives the frame's scene; the caller's, scene_release. NULL unless the return value is 1 and want was 1
+ * @return 1 a frame was finished; 0 the trace has no further frame end (*scene NULL); ERR_INPUT (reported: damaged at
+ *         a byte; all frames whole before it were delivered) or ERR_SYSTEM (reported)
+ */
+int replay_next_frame(struct replay *rp, int want, struct scene **scene);
+
+/** Give a scene back; NULL is allowed. Sets *scene to NULL. May run in any thread. */
+void scene_release(struct scene **scene);
+
+/** Number of the frame that the next replay_next_frame will finish; so far executed frames. */
+uint64_t replay_frame(const struct replay *rp);
+
+/** Calls read so far. */
+uint64_t replay_call_count(const struct replay *rp);
+
+/**
+ * Name of the trace for files that come from it: 32 hex digits, XXH3-128 over its first MiB and its size. Borrowed.
+ */
+const char *replay_trace_hash(const struct replay *rp);
+
+/** The recorded program's path (the trace's property process.name), or "". Borrowed. */
+const char *replay_program(const struct replay *rp);
+
+/** A command and how often something happened to it. */
+struct replay_count {
+	const char *name;  /* a static string, or the reader's: valid until replay_close */
+	const char *why;   /* what is not done of it; NULL: all of it */
+	uint64_t count;
+};
+
+/**
+ * Calls met so far that the state machine does not execute (or not wholly), most frequent first.
+ * @param out  receives an array, valid until the next call of any replay function
+ * @return number of entries
+ */
+size_t replay_unsupported(struct replay *rp, const struct replay_count **out);
+
+/** All calls met so far by name, most frequent first; as above. */
+size_t replay_calls(struct replay *rp, const struct replay_count **out);
+
+/** GL errors that the program itself made so far: name of the call, why = the error's name; as above. */
+size_t replay_gl_errors(struct replay *rp, const struct replay_count **out);
+
+/** One context of the recorded program. */
+struct replay_context {
+	uint64_t handle;        /* as the program saw it */
+	uint32_t width, height; /* of the drawable it drew to last */
+	const char *api;        /* "GLX", "EGL" */
+	uint64_t calls;         /* executed in it */
+	int shares;             /* 1: shares its objects with another one */
+};
+
+/** Contexts met so far in the order they were created; as above. */
+size_t replay_contexts(struct replay *rp, const struct replay_context **out);
+
+/** Report what replay_unsupported lists on standard error, one line each at most `limit`, as the end of a run does. */
+void replay_report_unsupported(struct replay *rp, const char *where, size_t limit);
+
+#endif
