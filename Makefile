@@ -13,7 +13,7 @@ CXXFLAGS ?= -O2 -g
 WARNINGS := -Wall -Wextra
 SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
-ALL_CFLAGS := -std=c11 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
+ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
 LIBS := -lOpenEXRCore-3_1 -lOpenImageIO -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
 
@@ -23,7 +23,9 @@ COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kerne
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_CXX := $(wildcard diff/*.cpp)
 
-COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o)
+COMMAND_GEN := $(BUILD)/gen/kernels.c
+
+COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
 all: $(BUILD)/relume
 
@@ -45,6 +47,16 @@ $(COMMAND_OBJ): | $(GENERATED_H)
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
+
+$(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<
+
+# Kernels travel as text inside the command.
+KERNELS := $(wildcard kernels/*.cl)
+$(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.d) . $(BUILD)/gen -- $(KERNELS)
+-include $(BUILD)/gen/kernels.d
 
 # Rebuilt when flags change.
 $(BUILD)/flags: FORCE

@@ -48,6 +48,21 @@ typedef void device_twin(const void *const *args, size_t first, size_t last);
 struct device;
 struct device_buffer; /* memory on one device */
 
+/* An OpenCL device as `relume devices` lists it; its place in the list is the number device_open takes. */
+struct device_description {
+	char name[128], platform[64], driver[64];
+	int cpu;
+	unsigned units;
+	uint64_t memory_bytes;
+};
+
+/**
+ * List the OpenCL devices.
+ * @param out  receives an array; free it with free()
+ * @return 0, or ERR_SYSTEM (reported: no device at all names the package to install)
+ */
+int device_list(struct device_description **out, size_t *n);
+
 /**
  * Open a device.
  * @param choice  NULL: the first GPU, else the first CPU found by OpenCL. "reference": the C twins. Else a number from

@@ -1,0 +1,368 @@
+#include "tracer/cl.h"
+
+#include <CL/cl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/kernels.h"
+
+/* Not in the core header: what the ICD loader says when no driver is installed. */
+#define CL_PLATFORM_NOT_FOUND (-1001)
+
+#define MAX_PLATFORMS 16
+#define MAX_DEVICES 64
+
+/*
+ * Work items in a group. A driver runs a group's items in a loop: small groups cost a call each, large ones leave cores
+ * without work at the end of a launch.
+ */
+#define GROUP_CPU 8
+#define GROUP_GPU 64
+
+/* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
+static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
+static const char options[] = "-cl-std=CL1.2";
+
+struct cl_device {
+	cl_device_id root, id; /* id: root, or a sub-device of it */
+	cl_context context;
+	cl_command_queue queue;
+	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
+	cl_kernel kernels[N_DEVICE_KERNELS];
+	int cpu;
+};
+
+struct cl_buffer {
+	cl_mem mem;
+	size_t bytes;
+};
+
+static const char *error_name(cl_int code)
+{
+	static const struct {
+		cl_int code;
+		const char *name;
+	} names[] = {
+#define NAME(x) { x, #x }
+		NAME(CL_DEVICE_NOT_FOUND), NAME(CL_DEVICE_NOT_AVAILABLE), NAME(CL_COMPILER_NOT_AVAILABLE),
+		NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE), NAME(CL_OUT_OF_RESOURCES), NAME(CL_OUT_OF_HOST_MEMORY),
+		NAME(CL_BUILD_PROGRAM_FAILURE), NAME(CL_DEVICE_PARTITION_FAILED), NAME(CL_INVALID_VALUE),
+		NAME(CL_INVALID_PLATFORM), NAME(CL_INVALID_DEVICE), NAME(CL_INVALID_CONTEXT),
+		NAME(CL_INVALID_COMMAND_QUEUE), NAME(CL_INVALID_MEM_OBJECT), NAME(CL_INVALID_BUILD_OPTIONS),
+		NAME(CL_INVALID_PROGRAM), NAME(CL_INVALID_PROGRAM_EXECUTABLE), NAME(CL_INVALID_KERNEL_NAME),
+		NAME(CL_INVALID_KERNEL), NAME(CL_INVALID_ARG_INDEX), NAME(CL_INVALID_ARG_VALUE),
+		NAME(CL_INVALID_ARG_SIZE), NAME(CL_INVALID_KERNEL_ARGS), NAME(CL_INVALID_WORK_GROUP_SIZE),
+		NAME(CL_INVALID_GLOBAL_WORK_SIZE), NAME(CL_INVALID_BUFFER_SIZE), NAME(CL_INVALID_OPERATION),
+		NAME(CL_INVALID_DEVICE_PARTITION_COUNT), NAME(CL_PLATFORM_NOT_FOUND),
+#undef NAME
+	};
+
+	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
+		if (names[i].code == code)
+			return names[i].name;
+	return "an unnamed OpenCL error";
+}
+
+static int report(cl_int code, const char *what)
+{
+	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
+}
+
+/* Every device of every platform, in the drivers' order. */
+static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
+{
+	cl_platform_id platforms[MAX_PLATFORMS];
+	cl_uint n_platforms = 0, n_found;
+	cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
+
+	*n = 0;
+	if (code != CL_SUCCESS)
+		n_platforms = 0;
+	if (n_platforms > MAX_PLATFORMS)
+		n_platforms = MAX_PLATFORMS;
+	for (cl_uint i = 0; i < n_platforms; i++) {
+		n_found = 0;
+		if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR,
+		                   (cl_uint)(MAX_DEVICES - *n), ids + *n, &n_found) != CL_SUCCESS)
+			continue;
+		*n = *n + n_found < MAX_DEVICES ? *n + n_found : MAX_DEVICES;
+	}
+	if (*n == 0)
+		return err_report(ERR_SYSTEM, "OpenCL",
+		                  "there is no OpenCL device here; install the Debian package pocl-opencl-icd (CPU) or your "
+		                  "GPU's OpenCL driver, or use --device reference (slow)");
+	return 0;
+}
+
+int cl_list(struct device_description **out, size_t *n)
+{
+	cl_device_id ids[MAX_DEVICES];
+	struct device_description *list;
+	int err = find_devices(ids, n);
+
+	if (err)
+		return err;
+	list = calloc(*n, sizeof(*list));
+	if (!list)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < *n; i++) {
+		cl_platform_id platform = NULL;
+		cl_device_type type = 0;
+		cl_uint units = 0;
+		cl_ulong memory = 0;
+
+		clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof(list[i].name) - 1, list[i].name, NULL);
+		clGetDeviceInfo(ids[i], CL_DRIVER_VERSION, sizeof(list[i].driver) - 1, list[i].driver, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(memory), &memory, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
+		if (platform)
+			clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(list[i].platform) - 1, list[i].platform, NULL);
+		list[i].cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+		list[i].units = units;
+		list[i].memory_bytes = memory;
+	}
+	*out = list;
+	return 0;
+}
+
+/* A sub-device of so many units, so that a run uses no more cores than it was given. */
+static int limit_threads(struct cl_device *dev, unsigned threads)
+{
+	const cl_device_partition_property counts[] = { CL_DEVICE_PARTITION_BY_COUNTS, threads,
+		                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0 };
+	cl_uint units = 0;
+	cl_int code;
+
+	clGetDeviceInfo(dev->root, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
+	if (!dev->cpu || threads == 0 || threads >= units)
+		return 0;
+	code = clCreateSubDevices(dev->root, counts, 1, &dev->id, NULL);
+	if (code == CL_SUCCESS)
+		return 0;
+	dev->id = dev->root;
+	return report(code, "this device cannot be limited to fewer threads");
+}
+
+int cl_open(size_t number, unsigned threads, struct cl_device **out)
+{
+	cl_device_id ids[MAX_DEVICES];
+	struct cl_device *dev = NULL;
+	cl_device_type type = 0;
+	cl_int code;
+	size_t n;
+	int err = find_devices(ids, &n);
+
+	if (err)
+		return err;
+	if (number >= n)
+		return err_report(ERR_SYSTEM, "OpenCL", "device %zu is gone", number);
+	dev = calloc(1, sizeof(*dev));
+	if (dev)
+		dev->programs = calloc(n_kernel_files + 1, sizeof(*dev->programs));
+	if (!dev || !dev->programs) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto fail;
+	}
+	dev->root = dev->id = ids[number];
+	clGetDeviceInfo(dev->root, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+	dev->cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+	err = limit_threads(dev, threads);
+	if (err)
+		goto fail;
+	dev->context = clCreateContext(NULL, 1, &dev->id, NULL, NULL, &code);
+	if (!dev->context) {
+		err = report(code, "clCreateContext");
+		goto fail;
+	}
+	dev->queue = clCreateCommandQueue(dev->context, dev->id, 0, &code);
+	if (!dev->queue) {
+		err = report(code, "clCreateCommandQueue");
+		goto fail;
+	}
+	*out = dev;
+	return 0;
+fail:
+	cl_close(&dev);
+	return err;
+}
+
+void cl_close(struct cl_device **dev)
+{
+	struct cl_device *d = *dev;
+
+	*dev = NULL;
+	if (!d)
+		return;
+	for (size_t i = 0; i < N_DEVICE_KERNELS; i++)
+		if (d->kernels[i])
+			clReleaseKernel(d->kernels[i]);
+	for (size_t i = 0; d->programs && i < n_kernel_files; i++)
+		if (d->programs[i])
+			clReleaseProgram(d->programs[i]);
+	free(d->programs);
+	if (d->queue)
+		clReleaseCommandQueue(d->queue);
+	if (d->context)
+		clReleaseContext(d->context);
+	if (d->id != d->root)
+		clReleaseDevice(d->id);
+	free(d);
+}
+
+int cl_is_cpu(const struct cl_device *dev)
+{
+	return dev->cpu;
+}
+
+int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
+{
+	struct cl_buffer *b = *buffer;
+	char what[64];
+	cl_int code;
+
+	if (bytes == 0)
+		bytes = 16;
+	if (b && b->bytes >= bytes)
+		return 0;
+	if (!b)
+		b = *buffer = calloc(1, sizeof(*b));
+	if (!b)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (b->mem)
+		clReleaseMemObject(b->mem);
+	b->bytes = 0;
+	b->mem = clCreateBuffer(dev->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+	if (!b->mem) {
+		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
+		return report(code, what);
+	}
+	b->bytes = bytes;
+	return 0;
+}
+
+void cl_release(struct cl_buffer **buffer)
+{
+	if (*buffer && (*buffer)->mem)
+		clReleaseMemObject((*buffer)->mem);
+	free(*buffer);
+	*buffer = NULL;
+}
+
+int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes)
+{
+	cl_int code;
+
+	if (bytes == 0)
+		return 0;
+	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
+	return code == CL_SUCCESS ? 0 : report(code, "writing a buffer");
+}
+
+int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes)
+{
+	cl_int code;
+
+	if (bytes == 0)
+		return 0;
+	code = clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
+	return code == CL_SUCCESS ? 0 : report(code, "reading a buffer");
+}
+
+int cl_finish(struct cl_device *dev)
+{
+	cl_int code = clFinish(dev->queue);
+
+	return code == CL_SUCCESS ? 0 : report(code, "clFinish");
+}
+
+static void report_build_log(struct cl_device *dev, cl_program program, const char *name)
+{
+	size_t bytes = 0;
+	char *log;
+
+	clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes);
+	log = calloc(1, bytes + 1);
+	if (log && clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) == CL_SUCCESS)
+		fprintf(stderr, "%s\n", log);
+	free(log);
+	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
+}
+
+static int build_program(struct cl_device *dev, size_t file)
+{
+	const char *texts[] = { prelude, kernel_files[file].text };
+	cl_program program;
+	cl_int code;
+
+	if (dev->programs[file])
+		return 0;
+	program = clCreateProgramWithSource(dev->context, 2, texts, NULL, &code);
+	if (!program)
+		return report(code, kernel_files[file].name);
+	code = clBuildProgram(program, 1, &dev->id, options, NULL, NULL);
+	if (code == CL_SUCCESS) {
+		dev->programs[file] = program;
+		return 0;
+	}
+	if (code == CL_BUILD_PROGRAM_FAILURE)
+		report_build_log(dev, program, kernel_files[file].name);
+	else
+		report(code, kernel_files[file].name);
+	clReleaseProgram(program);
+	return ERR_SYSTEM;
+}
+
+static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const char *name)
+{
+	cl_int code;
+	int err;
+
+	for (size_t i = 0; i < n_kernel_places; i++) {
+		if (strcmp(kernel_places[i].kernel, name) != 0)
+			continue;
+		err = build_program(dev, kernel_places[i].file);
+		if (err)
+			return err;
+		dev->kernels[kernel] = clCreateKernel(dev->programs[kernel_places[i].file], name, &code);
+		return dev->kernels[kernel] ? 0 : report(code, name);
+	}
+	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
+}
+
+int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, size_t n_items,
+           const struct cl_arg *args, size_t n_args)
+{
+	const size_t local = dev->cpu ? GROUP_CPU : GROUP_GPU;
+	const size_t global = (n_items + local - 1) / local * local;
+	char what[96];
+	cl_int code = CL_SUCCESS;
+	int err;
+
+	if (n_items == 0)
+		return 0;
+	if (!dev->kernels[kernel]) {
+		err = make_kernel(dev, kernel, name);
+		if (err)
+			return err;
+	}
+	for (size_t i = 0; i < n_args && code == CL_SUCCESS; i++) {
+		if (args[i].buffer)
+			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, sizeof(cl_mem), &args[i].buffer->mem);
+		else
+			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, args[i].bytes, args[i].value);
+		if (code != CL_SUCCESS) {
+			snprintf(what, sizeof(what), "kernel %s, argument %zu", name, i);
+			return report(code, what);
+		}
+	}
+	code = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel], 1, NULL, &global, &local, 0, NULL, NULL);
+	if (code != CL_SUCCESS) {
+		snprintf(what, sizeof(what), "kernel %s", name);
+		return report(code, what);
+	}
+	return 0;
+}

@@ -1,0 +1,257 @@
+#include "tracer/device.h"
+
+#include <ctype.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "tracer/cl.h"
+
+#define MAX_ARGS 32
+#define MAX_THREADS 64
+
+/* The twins, kernels/ref/. */
+#define DECLARE_TWIN(name) extern device_twin name##_c __attribute__((weak));
+DEVICE_KERNELS(DECLARE_TWIN)
+
+static const struct {
+	const char *name;
+	device_twin *twin;
+} kernels[N_DEVICE_KERNELS] = {
+#define KERNEL_ENTRY(name) { #name, name##_c },
+	DEVICE_KERNELS(KERNEL_ENTRY)
+};
+
+struct device {
+	struct cl_device *cl; /* NULL: the reference device */
+	unsigned threads;     /* of the reference device */
+	char name[320];
+};
+
+struct device_buffer {
+	struct cl_buffer *cl; /* or */
+	void *memory;         /* of the reference device */
+	size_t bytes;
+};
+
+int device_list(struct device_description **out, size_t *n)
+{
+	return cl_list(out, n);
+}
+
+static int contains(const char *text, const char *part)
+{
+	for (size_t n = strlen(part); *text; text++)
+		if (strncasecmp(text, part, n) == 0)
+			return 1;
+	return 0;
+}
+
+/* The device a choice names: a number, a part of a name, or NULL: the first GPU, else the first device. */
+static int choose(const struct device_description *list, size_t n, const char *choice, size_t *number)
+{
+	char *end;
+
+	*number = 0;
+	if (!choice) {
+		while (*number < n && list[*number].cpu)
+			++*number;
+		if (*number == n)
+			*number = 0;
+		return 0;
+	}
+	if (isdigit((unsigned char)choice[0])) {
+		unsigned long value = strtoul(choice, &end, 10);
+
+		if (*end == '\0' && value < n) {
+			*number = value;
+			return 0;
+		}
+	}
+	for (; *number < n && choice[0]; ++*number)
+		if (contains(list[*number].name, choice))
+			return 0;
+	return err_report(ERR_USAGE, NULL, "there is no device '%s'; 'relume devices' lists them", choice);
+}
+
+static int open_cl(struct device *dev, const char *choice, unsigned threads)
+{
+	struct device_description *list = NULL;
+	size_t n, number;
+	int err = cl_list(&list, &n);
+
+	if (err)
+		return err;
+	err = choose(list, n, choice, &number);
+	if (!err)
+		err = cl_open(number, threads, &dev->cl);
+	if (!err)
+		snprintf(dev->name, sizeof(dev->name), "%s (%s %s)", list[number].name, list[number].platform,
+		         list[number].driver);
+	free(list);
+	return err;
+}
+
+static void open_reference(struct device *dev, unsigned threads)
+{
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+
+	dev->threads = threads ? threads : cores > 0 ? (unsigned)cores : 1;
+	if (dev->threads > MAX_THREADS)
+		dev->threads = MAX_THREADS;
+	snprintf(dev->name, sizeof(dev->name), "reference (C)");
+}
+
+int device_open(const char *choice, unsigned threads, struct device **out)
+{
+	struct device *dev = calloc(1, sizeof(*dev));
+	int err = 0;
+
+	if (!dev)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (choice && strcmp(choice, "reference") == 0)
+		open_reference(dev, threads);
+	else
+		err = open_cl(dev, choice, threads);
+	if (err) {
+		free(dev);
+		return err;
+	}
+	*out = dev;
+	return 0;
+}
+
+void device_close(struct device **dev)
+{
+	if (*dev && (*dev)->cl)
+		cl_close(&(*dev)->cl);
+	free(*dev);
+	*dev = NULL;
+}
+
+const char *device_name(const struct device *dev)
+{
+	return dev->name;
+}
+
+int device_prefers_packets(const struct device *dev)
+{
+	return !dev->cl || cl_is_cpu(dev->cl);
+}
+
+int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)
+{
+	struct device_buffer *b = *buffer;
+
+	if (bytes == 0)
+		bytes = 16;
+	if (!b)
+		b = *buffer = calloc(1, sizeof(*b));
+	if (!b)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (dev->cl)
+		return cl_reserve(dev->cl, &b->cl, bytes);
+	if (b->bytes >= bytes)
+		return 0;
+	free(b->memory);
+	b->bytes = 0;
+	b->memory = calloc(1, bytes);
+	if (!b->memory)
+		return err_report(ERR_SYSTEM, NULL, "a buffer of %zu bytes: out of memory", bytes);
+	b->bytes = bytes;
+	return 0;
+}
+
+void device_release(struct device *dev, struct device_buffer **buffer)
+{
+	if (*buffer && dev->cl)
+		cl_release(&(*buffer)->cl);
+	if (*buffer)
+		free((*buffer)->memory);
+	free(*buffer);
+	*buffer = NULL;
+}
+
+int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
+{
+	if (dev->cl)
+		return cl_write(dev->cl, buffer->cl, offset, data, bytes);
+	if (bytes)
+		memcpy((char *)buffer->memory + offset, data, bytes);
+	return 0;
+}
+
+int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes)
+{
+	if (dev->cl)
+		return cl_read(dev->cl, buffer->cl, offset, data, bytes);
+	if (bytes)
+		memcpy(data, (const char *)buffer->memory + offset, bytes);
+	return 0;
+}
+
+/* A share of a launch on the reference device. Work items do not depend on each other. */
+struct share {
+	device_twin *twin;
+	const void *const *args;
+	size_t first, last;
+	pthread_t thread;
+};
+
+static void *run_share(void *arg)
+{
+	struct share *share = arg;
+
+	share->twin(share->args, share->first, share->last);
+	return NULL;
+}
+
+static int run_reference(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+                         size_t n_args)
+{
+	const void *pointers[MAX_ARGS];
+	struct share shares[MAX_THREADS];
+	unsigned n_started = 0;
+
+	if (!kernels[kernel].twin)
+		return err_report(ERR_SYSTEM, NULL, "there is no kernel %s in this build", kernels[kernel].name);
+	for (size_t i = 0; i < n_args; i++)
+		pointers[i] = args[i].buffer ? args[i].buffer->memory : args[i].value;
+	for (unsigned i = 0; i < dev->threads; i++) {
+		shares[i] = (struct share){ kernels[kernel].twin, pointers, n_items * i / dev->threads,
+			                    n_items * (i + 1) / dev->threads, 0 };
+		/* The last share, and any that gets no thread, runs here. */
+		if (i + 1 < dev->threads && pthread_create(&shares[n_started].thread, NULL, run_share, &shares[i]) == 0)
+			n_started++;
+		else
+			run_share(&shares[i]);
+	}
+	for (unsigned i = 0; i < n_started; i++)
+		pthread_join(shares[i].thread, NULL);
+	return 0;
+}
+
+int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+               size_t n_args)
+{
+	struct cl_arg cl_args[MAX_ARGS];
+
+	if (n_items == 0)
+		return 0;
+	if (n_args > MAX_ARGS)
+		return err_report(ERR_SYSTEM, kernels[kernel].name, "too many arguments");
+	if (!dev->cl)
+		return run_reference(dev, kernel, n_items, args, n_args);
+	for (size_t i = 0; i < n_args; i++)
+		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
+	return cl_run(dev->cl, kernel, kernels[kernel].name, n_items, cl_args, n_args);
+}
+
+int device_finish(struct device *dev)
+{
+	return dev->cl ? cl_finish(dev->cl) : 0;
+}
