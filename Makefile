@@ -1,4 +1,5 @@
 # Relume. Everything made lands in $(BUILD). `make demo` and `make check` are all the set-up there is.
+#   make deps               install the Debian packages that are missing
 #   V=1                     show commands
 #   SAN=address,undefined   sanitizer build, in a folder of its own
 #   BUILD=DIR               build elsewhere
@@ -15,7 +16,7 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
-LIBS := -lOpenEXRCore-3_1 -lOpenImageIO -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program.
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c sizes.c writer.c reference.c)
@@ -27,7 +28,18 @@ COMMAND_GEN := $(BUILD)/gen/kernels.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
-all: $(BUILD)/relume
+# What must be installed: to build, to run, to test.
+DEPS := gcc g++ libc6-dev python3 khronos-api \
+	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev \
+	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
+	pocl-opencl-icd apitrace \
+	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl
+
+# Programs of ours to record: plain OpenGL programs, built as anybody would build them.
+CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c))
+
+all: $(BUILD)/relume $(CORPUS)
 
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CC) $(ALL_CFLAGS) -o $@ $^ $(LIBS)
@@ -42,7 +54,8 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 
 # Generated headers come before whatever includes them; the .d files know the rest.
 GENERATED_H := $(BUILD)/gen/gl_tokens.h
-$(COMMAND_OBJ): | $(GENERATED_H)
+$(COMMAND_OBJ) $(TESTS:=.o): | $(GENERATED_H)
+$(GENERATED_H): | $(BUILD)/deps
 
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/registry.py
 	@mkdir -p $(@D)
@@ -58,15 +71,48 @@ $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
 	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.d) . $(BUILD)/gen -- $(KERNELS)
 -include $(BUILD)/gen/kernels.d
 
-# Rebuilt when flags change.
-$(BUILD)/flags: FORCE
+# Rebuilt when flags change. Nothing is compiled before what it needs is installed.
+$(BUILD)/flags: FORCE | $(BUILD)/deps
 	@mkdir -p $(@D)
 	@echo '$(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)' | cmp -s - $@ || \
 		echo '$(CC) $(CPPFLAGS) $(ALL_CFLAGS) $(CXX) $(ALL_CXXFLAGS)' >$@
+
+deps: $(BUILD)/deps
+
+$(BUILD)/deps: Makefile
+	@mkdir -p $(@D)
+	@missing=$$(printf '%s\n' $(DEPS) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(DEPS) \
+		2>/dev/null | sed -n 's/^installed //p')"); \
+	if [ -n "$$missing" ]; then \
+		echo "installing from Debian:" $$missing; \
+		[ "$$(id -u)" = 0 ] || sudo=sudo; \
+		export DEBIAN_FRONTEND=noninteractive; \
+		$$sudo apt-get -q -q update && $$sudo apt-get -q -q -y --no-install-recommends install $$missing; \
+	fi
+	@touch $@
+
+$(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -I. -o $@ $< -lglut -lGLU -lGL -lX11 -lm
+
+# Tests are linked with everything of the command but its main function.
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
+	@rm -f $@
+	$(Q)$(AR) rcs $@ $^
+
+$(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS) -lcheck -lsubunit -lm
+
+check: all $(TESTS)
+	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
+
+# Figures beside their bars; see DESIGN in README.md. Each show-NAME writes $(BUILD)/show/NAME.json.
+show:
 
 clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all clean FORCE
--include $(COMMAND_OBJ:.o=.d)
+.PHONY: all deps check demo show bench golden-update clean FORCE
+.SECONDARY: # keep the objects of tests
+-include $(COMMAND_OBJ:.o=.d) $(TESTS:=.d)

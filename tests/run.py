@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""Run the tests: tests/run.py BUILD [PART-OF-A-NAME...]
+
+A test is a compiled tests/*/test_*.c (under BUILD) or an executable tests/*/test_*.sh or .py. It passes with exit code
+0, is skipped with 77 (its last line says why), and fails with anything else, or when its time is over. What a test
+leaves running is killed with it. Each test gets an empty TMPDIR, and finds the command through RELUME and RELUME_BUILD.
+
+A test that counts its checks as libcheck does ("100%: Checks: 5, Failures: 0, Errors: 0") counts as so many tests.
+Near the top of its source it may say, in a comment line of its own, "serial" (runs alone: it measures time) or
+"limit: 300 s" (default: 120 s).
+
+The last line is "N passed, N failed, N skipped". Exits with 1 where a test failed or none ran.
+"""
+import concurrent.futures
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+
+DEFAULT_LIMIT_S = 120
+SKIPPED = 77
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TESTS = pathlib.Path(os.environ.get("RELUME_TESTS", ROOT / "tests"))
+CHECKS = re.compile(r"^\d+%: Checks: (\d+), Failures: (\d+), Errors: (\d+)", re.M)
+
+
+class Test:
+    def __init__(self, source, build):
+        self.name = f"{source.parent.name}/{source.stem}"
+        self.command = build / "tests" / self.name if source.suffix == ".c" else source
+        head = source.read_text(errors="replace")[:4000]
+        self.serial = re.search(r"^[#/* \t]*serial[ */]*$", head, re.M) is not None
+        limit = re.search(r"^[#/* \t]*limit: (\d+) s\b", head, re.M)
+        self.limit_s = int(limit.group(1)) if limit else DEFAULT_LIMIT_S
+
+
+def find_tests(build, parts):
+    sources = [s for suffix in ("c", "sh", "py") for s in TESTS.glob(f"*/test_*.{suffix}")]
+    tests = [Test(s, build) for s in sorted(sources)]
+    return [t for t in tests if not parts or any(p in t.name for p in parts)]
+
+
+def kill_session(leader):
+    """Kill every process of a session, whatever process group it moved to."""
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text(errors="replace").rpartition(")")[2].split()
+            if int(fields[3]) == leader:
+                os.kill(int(stat.parent.name), signal.SIGKILL)
+        except (OSError, IndexError, ValueError):
+            pass  # it ended meanwhile
+
+
+def environment(build, tmp):
+    env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp)
+    # Kernels are compiled once for all tests, though many have a scratch home.
+    env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
+    # Leaks of Mesa, PoCL and the like are not ours.
+    env.setdefault("LSAN_OPTIONS", f"suppressions={ROOT / 'tests' / 'lsan.supp'}:print_suppressions=0")
+    # OpenImageIO brings OpenBLAS, whose threads confuse the leak check of forked tests.
+    env.setdefault("OPENBLAS_NUM_THREADS", "1")
+    env.setdefault("UBSAN_OPTIONS", "print_stacktrace=1")
+    return env
+
+
+def run(test, build):
+    """Run one test; return (passed, failed, skipped, output or reason)."""
+    with tempfile.TemporaryDirectory(prefix="relume-", ignore_cleanup_errors=True) as tmp, \
+            tempfile.TemporaryFile() as log:
+        try:
+            child = subprocess.Popen([test.command], cwd=ROOT, env=environment(build, tmp), stdin=subprocess.DEVNULL,
+                                     stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+        except OSError as error:
+            return 0, 1, 0, f"does not start: {error}\n"
+        try:
+            code = child.wait(test.limit_s)
+        except subprocess.TimeoutExpired:
+            code = None
+        kill_session(child.pid)
+        child.wait()
+        log.seek(0)
+        output = log.read().decode(errors="replace")
+    return judge(code, output, test.limit_s)
+
+
+def judge(code, output, limit_s):
+    if code == SKIPPED:
+        lines = output.strip().splitlines()
+        return 0, 0, 1, lines[-1] if lines else "no reason given"
+    counts = [tuple(map(int, m)) for m in CHECKS.findall(output)]
+    bad = sum(failures + errors for _, failures, errors in counts)
+    good = sum(checks for checks, _, _ in counts) - bad
+    if counts and good + bad == 0:
+        return 0, 1, 0, output + "no check ran\n"
+    if code == 0:
+        return (good, bad, 0, output) if counts else (1, 0, 0, output)
+    why = f"not done after {limit_s} s" if code is None else \
+        f"killed by {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
+    return good, max(bad, 1), 0, f"{output}{why}\n"
+
+
+def main(argv):
+    if len(argv) < 2:
+        sys.exit(__doc__)
+    build = pathlib.Path(argv[1]).resolve()
+    tests = find_tests(build, argv[2:])
+    passed = failed = skipped = 0
+    reasons = []
+
+    def take(test, result):
+        nonlocal passed, failed, skipped
+        good, bad, skips, output = result
+        passed, failed, skipped = passed + good, failed + bad, skipped + skips
+        if bad:
+            print(f"FAILED {test.name}\n" + "".join(f"    {line}\n" for line in output.splitlines()), end="", flush=True)
+        if skips:
+            reasons.append(f"skipped {test.name}: {output}")
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        together = {pool.submit(run, t, build): t for t in tests if not t.serial}
+        for future in concurrent.futures.as_completed(together):
+            take(together[future], future.result())
+    for test in tests:
+        if test.serial:
+            take(test, run(test, build))
+
+    print(*sorted(reasons), sep="\n", end="\n" if reasons else "")
+    print(f"{passed} passed, {failed} failed, {skipped} skipped")
+    return 1 if failed or passed + skipped == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
