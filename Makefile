@@ -93,7 +93,7 @@ $(BUILD)/deps: Makefile
 
 $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -I. -o $@ $< -lglut -lGLU -lGL -lX11 -lm
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lglut -lGLU -lGL -lm
 
 # Tests are linked with everything of the command but its main function.
 $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
@@ -115,4 +115,4 @@ clean:
 FORCE:
 .PHONY: all deps check demo show bench golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(COMMAND_OBJ:.o=.d) $(TESTS:=.d)
+-include $(COMMAND_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
