@@ -54,6 +54,11 @@ struct window_vertex {
 };
 SHARED_SIZE(struct window_vertex, 16);
 
+/* Longest path from a root to a leaf, in nodes: the size of the kernels' stacks. Bounds of an empty side. */
+#define BVH_MAX_DEPTH 48
+#define BVH_EMPTY_LO 1e30f
+#define BVH_EMPTY_HI (-1e30f)
+
 /* A binary node: bounds of both children, so that a node is one fetch. */
 struct node2 {
 	float lo[2][3], hi[2][3];

@@ -7,6 +7,14 @@
 #include "kernels/shared.h"
 #include "replay/scene.h"
 
+/* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY. */
+struct accel_space {
+	uint32_t space;      /* number as in scene_view.space */
+	uint32_t top2_first; /* in accel.top2 */
+	uint32_t top8_first; /* in accel.top8 */
+	uint32_t n_nodes;    /* 0: nothing to hit */
+};
+
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
 struct accel {
 	struct node2 *nodes2;         /* BLASes, one after the other */
@@ -23,33 +31,36 @@ struct accel {
 	size_t n_top2, n_top8, n_instance_list;
 
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
+	struct accel_space *spaces;
+	size_t n_spaces;
 };
 
 int accel_create(struct accel **out);
 void accel_destroy(struct accel **accel);
 
-/* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY. */
-struct accel_space {
-	uint32_t space;      /* number as in scene_view.space */
-	uint32_t top2_first; /* in accel.top2 */
-	uint32_t top8_first; /* in accel.top8 */
-	uint32_t n_nodes;    /* 0: nothing to hit */
-};
-
 /**
  * Find or build the BLASes of a frame's instances (binned SAH), then its top levels.
  *
+ * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. Those of
+ * INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out; those with a
+ * vertex at w <= 0 cannot be bounded and stay as candidates for camera rays only. A mesh of another kind than triangles
+ * is an error of the caller: lines and points come as `extra` meshes.
+ *
  * @param scene      meshes and views
+ * @param extra      [n], or NULL: the triangle mesh of an instance that is not one of the scene's (screen geometry: x y
+ *                   in pixels); NULL entries stand for the scene's own mesh. Used during the call only. Its hash should
+ *                   differ from frame to frame when its content does
  * @param eye_vertices  eye-space positions [4] of the vertices of INSTANCE_BAKED instances, at instance.vertex_first of
  *                   each; NULL where there is none of these
  * @param instances  [n]; matrices, flags, pad, view, vertex_first and scene_instance are filled in by the caller;
- *                   node2_first, node8_first, triangle_first and triangle8_first are filled in here
+ *                   node2_first, node8_first, triangle_first and triangle8_first are filled in here. The matrices of
+ *                   BAKED and SCREEN instances are the identity
  * @param views      [scene->n_views]; tlas_first and tlas_count are filled in here
  * @param spaces     receives an array owned by accel, valid until the next call
  * @return 0 or ERR_SYSTEM (reported)
  */
-int accel_build_frame(struct accel *accel, const struct scene *scene, const float (*eye_vertices)[4],
-                      struct instance *instances, uint32_t n, struct view *views, const struct accel_space **spaces,
-                      uint32_t *n_spaces);
+int accel_build_frame(struct accel *accel, const struct scene *scene, const struct scene_mesh *const *extra,
+                      const float (*eye_vertices)[4], struct instance *instances, uint32_t n, struct view *views,
+                      const struct accel_space **spaces, uint32_t *n_spaces);
 
 #endif

@@ -1,0 +1,568 @@
+#include "tracer/accel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/bvh.h"
+
+/* Most triangles in a leaf of the binary tree, most instances in a leaf of a top level. */
+#define LEAF_TRIANGLES 4
+#define LEAF_INSTANCES 1
+/* Frames that a BLAS nobody used stays in the pools. */
+#define KEEP_FRAMES 16
+/* Stands for the coordinates of what cannot be bounded; its square is still a float. */
+#define UNBOUNDED 1e18f
+
+/* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
+struct blas {
+	uint64_t hash[2];
+	int baked; /* of this frame only */
+	uint64_t last_use;
+	size_t node2_first, n_nodes2, node8_first, n_nodes8, triangle_first, n_triangles, triangle8_first, n_triangles8;
+	struct bvh_box box;
+};
+
+struct accel_cache {
+	struct blas *entries;
+	size_t n, capacity;
+	size_t capacity_nodes2, capacity_nodes8, capacity_triangles, capacity_triangles8;
+	size_t capacity_top2, capacity_top8, capacity_list;
+	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
+	size_t table_size;
+	uint64_t frame;
+};
+
+static int out_of_memory(void)
+{
+	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+}
+
+/* Make room for `more` items behind the first `n`. */
+static int grow_array(void **array, size_t *capacity, size_t n, size_t more, size_t item_bytes)
+{
+	size_t wanted = n + more;
+	void *grown;
+
+	if (wanted <= *capacity)
+		return 0;
+	wanted += wanted / 2;
+	grown = realloc(*array, wanted * item_bytes);
+	if (!grown)
+		return out_of_memory();
+	*array = grown;
+	*capacity = wanted;
+	return 0;
+}
+#define GROW(array, capacity, n, more) grow_array((void **)&(array), &(capacity), n, more, sizeof(*(array)))
+
+int accel_create(struct accel **out)
+{
+	struct accel *accel = calloc(1, sizeof(*accel));
+
+	if (accel)
+		accel->cache = calloc(1, sizeof(*accel->cache));
+	if (!accel || !accel->cache) {
+		free(accel);
+		return out_of_memory();
+	}
+	*out = accel;
+	return 0;
+}
+
+void accel_destroy(struct accel **accel)
+{
+	struct accel *a = *accel;
+
+	*accel = NULL;
+	if (!a)
+		return;
+	free(a->nodes2);
+	free(a->nodes8);
+	free(a->triangles);
+	free(a->triangles8);
+	free(a->top2);
+	free(a->top8);
+	free(a->instance_list);
+	free(a->spaces);
+	free(a->cache->entries);
+	free(a->cache->table);
+	free(a->cache);
+	free(a);
+}
+
+/* --- finding BLASes --- */
+
+static size_t table_slot(const struct accel_cache *cache, const uint64_t hash[2])
+{
+	return (size_t)(hash[0] ^ hash[1] * 0x9e3779b97f4a7c15u) & (cache->table_size - 1);
+}
+
+static void table_insert(struct accel_cache *cache, uint32_t entry)
+{
+	size_t slot = table_slot(cache, cache->entries[entry].hash);
+
+	while (cache->table[slot] != SCENE_NONE)
+		slot = (slot + 1) & (cache->table_size - 1);
+	cache->table[slot] = entry;
+}
+
+static int table_rebuild(struct accel_cache *cache)
+{
+	size_t size = 64;
+
+	while (size < 4 * cache->n)
+		size *= 2;
+	if (size > cache->table_size) {
+		uint32_t *table = realloc(cache->table, size * sizeof(*table));
+
+		if (!table)
+			return out_of_memory();
+		cache->table = table;
+		cache->table_size = size;
+	}
+	memset(cache->table, 0xff, cache->table_size * sizeof(*cache->table));
+	for (size_t i = 0; i < cache->n; i++)
+		if (!cache->entries[i].baked)
+			table_insert(cache, (uint32_t)i);
+	return 0;
+}
+
+static struct blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2])
+{
+	if (!cache->table_size)
+		return NULL;
+	for (size_t slot = table_slot(cache, hash);; slot = (slot + 1) & (cache->table_size - 1)) {
+		uint32_t entry = cache->table[slot];
+
+		if (entry == SCENE_NONE)
+			return NULL;
+		if (memcmp(cache->entries[entry].hash, hash, 2 * sizeof(*hash)) == 0)
+			return &cache->entries[entry];
+	}
+}
+
+/* Take out what was not used for a while, and what was baked for the last frame; close the gaps. */
+static int drop_unused(struct accel *accel)
+{
+	struct accel_cache *cache = accel->cache;
+	size_t n = 0, nodes2 = 0, nodes8 = 0, triangles = 0, triangles8 = 0;
+
+	for (size_t i = 0; i < cache->n; i++) {
+		struct blas b = cache->entries[i];
+
+		if (b.baked || b.last_use + KEEP_FRAMES < cache->frame)
+			continue;
+		memmove(accel->nodes2 + nodes2, accel->nodes2 + b.node2_first, b.n_nodes2 * sizeof(*accel->nodes2));
+		memmove(accel->nodes8 + nodes8, accel->nodes8 + b.node8_first, b.n_nodes8 * sizeof(*accel->nodes8));
+		memmove(accel->triangles + triangles, accel->triangles + b.triangle_first,
+		        b.n_triangles * sizeof(*accel->triangles));
+		memmove(accel->triangles8 + triangles8, accel->triangles8 + b.triangle8_first,
+		        b.n_triangles8 * sizeof(*accel->triangles8));
+		b.node2_first = nodes2;
+		b.node8_first = nodes8;
+		b.triangle_first = triangles;
+		b.triangle8_first = triangles8;
+		nodes2 += b.n_nodes2;
+		nodes8 += b.n_nodes8;
+		triangles += b.n_triangles;
+		triangles8 += b.n_triangles8;
+		cache->entries[n++] = b;
+	}
+	if (n == cache->n)
+		return 0;
+	cache->n = n;
+	accel->n_nodes2 = nodes2;
+	accel->n_nodes8 = nodes8;
+	accel->n_triangles = triangles;
+	accel->n_triangles8 = triangles8;
+	accel->generation++;
+	return table_rebuild(cache);
+}
+
+/* --- building BLASes --- */
+
+/* The triangles of one mesh, as they go into a tree. */
+struct soup {
+	struct triangle *triangles; /* [n], in the mesh's order */
+	struct bvh_box *boxes;
+	uint32_t n;
+};
+
+static void soup_free(struct soup *soup)
+{
+	free(soup->triangles);
+	free(soup->boxes);
+}
+
+/* A position as a point; 0 where it has no finite place. Sets *bounded to 0 where w <= 0. */
+static int point_of(const float p[4], float out[3], int *bounded)
+{
+	if (p[3] == 1.0f) {
+		memcpy(out, p, 3 * sizeof(*out));
+	} else if (p[3] > 0) {
+		for (int a = 0; a < 3; a++)
+			out[a] = p[a] / p[3];
+	} else {
+		*bounded = 0;
+		return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && isfinite(p[3]);
+	}
+	for (int a = 0; a < 3; a++)
+		if (!(fabsf(out[a]) < UNBOUNDED))
+			return 0;
+	return 1;
+}
+
+/* Fill in one triangle and its box; 0: leave it out. */
+static int set_triangle(const float (*positions)[4], const uint32_t vertex[3], uint32_t primitive,
+                        struct triangle *triangle, struct bvh_box *box)
+{
+	float p[3][3];
+	int bounded = 1;
+
+	for (int i = 0; i < 3; i++)
+		if (!point_of(positions[vertex[i]], p[i], &bounded))
+			return 0;
+	memset(triangle, 0, sizeof(*triangle));
+	triangle->primitive = primitive;
+	memcpy(triangle->vertex, vertex, sizeof(triangle->vertex));
+	for (int a = 0; a < 3; a++) {
+		if (!bounded) {
+			box->lo[a] = -UNBOUNDED;
+			box->hi[a] = UNBOUNDED;
+			continue;
+		}
+		triangle->v0[a] = p[0][a];
+		triangle->e1[a] = p[1][a] - p[0][a];
+		triangle->e2[a] = p[2][a] - p[0][a];
+		box->lo[a] = fminf(p[0][a], fminf(p[1][a], p[2][a]));
+		box->hi[a] = fmaxf(p[0][a], fmaxf(p[1][a], p[2][a]));
+	}
+	return 1;
+}
+
+static int make_soup(const struct scene_mesh *mesh, const float (*positions)[4], struct soup *soup)
+{
+	soup->triangles = malloc((mesh->primitive_count + 1) * sizeof(*soup->triangles));
+	soup->boxes = malloc((mesh->primitive_count + 1) * sizeof(*soup->boxes));
+	if (!soup->triangles || !soup->boxes)
+		return out_of_memory();
+	for (uint32_t i = 0; i < mesh->primitive_count; i++)
+		soup->n += (uint32_t)set_triangle(positions, mesh->index + 3 * (size_t)i, i, &soup->triangles[soup->n],
+		                                  &soup->boxes[soup->n]);
+	return 0;
+}
+
+static void set_triangle8(struct triangle8 *out, const struct triangle *triangles, uint32_t n)
+{
+	memset(out, 0, sizeof(*out));
+	for (uint32_t lane = 0; lane < 8; lane++) {
+		out->primitive[lane] = SCENE_NONE;
+		if (lane >= n)
+			continue;
+		for (int a = 0; a < 3; a++) {
+			out->v0[a][lane] = triangles[lane].v0[a];
+			out->e1[a][lane] = triangles[lane].e1[a];
+			out->e2[a][lane] = triangles[lane].e2[a];
+		}
+		out->primitive[lane] = triangles[lane].primitive;
+	}
+}
+
+/* Both trees over a soup, appended to the pools at the places that *blas says. */
+static int append_trees(struct accel *accel, const struct soup *soup, struct blas *blas)
+{
+	const uint32_t room = soup->n ? soup->n : 1;
+	struct accel_cache *cache = accel->cache;
+	uint32_t *order = malloc(3 * (size_t)room * sizeof(*order));
+	uint32_t *block_first = order + room, *block_count = order + 2 * (size_t)room;
+	uint32_t n_nodes2, n_nodes8, n_blocks;
+	struct node2 *nodes2;
+	int err;
+
+	if (!order)
+		return out_of_memory();
+	err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, room);
+	if (!err)
+		err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, soup->n);
+	if (err)
+		goto done;
+	nodes2 = accel->nodes2 + accel->n_nodes2;
+	err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, nodes2, &n_nodes2, order);
+	if (err)
+		goto done;
+	for (uint32_t i = 0; i < soup->n; i++)
+		accel->triangles[accel->n_triangles + i] = soup->triangles[order[i]];
+	err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, n_nodes2);
+	if (err)
+		goto done;
+	err = bvh_collapse8(nodes2, n_nodes2, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
+	                    block_count, &n_blocks);
+	if (!err)
+		err = GROW(accel->triangles8, cache->capacity_triangles8, accel->n_triangles8, n_blocks);
+	if (err)
+		goto done;
+	for (uint32_t i = 0; i < n_blocks; i++)
+		set_triangle8(&accel->triangles8[accel->n_triangles8 + i],
+		              accel->triangles + accel->n_triangles + block_first[i], block_count[i]);
+	blas->n_nodes2 = n_nodes2;
+	blas->n_nodes8 = n_nodes8;
+	blas->n_triangles = soup->n;
+	blas->n_triangles8 = n_blocks;
+done:
+	free(order);
+	return err;
+}
+
+static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const float (*positions)[4], int baked,
+                      struct blas **out)
+{
+	struct accel_cache *cache = accel->cache;
+	struct soup soup = { NULL, NULL, 0 };
+	struct blas blas = { .baked = baked };
+	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
+
+	if (!err)
+		err = make_soup(mesh, positions, &soup);
+	if (err)
+		goto done;
+	memcpy(blas.hash, mesh->hash, sizeof(blas.hash));
+	blas.node2_first = accel->n_nodes2;
+	blas.node8_first = accel->n_nodes8;
+	blas.triangle_first = accel->n_triangles;
+	blas.triangle8_first = accel->n_triangles8;
+	bvh_box_clear(&blas.box);
+	for (uint32_t i = 0; i < soup.n; i++)
+		bvh_box_join(&blas.box, &soup.boxes[i]);
+	err = append_trees(accel, &soup, &blas);
+	if (err)
+		goto done;
+	accel->n_nodes2 += blas.n_nodes2;
+	accel->n_nodes8 += blas.n_nodes8;
+	accel->n_triangles += blas.n_triangles;
+	accel->n_triangles8 += blas.n_triangles8;
+	accel->generation++;
+	*out = &cache->entries[cache->n];
+	cache->entries[cache->n++] = blas;
+	if (baked)
+		goto done;
+	if (4 * cache->n > cache->table_size)
+		err = table_rebuild(cache);
+	else
+		table_insert(cache, (uint32_t)(cache->n - 1));
+done:
+	soup_free(&soup);
+	return err;
+}
+
+/* The BLAS of one instance; its places go into the instance and its box, in BLAS space, to *box. */
+static int place_instance(struct accel *accel, const struct scene_mesh *mesh, const float (*eye_vertices)[4],
+                          struct instance *instance, struct bvh_box *box)
+{
+	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
+	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash);
+	int err = 0;
+
+	if (mesh->kind != SCENE_TRIANGLES)
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of lines or points was not expanded");
+	if (!blas)
+		err = build_blas(accel, mesh,
+		                 baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position,
+		                 baked, &blas);
+	if (err)
+		return err;
+	blas->last_use = accel->cache->frame;
+	instance->node2_first = (uint32_t)blas->node2_first;
+	instance->node8_first = (uint32_t)blas->node8_first;
+	instance->triangle_first = (uint32_t)blas->triangle_first;
+	instance->triangle8_first = (uint32_t)blas->triangle8_first;
+	*box = blas->box;
+	return 0;
+}
+
+/* --- top levels --- */
+
+/* Eye-space box of an instance whose BLAS has box `obj`, widened by the instance's pad where that is asked for. */
+static void eye_box(const struct instance *instance, const struct bvh_box *obj, float pad, struct bvh_box *out)
+{
+	for (int row = 0; row < 3; row++) {
+		const float *m = instance->eye_from_obj + 4 * row;
+		double lo = m[3], hi = m[3];
+
+		for (int a = 0; a < 3; a++) {
+			double x = (double)m[a] * (obj->lo[a] - pad), y = (double)m[a] * (obj->hi[a] + pad);
+
+			lo += x < y ? x : y;
+			hi += x < y ? y : x;
+		}
+		/* Room for what rounding does to a ray on its way into object space. */
+		lo -= 1e-6 * (fabs(lo) + (hi - lo));
+		hi += 1e-6 * (fabs(hi) + (hi - lo));
+		out->lo[row] = (float)(lo > -UNBOUNDED ? lo : -UNBOUNDED);
+		out->hi[row] = (float)(hi < UNBOUNDED ? hi : UNBOUNDED);
+	}
+}
+
+/* What a top level is built from. */
+struct top {
+	struct bvh_box *boxes;
+	uint32_t *items; /* instances */
+	uint32_t *order;
+	uint32_t n;
+};
+
+static void top_add(struct top *top, uint32_t item, const struct instance *instance, const struct bvh_box *obj,
+                    float pad)
+{
+	struct bvh_box *box = &top->boxes[top->n];
+
+	if (obj->lo[0] > obj->hi[0])
+		return; /* an empty mesh */
+	eye_box(instance, obj, pad, box);
+	/* A matrix that is not finite leaves nothing to hit. */
+	for (int a = 0; a < 3; a++)
+		if (!(box->lo[a] <= box->hi[a]))
+			return;
+	top->items[top->n++] = item;
+}
+
+/* Append a binary tree over `top`, and a wide one when asked for. */
+static int build_top(struct accel *accel, struct top *top, int wide)
+{
+	struct accel_cache *cache = accel->cache;
+	uint32_t n_nodes2, n_nodes8;
+	struct node2 *nodes2;
+	int err = GROW(accel->top2, cache->capacity_top2, accel->n_top2, top->n);
+
+	if (!err)
+		err = GROW(accel->instance_list, cache->capacity_list, accel->n_instance_list, top->n);
+	if (err)
+		return err;
+	nodes2 = accel->top2 + accel->n_top2;
+	err = bvh_build_sah(top->boxes, top->n, LEAF_INSTANCES, nodes2, &n_nodes2, top->order);
+	if (err)
+		return err;
+	for (uint32_t i = 0; i < n_nodes2; i++)
+		for (int side = 0; side < 2; side++)
+			if (nodes2[i].count[side])
+				nodes2[i].child[side] += (uint32_t)accel->n_instance_list;
+	for (uint32_t i = 0; i < top->n; i++)
+		accel->instance_list[accel->n_instance_list + i] = top->items[top->order[i]];
+	accel->n_instance_list += top->n;
+	accel->n_top2 += n_nodes2;
+	if (!wide)
+		return 0;
+	err = GROW(accel->top8, cache->capacity_top8, accel->n_top8, n_nodes2);
+	if (!err)
+		err = bvh_collapse8(nodes2, n_nodes2, BVH_ITEMS, accel->top8 + accel->n_top8, &n_nodes8, NULL, NULL, NULL);
+	if (!err)
+		accel->n_top8 += n_nodes8;
+	return err;
+}
+
+static int build_view_top(struct accel *accel, uint32_t view_index, const struct instance *instances, uint32_t n,
+                          const struct bvh_box *boxes, struct top *top, struct view *view)
+{
+	int err;
+
+	top->n = 0;
+	for (uint32_t i = 0; i < n; i++)
+		if (instances[i].view == view_index && !(instances[i].flags & INSTANCE_SCREEN))
+			top_add(top, i, &instances[i], &boxes[i], instances[i].pad);
+	view->tlas_first = (uint32_t)accel->n_top2;
+	view->tlas_count = 0;
+	if (top->n == 0)
+		return 0;
+	err = build_top(accel, top, 0);
+	view->tlas_count = (uint32_t)accel->n_top2 - view->tlas_first;
+	return err;
+}
+
+static int build_space_top(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
+                           const struct bvh_box *boxes, struct top *top, struct accel_space *space)
+{
+	int err;
+
+	top->n = 0;
+	for (uint32_t i = 0; i < n; i++)
+		if (scene->views[instances[i].view].space == space->space && (instances[i].flags & INSTANCE_SECONDARY) &&
+		    !(instances[i].flags & INSTANCE_SCREEN))
+			top_add(top, i, &instances[i], &boxes[i], 0);
+	space->top2_first = (uint32_t)accel->n_top2;
+	space->top8_first = (uint32_t)accel->n_top8;
+	space->n_nodes = 0;
+	if (top->n == 0)
+		return 0;
+	err = build_top(accel, top, 1);
+	space->n_nodes = (uint32_t)accel->n_top2 - space->top2_first;
+	return err;
+}
+
+/* The eye spaces of the scene's views, each once. */
+static int list_spaces(struct accel *accel, const struct scene *scene)
+{
+	free(accel->spaces);
+	accel->n_spaces = 0;
+	accel->spaces = calloc(scene->n_views + 1, sizeof(*accel->spaces));
+	if (!accel->spaces)
+		return out_of_memory();
+	for (uint32_t i = 0; i < scene->n_views; i++) {
+		size_t k = 0;
+
+		while (k < accel->n_spaces && accel->spaces[k].space != scene->views[i].space)
+			k++;
+		if (k == accel->n_spaces)
+			accel->spaces[accel->n_spaces++].space = scene->views[i].space;
+	}
+	return 0;
+}
+
+static int build_tops(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
+                      const struct bvh_box *boxes, struct view *views)
+{
+	struct top top = { NULL, NULL, NULL, 0 };
+	int err = list_spaces(accel, scene);
+
+	if (err)
+		return err;
+	accel->n_top2 = accel->n_top8 = accel->n_instance_list = 0;
+	top.boxes = malloc((n + 1) * sizeof(*top.boxes));
+	top.items = malloc((n + 1) * sizeof(*top.items));
+	top.order = malloc((n + 1) * sizeof(*top.order));
+	if (!top.boxes || !top.items || !top.order)
+		err = out_of_memory();
+	for (uint32_t i = 0; i < scene->n_views && !err; i++)
+		err = build_view_top(accel, i, instances, n, boxes, &top, &views[i]);
+	for (size_t i = 0; i < accel->n_spaces && !err; i++)
+		err = build_space_top(accel, scene, instances, n, boxes, &top, &accel->spaces[i]);
+	free(top.boxes);
+	free(top.items);
+	free(top.order);
+	return err;
+}
+
+int accel_build_frame(struct accel *accel, const struct scene *scene, const struct scene_mesh *const *extra,
+                      const float (*eye_vertices)[4], struct instance *instances, uint32_t n, struct view *views,
+                      const struct accel_space **spaces, uint32_t *n_spaces)
+{
+	struct bvh_box *boxes = malloc((n + 1) * sizeof(*boxes));
+	int err = 0;
+
+	if (!boxes)
+		return out_of_memory();
+	accel->cache->frame++;
+	err = drop_unused(accel);
+	for (uint32_t i = 0; i < n && !err; i++) {
+		const struct scene_mesh *mesh = extra && extra[i] ? extra[i]
+			: scene->meshes[scene->instances[instances[i].scene_instance].mesh];
+
+		err = place_instance(accel, mesh, eye_vertices, &instances[i], &boxes[i]);
+	}
+	if (!err)
+		err = build_tops(accel, scene, instances, n, boxes, views);
+	free(boxes);
+	*spaces = accel->spaces;
+	*n_spaces = (uint32_t)accel->n_spaces;
+	return err;
+}

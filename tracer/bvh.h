@@ -1,0 +1,52 @@
+/*
+ * Builders of bounding volume hierarchies over boxes, into flat node arrays (kernels/shared.h).
+ *
+ * The root is node 0. Its sides may be empty (BVH_EMPTY_LO > BVH_EMPTY_HI, count 0, child 0) where there are fewer than
+ * two items; no other node has an empty side in node2. In node8 empty lanes may occur in every node.
+ * No path from the root to a leaf is longer than BVH_MAX_DEPTH nodes (kernels/shared.h): the kernels' stacks rely on it.
+ * Same boxes, same tree, whatever the number of threads.
+ */
+#ifndef TRACER_BVH_H
+#define TRACER_BVH_H
+
+#include "kernels/shared.h"
+
+struct bvh_box {
+	float lo[3], hi[3];
+};
+
+/** An empty box, and its growth to hold another. */
+void bvh_box_clear(struct bvh_box *box);
+void bvh_box_join(struct bvh_box *box, const struct bvh_box *other);
+
+/**
+ * Build a binary tree with the binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding
+ * volume hierarchies").
+ *
+ * @param boxes     [n], finite, lo <= hi
+ * @param leaf_max  most items in a leaf, >= 1
+ * @param nodes     receives at most max(n, 1) nodes
+ * @param n_nodes   how many they are, at least 1
+ * @param order     [n], receives the items in leaf order: a leaf's first and count are places in it
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, struct node2 *nodes, uint32_t *n_nodes,
+                  uint32_t *order);
+
+/* What the leaves of an eight-wide tree count: items as they are, or blocks of up to eight of them. */
+enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };
+
+/**
+ * Collapse a binary tree into one with eight children a node: the largest inner child is opened until there are eight.
+ * With BVH_BLOCKS every subtree of at most eight items becomes one block: child is the block's number and count is 1.
+ *
+ * @param nodes2    as built above
+ * @param nodes     receives at most n_nodes2 nodes
+ * @param block_first, block_count  per block its first item and their number in leaf order; room for n items;
+ *                  NULL with BVH_ITEMS
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int bvh_collapse8(const struct node2 *nodes2, uint32_t n_nodes2, enum bvh_leaves leaves, struct node8 *nodes,
+                  uint32_t *n_nodes, uint32_t *block_first, uint32_t *block_count, uint32_t *n_blocks);
+
+#endif
