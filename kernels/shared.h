@@ -35,12 +35,17 @@ SHARED_SIZE(struct hit, 20);
 
 /*
  * What a primitive leaves at a pixel centre. b1, b2 are weights of vertices 1 and 2 on the SCREEN (linear in window
- * space, not perspective-correct); attributes divide by w (GL 2.1 equation 3.6).
+ * space, not perspective-correct); attributes divide by w (GL 2.1 equation 3.6). Where a vertex has no place in the
+ * window (window_vertex.w_inv == 0) they are weights in the volume instead, perspective-correct as they stand, and
+ * FRAGMENT_PERSPECTIVE says so. fragment_weights knows both.
  */
+#define FRAGMENT_PERSPECTIVE 0x80000000u
+#define FRAGMENT_PRIMITIVE(fragment) ((fragment).primitive & ~FRAGMENT_PERSPECTIVE)
+
 struct fragment {
 	uint32_t order;     /* SCENE_NONE: no fragment */
 	uint32_t instance;
-	uint32_t primitive; /* number in the mesh */
+	uint32_t primitive; /* number in the mesh, and FRAGMENT_PERSPECTIVE */
 	float b1, b2;
 	float depth;        /* window depth after depth range, before polygon offset, [0,1] */
 };
@@ -126,5 +131,25 @@ struct view {
 	uint32_t screen_count;
 };
 SHARED_SIZE(struct view, 184);
+
+/**
+ * Weights of a fragment's three vertices for attributes that are interpolated with perspective (GL 2.1 equation 3.6):
+ * value = out[0] * a0 + out[1] * a1 + out[2] * a2.
+ *
+ * @param w_inv0, w_inv1, w_inv2  of the triangle's window vertices; not looked at where FRAGMENT_PERSPECTIVE is set
+ * @param out                     float[3], sum 1
+ */
+static inline void fragment_weights(struct fragment f, float w_inv0, float w_inv1, float w_inv2, float *out)
+{
+	const int perspective = (f.primitive & FRAGMENT_PERSPECTIVE) != 0;
+	const float c0 = (1.0f - f.b1 - f.b2) * (perspective ? 1.0f : w_inv0);
+	const float c1 = f.b1 * (perspective ? 1.0f : w_inv1);
+	const float c2 = f.b2 * (perspective ? 1.0f : w_inv2);
+	const float sum = c0 + c1 + c2;
+
+	out[0] = c0 / sum;
+	out[1] = c1 / sum;
+	out[2] = c2 / sum;
+}
 
 #endif

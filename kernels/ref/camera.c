@@ -1,0 +1,443 @@
+/* C twins of camera_packet and camera_wide: one pixel at a time, as kernels/camera.h says. */
+#include "kernels/camera.h"
+
+#include <math.h>
+
+#include "kernels/shared.h"
+#include "tracer/device.h"
+
+extern device_twin camera_packet_c, camera_wide_c;
+
+struct args {
+	const struct view *view;
+	uint32_t width, height, mode;
+	const struct instance *instances;
+	const struct node2 *top;
+	const uint32_t *instance_list;
+	const struct node2 *nodes;
+	const struct triangle *triangles;
+	const struct window_vertex *window;
+	const float (*clip)[4];
+	const uint32_t *after;
+	struct fragment *fragments;
+	uint32_t *counts;
+};
+
+/* One pixel on its way: its ray in eye space, and what was found. */
+struct pixel {
+	const struct args *args;
+	int32_t x, y;
+	float o[3], d[3]; /* point(t) = o + t d; t = 0 is the near plane */
+	float d_scale; /* what d was divided by */
+	float near_w, far_w; /* w of the unprojected near and far point */
+	float t_max;
+	uint32_t best_depth; /* NEAREST: in steps of 2^-24 */
+	struct fragment *fragments;
+	uint32_t count;
+};
+
+static struct args unpack(const void *const *args)
+{
+	return (struct args){
+		(const struct view *)args[1] + *(const uint32_t *)args[0],
+		*(const uint32_t *)args[2], *(const uint32_t *)args[3], *(const uint32_t *)args[4],
+		args[5], args[6], args[7], args[8], args[9], args[10], args[11], args[12],
+		(struct fragment *)args[13], (uint32_t *)args[14]
+	};
+}
+
+/* --- fragments --- */
+
+static uint32_t quantise_depth(float depth)
+{
+	return (uint32_t)(depth * 16777215.0f + 0.5f);
+}
+
+/*
+ * End the ray behind depth d. With u the share of the depth range, the near point N and the far point F (homogeneous,
+ * N + l F sweeps the ray and l = u / (1 - u) is at share u): t = u / (N_w ((1 - u) N_w + u F_w)), in units of
+ * F N_w - N F_w. A little is added for rounding and for equal depths.
+ */
+static void shorten(struct pixel *p, float depth)
+{
+	const float near = p->args->view->depth_range[0], range = p->args->view->depth_range[1] - near;
+	float u, w;
+
+	if (!(range > 0))
+		return; /* the nearest depth is not the first along the ray */
+	u = (depth - near) / range + 4e-7f;
+	w = (1.0f - u) * p->near_w + u * p->far_w;
+	w -= 1e-6f * p->near_w;
+	if (w * p->near_w > 0)
+		p->t_max = fminf(p->t_max, u * p->d_scale / (p->near_w * w));
+}
+
+static void keep_nearest(struct pixel *p, const struct fragment *f)
+{
+	const uint32_t depth = quantise_depth(f->depth);
+	const struct fragment *best = &p->fragments[0];
+
+	if (p->count) {
+		if (depth > p->best_depth)
+			return;
+		if (depth == p->best_depth &&
+		    (p->args->mode == CAMERA_NEAREST_LESS ? f->order > best->order : f->order < best->order))
+			return;
+	}
+	p->fragments[0] = *f;
+	p->best_depth = depth;
+	p->count = 1;
+	shorten(p, f->depth);
+}
+
+static void keep_in_column(struct pixel *p, const struct fragment *f)
+{
+	uint32_t place = p->count;
+
+	if (f->order < p->args->after[(size_t)p->y * p->args->width + (size_t)p->x])
+		return;
+	while (place > 0 && p->fragments[place - 1].order > f->order)
+		place--;
+	if (place == CAMERA_COLUMN_MAX)
+		return;
+	if (p->count < CAMERA_COLUMN_MAX)
+		p->count++;
+	for (uint32_t i = p->count - 1; i > place; i--)
+		p->fragments[i] = p->fragments[i - 1];
+	p->fragments[place] = *f;
+}
+
+static void keep(struct pixel *p, const struct fragment *f)
+{
+	if (p->args->mode == CAMERA_COLUMN)
+		keep_in_column(p, f);
+	else
+		keep_nearest(p, f);
+}
+
+/* --- coverage --- */
+
+/* Twice the signed area, in 1/65536 square pixels, of a -> b -> the pixel centre: positive on the left of a -> b. */
+static int64_t edge(struct window_vertex a, struct window_vertex b, const struct pixel *p)
+{
+	const int64_t px = (int64_t)p->x * 256 + 128, py = (int64_t)p->y * 256 + 128;
+
+	return ((int64_t)b.x - a.x) * (py - a.y) - ((int64_t)b.y - a.y) * (px - a.x);
+}
+
+/* 1 where centres on the edge a -> b of a counter-clockwise triangle belong to it: it lies on its right, or above. */
+static int owns_edge(struct window_vertex a, struct window_vertex b)
+{
+	return b.y < a.y || (b.y == a.y && b.x > a.x);
+}
+
+/* 1 where the centre is on the inner side of a -> b of a triangle that turns with sign (1: counter-clockwise, or -1). */
+static int inside_edge(struct window_vertex a, struct window_vertex b, int sign, const struct pixel *p)
+{
+	const int64_t e = sign * edge(a, b, p);
+
+	return e > 0 || (e == 0 && (sign > 0 ? owns_edge(a, b) : owns_edge(b, a)));
+}
+
+static int culled(uint32_t flags, int counter_clockwise)
+{
+	const int front = counter_clockwise == !(flags & INSTANCE_FRONT_CW);
+
+	return (flags & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0;
+}
+
+static int in_viewport(const struct pixel *p)
+{
+	const float *v = p->args->view->viewport;
+	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f;
+
+	return x >= v[0] && x < v[0] + v[2] && y >= v[1] && y < v[1] + v[3];
+}
+
+static float clamp01(float x)
+{
+	return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+/* All vertices have a place in the window. */
+static int cover_placed(const struct pixel *p, uint32_t flags, const struct window_vertex v[3], struct fragment *f)
+{
+	const int64_t area = ((int64_t)v[1].x - v[0].x) * ((int64_t)v[2].y - v[0].y) -
+	                     ((int64_t)v[2].x - v[0].x) * ((int64_t)v[1].y - v[0].y);
+	const int sign = area > 0 ? 1 : -1;
+	float inverse;
+
+	if (area == 0 || culled(flags, sign > 0))
+		return 0;
+	for (int i = 0; i < 3; i++)
+		if (!inside_edge(v[i], v[(i + 1) % 3], sign, p))
+			return 0;
+	inverse = 1.0f / (float)area;
+	f->b1 = (float)edge(v[2], v[0], p) * inverse;
+	f->b2 = (float)edge(v[0], v[1], p) * inverse;
+	f->depth = clamp01(v[0].z + (f->b1 * (v[1].z - v[0].z) + f->b2 * (v[2].z - v[0].z)));
+	return 1;
+}
+
+/*
+ * A vertex has no place in the window. c: clip coordinates. X, Y are window coordinates times w with the pixel centre
+ * at the origin: the edge functions at the centre are 2 x 2 determinants, and exchange of two vertices changes their
+ * sign exactly.
+ */
+static int cover_clipped(const struct pixel *p, uint32_t flags, const struct window_vertex v[3],
+                         const float *const c[3], struct fragment *f)
+{
+	const struct view *view = p->args->view;
+	const float half_w = 0.5f * view->viewport[2], half_h = 0.5f * view->viewport[3];
+	const float origin_x = view->viewport[0] + half_w - ((float)p->x + 0.5f);
+	const float origin_y = view->viewport[1] + half_h - ((float)p->y + 0.5f);
+	const float det = c[0][3] * (c[1][0] * c[2][1] - c[2][0] * c[1][1]) +
+	                  c[1][3] * (c[2][0] * c[0][1] - c[0][0] * c[2][1]) +
+	                  c[2][3] * (c[0][0] * c[1][1] - c[1][0] * c[0][1]);
+	const float sign = det > 0 ? 1.0f : -1.0f;
+	float X[3], Y[3], weight[3], sum, z, w;
+
+	if (!(det != 0) || culled(flags, det > 0))
+		return 0;
+	for (int i = 0; i < 3; i++) {
+		X[i] = c[i][0] * half_w + c[i][3] * origin_x;
+		Y[i] = c[i][1] * half_h + c[i][3] * origin_y;
+	}
+	for (int i = 0; i < 3; i++) {
+		const int a = (i + 1) % 3, b = (i + 2) % 3; /* the edge across from vertex i */
+		const float e = sign * (X[a] * Y[b] - X[b] * Y[a]);
+		const float along_x = sign * (Y[a] * c[b][3] - Y[b] * c[a][3]);
+		const float along_y = sign * (c[a][3] * X[b] - c[b][3] * X[a]);
+
+		if (v[a].w_inv > 0 && v[b].w_inv > 0) {
+			if (!inside_edge(v[a], v[b], sign > 0 ? 1 : -1, p))
+				return 0;
+		} else if (!(e > 0 || (e == 0 && (along_x > 0 || (along_x == 0 && along_y > 0))))) {
+			return 0;
+		}
+		weight[i] = e > 0 ? e : 0;
+	}
+	sum = weight[0] + weight[1] + weight[2];
+	if (!(sum > 0))
+		return 0;
+	f->b1 = weight[1] / sum;
+	f->b2 = weight[2] / sum;
+	z = (1.0f - f->b1 - f->b2) * c[0][2] + f->b1 * c[1][2] + f->b2 * c[2][2];
+	w = (1.0f - f->b1 - f->b2) * c[0][3] + f->b1 * c[1][3] + f->b2 * c[2][3];
+	if (!(z >= -w && z <= w && w > 0))
+		return 0;
+	f->depth = clamp01(view->depth_range[0] +
+	                   (view->depth_range[1] - view->depth_range[0]) * (0.5f * (z / w) + 0.5f));
+	f->primitive |= FRAGMENT_PERSPECTIVE;
+	return 1;
+}
+
+static void try_triangle(struct pixel *p, uint32_t instance_index, const struct triangle *triangle)
+{
+	const struct args *a = p->args;
+	const struct instance *instance = &a->instances[instance_index];
+	struct fragment f = { instance->primitive_first + triangle->primitive, instance_index, triangle->primitive, 0, 0, 0 };
+	struct window_vertex v[3];
+	const float *c[3];
+	int placed = 1;
+
+	for (int i = 0; i < 3; i++) {
+		v[i] = a->window[instance->vertex_first + triangle->vertex[i]];
+		c[i] = a->clip[instance->vertex_first + triangle->vertex[i]];
+		placed &= v[i].w_inv > 0;
+	}
+	if (placed ? cover_placed(p, instance->flags, v, &f) : cover_clipped(p, instance->flags, v, c, &f))
+		keep(p, &f);
+}
+
+/* --- traversal --- */
+
+/* Share of a ray inside a box widened by pad; 0: none. */
+static int hits_box(const float o[3], const float inverse[3], const float lo[3], const float hi[3], float pad,
+                    float t_max, float *t_enter)
+{
+	float enter = 0, leave = t_max;
+
+	if (lo[0] > hi[0])
+		return 0;
+	for (int a = 0; a < 3; a++) {
+		const float t0 = (lo[a] - pad - o[a]) * inverse[a], t1 = (hi[a] + pad - o[a]) * inverse[a];
+
+		enter = fmaxf(enter, fminf(t0, t1));
+		leave = fminf(leave, fmaxf(t0, t1));
+	}
+	*t_enter = enter;
+	/* A little more, for rounding in t. */
+	return enter <= leave * 1.00001f;
+}
+
+/* 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. */
+static void invert(const float d[3], float inverse[3])
+{
+	for (int a = 0; a < 3; a++)
+		inverse[a] = 1.0f / (fabsf(d[a]) > 1e-20f ? d[a] : copysignf(1e-20f, d[a]));
+}
+
+static void walk_blas(struct pixel *p, uint32_t instance_index)
+{
+	const struct args *a = p->args;
+	const struct instance *instance = &a->instances[instance_index];
+	const float *m = instance->obj_from_eye;
+	uint32_t stack[BVH_MAX_DEPTH], depth = 0, node_index = 0;
+	float o[3], d[3], inverse[3];
+
+	for (int row = 0; row < 3; row++, m += 4) {
+		o[row] = m[0] * p->o[0] + m[1] * p->o[1] + m[2] * p->o[2] + m[3];
+		d[row] = m[0] * p->d[0] + m[1] * p->d[1] + m[2] * p->d[2];
+	}
+	invert(d, inverse);
+	for (;;) {
+		const struct node2 *node = &a->nodes[instance->node2_first + node_index];
+		float t[2];
+		int hit[2], first;
+
+		for (int side = 0; side < 2; side++)
+			hit[side] = hits_box(o, inverse, node->lo[side], node->hi[side], instance->pad, p->t_max, &t[side]);
+		first = hit[0] && hit[1] && t[1] < t[0];
+		for (int i = 0; i < 2; i++) {
+			const int side = first ^ i;
+
+			for (uint32_t k = 0; hit[side] && k < node->count[side]; k++)
+				try_triangle(p, instance_index,
+				             &a->triangles[instance->triangle_first + node->child[side] + k]);
+			hit[side] = hit[side] && !node->count[side];
+		}
+		if (hit[first] && hit[!first])
+			stack[depth++] = node->child[!first];
+		if (hit[0] || hit[1])
+			node_index = node->child[hit[first] ? first : !first];
+		else if (depth)
+			node_index = stack[--depth];
+		else
+			return;
+	}
+}
+
+static void walk_top(struct pixel *p)
+{
+	const struct args *a = p->args;
+	uint32_t stack[BVH_MAX_DEPTH], depth = 0;
+	float inverse[3], t;
+
+	if (a->view->tlas_count == 0)
+		return;
+	invert(p->d, inverse);
+	stack[depth++] = 0;
+	while (depth) {
+		const struct node2 *node = &a->top[a->view->tlas_first + stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			if (!hits_box(p->o, inverse, node->lo[side], node->hi[side], 0, p->t_max, &t))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			for (uint32_t k = 0; k < node->count[side]; k++)
+				walk_blas(p, a->instance_list[node->child[side] + k]);
+		}
+	}
+}
+
+/* Geometry in window space: the pixel centre is a point. */
+static void walk_screen(struct pixel *p, uint32_t instance_index)
+{
+	const struct args *a = p->args;
+	const struct instance *instance = &a->instances[instance_index];
+	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f, pad = instance->pad;
+	uint32_t stack[BVH_MAX_DEPTH], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		const struct node2 *node = &a->nodes[instance->node2_first + stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			if (!(x >= node->lo[side][0] - pad && x <= node->hi[side][0] + pad && y >= node->lo[side][1] - pad &&
+			      y <= node->hi[side][1] + pad))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			for (uint32_t k = 0; k < node->count[side]; k++)
+				try_triangle(p, instance_index,
+				             &a->triangles[instance->triangle_first + node->child[side] + k]);
+		}
+	}
+}
+
+/* The pixel's ray; 0 where the view has none (a projection without an inverse). */
+static int make_ray(struct pixel *p)
+{
+	const struct view *view = p->args->view;
+	const float x = 2.0f * ((float)p->x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
+	const float y = 2.0f * ((float)p->y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
+	const float *m = view->inverse;
+	float near[4], far[4], finite;
+
+	for (int row = 0; row < 4; row++) {
+		near[row] = m[row] * x + m[4 + row] * y + (m[12 + row] - m[8 + row]);
+		far[row] = m[row] * x + m[4 + row] * y + (m[12 + row] + m[8 + row]);
+	}
+	for (int a = 0; a < 3; a++) {
+		p->o[a] = near[a] / near[3];
+		p->d[a] = far[a] * near[3] - near[a] * far[3];
+	}
+	p->d_scale = fmaxf(fabsf(p->d[0]), fmaxf(fabsf(p->d[1]), fabsf(p->d[2])));
+	for (int a = 0; a < 3; a++)
+		p->d[a] /= p->d_scale;
+	finite = 0 * (p->o[0] + p->o[1] + p->o[2]) + 0 * (p->d[0] + p->d[1] + p->d[2]);
+	p->near_w = near[3];
+	p->far_w = far[3];
+	p->t_max = 1e30f;
+	return finite == 0;
+}
+
+static void do_pixel(const struct args *args, int32_t x, int32_t y)
+{
+	const size_t index = (size_t)y * args->width + (size_t)x;
+	struct pixel p = { .args = args, .x = x, .y = y };
+
+	p.fragments = args->fragments + (args->mode == CAMERA_COLUMN ? index * CAMERA_COLUMN_MAX : index);
+	if (args->mode != CAMERA_COLUMN)
+		p.fragments[0] = (struct fragment){ SCENE_NONE, SCENE_NONE, SCENE_NONE, 0, 0, 1 };
+	if (in_viewport(&p) && make_ray(&p))
+		walk_top(&p);
+	for (uint32_t i = 0; i < args->view->screen_count; i++)
+		walk_screen(&p, args->view->screen_first + i);
+	args->counts[index] = p.count;
+}
+
+static struct camera_rectangle rectangle_of(const struct args *args)
+{
+	const int32_t *s = args->view->scissor;
+
+	return camera_rectangle(s[0], s[1], s[2], s[3], args->width, args->height);
+}
+
+void camera_packet_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args);
+	const struct camera_rectangle r = rectangle_of(&a);
+	const size_t columns = (size_t)(r.x1 - r.x0 + 3) / 4;
+
+	for (size_t item = first; item < last && item < camera_packet_items(r); item++)
+		for (int lane = 0; lane < 8; lane++) {
+			const int32_t x = r.x0 + (int32_t)(item % columns) * 4 + lane % 4;
+			const int32_t y = r.y0 + (int32_t)(item / columns) * 2 + lane / 4;
+
+			if (x < r.x1 && y < r.y1)
+				do_pixel(&a, x, y);
+		}
+}
+
+void camera_wide_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args);
+	const struct camera_rectangle r = rectangle_of(&a);
+	const size_t columns = (size_t)(r.x1 - r.x0);
+
+	for (size_t item = first; item < last && item < camera_wide_items(r); item++)
+		do_pixel(&a, r.x0 + (int32_t)(item % columns), r.y0 + (int32_t)(item / columns));
+}
