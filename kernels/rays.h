@@ -1,0 +1,36 @@
+/*
+ * occlude_packet, occlude_wide, intersect_packet, intersect_wide: rays in eye space against a top level and the
+ * instances' trees. Included by C and OpenCL C.
+ *
+ * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
+ * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
+ * triangles, rays with t_min > t_max and rays with a NaN hit nothing.
+ *
+ * Arguments of all four, in this order
+ *    0  uint n_rays
+ *    1  const struct ray rays[]
+ *    2  uint top_first            accel_space.top2_first, or top8_first for *_wide
+ *    3  top nodes                 struct node2 accel.top2, or struct node8 accel.top8 for *_wide
+ *    4  const uint instance_list[]
+ *    5  const struct instance instances[]
+ *    6  nodes                     struct node2 accel.nodes2, or struct node8 accel.nodes8 for *_wide
+ *    7  triangles                 struct triangle accel.triangles, or struct triangle8 accel.triangles8 for *_wide
+ *    8  occlude: uint occluded[]  1 where anything is hit, else 0
+ *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
+ *                                 same t one, the same one each time
+ *
+ * Work items: (n_rays + 7) / 8 for *_packet, n_rays for *_wide. A space with nothing to hit (accel_space.n_nodes == 0)
+ * is the caller's to leave out.
+ */
+#ifndef KERNELS_RAYS_H
+#define KERNELS_RAYS_H
+
+#include "replay/scene.h"
+#include "kernels/shared.h"
+
+#define RAYS_PER_PACKET 8u
+
+/* Entries of a stack over an eight-wide tree: seven siblings a level. */
+#define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)
+
+#endif

@@ -1,0 +1,287 @@
+/* C twins of the occlude and intersect kernels: one ray at a time, as kernels/rays.h says. */
+#include "kernels/rays.h"
+
+#include <math.h>
+
+#include "tracer/device.h"
+
+extern device_twin occlude_packet_c, occlude_wide_c, intersect_packet_c, intersect_wide_c;
+
+struct args {
+	uint32_t n_rays;
+	const struct ray *rays;
+	uint32_t top_first;
+	const struct node2 *top2; /* the packet kernels' */
+	const struct node8 *top8; /* the wide kernels' */
+	const uint32_t *instance_list;
+	const struct instance *instances;
+	const struct node2 *nodes2;
+	const struct node8 *nodes8;
+	const struct triangle *triangles;
+	const struct triangle8 *triangles8;
+	void *out;
+};
+
+/* One ray on its way. */
+struct walk {
+	const struct args *args;
+	float o[3], d[3], inverse[3]; /* in the space of the tree that it walks */
+	float t_min;
+	struct hit hit; /* hit.t: the ray's end so far */
+	int any;        /* the first hit will do */
+};
+
+static struct args unpack(const void *const *args, int wide)
+{
+	return (struct args){
+		*(const uint32_t *)args[0], args[1], *(const uint32_t *)args[2],
+		wide ? NULL : args[3], wide ? args[3] : NULL, args[4], args[5],
+		wide ? NULL : args[6], wide ? args[6] : NULL,
+		wide ? NULL : args[7], wide ? args[7] : NULL, (void *)args[8]
+	};
+}
+
+static int done(const struct walk *w)
+{
+	return w->any && w->hit.instance != SCENE_NONE;
+}
+
+static float dot(const float a[3], const float b[3])
+{
+	return fmaf(a[2], b[2], fmaf(a[1], b[1], a[0] * b[0]));
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+	out[0] = fmaf(a[1], b[2], -(a[2] * b[1]));
+	out[1] = fmaf(a[2], b[0], -(a[0] * b[2]));
+	out[2] = fmaf(a[0], b[1], -(a[1] * b[0]));
+}
+
+static void try_triangle(struct walk *w, const float v0[3], const float e1[3], const float e2[3], uint32_t instance,
+                         uint32_t primitive)
+{
+	float p[3], q[3], s[3], det, inverse, u, v, t;
+
+	cross(w->d, e2, p);
+	det = dot(e1, p);
+	inverse = 1.0f / det;
+	for (int a = 0; a < 3; a++)
+		s[a] = w->o[a] - v0[a];
+	u = dot(s, p) * inverse;
+	cross(s, e1, q);
+	v = dot(w->d, q) * inverse;
+	t = dot(e2, q) * inverse;
+	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
+	if (u >= 0 && v >= 0 && u + v <= 1 && t >= w->t_min && (t < w->hit.t || (t == w->hit.t && w->hit.instance == SCENE_NONE)))
+		w->hit = (struct hit){ t, u, v, instance, primitive };
+}
+
+static int hits_box(const struct walk *w, const float lo[3], const float hi[3])
+{
+	float enter = w->t_min, leave = w->hit.t;
+
+	if (lo[0] > hi[0])
+		return 0;
+	for (int a = 0; a < 3; a++) {
+		const float t0 = (lo[a] - w->o[a]) * w->inverse[a], t1 = (hi[a] - w->o[a]) * w->inverse[a];
+
+		enter = fmaxf(enter, fminf(t0, t1));
+		leave = fminf(leave, fmaxf(t0, t1));
+	}
+	/* A little more, for rounding in t. */
+	return enter <= leave + 1e-5f * fabsf(leave);
+}
+
+static int hits_lane(const struct walk *w, const struct node8 *node, int lane)
+{
+	const float lo[3] = { node->lo[0][lane], node->lo[1][lane], node->lo[2][lane] };
+	const float hi[3] = { node->hi[0][lane], node->hi[1][lane], node->hi[2][lane] };
+
+	return hits_box(w, lo, hi);
+}
+
+/* 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. */
+static void set_direction(struct walk *w, const float d[3])
+{
+	for (int a = 0; a < 3; a++) {
+		w->d[a] = d[a];
+		w->inverse[a] = 1.0f / (fabsf(d[a]) > 1e-20f ? d[a] : copysignf(1e-20f, d[a]));
+	}
+}
+
+static void walk_blas2(struct walk *w, uint32_t instance_index)
+{
+	const struct args *a = w->args;
+	const struct instance *instance = &a->instances[instance_index];
+	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node2 *node = &a->nodes2[instance->node2_first + stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			const struct triangle *leaf = a->triangles + instance->triangle_first + node->child[side];
+
+			if (!hits_box(w, node->lo[side], node->hi[side]))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			for (uint32_t k = 0; k < node->count[side] && !done(w); k++)
+				try_triangle(w, leaf[k].v0, leaf[k].e1, leaf[k].e2, instance_index, leaf[k].primitive);
+		}
+	}
+}
+
+static void try_block(struct walk *w, const struct triangle8 *block, uint32_t instance_index)
+{
+	for (int lane = 0; lane < 8 && block->primitive[lane] != SCENE_NONE && !done(w); lane++) {
+		const float v0[3] = { block->v0[0][lane], block->v0[1][lane], block->v0[2][lane] };
+		const float e1[3] = { block->e1[0][lane], block->e1[1][lane], block->e1[2][lane] };
+		const float e2[3] = { block->e2[0][lane], block->e2[1][lane], block->e2[2][lane] };
+
+		try_triangle(w, v0, e1, e2, instance_index, block->primitive[lane]);
+	}
+}
+
+static void walk_blas8(struct walk *w, uint32_t instance_index)
+{
+	const struct args *a = w->args;
+	const struct instance *instance = &a->instances[instance_index];
+	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node8 *node = &a->nodes8[instance->node8_first + stack[--depth]];
+
+		for (int lane = 0; lane < 8; lane++) {
+			if (!hits_lane(w, node, lane))
+				continue;
+			if (!node->count[lane])
+				stack[depth++] = node->child[lane];
+			for (uint32_t k = 0; k < node->count[lane] && !done(w); k++)
+				try_block(w, &a->triangles8[instance->triangle8_first + node->child[lane] + k], instance_index);
+		}
+	}
+}
+
+/* Into an instance's object space, through its tree, and back. */
+static void walk_instance(struct walk *w, uint32_t instance_index)
+{
+	const struct walk eye = *w;
+	const float *m = w->args->instances[instance_index].obj_from_eye;
+	float d[3];
+
+	for (int row = 0; row < 3; row++, m += 4) {
+		w->o[row] = fmaf(m[2], eye.o[2], fmaf(m[1], eye.o[1], fmaf(m[0], eye.o[0], m[3])));
+		d[row] = fmaf(m[2], eye.d[2], fmaf(m[1], eye.d[1], m[0] * eye.d[0]));
+	}
+	set_direction(w, d);
+	if (w->args->nodes2)
+		walk_blas2(w, instance_index);
+	else
+		walk_blas8(w, instance_index);
+	for (int a = 0; a < 3; a++) {
+		w->o[a] = eye.o[a];
+		w->d[a] = eye.d[a];
+		w->inverse[a] = eye.inverse[a];
+	}
+}
+
+static void walk_top2(struct walk *w)
+{
+	const struct args *a = w->args;
+	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node2 *node = &a->top2[a->top_first + stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			if (!hits_box(w, node->lo[side], node->hi[side]))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			for (uint32_t k = 0; k < node->count[side] && !done(w); k++)
+				walk_instance(w, a->instance_list[node->child[side] + k]);
+		}
+	}
+}
+
+static void walk_top8(struct walk *w)
+{
+	const struct args *a = w->args;
+	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node8 *node = &a->top8[a->top_first + stack[--depth]];
+
+		for (int lane = 0; lane < 8; lane++) {
+			if (!hits_lane(w, node, lane))
+				continue;
+			if (!node->count[lane])
+				stack[depth++] = node->child[lane];
+			for (uint32_t k = 0; k < node->count[lane] && !done(w); k++)
+				walk_instance(w, a->instance_list[node->child[lane] + k]);
+		}
+	}
+}
+
+static struct hit walk_ray(const struct args *args, uint32_t index, int any)
+{
+	const struct ray *ray = &args->rays[index];
+	struct walk w = { .args = args, .t_min = ray->t_min, .any = any };
+
+	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
+	if (!(ray->t_min <= ray->t_max))
+		return w.hit;
+	for (int a = 0; a < 3; a++)
+		w.o[a] = ray->o[a];
+	set_direction(&w, ray->d);
+	if (args->top2)
+		walk_top2(&w);
+	else
+		walk_top8(&w);
+	return w.hit;
+}
+
+static void occlude(const struct args *args, size_t first, size_t last)
+{
+	for (size_t i = first; i < last && i < args->n_rays; i++)
+		((uint32_t *)args->out)[i] = walk_ray(args, (uint32_t)i, 1).instance != SCENE_NONE;
+}
+
+static void intersect(const struct args *args, size_t first, size_t last)
+{
+	for (size_t i = first; i < last && i < args->n_rays; i++)
+		((struct hit *)args->out)[i] = walk_ray(args, (uint32_t)i, 0);
+}
+
+void occlude_packet_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 0);
+
+	occlude(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
+}
+
+void occlude_wide_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 1);
+
+	occlude(&a, first, last);
+}
+
+void intersect_packet_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 0);
+
+	intersect(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
+}
+
+void intersect_wide_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 1);
+
+	intersect(&a, first, last);
+}
