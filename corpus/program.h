@@ -6,6 +6,8 @@
  *   --animate camera|light|none
  *   --vbo                   arrays from a buffer object where the program has arrays
  *   --mirror                make a mirror where the program has one to make
+ *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
+ *   --ortho                 parallel projection where the program has a choice
  */
 #ifndef CORPUS_PROGRAM_H
 #define CORPUS_PROGRAM_H
@@ -30,7 +32,8 @@ struct program {
 	const char *title;
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
 	long frames;        /* 0: no end */
-	int animate_camera, animate_light, vbo, mirror;
+	int animate_camera, animate_light, vbo, mirror, ortho;
+	const char *model; /* NULL: none given */
 };
 
 static struct program program;
@@ -46,31 +49,40 @@ static void program_display(void)
 	glutPostRedisplay();
 }
 
+static void program_usage(const char *name)
+{
+	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--ortho] "
+	        "[--model FILE]\n", name);
+	exit(2);
+}
+
+static void program_animate(const char *name, const char *what)
+{
+	program.animate_camera = strcmp(what, "camera") == 0;
+	program.animate_light = strcmp(what, "light") == 0;
+	if (!program.animate_camera && !program.animate_light && strcmp(what, "none") != 0)
+		program_usage(name);
+}
+
 static void program_parse(int argc, char **argv)
 {
 	for (int i = 1; i < argc; i++) {
-		const char *value = i + 1 < argc ? argv[i + 1] : "";
-
-		if (strcmp(argv[i], "--frames") == 0 && atol(value) > 0) {
-			program.frames = atol(value);
-			i++;
-		} else if (strcmp(argv[i], "--animate") == 0 && strcmp(value, "camera") == 0) {
-			program.animate_camera = 1;
-			i++;
-		} else if (strcmp(argv[i], "--animate") == 0 && strcmp(value, "light") == 0) {
-			program.animate_light = 1;
-			i++;
-		} else if (strcmp(argv[i], "--animate") == 0 && strcmp(value, "none") == 0) {
-			i++;
-		} else if (strcmp(argv[i], "--vbo") == 0) {
+		if (strcmp(argv[i], "--vbo") == 0)
 			program.vbo = 1;
-		} else if (strcmp(argv[i], "--mirror") == 0) {
+		else if (strcmp(argv[i], "--mirror") == 0)
 			program.mirror = 1;
-		} else {
-			fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror]\n",
-			        argv[0]);
-			exit(2);
-		}
+		else if (strcmp(argv[i], "--ortho") == 0)
+			program.ortho = 1;
+		else if (i + 1 == argc)
+			program_usage(argv[0]);
+		else if (strcmp(argv[i], "--frames") == 0 && atol(argv[i + 1]) > 0)
+			program.frames = atol(argv[++i]);
+		else if (strcmp(argv[i], "--animate") == 0)
+			program_animate(argv[0], argv[++i]);
+		else if (strcmp(argv[i], "--model") == 0)
+			program.model = argv[++i];
+		else
+			program_usage(argv[0]);
 	}
 }
 

@@ -1,0 +1,52 @@
+#!/bin/sh
+# corpus/demo.sh BUILD (as `make demo`): record a real program, ray trace the recording, score it, say where to look.
+# Every stage prints what it did and how long it took; what it said in detail is in BUILD/demo/log.
+set -u
+cd "$(dirname "$0")/.." || exit 5
+build=$1
+out=$build/demo
+make=${MAKE:-make}
+frames=60
+
+now() { date +%s.%N; }
+
+# stage NAME CMD...: run a command, keep what it prints; NAME, seconds and $summary on one line.
+stage() {
+	name=$1
+	shift
+	printf '%-9s' "$name"
+	begin=$(now)
+	"$@" >"$out/log/$name" 2>&1
+	code=$?
+	seconds=$(echo "$begin $(now)" | awk '{ printf "%.1f", $2 - $1 }')
+	if [ "$code" != 0 ]; then
+		echo "failed after $seconds s, exit code $code:"
+		cat "$out/log/$name"
+		exit "$code"
+	fi
+	printf '%6s s   ' "$seconds"
+}
+
+rm -rf "$out"
+mkdir -p "$out/log" "$out/frames"
+
+stage install "$make" --no-print-directory deps BUILD="$build"
+echo "$(sed -n 's/^installing from Debian: //p' "$out/log/install" | grep . || echo 'nothing, all is there')"
+touch "$out/log/begun"
+stage build "$make" --no-print-directory -j"$(nproc)" all BUILD="$build"
+echo "$(find "$build" -name '*.o' -newer "$out/log/begun" | wc -l) files compiled"
+stage record tests/xvfb.sh "$build/relume" record -o "$out/glxgears.trace" --ref color,depth --quit-after $frames -- glxgears
+echo "$frames frames of glxgears, with reference colour and depth"
+stage render "$build/relume" render "$out/glxgears.trace" -o "$out/frames/glxgears.####.exr"
+echo "$(ls "$out/frames" | wc -l) frames ray traced to OpenEXR, on $("$build/relume" devices | head -n 1)"
+stage score "$build/relume" diff "$out/glxgears.trace" "$out/frames" --report "$out/report"
+echo "$(tail -n 1 "$out/log/score")"
+
+cat <<END
+
+Raster frame, gl, beauty and difference side by side:
+    $out/report/index.html
+    $out/report/contact.png
+The frames:
+    $out/frames/glxgears.0000.exr ...
+END
