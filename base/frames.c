@@ -137,8 +137,10 @@ static int find_number(const char *pattern, size_t *start, size_t *length, int *
 				q++;
 			*width = (int)(q - p);
 		} else if (*p == '%') {
-			q++;
-			*width = (int)strtol(q, (char **)&q, 10);
+			/* two digits are wide enough for any frame number */
+			*width = 0;
+			for (q++; *q >= '0' && *q <= '9' && *width < 10; q++)
+				*width = *width * 10 + (*q - '0');
 			if (*q != 'd')
 				continue;
 			q++;

@@ -1,0 +1,114 @@
+/* base/frames: ranges and file name patterns. */
+#include "base/frames.h"
+
+#include <check.h>
+#include <stdio.h>
+
+#include "base/err.h"
+
+/** "0 2 4" for the frames below `end` that a list holds. */
+static const char *frames_of(const char *text, uint64_t end)
+{
+	static char out[256];
+	struct frame_list list = { 0 };
+	size_t n = 0;
+
+	out[0] = '\0';
+	ck_assert_int_eq(frame_list_parse(text, &list), 0);
+	for (uint64_t f = 0; f < end; f++)
+		if (frame_list_contains(&list, f))
+			n += (size_t)snprintf(out + n, sizeof(out) - n, n ? " %d" : "%d", (int)f);
+	frame_list_free(&list);
+	return out;
+}
+
+START_TEST(test_ranges)
+{
+	ck_assert_str_eq(frames_of("7", 10), "7");
+	ck_assert_str_eq(frames_of("2-5", 10), "2 3 4 5");
+	ck_assert_str_eq(frames_of("0-9x3", 20), "0 3 6 9");
+	ck_assert_str_eq(frames_of("8,1-2,1-4x2", 10), "1 2 3 8");
+	ck_assert_str_eq(frames_of("18446744073709551615", 3), "");
+}
+END_TEST
+
+START_TEST(test_not_ranges)
+{
+	static const char *const bad[] = { "",     "x",   "-1", "1-",  "5-2", "1-5x", "1-5x0", "1,",
+		                           ",1",   "1 2", "1;2", "1.5", "+1",  "1-2-3", "18446744073709551616" };
+	struct frame_list list = { 0 };
+
+	for (size_t i = 0; i < sizeof(bad) / sizeof(bad[0]); i++) {
+		ck_assert_msg(frame_list_parse(bad[i], &list) == ERR_USAGE, "'%s' was taken as a range", bad[i]);
+		ck_assert_ptr_null(list.ranges);
+	}
+}
+END_TEST
+
+START_TEST(test_last_and_count)
+{
+	struct frame_list list = { 0 };
+
+	ck_assert_uint_eq(frame_list_last(&list), UINT64_MAX);
+	ck_assert_uint_eq(frame_list_count(&list, 12), 12);
+	ck_assert_int_eq(frame_list_parse("3-10x4,5-7,6", &list), 0);
+	ck_assert_uint_eq(frame_list_last(&list), 7); /* 3, 7; not 10, which the step leaves out */
+	ck_assert_uint_eq(frame_list_count(&list, 100), 4);
+	ck_assert_uint_eq(frame_list_count(&list, 6), 2);
+	frame_list_free(&list);
+}
+END_TEST
+
+static const char *expanded(const char *pattern, uint64_t frame)
+{
+	static char out[64];
+
+	ck_assert_int_eq(frame_pattern_expand(pattern, frame, out, sizeof(out)), 0);
+	return out;
+}
+
+START_TEST(test_patterns)
+{
+	ck_assert_str_eq(expanded("a.####.exr", 12), "a.0012.exr");
+	ck_assert_str_eq(expanded("a.#.exr", 12), "a.12.exr");
+	ck_assert_str_eq(expanded("a.%04d.exr", 12), "a.0012.exr");
+	ck_assert_str_eq(expanded("a.%d.exr", 12), "a.12.exr");
+	ck_assert_str_eq(expanded("a.$F4.exr", 12), "a.0012.exr");
+	ck_assert_str_eq(expanded("a.$F.exr", 12), "a.12.exr");
+	ck_assert_str_eq(expanded("a.##.exr", 12345), "a.12345.exr");
+	ck_assert_str_eq(expanded("100%/a.###.exr", 1), "100%/a.001.exr");
+	ck_assert_int_eq(frame_pattern_has_number("a.%s.exr"), 0);
+	ck_assert_int_eq(frame_pattern_has_number("a.%999999999d.exr"), 0);
+	ck_assert_int_eq(frame_pattern_has_number("a.%-4d.exr"), 0);
+	ck_assert_int_eq(frame_pattern_has_number("a.$G.exr"), 0);
+	ck_assert_str_eq(expanded("a.%s%n.exr", 1), "a.%s%n.exr");
+}
+END_TEST
+
+START_TEST(test_pattern_too_long)
+{
+	char out[8];
+
+	ck_assert_int_eq(frame_pattern_expand("a.####.exr", 1, out, sizeof(out)), ERR_USAGE);
+	ck_assert_int_eq(frame_pattern_expand("%99d", 1, out, sizeof(out)), ERR_USAGE);
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tcase = tcase_create("frames");
+	Suite *suite = suite_create("frames");
+	SRunner *runner = srunner_create(suite);
+	int failed;
+
+	tcase_add_test(tcase, test_ranges);
+	tcase_add_test(tcase, test_not_ranges);
+	tcase_add_test(tcase, test_last_and_count);
+	tcase_add_test(tcase, test_patterns);
+	tcase_add_test(tcase, test_pattern_too_long);
+	suite_add_tcase(suite, tcase);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}

@@ -1,0 +1,89 @@
+/* base/progress and base/err: what goes to standard error, off a terminal. (The bar: tests/real/test_progress.py.) */
+#include "base/progress.h"
+
+#include <check.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+
+static char captured[2048];
+
+/** Send standard error to a file while `body` runs; what it wrote is in `captured`. */
+static void capture_stderr(void (*body)(void))
+{
+	FILE *file = tmpfile();
+	int saved = dup(STDERR_FILENO);
+
+	ck_assert(file && saved >= 0);
+	fflush(stderr);
+	dup2(fileno(file), STDERR_FILENO);
+	body();
+	fflush(stderr);
+	dup2(saved, STDERR_FILENO);
+	close(saved);
+	rewind(file);
+	captured[fread(captured, 1, sizeof(captured) - 1, file)] = '\0';
+	fclose(file);
+}
+
+static void run_known_total(void)
+{
+	struct progress p;
+
+	progress_begin(&p, "rendered", 2);
+	progress_step(&p, 10, "0.1 s");
+	progress_step(&p, 15, "0.2 s");
+	progress_end(&p);
+}
+
+static void run_unknown_total(void)
+{
+	struct progress p;
+
+	progress_begin(&p, "scored", 0);
+	progress_step(&p, 3, "passed");
+	progress_end(&p);
+}
+
+static void report_lines(void)
+{
+	ck_assert_int_eq(err_report(ERR_INPUT, "a.trace: frame 3", "%d bytes are missing", 7), ERR_INPUT);
+	ck_assert_int_eq(err_report(ERR_SYSTEM, NULL, "out of memory"), ERR_SYSTEM);
+	err_warn("a.trace", "cut short");
+}
+
+START_TEST(test_lines)
+{
+	capture_stderr(run_known_total);
+	ck_assert_str_eq(captured, "rendered frame 10, 1 of 2: 0.1 s\nrendered frame 15, 2 of 2: 0.2 s\n");
+	capture_stderr(run_unknown_total);
+	ck_assert_str_eq(captured, "scored frame 3: passed\n");
+}
+END_TEST
+
+START_TEST(test_reports)
+{
+	capture_stderr(report_lines);
+	ck_assert_str_eq(captured, "relume: a.trace: frame 3: 7 bytes are missing\n"
+	                           "relume: out of memory\n"
+	                           "relume: warning: a.trace: cut short\n");
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tcase = tcase_create("progress");
+	Suite *suite = suite_create("progress");
+	SRunner *runner = srunner_create(suite);
+	int failed;
+
+	tcase_add_test(tcase, test_lines);
+	tcase_add_test(tcase, test_reports);
+	suite_add_tcase(suite, tcase);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
