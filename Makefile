@@ -1,5 +1,8 @@
 # Relume. Everything made lands in $(BUILD). `make demo` and `make check` are all the set-up there is.
 #   make deps               install the Debian packages that are missing
+#   make demo               record, ray trace and score a real program
+#   make check              all tests; ONLY="part of a name" runs some
+#   make show               all figures beside their bars
 #   V=1                     show commands
 #   SAN=address,undefined   sanitizer build, in a folder of its own
 #   BUILD=DIR               build elsewhere
@@ -84,10 +87,11 @@ $(BUILD)/deps: Makefile
 	@missing=$$(printf '%s\n' $(DEPS) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(DEPS) \
 		2>/dev/null | sed -n 's/^installed //p')"); \
 	if [ -n "$$missing" ]; then \
-		echo "installing from Debian:" $$missing; \
+		echo "installing from Debian:" $$missing "(see $@.log)"; \
 		[ "$$(id -u)" = 0 ] || sudo=sudo; \
 		export DEBIAN_FRONTEND=noninteractive; \
-		$$sudo apt-get -q -q update && $$sudo apt-get -q -q -y --no-install-recommends install $$missing; \
+		{ $$sudo apt-get -q update && $$sudo apt-get -q -y --no-install-recommends install $$missing; } \
+			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
 	fi
 	@touch $@
 
@@ -106,13 +110,30 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 check: all $(TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
-# Figures beside their bars; see DESIGN in README.md. Each show-NAME writes $(BUILD)/show/NAME.json.
+demo:
+	@corpus/demo.sh $(BUILD)
+
+# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
+SHOWS := show-parity
+
 show:
+	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
+
+show-parity: all
+	@$(PYTHON) tests/show/parity.py $(BUILD)
+
+# Not part of `make show`: needs root, and minutes.
+show-fresh:
+	@tests/fresh.sh $(BUILD)
+
+# Only in a commit of its own.
+golden-update: all
+	@$(PYTHON) tests/golden/test_golden.py --update
 
 clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps check demo show bench golden-update clean FORCE
+.PHONY: all deps check demo show show-parity show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
