@@ -63,3 +63,23 @@ def read(file_name):
         if element.get("api") in (None, "gl") and not element.get("value").startswith('"'):
             enums[element.get("name")] = int(element.get("value"), 0)
     return dict(sorted(commands.items())), dict(sorted(enums.items()))
+
+
+@dataclass
+class Enum:
+    name: str
+    value: int
+    groups: list         # ["PrimitiveType"]
+    bits: bool           # one flag of a bit mask
+
+
+def read_enums(file_name):
+    """Every enumerant of one registry with its groups, in the registry's order. Values that are no numbers are left out."""
+    found = []
+    for block in ElementTree.parse(f"{DIRECTORY}/{file_name}").getroot().iterfind("enums"):
+        for element in block.iterfind("enum"):
+            if element.get("api") not in (None, "gl") or element.get("value").startswith('"'):
+                continue
+            groups = [g for g in element.get("group", block.get("group", "")).split(",") if g]
+            found.append(Enum(element.get("name"), int(element.get("value"), 0), groups, block.get("type") == "bitmask"))
+    return found

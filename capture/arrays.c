@@ -1,0 +1,529 @@
+/*
+ * Runs inside the traced program. Vertex arrays in client memory: what they hold is known only when it is drawn.
+ *
+ * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call whose pointer is a
+ * blob of the elements 0 .. highest used. The driver is the authority on array state: it is asked again after any command
+ * that can have changed it. Array state cannot be asked between Begin and End, where ArrayElement is legal, so it is asked
+ * before Begin, and ArrayElement of client memory is written as the immediate-mode calls that it stands for (GL 2.1 sec. 2.8).
+ */
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdlib.h>
+
+#include "capture/memory.h"
+#include "capture/wrap.h"
+
+enum { MAX_UNITS = 8, MAX_ATTRIBUTES = 16, INDEX_BATCH = 16384 };
+enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a larger one comes from an index that is garbage */
+
+enum slot {
+	SLOT_NORMAL, SLOT_COLOR, SLOT_INDEX, SLOT_EDGE_FLAG, SLOT_FOG_COORD, SLOT_SECONDARY_COLOR, SLOT_TEXTURE,
+	SLOT_ATTRIBUTE = SLOT_TEXTURE + MAX_UNITS,
+	SLOT_VERTEX = SLOT_ATTRIBUTE + MAX_ATTRIBUTES, /* last: with ArrayElement it makes the vertex */
+	N_SLOTS
+};
+
+struct array {
+	int enabled, size, stride, buffer, normalized, integer, divisor;
+	unsigned type;
+	const uint8_t *pointer;
+};
+
+/* How the fixed-function arrays are asked for. 0: not asked, the value is `fixed_size` or the type is a byte. */
+static const struct array_names {
+	unsigned enable, size, type, stride, buffer, pointer, command;
+	int fixed_size;
+	unsigned feature;
+} names[] = {
+	[SLOT_NORMAL] = { GL_NORMAL_ARRAY, 0, GL_NORMAL_ARRAY_TYPE, GL_NORMAL_ARRAY_STRIDE, GL_NORMAL_ARRAY_BUFFER_BINDING,
+	                  GL_NORMAL_ARRAY_POINTER, CMD_glNormalPointer, 3, 0 },
+	[SLOT_COLOR] = { GL_COLOR_ARRAY, GL_COLOR_ARRAY_SIZE, GL_COLOR_ARRAY_TYPE, GL_COLOR_ARRAY_STRIDE,
+	                 GL_COLOR_ARRAY_BUFFER_BINDING, GL_COLOR_ARRAY_POINTER, CMD_glColorPointer, 0, 0 },
+	[SLOT_INDEX] = { GL_INDEX_ARRAY, 0, GL_INDEX_ARRAY_TYPE, GL_INDEX_ARRAY_STRIDE, GL_INDEX_ARRAY_BUFFER_BINDING,
+	                 GL_INDEX_ARRAY_POINTER, CMD_glIndexPointer, 1, 0 },
+	[SLOT_EDGE_FLAG] = { GL_EDGE_FLAG_ARRAY, 0, 0, GL_EDGE_FLAG_ARRAY_STRIDE, GL_EDGE_FLAG_ARRAY_BUFFER_BINDING,
+	                     GL_EDGE_FLAG_ARRAY_POINTER, CMD_glEdgeFlagPointer, 1, 0 },
+	[SLOT_FOG_COORD] = { GL_FOG_COORD_ARRAY, 0, GL_FOG_COORD_ARRAY_TYPE, GL_FOG_COORD_ARRAY_STRIDE,
+	                     GL_FOG_COORD_ARRAY_BUFFER_BINDING, GL_FOG_COORD_ARRAY_POINTER, CMD_glFogCoordPointer, 1,
+	                     HAS_FOG_COORD },
+	[SLOT_SECONDARY_COLOR] = { GL_SECONDARY_COLOR_ARRAY, GL_SECONDARY_COLOR_ARRAY_SIZE, GL_SECONDARY_COLOR_ARRAY_TYPE,
+	                           GL_SECONDARY_COLOR_ARRAY_STRIDE, GL_SECONDARY_COLOR_ARRAY_BUFFER_BINDING,
+	                           GL_SECONDARY_COLOR_ARRAY_POINTER, CMD_glSecondaryColorPointer, 0, HAS_SECONDARY_COLOR },
+	[SLOT_TEXTURE] = { GL_TEXTURE_COORD_ARRAY, GL_TEXTURE_COORD_ARRAY_SIZE, GL_TEXTURE_COORD_ARRAY_TYPE,
+	                   GL_TEXTURE_COORD_ARRAY_STRIDE, GL_TEXTURE_COORD_ARRAY_BUFFER_BINDING,
+	                   GL_TEXTURE_COORD_ARRAY_POINTER, CMD_glTexCoordPointer, 0, 0 },
+	[SLOT_VERTEX] = { GL_VERTEX_ARRAY, GL_VERTEX_ARRAY_SIZE, GL_VERTEX_ARRAY_TYPE, GL_VERTEX_ARRAY_STRIDE,
+	                  GL_VERTEX_ARRAY_BUFFER_BINDING, GL_VERTEX_ARRAY_POINTER, CMD_glVertexPointer, 0, 0 },
+};
+
+/* Asked for only once used: most programs have no texture units beyond the first and no generic attributes. */
+static _Atomic unsigned units_used = 1, attributes_used, arrays_used;
+
+static __thread struct {
+	struct array arrays[N_SLOTS];
+	int known;      /* the driver's state, since nothing that changes it was called */
+	int n_client;   /* enabled arrays without a buffer */
+	int n_buffered; /* enabled arrays with one */
+} self __attribute__((tls_model("initial-exec")));
+
+/* Asking the driver */
+
+void arrays_changed(void)
+{
+	self.known = 0;
+	arrays_used = 1;
+}
+
+void arrays_attributes_used(void)
+{
+	attributes_used = 1;
+	arrays_changed();
+}
+
+void arrays_unit_used(unsigned texture)
+{
+	if (texture >= GL_TEXTURE0 && texture < GL_TEXTURE0 + MAX_UNITS)
+		units_used |= 1u << (texture - GL_TEXTURE0);
+}
+
+static void ask_fixed(struct array *a, const struct array_names *n)
+{
+	memset(a, 0, sizeof(*a));
+	if (n->feature && !context_has((enum context_feature)n->feature))
+		return;
+	a->enabled = real_glIsEnabled(n->enable);
+	if (!a->enabled)
+		return;
+	a->size = n->size ? context_get(n->size) : n->fixed_size;
+	a->type = n->type ? (unsigned)context_get(n->type) : GL_UNSIGNED_BYTE;
+	a->stride = context_get(n->stride);
+	a->buffer = context_has(HAS_BUFFERS) ? context_get(n->buffer) : 0;
+	real_glGetPointerv(n->pointer, (void **)&a->pointer);
+}
+
+static int attribute_get(unsigned index, unsigned pname)
+{
+	int value = 0;
+
+	real_glGetVertexAttribiv(index, pname, &value);
+	return value;
+}
+
+static void ask_attribute(struct array *a, unsigned index)
+{
+	memset(a, 0, sizeof(*a));
+	a->enabled = attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_ENABLED);
+	if (!a->enabled)
+		return;
+	a->size = attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_SIZE);
+	a->type = (unsigned)attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_TYPE);
+	a->stride = attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_STRIDE);
+	a->normalized = attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_NORMALIZED);
+	a->buffer = context_has(HAS_BUFFERS) ? attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING) : 0;
+	a->integer = context_has(HAS_INTEGER_ATTRIBUTES) ? attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_INTEGER) : 0;
+	a->divisor = context_has(HAS_DIVISOR) ? attribute_get(index, GL_VERTEX_ATTRIB_ARRAY_DIVISOR) : 0;
+	real_glGetVertexAttribPointerv(index, GL_VERTEX_ATTRIB_ARRAY_POINTER, (void **)&a->pointer);
+}
+
+static void ask_units(void)
+{
+	int active = context_has(HAS_MULTITEXTURE) ? context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0, now = active;
+
+	for (int i = 0; i < MAX_UNITS; i++) {
+		if (!(units_used & (1u << i)) || (i && !context_has(HAS_MULTITEXTURE)))
+			continue;
+		if (now != GL_TEXTURE0 + i) {
+			now = GL_TEXTURE0 + i;
+			real_glClientActiveTexture((unsigned)now);
+		}
+		ask_fixed(&self.arrays[SLOT_TEXTURE + i], &names[SLOT_TEXTURE]);
+	}
+	if (now != active)
+		real_glClientActiveTexture((unsigned)active);
+}
+
+/* Outside Begin/End only. */
+static void refresh(void)
+{
+	if (self.known)
+		return;
+	if (context_has(HAS_FIXED_FUNCTION)) {
+		for (int slot = 0; slot < SLOT_TEXTURE; slot++)
+			ask_fixed(&self.arrays[slot], &names[slot]);
+		ask_fixed(&self.arrays[SLOT_VERTEX], &names[SLOT_VERTEX]);
+		ask_units();
+	}
+	for (unsigned i = 0; attributes_used && context_has(HAS_ATTRIBUTES) && i < MAX_ATTRIBUTES; i++)
+		ask_attribute(&self.arrays[SLOT_ATTRIBUTE + i], i);
+	self.n_client = self.n_buffered = 0;
+	for (int slot = 0; slot < N_SLOTS; slot++) {
+		const struct array *a = &self.arrays[slot];
+
+		self.n_buffered += a->enabled && a->buffer;
+		self.n_client += a->enabled && !a->buffer && a->pointer;
+	}
+	self.known = 1;
+}
+
+static int array_buffer(void)
+{
+	return context_has(HAS_BUFFERS) ? context_get(GL_ARRAY_BUFFER_BINDING) : 0;
+}
+
+int arrays_pointer_is_offset(void)
+{
+	return array_buffer() != 0;
+}
+
+/* Writing made-up calls */
+
+static void record_enum(unsigned command, unsigned value)
+{
+	uint8_t *p = writer_enter_fake(command);
+
+	if (!p)
+		return;
+	p = put_enum(put_argument(p, 0), value);
+	writer_call_end(p);
+}
+
+static void record_bind(int buffer)
+{
+	uint8_t *p = writer_enter_fake(CMD_glBindBuffer);
+
+	if (!p)
+		return;
+	p = put_enum(put_argument(p, 0), GL_ARRAY_BUFFER);
+	p = put_uint(put_argument(p, 1), (unsigned)buffer);
+	writer_call_end(p);
+}
+
+/* Bytes of one element; 0 for a size or type that is none. */
+static long element_bytes(const struct array *a)
+{
+	int size = a->size == GL_BGRA ? 4 : a->size;
+
+	if (a->type == GL_INT_2_10_10_10_REV || a->type == GL_UNSIGNED_INT_2_10_10_10_REV ||
+	    a->type == GL_UNSIGNED_INT_10F_11F_11F_REV)
+		return 4;
+	return size * type_bytes(a->type);
+}
+
+static void record_array(int slot, const struct array *a, long bytes)
+{
+	int attribute = slot >= SLOT_ATTRIBUTE && slot < SLOT_ATTRIBUTE + MAX_ATTRIBUTES;
+	const struct array_names *n = &names[slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE ? SLOT_TEXTURE : slot];
+	unsigned index = 0;
+	uint8_t *p = writer_enter_fake(!attribute ? n->command : a->integer ? CMD_glVertexAttribIPointer :
+	                                                                       CMD_glVertexAttribPointer);
+
+	if (!p)
+		return;
+	if (attribute)
+		p = put_uint(put_argument(p, index++), (unsigned)(slot - SLOT_ATTRIBUTE));
+	if (attribute || n->size)
+		p = put_sint(put_argument(p, index++), a->size);
+	if (attribute || n->type)
+		p = put_enum(put_argument(p, index++), a->type);
+	if (attribute && !a->integer)
+		p = put_bool8(put_argument(p, index++), (unsigned)a->normalized);
+	p = put_sint(put_argument(p, index++), a->stride);
+	p = put_blob(put_argument(p, index), a->pointer, bytes);
+	writer_call_end(p);
+}
+
+/* All client arrays, for elements 0 .. last (and instances 0 .. last_instance where an array advances by instance). */
+static void record_arrays(long last, long last_instance)
+{
+	int buffer, active, now;
+
+	if (!self.n_client || last < 0)
+		return;
+	buffer = array_buffer();
+	if (buffer)
+		record_bind(0);
+	active = now = context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ?
+	               context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0;
+	for (int slot = 0; slot < N_SLOTS; slot++) {
+		const struct array *a = &self.arrays[slot];
+		long element = element_bytes(a), elements = a->divisor ? last_instance / a->divisor : last, bytes;
+
+		if (!a->enabled || a->buffer || !a->pointer || !element)
+			continue;
+		bytes = (a->stride ? a->stride : element) * elements + element;
+		if (bytes > MAX_ARRAY_BYTES) {
+			static _Atomic int said;
+
+			if (!said++)
+				writer_say("a draw reaches beyond %d bytes of a client array; its arrays are not recorded",
+				           MAX_ARRAY_BYTES);
+			continue;
+		}
+		if (slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE && now != GL_TEXTURE0 + slot - SLOT_TEXTURE) {
+			now = GL_TEXTURE0 + slot - SLOT_TEXTURE;
+			record_enum(CMD_glClientActiveTexture, (unsigned)now);
+		}
+		record_array(slot, a, bytes);
+	}
+	if (now != active)
+		record_enum(CMD_glClientActiveTexture, (unsigned)active);
+	if (buffer)
+		record_bind(buffer);
+}
+
+/* Draws */
+
+/* 1 where a draw has client arrays that must be written. */
+static int needed(void)
+{
+	if (!arrays_used || !writer_active())
+		return 0;
+	refresh();
+	return self.n_client > 0;
+}
+
+void arrays_draw(int first, int count, int instances, unsigned base_instance)
+{
+	if (count > 0 && first >= 0 && needed())
+		record_arrays((long)first + count - 1, (long)base_instance + instances - 1);
+}
+
+void arrays_multi_draw(const int *first, const int *count, int draws)
+{
+	long last = -1;
+
+	if (!first || !count || !needed())
+		return;
+	for (int i = 0; i < draws; i++)
+		if (count[i] > 0 && first[i] >= 0 && (long)first[i] + count[i] - 1 > last)
+			last = (long)first[i] + count[i] - 1;
+	record_arrays(last, 0);
+}
+
+/* The index that starts a new primitive and is no vertex; -1 for none. */
+static long restart_index(unsigned type)
+{
+	if (context_has(HAS_FIXED_RESTART) && real_glIsEnabled(GL_PRIMITIVE_RESTART_FIXED_INDEX))
+		return (1L << (8 * type_bytes(type))) - 1;
+	if (context_has(HAS_RESTART) && real_glIsEnabled(GL_PRIMITIVE_RESTART))
+		return (long)(unsigned)context_get(GL_PRIMITIVE_RESTART_INDEX);
+	return -1;
+}
+
+/* Highest of `count` indices in client memory or, as an offset, in the element array buffer. */
+static long last_index(const void *indices, int count, unsigned type, long restart)
+{
+	uint8_t batch[INDEX_BATCH];
+	long size = type_bytes(type), last = -1, bytes = count * size;
+	int buffered = context_has(HAS_BUFFERS) && context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING);
+
+	if ((size != 1 && size != 2 && size != 4) || (!buffered && !indices))
+		return -1;
+	for (long at = 0; at < bytes; at += INDEX_BATCH) {
+		long n = bytes - at < INDEX_BATCH ? bytes - at : INDEX_BATCH;
+
+		if (buffered)
+			real_glGetBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (long)(uintptr_t)indices + at, n, batch);
+		else
+			memory_read(batch, (const uint8_t *)indices + at, (size_t)n);
+		for (long i = 0; i < n / size; i++) {
+			long index = size == 1 ? batch[i] : size == 2 ? ((uint16_t *)batch)[i] : ((uint32_t *)batch)[i];
+
+			if (index != restart && index > last)
+				last = index;
+		}
+	}
+	return last;
+}
+
+void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
+                          unsigned base_instance)
+{
+	if (count > 0 && needed())
+		record_arrays(last_index(indices, count, type, restart_index(type)) + base_vertex,
+		              (long)base_instance + instances - 1);
+}
+
+void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
+                                const int *base_vertex)
+{
+	long last = -1, restart;
+
+	if (!count || !indices || !needed())
+		return;
+	restart = restart_index(type);
+	for (int i = 0; i < draws; i++) {
+		long here = last_index(indices[i], count[i], type, restart);
+
+		here += base_vertex && here >= 0 ? base_vertex[i] : 0;
+		last = here > last ? here : last;
+	}
+	record_arrays(last, 0);
+}
+
+/* InterleavedArrays sets pointers, which are written when drawn, and which arrays are enabled, which is written here. */
+
+int arrays_interleave_is_offset(unsigned format)
+{
+	(void)format;
+	return arrays_pointer_is_offset();
+}
+
+void arrays_interleaved(unsigned format)
+{
+	(void)format;
+	arrays_changed();
+	if (!writer_active() || arrays_pointer_is_offset())
+		return;
+	for (int slot = 0; slot <= SLOT_VERTEX; slot++) {
+		const struct array_names *n = slot <= SLOT_TEXTURE || slot == SLOT_VERTEX ? &names[slot] : NULL;
+
+		if (n && (!n->feature || context_has((enum context_feature)n->feature)))
+			record_enum(real_glIsEnabled(n->enable) ? CMD_glEnableClientState : CMD_glDisableClientState,
+			            n->enable);
+	}
+}
+
+/* ArrayElement */
+
+void arrays_begin(void)
+{
+	if (arrays_used && writer_active())
+		refresh();
+}
+
+enum { N_TYPES = 8, TYPE_NONE = -1 };
+
+/* Order of the columns below. */
+static int type_column(unsigned type)
+{
+	static const unsigned columns[N_TYPES] = { GL_BYTE, GL_SHORT, GL_INT, GL_FLOAT, GL_DOUBLE, GL_UNSIGNED_BYTE,
+		                                   GL_UNSIGNED_SHORT, GL_UNSIGNED_INT };
+
+	for (int i = 0; i < N_TYPES; i++)
+		if (columns[i] == type)
+			return i;
+	return TYPE_NONE;
+}
+
+/* Immediate-mode commands by the type and size of an array. 0: GL has none, as no array is so. */
+static const unsigned short vertex_commands[][N_TYPES] = {
+	{ 0, CMD_glVertex2sv, CMD_glVertex2iv, CMD_glVertex2fv, CMD_glVertex2dv },
+	{ 0, CMD_glVertex3sv, CMD_glVertex3iv, CMD_glVertex3fv, CMD_glVertex3dv },
+	{ 0, CMD_glVertex4sv, CMD_glVertex4iv, CMD_glVertex4fv, CMD_glVertex4dv },
+};
+static const unsigned short color_commands[][N_TYPES] = {
+	{ CMD_glColor3bv, CMD_glColor3sv, CMD_glColor3iv, CMD_glColor3fv, CMD_glColor3dv, CMD_glColor3ubv, CMD_glColor3usv,
+	  CMD_glColor3uiv },
+	{ CMD_glColor4bv, CMD_glColor4sv, CMD_glColor4iv, CMD_glColor4fv, CMD_glColor4dv, CMD_glColor4ubv, CMD_glColor4usv,
+	  CMD_glColor4uiv },
+};
+static const unsigned short texture_commands[][N_TYPES] = {
+	{ 0, CMD_glMultiTexCoord1sv, CMD_glMultiTexCoord1iv, CMD_glMultiTexCoord1fv, CMD_glMultiTexCoord1dv },
+	{ 0, CMD_glMultiTexCoord2sv, CMD_glMultiTexCoord2iv, CMD_glMultiTexCoord2fv, CMD_glMultiTexCoord2dv },
+	{ 0, CMD_glMultiTexCoord3sv, CMD_glMultiTexCoord3iv, CMD_glMultiTexCoord3fv, CMD_glMultiTexCoord3dv },
+	{ 0, CMD_glMultiTexCoord4sv, CMD_glMultiTexCoord4iv, CMD_glMultiTexCoord4fv, CMD_glMultiTexCoord4dv },
+};
+static const unsigned short normal_commands[N_TYPES] = { CMD_glNormal3bv, CMD_glNormal3sv, CMD_glNormal3iv, CMD_glNormal3fv,
+	                                                 CMD_glNormal3dv };
+static const unsigned short index_commands[N_TYPES] = { 0, CMD_glIndexsv, CMD_glIndexiv, CMD_glIndexfv, CMD_glIndexdv,
+	                                                CMD_glIndexubv };
+static const unsigned short fog_commands[N_TYPES] = { 0, 0, 0, CMD_glFogCoordfv, CMD_glFogCoorddv };
+static const unsigned short secondary_commands[N_TYPES] = {
+	CMD_glSecondaryColor3bv, CMD_glSecondaryColor3sv,  CMD_glSecondaryColor3iv,  CMD_glSecondaryColor3fv,
+	CMD_glSecondaryColor3dv, CMD_glSecondaryColor3ubv, CMD_glSecondaryColor3usv, CMD_glSecondaryColor3uiv
+};
+static const unsigned short attribute_commands[] = { CMD_glVertexAttrib1fv, CMD_glVertexAttrib2fv, CMD_glVertexAttrib3fv,
+	                                             CMD_glVertexAttrib4fv };
+
+static unsigned element_command(int slot, const struct array *a)
+{
+	int column = type_column(a->type);
+
+	if (column == TYPE_NONE)
+		return 0;
+	switch (slot) {
+	case SLOT_NORMAL:
+		return normal_commands[column];
+	case SLOT_COLOR:
+		return a->size == 3 || a->size == 4 ? color_commands[a->size - 3][column] : 0;
+	case SLOT_INDEX:
+		return index_commands[column];
+	case SLOT_EDGE_FLAG:
+		return CMD_glEdgeFlagv;
+	case SLOT_FOG_COORD:
+		return fog_commands[column];
+	case SLOT_SECONDARY_COLOR:
+		return secondary_commands[column];
+	case SLOT_VERTEX:
+		return a->size >= 2 && a->size <= 4 ? vertex_commands[a->size - 2][column] : 0;
+	default:
+		if (a->size < 1 || a->size > 4)
+			return 0;
+		if (slot >= SLOT_ATTRIBUTE)
+			return a->type == GL_FLOAT ? attribute_commands[a->size - 1] : 0;
+		return texture_commands[a->size - 1][column];
+	}
+}
+
+static uint8_t *put_element(uint8_t *p, const struct array *a, const void *data)
+{
+	switch (a->type) {
+	case GL_BYTE:
+		return put_array_s8(p, data, a->size);
+	case GL_SHORT:
+		return put_array_s16(p, data, a->size);
+	case GL_INT:
+		return put_array_s32(p, data, a->size);
+	case GL_FLOAT:
+		return put_array_f32(p, data, a->size);
+	case GL_DOUBLE:
+		return put_array_f64(p, data, a->size);
+	case GL_UNSIGNED_SHORT:
+		return put_array_u16(p, data, a->size);
+	case GL_UNSIGNED_INT:
+		return put_array_u32(p, data, a->size);
+	default:
+		return put_array_u8(p, data, a->size);
+	}
+}
+
+static void record_element(int slot, const struct array *a, int index)
+{
+	unsigned command = element_command(slot, a), argument = 0;
+	long element = element_bytes(a);
+	double data[4]; /* of any type */
+	uint8_t *p;
+
+	if (!command || element <= 0 || element > (long)sizeof(data))
+		return;
+	memory_read(data, a->pointer + (a->stride ? a->stride : element) * index, (size_t)element);
+	p = writer_enter_fake(command);
+	if (!p)
+		return;
+	if (slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE)
+		p = put_enum(put_argument(p, argument++), (unsigned)(GL_TEXTURE0 + slot - SLOT_TEXTURE));
+	else if (slot >= SLOT_ATTRIBUTE && slot < SLOT_VERTEX)
+		p = put_uint(put_argument(p, argument++), (unsigned)(slot - SLOT_ATTRIBUTE));
+	p = put_element(put_argument(p, argument), a, data);
+	writer_call_end(p);
+}
+
+int arrays_element_is_offset(int index)
+{
+	if (!writer_active() || !self.known || !self.n_client)
+		return 1; /* all of it in buffers: readers can do it themselves */
+	if (self.n_buffered) {
+		static _Atomic int said;
+
+		if (!said++)
+			writer_say("glArrayElement with arrays both in buffers and in client memory: the former are not recorded");
+	}
+	for (int slot = 0; slot < N_SLOTS && index >= 0; slot++) {
+		const struct array *a = &self.arrays[slot];
+
+		if (a->enabled && !a->buffer && a->pointer)
+			record_element(slot, a, index);
+	}
+	return 0;
+}

@@ -1,0 +1,228 @@
+/*
+ * Runs inside the traced program. Reference frames: what the program shows, read back just before it is swapped (ref.h).
+ *
+ * Every state that reading depends on is set to its initial value and put back; queries go to the driver, so no cache can
+ * be wrong. GL errors that are pending are kept aside, the ones made here are dropped.
+ */
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <snappy-c.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "capture/ref.h"
+#include "capture/stats.h"
+#include "capture/wrap.h"
+
+enum { HEADER_BYTES = 28, LOW_FD = 100 };
+
+static struct {
+	int asked; /* the environment has been read */
+	int color, depth, failed;
+	uint64_t every;
+	char path[STATS_PATH_BYTES];
+	uint64_t bytes;
+	void *pixels, *packed; /* kept from frame to frame */
+	size_t pixels_bytes, packed_bytes;
+} r;
+
+static void ask(void)
+{
+	const char *kinds = getenv("RELUME_REF"), *every = getenv("RELUME_REF_EVERY");
+
+	r.asked = 1;
+	r.color = kinds && strstr(kinds, "color");
+	r.depth = kinds && strstr(kinds, "depth");
+	r.every = every ? strtoull(every, NULL, 10) : 1;
+	if (!r.every)
+		r.every = 1;
+}
+
+int reference_wanted(uint64_t frame)
+{
+	if (!r.asked)
+		ask();
+	return (r.color || r.depth) && !r.failed && frame % r.every == 0;
+}
+
+/* State */
+
+static const unsigned pack_state[] = { GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,   GL_PACK_ROW_LENGTH,
+	                               GL_PACK_SKIP_ROWS,  GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT };
+static const unsigned transfer_state[] = { GL_RED_SCALE, GL_RED_BIAS, GL_GREEN_SCALE, GL_GREEN_BIAS, GL_BLUE_SCALE,
+	                                   GL_BLUE_BIAS, GL_ALPHA_SCALE, GL_ALPHA_BIAS, GL_DEPTH_SCALE, GL_DEPTH_BIAS };
+enum {
+	N_PACK = sizeof(pack_state) / sizeof(pack_state[0]),
+	N_TRANSFER = sizeof(transfer_state) / sizeof(transfer_state[0])
+};
+
+struct saved_state {
+	int pack[N_PACK], map_color, pack_buffer, pack_invert, framebuffer, read_buffer;
+	float transfer[N_TRANSFER];
+};
+
+static unsigned read_target(void)
+{
+	return context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER : GL_FRAMEBUFFER;
+}
+
+static void set_up(struct saved_state *s)
+{
+	if (context_has(HAS_FRAMEBUFFERS)) {
+		s->framebuffer = context_get(context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER_BINDING :
+		                                                               GL_FRAMEBUFFER_BINDING);
+		if (s->framebuffer)
+			real_glBindFramebuffer(read_target(), 0);
+	}
+	s->read_buffer = context_get(GL_READ_BUFFER);
+	real_glReadBuffer(context_get(GL_DOUBLEBUFFER) ? GL_BACK : GL_FRONT);
+	if (context_has(HAS_PIXEL_BUFFERS)) {
+		s->pack_buffer = context_get(GL_PIXEL_PACK_BUFFER_BINDING);
+		if (s->pack_buffer)
+			real_glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+	}
+	for (int i = 0; i < N_PACK; i++) {
+		s->pack[i] = context_get(pack_state[i]);
+		real_glPixelStorei(pack_state[i], pack_state[i] == GL_PACK_ALIGNMENT ? 4 : 0);
+	}
+	if (context_has(HAS_PACK_INVERT)) {
+		s->pack_invert = context_get(GL_PACK_INVERT_MESA);
+		real_glPixelStorei(GL_PACK_INVERT_MESA, 0);
+	}
+	if (!context_has(HAS_FIXED_FUNCTION))
+		return;
+	s->map_color = context_get(GL_MAP_COLOR);
+	if (s->map_color)
+		real_glPixelTransferi(GL_MAP_COLOR, 0);
+	for (int i = 0; i < N_TRANSFER; i++) { /* scales and biases take turns */
+		float initial = i % 2 ? 0.0f : 1.0f;
+
+		real_glGetFloatv(transfer_state[i], &s->transfer[i]);
+		if (s->transfer[i] != initial)
+			real_glPixelTransferf(transfer_state[i], initial);
+	}
+}
+
+static void put_back(const struct saved_state *s)
+{
+	if (context_has(HAS_FIXED_FUNCTION)) {
+		for (int i = 0; i < N_TRANSFER; i++)
+			if (s->transfer[i] != (i % 2 ? 0.0f : 1.0f))
+				real_glPixelTransferf(transfer_state[i], s->transfer[i]);
+		if (s->map_color)
+			real_glPixelTransferi(GL_MAP_COLOR, s->map_color);
+	}
+	if (context_has(HAS_PACK_INVERT))
+		real_glPixelStorei(GL_PACK_INVERT_MESA, s->pack_invert);
+	for (int i = 0; i < N_PACK; i++)
+		real_glPixelStorei(pack_state[i], s->pack[i]);
+	if (s->pack_buffer)
+		real_glBindBuffer(GL_PIXEL_PACK_BUFFER, (unsigned)s->pack_buffer);
+	real_glReadBuffer((unsigned)s->read_buffer);
+	if (s->framebuffer)
+		real_glBindFramebuffer(read_target(), (unsigned)s->framebuffer);
+}
+
+/* The file */
+
+static void fail(const char *what, int error)
+{
+	r.failed = 1;
+	writer_say("%s: %s: %s; no more reference frames, the program goes on", r.path, what, strerror(error));
+}
+
+/* Maps `bytes`, kept for the next frame. Not malloc: the program may have replaced it, or be short of it. */
+static void *grow(void **buffer, size_t *have, size_t bytes)
+{
+	void *more;
+
+	if (*have >= bytes)
+		return *buffer;
+	more = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+	if (more == MAP_FAILED)
+		return NULL;
+	if (*buffer)
+		munmap(*buffer, *have);
+	*buffer = more;
+	*have = bytes;
+	return more;
+}
+
+static void put_le(uint8_t *p, uint64_t v, unsigned n)
+{
+	while (n--) {
+		*p++ = (uint8_t)v;
+		v >>= 8;
+	}
+}
+
+/* The file is opened for each record: a program may close descriptors that are not its own. */
+static void append(const void *data, size_t bytes)
+{
+	int fd = open(r.path, O_WRONLY | O_CREAT | O_CLOEXEC | (r.bytes ? 0 : O_TRUNC), 0666), error = 0;
+
+	if (fd < 0) {
+		fail("cannot open", errno);
+		return;
+	}
+	error = writer_pwrite(fd, data, bytes, r.bytes);
+	if (error && ftruncate(fd, (off_t)r.bytes))
+		error = errno;
+	close(fd);
+	if (error)
+		fail("cannot write", error);
+	else
+		r.bytes += bytes;
+}
+
+static void write_record(enum ref_kind kind, uint64_t frame, int width, int height)
+{
+	size_t bytes = (size_t)width * (size_t)height * 4, packed = snappy_max_compressed_length(bytes);
+	uint8_t *record = grow(&r.packed, &r.packed_bytes, packed + HEADER_BYTES);
+
+	if (!record || snappy_compress(r.pixels, bytes, (char *)record + HEADER_BYTES, &packed) != SNAPPY_OK) {
+		fail("no memory", ENOMEM);
+		return;
+	}
+	put_le(record, kind, 4);
+	put_le(record + 4, (uint64_t)width, 4);
+	put_le(record + 8, (uint64_t)height, 4);
+	put_le(record + 12, frame, 8);
+	put_le(record + 20, packed, 8);
+	append(record, packed + HEADER_BYTES);
+}
+
+void reference_read(uint64_t frame, int width, int height)
+{
+	struct saved_state state = { 0 };
+	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
+
+	/* While a list is compiled the selection of the buffer to read would go into the list. */
+	if (list || width <= 0 || height <= 0)
+		return;
+	if (!r.path[0]) {
+		if (writer_sidecar(r.path, sizeof(r.path), ".ref"))
+			return;
+		append(REF_MAGIC, strlen(REF_MAGIC));
+	}
+	if (!grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
+		fail("no memory", ENOMEM);
+		return;
+	}
+	context_errors_before();
+	set_up(&state);
+	if (r.color && !r.failed) {
+		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, r.pixels);
+		write_record(REF_COLOR, frame, width, height);
+	}
+	if (r.depth && !r.failed && context_get(GL_DEPTH_BITS) > 0) {
+		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, r.pixels);
+		write_record(REF_DEPTH, frame, width, height);
+	}
+	put_back(&state);
+	context_errors_after();
+	errno = saved;
+}

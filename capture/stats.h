@@ -1,0 +1,31 @@
+/*
+ * What the recorder tells the command that started it: a small file that both map, so that the figures outlive the program
+ * however it ends. Every recorded process has a slot; commands that passed through unrecorded are counted by name for all.
+ */
+#ifndef CAPTURE_STATS_H
+#define CAPTURE_STATS_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+enum { STATS_MAX_PROCESSES = 64, STATS_MAX_UNKNOWN = 64, STATS_NAME_BYTES = 64, STATS_PATH_BYTES = 1024 };
+
+struct stats_process {
+	char path[STATS_PATH_BYTES]; /* its trace */
+	_Atomic uint64_t frames, calls, bytes; /* whole frames, calls written, bytes in the file */
+	_Atomic int32_t failed; /* errno of what ended the recording early; 0: nothing did */
+	_Atomic int32_t quit;   /* 1: it ended the program after the frames asked for */
+};
+
+struct stats_unknown {
+	char name[STATS_NAME_BYTES];
+	_Atomic uint64_t calls;
+};
+
+struct recorder_stats {
+	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables: what did not fit is not shown */
+	struct stats_process processes[STATS_MAX_PROCESSES];
+	struct stats_unknown unknown[STATS_MAX_UNKNOWN];
+};
+
+#endif

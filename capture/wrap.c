@@ -1,0 +1,141 @@
+/* Runs inside the traced program. Values that depend on GL state. */
+#include "capture/wrap.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+int pixels_in_buffer(void)
+{
+	return context_has(HAS_PIXEL_BUFFERS) && context_get(GL_PIXEL_UNPACK_BUFFER_BINDING);
+}
+
+static void read_layout(struct pixel_layout *layout)
+{
+	layout->row_length = context_get(GL_UNPACK_ROW_LENGTH);
+	layout->skip_rows = context_get(GL_UNPACK_SKIP_ROWS);
+	layout->skip_pixels = context_get(GL_UNPACK_SKIP_PIXELS);
+	layout->alignment = context_get(GL_UNPACK_ALIGNMENT);
+	layout->image_height = layout->skip_images = 0;
+	if (context_has(HAS_3D)) {
+		layout->image_height = context_get(GL_UNPACK_IMAGE_HEIGHT);
+		layout->skip_images = context_get(GL_UNPACK_SKIP_IMAGES);
+	}
+}
+
+uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
+                   int depth)
+{
+	struct pixel_layout layout;
+
+	if (!pixels)
+		return put_null(p);
+	if (pixels_in_buffer())
+		return put_opaque(p, pixels);
+	read_layout(&layout);
+	return put_blob(p, pixels, image_bytes(&layout, dims, format, type, width, height, depth));
+}
+
+long polygon_stipple_count(void)
+{
+	struct pixel_layout layout;
+
+	read_layout(&layout);
+	return image_bytes(&layout, 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1);
+}
+
+static int indices_in_buffer(void)
+{
+	return context_has(HAS_BUFFERS) && context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING);
+}
+
+uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type)
+{
+	if (!indices || indices_in_buffer())
+		return put_opaque(p, indices);
+	return put_blob(p, indices, count * type_bytes(type));
+}
+
+uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *counts, unsigned type, int draws)
+{
+	int offsets = indices_in_buffer();
+
+	if (!indices || !counts)
+		return put_null(p);
+	p = put_array_head(p, draws);
+	for (int i = 0; i < draws; i++) {
+		p = offsets ? put_opaque(p, indices[i]) : put_blob(p, indices[i], counts[i] * type_bytes(type));
+		p = put_room(p);
+	}
+	return p;
+}
+
+enum { MAX_ATTRIBS = 512 };
+
+uint8_t *put_attribs(uint8_t *p, const int *list, int end)
+{
+	long n = 0;
+
+	while (list && n < MAX_ATTRIBS && list[n] != end)
+		n += 2;
+	return put_array_s32(p, list, n + 1);
+}
+
+uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end)
+{
+	long n = 0;
+
+	while (list && n < MAX_ATTRIBS && list[n] != end)
+		n += 2;
+	return put_array_s64(p, (const int64_t *)list, n + 1);
+}
+
+/* Mapped buffers: the recorder sees no store, so what lies there goes out as a copy (apitrace's own memory function). */
+
+static void record_memory(const uint8_t *data, long bytes)
+{
+	uint8_t *p = data && bytes > 0 ? writer_enter_memcpy() : NULL;
+
+	if (!p)
+		return;
+	p = put_opaque(put_argument(p, 0), data);
+	p = put_blob(put_argument(p, 1), data, bytes);
+	p = put_uint(put_argument(p, 2), (uint64_t)bytes);
+	writer_call_end(p);
+}
+
+static int buffer_get(unsigned target, unsigned pname)
+{
+	int value = 0;
+
+	real_glGetBufferParameteriv(target, pname, &value);
+	return value;
+}
+
+void buffer_unmapped(unsigned target)
+{
+	void *data = NULL;
+	long bytes;
+
+	if (!writer_active() || !context_has(HAS_BUFFERS) || !buffer_get(target, GL_BUFFER_MAPPED) ||
+	    buffer_get(target, GL_BUFFER_ACCESS) == GL_READ_ONLY)
+		return;
+	bytes = buffer_get(target, GL_BUFFER_SIZE);
+	if (context_has(HAS_MAP_RANGE)) {
+		if (buffer_get(target, GL_BUFFER_ACCESS_FLAGS) & GL_MAP_FLUSH_EXPLICIT_BIT)
+			return; /* written at each flush */
+		bytes = buffer_get(target, GL_BUFFER_MAP_LENGTH);
+	}
+	real_glGetBufferPointerv(target, GL_BUFFER_MAP_POINTER, &data);
+	record_memory(data, bytes);
+}
+
+void buffer_flushed(unsigned target, long offset, long length)
+{
+	void *data = NULL;
+
+	if (!writer_active() || !buffer_get(target, GL_BUFFER_MAPPED))
+		return;
+	real_glGetBufferPointerv(target, GL_BUFFER_MAP_POINTER, &data);
+	if (data && offset >= 0)
+		record_memory((const uint8_t *)data + offset, length);
+}

@@ -1,0 +1,117 @@
+/*
+ * Runs inside the traced program. What the generated thunks call besides the writer: finding the real functions, the
+ * values that depend on GL state, and the hooks that overlay.txt names.
+ *
+ * Nothing here changes GL state that the program can see, its errors included; state is asked from the driver, and cached
+ * only where every command that can change it drops the cache.
+ */
+#ifndef CAPTURE_WRAP_H
+#define CAPTURE_WRAP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "capture/sizes.h"
+#include "capture/writer.h"
+#include "commands.h"
+#include "enums.h"
+
+#define SHOWN __attribute__((visibility("default")))
+
+/* resolve.c: finding the real GL, and being found instead of it */
+
+extern void *resolve_found[N_COMMANDS];
+
+/** Find a command's real function and remember it. Where there is none, a function that does nothing and returns 0. */
+void *resolve_command(unsigned command);
+
+/** 1 where the command has a real function. */
+int resolve_exists(unsigned command);
+
+/** What a GetProcAddress of the real GL returned -> what the program gets. */
+void *resolve_substitute(const char *name, void *real);
+
+/** OSMesa brings its own gl*: use these from now on. */
+void resolve_prefer_osmesa(void);
+
+static inline void *real(unsigned command)
+{
+	return resolve_found[command] ? resolve_found[command] : resolve_command(command);
+}
+
+/* context.c: contexts, drawables and frames */
+
+enum context_feature { /* what may be asked without making a GL error */
+	HAS_FIXED_FUNCTION = 1 << 0, HAS_BUFFERS = 1 << 1, HAS_PIXEL_BUFFERS = 1 << 2, HAS_MAP_RANGE = 1 << 3,
+	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
+	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
+	HAS_FIXED_RESTART = 1 << 12, HAS_INTEGER_ATTRIBUTES = 1 << 13, HAS_VERTEX_ARRAYS = 1 << 14,
+	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16
+};
+
+/** 1 where this thread's current context has the feature. */
+int context_has(enum context_feature feature);
+/** An integer state of the current context; 0 where it has none. */
+int context_get(unsigned pname);
+
+void context_made_current_glx(int ok, void *display, unsigned long drawable, void *context);
+void context_made_current_egl(unsigned ok, void *display, void *surface, void *context);
+void context_made_current_osmesa(unsigned ok, void *context, int width, int height);
+void context_destroyed(void *context);
+
+/** glGetError's answer: errors that the recorder had to fetch come first. */
+unsigned context_pending_error(unsigned error);
+/** Keep the program's pending errors aside; errors made from here on are the recorder's, until ..._after drops them. */
+void context_errors_before(void);
+void context_errors_after(void);
+
+void drawable_is_window(unsigned long glx_window, unsigned long window);
+void drawable_is_pbuffer(void *display, unsigned long pbuffer);
+void drawable_may_have_changed(void);
+
+void frame_end_glx(void *display, unsigned long drawable);
+void frame_end_egl(void *display, void *surface);
+void frame_ended(void);
+void frame_may_have_ended(void);
+
+/* reference.c: what the program shows, read back */
+
+/** 1 where frame `frame` is to be read back. */
+int reference_wanted(uint64_t frame);
+/** Read the current context's default framebuffer; changes no state that the program can see. */
+void reference_read(uint64_t frame, int width, int height);
+
+/* arrays.c: vertex arrays in client memory, written when they are drawn */
+
+void arrays_changed(void);
+void arrays_attributes_used(void);
+void arrays_unit_used(unsigned texture);
+int arrays_pointer_is_offset(void);
+int arrays_interleave_is_offset(unsigned format);
+void arrays_interleaved(unsigned format);
+void arrays_begin(void);
+int arrays_element_is_offset(int index);
+void arrays_draw(int first, int count, int instances, unsigned base_instance);
+void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
+                          unsigned base_instance);
+void arrays_multi_draw(const int *first, const int *count, int draws);
+void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
+                                const int *base_vertex);
+
+/* wrap.c: values that depend on state */
+
+/** 1 where pixel pointers are offsets in a bound unpack buffer. */
+int pixels_in_buffer(void);
+/** Pixels in client memory as the unpack state lays them out, or the offset. */
+uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
+                   int depth);
+uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type);
+uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *counts, unsigned type, int draws);
+uint8_t *put_attribs(uint8_t *p, const int *list, int end);
+uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end);
+long polygon_stipple_count(void);
+
+void buffer_unmapped(unsigned target);
+void buffer_flushed(unsigned target, long offset, long length);
+
+#endif

@@ -1,0 +1,730 @@
+/* Runs inside the traced program. */
+#include "capture/writer.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <snappy-c.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "capture/memory.h"
+#include "capture/stats.h"
+#include "enums.h"
+
+enum { PATH_BYTES = STATS_PATH_BYTES, LOW_FD = 100, FLUSH_AFTER_NS = 20000000, MAX_PROCESSES = 10000 };
+enum { TAG_STRING = 7, TAG_BLOB = 8, TAG_ARRAY = 0x0B, TAG_STRUCT = 0x0C };
+enum { FIRST_COMMAND_ID = 4 }; /* 0 to 3 are apitrace's own memory functions */
+enum { EVENT_ENTER = 0, EVENT_LEAVE = 1, DETAIL_END = 0, DETAIL_FLAGS = 5, FLAG_FAKE = 1 };
+
+static _Atomic int lock_word;
+
+/* All but `state` is read and written under the lock. */
+static struct {
+	_Atomic enum { IDLE, RECORDING, ENDED } state; /* IDLE: nothing called yet, no file yet */
+	uint8_t *chunk, *end, *p; /* the logical bytes not yet in the file lie in [chunk, p) */
+	char *packed;
+	uint64_t n_calls, n_frames;
+	int fd;
+	dev_t device;
+	ino_t inode;
+	uint64_t file_bytes, flushed_ns;
+	char path[PATH_BYTES];     /* of this process' trace; "" before it has one */
+	uint8_t bits_known[N_BITS_ENTRIES];
+	uint8_t visual_known, memcpy_known;
+	struct stats_process *process; /* never NULL once recording */
+} w = { .fd = -1 };
+
+static uint8_t command_known[N_COMMANDS];
+uint8_t writer_enum_known[N_ENUM_ENTRIES];
+static char wanted_path[PATH_BYTES]; /* RELUME_TRACE */
+static struct recorder_stats *stats;
+static struct stats_process own_process; /* where the command maps no file of figures */
+static _Atomic uint32_t n_threads;
+
+/* initial-exec: reached without a call, and the library is there from the start. */
+static __thread struct {
+	unsigned depth;  /* > 0: inside the writer or nested, nothing is recorded */
+	unsigned number; /* 1-based */
+} self __attribute__((tls_model("initial-exec")));
+
+static void lock(void)
+{
+	unsigned spins = 0;
+
+	while (atomic_exchange_explicit(&lock_word, 1, memory_order_acquire))
+		if (++spins > 64)
+			sched_yield();
+}
+
+static void unlock(void)
+{
+	atomic_store_explicit(&lock_word, 0, memory_order_release);
+}
+
+static uint64_t now_ns(void)
+{
+	struct timespec t;
+
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+void writer_say(const char *fmt, ...)
+{
+	char text[512];
+	int saved = errno, n;
+	va_list args;
+
+	va_start(args, fmt);
+	n = snprintf(text, sizeof(text), "relume: ");
+	n += vsnprintf(text + n, sizeof(text) - (size_t)n - 1, fmt, args);
+	va_end(args);
+	if (n > (int)sizeof(text) - 2)
+		n = (int)sizeof(text) - 2;
+	text[n++] = '\n';
+	if (write(STDERR_FILENO, text, (size_t)n) < 0)
+		errno = saved; /* nobody listens: nothing to be done */
+	errno = saved;
+}
+
+/* The file */
+
+/* Ends the recording early, once, and cuts off what is not whole. */
+static void give_up(int error, const char *what)
+{
+	if (w.state == ENDED)
+		return;
+	w.state = ENDED;
+	w.process->failed = error;
+	writer_say("%s: %s: %s; recording ends after frame %llu, the program goes on", w.path, what, strerror(error),
+	           (unsigned long long)w.n_frames);
+	if (w.fd >= 0 && ftruncate(w.fd, (off_t)w.file_bytes))
+		writer_say("%s: cannot cut off the last part: %s", w.path, strerror(errno));
+}
+
+/* A program may close descriptors that it does not know, and get the number again for a file of its own. 0 or an errno. */
+static int own_file(void)
+{
+	struct stat st;
+	int fd;
+
+	if (w.fd >= 0 && fstat(w.fd, &st) == 0 && st.st_dev == w.device && st.st_ino == w.inode)
+		return 0;
+	w.fd = -1;
+	fd = open(w.path, O_WRONLY | O_CLOEXEC);
+	if (fd < 0)
+		return errno;
+	if (fstat(fd, &st) || st.st_dev != w.device || st.st_ino != w.inode) {
+		close(fd);
+		return ENOENT;
+	}
+	w.fd = fd;
+	return 0;
+}
+
+int writer_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
+{
+	const char *at = data;
+	struct rlimit limit;
+
+	/* Beyond this limit the kernel would send the program SIGXFSZ. */
+	if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && offset + bytes > limit.rlim_cur)
+		return EFBIG;
+	while (bytes) {
+		ssize_t n = pwrite(fd, at, bytes, (off_t)offset);
+
+		if (n < 0 && errno == EINTR)
+			continue;
+		if (n <= 0)
+			return n ? errno : EIO;
+		at += n;
+		bytes -= (size_t)n;
+		offset += (uint64_t)n;
+	}
+	return 0;
+}
+
+/* Appends to the trace. Returns 0 or an errno, with the file's end where it was. */
+static int append(const void *data, size_t bytes)
+{
+	int error = own_file();
+
+	if (!error)
+		error = writer_pwrite(w.fd, data, bytes, w.file_bytes);
+	if (!error)
+		w.file_bytes += bytes;
+	return error;
+}
+
+/* Packs the chunk up to p and writes it. Returns the start of the empty chunk. */
+static uint8_t *spill(uint8_t *p)
+{
+	size_t bytes = (size_t)(p - w.chunk), packed = snappy_max_compressed_length(WRITER_CHUNK);
+	int saved = errno, error;
+
+	if (bytes && w.state == RECORDING) {
+		if (snappy_compress((const char *)w.chunk, bytes, w.packed + 4, &packed) != SNAPPY_OK) {
+			give_up(EINVAL, "cannot pack");
+		} else {
+			for (int i = 0; i < 4; i++)
+				w.packed[i] = (char)(packed >> (8 * i));
+			error = append(w.packed, packed + 4);
+			if (error)
+				give_up(error, "cannot write");
+		}
+		w.process->bytes = w.file_bytes;
+		w.process->calls = w.n_calls;
+	}
+	errno = saved;
+	return w.chunk;
+}
+
+uint8_t *put_room(uint8_t *p)
+{
+	return w.end - p < WRITER_MARGIN ? spill(p) : p;
+}
+
+/* NAME.trace, then NAME.1.trace and so on: the first process that calls GL gets the name asked for. */
+static int create_file(void)
+{
+	size_t stem = strlen(wanted_path);
+	int fd = -1;
+
+	if (stem > 6 && strcmp(wanted_path + stem - 6, ".trace") == 0)
+		stem -= 6;
+	for (int i = 0; i < MAX_PROCESSES && fd < 0; i++) {
+		int n = i ? snprintf(w.path, sizeof(w.path), "%.*s.%d%s", (int)stem, wanted_path, i, wanted_path + stem)
+		          : snprintf(w.path, sizeof(w.path), "%s", wanted_path);
+
+		if (n >= (int)sizeof(w.path))
+			return ENAMETOOLONG;
+		fd = open(w.path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+		if (fd < 0 && errno != EEXIST)
+			return errno;
+	}
+	if (fd < 0)
+		return EEXIST;
+	w.fd = fcntl(fd, F_DUPFD_CLOEXEC, LOW_FD);
+	if (w.fd < 0)
+		w.fd = fd;
+	else
+		close(fd);
+	return 0;
+}
+
+static void *map_pages(size_t bytes)
+{
+	void *p = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+	return p == MAP_FAILED ? NULL : p;
+}
+
+static void put_head(void)
+{
+	static const char key[] = "process.name";
+	char name[PATH_BYTES];
+	ssize_t n = readlink("/proc/self/exe", name, sizeof(name));
+	uint8_t *p = w.chunk;
+
+	*p++ = 6; /* format, then meaning of calls: both apitrace's sixth */
+	*p++ = 6;
+	p = put_varint(p, sizeof(key) - 1);
+	memcpy(p, key, sizeof(key) - 1);
+	p += sizeof(key) - 1;
+	p = put_varint(p, n > 0 ? (uint64_t)n : 0);
+	memcpy(p, name, n > 0 ? (size_t)n : 0);
+	p += n > 0 ? n : 0;
+	*p++ = 0;
+	w.p = p;
+}
+
+static struct stats_process *new_process(void)
+{
+	uint32_t slot = stats ? atomic_fetch_add(&stats->n_processes, 1) : STATS_MAX_PROCESSES;
+
+	return slot < STATS_MAX_PROCESSES ? &stats->processes[slot] : &own_process;
+}
+
+/* First recorded call of this process. */
+static void open_trace(void)
+{
+	struct stat st;
+	int error;
+
+	if (!w.chunk) {
+		w.chunk = map_pages(WRITER_CHUNK);
+		w.packed = map_pages(snappy_max_compressed_length(WRITER_CHUNK) + 4);
+	}
+	w.process = new_process();
+	if (!w.chunk || !w.packed) {
+		give_up(ENOMEM, "no memory");
+		return;
+	}
+	w.end = w.chunk + WRITER_CHUNK;
+	w.p = w.chunk;
+	error = create_file();
+	snprintf(w.process->path, sizeof(w.process->path), "%s", w.path);
+	if (error) {
+		give_up(error, "cannot create");
+		return;
+	}
+	if (fstat(w.fd, &st) == 0) {
+		w.device = st.st_dev;
+		w.inode = st.st_ino;
+	}
+	w.state = RECORDING;
+	error = append("at", 2);
+	if (error) {
+		give_up(error, "cannot write");
+		return;
+	}
+	put_head();
+	w.flushed_ns = now_ns();
+}
+
+/* Calls */
+
+static uint8_t *put_chars(uint8_t *p, const char *s)
+{
+	size_t n = strlen(s);
+
+	p = put_varint(p, n);
+	memcpy(p, s, n);
+	return p + n;
+}
+
+static uint8_t *put_call_signature(uint8_t *p, const struct command *command)
+{
+	const char *name = command->arg_names;
+
+	p = put_chars(p, command->name);
+	p = put_varint(p, command->n_args);
+	for (unsigned i = 0; i < command->n_args; i++) {
+		p = put_chars(p, name);
+		name += strlen(name) + 1;
+	}
+	return put_room(p);
+}
+
+/* Locks, and opens the trace where this is the first call. NULL, unlocked, where nothing is recorded. */
+static uint8_t *begin(void)
+{
+	int saved;
+
+	if (self.depth || w.state == ENDED)
+		return NULL;
+	self.depth = 1; /* a signal handler that calls GL while we hold the lock goes unrecorded */
+	lock();
+	if (w.state == IDLE) {
+		saved = errno;
+		open_trace();
+		errno = saved;
+	}
+	if (w.state == RECORDING)
+		return put_room(w.p);
+	unlock();
+	self.depth = 0;
+	return NULL;
+}
+
+static void end(uint8_t *p)
+{
+	w.p = p;
+	unlock();
+	self.depth = 0;
+}
+
+/* `id` is the signature's in this trace. */
+static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known, unsigned flags)
+{
+	uint8_t *p = begin();
+
+	if (!p)
+		return NULL;
+	if (!self.number)
+		self.number = atomic_fetch_add(&n_threads, 1) + 1;
+	*p++ = EVENT_ENTER;
+	p = put_varint(p, self.number - 1);
+	p = put_varint(p, id);
+	if (!*known)
+		p = put_call_signature(p, command);
+	*known = 1;
+	if (flags) {
+		*p++ = DETAIL_FLAGS;
+		*p++ = (uint8_t)flags;
+	}
+	return p;
+}
+
+uint8_t *writer_enter(unsigned command)
+{
+	return enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], 0);
+}
+
+uint8_t *writer_enter_fake(unsigned command)
+{
+	return enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], FLAG_FAKE);
+}
+
+uint8_t *writer_enter_memcpy(void)
+{
+	static const struct command memory_copy = { "memcpy", 3, "dest\0src\0n\0", NULL };
+
+	return enter(0, &memory_copy, &w.memcpy_known, FLAG_FAKE);
+}
+
+void writer_call_end(uint8_t *p)
+{
+	*p++ = DETAIL_END;
+	*p++ = EVENT_LEAVE;
+	p = put_varint(p, w.n_calls++);
+	*p++ = DETAIL_END;
+	end(p);
+}
+
+uint64_t writer_enter_end(uint8_t *p)
+{
+	uint64_t call = ++w.n_calls;
+
+	*p++ = DETAIL_END;
+	end(p);
+	return call;
+}
+
+uint8_t *writer_leave(uint64_t call)
+{
+	uint8_t *p = call ? begin() : NULL;
+
+	if (!p)
+		return NULL;
+	*p++ = EVENT_LEAVE;
+	return put_varint(p, call - 1);
+}
+
+void writer_leave_end(uint8_t *p)
+{
+	*p++ = DETAIL_END;
+	end(p);
+}
+
+void writer_nest(void)
+{
+	self.depth++;
+}
+
+void writer_unnest(void)
+{
+	self.depth--;
+}
+
+int writer_active(void)
+{
+	return !self.depth && w.state != ENDED;
+}
+
+void writer_count_unknown(unsigned command)
+{
+	static _Atomic uint8_t slots[N_COMMANDS]; /* 1-based place in the table of figures, 255: it is full */
+	uint8_t slot = slots[command];
+
+	if (!stats || !writer_active() || slot == 255)
+		return;
+	if (!slot) {
+		uint32_t n = atomic_fetch_add(&stats->n_unknown, 1);
+
+		slot = n < STATS_MAX_UNKNOWN ? (uint8_t)(n + 1) : 255;
+		slots[command] = slot;
+		if (slot == 255)
+			return;
+		snprintf(stats->unknown[n].name, STATS_NAME_BYTES, "%s", commands[command].name);
+	}
+	stats->unknown[slot - 1].calls++;
+}
+
+uint64_t writer_frames(void)
+{
+	return w.n_frames;
+}
+
+uint64_t writer_frame_ended(void)
+{
+	uint8_t *p = begin();
+	uint64_t frames;
+
+	if (!p)
+		return 0;
+	frames = ++w.n_frames;
+	w.process->frames = frames;
+	p = spill(p);
+	w.flushed_ns = now_ns();
+	end(p);
+	return frames;
+}
+
+void writer_flush_sometimes(void)
+{
+	uint8_t *p = begin();
+
+	if (!p)
+		return;
+	if (now_ns() - w.flushed_ns > FLUSH_AFTER_NS) {
+		p = spill(p);
+		w.flushed_ns = now_ns();
+	}
+	end(p);
+}
+
+void writer_end(void)
+{
+	uint8_t *p;
+
+	if (w.state != RECORDING)
+		return;
+	p = begin();
+	if (!p)
+		return;
+	p = spill(p);
+	w.state = ENDED;
+	end(p);
+}
+
+void writer_note_quit(void)
+{
+	if (w.process)
+		w.process->quit = 1;
+}
+
+int writer_sidecar(char *out, size_t size, const char *suffix)
+{
+	size_t stem = strlen(w.path);
+	int n;
+
+	if (!stem)
+		return -1;
+	if (stem > 6 && strcmp(w.path + stem - 6, ".trace") == 0)
+		stem -= 6;
+	n = snprintf(out, size, "%.*s%s", (int)stem, w.path, suffix);
+	return n > 0 && (size_t)n < size ? 0 : -1;
+}
+
+/* Bulk values */
+
+uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
+{
+	const uint8_t *from = data;
+
+	while (bytes) {
+		size_t n = (size_t)(w.end - p);
+
+		if (n > bytes)
+			n = bytes;
+		memory_read(p, from, n);
+		p += n;
+		from += n;
+		bytes -= n;
+		p = put_room(p);
+	}
+	return put_room(p);
+}
+
+static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes)
+{
+	if (!data)
+		return put_null(p);
+	*p++ = (uint8_t)tag;
+	p = put_varint(p, bytes > 0 ? (uint64_t)bytes : 0);
+	return put_memory(p, data, bytes > 0 ? (size_t)bytes : 0);
+}
+
+uint8_t *put_string(uint8_t *p, const char *s, long bytes)
+{
+	return put_sized(p, TAG_STRING, s, s && bytes < 0 ? (long)strlen(s) : bytes);
+}
+
+uint8_t *put_text(uint8_t *p, const char *s, long size)
+{
+	return put_sized(p, TAG_STRING, s, s && size > 0 ? (long)strnlen(s, (size_t)size) : 0);
+}
+
+uint8_t *put_blob(uint8_t *p, const void *data, long bytes)
+{
+	return put_sized(p, TAG_BLOB, data, bytes);
+}
+
+uint8_t *put_array_head(uint8_t *p, long n)
+{
+	*p++ = TAG_ARRAY;
+	return put_varint(p, n > 0 ? (uint64_t)n : 0);
+}
+
+uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const int *lengths)
+{
+	if (!strings)
+		return put_null(p);
+	p = put_array_head(p, count);
+	for (long i = 0; i < count; i++)
+		p = put_string(p, strings[i], lengths ? lengths[i] : -1);
+	return p;
+}
+
+/* Elements of one type: `value` writes v[i]. Room is looked after every so many, none takes more than 128 bytes. */
+#define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
+	uint8_t *put_array_##suffix(uint8_t *p, type const *v, long n)                                                        \
+	{                                                                                                                     \
+		if (!v)                                                                                                       \
+			return put_null(p);                                                                                   \
+		p = put_array_head(p, n);                                                                                     \
+		for (long i = 0; i < n; i++) {                                                                                \
+			p = value;                                                                                            \
+			if (i % 16 == 15)                                                                                     \
+				p = put_room(p);                                                                              \
+		}                                                                                                             \
+		return put_room(p);                                                                                           \
+	}
+
+DEFINE_PUT_ARRAY(s8, int8_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u8, uint8_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s16, int16_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u16, uint16_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s32, int32_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u32, uint32_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s64, int64_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u64, uint64_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(f32, float, put_float(p, v[i]))
+DEFINE_PUT_ARRAY(f64, double, put_double(p, v[i]))
+DEFINE_PUT_ARRAY(enum, uint32_t, put_enum(p, v[i]))
+DEFINE_PUT_ARRAY(bool8, uint8_t, put_bool8(p, v[i]))
+DEFINE_PUT_ARRAY(bool32, uint32_t, put_bool32(p, v[i]))
+DEFINE_PUT_ARRAY(ptr, void *, put_opaque(p, v[i]))
+
+uint8_t *put_bool8(uint8_t *p, unsigned v)
+{
+	return v < 2 ? put_enum_entry(p, enums_Boolean[v]) : put_uint(p, v);
+}
+
+uint8_t *put_enum_signature(uint8_t *p, unsigned number)
+{
+	writer_enum_known[number] = 1;
+	*p++ = 1; /* one name: a signature is written with the first value that needs it */
+	p = put_chars(p, enum_entries[number].name);
+	return put_uint(p, enum_entries[number].value);
+}
+
+uint8_t *put_bits_signature(uint8_t *p, const struct bits_entry *bits)
+{
+	p = put_varint(p, bits->number);
+	if (w.bits_known[bits->number])
+		return p;
+	w.bits_known[bits->number] = 1;
+	p = put_varint(p, bits->n_flags);
+	for (unsigned i = 0; i < bits->n_flags; i++) {
+		p = put_chars(p, bits->flags[i].name);
+		p = put_varint(p, bits->flags[i].value);
+	}
+	return put_room(p);
+}
+
+/* Xutil.h's XVisualInfo, laid out by hand: the recorder needs no X11 headers for one struct. */
+struct visual_info {
+	void *visual;
+	unsigned long visualid;
+	int screen, depth, c_class;
+	unsigned long red_mask, green_mask, blue_mask;
+	int colormap_size, bits_per_rgb;
+};
+
+uint8_t *put_visual(uint8_t *p, const void *visual)
+{
+	static const char *const members[] = { "visual", "visualid", "screen", "depth", "c_class", "red_mask",
+		                               "green_mask", "blue_mask", "colormap_size", "bits_per_rgb" };
+	const struct visual_info *info = visual;
+
+	if (!info)
+		return put_null(p);
+	*p++ = TAG_STRUCT;
+	p = put_varint(p, 0);
+	if (!w.visual_known) {
+		w.visual_known = 1;
+		p = put_chars(p, "XVisualInfo");
+		p = put_varint(p, sizeof(members) / sizeof(members[0]));
+		for (size_t i = 0; i < sizeof(members) / sizeof(members[0]); i++)
+			p = put_chars(p, members[i]);
+	}
+	p = put_opaque(p, info->visual);
+	p = put_uint(p, info->visualid);
+	p = put_sint(p, info->screen);
+	p = put_sint(p, info->depth);
+	p = put_sint(p, info->c_class);
+	p = put_uint(p, info->red_mask);
+	p = put_uint(p, info->green_mask);
+	p = put_uint(p, info->blue_mask);
+	p = put_sint(p, info->colormap_size);
+	return put_sint(p, info->bits_per_rgb);
+}
+
+/* Beginning and end of the process */
+
+/* A child gets a trace of its own with its first call; what the parent has not written stays the parent's. */
+static void start_child(void)
+{
+	unlock();
+	self.depth = 0;
+	if (w.state != RECORDING)
+		return;
+	close(w.fd);
+	w.fd = -1;
+	w.path[0] = '\0';
+	w.n_calls = w.n_frames = w.file_bytes = 0;
+	memset(command_known, 0, sizeof(command_known));
+	memset(writer_enum_known, 0, sizeof(writer_enum_known));
+	memset(w.bits_known, 0, sizeof(w.bits_known));
+	w.visual_known = w.memcpy_known = 0;
+	w.state = IDLE;
+}
+
+static void map_stats(const char *path)
+{
+	int fd = open(path, O_RDWR | O_CLOEXEC);
+	struct stat st;
+	void *p;
+
+	if (fd < 0)
+		return;
+	if (fstat(fd, &st) == 0 && (size_t)st.st_size >= sizeof(*stats)) {
+		p = mmap(NULL, sizeof(*stats), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+		stats = p == MAP_FAILED ? NULL : p;
+	}
+	close(fd);
+}
+
+__attribute__((constructor)) static void writer_start(void)
+{
+	const char *path = getenv("RELUME_TRACE"), *figures = getenv("RELUME_STATS");
+	int saved = errno;
+
+	if (!path || !*path || strlen(path) >= sizeof(wanted_path)) {
+		w.state = ENDED;
+	} else {
+		strcpy(wanted_path, path);
+		if (figures)
+			map_stats(figures);
+		pthread_atfork(lock, unlock, start_child);
+	}
+	errno = saved;
+}
+
+__attribute__((destructor)) static void writer_stop(void)
+{
+	writer_end();
+}
