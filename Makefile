@@ -21,8 +21,10 @@ ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(S
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
 
-# The recorder is linked from few files, so that little of ours runs inside the traced program.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c sizes.c writer.c reference.c)
+# The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
+RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c arrays.c memory.c writer.c reference.c)
+RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
+	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_CXX := $(wildcard diff/*.cpp)
@@ -42,7 +44,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c))
 
-all: $(BUILD)/relume $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(CORPUS)
 
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CC) $(ALL_CFLAGS) -o $@ $^ $(LIBS)
@@ -54,6 +56,27 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 $(BUILD)/%.o: %.cpp $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(CPPFLAGS) $(ALL_CXXFLAGS) -c -o $@ $<
+
+# The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
+# C++ inside, no symbol of its own that the program could replace.
+RECORDER_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -I$(BUILD)/recorder/gen -fvisibility=hidden
+$(BUILD)/librelume.so: $(RECORDER_OBJ) capture/exports.map
+	$(Q)$(CXX) -shared -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/exports.map \
+		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
+
+$(BUILD)/recorder/gen/stamp: capture/gen.py capture/registry.py capture/overlay.txt | $(BUILD)/deps
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) -B capture/gen.py capture/overlay.txt $(@D)
+	@touch $@
+
+$(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks): $(BUILD)/recorder/gen/stamp ;
+
+$(BUILD)/recorder/gen/%.o: $(BUILD)/recorder/gen/%.c $(BUILD)/flags
+	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -O1 -g0 -c -o $@ $<
+
+$(BUILD)/recorder/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -c -o $@ $<
 
 # Generated headers come before whatever includes them; the .d files know the rest.
 GENERATED_H := $(BUILD)/gen/gl_tokens.h
@@ -136,4 +159,4 @@ clean:
 FORCE:
 .PHONY: all deps check demo show show-parity show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(COMMAND_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
+-include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

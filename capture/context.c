@@ -3,6 +3,7 @@
 #include <GL/glext.h>
 #include <dlfcn.h>
 #include <errno.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -10,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "capture/relume.h"
 #include "capture/wrap.h"
 
 enum { GLX_WIDTH_ = 0x801D, GLX_HEIGHT_ = 0x801E, EGL_HEIGHT_ = 0x3056, EGL_WIDTH_ = 0x3057 };
@@ -345,6 +347,29 @@ static void record_marker(const char *text)
 	p = put_sint(put_argument(p, 0), (int64_t)n);
 	p = put_string(put_argument(p, 1), text, (long)n);
 	writer_call_end(p);
+}
+
+/* relume.h: found by name in the process, at run time. */
+
+SHOWN void relume_material(int kind, float amount, float ior);
+SHOWN void relume_build_kd_tree(void);
+
+void relume_material(int kind, float amount, float ior)
+{
+	char text[96];
+
+	if (kind == RT_MIRROR_EXT)
+		snprintf(text, sizeof(text), "relume:material mirror %g", (double)amount);
+	else if (kind == RT_GLASS_EXT)
+		snprintf(text, sizeof(text), "relume:material glass %g %g", (double)amount, (double)ior);
+	else
+		snprintf(text, sizeof(text), "relume:material matte");
+	record_marker(text);
+}
+
+void relume_build_kd_tree(void)
+{
+	record_marker("relume:kdtree");
 }
 
 static void frame_end(uintptr_t drawable, int width, int height)

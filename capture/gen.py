@@ -166,7 +166,7 @@ class Generator:
         text = self.overlay.lengths.get(text, text)
         if "COMPSIZE" in text or not text:
             return None
-        names = {p.name for p in command.params}
+        names = {p.name for p in command.params if not p.pointer}
         if all(word in names or "(" in text for word in re.findall(r"[A-Za-z_]\w*", text)):
             return text
         return None
@@ -225,7 +225,7 @@ class Generator:
     def argument(self, command, param):
         for _, names, params, kind in reversed(self.overlay.args):
             if names.fullmatch(command.name) and params.fullmatch(param.name):
-                return self.described(command, param, kind)
+                return self.described(command, param, self.positions(command, kind))
         if not param.pointer:
             return self.scalar(command, param), None
         element = self.element(param.type, command.name)
@@ -252,10 +252,14 @@ class Generator:
 
     # Thunks
 
+    def positions(self, command, code):
+        """$0, $1, ... are the parameters by position: commands of a family may name them differently."""
+        return re.sub(r"\$(\d+)", lambda m: command.params[int(m.group(1))].name, code)
+
     def hook(self, word, command):
         for _, names, code in self.overlay.hooks[word]:
             if names.fullmatch(command.name):
-                yield re.sub(r"\$(\d+)", lambda m: command.params[int(m.group(1))].name, code)
+                yield self.positions(command, code)
 
     def signature(self, command):
         return ", ".join(f"{self.c_type(p.type, command.name)}{'' if p.type.endswith('*') else ' '}{p.name}"

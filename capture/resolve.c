@@ -215,7 +215,7 @@ __attribute__((visibility("default"), optimize("O2"))) void *dlsym(void *restric
 {
 	if (!real_dlsym)
 		find_dlsym();
-	if (handle != RTLD_NEXT && name && is_gl_name(name))
+	if (handle != RTLD_NEXT && is_gl_name(name))
 		return look_up_gl(handle, name);
 	return real_dlsym(handle, name);
 }

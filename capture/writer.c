@@ -23,7 +23,10 @@
 #include "enums.h"
 
 enum { PATH_BYTES = STATS_PATH_BYTES, LOW_FD = 100, FLUSH_AFTER_NS = 20000000, MAX_PROCESSES = 10000 };
-enum { TAG_STRING = 7, TAG_BLOB = 8, TAG_ARRAY = 0x0B, TAG_STRUCT = 0x0C };
+enum { /* of values */
+	TAG_FALSE = 1, TAG_TRUE = 2, TAG_SINT = 3, TAG_UINT = 4, TAG_STRING = 7, TAG_BLOB = 8, TAG_ENUM = 9, TAG_BITMASK = 0x0A,
+	TAG_ARRAY = 0x0B, TAG_STRUCT = 0x0C, TAG_OPAQUE = 0x0D
+};
 enum { FIRST_COMMAND_ID = 4 }; /* 0 to 3 are apitrace's own memory functions */
 enum { EVENT_ENTER = 0, EVENT_LEAVE = 1, DETAIL_END = 0, DETAIL_FLAGS = 5, FLAG_FAKE = 1 };
 
@@ -46,7 +49,7 @@ static struct {
 } w = { .fd = -1 };
 
 static uint8_t command_known[N_COMMANDS];
-uint8_t writer_enum_known[N_ENUM_ENTRIES];
+static uint8_t enum_known[N_ENUM_ENTRIES];
 static char wanted_path[PATH_BYTES]; /* RELUME_TRACE */
 static struct recorder_stats *stats;
 static struct stats_process own_process; /* where the command maps no file of figures */
@@ -195,6 +198,107 @@ uint8_t *put_room(uint8_t *p)
 	return w.end - p < WRITER_MARGIN ? spill(p) : p;
 }
 
+/* Scalars */
+
+uint8_t *put_varint(uint8_t *p, uint64_t v)
+{
+	while (v >= 0x80) {
+		*p++ = (uint8_t)(v | 0x80);
+		v >>= 7;
+	}
+	*p++ = (uint8_t)v;
+	return p;
+}
+
+uint8_t *put_uint(uint8_t *p, uint64_t v)
+{
+	*p++ = TAG_UINT;
+	return put_varint(p, v);
+}
+
+uint8_t *put_sint(uint8_t *p, int64_t v)
+{
+	*p++ = v < 0 ? TAG_SINT : TAG_UINT;
+	return put_varint(p, v < 0 ? 0 - (uint64_t)v : (uint64_t)v);
+}
+
+uint8_t *put_address(uint8_t *p, uintptr_t v)
+{
+	if (!v)
+		return put_null(p);
+	*p++ = TAG_OPAQUE;
+	return put_varint(p, v);
+}
+
+static uint8_t *put_chars(uint8_t *p, const char *s)
+{
+	size_t n = strlen(s);
+
+	p = put_varint(p, n);
+	memcpy(p, s, n);
+	return p + n;
+}
+
+/* A signature holds one name and is written with the first value that needs it. */
+static uint8_t *put_enum_entry(uint8_t *p, unsigned number)
+{
+	*p++ = TAG_ENUM;
+	p = put_varint(p, number);
+	if (!enum_known[number]) {
+		enum_known[number] = 1;
+		*p++ = 1;
+		p = put_chars(p, enum_entries[number].name);
+		p = put_uint(p, enum_entries[number].value);
+	}
+	return put_uint(p, enum_entries[number].value);
+}
+
+uint8_t *put_enum(uint8_t *p, uint32_t v)
+{
+	unsigned number = v < 0x10000 ? enum_index[v] : 0;
+
+	return number ? put_enum_entry(p, number) : put_uint(p, v);
+}
+
+uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16])
+{
+	return v < 16 && group[v] ? put_enum_entry(p, group[v]) : put_enum(p, v);
+}
+
+uint8_t *put_symbol(uint8_t *p, int64_t v)
+{
+	return v >= 0x200 && v < 0x10000 && enum_index[v] ? put_enum(p, (uint32_t)v) : put_sint(p, v);
+}
+
+uint8_t *put_bits(uint8_t *p, uint32_t v, const struct bits_entry *bits)
+{
+	*p++ = TAG_BITMASK;
+	p = put_varint(p, bits->number);
+	if (!w.bits_known[bits->number]) {
+		w.bits_known[bits->number] = 1;
+		p = put_varint(p, bits->n_flags);
+		for (unsigned i = 0; i < bits->n_flags; i++) {
+			p = put_chars(p, bits->flags[i].name);
+			p = put_varint(p, bits->flags[i].value);
+		}
+		p = put_room(p);
+	}
+	return put_varint(p, v);
+}
+
+uint8_t *put_bool8(uint8_t *p, unsigned v)
+{
+	return v < 2 ? put_enum_entry(p, enums_Boolean[v]) : put_uint(p, v);
+}
+
+uint8_t *put_bool32(uint8_t *p, unsigned v)
+{
+	*p++ = v ? TAG_TRUE : TAG_FALSE;
+	return p;
+}
+
+/* Opening */
+
 /* NAME.trace, then NAME.1.trace and so on: the first process that calls GL gets the name asked for. */
 static int create_file(void)
 {
@@ -294,15 +398,6 @@ static void open_trace(void)
 }
 
 /* Calls */
-
-static uint8_t *put_chars(uint8_t *p, const char *s)
-{
-	size_t n = strlen(s);
-
-	p = put_varint(p, n);
-	memcpy(p, s, n);
-	return p + n;
-}
 
 static uint8_t *put_call_signature(uint8_t *p, const struct command *command)
 {
@@ -606,34 +701,7 @@ DEFINE_PUT_ARRAY(f64, double, put_double(p, v[i]))
 DEFINE_PUT_ARRAY(enum, uint32_t, put_enum(p, v[i]))
 DEFINE_PUT_ARRAY(bool8, uint8_t, put_bool8(p, v[i]))
 DEFINE_PUT_ARRAY(bool32, uint32_t, put_bool32(p, v[i]))
-DEFINE_PUT_ARRAY(ptr, void *, put_opaque(p, v[i]))
-
-uint8_t *put_bool8(uint8_t *p, unsigned v)
-{
-	return v < 2 ? put_enum_entry(p, enums_Boolean[v]) : put_uint(p, v);
-}
-
-uint8_t *put_enum_signature(uint8_t *p, unsigned number)
-{
-	writer_enum_known[number] = 1;
-	*p++ = 1; /* one name: a signature is written with the first value that needs it */
-	p = put_chars(p, enum_entries[number].name);
-	return put_uint(p, enum_entries[number].value);
-}
-
-uint8_t *put_bits_signature(uint8_t *p, const struct bits_entry *bits)
-{
-	p = put_varint(p, bits->number);
-	if (w.bits_known[bits->number])
-		return p;
-	w.bits_known[bits->number] = 1;
-	p = put_varint(p, bits->n_flags);
-	for (unsigned i = 0; i < bits->n_flags; i++) {
-		p = put_chars(p, bits->flags[i].name);
-		p = put_varint(p, bits->flags[i].value);
-	}
-	return put_room(p);
-}
+DEFINE_PUT_ARRAY(ptr, const void *, put_opaque(p, v[i]))
 
 /* Xutil.h's XVisualInfo, laid out by hand: the recorder needs no X11 headers for one struct. */
 struct visual_info {
@@ -687,7 +755,7 @@ static void start_child(void)
 	w.path[0] = '\0';
 	w.n_calls = w.n_frames = w.file_bytes = 0;
 	memset(command_known, 0, sizeof(command_known));
-	memset(writer_enum_known, 0, sizeof(writer_enum_known));
+	memset(enum_known, 0, sizeof(enum_known));
 	memset(w.bits_known, 0, sizeof(w.bits_known));
 	w.visual_known = w.memcpy_known = 0;
 	w.state = IDLE;

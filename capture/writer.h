@@ -129,27 +129,14 @@ uint8_t *put_room(uint8_t *p);
 /** Raw bytes without a tag; `data` is read without faulting. */
 uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes);
 
-/** First use of an enumerant's or a mask's signature; the caller has written the tag. */
-uint8_t *put_enum_signature(uint8_t *p, unsigned number);
-uint8_t *put_bits_signature(uint8_t *p, const struct bits_entry *bits);
-extern uint8_t writer_enum_known[]; /* by signature number: already in this trace */
+/* Scalars: tags of trace.md. What every call needs is inline, the rest is not: there are thousands of thunks. */
 
-/* Scalars: tags of trace.md. */
-
-static inline uint8_t *put_varint(uint8_t *p, uint64_t v)
-{
-	while (v >= 0x80) {
-		*p++ = (uint8_t)(v | 0x80);
-		v >>= 7;
-	}
-	*p++ = (uint8_t)v;
-	return p;
-}
-
+/** `index` < 128. */
 static inline uint8_t *put_argument(uint8_t *p, unsigned index)
 {
-	*p++ = 1;
-	return put_varint(p, index);
+	p[0] = 1;
+	p[1] = (uint8_t)index;
+	return p + 2;
 }
 
 static inline uint8_t *put_return(uint8_t *p)
@@ -162,18 +149,6 @@ static inline uint8_t *put_null(uint8_t *p)
 {
 	*p++ = 0;
 	return p;
-}
-
-static inline uint8_t *put_uint(uint8_t *p, uint64_t v)
-{
-	*p++ = 4;
-	return put_varint(p, v);
-}
-
-static inline uint8_t *put_sint(uint8_t *p, int64_t v)
-{
-	*p++ = v < 0 ? 3 : 4;
-	return put_varint(p, v < 0 ? 0 - (uint64_t)v : (uint64_t)v);
 }
 
 static inline uint8_t *put_float(uint8_t *p, float v)
@@ -190,58 +165,20 @@ static inline uint8_t *put_double(uint8_t *p, double v)
 	return p + sizeof(v);
 }
 
-static inline uint8_t *put_address(uint8_t *p, uintptr_t v)
-{
-	if (!v)
-		return put_null(p);
-	*p++ = 0x0D;
-	return put_varint(p, v);
-}
+uint8_t *put_varint(uint8_t *p, uint64_t v);
+uint8_t *put_uint(uint8_t *p, uint64_t v);
+uint8_t *put_sint(uint8_t *p, int64_t v);
+uint8_t *put_address(uint8_t *p, uintptr_t v);
 #define put_opaque(p, v) put_address(p, (uintptr_t)(v))
-
-/** An enumerant by its signature's number. */
-static inline uint8_t *put_enum_entry(uint8_t *p, unsigned number)
-{
-	*p++ = 9;
-	p = put_varint(p, number);
-	if (!writer_enum_known[number])
-		p = put_enum_signature(p, number);
-	return put_uint(p, enum_entries[number].value);
-}
-
-static inline uint8_t *put_enum(uint8_t *p, uint32_t v)
-{
-	unsigned number = v < 0x10000 ? enum_index[v] : 0;
-
-	return number ? put_enum_entry(p, number) : put_uint(p, v);
-}
-
+/** An enumerant; a plain number where it has no name. */
+uint8_t *put_enum(uint8_t *p, uint32_t v);
 /** An enumerant of a group, whose small values have names of their own. */
-static inline uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16])
-{
-	return v < 16 && group[v] ? put_enum_entry(p, group[v]) : put_enum(p, v);
-}
-
-/** A number that may be an enumrant in a numeric parameter; small values are taken for numbers. */
-static inline uint8_t *put_symbol(uint8_t *p, int64_t v)
-{
-	return v >= 0x200 && v < 0x10000 && enum_index[v] ? put_enum(p, (uint32_t)v) : put_sint(p, v);
-}
-
-static inline uint8_t *put_bits(uint8_t *p, uint32_t v, const struct bits_entry *bits)
-{
-	*p++ = 0x0A;
-	p = put_bits_signature(p, bits);
-	return put_varint(p, v);
-}
-
-/** Truth as the enumerants GL_FALSE and GL_TRUE in GL, as a plain truth value in GLX and EGL. */
+uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16]);
+/** A number that may be an enumerant in a numeric parameter; small values are taken for numbers. */
+uint8_t *put_symbol(uint8_t *p, int64_t v);
+uint8_t *put_bits(uint8_t *p, uint32_t v, const struct bits_entry *bits);
+/** Truth: the enumerants GL_FALSE and GL_TRUE in GL, a plain truth value in GLX and EGL. */
 uint8_t *put_bool8(uint8_t *p, unsigned v);
-
-static inline uint8_t *put_bool32(uint8_t *p, unsigned v)
-{
-	*p++ = v ? 2 : 1;
-	return p;
-}
+uint8_t *put_bool32(uint8_t *p, unsigned v);
 
 #endif

@@ -1,0 +1,357 @@
+/* relume record: runs a program with the recorder preloaded. What is recorded, and where, travels in RELUME_* variables. */
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/verbs.h"
+#include "capture/stats.h"
+
+enum { MAX_NUMBER_BYTES = 24 };
+
+struct options {
+	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
+	const char *ref, *ref_every, *max_frames, *quit_after;
+	char **program;
+};
+
+static void print_help(FILE *out)
+{
+	fputs("usage: relume record [OPTIONS] -- PROGRAM [ARGUMENTS]\n"
+	      "\n"
+	      "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
+	      "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
+	      "\n"
+	      "  -o, --output NAME.trace  where to record to (PROGRAM.trace in the current directory); replaced\n"
+	      "      --ref KINDS          keep what the program showed in NAME.ref: color, depth, or color,depth\n"
+	      "      --ref-every N        only every Nth frame of these\n"
+	      "      --max-frames N       end the recording after N frames; the program goes on\n"
+	      "      --quit-after N       end the recording and the program after N frames, and exit with 0\n"
+	      "      --env NAME=VALUE     set a variable for the program; may be repeated\n"
+	      "  -h, --help               this text\n"
+	      "\n"
+	      "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
+	      out);
+}
+
+/* A whole number from 1 on. */
+static int check_number(const char *option, const char *text)
+{
+	char *end;
+
+	errno = 0;
+	if (*text < '0' || *text > '9' || strlen(text) >= MAX_NUMBER_BYTES || strtoull(text, &end, 10) == 0 || *end || errno)
+		return err_report(ERR_USAGE, NULL, "%s takes a number of frames, not '%s'", option, text);
+	return 0;
+}
+
+static int check_ref(const char *text)
+{
+	if (strcmp(text, "color") == 0 || strcmp(text, "depth") == 0 || strcmp(text, "color,depth") == 0 ||
+	    strcmp(text, "depth,color") == 0)
+		return 0;
+	return err_report(ERR_USAGE, NULL, "--ref takes color, depth or color,depth, not '%s'", text);
+}
+
+static int set_trace(struct options *o, const char *name)
+{
+	char directory[PATH_MAX] = "";
+	const char *base = strrchr(o->program[0], '/');
+	int n;
+
+	if (!name)
+		name = base ? base + 1 : o->program[0];
+	else
+		base = NULL;
+	if (name[0] != '/' && !getcwd(directory, sizeof(directory)))
+		return err_report(ERR_SYSTEM, NULL, "cannot find the current directory: %s", strerror(errno));
+	n = snprintf(o->trace, sizeof(o->trace), "%s%s%s%s", directory, directory[0] ? "/" : "", name,
+	             base || name == o->program[0] ? ".trace" : "");
+	if (n >= (int)sizeof(o->trace))
+		return err_report(ERR_USAGE, name, "the name is too long");
+	return 0;
+}
+
+/* Fills `o`; returns 0, ERR_USAGE (reported), or 1 where the help text was asked for. */
+static int parse(int argc, char **argv, struct options *o)
+{
+	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV };
+	static const struct option table[] = {
+		{ "output", required_argument, NULL, 'o' },       { "ref", required_argument, NULL, REF },
+		{ "ref-every", required_argument, NULL, REF_EVERY }, { "max-frames", required_argument, NULL, MAX_FRAMES },
+		{ "quit-after", required_argument, NULL, QUIT_AFTER }, { "env", required_argument, NULL, ENV },
+		{ "help", no_argument, NULL, 'h' },               { NULL, 0, NULL, 0 },
+	};
+	const char *output = NULL;
+	int option, rc = 0;
+
+	while (!rc && (option = getopt_long(argc, argv, "+o:h", table, NULL)) != -1) {
+		switch (option) {
+		case 'o':
+			output = optarg;
+			break;
+		case REF:
+			o->ref = optarg;
+			rc = check_ref(optarg);
+			break;
+		case REF_EVERY:
+			o->ref_every = optarg;
+			rc = check_number("--ref-every", optarg);
+			break;
+		case MAX_FRAMES:
+			o->max_frames = optarg;
+			rc = check_number("--max-frames", optarg);
+			break;
+		case QUIT_AFTER:
+			o->quit_after = optarg;
+			rc = check_number("--quit-after", optarg);
+			break;
+		case ENV:
+			if (!strchr(optarg, '=') || optarg[0] == '=')
+				rc = err_report(ERR_USAGE, NULL, "--env takes NAME=VALUE, not '%s'", optarg);
+			else if (putenv(optarg))
+				rc = err_report(ERR_SYSTEM, NULL, "out of memory");
+			break;
+		case 'h':
+			print_help(stdout);
+			return 1;
+		default:
+			return ERR_USAGE; /* getopt_long has said what */
+		}
+	}
+	if (rc)
+		return rc;
+	if (optind >= argc)
+		return err_report(ERR_USAGE, NULL, "no program to record; 'relume record --help' shows how");
+	if (output && (!*output || output[strlen(output) - 1] == '/'))
+		return err_report(ERR_USAGE, NULL, "'%s' is no name for a trace", output);
+	o->program = argv + optind;
+	return set_trace(o, output);
+}
+
+/* The recorder lies beside the command, or in ../lib/relume where it is installed. */
+static int find_recorder(char *out, size_t size)
+{
+	static const char *const places[] = { "librelume.so", "../lib/relume/librelume.so" };
+	char command[PATH_MAX];
+	ssize_t n = readlink("/proc/self/exe", command, sizeof(command) - 1);
+
+	if (n < 0)
+		return err_report(ERR_SYSTEM, NULL, "cannot find this command's own folder: %s", strerror(errno));
+	command[n] = '\0';
+	*strrchr(command, '/') = '\0';
+	for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++)
+		if (snprintf(out, size, "%s/%s", command, places[i]) < (int)size && access(out, R_OK) == 0)
+			return 0;
+	return err_report(ERR_SYSTEM, NULL, "the recorder is not at %s/%s", command, places[0]);
+}
+
+/* The new name of a sidecar or a further process' trace. */
+static void name_beside(char *out, size_t size, const char *trace, const char *suffix)
+{
+	size_t stem = strlen(trace);
+
+	if (stem > 6 && strcmp(trace + stem - 6, ".trace") == 0)
+		stem -= 6;
+	snprintf(out, size, "%.*s%s", (int)stem, trace, suffix);
+}
+
+/* Makes place for the trace: an earlier recording goes, and that the folder can be written is known before the start. */
+static int clear_output(const struct options *o)
+{
+	char path[PATH_MAX];
+	struct stat st;
+	int fd;
+
+	if (stat(o->trace, &st) == 0 && !S_ISREG(st.st_mode))
+		return err_report(ERR_SYSTEM, o->trace, "is there and is no file");
+	if (unlink(o->trace) && errno != ENOENT)
+		return err_report(ERR_SYSTEM, o->trace, "cannot replace: %s", strerror(errno));
+	fd = open(o->trace, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+	if (fd < 0)
+		return err_report(ERR_SYSTEM, o->trace, "cannot write: %s", strerror(errno));
+	close(fd);
+	unlink(o->trace);
+	name_beside(path, sizeof(path), o->trace, ".ref");
+	unlink(path);
+	for (int i = 1;; i++) { /* further processes of an earlier recording */
+		char suffix[32];
+
+		snprintf(suffix, sizeof(suffix), ".%d.ref", i);
+		name_beside(path, sizeof(path), o->trace, suffix);
+		unlink(path);
+		snprintf(suffix, sizeof(suffix), ".%d.trace", i);
+		name_beside(path, sizeof(path), o->trace, suffix);
+		if (unlink(path))
+			return 0;
+	}
+}
+
+static int make_stats(char *path, size_t size, struct recorder_stats **out)
+{
+	const char *folder = getenv("TMPDIR");
+	int fd, rc;
+
+	snprintf(path, size, "%s/relume-XXXXXX", folder && *folder ? folder : "/tmp");
+	fd = mkostemp(path, O_CLOEXEC);
+	if (fd < 0)
+		return err_report(ERR_SYSTEM, path, "cannot create: %s", strerror(errno));
+	rc = ftruncate(fd, sizeof(**out));
+	*out = rc ? MAP_FAILED : mmap(NULL, sizeof(**out), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+	close(fd);
+	if (*out == MAP_FAILED) {
+		unlink(path);
+		return err_report(ERR_SYSTEM, path, "cannot map: %s", strerror(errno));
+	}
+	return 0;
+}
+
+static void set_or_unset(const char *name, const char *value)
+{
+	if (value)
+		setenv(name, value, 1);
+	else
+		unsetenv(name);
+}
+
+static void set_environment(const struct options *o, const char *recorder, const char *stats_path)
+{
+	const char *others = getenv("LD_PRELOAD");
+	char preload[2 * PATH_MAX];
+
+	snprintf(preload, sizeof(preload), "%s%s%s", recorder, others && *others ? ":" : "", others ? others : "");
+	setenv("LD_PRELOAD", preload, 1);
+	setenv("RELUME_TRACE", o->trace, 1);
+	setenv("RELUME_STATS", stats_path, 1);
+	set_or_unset("RELUME_REF", o->ref);
+	set_or_unset("RELUME_REF_EVERY", o->ref_every);
+	set_or_unset("RELUME_MAX_FRAMES", o->max_frames);
+	set_or_unset("RELUME_QUIT_AFTER", o->quit_after);
+}
+
+static volatile sig_atomic_t child_pid;
+
+static void forward(int signal)
+{
+	if (child_pid > 0)
+		kill((pid_t)child_pid, signal);
+}
+
+static const int forwarded[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
+enum { N_FORWARDED = sizeof(forwarded) / sizeof(forwarded[0]) };
+
+/* Runs the program. Returns its wait status, or -1 with errno where it could not be started. */
+static int run(const struct options *o, const char *recorder, const char *stats_path)
+{
+	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
+	int pipe_fds[2], error = 0, status = 0;
+
+	if (pipe2(pipe_fds, O_CLOEXEC))
+		return -1;
+	/* Signals wait until the child has put the old handlers back and we know its number. */
+	sigset_t all, before;
+	sigfillset(&all);
+	sigprocmask(SIG_BLOCK, &all, &before);
+	for (int i = 0; i < N_FORWARDED; i++)
+		sigaction(forwarded[i], &action, &old[i]);
+	child_pid = fork();
+	if (child_pid == 0) {
+		for (int i = 0; i < N_FORWARDED; i++)
+			sigaction(forwarded[i], &old[i], NULL);
+		sigprocmask(SIG_SETMASK, &before, NULL);
+		set_environment(o, recorder, stats_path);
+		execvp(o->program[0], o->program);
+		error = errno;
+		if (write(pipe_fds[1], &error, sizeof(error)) < 0)
+			_exit(127);
+		_exit(127);
+	}
+	sigprocmask(SIG_SETMASK, &before, NULL);
+	close(pipe_fds[1]);
+	if (child_pid < 0) {
+		close(pipe_fds[0]);
+		return -1;
+	}
+	if (read(pipe_fds[0], &error, sizeof(error)) != sizeof(error))
+		error = 0;
+	close(pipe_fds[0]);
+	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR)
+		;
+	child_pid = 0;
+	for (int i = 0; i < N_FORWARDED; i++)
+		sigaction(forwarded[i], &old[i], NULL);
+	errno = error;
+	return error ? -1 : status;
+}
+
+static uint32_t at_most(uint32_t n, uint32_t limit)
+{
+	return n < limit ? n : limit;
+}
+
+/* One line for each process that drew, then what went by unrecorded. */
+static void print_summary(const struct recorder_stats *stats)
+{
+	uint32_t n = at_most(stats->n_processes, STATS_MAX_PROCESSES);
+	uint32_t n_unknown = at_most(stats->n_unknown, STATS_MAX_UNKNOWN);
+	uint64_t unknown = 0;
+
+	for (uint32_t i = 0; i < n_unknown; i++)
+		unknown += stats->unknown[i].calls;
+	for (uint32_t i = 0; i < n; i++) {
+		const struct stats_process *p = &stats->processes[i];
+
+		fprintf(stderr,
+		        "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, %" PRIu64 " calls not recorded\n",
+		        p->path, p->frames, p->calls, p->bytes, i == 0 ? unknown : 0);
+	}
+	for (uint32_t i = 0; i < n_unknown; i++)
+		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);
+	if (n == 0)
+		err_warn(NULL, "the program made no OpenGL call that could be recorded");
+}
+
+int record_main(int argc, char **argv)
+{
+	struct options o = { 0 };
+	struct recorder_stats *stats = MAP_FAILED;
+	char recorder[PATH_MAX], stats_path[PATH_MAX] = "";
+	int status, quit = 0, rc = parse(argc, argv, &o);
+
+	if (rc)
+		return rc > 0 ? 0 : -rc;
+	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = clear_output(&o)) ||
+	    (rc = make_stats(stats_path, sizeof(stats_path), &stats)))
+		return -rc;
+	status = run(&o, recorder, stats_path);
+	unlink(stats_path);
+	if (status < 0) {
+		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));
+		goto done;
+	}
+	print_summary(stats);
+	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++) {
+		quit |= stats->processes[i].quit;
+		if (stats->processes[i].failed && !rc)
+			rc = ERR_SYSTEM;
+	}
+	if (quit && WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM)
+		status = 0;
+	if (WIFSIGNALED(status))
+		rc = -(128 + WTERMSIG(status));
+	else if (WEXITSTATUS(status))
+		rc = -WEXITSTATUS(status);
+done:
+	munmap(stats, sizeof(*stats));
+	return -rc;
+}

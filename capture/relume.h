@@ -1,0 +1,47 @@
+/*
+ * For programs that can be recompiled: what OpenGL has no word for. This header is all there is to add; no library.
+ *
+ * Both functions look for a recorder in the process when they are called and do nothing where there is none. They may be
+ * called wherever a GL context is current, also while a display list is compiled (they are not part of the list).
+ */
+#ifndef RELUME_H
+#define RELUME_H
+
+#include <dlfcn.h> /* link with -ldl before glibc 2.34 */
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum rtMaterialKindEXT {
+	RT_MATTE_EXT = 0,  /* as OpenGL lights it; the initial state */
+	RT_MIRROR_EXT = 1, /* amount: part of the light that is reflected, [0,1] */
+	RT_GLASS_EXT = 2   /* amount: part that is let through, [0,1]; ior: index of refraction, 1.5 for window glass */
+};
+
+/** What is drawn from here on is made of: applies until the next call, to every context. */
+static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, float ior)
+{
+	void (*record)(int, float, float);
+
+	*(void **)&record = dlsym(RTLD_DEFAULT, "relume_material");
+	if (record)
+		record((int)kind, amount, ior);
+}
+
+/** A good moment to build acceleration structures: the scene's static part has been drawn once. Never changes a picture. */
+static inline void rtBuildKdTreeEXT(void)
+{
+	void (*record)(void);
+
+	*(void **)&record = dlsym(RTLD_DEFAULT, "relume_build_kd_tree");
+	if (record)
+		record();
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
