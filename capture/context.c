@@ -354,16 +354,27 @@ static void record_marker(const char *text)
 SHOWN void relume_material(int kind, float amount, float ior);
 SHOWN void relume_build_kd_tree(void);
 
+/* A number of at least 0 to six places, with a point whatever the program's locale says. */
+static int print_number(char *out, size_t size, float value)
+{
+	long millionths = value > 0 && value < 1e6f ? (long)((double)value * 1e6 + 0.5) : 0;
+
+	return snprintf(out, size, " %ld.%06ld", millionths / 1000000, millionths % 1000000);
+}
+
 void relume_material(int kind, float amount, float ior)
 {
+	static const char *const names[] = { "matte", "mirror", "glass" };
 	char text[96];
+	int n;
 
-	if (kind == RT_MIRROR_EXT)
-		snprintf(text, sizeof(text), "relume:material mirror %g", (double)amount);
-	else if (kind == RT_GLASS_EXT)
-		snprintf(text, sizeof(text), "relume:material glass %g %g", (double)amount, (double)ior);
-	else
-		snprintf(text, sizeof(text), "relume:material matte");
+	if (kind < RT_MATTE_EXT || kind > RT_GLASS_EXT)
+		return;
+	n = snprintf(text, sizeof(text), "relume:material %s", names[kind]);
+	if (kind != RT_MATTE_EXT)
+		n += print_number(text + n, sizeof(text) - (size_t)n, amount);
+	if (kind == RT_GLASS_EXT)
+		print_number(text + n, sizeof(text) - (size_t)n, ior);
 	record_marker(text);
 }
 
