@@ -4,7 +4,7 @@
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
  * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
- * triangles, rays with t_min > t_max and rays with a NaN hit nothing.
+ * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing.
  *
  * Arguments of all four, in this order
  *    0  uint n_rays

@@ -73,7 +73,8 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	v = dot(w->d, q) * inverse;
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
-	if (u >= 0 && v >= 0 && u + v <= 1 && t >= w->t_min && (t < w->hit.t || (t == w->hit.t && w->hit.instance == SCENE_NONE)))
+	if (u >= 0 && v >= 0 && u + v <= 1 && t >= w->t_min &&
+	    (t < w->hit.t || (t == w->hit.t && w->hit.instance == SCENE_NONE)))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
 
@@ -236,8 +237,11 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (!(ray->t_min <= ray->t_max))
 		return w.hit;
-	for (int a = 0; a < 3; a++)
+	for (int a = 0; a < 3; a++) {
+		if (!isfinite(ray->o[a]) || !isfinite(ray->d[a]))
+			return w.hit;
 		w.o[a] = ray->o[a];
+	}
 	set_direction(&w, ray->d);
 	if (args->top2)
 		walk_top2(&w);

@@ -1,0 +1,33 @@
+/*
+ * What a comparison of eight lanes says (a set lane has all bits). OpenCL C only. The language has any() and no way to
+ * get at all eight bits; where the compiler and the processor have one instruction for it, that is used.
+ */
+#ifndef KERNELS_LANES_H
+#define KERNELS_LANES_H
+
+#if defined(__has_builtin) && defined(__AVX__)
+#if __has_builtin(__builtin_ia32_movmskps256)
+#define LANES_MOVEMASK 1
+#endif
+#endif
+
+/* One bit a lane. */
+inline uint lane_bits(int8 mask)
+{
+#ifdef LANES_MOVEMASK
+	return (uint)__builtin_ia32_movmskps256(as_float8(mask));
+#else
+	const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+	const int4 four = bits.lo | bits.hi;
+	const int2 two = four.lo | four.hi;
+
+	return (uint)(two.lo | two.hi);
+#endif
+}
+
+inline int any_lane(int8 mask)
+{
+	return lane_bits(mask) != 0;
+}
+
+#endif

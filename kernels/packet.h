@@ -1,0 +1,153 @@
+/*
+ * Eight rays as float8 rows against binary trees. OpenCL C only; included by the packet kernels.
+ *
+ * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. The product o * i is kept in two roundings, one below
+ * and one above, so that no box is missed by rounding; camera rays put the widening of boxes in there as well. Which of
+ * a box's planes is met first depends on the signs of d alone: a packet whose rays differ in signs is walked once for
+ * each octant, the other lanes asleep (t_max below t_min).
+ */
+#ifndef KERNELS_PACKET_H
+#define KERNELS_PACKET_H
+
+#include "replay/scene.h"
+#include "kernels/shared.h"
+#include "kernels/lanes.h"
+
+/* Eight rays in the space of the tree they walk. */
+struct packet {
+	float8 ox, oy, oz, dx, dy, dz;
+	float8 ix, iy, iz;                      /* 1/d, finite */
+	float8 near_x, near_y, near_z;          /* rounded down: what is added to near planes */
+	float8 far_x, far_y, far_z;             /* and up, to far planes */
+	float8 t_min, t_max;
+};
+
+inline float8 invert(float8 d)
+{
+	return 1.0f / select(copysign((float8)(1e-20f), d), d, fabs(d) > 1e-20f);
+}
+
+/* Fill in what follows from o and d. pad: by how much boxes are widened. */
+inline void packet_prepare(struct packet *p, float pad)
+{
+	const float8 ix = invert(p->dx), iy = invert(p->dy), iz = invert(p->dz);
+	const float8 bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
+	const float8 ex = fabs(bx) * 3e-7f + pad * fabs(ix), ey = fabs(by) * 3e-7f + pad * fabs(iy);
+	const float8 ez = fabs(bz) * 3e-7f + pad * fabs(iz);
+
+	p->ix = ix, p->iy = iy, p->iz = iz;
+	p->near_x = bx - ex, p->near_y = by - ey, p->near_z = bz - ez;
+	p->far_x = bx + ex, p->far_y = by + ey, p->far_z = bz + ez;
+}
+
+/* o and d moved from eye to object space. */
+inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
+{
+	p->ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
+	p->oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
+	p->oz = fma(m[10], eye->oz, fma(m[9], eye->oy, fma(m[8], eye->ox, m[11])));
+	p->dx = fma(m[2], eye->dz, fma(m[1], eye->dy, m[0] * eye->dx));
+	p->dy = fma(m[6], eye->dz, fma(m[5], eye->dy, m[4] * eye->dx));
+	p->dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
+}
+
+/* Per lane, 1 bit each: the signs of the directions. */
+inline int8 packet_octants(const struct packet *p)
+{
+	return (as_int8(p->ix) >> 31 & 1) | (as_int8(p->iy) >> 31 & 2) | (as_int8(p->iz) >> 31 & 4);
+}
+
+/* Where in a node2 the planes lie that an octant meets first and last: number of the float for x y z of side 0. */
+struct planes {
+	uint near_x, near_y, near_z, far_x, far_y, far_z;
+};
+
+inline struct planes octant_planes(int octant)
+{
+	struct planes s;
+
+	s.near_x = octant & 1 ? 6 : 0, s.far_x = 6 - s.near_x;
+	s.near_y = octant & 2 ? 7 : 1, s.far_y = 8 - s.near_y;
+	s.near_z = octant & 4 ? 8 : 2, s.far_z = 10 - s.near_z;
+	return s;
+}
+
+/* Where the rays enter and leave the box of one side (0 or 1) of a node: enter <= leave where they meet it. */
+inline float8 packet_enter(const struct packet *p, __global const float *node, struct planes s, uint side)
+{
+	return fmax(fmax(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
+	            fmax(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
+}
+
+inline float8 packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
+{
+	return fmin(fmin(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
+	            fmin(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
+}
+
+/* Lanes that meet the box of one side, whatever their octants: for top levels, which are small. */
+inline int8 packet_meets_box(const struct packet *p, __global const struct node2 *node, uint side)
+{
+	const float8 x0 = node->lo[side][0] * p->ix, x1 = node->hi[side][0] * p->ix;
+	const float8 y0 = node->lo[side][1] * p->iy, y1 = node->hi[side][1] * p->iy;
+	const float8 z0 = node->lo[side][2] * p->iz, z1 = node->hi[side][2] * p->iz;
+	const float8 enter = fmax(fmax(fmin(x0, x1) + p->near_x, fmin(y0, y1) + p->near_y),
+	                          fmax(fmin(z0, z1) + p->near_z, p->t_min));
+	const float8 leave = fmin(fmin(fmax(x0, x1) + p->far_x, fmax(y0, y1) + p->far_y),
+	                          fmin(fmax(z0, z1) + p->far_z, p->t_max));
+
+	return (enter <= leave) & (int8)(node->lo[side][0] <= node->hi[side][0] ? -1 : 0);
+}
+
+/* The lanes of a packet octant by octant: those awake in the first awake lane's octant, and they fall asleep. */
+inline int8 packet_next_octant(int8 octants, int8 *awake, int *octant)
+{
+	int8 lanes;
+
+	*octant = 0;
+	for (int i = 0; i < 8; i++)
+		if (((const int *)awake)[i]) {
+			*octant = ((const int *)&octants)[i];
+			break;
+		}
+	lanes = *awake & (octants == *octant);
+	*awake &= ~lanes;
+	return lanes;
+}
+
+/* A subtree to be walked, and where the rays enter it. */
+struct packet_entry {
+	float8 enter;
+	uint child, count;
+};
+
+/* What a packet found, per lane. */
+struct packet_hits {
+	float8 b1, b2;
+	uint8 instance, primitive;
+};
+
+/* Moeller and Trumbore: lanes hit at t in t_min .. t_max; b1, b2 of all lanes. */
+inline int8 packet_triangle(const struct packet *p, __global const struct triangle *tri, float8 *t, float8 *b1,
+                            float8 *b2)
+{
+	const float e1x = tri->e1[0], e1y = tri->e1[1], e1z = tri->e1[2];
+	const float e2x = tri->e2[0], e2y = tri->e2[1], e2z = tri->e2[2];
+	const float8 px = fma(p->dy, e2z, -(p->dz * e2y));
+	const float8 py = fma(p->dz, e2x, -(p->dx * e2z));
+	const float8 pz = fma(p->dx, e2y, -(p->dy * e2x));
+	const float8 inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
+	const float8 sx = p->ox - tri->v0[0], sy = p->oy - tri->v0[1], sz = p->oz - tri->v0[2];
+	const float8 u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
+	const float8 qx = fma(sy, e1z, -(sz * e1y));
+	const float8 qy = fma(sz, e1x, -(sx * e1z));
+	const float8 qz = fma(sx, e1y, -(sy * e1x));
+	const float8 v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
+
+	*t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
+	*b1 = u;
+	*b2 = v;
+	return (u >= 0) & (v >= 0) & (u + v <= 1) & (*t >= p->t_min) & (*t <= p->t_max);
+}
+
+#endif

@@ -1,0 +1,180 @@
+/*
+ * occlude_packet, intersect_packet: eight consecutive rays a work item against binary trees. See kernels/rays.h.
+ */
+#include "kernels/rays.h"
+#include "kernels/packet.h"
+
+/*
+ * Walk one instance's tree with a packet of one octant. Lanes that are hit get their t_max (any: -1, they are done) and
+ * *hits.
+ */
+inline void walk_blas(struct packet *p, struct packet_hits *hits, int octant, int any, uint instance,
+                      __global const struct node2 *nodes, __global const struct triangle *triangles)
+{
+	const struct planes planes = octant_planes(octant);
+	struct packet_entry stack[BVH_MAX_DEPTH];
+	uint depth = 0, child = 0, count = 0;
+
+	for (;;) {
+		if (count == 0) {
+			__global const struct node2 *node = &nodes[child];
+			__global const float *bounds = (__global const float *)node;
+			const float8 enter0 = packet_enter(p, bounds, planes, 0), enter1 = packet_enter(p, bounds, planes, 1);
+			const int8 hit0 = enter0 <= packet_leave(p, bounds, planes, 0);
+			const int8 hit1 = enter1 <= packet_leave(p, bounds, planes, 1);
+			const int any0 = any_lane(hit0), any1 = any_lane(hit1);
+
+			if (any0 && any1) {
+				/* Where any ray enters side 1 before side 0 and meets it, that goes first. */
+				const uint first = any_lane(hit1 & (enter1 < enter0));
+
+				stack[depth].enter = first ? enter0 : enter1;
+				stack[depth].child = node->child[!first];
+				stack[depth].count = node->count[!first];
+				depth++;
+				child = node->child[first];
+				count = node->count[first];
+				continue;
+			}
+			if (any0 || any1) {
+				child = node->child[any1];
+				count = node->count[any1];
+				continue;
+			}
+		} else {
+			for (uint i = 0; i < count; i++) {
+				float8 t, b1, b2;
+				const int8 hit = packet_triangle(p, &triangles[child + i], &t, &b1, &b2);
+
+				if (!any_lane(hit))
+					continue;
+				if (any) {
+					p->t_max = select(p->t_max, (float8)(-INFINITY), hit);
+					hits->instance = select(hits->instance, (uint8)(instance), hit);
+				} else {
+					const int8 closer = hit & ((t < p->t_max) | (hits->instance == SCENE_NONE));
+
+					p->t_max = select(p->t_max, t, closer);
+					hits->b1 = select(hits->b1, b1, closer);
+					hits->b2 = select(hits->b2, b2, closer);
+					hits->instance = select(hits->instance, (uint8)(instance), closer);
+					hits->primitive = select(hits->primitive, (uint8)(triangles[child + i].primitive), closer);
+				}
+			}
+		}
+		do {
+			if (depth == 0)
+				return;
+			depth--;
+		} while (!any_lane(stack[depth].enter <= p->t_max));
+		child = stack[depth].child;
+		count = stack[depth].count;
+	}
+}
+
+inline void walk_instance(struct packet *eye, struct packet_hits *hits, int any, uint index,
+                          __global const struct instance *instances, __global const struct node2 *nodes,
+                          __global const struct triangle *triangles)
+{
+	__global const struct instance *instance = &instances[index];
+	int8 awake = eye->t_min <= eye->t_max, octants;
+	struct packet p;
+
+	packet_transform(&p, eye, instance->obj_from_eye);
+	packet_prepare(&p, 0);
+	p.t_min = eye->t_min;
+	octants = packet_octants(&p);
+	while (any_lane(awake)) {
+		int octant;
+		const int8 lanes = packet_next_octant(octants, &awake, &octant);
+
+		p.t_max = select((float8)(-INFINITY), eye->t_max, lanes);
+		walk_blas(&p, hits, octant, any, index, nodes + instance->node2_first, triangles + instance->triangle_first);
+		eye->t_max = select(eye->t_max, p.t_max, lanes);
+	}
+}
+
+inline void walk_top(struct packet *eye, struct packet_hits *hits, int any, __global const struct node2 *top,
+                     __global const uint *instance_list, __global const struct instance *instances,
+                     __global const struct node2 *nodes, __global const struct triangle *triangles)
+{
+	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		__global const struct node2 *node = &top[stack[--depth]];
+
+		for (uint side = 0; side < 2; side++) {
+			if (!any_lane(packet_meets_box(eye, node, side)))
+				continue;
+			if (node->count[side] == 0)
+				stack[depth++] = node->child[side];
+			for (uint i = 0; i < node->count[side]; i++)
+				walk_instance(eye, hits, any, instance_list[node->child[side] + i], instances, nodes, triangles);
+		}
+	}
+}
+
+/* Rows from eight rays; lanes past the end, and rays that hit nothing by definition, sleep. */
+inline void load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
+{
+	float8 t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;
+	int8 finite;
+
+	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n; i++) {
+		__global const struct ray *ray = &rays[first + i];
+
+		((float *)&ox)[i] = ray->o[0], ((float *)&oy)[i] = ray->o[1], ((float *)&oz)[i] = ray->o[2];
+		((float *)&dx)[i] = ray->d[0], ((float *)&dy)[i] = ray->d[1], ((float *)&dz)[i] = ray->d[2];
+		((float *)&t_min)[i] = ray->t_min, ((float *)&t_max)[i] = ray->t_max;
+	}
+	finite = isfinite(ox) & isfinite(oy) & isfinite(oz) & isfinite(dx) & isfinite(dy) & isfinite(dz) & (t_min <= t_max);
+	p->ox = select((float8)(0), ox, finite), p->oy = select((float8)(0), oy, finite), p->oz = select((float8)(0), oz, finite);
+	p->dx = select((float8)(1), dx, finite), p->dy = select((float8)(1), dy, finite), p->dz = select((float8)(1), dz, finite);
+	p->t_min = select((float8)(1), t_min, finite);
+	p->t_max = select((float8)(-INFINITY), t_max, finite);
+	packet_prepare(p, 0);
+}
+
+__kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint top_first,
+                             __global const struct node2 *top, __global const uint *instance_list,
+                             __global const struct instance *instances, __global const struct node2 *nodes,
+                             __global const struct triangle *triangles, __global uint *occluded)
+{
+	const uint first = (uint)get_global_id(0) * RAYS_PER_PACKET;
+	struct packet p;
+	struct packet_hits hits;
+
+	if (first >= n_rays)
+		return;
+	load_rays(&p, rays, first, n_rays);
+	hits.instance = SCENE_NONE;
+	walk_top(&p, &hits, 1, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n_rays; i++)
+		occluded[first + i] = ((const uint *)&hits.instance)[i] != SCENE_NONE;
+}
+
+__kernel void intersect_packet(uint n_rays, __global const struct ray *rays, uint top_first,
+                               __global const struct node2 *top, __global const uint *instance_list,
+                               __global const struct instance *instances, __global const struct node2 *nodes,
+                               __global const struct triangle *triangles, __global struct hit *out)
+{
+	const uint first = (uint)get_global_id(0) * RAYS_PER_PACKET;
+	struct packet p;
+	struct packet_hits hits;
+
+	if (first >= n_rays)
+		return;
+	load_rays(&p, rays, first, n_rays);
+	hits.b1 = hits.b2 = 0;
+	hits.instance = hits.primitive = SCENE_NONE;
+	walk_top(&p, &hits, 0, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n_rays; i++) {
+		const uint instance = ((const uint *)&hits.instance)[i];
+		struct hit h = { instance == SCENE_NONE ? rays[first + i].t_max : ((const float *)&p.t_max)[i],
+			         ((const float *)&hits.b1)[i], ((const float *)&hits.b2)[i], instance,
+			         ((const uint *)&hits.primitive)[i] };
+
+		out[first + i] = h;
+	}
+}
