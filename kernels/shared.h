@@ -152,4 +152,77 @@ static inline void fragment_weights(struct fragment f, float w_inv0, float w_inv
 	out[2] = c2 / sum;
 }
 
+/* --- Shading --------------------------------------------------------------------------------------------------- */
+
+/* What the vertex stage leaves of one vertex of one instance. Texture coordinates: see geometry.texcoord_first. */
+struct shaded_vertex {
+	float clip[4];
+	float eye[4];          /* homogeneous; w is 1 unless the modelview is projective */
+	float color[2][4];     /* front and back side, clamped */
+	float secondary[2][4]; /* rgb after which "color sum" asks; [3] unused */
+	float normal[3];       /* eye space, normalised only where GL does */
+	float fog_coord;
+	uint32_t lit[2];       /* per side, bit i: light i of the material's list adds diffuse or specular light here */
+	float point_size;      /* after attenuation, before rounding */
+	uint32_t unused;
+};
+SHARED_SIZE(struct shaded_vertex, 128);
+
+/* bits of geometry.flags */
+#define GEOMETRY_EXPANDED 1u /* lines or points made into triangles after the vertex stage: nothing to light again */
+
+/* One instance as the vertex and fragment stages see it; the same index as its struct instance. */
+struct geometry {
+	float eye_from_obj[16], clip_from_obj[16];
+	float normal_matrix[12]; /* 3 rows of 4: inverse transpose of the modelview, rescaled where GL does */
+	uint32_t attributes;     /* as scene_mesh.attributes */
+	uint32_t position, normal, color, secondary, fog_coord; /* where its arrays start in the pool of floats */
+	uint32_t texcoord[SCENE_MAX_UNITS];
+	uint32_t index;          /* where its indices start in the pool of indices, 3 a primitive, relative to vertex_first */
+	uint32_t primitive_draw; /* where its draw numbers start in the pool of indices, or SCENE_NONE: all of one draw */
+	uint32_t vertex_first;   /* its first vertex in the frame's vertex buffers */
+	uint32_t vertex_count;
+	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them each vertex */
+	uint32_t material, view, current, draw, flags;
+};
+SHARED_SIZE(struct geometry, 272);
+
+#define TEXTURE_MAX_LEVELS 16
+
+/* One texture image as the samplers see it. */
+struct texture_image {
+	uint32_t target, base_format; /* GL tokens */
+	uint32_t width, height, depth, n_levels, border;
+	uint32_t level_first[TEXTURE_MAX_LEVELS]; /* first texel in the pool of texels; a texel is 4 bytes */
+};
+SHARED_SIZE(struct texture_image, 92);
+
+/* The fragment's colours as the per-fragment operations take them. */
+struct shaded {
+	float gl[4];     /* GL's own: texturing, colour sum and fog done, clamped */
+	float direct[3]; /* the same with the shadowed lights off */
+	float beauty[3]; /* the same with mirrors, too */
+	float depth;     /* window depth after polygon offset, [0,1] */
+	uint32_t flags;  /* SHADED_*; 0: there is no fragment */
+};
+SHARED_SIZE(struct shaded, 48);
+
+#define SHADED_THERE 1u
+#define SHADED_FRONT 2u
+#define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
+
+/* One pixel of the frame while it is being drawn. */
+struct frame_pixel {
+	float gl[4], direct[3], beauty[3];
+	uint32_t depth;    /* as the depth buffer holds it: in steps of its bits */
+	float depth_exact; /* the same before it was quantised, [0,1] */
+	uint32_t stencil;
+	uint32_t id;       /* draw number that wrote the colour last; 0: cleared only */
+	struct fragment surface; /* of the nearest visible surface; order SCENE_NONE: none */
+};
+SHARED_SIZE(struct frame_pixel, 80);
+
+/* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, albedo.rgb, Z. */
+#define SURFACE_PLANES 10u
+
 #endif

@@ -21,9 +21,15 @@
 	X(intersect_packet) /* nearest hit, 8 consecutive coherent rays a work item, BVH2 */ \
 	X(intersect_wide)   /* the same, one ray a work item, 8-wide nodes */ \
 	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
+	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
-	X(shade_hit)        /* one hit of a secondary ray a work item */ \
-	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */
+	X(shadow_ray)       /* one fragment a work item: its ray to one light */ \
+	X(mirror_ray)       /* one fragment a work item: its first reflected ray */ \
+	X(hit_ray)          /* one hit of a reflected ray a work item: its ray to one light */ \
+	X(shade_hit)        /* one hit of a reflected ray a work item: its colour and the next ray */ \
+	X(clear)            /* one pixel a work item: a Clear */ \
+	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
+	X(surface)          /* one pixel a work item: what the visible surface is like */
 
 enum device_kernel {
 #define DEVICE_KERNEL_ENUM(name) KERNEL_##name,

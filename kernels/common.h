@@ -1,0 +1,201 @@
+/*
+ * The common subset of C11 and OpenCL C 1.2 that shading is written in: names for address spaces and mathematics, small
+ * vectors. Text that includes only this and shared.h compiles as kernel and as C twin.
+ *
+ * Contraction is off on both sides (-ffp-contract=off; the pragma below): the twin is then the kernel's specification.
+ */
+#ifndef KERNELS_COMMON_H
+#define KERNELS_COMMON_H
+
+#include "kernels/shared.h"
+
+#ifdef __OPENCL_VERSION__
+#pragma OPENCL FP_CONTRACT OFF
+#define GLOBAL __global
+#define M_SQRT(x) sqrt(x)
+#define M_POW(x, y) pow(x, y)
+#define M_EXP(x) exp(x)
+#define M_EXP2(x) exp2(x)
+#define M_FLOOR(x) floor(x)
+#define M_CEIL(x) ceil(x)
+#define M_RINT(x) rint(x)
+#define M_ABS(x) fabs(x)
+#define M_MIN(x, y) fmin(x, y)
+#define M_MAX(x, y) fmax(x, y)
+#define M_COS(x) cos(x)
+#define M_BITS(x) as_uint(x)
+#define M_FLOAT(x) as_float(x)
+#else
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#define GLOBAL
+#define M_SQRT(x) sqrtf(x)
+#define M_POW(x, y) powf(x, y)
+#define M_EXP(x) expf(x)
+#define M_EXP2(x) exp2f(x)
+#define M_FLOOR(x) floorf(x)
+#define M_CEIL(x) ceilf(x)
+#define M_RINT(x) rintf(x)
+#define M_ABS(x) fabsf(x)
+#define M_MIN(x, y) fminf(x, y)
+#define M_MAX(x, y) fmaxf(x, y)
+#define M_COS(x) cosf(x)
+#define M_BITS(x) common_bits(x)
+#define M_FLOAT(x) common_float(x)
+
+static inline uint32_t common_bits(float x)
+{
+	uint32_t bits;
+
+	memcpy(&bits, &x, sizeof(bits));
+	return bits;
+}
+
+static inline float common_float(uint32_t bits)
+{
+	float x;
+
+	memcpy(&x, &bits, sizeof(x));
+	return x;
+}
+#endif
+
+struct vec3 {
+	float x, y, z;
+};
+
+struct vec4 {
+	float x, y, z, w;
+};
+
+static inline struct vec3 v3(float x, float y, float z)
+{
+	struct vec3 v;
+
+	v.x = x;
+	v.y = y;
+	v.z = z;
+	return v;
+}
+
+static inline struct vec4 v4(float x, float y, float z, float w)
+{
+	struct vec4 v;
+
+	v.x = x;
+	v.y = y;
+	v.z = z;
+	v.w = w;
+	return v;
+}
+
+static inline struct vec3 v3_load(GLOBAL const float *p)
+{
+	return v3(p[0], p[1], p[2]);
+}
+
+static inline struct vec4 v4_load(GLOBAL const float *p)
+{
+	return v4(p[0], p[1], p[2], p[3]);
+}
+
+static inline void v3_store(GLOBAL float *p, struct vec3 v)
+{
+	p[0] = v.x;
+	p[1] = v.y;
+	p[2] = v.z;
+}
+
+static inline void v4_store(GLOBAL float *p, struct vec4 v)
+{
+	p[0] = v.x;
+	p[1] = v.y;
+	p[2] = v.z;
+	p[3] = v.w;
+}
+
+static inline struct vec3 v3_add(struct vec3 a, struct vec3 b)
+{
+	return v3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+static inline struct vec3 v3_sub(struct vec3 a, struct vec3 b)
+{
+	return v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static inline struct vec3 v3_scale(struct vec3 a, float s)
+{
+	return v3(a.x * s, a.y * s, a.z * s);
+}
+
+static inline float v3_dot(struct vec3 a, struct vec3 b)
+{
+	return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline struct vec3 v3_cross(struct vec3 a, struct vec3 b)
+{
+	return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* Length 1; a vector of length 0 stays what it is. */
+static inline struct vec3 v3_normalize(struct vec3 a)
+{
+	float length2 = v3_dot(a, a);
+
+	return length2 > 0.0f ? v3_scale(a, 1.0f / M_SQRT(length2)) : a;
+}
+
+static inline struct vec4 v4_add(struct vec4 a, struct vec4 b)
+{
+	return v4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w);
+}
+
+static inline struct vec4 v4_sub(struct vec4 a, struct vec4 b)
+{
+	return v4(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w);
+}
+
+static inline struct vec4 v4_mul(struct vec4 a, struct vec4 b)
+{
+	return v4(a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w);
+}
+
+static inline struct vec4 v4_scale(struct vec4 a, float s)
+{
+	return v4(a.x * s, a.y * s, a.z * s, a.w * s);
+}
+
+static inline float v4_dot(struct vec4 a, struct vec4 b)
+{
+	return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+
+/* a + (b - a) t, so that t = 0 gives a and equal ends give themselves */
+static inline struct vec4 v4_mix(struct vec4 a, struct vec4 b, float t)
+{
+	return v4_add(a, v4_scale(v4_sub(b, a), t));
+}
+
+static inline float clamp01(float x)
+{
+	return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; /* a NaN becomes 0 */
+}
+
+static inline struct vec4 v4_clamp01(struct vec4 a)
+{
+	return v4(clamp01(a.x), clamp01(a.y), clamp01(a.z), clamp01(a.w));
+}
+
+/* Column-major matrix times column vector, summed column by column as Mesa's vertex programs do. */
+static inline struct vec4 m4_mul(GLOBAL const float *m, struct vec4 v)
+{
+	return v4(m[0] * v.x + m[4] * v.y + m[8] * v.z + m[12] * v.w,
+	          m[1] * v.x + m[5] * v.y + m[9] * v.z + m[13] * v.w,
+	          m[2] * v.x + m[6] * v.y + m[10] * v.z + m[14] * v.w,
+	          m[3] * v.x + m[7] * v.y + m[11] * v.z + m[15] * v.w);
+}
+
+#endif

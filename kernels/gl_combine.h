@@ -1,0 +1,138 @@
+/* Texture environments and combiners (GL 2.1 sec. 3.8.13): what a unit makes of the colour that reaches it. */
+#ifndef KERNELS_GL_COMBINE_H
+#define KERNELS_GL_COMBINE_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+
+/* Which of colour and alpha a texture of this base format changes (table 3.20: the others pass). */
+static inline int combine_has_color(uint32_t base_format)
+{
+	return base_format != GL_ALPHA;
+}
+
+static inline int combine_has_alpha(uint32_t base_format)
+{
+	return base_format == GL_ALPHA || base_format == GL_LUMINANCE_ALPHA || base_format == GL_INTENSITY ||
+	       base_format == GL_RGBA;
+}
+
+/* The environments of tables 3.22 and 3.23; p: previous, s: texture, e: the unit's colour. */
+static inline struct vec4 combine_plain(uint32_t mode, uint32_t format, struct vec4 p, struct vec4 s, struct vec4 e)
+{
+	struct vec4 out = p;
+
+	if (mode == GL_DECAL) {
+		float a = format == GL_RGBA ? s.w : 1.0f;
+
+		if (format == GL_RGB || format == GL_RGBA)
+			out = v4(p.x * (1.0f - a) + s.x * a, p.y * (1.0f - a) + s.y * a, p.z * (1.0f - a) + s.z * a, p.w);
+		return out;
+	}
+	if (combine_has_color(format)) {
+		switch (mode) {
+		case GL_REPLACE:
+			out = v4(s.x, s.y, s.z, out.w);
+			break;
+		case GL_BLEND:
+			out = v4(p.x * (1.0f - s.x) + e.x * s.x, p.y * (1.0f - s.y) + e.y * s.y,
+			         p.z * (1.0f - s.z) + e.z * s.z, out.w);
+			break;
+		case GL_ADD:
+			out = v4(p.x + s.x, p.y + s.y, p.z + s.z, out.w);
+			break;
+		default: /* MODULATE */
+			out = v4(p.x * s.x, p.y * s.y, p.z * s.z, out.w);
+			break;
+		}
+	}
+	if (combine_has_alpha(format)) {
+		if (mode == GL_REPLACE)
+			out.w = s.w;
+		else if (mode == GL_BLEND && format == GL_INTENSITY)
+			out.w = p.w * (1.0f - s.w) + e.w * s.w;
+		else if (mode == GL_ADD && format == GL_INTENSITY)
+			out.w = p.w + s.w;
+		else
+			out.w = p.w * s.w;
+	}
+	return v4_clamp01(out);
+}
+
+/* One argument; `alpha` asks for what feeds the alpha equation (w of the result). samples: of all enabled units. */
+static inline struct vec4 combine_argument(uint32_t source, uint32_t operand, struct vec4 previous, struct vec4 texture,
+                                           struct vec4 primary, struct vec4 constant, const struct vec4 *samples)
+{
+	struct vec4 a = previous;
+
+	if (source == GL_TEXTURE)
+		a = texture;
+	else if (source == GL_PRIMARY_COLOR)
+		a = primary;
+	else if (source == GL_CONSTANT)
+		a = constant;
+	else if (source == GL_ZERO)
+		a = v4(0.0f, 0.0f, 0.0f, 0.0f);
+	else if (source == GL_ONE)
+		a = v4(1.0f, 1.0f, 1.0f, 1.0f);
+	else if (source >= GL_TEXTURE0 && source < GL_TEXTURE0 + SCENE_MAX_UNITS)
+		a = samples[source - GL_TEXTURE0];
+	if (operand == GL_SRC_ALPHA || operand == GL_ONE_MINUS_SRC_ALPHA)
+		a = v4(a.w, a.w, a.w, a.w);
+	if (operand == GL_ONE_MINUS_SRC_COLOR || operand == GL_ONE_MINUS_SRC_ALPHA)
+		a = v4(1.0f - a.x, 1.0f - a.y, 1.0f - a.z, 1.0f - a.w);
+	return a;
+}
+
+static inline struct vec4 combine_function(uint32_t function, struct vec4 a, struct vec4 b, struct vec4 c)
+{
+	struct vec4 half4 = v4(0.5f, 0.5f, 0.5f, 0.5f);
+	float dot;
+
+	switch (function) {
+	case GL_REPLACE:
+		return a;
+	case GL_ADD:
+		return v4_add(a, b);
+	case GL_ADD_SIGNED:
+		return v4_sub(v4_add(a, b), half4);
+	case GL_INTERPOLATE:
+		return v4_add(v4_mul(a, c), v4_mul(b, v4(1.0f - c.x, 1.0f - c.y, 1.0f - c.z, 1.0f - c.w)));
+	case GL_SUBTRACT:
+		return v4_sub(a, b);
+	case GL_DOT3_RGB:
+	case GL_DOT3_RGBA:
+	case GL_DOT3_RGB_EXT:
+	case GL_DOT3_RGBA_EXT:
+		dot = 4.0f * ((a.x - 0.5f) * (b.x - 0.5f) + (a.y - 0.5f) * (b.y - 0.5f) + (a.z - 0.5f) * (b.z - 0.5f));
+		return v4(dot, dot, dot, dot);
+	case GL_MODULATE_ADD_ATI:
+		return v4_add(v4_mul(a, c), b);
+	case GL_MODULATE_SIGNED_ADD_ATI:
+		return v4_sub(v4_add(v4_mul(a, c), b), half4);
+	case GL_MODULATE_SUBTRACT_ATI:
+		return v4_sub(v4_mul(a, c), b);
+	default: /* MODULATE */
+		return v4_mul(a, b);
+	}
+}
+
+static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, struct vec4 previous, struct vec4 texture,
+                                       struct vec4 primary, const struct vec4 *samples)
+{
+	struct vec4 constant = v4_load(unit->env_color), rgb[3], alpha[3], color, out;
+
+	for (int i = 0; i < 3; i++) {
+		rgb[i] = combine_argument(unit->source_rgb[i], unit->operand_rgb[i], previous, texture, primary, constant,
+		                          samples);
+		alpha[i] = combine_argument(unit->source_alpha[i], unit->operand_alpha[i], previous, texture, primary,
+		                            constant, samples);
+	}
+	color = v4_scale(combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]), unit->scale_rgb);
+	out = v4_scale(combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]), unit->scale_alpha);
+	if (unit->combine_rgb == GL_DOT3_RGBA || unit->combine_rgb == GL_DOT3_RGBA_EXT)
+		out.w = color.w;
+	return v4_clamp01(v4(color.x, color.y, color.z, out.w));
+}
+
+#endif

@@ -1,0 +1,333 @@
+/*
+ * GL's fragment stage (GL 2.1 sec. 3.6.1, 3.8 - 3.10) on a point of a triangle: interpolation, texturing, colour sum, fog.
+ * The point is a fragment under a pixel centre or what a secondary ray hit; the text is the same.
+ */
+#ifndef KERNELS_GL_FRAGMENT_H
+#define KERNELS_GL_FRAGMENT_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+#include "kernels/gl_combine.h"
+#include "kernels/gl_tables.h"
+#include "kernels/gl_texture.h"
+#include "kernels/gl_vertex.h"
+
+/* A point of a triangle. */
+struct point {
+	GLOBAL const struct geometry *geometry;
+	GLOBAL const struct scene_material *material;
+	GLOBAL const struct shaded_vertex *vertex[3];
+	uint32_t number[3]; /* the vertices in the mesh */
+	float weight[3];    /* of the vertices, in object space: perspective-correct */
+	int front;
+};
+
+/* Texturing of a point, and its fog: all of its colour that light has no part in. */
+struct coat {
+	struct vec4 sample[SCENE_MAX_UNITS]; /* by GL's unit number */
+	float fog_factor;
+};
+
+/* --- Points ---------------------------------------------------------------------------------------------------- */
+
+static inline void point_vertices(const struct tables *t, struct point *p, uint32_t instance, uint32_t primitive)
+{
+	p->geometry = &t->geometries[instance];
+	p->material = &t->materials[p->geometry->material];
+	for (uint32_t i = 0u; i < 3u; i++) {
+		p->number[i] = t->indices[p->geometry->index + primitive * 3u + i];
+		p->vertex[i] = &t->vertices[p->geometry->vertex_first + p->number[i]];
+	}
+}
+
+static inline struct vec3 point_corner(const struct point *p, int i)
+{
+	GLOBAL const float *e = p->vertex[i]->eye;
+
+	return e[3] == 1.0f ? v3_load(e) : v3_scale(v3_load(e), 1.0f / e[3]);
+}
+
+/* The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. */
+static inline struct vec3 point_plane_normal(const struct point *p)
+{
+	struct vec3 a = point_corner(p, 0);
+
+	return v3_normalize(v3_cross(v3_sub(point_corner(p, 1), a), v3_sub(point_corner(p, 2), a)));
+}
+
+/* (x, y, w) of a clip-space vertex: lines through the eye, which clipping does not disturb. */
+static inline struct vec3 point_clip_xyw(const struct point *p, int i)
+{
+	GLOBAL const float *c = p->vertex[i]->clip;
+
+	return v3(c[0], c[1], c[3]);
+}
+
+/* The point under a fragment. */
+static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                               const struct fragment *f)
+{
+	struct point p;
+	GLOBAL const struct window_vertex *w;
+	int clockwise;
+
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	w = windows + p.geometry->vertex_first;
+	fragment_weights(*f, w[p.number[0]].w_inv, w[p.number[1]].w_inv, w[p.number[2]].w_inv, p.weight);
+
+	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
+	if (w[p.number[0]].w_inv > 0.0f && w[p.number[1]].w_inv > 0.0f && w[p.number[2]].w_inv > 0.0f) {
+		float x0 = (float)w[p.number[0]].x, y0 = (float)w[p.number[0]].y;
+
+		clockwise = ((float)w[p.number[1]].x - x0) * ((float)w[p.number[2]].y - y0) -
+		                    ((float)w[p.number[2]].x - x0) * ((float)w[p.number[1]].y - y0) <
+		            0.0f;
+	} else {
+		clockwise = v3_dot(v3_cross(point_clip_xyw(&p, 0), point_clip_xyw(&p, 1)), point_clip_xyw(&p, 2)) < 0.0f;
+	}
+	p.front = clockwise == (p.material->front_face == GL_CW);
+	return p;
+}
+
+/* The point that a ray hit; its front side is the one GL would see from the ray's origin. */
+static inline struct point point_from_hit(const struct tables *t, const struct hit *hit, struct vec3 direction)
+{
+	struct point p;
+
+	point_vertices(t, &p, hit->instance, hit->primitive);
+	p.weight[0] = 1.0f - hit->b1 - hit->b2;
+	p.weight[1] = hit->b1;
+	p.weight[2] = hit->b2;
+	p.front = (v3_dot(point_plane_normal(&p), direction) > 0.0f) == (p.material->front_face == GL_CW);
+	return p;
+}
+
+static inline struct vec3 point_position(const struct point *p)
+{
+	return v3_add(v3_add(v3_scale(point_corner(p, 0), p->weight[0]), v3_scale(point_corner(p, 1), p->weight[1])),
+	              v3_scale(point_corner(p, 2), p->weight[2]));
+}
+
+/* Unit normal for effects: GL's interpolated one where the draw is lit, else the plane's; on the side that is seen. */
+static inline struct vec3 point_normal(const struct point *p)
+{
+	struct vec3 n = point_plane_normal(p), smooth;
+
+	n = v3_scale(n, (p->material->front_face == GL_CW) == p->front ? -1.0f : 1.0f);
+	if (!p->material->lighting)
+		return n;
+	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
+	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
+	                             v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	if (v3_dot(smooth, smooth) == 0.0f)
+		return n;
+	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
+}
+
+/*
+ * Where secondary rays start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
+ * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
+ * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
+ * tenth of a pixel's footprint in common windows.
+ */
+static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 at, struct vec3 towards)
+{
+	struct vec3 n = point_plane_normal(p);
+	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f;
+
+	return v3_add(at, v3_scale(n, v3_dot(n, towards) < 0.0f ? -size : size));
+}
+
+/* --- Colour ---------------------------------------------------------------------------------------------------- */
+
+static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct vec4 b, struct vec4 c)
+{
+	return v4_add(v4_add(v4_scale(a, p->weight[0]), v4_scale(b, p->weight[1])), v4_scale(c, p->weight[2]));
+}
+
+/* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */
+static inline int point_side(const struct point *p)
+{
+	return p->material->lighting && p->material->two_side && !p->front;
+}
+
+static inline struct lit point_lit_from_vertices(const struct point *p)
+{
+	int side = point_side(p);
+	struct lit lit;
+
+	if (p->material->shade_model == GL_FLAT) {
+		lit.color = v4_load(p->vertex[2]->color[side]);
+		lit.secondary = v4_load(p->vertex[2]->secondary[side]);
+		lit.lights = p->vertex[2]->lit[side];
+		return lit;
+	}
+	lit.color = point_mix(p, v4_load(p->vertex[0]->color[side]), v4_load(p->vertex[1]->color[side]),
+	                      v4_load(p->vertex[2]->color[side]));
+	lit.secondary = point_mix(p, v4_load(p->vertex[0]->secondary[side]), v4_load(p->vertex[1]->secondary[side]),
+	                          v4_load(p->vertex[2]->secondary[side]));
+	lit.lights = p->vertex[0]->lit[side] | p->vertex[1]->lit[side] | p->vertex[2]->lit[side];
+	return lit;
+}
+
+/* The same with some lights' diffuse and specular light left out: the vertices are lit again without them. */
+static inline struct lit point_lit_again(const struct tables *t, const struct point *p, uint32_t dark)
+{
+	int side = point_side(p);
+	struct lit a, b, c;
+
+	c = vertex_color(t, p->geometry, p->vertex[2], p->number[2], side, dark);
+	if (p->material->shade_model == GL_FLAT)
+		return c;
+	a = vertex_color(t, p->geometry, p->vertex[0], p->number[0], side, dark);
+	b = vertex_color(t, p->geometry, p->vertex[1], p->number[1], side, dark);
+	c.color = point_mix(p, a.color, b.color, c.color);
+	c.secondary = point_mix(p, a.secondary, b.secondary, c.secondary);
+	return c;
+}
+
+static inline struct vec4 point_texcoord(const struct tables *t, const struct point *p, uint32_t i,
+                                         const float *weight)
+{
+	uint32_t count = p->material->unit_count, first = p->geometry->texcoord_first;
+	struct vec4 c = v4(0.0f, 0.0f, 0.0f, 0.0f);
+
+	for (int k = 0; k < 3; k++)
+		c = v4_add(c, v4_scale(v4_load(t->texcoords + (first + p->number[k] * count + i) * 4u), weight[k]));
+	return c;
+}
+
+/* Object-space weights of the triangle's plane at any window position (clip-space edge functions: nothing to clip). */
+static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x_win, float y_win,
+                                    float *weight)
+{
+	struct vec3 at = v3(2.0f * (x_win - view->viewport[0]) / view->viewport[2] - 1.0f,
+	                    2.0f * (y_win - view->viewport[1]) / view->viewport[3] - 1.0f, 1.0f);
+	struct vec3 a = point_clip_xyw(p, 0), b = point_clip_xyw(p, 1), c = point_clip_xyw(p, 2);
+	float sum;
+
+	weight[0] = v3_dot(v3_cross(b, c), at);
+	weight[1] = v3_dot(v3_cross(c, a), at);
+	weight[2] = v3_dot(v3_cross(a, b), at);
+	sum = weight[0] + weight[1] + weight[2];
+	sum = sum != 0.0f ? 1.0f / sum : 0.0f;
+	for (int i = 0; i < 3; i++)
+		weight[i] *= sum;
+}
+
+static inline float point_fog(const struct point *p)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	float c = p->vertex[0]->fog_coord * p->weight[0] + p->vertex[1]->fog_coord * p->weight[1] +
+	          p->vertex[2]->fog_coord * p->weight[2];
+
+	if (m->fog_mode == GL_LINEAR)
+		return clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+	if (m->fog_mode == GL_EXP2)
+		return clamp01(M_EXP(-(m->fog_density * c) * (m->fog_density * c)));
+	return clamp01(M_EXP(-m->fog_density * c));
+}
+
+/*
+ * Sample a point's textures. view: NULL for secondary hits, which have no neighbours: their finest level is taken.
+ * x, row: the pixel, row 0 at the bottom; height: of the window.
+ */
+static inline void point_coat(const struct tables *t, const struct point *p, GLOBAL const struct view *view,
+                              uint32_t x, uint32_t row, uint32_t height, struct coat *coat)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	float quad[3][3];
+	int have_quad = 0;
+
+	for (uint32_t i = 0u; i < m->unit_count; i++) {
+		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
+		struct vec4 c = point_texcoord(t, p, i, p->weight);
+		float lod = 0.0f;
+
+		if (view && texture_needs_lod(unit)) {
+			if (!have_quad) {
+				/* llvmpipe's quads: even columns, even rows counted from the top. */
+				float qx = (float)(x & ~1u) + 0.5f;
+				float qy = (float)height - ((float)((height - 1u - row) & ~1u) + 0.5f);
+
+				point_weights_at(p, view, qx, qy, quad[0]);
+				point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
+				point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
+				have_quad = 1;
+			}
+			lod = texture_lod(&t->textures[unit->texture], unit, point_texcoord(t, p, i, quad[0]),
+			                  point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
+		}
+		coat->sample[unit->unit] = texture_sample(t, unit, c, lod);
+	}
+	coat->fog_factor = m->fog ? point_fog(p) : 1.0f;
+}
+
+/* Texture environments, colour sum and fog over a lit colour; clamped. */
+static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct coat *coat,
+                                       const struct lit *lit)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	struct vec4 color = lit->color;
+
+	for (uint32_t i = 0u; i < m->unit_count; i++) {
+		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
+		struct vec4 sample = coat->sample[unit->unit];
+
+		color = unit->env_mode == GL_COMBINE ?
+		                combine_full(unit, color, sample, lit->color, coat->sample) :
+		                combine_plain(unit->env_mode, t->textures[unit->texture].base_format, color, sample,
+		                              v4_load(unit->env_color));
+	}
+	if (m->color_sum || (m->lighting && m->separate_specular))
+		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);
+	color = v4_clamp01(color);
+	if (m->fog) {
+		float f = coat->fog_factor;
+
+		color = v4_clamp01(v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
+		                      color.z * f + m->fog_color[2] * (1.0f - f), color.w));
+	}
+	return color;
+}
+
+/* The surface's own colour under white light: what the albedo channel shows. */
+static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct coat *coat)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	int side = point_side(p);
+	uint32_t mode = m->color_material_mode;
+	uint32_t tracks = m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE);
+	struct coat clear = *coat;
+	struct lit lit = point_lit_from_vertices(p);
+
+	if (m->lighting && !(p->geometry->flags & GEOMETRY_EXPANDED))
+		lit.color = tracks ? v4_clamp01(point_mix(p, tables_color(t, p->geometry, p->number[0]),
+		                                          tables_color(t, p->geometry, p->number[1]),
+		                                          tables_color(t, p->geometry, p->number[2]))) :
+		                     v4_clamp01(v4_load(side ? m->back.diffuse : m->front.diffuse));
+	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
+	clear.fog_factor = 1.0f;
+	return point_finish(t, p, &clear, &lit);
+}
+
+/* 1 where a user clip plane (sec. 2.12) cuts the point away. */
+static inline int point_clipped(const struct point *p)
+{
+	for (uint32_t i = 0u; i < SCENE_MAX_CLIP_PLANES; i++) {
+		struct vec4 plane;
+		float d;
+
+		if (!(p->material->clip_plane_mask >> i & 1u))
+			continue;
+		plane = v4_load(p->material->clip_plane_eye[i]);
+		d = v4_dot(plane, v4_load(p->vertex[0]->eye)) * p->weight[0] +
+		    v4_dot(plane, v4_load(p->vertex[1]->eye)) * p->weight[1] +
+		    v4_dot(plane, v4_load(p->vertex[2]->eye)) * p->weight[2];
+		if (d < 0.0f)
+			return 1;
+	}
+	return 0;
+}
+
+#endif

@@ -1,0 +1,106 @@
+/*
+ * GL's lighting of one vertex (GL 2.1 sec. 2.14.1 and 2.14.3). The same text lights a vertex for the rasterized picture
+ * and again with the shadowed lights left out: with none left out the results are the same bits.
+ */
+#ifndef KERNELS_GL_LIGHT_H
+#define KERNELS_GL_LIGHT_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+
+struct lit {
+	struct vec4 color, secondary; /* clamped; secondary is 0 unless the specular colour is kept apart */
+	uint32_t lights;              /* bit i: light i of the list adds diffuse or specular light */
+};
+
+/* The material's own colours of a side, or the vertex's where color material tracks them (sec. 2.14.3). */
+static inline struct vec4 light_material_color(GLOBAL const float *own, uint32_t tracked, struct vec4 vertex_color)
+{
+	return tracked ? vertex_color : v4_load(own);
+}
+
+/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). */
+static inline float light_spot(GLOBAL const struct scene_light *light, struct vec3 to_light)
+{
+	struct vec3 axis = v3_normalize(v3_load(light->spot_direction_eye));
+	float along = -v3_dot(to_light, axis);
+
+	if (light->spot_cutoff_deg == 180.0f)
+		return 1.0f;
+	if (along < M_COS(light->spot_cutoff_deg * 0.017453292519943295f))
+		return 0.0f;
+	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
+}
+
+/*
+ * Light one side of a vertex.
+ *
+ * eye     the vertex in eye space, homogeneous
+ * normal  of the side to be lit
+ * vertex_color  the current colour at the vertex, for color material
+ * dark    bit i: light i of the list gives its ambient light only
+ */
+static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
+                                      struct vec4 eye, struct vec3 normal, struct vec4 vertex_color, int back,
+                                      uint32_t dark)
+{
+	GLOBAL const struct scene_face *face = back ? &m->back : &m->front;
+	uint32_t tracks = m->color_material == GL_FRONT_AND_BACK || m->color_material == (back ? GL_BACK : GL_FRONT);
+	uint32_t mode = tracks ? m->color_material_mode : 0u;
+	struct vec4 ambient = light_material_color(face->ambient, mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE,
+	                                           vertex_color);
+	struct vec4 diffuse = light_material_color(face->diffuse, mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE,
+	                                           vertex_color);
+	struct vec4 specular = light_material_color(face->specular, mode == GL_SPECULAR, vertex_color);
+	struct vec4 emission = light_material_color(face->emission, mode == GL_EMISSION, vertex_color);
+	struct vec4 primary = v4_add(emission, v4_mul(ambient, v4_load(m->light_model_ambient)));
+	struct vec4 secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
+	struct vec3 at = eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) : v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w);
+	struct vec3 to_viewer = m->local_viewer ? v3_normalize(v3_scale(at, -1.0f)) : v3(0.0f, 0.0f, 1.0f);
+	struct lit out;
+
+	out.lights = 0u;
+	for (uint32_t i = 0u; i < m->light_count; i++) {
+		GLOBAL const struct scene_light *light = &lights[m->light_first + i];
+		struct vec3 to_light = v3_load(light->position_eye);
+		struct vec4 ambient_light = v4_mul(ambient, v4_load(light->ambient));
+		float strength = 1.0f, n_l;
+
+		if (light->position_eye[3] != 0.0f) {
+			float distance;
+
+			to_light = v3_sub(v3_scale(to_light, 1.0f / light->position_eye[3]), at);
+			distance = M_SQRT(v3_dot(to_light, to_light));
+			strength = 1.0f / (light->attenuation[0] +
+			                   distance * (light->attenuation[1] + distance * light->attenuation[2]));
+		}
+		to_light = v3_normalize(to_light);
+		strength *= light_spot(light, to_light);
+		primary = v4_add(primary, v4_scale(ambient_light, strength));
+		n_l = v3_dot(normal, to_light);
+		if (n_l > 0.0f && strength > 0.0f) {
+			struct vec3 half_way = v3_normalize(v3_add(to_light, to_viewer));
+			float n_h = M_MAX(v3_dot(normal, half_way), 0.0f);
+			float shine = face->shininess == 0.0f ? 1.0f : M_POW(n_h, face->shininess);
+			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
+			struct vec4 gloss = v4_scale(v4_mul(specular, v4_load(light->specular)), shine * strength);
+
+			if (matte.x + matte.y + matte.z + gloss.x + gloss.y + gloss.z > 0.0f)
+				out.lights |= 1u << i;
+			if (!(dark >> i & 1u)) {
+				primary = v4_add(primary, matte);
+				if (m->separate_specular)
+					secondary = v4_add(secondary, gloss);
+				else
+					primary = v4_add(primary, gloss);
+			}
+		}
+	}
+	primary.w = diffuse.w;
+	out.color = v4_clamp01(primary);
+	secondary.w = 0.0f;
+	out.secondary = v4_clamp01(secondary);
+	return out;
+}
+
+#endif

@@ -1,0 +1,276 @@
+/*
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run three times side by side: for GL's
+ * own colours, for the shadowed ones and for the beauty. All three follow the decisions of the first.
+ *
+ * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; the
+ * last one written stays as it is.
+ */
+#ifndef KERNELS_GL_PIXEL_H
+#define KERNELS_GL_PIXEL_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+
+static inline int pixel_compare(uint32_t func, float a, float b)
+{
+	switch (func) {
+	case GL_NEVER: return 0;
+	case GL_LESS: return a < b;
+	case GL_EQUAL: return a == b;
+	case GL_LEQUAL: return a <= b;
+	case GL_GREATER: return a > b;
+	case GL_NOTEQUAL: return a != b;
+	case GL_GEQUAL: return a >= b;
+	default: return 1;
+	}
+}
+
+static inline int pixel_compare_uint(uint32_t func, uint32_t a, uint32_t b)
+{
+	switch (func) {
+	case GL_NEVER: return 0;
+	case GL_LESS: return a < b;
+	case GL_EQUAL: return a == b;
+	case GL_LEQUAL: return a <= b;
+	case GL_GREATER: return a > b;
+	case GL_NOTEQUAL: return a != b;
+	case GL_GEQUAL: return a >= b;
+	default: return 1;
+	}
+}
+
+static inline uint32_t pixel_bits_mask(uint32_t bits)
+{
+	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
+}
+
+/* Depth as a buffer of so many bits (at most 24 count) holds it. */
+static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
+{
+	return (uint32_t)(clamp01(depth) * (float)pixel_bits_mask(bits > 24u ? 24u : bits) + 0.5f);
+}
+
+/* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */
+
+static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t ref, uint32_t write_mask, uint32_t bits)
+{
+	uint32_t top = pixel_bits_mask(bits), out = value;
+
+	switch (op) {
+	case GL_ZERO: out = 0u; break;
+	case GL_REPLACE: out = ref & top; break;
+	case GL_INCR: out = value < top ? value + 1u : top; break;
+	case GL_DECR: out = value ? value - 1u : 0u; break;
+	case GL_INCR_WRAP: out = (value + 1u) & top; break;
+	case GL_DECR_WRAP: out = (value - 1u) & top; break;
+	case GL_INVERT: out = ~value & top; break;
+	default: break;
+	}
+	return (value & ~write_mask) | (out & write_mask);
+}
+
+/* --- Blending (sec. 4.1.8) ---------------------------------------------------------------------------------------- */
+
+static inline struct vec4 pixel_blend_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
+{
+	float f;
+
+	switch (factor) {
+	case GL_ZERO: return v4(0.0f, 0.0f, 0.0f, 0.0f);
+	case GL_SRC_COLOR: return s;
+	case GL_ONE_MINUS_SRC_COLOR: return v4(1.0f - s.x, 1.0f - s.y, 1.0f - s.z, 1.0f - s.w);
+	case GL_DST_COLOR: return d;
+	case GL_ONE_MINUS_DST_COLOR: return v4(1.0f - d.x, 1.0f - d.y, 1.0f - d.z, 1.0f - d.w);
+	case GL_SRC_ALPHA: return v4(s.w, s.w, s.w, s.w);
+	case GL_ONE_MINUS_SRC_ALPHA: f = 1.0f - s.w; return v4(f, f, f, f);
+	case GL_DST_ALPHA: return v4(d.w, d.w, d.w, d.w);
+	case GL_ONE_MINUS_DST_ALPHA: f = 1.0f - d.w; return v4(f, f, f, f);
+	case GL_CONSTANT_COLOR: return c;
+	case GL_ONE_MINUS_CONSTANT_COLOR: return v4(1.0f - c.x, 1.0f - c.y, 1.0f - c.z, 1.0f - c.w);
+	case GL_CONSTANT_ALPHA: return v4(c.w, c.w, c.w, c.w);
+	case GL_ONE_MINUS_CONSTANT_ALPHA: f = 1.0f - c.w; return v4(f, f, f, f);
+	case GL_SRC_ALPHA_SATURATE: f = M_MIN(s.w, 1.0f - d.w); return v4(f, f, f, 1.0f);
+	default: return v4(1.0f, 1.0f, 1.0f, 1.0f);
+	}
+}
+
+static inline struct vec4 pixel_blend_equation(uint32_t equation, struct vec4 s, struct vec4 fs, struct vec4 d,
+                                               struct vec4 fd)
+{
+	switch (equation) {
+	case GL_FUNC_SUBTRACT: return v4_sub(v4_mul(s, fs), v4_mul(d, fd));
+	case GL_FUNC_REVERSE_SUBTRACT: return v4_sub(v4_mul(d, fd), v4_mul(s, fs));
+	case GL_MIN: return v4(M_MIN(s.x, d.x), M_MIN(s.y, d.y), M_MIN(s.z, d.z), M_MIN(s.w, d.w));
+	case GL_MAX: return v4(M_MAX(s.x, d.x), M_MAX(s.y, d.y), M_MAX(s.z, d.z), M_MAX(s.w, d.w));
+	default: return v4_add(v4_mul(s, fs), v4_mul(d, fd));
+	}
+}
+
+static inline struct vec4 pixel_blend(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	struct vec4 c = v4_load(m->blend_color);
+	struct vec4 rgb = pixel_blend_equation(m->blend_equation_rgb, s, pixel_blend_factor(m->blend_src_rgb, s, d, c), d,
+	                                       pixel_blend_factor(m->blend_dst_rgb, s, d, c));
+	struct vec4 a = pixel_blend_equation(m->blend_equation_alpha, s, pixel_blend_factor(m->blend_src_alpha, s, d, c), d,
+	                                     pixel_blend_factor(m->blend_dst_alpha, s, d, c));
+
+	return v4_clamp01(v4(rgb.x, rgb.y, rgb.z, a.w));
+}
+
+/* --- Logic operation (sec. 4.1.10) -------------------------------------------------------------------------------- */
+
+static inline float pixel_logic(uint32_t op, float source, float destination)
+{
+	uint32_t s = (uint32_t)M_RINT(source * 255.0f), d = (uint32_t)M_RINT(destination * 255.0f), out = s;
+
+	switch (op) {
+	case GL_CLEAR: out = 0u; break;
+	case GL_AND: out = s & d; break;
+	case GL_AND_REVERSE: out = s & ~d; break;
+	case GL_AND_INVERTED: out = ~s & d; break;
+	case GL_NOOP: out = d; break;
+	case GL_XOR: out = s ^ d; break;
+	case GL_OR: out = s | d; break;
+	case GL_NOR: out = ~(s | d); break;
+	case GL_EQUIV: out = ~(s ^ d); break;
+	case GL_INVERT: out = ~d; break;
+	case GL_OR_REVERSE: out = s | ~d; break;
+	case GL_COPY_INVERTED: out = ~s; break;
+	case GL_OR_INVERTED: out = ~s | d; break;
+	case GL_NAND: out = ~(s & d); break;
+	case GL_SET: out = 255u; break;
+	default: break; /* COPY */
+	}
+	return (float)(out & 255u) / 255.0f;
+}
+
+/* --- One colour into one place ------------------------------------------------------------------------------------ */
+
+static inline float pixel_stored(float x)
+{
+	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
+}
+
+/* What of a source colour ends in the frame buffer over a destination; the mask is the caller's. */
+static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	if (!m->blend && !m->logic_op)
+		return s;
+	d = v4(pixel_stored(d.x), pixel_stored(d.y), pixel_stored(d.z), pixel_stored(d.w));
+	if (m->logic_op) /* takes blending's place (sec. 4.1.10) */
+		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
+		          pixel_logic(m->logic_op, s.z, d.z), pixel_logic(m->logic_op, s.w, d.w));
+	return pixel_blend(m, s, d);
+}
+
+/* Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16. */
+static inline uint32_t pixel_depth_bits(uint32_t bits)
+{
+	return bits & 255u;
+}
+
+static inline uint32_t pixel_stencil_bits(uint32_t bits)
+{
+	return bits >> 8 & 255u;
+}
+
+static inline uint32_t pixel_alpha_bits(uint32_t bits)
+{
+	return bits >> 16 & 255u;
+}
+
+/* Tests of sec. 4.1.4 to 4.1.6, with what they leave in stencil and depth buffer. @return 1: the fragment is drawn */
+static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+                              GLOBAL struct frame_pixel *pixel, uint32_t bits)
+{
+	uint32_t steps = pixel_depth_steps(s->depth, pixel_depth_bits(bits));
+	int use_stencil = m->stencil_test && pixel_stencil_bits(bits), pass;
+	GLOBAL const struct scene_stencil *stencil = s->flags & SHADED_FRONT ? &m->stencil_front : &m->stencil_back;
+
+	if (m->alpha_test && !pixel_compare(m->alpha_func, s->gl[3], m->alpha_ref))
+		return 0;
+	if (use_stencil &&
+	    !pixel_compare_uint(stencil->func, stencil->ref & stencil->compare_mask, pixel->stencil & stencil->compare_mask)) {
+		pixel->stencil = pixel_stencil_apply(stencil->fail, pixel->stencil, stencil->ref, stencil->write_mask,
+		                                     pixel_stencil_bits(bits));
+		return 0;
+	}
+	pass = !m->depth_test || !pixel_depth_bits(bits) || pixel_compare_uint(m->depth_func, steps, pixel->depth);
+	if (use_stencil)
+		pixel->stencil = pixel_stencil_apply(pass ? stencil->zpass : stencil->zfail, pixel->stencil, stencil->ref,
+		                                     stencil->write_mask, pixel_stencil_bits(bits));
+	if (pass && m->depth_test && m->depth_write && pixel_depth_bits(bits)) {
+		pixel->depth = steps;
+		pixel->depth_exact = s->depth;
+	}
+	return pass;
+}
+
+/* One fragment through all operations. `draw`: its draw number. */
+static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+                              GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
+                              uint32_t bits)
+{
+	struct vec4 gl, direct, beauty, old_gl;
+	uint32_t mask = m->color_mask;
+	float alpha;
+
+	if (!(s->flags & SHADED_THERE) || !pixel_tests(m, s, pixel, bits) || !(mask & 15u))
+		return;
+	old_gl = v4_load(pixel->gl);
+	alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f;
+	gl = pixel_source(m, v4_load(s->gl), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
+	direct = pixel_source(m, v4(s->direct[0], s->direct[1], s->direct[2], s->gl[3]),
+	                      v4(pixel->direct[0], pixel->direct[1], pixel->direct[2], alpha));
+	beauty = pixel_source(m, v4(s->beauty[0], s->beauty[1], s->beauty[2], s->gl[3]),
+	                      v4(pixel->beauty[0], pixel->beauty[1], pixel->beauty[2], alpha));
+	if (mask & 1u) {
+		pixel->gl[0] = gl.x;
+		pixel->direct[0] = direct.x;
+		pixel->beauty[0] = beauty.x;
+	}
+	if (mask & 2u) {
+		pixel->gl[1] = gl.y;
+		pixel->direct[1] = direct.y;
+		pixel->beauty[1] = beauty.y;
+	}
+	if (mask & 4u) {
+		pixel->gl[2] = gl.z;
+		pixel->direct[2] = direct.z;
+		pixel->beauty[2] = beauty.z;
+	}
+	if (mask & 8u)
+		pixel->gl[3] = gl.w;
+	pixel->id = draw;
+	/* A blended film without depth is no surface, unless there is nothing else. */
+	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE)
+		pixel->surface = *f;
+}
+
+static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)
+{
+	if (clear->buffers & 1u) {
+		for (uint32_t c = 0u; c < 4u; c++) {
+			if (!(clear->color_mask >> c & 1u))
+				continue;
+			pixel->gl[c] = clamp01(clear->color[c]);
+			if (c < 3u)
+				pixel->direct[c] = pixel->beauty[c] = clamp01(clear->color[c]);
+		}
+		if ((clear->color_mask & 7u) == 7u) {
+			pixel->id = 0u;
+			pixel->surface.order = SCENE_NONE;
+		}
+	}
+	if (clear->buffers & 2u) {
+		pixel->depth = pixel_depth_steps(clear->depth, pixel_depth_bits(bits));
+		pixel->depth_exact = clamp01(clear->depth);
+	}
+	if (clear->buffers & 4u) {
+		uint32_t top = pixel_bits_mask(pixel_stencil_bits(bits)), mask = clear->stencil_mask;
+
+		pixel->stencil = (pixel->stencil & ~mask) | (clear->stencil & top & mask);
+	}
+}
+
+#endif

@@ -1,0 +1,152 @@
+/* GL's vertex stage (GL 2.1 chapter 2): one vertex of one instance to eye, clip and window space, lit, with its texture
+ * coordinates generated and transformed. */
+#ifndef KERNELS_GL_VERTEX_H
+#define KERNELS_GL_VERTEX_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+#include "kernels/gl_light.h"
+#include "kernels/gl_tables.h"
+
+/* Beyond this many pixels a window coordinate is not kept in 1/256 pixel: such triangles are drawn from clip space. */
+#define VERTEX_SAFE_PIXELS 16384.0f
+
+static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
+                                            struct vec3 n)
+{
+	GLOBAL const float *r = g->normal_matrix;
+	struct vec3 eye = v3(r[0] * n.x + r[1] * n.y + r[2] * n.z, r[4] * n.x + r[5] * n.y + r[6] * n.z,
+	                     r[8] * n.x + r[9] * n.y + r[10] * n.z);
+
+	return m->normalize ? v3_normalize(eye) : eye;
+}
+
+/* One side's colour of a vertex; `dark` as in light_vertex. The fragment stage calls this again for shadows. */
+static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
+                                      GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back, uint32_t dark)
+{
+	GLOBAL const struct scene_material *m = &t->materials[g->material];
+	struct vec3 normal = v3_load(vertex->normal);
+	struct lit lit;
+
+	if (m->lighting)
+		return light_vertex(m, t->lights, v4_load(vertex->eye), back ? v3_scale(normal, -1.0f) : normal,
+		                    tables_color(t, g, v), back, dark);
+	lit.color = v4_clamp01(tables_color(t, g, v));
+	lit.secondary = v4_clamp01(tables_secondary(t, g, v));
+	lit.lights = 0u;
+	return lit;
+}
+
+/*
+ * Window coordinates in 1/256 pixel. Mesa draws to a window with y running down (llvmpipe's rows start at the top), so
+ * rounding of halves follows that direction: y is turned over, snapped, turned back.
+ */
+static inline struct window_vertex vertex_window(GLOBAL const struct view *view, struct vec4 clip, float height)
+{
+	struct window_vertex out;
+	float w_inv = 1.0f / clip.w;
+	float x = view->viewport[2] * 0.5f * (clip.x * w_inv) + (view->viewport[0] + view->viewport[2] * 0.5f);
+	float y = -view->viewport[3] * 0.5f * (clip.y * w_inv) +
+	          (height - (view->viewport[1] + view->viewport[3] * 0.5f));
+	float near = view->depth_range[0], far = view->depth_range[1];
+	int inside = clip.w > 0.0f && clip.z >= -clip.w && clip.z <= clip.w && M_ABS(x) < VERTEX_SAFE_PIXELS &&
+	             M_ABS(y) < VERTEX_SAFE_PIXELS;
+
+	out.x = inside ? (int32_t)M_RINT((x - 0.5f) * 256.0f) + 128 : 0;
+	out.y = inside ? (int32_t)height * 256 - ((int32_t)M_RINT((y - 0.5f) * 256.0f) + 128) : 0;
+	out.z = inside ? (far - near) * 0.5f * (clip.z * w_inv) + (far + near) * 0.5f : 0.0f;
+	out.w_inv = inside ? w_inv : 0.0f;
+	return out;
+}
+
+/* Texture coordinate generation, sec. 2.11.4; `u` the unit vector from the eye to the vertex, `n` the eye normal. */
+static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32_t c, float given, struct vec4 obj,
+                                    struct vec4 eye, struct vec3 u, struct vec3 n)
+{
+	struct vec3 r = v3_sub(u, v3_scale(n, 2.0f * v3_dot(n, u)));
+	float m;
+
+	switch (unit->gen_mode[c]) {
+	case GL_OBJECT_LINEAR:
+		return v4_dot(v4_load(unit->gen_object_plane[c]), obj);
+	case GL_EYE_LINEAR:
+		return v4_dot(v4_load(unit->gen_eye_plane[c]), eye);
+	case GL_SPHERE_MAP:
+		m = 2.0f * M_SQRT(r.x * r.x + r.y * r.y + (r.z + 1.0f) * (r.z + 1.0f));
+		return (c == 0u ? r.x : r.y) / m + 0.5f;
+	case GL_REFLECTION_MAP:
+		return c == 0u ? r.x : c == 1u ? r.y : r.z;
+	case GL_NORMAL_MAP:
+		return c == 0u ? n.x : c == 1u ? n.y : n.z;
+	default:
+		return given;
+	}
+}
+
+static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const struct geometry *g,
+                                          GLOBAL const struct scene_unit *unit, uint32_t v, struct vec4 obj,
+                                          struct vec4 eye, struct vec3 n)
+{
+	struct vec4 c = tables_texcoord(t, g, v, unit->unit);
+	struct vec3 u = v3_normalize(eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) :
+	                                             v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w));
+
+	c = v4(vertex_generate(unit, 0u, c.x, obj, eye, u, n), vertex_generate(unit, 1u, c.y, obj, eye, u, n),
+	       vertex_generate(unit, 2u, c.z, obj, eye, u, n), vertex_generate(unit, 3u, c.w, obj, eye, u, n));
+	return m4_mul(unit->matrix, c);
+}
+
+/* Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. */
+static inline float vertex_point_size(GLOBAL const struct scene_material *m, struct vec4 eye)
+{
+	float d = M_SQRT(eye.x * eye.x + eye.y * eye.y + eye.z * eye.z);
+	float fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
+	float size = m->point_size;
+
+	if (fade != 1.0f && fade > 0.0f)
+		size *= M_SQRT(1.0f / fade);
+	return M_MIN(M_MAX(size, m->point_size_min), m->point_size_max);
+}
+
+/*
+ * The vertex stage: vertex `item` of the frame. `owner[item]` is its instance.
+ */
+static inline void vertex_item(const struct tables *t, GLOBAL const struct view *views, GLOBAL const uint32_t *owner,
+                               uint32_t height, uint32_t item, GLOBAL struct shaded_vertex *vertices,
+                               GLOBAL struct window_vertex *windows, GLOBAL float *clips, GLOBAL float *texcoords)
+{
+	GLOBAL const struct geometry *g = &t->geometries[owner[item]];
+	GLOBAL const struct scene_material *m = &t->materials[g->material];
+	GLOBAL const struct view *view = &views[g->view];
+	GLOBAL struct shaded_vertex *out = &vertices[item];
+	uint32_t v = item - g->vertex_first;
+	struct vec4 obj = v4_load(t->attributes + g->position + v * 4u);
+	struct vec4 eye = m4_mul(g->eye_from_obj, obj), clip = m4_mul(g->clip_from_obj, obj);
+	struct vec3 normal = vertex_eye_normal(g, m, tables_normal(t, g, v));
+	struct lit front, back;
+
+	v4_store(out->eye, eye);
+	v4_store(out->clip, clip);
+	v4_store(clips + item * 4u, clip);
+	v3_store(out->normal, normal);
+	windows[item] = vertex_window(view, clip, (float)height);
+
+	front = vertex_color(t, g, out, v, 0, 0u);
+	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, 0u) : front;
+	v4_store(out->color[0], front.color);
+	v4_store(out->color[1], back.color);
+	v4_store(out->secondary[0], front.secondary);
+	v4_store(out->secondary[1], back.secondary);
+	out->lit[0] = front.lights;
+	out->lit[1] = back.lights;
+	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
+	out->point_size = vertex_point_size(m, eye);
+	out->unused = 0u;
+
+	for (uint32_t i = 0u; i < m->unit_count; i++)
+		v4_store(texcoords + (g->texcoord_first + v * m->unit_count + i) * 4u,
+		         vertex_texcoord(t, g, &t->units[m->unit_first + i], v, obj, eye, normal));
+}
+
+#endif

@@ -1,0 +1,31 @@
+/* clear, resolve, surface: see kernels/gl_stages.h. */
+#include "kernels/gl_stages.h"
+
+__kernel void clear(struct scene_clear clear, struct camera_rectangle rectangle, uint32_t width, uint32_t bits,
+                    uint32_t n, __global struct frame_pixel *frame)
+{
+	if (get_global_id(0) < n)
+		pixel_clear(&clear, &frame[stage_pixel(rectangle, width, (uint32_t)get_global_id(0))], bits);
+}
+
+__kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragments,
+                      __global const struct shaded *shaded, __global const uint32_t *first,
+                      __global const uint32_t *counts, struct camera_rectangle rectangle, uint32_t width, uint32_t bits,
+                      uint32_t n, __global struct frame_pixel *frame)
+{
+	struct tables t = TABLES_NAMED;
+
+	if (get_global_id(0) < n)
+		resolve_item(&t, fragments, shaded, first, counts, bits, frame,
+		             stage_pixel(rectangle, width, (uint32_t)get_global_id(0)));
+}
+
+__kernel void surface(TABLES_ARGUMENTS, __global const struct view *views,
+                      __global const struct window_vertex *windows, __global const struct frame_pixel *frame,
+                      uint32_t width, uint32_t height, uint32_t n, __global float *planes)
+{
+	struct tables t = TABLES_NAMED;
+
+	if (get_global_id(0) < n)
+		surface_item(&t, views, windows, frame, width, height, planes, (uint32_t)get_global_id(0));
+}

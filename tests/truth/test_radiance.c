@@ -1,0 +1,165 @@
+/*
+ * Pictures whose every pixel is known in closed form: Lambert's law on a square and inside a sphere, the outline of a
+ * shadow, a mirror that shows a plane.
+ */
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/truth/scenes.h"
+
+#define SIZE 96
+
+static float at(const struct image *img, const char *channel, uint32_t x, uint32_t y)
+{
+	const float *plane = image_channel(img, channel);
+
+	ck_assert_ptr_nonnull(plane);
+	return plane[(size_t)y * img->width + x];
+}
+
+/* A square at distance 10 under a point light at height h over it: cos(angle), interpolated between fine cells. */
+START_TEST(test_square_under_point_light)
+{
+	struct truth t;
+	struct image img;
+	const float h = 3, albedo = 0.8f;
+
+	truth_init(&t, SIZE, SIZE, 0);
+	truth_add_light(&t, 0, 0, -10 + h, 1);
+	truth_add_square(&t, truth_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 },
+	                 (float[3]){ 0, 1, 0 }, 1, 48);
+	truth_render(&t, "whitted", &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++) {
+			float px = 2 * ((float)x + 0.5f) / SIZE - 1, py = 1 - 2 * ((float)y + 0.5f) / SIZE;
+			float truth = albedo * h / sqrtf(px * px + py * py + h * h);
+
+			ck_assert_float_eq_tol(at(&img, "gl.R", x, y), truth, 1e-3f);
+			ck_assert_float_eq_tol(at(&img, "R", x, y), truth, 1e-3f);
+			ck_assert_float_eq(at(&img, "shadow.R", x, y), 1);
+			ck_assert_float_eq_tol(at(&img, "Z", x, y), 10, 1e-4f);
+			ck_assert_float_eq(at(&img, "id", x, y), 1);
+			ck_assert_float_eq(at(&img, "A", x, y), 1);
+		}
+	image_free(&img);
+	truth_free(&t);
+}
+END_TEST
+
+/* Inside a sphere lit from its centre every point sees the light head on: the picture is one number. */
+START_TEST(test_enclosing_sphere)
+{
+	enum { RINGS = 24, SECTORS = 48, N = RINGS * SECTORS * 6 };
+	float (*position)[3] = malloc(N * sizeof(*position)), (*normal)[3] = malloc(N * sizeof(*normal));
+	static const int corner[6][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 1, 0 } };
+	struct truth t;
+	struct image img;
+	uint32_t n = 0;
+
+	for (int ring = 0; ring < RINGS; ring++)
+		for (int sector = 0; sector < SECTORS; sector++)
+			for (int k = 0; k < 6; k++, n++) {
+				double a = M_PI * (ring + corner[k][0]) / RINGS, b = 2 * M_PI * (sector + corner[k][1]) / SECTORS;
+				float d[3] = { (float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)) };
+
+				for (int i = 0; i < 3; i++) {
+					position[n][i] = 5 * d[i];
+					normal[n][i] = -d[i];
+				}
+			}
+	truth_init(&t, SIZE, SIZE, 1);
+	truth_add_light(&t, 0, 0, 0, 1);
+	truth_add_triangles(&t, truth_add_material(&t, 0.5f), (const float (*)[3])position, (const float (*)[3])normal, n);
+	truth_render(&t, "whitted", &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++) {
+			ck_assert_float_eq_tol(at(&img, "gl.G", x, y), 0.5f, 1e-3f);
+			ck_assert_float_eq_tol(at(&img, "G", x, y), 0.5f, 1e-3f);
+			ck_assert_float_eq(at(&img, "shadow.G", x, y), 1);
+		}
+	image_free(&img);
+	truth_free(&t);
+	free(position);
+	free(normal);
+}
+END_TEST
+
+/*
+ * A small square of side 2 s halfway between a point light and a wall throws a shadow of side 4 s. Seen from the light's
+ * side through a parallel view it is hidden behind the square up to 2 s; the rest of the shadow shows around it.
+ */
+START_TEST(test_shadow_shape)
+{
+	struct truth t;
+	struct image img;
+	const float s = 0.3f;
+	uint32_t material;
+
+	truth_init(&t, SIZE, SIZE, 0);
+	truth_add_light(&t, 0, 0, -2, 1);
+	material = truth_add_material(&t, 0.9f);
+	truth_add_square(&t, material, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 8);
+	truth_add_square(&t, material, (float[3]){ 0, 0, -6 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, s, 1);
+	truth_render(&t, "whitted", &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++) {
+			float px = fabsf(2 * ((float)x + 0.5f) / SIZE - 1), py = fabsf(2 * ((float)y + 0.5f) / SIZE - 1);
+			float out = fmaxf(px, py);
+
+			if (fabsf(out - s) < 1e-3f || fabsf(out - 2 * s) < 1e-3f || fabsf(px - py) < 1e-5f)
+				continue; /* an edge itself, or the one that the square's two triangles share */
+			ck_assert_float_eq(at(&img, "id", x, y), out < s ? 2 : 1);
+			ck_assert_float_eq(at(&img, "shadow.B", x, y), out > s && out < 2 * s ? 0 : 1);
+			ck_assert_float_eq_tol(at(&img, "B", x, y), at(&img, "gl.B", x, y) * at(&img, "shadow.B", x, y), 1e-6f);
+		}
+	image_free(&img);
+	truth_free(&t);
+}
+END_TEST
+
+/* A perfect mirror, tilted by 45 degrees, shows a wall to its left that is lit past the mirror, at 45 degrees. */
+START_TEST(test_mirror)
+{
+	struct truth t;
+	struct image img;
+	const float r = sqrtf(0.5f);
+	uint32_t matte, mirror;
+
+	truth_init(&t, SIZE, SIZE, 0);
+	truth_add_light(&t, 1, 0, 1, 0);
+	matte = truth_add_material(&t, 0.6f);
+	mirror = truth_add_material(&t, 0.2f);
+	t.materials[mirror].surface.reflect = 1;
+	truth_add_square(&t, mirror, (float[3]){ 0, 0, -10 }, (float[3]){ r, 0, r }, (float[3]){ 0, 1, 0 }, 0.5f, 1);
+	/* out of the picture, facing right; the mirror turns -z into -x */
+	truth_add_square(&t, matte, (float[3]){ -4, 0, -10 }, (float[3]){ 0, 0, -1 }, (float[3]){ 0, 1, 0 }, 3, 4);
+	truth_render(&t, "whitted", &img);
+	ck_assert_float_eq_tol(at(&img, "R", SIZE / 2, SIZE / 2), 0.6f * r, 1e-3f);
+	ck_assert_float_eq_tol(at(&img, "gl.R", SIZE / 2, SIZE / 2) + at(&img, "reflect.R", SIZE / 2, SIZE / 2),
+	                       0.6f * r, 1e-3f);
+	ck_assert_float_eq(at(&img, "R", 2, 2), 0);
+	image_free(&img);
+	truth_free(&t);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("radiance");
+	TCase *tests = tcase_create("radiance");
+	SRunner *runner;
+	int failed;
+
+	tcase_set_timeout(tests, 120);
+	tcase_add_test(tests, test_square_under_point_light);
+	tcase_add_test(tests, test_enclosing_sphere);
+	tcase_add_test(tests, test_shadow_shape);
+	tcase_add_test(tests, test_mirror);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}

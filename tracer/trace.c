@@ -1,0 +1,908 @@
+#include "tracer/trace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+#include "kernels/camera.h"
+#include "kernels/gl_tables.h"
+#include "kernels/rays.h"
+#include "tracer/accel.h"
+#include "tracer/compose.h"
+#include "tracer/pool.h"
+#include "tracer/prepare.h"
+
+/* The buffers of a frame that are not pools. */
+enum buffer {
+	BUFFER_GEOMETRIES, BUFFER_MATERIALS, BUFFER_LIGHTS, BUFFER_UNITS, BUFFER_CURRENTS, BUFFER_STIPPLES,
+	BUFFER_TEXTURES, BUFFER_VIEWS, BUFFER_INSTANCES,
+	BUFFER_OWNER, BUFFER_VERTICES, BUFFER_TEXCOORDS, BUFFER_WINDOWS, BUFFER_CLIPS,
+	BUFFER_NODES2, BUFFER_NODES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
+	BUFFER_AFTER, BUFFER_SPARSE, BUFFER_COUNTS, BUFFER_FIRST,
+	BUFFER_FRAGMENTS, BUFFER_PIXELS, BUFFER_SHADED,
+	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_MIRROR_RAYS, BUFFER_SHARES, BUFFER_HITS, BUFFER_WANTED, BUFFER_BACKGROUND,
+	BUFFER_FRAME, BUFFER_SURFACE,
+	N_BUFFERS
+};
+
+struct tracer {
+	struct device *dev;
+	struct accel *accel;
+	uint64_t uploaded; /* accel->generation of the trees on the device */
+	struct pool attributes, indices, texels;
+	struct device_buffer *buffers[N_BUFFERS];
+	uint32_t *counts, *first; /* [pixels], host copies */
+	size_t n_counted;
+	struct tracer_undrawn undrawn;
+};
+
+/* One frame on its way. */
+struct job {
+	struct tracer *tr;
+	const struct scene *scene;
+	const struct tracer_options *options;
+	struct prepared prepared;
+	const struct accel_space *spaces;
+	uint32_t n_spaces;
+	uint32_t width, height, n_pixels;
+	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
+	float background[4];
+};
+
+int tracer_create(struct tracer **out, struct device *dev)
+{
+	struct tracer *tr = calloc(1, sizeof(*tr));
+
+	if (!tr)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	tr->dev = dev;
+	if (accel_create(&tr->accel) != 0) {
+		free(tr);
+		return ERR_SYSTEM;
+	}
+	*out = tr;
+	return 0;
+}
+
+void tracer_destroy(struct tracer **tracer)
+{
+	struct tracer *tr = *tracer;
+
+	if (!tr)
+		return;
+	accel_destroy(&tr->accel);
+	pool_free(&tr->attributes, tr->dev);
+	pool_free(&tr->indices, tr->dev);
+	pool_free(&tr->texels, tr->dev);
+	for (int i = 0; i < N_BUFFERS; i++)
+		device_release(tr->dev, &tr->buffers[i]);
+	free(tr->counts);
+	free(tr->first);
+	free(tr);
+	*tracer = NULL;
+}
+
+int tracer_check_aov(const char *aov)
+{
+	const char *at = aov;
+
+	while (at && *at) {
+		size_t n = strcspn(at, ","), known = 0;
+
+		for (int i = 0; compose_groups[i]; i++)
+			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
+		if (!known)
+			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, "
+			                  "reflect, refract, Z, N, P, albedo and id", (int)n, at);
+		at += n + (at[n] == ',');
+	}
+	return 0;
+}
+
+const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer)
+{
+	return &tracer->undrawn;
+}
+
+/* --- Small change ------------------------------------------------------------------------------------------------ */
+
+static int reserve(struct tracer *tr, enum buffer buffer, size_t count, size_t size)
+{
+	return device_reserve(tr->dev, &tr->buffers[buffer], count * size);
+}
+
+static int upload(struct tracer *tr, enum buffer buffer, const void *data, size_t count, size_t size)
+{
+	int err = reserve(tr, buffer, count, size);
+
+	return err || count == 0 ? err : device_write(tr->dev, tr->buffers[buffer], 0, data, count * size);
+}
+
+/* Arguments of a launch, counted as they are added. */
+struct launch {
+	struct device_arg args[32];
+	size_t n;
+};
+
+static void add_buffer(struct launch *l, const struct device_buffer *buffer)
+{
+	l->args[l->n++] = ARG_BUFFER(buffer);
+}
+
+static void add(struct launch *l, const struct tracer *tr, enum buffer buffer)
+{
+	add_buffer(l, tr->buffers[buffer]);
+}
+
+static void add_bytes(struct launch *l, const void *value, size_t bytes)
+{
+	l->args[l->n++] = (struct device_arg){ .value = value, .bytes = bytes };
+}
+
+static void add_uint(struct launch *l, const uint32_t *value)
+{
+	add_bytes(l, value, sizeof(*value));
+}
+
+/* The tables that every shading kernel takes first (kernels/gl_tables.h). */
+static struct launch launch_with_tables(const struct tracer *tr)
+{
+	struct launch l = { .n = 0 };
+
+	add(&l, tr, BUFFER_GEOMETRIES);
+	add(&l, tr, BUFFER_MATERIALS);
+	add(&l, tr, BUFFER_LIGHTS);
+	add(&l, tr, BUFFER_UNITS);
+	add(&l, tr, BUFFER_CURRENTS);
+	add_buffer(&l, tr->attributes.buffer);
+	add_buffer(&l, tr->indices.buffer);
+	add(&l, tr, BUFFER_VERTICES);
+	add(&l, tr, BUFFER_TEXCOORDS);
+	add(&l, tr, BUFFER_TEXTURES);
+	add_buffer(&l, tr->texels.buffer);
+	add(&l, tr, BUFFER_STIPPLES);
+	return l;
+}
+
+static int run(struct tracer *tr, enum device_kernel kernel, size_t n, const struct launch *l)
+{
+	return device_run(tr->dev, kernel, n, l->args, l->n);
+}
+
+/* --- Uploads ------------------------------------------------------------------------------------------------------ */
+
+static int place_meshes(struct job *job, struct pool *pool, size_t (*words)(const struct scene_mesh *), pool_fill *fill,
+                        int indices)
+{
+	const struct scene *scene = job->scene;
+	struct pool_item *items = calloc(scene->n_meshes + (size_t)1, sizeof(*items));
+	int err;
+
+	if (!items)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < scene->n_meshes; i++)
+		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
+			                       words(scene->meshes[i]), scene->meshes[i], 0 };
+	err = pool_place(pool, job->tr->dev, items, scene->n_meshes, fill);
+	for (uint32_t i = 0; i < job->prepared.n_instances && !err; i++) {
+		uint32_t mesh_index = scene->instances[job->prepared.instances[i].scene_instance].mesh;
+		const struct scene_mesh *mesh = scene->meshes[mesh_index];
+		struct geometry *g = &job->prepared.geometries[i];
+
+		if (!indices) {
+			prepare_layout(mesh, items[mesh_index].place, g);
+			continue;
+		}
+		g->index = items[mesh_index].place;
+		g->primitive_draw =
+			mesh->primitive_draw ? g->index + mesh->primitive_count * (uint32_t)mesh->kind : SCENE_NONE;
+	}
+	free(items);
+	return err;
+}
+
+static void fill_texels(const void *object, uint32_t *words)
+{
+	const struct scene_texture *texture = object;
+
+	memcpy(words, texture->texels, texture->n_bytes / 4 * 4);
+}
+
+static uint32_t level_words(const struct scene_texture *t, uint32_t level)
+{
+	uint32_t w = t->width >> level ? t->width >> level : 1, h = t->height >> level ? t->height >> level : 1;
+	uint32_t d = t->depth >> level ? t->depth >> level : 1;
+
+	w += 2 * t->border;
+	h = t->target == GL_TEXTURE_1D ? 1 : h + 2 * t->border;
+	d = t->target == GL_TEXTURE_3D ? d + 2 * t->border : t->target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+	return w * h * d;
+}
+
+static int describe_texture(const struct scene_texture *t, uint32_t place, struct texture_image *out)
+{
+	size_t at = 0;
+
+	*out = (struct texture_image){ t->target, t->base_format, t->width, t->height, t->depth, t->n_levels, t->border,
+		                       { 0 } };
+	if (out->n_levels > TEXTURE_MAX_LEVELS)
+		out->n_levels = TEXTURE_MAX_LEVELS;
+	for (uint32_t level = 0; level < out->n_levels; level++) {
+		out->level_first[level] = place + (uint32_t)at;
+		at += level_words(t, level);
+	}
+	if (out->n_levels == 0 || at > t->n_bytes / 4)
+		return err_report(ERR_SYSTEM, NULL, "a texture of %u x %u has %zu bytes, not the %zu of its %u levels",
+		                  t->width, t->height, t->n_bytes, at * 4, t->n_levels);
+	return 0;
+}
+
+static int upload_textures(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct pool_item *items = calloc(scene->n_textures + (size_t)1, sizeof(*items));
+	struct texture_image *images = calloc(scene->n_textures + (size_t)1, sizeof(*images));
+	int err = 0;
+
+	if (!items || !images) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto done;
+	}
+	for (uint32_t i = 0; i < scene->n_textures; i++)
+		items[i] = (struct pool_item){ { scene->textures[i]->hash[0], scene->textures[i]->hash[1] },
+			                       scene->textures[i]->n_bytes / 4, scene->textures[i], 0 };
+	err = pool_place(&job->tr->texels, job->tr->dev, items, scene->n_textures, fill_texels);
+	for (uint32_t i = 0; i < scene->n_textures && !err; i++)
+		err = describe_texture(scene->textures[i], items[i].place, &images[i]);
+	if (!err)
+		err = upload(job->tr, BUFFER_TEXTURES, images, scene->n_textures, sizeof(*images));
+done:
+	free(items);
+	free(images);
+	return err;
+}
+
+static int upload_state(struct job *job)
+{
+	const struct scene *s = job->scene;
+	struct tracer *tr = job->tr;
+	int err = upload(tr, BUFFER_MATERIALS, s->materials, s->n_materials, sizeof(*s->materials));
+
+	if (!err)
+		err = upload(tr, BUFFER_LIGHTS, s->lights, s->n_lights, sizeof(*s->lights));
+	if (!err)
+		err = upload(tr, BUFFER_UNITS, s->units, s->n_units, sizeof(*s->units));
+	if (!err)
+		err = upload(tr, BUFFER_CURRENTS, s->currents, s->n_currents, sizeof(*s->currents));
+	if (!err)
+		err = upload(tr, BUFFER_STIPPLES, s->stipples, s->n_stipples, sizeof(*s->stipples));
+	if (!err)
+		err = upload_textures(job);
+	return err;
+}
+
+static int upload_trees(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	const struct accel *a = tr->accel;
+	int err = 0;
+
+	if (a->generation != tr->uploaded || !tr->buffers[BUFFER_NODES2]) {
+		err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
+		if (!err)
+			err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
+		if (!err)
+			err = upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
+		if (!err)
+			err = upload(tr, BUFFER_TRIANGLES8, a->triangles8, a->n_triangles8, sizeof(*a->triangles8));
+		tr->uploaded = a->generation;
+	}
+	if (!err)
+		err = upload(tr, BUFFER_TOP2, a->top2, a->n_top2, sizeof(*a->top2));
+	if (!err)
+		err = upload(tr, BUFFER_TOP8, a->top8, a->n_top8, sizeof(*a->top8));
+	if (!err)
+		err = upload(tr, BUFFER_INSTANCE_LIST, a->instance_list, a->n_instance_list, sizeof(*a->instance_list));
+	return err;
+}
+
+/* --- Vertex stage ------------------------------------------------------------------------------------------------- */
+
+static int run_vertices(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	struct launch l;
+	int err = place_meshes(job, &tr->attributes, prepare_attribute_words, prepare_fill_attributes, 0);
+
+	if (!err)
+		err = place_meshes(job, &tr->indices, prepare_index_words, prepare_fill_indices, 1);
+	if (!err)
+		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+	if (!err)
+		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = upload(tr, BUFFER_OWNER, p->owner, p->n_vertices, sizeof(*p->owner));
+	if (!err)
+		err = reserve(tr, BUFFER_VERTICES, p->n_vertices, sizeof(struct shaded_vertex));
+	if (!err)
+		err = reserve(tr, BUFFER_WINDOWS, p->n_vertices, sizeof(struct window_vertex));
+	if (!err)
+		err = reserve(tr, BUFFER_CLIPS, p->n_vertices, 4 * sizeof(float));
+	if (!err)
+		err = reserve(tr, BUFFER_TEXCOORDS, p->n_texcoords, 4 * sizeof(float));
+	if (err)
+		return err;
+	l = launch_with_tables(tr);
+	add(&l, tr, BUFFER_VIEWS);
+	add(&l, tr, BUFFER_OWNER);
+	add_uint(&l, &job->height);
+	add_uint(&l, &p->n_vertices);
+	add(&l, tr, BUFFER_VERTICES);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_CLIPS);
+	add(&l, tr, BUFFER_TEXCOORDS);
+	return run(tr, KERNEL_vertex, p->n_vertices, &l);
+}
+
+/* Eye-space positions of the instances whose trees are built there; NULL in *out where there are none. */
+static int read_baked(struct job *job, float (**out)[4])
+{
+	struct prepared *p = &job->prepared;
+	int err = 0;
+
+	*out = NULL;
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		const struct geometry *g = &p->geometries[i];
+		struct shaded_vertex *vertices;
+
+		if (!(p->instances[i].flags & INSTANCE_BAKED) || g->vertex_count == 0)
+			continue;
+		if (!*out)
+			*out = calloc(p->n_vertices, sizeof(**out));
+		vertices = malloc(g->vertex_count * sizeof(*vertices));
+		if (!*out || !vertices) {
+			free(vertices);
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		}
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		                  vertices, g->vertex_count * sizeof(*vertices));
+		for (uint32_t v = 0; v < g->vertex_count; v++)
+			memcpy((*out)[g->vertex_first + v], vertices[v].eye, sizeof(**out));
+		free(vertices);
+	}
+	return err;
+}
+
+/* Order numbers run on through the frame's instances in draw order, whatever became of them. */
+static void number_primitives(struct job *job)
+{
+	struct prepared *p = &job->prepared;
+
+	for (uint32_t i = 0; i < p->n_instances; i++)
+		p->instances[i].primitive_first = job->scene->instances[p->instances[i].scene_instance].first_primitive;
+}
+
+static int build_trees(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	struct scene scene = *job->scene; /* with a view for each segment */
+	float (*baked)[4];
+	int err = read_baked(job, &baked);
+
+	number_primitives(job);
+	scene.views = p->scene_views;
+	scene.n_views = p->n_views;
+	if (!err)
+		err = accel_build_frame(tr->accel, &scene, NULL, (const float (*)[4])baked, p->instances, p->n_instances,
+		                        p->views, &job->spaces, &job->n_spaces);
+	free(baked);
+	if (!err)
+		err = upload(tr, BUFFER_INSTANCES, p->instances, p->n_instances, sizeof(*p->instances));
+	if (!err)
+		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = upload_trees(job);
+	return err;
+}
+
+/* --- Secondary rays ------------------------------------------------------------------------------------------------ */
+
+static const struct accel_space *space_of_view(const struct job *job, uint32_t view)
+{
+	for (uint32_t i = 0; i < job->n_spaces; i++)
+		if (job->spaces[i].space == job->prepared.scene_views[view].space && job->spaces[i].n_nodes)
+			return &job->spaces[i];
+	return NULL;
+}
+
+/* Trace n rays through a space: packets over binary trees where the device likes them and rays run side by side. */
+static int trace_rays(struct job *job, const struct accel_space *space, enum buffer rays, enum buffer results, uint32_t n,
+                      int occlude)
+{
+	struct tracer *tr = job->tr;
+	int packets = device_prefers_packets(tr->dev) && occlude;
+	enum device_kernel kernel = occlude ? (packets ? KERNEL_occlude_packet : KERNEL_occlude_wide) :
+	                                      KERNEL_intersect_wide;
+	uint32_t top = packets ? space->top2_first : space->top8_first;
+	struct launch l = { .n = 0 };
+
+	add_uint(&l, &n);
+	add(&l, tr, rays);
+	add_uint(&l, &top);
+	add(&l, tr, packets ? BUFFER_TOP2 : BUFFER_TOP8);
+	add(&l, tr, BUFFER_INSTANCE_LIST);
+	add(&l, tr, BUFFER_INSTANCES);
+	add(&l, tr, packets ? BUFFER_NODES2 : BUFFER_NODES8);
+	add(&l, tr, packets ? BUFFER_TRIANGLES : BUFFER_TRIANGLES8);
+	add(&l, tr, results);
+	return run(tr, kernel, packets ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, &l);
+}
+
+/* Ask all lights from all fragments of the list: BUFFER_STOPPED[slot][fragment]. */
+static int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	uint32_t slots = job->prepared.n_light_slots, n_rays = slots * n;
+	struct launch l = launch_with_tables(tr);
+	int err = reserve(tr, BUFFER_RAYS, n_rays, sizeof(struct ray));
+
+	if (!err)
+		err = reserve(tr, BUFFER_STOPPED, n_rays, sizeof(uint32_t));
+	if (err)
+		return err;
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_SHADED);
+	add_uint(&l, &n);
+	add_uint(&l, &n_rays);
+	add(&l, tr, BUFFER_RAYS);
+	err = run(tr, KERNEL_shadow_ray, n_rays, &l);
+	return err ? err : trace_rays(job, space, BUFFER_RAYS, BUFFER_STOPPED, n_rays, 1);
+}
+
+/* The same from the hits of reflected rays. */
+static int trace_hit_shadows(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	uint32_t slots = job->prepared.n_light_slots, n_rays = slots * n;
+	struct launch l = launch_with_tables(tr);
+	int err;
+
+	add(&l, tr, BUFFER_HITS);
+	add(&l, tr, BUFFER_MIRROR_RAYS);
+	add(&l, tr, BUFFER_WANTED);
+	add_uint(&l, &n);
+	add_uint(&l, &n_rays);
+	add(&l, tr, BUFFER_RAYS);
+	err = run(tr, KERNEL_hit_ray, n_rays, &l);
+	return err ? err : trace_rays(job, space, BUFFER_RAYS, BUFFER_STOPPED, n_rays, 1);
+}
+
+static int shade_hits(struct job *job, uint32_t finish, uint32_t last, uint32_t slots, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_HITS);
+	add_uint(&l, &finish);
+	add_uint(&l, &last);
+	add(&l, tr, BUFFER_STOPPED);
+	add_uint(&l, &slots);
+	add_uint(&l, &n);
+	add(&l, tr, BUFFER_BACKGROUND);
+	add(&l, tr, BUFFER_WANTED);
+	add(&l, tr, BUFFER_MIRROR_RAYS);
+	add(&l, tr, BUFFER_SHARES);
+	add(&l, tr, BUFFER_SHADED);
+	return run(tr, KERNEL_shade_hit, n, &l);
+}
+
+/* Follow the mirrors of all fragments of the list, bounce by bounce. */
+static int trace_mirrors(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	uint32_t slots = job->prepared.n_light_slots;
+	struct launch l = launch_with_tables(tr);
+	int err = reserve(tr, BUFFER_MIRROR_RAYS, n, sizeof(struct ray));
+
+	if (!err)
+		err = reserve(tr, BUFFER_SHARES, n, sizeof(float));
+	if (!err)
+		err = reserve(tr, BUFFER_HITS, n, sizeof(struct hit));
+	if (!err)
+		err = reserve(tr, BUFFER_WANTED, n, sizeof(uint32_t));
+	if (!err)
+		err = reserve(tr, BUFFER_RAYS, (size_t)slots * n, sizeof(struct ray));
+	if (!err)
+		err = reserve(tr, BUFFER_STOPPED, (size_t)slots * n, sizeof(uint32_t));
+	if (!err)
+		err = upload(tr, BUFFER_BACKGROUND, job->background, 4, sizeof(float));
+	if (err)
+		return err;
+	add(&l, tr, BUFFER_VIEWS);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_PIXELS);
+	add_uint(&l, &job->width);
+	add_uint(&l, &n);
+	add(&l, tr, BUFFER_SHADED);
+	add(&l, tr, BUFFER_MIRROR_RAYS);
+	add(&l, tr, BUFFER_SHARES);
+	err = run(tr, KERNEL_mirror_ray, n, &l);
+	for (unsigned bounce = 0; bounce < job->options->depth && !err; bounce++) {
+		err = trace_rays(job, space, BUFFER_MIRROR_RAYS, BUFFER_HITS, n, 0);
+		if (!err && slots)
+			err = shade_hits(job, 0, 0, 0, n);
+		if (!err && slots)
+			err = trace_hit_shadows(job, space, n);
+		if (!err)
+			err = shade_hits(job, 1, bounce + 1 == job->options->depth, slots, n);
+	}
+	return err;
+}
+
+/* --- Segments ------------------------------------------------------------------------------------------------------ */
+
+static struct camera_rectangle view_rectangle(const struct job *job, const struct view *view)
+{
+	return camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2], view->scissor[3], job->width,
+	                        job->height);
+}
+
+static uint32_t rectangle_area(struct camera_rectangle r)
+{
+	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
+}
+
+static int run_clear(struct job *job, const struct scene_clear *clear)
+{
+	struct camera_rectangle r = camera_rectangle(clear->scissor[0], clear->scissor[1], clear->scissor[2],
+	                                             clear->scissor[3], job->width, job->height);
+	uint32_t n = rectangle_area(r);
+	struct launch l = { .n = 0 };
+
+	if (clear->target != 0)
+		return 0;
+	if (clear->buffers & 1)
+		memcpy(job->background, clear->color, sizeof(job->background));
+	add_bytes(&l, clear, sizeof(*clear));
+	add_bytes(&l, &r, sizeof(r));
+	add_uint(&l, &job->width);
+	add_uint(&l, &job->bits);
+	add_uint(&l, &n);
+	add(&l, job->tr, BUFFER_FRAME);
+	return run(job->tr, KERNEL_clear, n, &l);
+}
+
+static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
+{
+	struct tracer *tr = job->tr;
+	int packets = device_prefers_packets(tr->dev);
+	struct launch l = { .n = 0 };
+
+	add_uint(&l, &segment->view);
+	add(&l, tr, BUFFER_VIEWS);
+	add_uint(&l, &job->width);
+	add_uint(&l, &job->height);
+	add_uint(&l, &segment->mode);
+	add(&l, tr, BUFFER_INSTANCES);
+	add(&l, tr, BUFFER_TOP2);
+	add(&l, tr, BUFFER_INSTANCE_LIST);
+	add(&l, tr, BUFFER_NODES2);
+	add(&l, tr, BUFFER_TRIANGLES);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_CLIPS);
+	add(&l, tr, BUFFER_AFTER);
+	add(&l, tr, BUFFER_SPARSE);
+	add(&l, tr, BUFFER_COUNTS);
+	return run(tr, packets ? KERNEL_camera_packet : KERNEL_camera_wide,
+	           packets ? camera_packet_items(r) : camera_wide_items(r), &l);
+}
+
+/*
+ * Where each pixel's fragments go in the dense list, in BUFFER_FIRST.
+ * @param n_list  receives how many there are
+ * @param more    receives 1 where a pixel's slots were all filled: its column may go on
+ */
+static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t *n_list, int *more)
+{
+	struct tracer *tr = job->tr;
+	uint32_t next = 0;
+	int err = device_read(tr->dev, tr->buffers[BUFFER_COUNTS], 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
+
+	*more = 0;
+	for (int32_t y = r.y0; y < r.y1 && !err; y++)
+		for (int32_t x = r.x0; x < r.x1; x++) {
+			size_t pixel = (size_t)y * job->width + (size_t)x;
+
+			tr->first[pixel] = next;
+			next += tr->counts[pixel];
+			*more |= slots > 1 && tr->counts[pixel] == slots;
+		}
+	*n_list = next;
+	return err ? err : upload(tr, BUFFER_FIRST, tr->first, job->n_pixels, sizeof(*tr->first));
+}
+
+static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t n_list)
+{
+	struct tracer *tr = job->tr;
+	uint32_t n = rectangle_area(r);
+	struct launch l = { .n = 0 };
+	int err = reserve(tr, BUFFER_FRAGMENTS, n_list, sizeof(struct fragment));
+
+	if (!err)
+		err = reserve(tr, BUFFER_PIXELS, n_list, sizeof(uint32_t));
+	if (!err)
+		err = reserve(tr, BUFFER_SHADED, n_list, sizeof(struct shaded));
+	if (err)
+		return err;
+	add(&l, tr, BUFFER_SPARSE);
+	add(&l, tr, BUFFER_COUNTS);
+	add_uint(&l, &slots);
+	add(&l, tr, BUFFER_FIRST);
+	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_PIXELS);
+	add(&l, tr, BUFFER_AFTER);
+	add_bytes(&l, &r, sizeof(r));
+	add_uint(&l, &job->width);
+	add_uint(&l, &n);
+	return run(tr, KERNEL_gather, n, &l);
+}
+
+static int run_shade(struct job *job, uint32_t slots, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_VIEWS);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_PIXELS);
+	add_uint(&l, &job->width);
+	add_uint(&l, &job->height);
+	add_uint(&l, &job->bits);
+	add(&l, tr, BUFFER_STOPPED);
+	add_uint(&l, &slots);
+	add_uint(&l, &n);
+	add(&l, tr, BUFFER_SHADED);
+	return run(tr, KERNEL_shade, n, &l);
+}
+
+static int run_resolve(struct job *job, struct camera_rectangle r)
+{
+	struct tracer *tr = job->tr;
+	uint32_t n = rectangle_area(r);
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_SHADED);
+	add(&l, tr, BUFFER_FIRST);
+	add(&l, tr, BUFFER_COUNTS);
+	add_bytes(&l, &r, sizeof(r));
+	add_uint(&l, &job->width);
+	add_uint(&l, &job->bits);
+	add_uint(&l, &n);
+	add(&l, tr, BUFFER_FRAME);
+	return run(tr, KERNEL_resolve, n, &l);
+}
+
+/* The fragments of the list: GL's colours, then shadows, then mirrors. */
+static int shade_list(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	int err = run_shade(job, 0, n);
+
+	if (job->options->mode != TRACER_WHITTED || !space)
+		return err;
+	if (!err && job->prepared.n_light_slots) {
+		err = trace_shadows(job, space, n);
+		if (!err)
+			err = run_shade(job, job->prepared.n_light_slots, n);
+	}
+	if (!err && job->prepared.has_mirrors && job->options->depth)
+		err = trace_mirrors(job, space, n);
+	return err;
+}
+
+static int run_segment(struct job *job, const struct segment *segment)
+{
+	struct tracer *tr = job->tr;
+	struct camera_rectangle r;
+	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
+	int more = 1, err = 0;
+
+	for (uint32_t i = 0; i < segment->clear_count && !err; i++)
+		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
+	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
+		return err;
+	r = view_rectangle(job, &job->prepared.views[segment->view]);
+	if (rectangle_area(r) == 0)
+		return 0;
+	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
+	err = upload(tr, BUFFER_AFTER, tr->counts, job->n_pixels, sizeof(*tr->counts));
+	if (!err)
+		err = reserve(tr, BUFFER_SPARSE, (size_t)slots * job->n_pixels, sizeof(struct fragment));
+	while (more && !err) {
+		err = run_camera(job, segment, r);
+		if (!err)
+			err = place_fragments(job, r, slots, &n_list, &more);
+		if (err || n_list == 0)
+			break;
+		err = run_gather(job, r, slots, n_list);
+		if (!err)
+			err = shade_list(job, space_of_view(job, segment->view), n_list);
+		if (!err)
+			err = run_resolve(job, r);
+	}
+	return err;
+}
+
+/* --- Frames -------------------------------------------------------------------------------------------------------- */
+
+static int reserve_pixels(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	int err = 0;
+
+	if (job->n_pixels > tr->n_counted) {
+		free(tr->counts);
+		free(tr->first);
+		tr->n_counted = 0;
+		tr->counts = malloc(job->n_pixels * sizeof(*tr->counts));
+		tr->first = malloc(job->n_pixels * sizeof(*tr->first));
+		if (!tr->counts || !tr->first)
+			return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+		tr->n_counted = job->n_pixels;
+	}
+	err = reserve(tr, BUFFER_COUNTS, job->n_pixels, sizeof(uint32_t));
+	if (!err)
+		err = reserve(tr, BUFFER_FRAME, job->n_pixels, sizeof(struct frame_pixel));
+	if (!err)
+		err = reserve(tr, BUFFER_SURFACE, (size_t)job->n_pixels * SURFACE_PLANES, sizeof(float));
+	if (!err)
+		err = reserve(tr, BUFFER_STOPPED, 1, sizeof(uint32_t));
+	return err;
+}
+
+/* What nobody cleared is black, far and nothing. */
+static int clear_all(struct job *job)
+{
+	struct scene_clear clear = { .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
+		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu };
+
+	return run_clear(job, &clear);
+}
+
+static int run_surface(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_VIEWS);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAME);
+	add_uint(&l, &job->width);
+	add_uint(&l, &job->height);
+	add_uint(&l, &job->n_pixels);
+	add(&l, tr, BUFFER_SURFACE);
+	return run(tr, KERNEL_surface, job->n_pixels, &l);
+}
+
+/* The picture from the device, and what the scene says about it. */
+static int read_image(struct job *job, struct image *img)
+{
+	struct tracer *tr = job->tr;
+	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	float *planes = malloc((size_t)job->n_pixels * SURFACE_PLANES * sizeof(*planes));
+	int err;
+
+	if (!pixels || !planes) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+		goto done;
+	}
+	err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, pixels, job->n_pixels * sizeof(*pixels));
+	if (!err)
+		err = device_read(tr->dev, tr->buffers[BUFFER_SURFACE], 0, planes,
+		                  (size_t)job->n_pixels * SURFACE_PLANES * sizeof(*planes));
+	if (!err)
+		err = compose_image(pixels, planes, job->options, img);
+done:
+	free(pixels);
+	free(planes);
+	return err;
+}
+
+/*
+ * Eye space stands for the world: OpenEXR's worldToCamera is left-handed (+z forward), its worldToNDC has x and y in
+ * [0,1] with y down; both for row vectors, whose rows are our columns.
+ */
+static int describe_camera(const struct job *job, struct image *img)
+{
+	const float *p;
+	float ndc[16];
+
+	if (job->scene->n_views == 0)
+		return 0;
+	p = job->scene->views[0].projection;
+	for (int col = 0; col < 4; col++) {
+		float w = p[4 * col + 3];
+
+		ndc[4 * col] = 0.5f * (p[4 * col] + w);
+		ndc[4 * col + 1] = 0.5f * (w - p[4 * col + 1]);
+		ndc[4 * col + 2] = p[4 * col + 2];
+		ndc[4 * col + 3] = w;
+	}
+	if (image_set_attribute(img, "worldToCamera", "1 0 0 0 0 1 0 0 0 0 -1 0 0 0 0 1"))
+		return ERR_SYSTEM;
+	return image_set_attribute(img, "worldToNDC", "%g %g %g %g %g %g %g %g %g %g %g %g %g %g %g %g", (double)ndc[0],
+	                           (double)ndc[1], (double)ndc[2], (double)ndc[3], (double)ndc[4], (double)ndc[5],
+	                           (double)ndc[6], (double)ndc[7], (double)ndc[8], (double)ndc[9], (double)ndc[10],
+	                           (double)ndc[11], (double)ndc[12], (double)ndc[13], (double)ndc[14], (double)ndc[15]);
+}
+
+static int describe_image(const struct job *job, struct image *img)
+{
+	int err = image_set_attribute(img, "relume:frame", "%llu", (unsigned long long)job->scene->frame);
+
+	if (!err)
+		err = image_set_attribute(img, "relume:device", "%s", device_name(job->tr->dev));
+	if (!err)
+		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
+	return err ? err : describe_camera(job, img);
+}
+
+static void count_undrawn(struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	for (uint32_t i = 0; i < scene->n_instances; i++) {
+		const struct scene_mesh *mesh = scene->meshes[scene->instances[i].mesh];
+
+		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
+		job->tr->undrawn.lines += mesh->kind == SCENE_LINES ? mesh->primitive_count : 0;
+		job->tr->undrawn.points += mesh->kind == SCENE_POINTS ? mesh->primitive_count : 0;
+	}
+}
+
+int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                  struct image *img)
+{
+	struct job job = { .tr = tracer, .scene = scene, .options = options, .width = scene->width,
+		           .height = scene->height };
+	int err;
+
+	if (scene->width == 0 || scene->height == 0 || scene->width > 16384 || scene->height > 16384)
+		return err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered",
+		                  (unsigned long long)scene->frame, scene->width, scene->height);
+	job.n_pixels = scene->width * scene->height;
+	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
+	count_undrawn(&job);
+	err = prepare_frame(scene, &job.prepared);
+	if (err)
+		return err;
+	err = upload_state(&job);
+	if (!err)
+		err = run_vertices(&job);
+	if (!err)
+		err = build_trees(&job);
+	if (!err)
+		err = reserve_pixels(&job);
+	if (!err)
+		err = clear_all(&job);
+	for (uint32_t i = 0; i < job.prepared.n_segments && !err; i++)
+		err = run_segment(&job, &job.prepared.segments[i]);
+	if (!err)
+		err = run_surface(&job);
+	img->width = job.width;
+	img->height = job.height;
+	if (!err)
+		err = read_image(&job, img);
+	if (!err)
+		err = describe_image(&job, img);
+	prepared_free(&job.prepared);
+	if (err)
+		image_free(img);
+	return err;
+}

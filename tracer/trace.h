@@ -1,0 +1,53 @@
+/*
+ * The wavefront: a scene becomes a picture on a device.
+ *
+ * Per frame: vertex stage; acceleration structures; then segment by segment (prepare.h), in draw order: clears, camera
+ * rays, fragments gathered, shaded, lit again where shadow rays were stopped, mirrors followed, and all of it put
+ * through the per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
+ */
+#ifndef TRACER_TRACE_H
+#define TRACER_TRACE_H
+
+#include "replay/scene.h"
+#include "tracer/device.h"
+#include "tracer/image.h"
+
+enum tracer_mode {
+	TRACER_WHITTED, /* GL's picture, hard shadows, mirrors */
+	TRACER_GL,      /* GL's picture alone: beauty equals gl */
+	TRACER_NORMALS  /* eye-space normals as colours */
+};
+
+struct tracer_options {
+	enum tracer_mode mode;
+	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
+	unsigned depth;   /* mirror bounces at most */
+	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
+};
+
+struct tracer;
+
+/** @param dev  kept until tracer_destroy. @return 0 or ERR_SYSTEM (reported) */
+int tracer_create(struct tracer **out, struct device *dev);
+void tracer_destroy(struct tracer **tracer);
+
+/** 0, or ERR_USAGE (reported) where a list of channel groups names one that is not there. */
+int tracer_check_aov(const char *aov);
+
+/**
+ * Render one frame.
+ * @param img  empty; receives the channels, and the attributes that the scene and device know (relume:frame,
+ *             relume:device, relume:encoding, camera); free with image_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                  struct image *img);
+
+/** Primitives met so far that the tracer does not draw yet, by kind; all 0 where everything is drawn. */
+struct tracer_undrawn {
+	uint64_t lines, points;
+	uint64_t targets; /* instances that drew to a target other than the window */
+};
+const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
+
+#endif
