@@ -10,6 +10,10 @@
 #include <dlfcn.h> /* link with -ldl before glibc 2.34 */
 #include <stddef.h>
 
+#ifndef RTLD_DEFAULT /* glibc shows it only with _GNU_SOURCE */
+#define RTLD_DEFAULT ((void *)0)
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -128,9 +128,10 @@ static void draw(void)
 	gluLookAt(eye[0], eye[1], 3.6, 0, 0, 0, 0, 1, 0);
 	glLightfv(GL_LIGHT0, GL_POSITION, light);
 
-	rtMaterialEXT(program.mirror ? RT_MIRROR_EXT : RT_MATTE_EXT);
+	if (program.mirror)
+		rtMaterialEXT(RT_MIRROR_EXT, 0.9f, 1);
 	glDrawArrays(GL_TRIANGLES, 0, RED_WALL_VERTICES);
-	rtMaterialEXT(RT_MATTE_EXT);
+	rtMaterialEXT(RT_MATTE_EXT, 0, 1);
 	glDrawArrays(GL_TRIANGLES, RED_WALL_VERTICES, 3 * N_TRIANGLES - RED_WALL_VERTICES);
 }
 

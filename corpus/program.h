@@ -23,7 +23,7 @@
 #include "../capture/relume.h"
 #else
 enum { RT_MATTE_EXT, RT_MIRROR_EXT, RT_GLASS_EXT };
-#define rtMaterialEXT(material) ((void)(material))
+#define rtMaterialEXT(kind, amount, ior) ((void)(kind), (void)(amount), (void)(ior))
 #endif
 
 enum { PROGRAM_WIDTH = 800, PROGRAM_HEIGHT = 600 };

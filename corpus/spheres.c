@@ -86,13 +86,13 @@ static void draw(void)
 	gluLookAt(2 * sway, 0.8, 6, 0, 0, 0, 0, 1, 0);
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ -4 * cosf(light), 8, 4 + 4 * sinf(light), 1 });
 
-	rtMaterialEXT(RT_MATTE_EXT);
+	rtMaterialEXT(RT_MATTE_EXT, 0, 1);
 	draw_floor();
-	rtMaterialEXT(RT_MIRROR_EXT);
+	rtMaterialEXT(RT_MIRROR_EXT, 0.9f, 1);
 	draw_sphere(1.1f, 0.1f, -1.2f, (const float[]){ 0.75f, 0.75f, 0.75f, 1 });
-	rtMaterialEXT(RT_GLASS_EXT);
+	rtMaterialEXT(RT_GLASS_EXT, 0.9f, 1.5f);
 	draw_sphere(-0.6f, 0.5f, 1.4f, (const float[]){ 0.85f, 0.9f, 0.95f, 1 });
-	rtMaterialEXT(RT_MATTE_EXT);
+	rtMaterialEXT(RT_MATTE_EXT, 0, 1);
 }
 
 int main(int argc, char **argv)
