@@ -1,0 +1,284 @@
+/* relume diff: score traced frames against their references, or any two sets of images. */
+#include "base/verbs.h"
+
+#include <getopt.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/frames.h"
+#include "base/progress.h"
+#include "diff/output.h"
+#include "diff/score.h"
+#include "diff/set.h"
+
+/* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
+#define MAX_ASKED 1000000
+
+struct options {
+	const char *reference, *traced, *json, *junit;
+	struct frame_list frames;
+	struct score_options score;
+};
+
+static void print_help(FILE *out)
+{
+	fputs("usage: relume diff [OPTIONS] REF TRACED\n"
+	      "\n"
+	      "Score traced frames against their references, frame by frame and gate by gate.\n"
+	      "\n"
+	      "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
+	      "TRACED  images: what 'relume render' wrote, or any\n"
+	      "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
+	      "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n"
+	      "\n"
+	      "  -f, --frames LIST      frames that must be there and pass, as in 10-60 or 1-500x5; default: all of both sets\n"
+	      "      --channel LAYER    what to compare with the reference: gl (default where there is one), beauty, albedo, ...\n"
+	      "      --effects E=LO:HI  gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent\n"
+	      "                         of the pixels; either may be left out; may be given several times\n"
+	      "      --json FILE        every figure and bar as JSON; - for standard output, instead of the table\n"
+	      "      --junit FILE       JUnit XML, one case for each frame\n"
+	      "  -h, --help             this text\n"
+	      "\n"
+	      "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
+	      "4 there are traced frames without a reference, and all others passed.\n",
+	      out);
+}
+
+/** "shadow=1:40": per cent, either bound may be empty. */
+static int parse_effects(const char *text, struct score_options *options)
+{
+	const char *equals = strchr(text, '='), *colon = equals ? strchr(equals, ':') : NULL;
+	struct score_range range = { N_SCORE_EFFECTS, NAN, NAN };
+	char *end;
+
+	for (int e = 0; equals && e < N_SCORE_EFFECTS; e++)
+		if (strlen(score_effect_names[e]) == (size_t)(equals - text) &&
+		    strncmp(text, score_effect_names[e], (size_t)(equals - text)) == 0)
+			range.effect = (enum score_effect)e;
+	if (!colon || range.effect == N_SCORE_EFFECTS)
+		goto wrong;
+	if (colon > equals + 1) {
+		range.low = strtod(equals + 1, &end) / 100;
+		if (end != colon)
+			goto wrong;
+	}
+	if (colon[1]) {
+		range.high = strtod(colon + 1, &end) / 100;
+		if (*end)
+			goto wrong;
+	}
+	if (options->n_ranges == SCORE_MAX_RANGES)
+		return err_report(ERR_USAGE, NULL, "--effects may be given %d times", SCORE_MAX_RANGES);
+	options->ranges[options->n_ranges++] = range;
+	return 0;
+wrong:
+	return err_report(ERR_USAGE, NULL, "'%s' is no range of an effect; write shadow=1:40 or any=0.5:", text);
+}
+
+/** @return 0 go on, 1 help was printed, or ERR_* (reported) */
+static int parse_options(int argc, char **argv, struct options *o)
+{
+	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_JSON, OPT_JUNIT };
+	static const struct option known[] = {
+		{ "frames", required_argument, NULL, 'f' },
+		{ "channel", required_argument, NULL, OPT_CHANNEL },
+		{ "effects", required_argument, NULL, OPT_EFFECTS },
+		{ "json", required_argument, NULL, OPT_JSON },
+		{ "junit", required_argument, NULL, OPT_JUNIT },
+		{ "help", no_argument, NULL, 'h' },
+		{ NULL, 0, NULL, 0 },
+	};
+	int c, err = 0;
+
+	optind = 1;
+	while (!err && (c = getopt_long(argc, argv, "f:h", known, NULL)) != -1) {
+		switch (c) {
+		case 'f':
+			frame_list_free(&o->frames);
+			err = frame_list_parse(optarg, &o->frames);
+			break;
+		case OPT_CHANNEL: o->score.channel = optarg; break;
+		case OPT_EFFECTS: err = parse_effects(optarg, &o->score); break;
+		case OPT_JSON: o->json = optarg; break;
+		case OPT_JUNIT: o->junit = optarg; break;
+		case 'h':
+			print_help(stdout);
+			return 1;
+		default:
+			err = ERR_USAGE; /* getopt has said why */
+		}
+	}
+	if (err)
+		return err;
+	if (argc - optind != 2)
+		return err_report(ERR_USAGE, NULL, "relume diff takes REF and TRACED; 'relume diff --help' explains");
+	o->reference = argv[optind];
+	o->traced = argv[optind + 1];
+	return 0;
+}
+
+static int compare_frames(const void *a, const void *b)
+{
+	uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+
+	return (x > y) - (x < y);
+}
+
+/** All frames to score: those of both sets that are asked for, and those asked for by number that neither has. */
+static int list_frames(const struct set *ref, const struct set *traced, const struct frame_list *asked, uint64_t **out,
+                       size_t *n_out)
+{
+	const struct set *sets[2] = { ref, traced };
+	uint64_t n_asked = asked->n_ranges && frame_list_last(asked) < MAX_ASKED
+		? frame_list_count(asked, frame_list_last(asked) + 1) : 0;
+	uint64_t *frames = calloc(ref->n_entries + traced->n_entries + n_asked + 1, sizeof(*frames));
+	size_t n = 0, unique = 0;
+
+	if (!frames)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (int s = 0; s < 2; s++)
+		for (size_t i = 0; i < sets[s]->n_entries; i++)
+			if (frame_list_contains(asked, sets[s]->entries[i].frame))
+				frames[n++] = sets[s]->entries[i].frame;
+	for (uint64_t f = 0; n_asked && f <= frame_list_last(asked); f++)
+		if (frame_list_contains(asked, f))
+			frames[n++] = f;
+	qsort(frames, n, sizeof(*frames), compare_frames);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || frames[i] != frames[i - 1])
+			frames[unique++] = frames[i];
+	if (unique == 0) {
+		free(frames);
+		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", ref->name, traced->name);
+	}
+	*out = frames;
+	*n_out = unique;
+	return 0;
+}
+
+/** The layer of a reference image: the compared one if it has it, else gl, else its plain colours. */
+static int take_reference(const struct image *img, const char *channel, struct score_picture *out)
+{
+	const char *layers[] = { channel ? channel : "gl", "gl", "beauty" };
+	int err = ERR_INPUT;
+
+	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]); i++)
+		err = score_picture_from_image(img, layers[i], out);
+	return err;
+}
+
+/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
+static int score_one(struct set *ref, struct set *traced, uint64_t frame, const struct score_options *options,
+                     struct score *out)
+{
+	const struct set_entry *r = set_find(ref, frame), *t = set_find(traced, frame);
+	struct image ref_image = { 0 }, image = { 0 };
+	struct score_picture picture = { 0 };
+	int err = 0;
+
+	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
+	if (!r || !t)
+		return 0;
+	err = set_read(ref, r, &ref_image);
+	if (!err)
+		err = take_reference(&ref_image, options->channel, &picture);
+	if (err == ERR_INPUT && ref_image.n_channels)
+		err_report(ERR_INPUT, r->path ? r->path : ref->name, "the reference has no colour channels");
+	if (!err)
+		err = set_read(traced, t, &image);
+	if (!err)
+		err = score_frame(&picture, &image, frame, options, out);
+	if (err == ERR_INPUT) {
+		out->outcome = SCORE_FRAME_UNREADABLE;
+		err = 0;
+	}
+	score_picture_free(&picture);
+	image_free(&image);
+	image_free(&ref_image);
+	return err;
+}
+
+static int score_all(struct set *ref, struct set *traced, const uint64_t *frames, const struct options *o,
+                     struct output_run *run)
+{
+	struct progress progress;
+	int err = 0;
+
+	progress_begin(&progress, "scored", run->n_scores);
+	for (size_t i = 0; !err && i < run->n_scores; i++) {
+		struct score *s = &run->scores[i];
+		char text[64];
+
+		err = score_one(ref, traced, frames[i], &o->score, s);
+		run->counts[s->outcome]++;
+		snprintf(text, sizeof(text), "%s, fidelity %.3f %%", score_outcome_names[s->outcome], 100 * s->fidelity);
+		progress_step(&progress, frames[i], text);
+	}
+	progress_end(&progress);
+	run->seconds = progress_clock_s() - progress.start_s;
+	return err;
+}
+
+static int exit_code(const struct output_run *run)
+{
+	if (run->counts[SCORE_FRAME_UNREADABLE])
+		return -ERR_INPUT;
+	if (run->counts[SCORE_FRAME_FAILED] || run->counts[SCORE_FRAME_MISSING])
+		return -ERR_FAILED;
+	if (run->counts[SCORE_FRAME_EXTRA])
+		return -ERR_BASELINE;
+	return 0;
+}
+
+int diff_main(int argc, char **argv)
+{
+	struct options o = { 0 };
+	struct set ref = { 0 }, traced = { 0 };
+	struct output_run run = { 0 };
+	uint64_t *frames = NULL;
+	int err = parse_options(argc, argv, &o), code = 0;
+
+	if (err) {
+		frame_list_free(&o.frames);
+		return err > 0 ? 0 : -err;
+	}
+	err = set_open(o.reference, &ref);
+	if (!err)
+		err = set_open(o.traced, &traced);
+	if (err)
+		goto fail;
+	/* Two single images are a pair whatever their numbers. */
+	if (ref.is_single && traced.is_single)
+		ref.entries[0].frame = traced.entries[0].frame;
+	err = list_frames(&ref, &traced, &o.frames, &frames, &run.n_scores);
+	if (err)
+		goto fail;
+	run.scores = calloc(run.n_scores, sizeof(*run.scores));
+	if (!run.scores) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto fail;
+	}
+	run.reference = ref.name;
+	run.traced = o.traced;
+	run.channel = o.score.channel;
+
+	err = score_all(&ref, &traced, frames, &o, &run);
+	if (!err && o.json)
+		err = output_json(&run, o.json);
+	if (!err && o.junit)
+		err = output_junit(&run, o.junit);
+	if (!err && !(o.json && strcmp(o.json, "-") == 0))
+		output_table(&run, stdout);
+	code = exit_code(&run);
+fail:
+	free(run.scores);
+	free(frames);
+	set_free(&traced);
+	set_free(&ref);
+	frame_list_free(&o.frames);
+	return err ? -err : code;
+}

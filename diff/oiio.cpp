@@ -1,0 +1,153 @@
+#include "diff/oiio.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+extern "C" {
+#include "base/err.h"
+}
+
+namespace {
+
+/* Large enough for any frame, small enough that a lying header cannot take all memory. */
+constexpr int64_t MAX_PIXELS = int64_t(1) << 28;
+constexpr int MAX_CHANNELS = 256;
+
+bool is_integer(const OIIO::TypeDesc &format)
+{
+	return !format.is_floating_point();
+}
+
+/** Copy channel `from` of interleaved pixels into a new channel of the image. */
+bool add_channel(struct image *img, const char *name, bool full_float, const std::vector<float> &pixels, int n_channels,
+                 int from)
+{
+	float *plane = image_add_channel(img, name, full_float);
+	const size_t n = size_t(img->width) * img->height;
+
+	if (!plane)
+		return false;
+	for (size_t i = 0; i < n; i++)
+		plane[i] = pixels[i * size_t(n_channels) + size_t(from)];
+	return true;
+}
+
+int fill(struct image *img, const OIIO::ImageSpec &spec, const std::vector<float> &pixels, const char *path)
+{
+	const bool full_float = spec.format == OIIO::TypeDesc::FLOAT || is_integer(spec.format);
+	const bool grey = spec.nchannels <= 2 && spec.channel_name(0) != "R";
+
+	img->width = uint32_t(spec.width);
+	img->height = uint32_t(spec.height);
+	if (grey) {
+		for (const char *name : { "R", "G", "B" })
+			if (!add_channel(img, name, full_float, pixels, spec.nchannels, 0))
+				return ERR_SYSTEM;
+		if (spec.nchannels == 2 && !add_channel(img, "A", full_float, pixels, 2, 1))
+			return ERR_SYSTEM;
+	}
+	for (int c = 0; !grey && c < spec.nchannels; c++) {
+		const std::string name = spec.channel_name(c);
+
+		if (name.empty() || name.size() >= sizeof(img->channels[0].name))
+			return err_report(ERR_INPUT, path, "channel %d has no usable name", c);
+		if (!add_channel(img, name.c_str(), full_float, pixels, spec.nchannels, c))
+			return ERR_SYSTEM;
+	}
+	for (const char *name : { "relume:frame", "relume:encoding", "relume:trace", "relume:device" }) {
+		const std::string text = spec.get_string_attribute(name);
+
+		if (!text.empty() && image_set_attribute(img, name, "%s", text.c_str()) != 0)
+			return ERR_SYSTEM;
+	}
+	if (!image_attribute(img, "relume:encoding"))
+		return image_set_attribute(img, "relume:encoding", "%s", is_integer(spec.format) ? "display" : "linear");
+	return 0;
+}
+
+int read_image(struct image *img, const char *path)
+{
+	OIIO::ImageSpec config;
+
+	/* Numbers as stored: colour of transparent pixels must not be multiplied down. */
+	config.attribute("oiio:UnassociatedAlpha", 1);
+	auto in = OIIO::ImageInput::open(path, &config);
+	if (!in)
+		return err_report(ERR_INPUT, path, "%s", OIIO::geterror().c_str());
+	const OIIO::ImageSpec spec = in->spec();
+	if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
+	    int64_t(spec.width) * spec.height > MAX_PIXELS)
+		return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
+		                  spec.height, spec.depth, spec.nchannels);
+	std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+	if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+		return err_report(ERR_INPUT, path, "%s", in->geterror().c_str());
+	int err = fill(img, spec, pixels, path);
+	if (err)
+		image_free(img);
+	return err;
+}
+
+int encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+               size_t *out_bytes)
+{
+	std::vector<unsigned char> bytes;
+	OIIO::Filesystem::IOVecOutput proxy(bytes);
+	auto png = OIIO::ImageOutput::create("memory.png", &proxy);
+	OIIO::ImageSpec spec(int(width), int(height), channels, OIIO::TypeDesc::UINT8);
+
+	spec.attribute("png:compressionLevel", level);
+	spec.attribute("oiio:UnassociatedAlpha", 1);
+	if (!png || !png->open("memory.png", spec) || !png->write_image(OIIO::TypeDesc::UINT8, pixels) || !png->close())
+		return err_report(ERR_SYSTEM, NULL, "PNG: %s",
+		                  png ? png->geterror().c_str() : OIIO::geterror().c_str());
+	*out = static_cast<uint8_t *>(malloc(bytes.size() ? bytes.size() : 1));
+	if (!*out)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	memcpy(*out, bytes.data(), bytes.size());
+	*out_bytes = bytes.size();
+	return 0;
+}
+
+} // namespace
+
+int oiio_read(struct image *img, const char *path)
+{
+	try {
+		return read_image(img, path);
+	} catch (const std::exception &e) {
+		image_free(img);
+		return err_report(ERR_SYSTEM, path, "%s", e.what());
+	}
+}
+
+int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+                    size_t *out_bytes)
+{
+	try {
+		return encode_png(pixels, width, height, channels, level, out, out_bytes);
+	} catch (const std::exception &e) {
+		return err_report(ERR_SYSTEM, NULL, "PNG: %s", e.what());
+	}
+}
+
+int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
+                   const uint8_t rgb[3])
+{
+	try {
+		OIIO::ImageBuf buf(OIIO::ImageSpec(int(width), int(height), 3, OIIO::TypeDesc::UINT8), pixels);
+		const float color[3] = { rgb[0] / 255.0f, rgb[1] / 255.0f, rgb[2] / 255.0f };
+
+		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, "", color) ? 0 : ERR_SYSTEM;
+	} catch (const std::exception &) {
+		return ERR_SYSTEM;
+	}
+}
