@@ -19,7 +19,7 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c arrays.c memory.c writer.c reference.c)

@@ -528,7 +528,7 @@ static void gate_effects(const struct image *img, const struct score_options *op
 		}
 		if (!ch[c][LAYER_BEAUTY] || !ch[c][LAYER_GL]) {
 			for (int g = GATE_E1; g <= GATE_E3; g++)
-				note(s, (enum score_gate_id)g, "the frame has no channels R, gl.R and so on");
+				note(s, (enum score_gate_id)g, "the frame has no channels R and gl.R");
 			return;
 		}
 	}
