@@ -94,8 +94,8 @@ $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 KERNELS := $(wildcard kernels/*.cl)
 $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
 	@mkdir -p $(@D)
-	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.d) . $(BUILD)/gen -- $(KERNELS)
--include $(BUILD)/gen/kernels.d
+	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS)
+-include $(BUILD)/gen/kernels.dep
 
 # Rebuilt when flags change. Nothing is compiled before what it needs is installed.
 $(BUILD)/flags: FORCE | $(BUILD)/deps

@@ -61,7 +61,7 @@ static inline struct vec4 combine_plain(uint32_t mode, uint32_t format, struct v
 
 /* One argument; `alpha` asks for what feeds the alpha equation (w of the result). samples: of all enabled units. */
 static inline struct vec4 combine_argument(uint32_t source, uint32_t operand, struct vec4 previous, struct vec4 texture,
-                                           struct vec4 primary, struct vec4 constant, const struct vec4 *samples)
+                                           struct vec4 primary, struct vec4 own, const struct vec4 *samples)
 {
 	struct vec4 a = previous;
 
@@ -70,7 +70,7 @@ static inline struct vec4 combine_argument(uint32_t source, uint32_t operand, st
 	else if (source == GL_PRIMARY_COLOR)
 		a = primary;
 	else if (source == GL_CONSTANT)
-		a = constant;
+		a = own;
 	else if (source == GL_ZERO)
 		a = v4(0.0f, 0.0f, 0.0f, 0.0f);
 	else if (source == GL_ONE)
@@ -120,13 +120,13 @@ static inline struct vec4 combine_function(uint32_t function, struct vec4 a, str
 static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, struct vec4 previous, struct vec4 texture,
                                        struct vec4 primary, const struct vec4 *samples)
 {
-	struct vec4 constant = v4_load(unit->env_color), rgb[3], alpha[3], color, out;
+	struct vec4 own = v4_load(unit->env_color), rgb[3], alpha[3], color, out;
 
 	for (int i = 0; i < 3; i++) {
-		rgb[i] = combine_argument(unit->source_rgb[i], unit->operand_rgb[i], previous, texture, primary, constant,
+		rgb[i] = combine_argument(unit->source_rgb[i], unit->operand_rgb[i], previous, texture, primary, own,
 		                          samples);
 		alpha[i] = combine_argument(unit->source_alpha[i], unit->operand_alpha[i], previous, texture, primary,
-		                            constant, samples);
+		                            own, samples);
 	}
 	color = v4_scale(combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]), unit->scale_rgb);
 	out = v4_scale(combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]), unit->scale_alpha);
