@@ -29,7 +29,7 @@ COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kerne
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_CXX := $(wildcard diff/*.cpp)
 
-COMMAND_GEN := $(BUILD)/gen/kernels.c
+COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/page.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -38,7 +38,8 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
-	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl
+	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \
+	fonts-dejavu-core
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
@@ -96,6 +97,12 @@ $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS)
 -include $(BUILD)/gen/kernels.dep
+
+# The report's page, as one string of C.
+$(BUILD)/gen/page.c: diff/page.html
+	@mkdir -p $(@D)
+	$(Q)(echo '#include "diff/report.h"'; echo 'const char report_page[] ='; \
+		sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
 
 # Rebuilt when flags change. Nothing is compiled before what it needs is installed.
 $(BUILD)/flags: FORCE | $(BUILD)/deps

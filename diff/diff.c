@@ -12,6 +12,8 @@
 #include "base/frames.h"
 #include "base/progress.h"
 #include "diff/output.h"
+#include "diff/pictures.h"
+#include "diff/report.h"
 #include "diff/score.h"
 #include "diff/set.h"
 
@@ -19,7 +21,7 @@
 #define MAX_ASKED 1000000
 
 struct options {
-	const char *reference, *traced, *json, *junit;
+	const char *reference, *traced, *report, *json, *junit;
 	struct frame_list frames;
 	struct score_options score;
 };
@@ -39,6 +41,7 @@ static void print_help(FILE *out)
 	      "      --channel LAYER    what to compare with the reference: gl (default where there is one), beauty, albedo, ...\n"
 	      "      --effects E=LO:HI  gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent\n"
 	      "                         of the pixels; either may be left out; may be given several times\n"
+	      "      --report DIR       DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet\n"
 	      "      --json FILE        every figure and bar as JSON; - for standard output, instead of the table\n"
 	      "      --junit FILE       JUnit XML, one case for each frame\n"
 	      "  -h, --help             this text\n"
@@ -82,11 +85,12 @@ wrong:
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
 static int parse_options(int argc, char **argv, struct options *o)
 {
-	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_JSON, OPT_JUNIT };
+	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_REPORT, OPT_JSON, OPT_JUNIT };
 	static const struct option known[] = {
 		{ "frames", required_argument, NULL, 'f' },
 		{ "channel", required_argument, NULL, OPT_CHANNEL },
 		{ "effects", required_argument, NULL, OPT_EFFECTS },
+		{ "report", required_argument, NULL, OPT_REPORT },
 		{ "json", required_argument, NULL, OPT_JSON },
 		{ "junit", required_argument, NULL, OPT_JUNIT },
 		{ "help", no_argument, NULL, 'h' },
@@ -103,6 +107,7 @@ static int parse_options(int argc, char **argv, struct options *o)
 			break;
 		case OPT_CHANNEL: o->score.channel = optarg; break;
 		case OPT_EFFECTS: err = parse_effects(optarg, &o->score); break;
+		case OPT_REPORT: o->report = optarg; break;
 		case OPT_JSON: o->json = optarg; break;
 		case OPT_JUNIT: o->junit = optarg; break;
 		case 'h':
@@ -160,17 +165,6 @@ static int list_frames(const struct set *ref, const struct set *traced, const st
 	return 0;
 }
 
-/** The layer of a reference image: the compared one if it has it, else gl, else its plain colours. */
-static int take_reference(const struct image *img, const char *channel, struct score_picture *out)
-{
-	const char *layers[] = { channel ? channel : "gl", "gl", "beauty" };
-	int err = ERR_INPUT;
-
-	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]); i++)
-		err = score_picture_from_image(img, layers[i], out);
-	return err;
-}
-
 /** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
 static int score_one(struct set *ref, struct set *traced, uint64_t frame, const struct score_options *options,
                      struct score *out)
@@ -185,7 +179,7 @@ static int score_one(struct set *ref, struct set *traced, uint64_t frame, const 
 		return 0;
 	err = set_read(ref, r, &ref_image);
 	if (!err)
-		err = take_reference(&ref_image, options->channel, &picture);
+		err = picture_take_reference(&ref_image, options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
 		err_report(ERR_INPUT, r->path ? r->path : ref->name, "the reference has no colour channels");
 	if (!err)
@@ -221,6 +215,23 @@ static int score_all(struct set *ref, struct set *traced, const uint64_t *frames
 	progress_end(&progress);
 	run->seconds = progress_clock_s() - progress.start_s;
 	return err;
+}
+
+/** "relume" and all words of the verb, for the page; the caller's, NULL without memory. getopt has sorted the words. */
+static char *join_command(int argc, char **argv)
+{
+	size_t size = sizeof("relume");
+	char *text;
+
+	for (int i = 0; i < argc; i++)
+		size += strlen(argv[i]) + 1;
+	text = malloc(size);
+	if (!text)
+		return NULL;
+	strcpy(text, "relume");
+	for (int i = 0; i < argc; i++)
+		strcat(strcat(text, " "), argv[i]);
+	return text;
 }
 
 static int exit_code(const struct output_run *run)
@@ -267,6 +278,13 @@ int diff_main(int argc, char **argv)
 	run.channel = o.score.channel;
 
 	err = score_all(&ref, &traced, frames, &o, &run);
+	if (!err && o.report) {
+		char *command = join_command(argc, argv);
+
+		err = command ? report_write(&run, &ref, &traced, o.report, command)
+		              : err_report(ERR_SYSTEM, NULL, "out of memory");
+		free(command);
+	}
 	if (!err && o.json)
 		err = output_json(&run, o.json);
 	if (!err && o.junit)

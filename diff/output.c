@@ -184,7 +184,7 @@ void output_summary(const struct output_run *run, FILE *out)
 
 /* JSON. */
 
-static void json_string(const char *text, FILE *out)
+void output_json_string(const char *text, FILE *out)
 {
 	fputc('"', out);
 	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
@@ -222,7 +222,7 @@ static void json_gate(const struct score_gate *gate, const struct score_gate_inf
 		fprintf(out, ", \"bound\": \"%s\"}", info->figures[f].at_least ? "at least" : "at most");
 	}
 	fputs("], \"note\": ", out);
-	json_string(gate->note, out);
+	output_json_string(gate->note, out);
 	fputc('}', out);
 }
 
@@ -262,11 +262,11 @@ static void json_score(const struct score *s, FILE *out)
 void output_json_stream(const struct output_run *run, FILE *out)
 {
 	fputs("{\"format\": \"relume-diff\", \"version\": 1,\n \"reference\": ", out);
-	json_string(run->reference, out);
+	output_json_string(run->reference, out);
 	fputs(", \"traced\": ", out);
-	json_string(run->traced, out);
+	output_json_string(run->traced, out);
 	fputs(",\n \"channel\": ", out);
-	json_string(run->channel ? run->channel : "", out);
+	output_json_string(run->channel ? run->channel : "", out);
 	fprintf(out, ", \"seconds\": %.3f,\n \"counts\": {", run->seconds);
 	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
 		fprintf(out, "%s\"%s\": %" PRIu64, o ? ", " : "", score_outcome_names[o], run->counts[o]);

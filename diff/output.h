@@ -48,6 +48,9 @@ void output_gate_text(const struct score_gate *gate, const struct score_gate_inf
 int output_json(const struct output_run *run, const char *path);
 void output_json_stream(const struct output_run *run, FILE *out);
 
+/** Text as a JSON string, quotes included; may stand inside an HTML script. */
+void output_json_string(const char *text, FILE *out);
+
 /** JUnit XML: a suite with one case for each frame. @return 0 or ERR_SYSTEM (reported) */
 int output_junit(const struct output_run *run, const char *path);
 
