@@ -46,7 +46,7 @@ cat <<END
 
 Raster frame, gl, beauty and difference side by side:
     $out/report/index.html
-    $out/report/contact.png
+    $out/report/sheet.png
 The frames:
     $out/frames/glxgears.0000.exr ...
 END
