@@ -137,7 +137,19 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS) -lcheck -lsubunit -lm
 
-check: all $(TESTS)
+# What tests preload or record: programs that are not linked with anything of ours.
+HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/closer \
+	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
+
+$(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -o $@ $< -ldl
+
+$(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl
+
+check: all $(TESTS) $(HELPERS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 demo:

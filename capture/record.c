@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,7 +18,7 @@
 #include "base/verbs.h"
 #include "capture/stats.h"
 
-enum { MAX_NUMBER_BYTES = 24 };
+enum { MAX_NUMBER_BYTES = 24, PATIENCE_S = 5 };
 
 struct options {
 	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
@@ -197,22 +198,18 @@ static int clear_output(const struct options *o)
 	}
 }
 
+/* The figures lie in a nameless file of ours, which the program opens by way of our process: nothing is left behind. */
 static int make_stats(char *path, size_t size, struct recorder_stats **out)
 {
-	const char *folder = getenv("TMPDIR");
-	int fd, rc;
+	void (*old)(int) = signal(SIGXFSZ, SIG_IGN);
+	int fd = memfd_create("relume", MFD_CLOEXEC), rc = fd < 0 || ftruncate(fd, sizeof(**out));
 
-	snprintf(path, size, "%s/relume-XXXXXX", folder && *folder ? folder : "/tmp");
-	fd = mkostemp(path, O_CLOEXEC);
-	if (fd < 0)
-		return err_report(ERR_SYSTEM, path, "cannot create: %s", strerror(errno));
-	rc = ftruncate(fd, sizeof(**out));
-	*out = rc ? MAP_FAILED : mmap(NULL, sizeof(**out), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-	close(fd);
-	if (*out == MAP_FAILED) {
-		unlink(path);
-		return err_report(ERR_SYSTEM, path, "cannot map: %s", strerror(errno));
-	}
+	if (!rc)
+		*out = mmap(NULL, sizeof(**out), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+	signal(SIGXFSZ, old);
+	if (rc || *out == MAP_FAILED)
+		return err_report(ERR_SYSTEM, NULL, "cannot map memory for the figures: %s", strerror(errno));
+	snprintf(path, size, "/proc/%d/fd/%d", (int)getpid(), fd);
 	return 0;
 }
 
@@ -241,17 +238,48 @@ static void set_environment(const struct options *o, const char *recorder, const
 
 static volatile sig_atomic_t child_pid;
 
+/* SIGALRM only wakes the wait below. */
 static void forward(int signal)
 {
+	if (signal == SIGALRM)
+		return;
 	if (child_pid > 0)
 		kill((pid_t)child_pid, signal);
 }
 
-static const int forwarded[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
+static const int forwarded[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
 enum { N_FORWARDED = sizeof(forwarded) / sizeof(forwarded[0]) };
 
+static uint32_t at_most(uint32_t n, uint32_t limit)
+{
+	return n < limit ? n : limit;
+}
+
+/* 1 where a recorded process was told to end after its frames. */
+static int was_told_to_quit(const struct recorder_stats *stats)
+{
+	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
+		if (stats->processes[i].quit)
+			return 1;
+	return 0;
+}
+
+/* Waits for the program; one that was told to quit and does not is killed after a while. */
+static int wait_for_child(const struct recorder_stats *stats)
+{
+	struct itimerval every_second = { { 1, 0 }, { 1, 0 } }, off = { { 0, 0 }, { 0, 0 } };
+	int status = 0, seconds = 0;
+
+	setitimer(ITIMER_REAL, &every_second, NULL);
+	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR)
+		if (was_told_to_quit(stats) && ++seconds == PATIENCE_S)
+			kill((pid_t)child_pid, SIGKILL);
+	setitimer(ITIMER_REAL, &off, NULL);
+	return status;
+}
+
 /* Runs the program. Returns its wait status, or -1 with errno where it could not be started. */
-static int run(const struct options *o, const char *recorder, const char *stats_path)
+static int run(const struct options *o, const char *recorder, const char *stats_path, const struct recorder_stats *stats)
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
 	int pipe_fds[2], error = 0, status = 0;
@@ -285,18 +313,12 @@ static int run(const struct options *o, const char *recorder, const char *stats_
 	if (read(pipe_fds[0], &error, sizeof(error)) != sizeof(error))
 		error = 0;
 	close(pipe_fds[0]);
-	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR)
-		;
+	status = wait_for_child(stats);
 	child_pid = 0;
 	for (int i = 0; i < N_FORWARDED; i++)
 		sigaction(forwarded[i], &old[i], NULL);
 	errno = error;
 	return error ? -1 : status;
-}
-
-static uint32_t at_most(uint32_t n, uint32_t limit)
-{
-	return n < limit ? n : limit;
 }
 
 /* One line for each process that drew, then what went by unrecorded. */
@@ -325,28 +347,25 @@ int record_main(int argc, char **argv)
 {
 	struct options o = { 0 };
 	struct recorder_stats *stats = MAP_FAILED;
-	char recorder[PATH_MAX], stats_path[PATH_MAX] = "";
-	int status, quit = 0, rc = parse(argc, argv, &o);
+	char recorder[PATH_MAX], stats_path[64];
+	int status, rc = parse(argc, argv, &o);
 
 	if (rc)
 		return rc > 0 ? 0 : -rc;
 	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = clear_output(&o)) ||
 	    (rc = make_stats(stats_path, sizeof(stats_path), &stats)))
 		return -rc;
-	status = run(&o, recorder, stats_path);
-	unlink(stats_path);
+	status = run(&o, recorder, stats_path, stats);
 	if (status < 0) {
 		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));
 		goto done;
 	}
 	print_summary(stats);
-	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++) {
-		quit |= stats->processes[i].quit;
-		if (stats->processes[i].failed && !rc)
+	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
+		if (stats->processes[i].failed)
 			rc = ERR_SYSTEM;
-	}
-	if (quit && WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM)
-		status = 0;
+	if (was_told_to_quit(stats))
+		status = 0; /* how it took the signal is its own affair */
 	if (WIFSIGNALED(status))
 		rc = -(128 + WTERMSIG(status));
 	else if (WEXITSTATUS(status))

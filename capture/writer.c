@@ -560,8 +560,9 @@ uint64_t writer_frame_ended(void)
 	if (!p)
 		return 0;
 	frames = ++w.n_frames;
-	w.process->frames = frames;
 	p = spill(p);
+	if (w.state == RECORDING)
+		w.process->frames = frames; /* counted once it cannot be lost */
 	w.flushed_ns = now_ns();
 	end(p);
 	return frames;

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""replayed.py NAME [FIRST]: do a trace's pictures, replayed by apitrace, equal those that the program itself showed?
+
+Compares every colour frame of NAME.ref from frame FIRST on (2: apitrace's first pictures are known to be unreliable, it
+resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. Exits with 1 where one differs or none is there.
+"""
+import ctypes
+import struct
+import subprocess
+import sys
+
+REF_COLOR = 1
+
+
+def reference_frames(path):
+    """{frame: (width, height, RGB rows from the top)} of a .ref file."""
+    snappy = ctypes.CDLL("libsnappy.so.1")
+    frames = {}
+    with open(path, "rb") as stream:
+        data = stream.read()
+    at = 8
+    while at + 28 <= len(data):
+        kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
+        at += 28
+        if kind == REF_COLOR and at + size <= len(data):
+            rgba = ctypes.create_string_buffer(width * height * 4)
+            got = ctypes.c_size_t(len(rgba))
+            if snappy.snappy_uncompress(data[at:at + size], size, rgba, ctypes.byref(got)):
+                sys.exit(f"frame {frame} of {path} does not unpack")
+            rows = [rgba.raw[y * width * 4:(y + 1) * width * 4] for y in reversed(range(height))]
+            rgb = bytearray(width * height * 3)
+            flat = b"".join(rows)
+            for channel in range(3):
+                rgb[channel::3] = flat[channel::4]
+            frames[frame] = (width, height, bytes(rgb))
+        at += size
+    return frames
+
+
+def replayed_frames(path):
+    """The pictures of a trace, in order, as (width, height, RGB rows from the top)."""
+    run = subprocess.run(["apitrace", "replay", "--headless", "-s", "-", path], stdout=subprocess.PIPE,
+                         stderr=subprocess.DEVNULL, check=False)
+    data, at, pictures = run.stdout, 0, []
+    while True:
+        start = data.find(b"P6\n", at)
+        if start < 0:
+            return pictures
+        lines, at = [], start + 3
+        while len(lines) < 2:  # size, then the largest value; comments between
+            end = data.index(b"\n", at)
+            if not data[at:at + 1] == b"#":
+                lines.append(data[at:end])
+            at = end + 1
+        width, height = map(int, lines[0].split())
+        pictures.append((width, height, data[at:at + width * height * 3]))
+        at += width * height * 3
+
+
+def main(name, first):
+    shown = reference_frames(name + ".ref")
+    pictures = replayed_frames(name + ".trace")
+    checked = bad = 0
+    for frame, (width, height, rgb) in sorted(shown.items()):
+        if frame < first:
+            continue
+        checked += 1
+        if frame >= len(pictures):
+            print(f"frame {frame}: not replayed")
+            bad += 1
+        elif pictures[frame] != (width, height, rgb):
+            other = pictures[frame]
+            differ = sum(other[2][i:i + 3] != rgb[i:i + 3] for i in range(0, len(rgb), 3)) if other[:2] == (width, height) else "all"
+            print(f"frame {frame}: {differ} of {width * height} pixels differ")
+            bad += 1
+    print(f"{checked} frames compared, {bad} differ")
+    return 1 if bad or not checked else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 2))

@@ -1,0 +1,88 @@
+#!/bin/sh
+# Nothing is lost: what a killed, full or forbidden recording keeps, and what the program notices of it (nothing).
+# limit: 180 s
+command -v glxgears >/dev/null || { echo "glxgears (mesa-utils) is not installed"; exit 77; }
+if [ -z "${DISPLAY_IS_OURS:-}" ]; then
+	DISPLAY_IS_OURS=1 exec tests/xvfb.sh "$0"
+fi
+set -u
+fail() {
+	echo "$*"
+	exit 1
+}
+# Frames that apitrace reads of a trace.
+frames_of() {
+	apitrace dump --color=never "$1" 2>/dev/null | grep -cE '^[0-9]+ (glXSwapBuffers|eglSwapBuffers)\('
+}
+said() {
+	sed -n 's/^relume: .*: \([0-9]*\) frames, .*/\1/p' "$1"
+}
+
+# Killed at some moment: every frame that was complete is in the file.
+for delay in 0.3 0.4 0.5 0.7 0.9; do
+	"$RELUME" record -o "$TMPDIR/kill.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>"$TMPDIR/log" &
+	recorder=$!
+	sleep "$delay"
+	kill -KILL "$(cat "$TMPDIR/pid")"
+	wait $recorder
+	[ $? -eq 137 ] || fail "exit code of a killed program is not passed on"
+	complete=$(said "$TMPDIR/log")
+	got=$(frames_of "$TMPDIR/kill.trace")
+	[ "${complete:-0}" -gt 0 ] || fail "killed after $delay s: no frame complete"
+	[ "$got" -ge "$complete" ] || fail "killed after $delay s: $complete frames complete, $got in the trace"
+done
+
+# The command killed with the program: the trace is the same.
+"$RELUME" record -o "$TMPDIR/both.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>&1 &
+recorder=$!
+sleep 0.6
+kill -KILL $recorder "$(cat "$TMPDIR/pid")"
+wait $recorder 2>/dev/null
+[ "$(frames_of "$TMPDIR/both.trace")" -gt 0 ] || fail "command and program killed: no frame in the trace"
+
+# A file that may not grow (RLIMIT_FSIZE, which raises SIGXFSZ): the recording ends, says so once, the program goes on.
+(
+	ulimit -f 256 # of 512 bytes
+	SHIM_FRAMES=3000 LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so "$RELUME" record -o "$TMPDIR/limit.trace" \
+		-- glxgears 2>"$TMPDIR/log"
+	echo $? >"$TMPDIR/code"
+) | grep -c ^frame >"$TMPDIR/frames"
+code=$(cat "$TMPDIR/code")
+[ "$(cat "$TMPDIR/frames")" -eq 3000 ] || fail "the program ended with its recording (file size limit)"
+[ $code -eq 5 ] || fail "exit code $code where the recording ended early"
+[ "$(grep -c 'recording ends' "$TMPDIR/log")" -eq 1 ] || fail "the end of the recording was not said once"
+got=$(frames_of "$TMPDIR/limit.trace")
+[ "$got" -ge "$(said "$TMPDIR/log")" ] && [ "$got" -gt 0 ] || fail "file size limit: $got frames in the trace"
+
+# A full disk.
+mkdir "$TMPDIR/small"
+if mount -t tmpfs -o size=96k none "$TMPDIR/small" 2>/dev/null; then
+	SHIM_FRAMES=3000 LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so "$RELUME" record -o "$TMPDIR/small/full.trace" \
+		--ref color -- glxgears >"$TMPDIR/frames" 2>"$TMPDIR/log"
+	got=$(frames_of "$TMPDIR/small/full.trace")
+	complete=$(said "$TMPDIR/log")
+	umount "$TMPDIR/small"
+	[ "$(grep -c ^frame "$TMPDIR/frames")" -eq 3000 ] || fail "the program ended with its recording (full disk)"
+	[ "$got" -ge "$complete" ] && [ "$got" -gt 0 ] || fail "full disk: $complete frames complete, $got in the trace"
+else
+	echo "no tmpfs to be mounted here: the full disk was not tried"
+fi
+
+# Nowhere to write: known before the program starts.
+"$RELUME" record -o "$TMPDIR/nowhere/x.trace" -- touch "$TMPDIR/started" 2>"$TMPDIR/log"
+[ $? -eq 5 ] || fail "exit code for an unwritable output"
+[ "$(wc -l <"$TMPDIR/log")" -eq 1 ] || fail "more or less than one line for an unwritable output"
+[ ! -e "$TMPDIR/started" ] || fail "the program was started all the same"
+
+# A program that closes all descriptors it does not know.
+"$RELUME" record -o "$TMPDIR/closed.trace" --quit-after 20 -- "$RELUME_BUILD/tests/real/closer" >"$TMPDIR/log" 2>&1 ||
+	fail "closer: exit code $?"
+[ "$(frames_of "$TMPDIR/closed.trace")" -eq 20 ] || fail "a program that closes descriptors: $(cat "$TMPDIR/log")"
+[ "$(wc -c <"$TMPDIR/victim")" -eq 6 ] || fail "the recorder wrote into the program's file"
+
+# A program whose child draws as well: a trace each.
+"$RELUME" record -o "$TMPDIR/two.trace" -- sh -c 'timeout 1 glxgears; timeout 1 glxgears; exit 3' >/dev/null 2>"$TMPDIR/log"
+[ $? -eq 3 ] || fail "the program's exit code is not passed on"
+[ "$(frames_of "$TMPDIR/two.trace")" -gt 0 ] && [ "$(frames_of "$TMPDIR/two.1.trace")" -gt 0 ] ||
+	fail "two processes: $(cat "$TMPDIR/log")"
+exit 0
