@@ -1,13 +1,12 @@
 #include "diff/report.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "diff/oiio.h"
 #include "diff/pictures.h"
 
@@ -120,30 +119,11 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	return output_close(&file, 1);
 }
 
-/** Make a folder and those above it. */
-static int make_folder(const char *dir)
-{
-	char path[PATH_MAX];
-
-	if (snprintf(path, sizeof(path), "%s", dir) >= (int)sizeof(path))
-		return err_report(ERR_SYSTEM, dir, "the name is too long");
-	for (char *p = path + 1; *p; p++) {
-		if (*p != '/')
-			continue;
-		*p = '\0';
-		mkdir(path, 0777); /* what matters is whether the last one is there */
-		*p = '/';
-	}
-	if (mkdir(path, 0777) != 0 && errno != EEXIST)
-		return err_report(ERR_SYSTEM, dir, "%s", strerror(errno));
-	return 0;
-}
-
 int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir, const char *command)
 {
 	char path[PATH_MAX];
 	int compared = 0;
-	int err = make_folder(dir);
+	int err = folder_make(dir);
 
 	if (err)
 		return err;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "base/frames.h"
 #include "base/progress.h"
 #include "base/verbs.h"
@@ -187,6 +188,8 @@ static int render_frame(struct run *run, const struct scene *scene)
 		err = writer_finish(&run->writer);
 	if (!err)
 		err = frame_pattern_expand(run->options->output, scene->frame, run->writer.path, sizeof(run->writer.path));
+	if (!err)
+		err = folder_make_for(run->writer.path);
 	if (!err)
 		err = writer_start(&run->writer, &img);
 	image_free(&img);
