@@ -715,6 +715,7 @@ int score_frame(const struct score_picture *ref, const struct image *img, uint64
 	int err = 0;
 
 	clear_score(out, ref, frame);
+	snprintf(out->layer, sizeof(out->layer), "%s", layer);
 	gate_validity(ref, img, frame, layer, out);
 	if (out->gates[GATE_V].state != SCORE_PASSED) {
 		for (int g = GATE_V + 1; g < N_GATES; g++)

@@ -21,6 +21,9 @@ namespace {
 constexpr int64_t MAX_PIXELS = int64_t(1) << 28;
 constexpr int MAX_CHANNELS = 256;
 
+/* Debian package fonts-dejavu-core. */
+constexpr const char *FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
 bool is_integer(const OIIO::TypeDesc &format)
 {
 	return !format.is_floating_point();
@@ -146,7 +149,7 @@ int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int 
 		OIIO::ImageBuf buf(OIIO::ImageSpec(int(width), int(height), 3, OIIO::TypeDesc::UINT8), pixels);
 		const float color[3] = { rgb[0] / 255.0f, rgb[1] / 255.0f, rgb[2] / 255.0f };
 
-		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, "", color) ? 0 : ERR_SYSTEM;
+		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, FONT, color) ? 0 : ERR_SYSTEM;
 	} catch (const std::exception &) {
 		return ERR_SYSTEM;
 	}

@@ -230,6 +230,9 @@ static void json_score(const struct score *s, FILE *out)
 {
 	fprintf(out, "    {\"frame\": %" PRIu64 ", \"outcome\": \"%s\", \"width\": %u, \"height\": %u, ", s->frame,
 	        score_outcome_names[s->outcome], s->width, s->height);
+	fputs("\"layer\": ", out);
+	output_json_string(s->layer, out);
+	fputs(", ", out);
 	json_number("fidelity", s->fidelity, out);
 	fprintf(out, ", \"failing_pixels\": %" PRIu64 ", \"worst_code\": %u,\n     \"gates\": {", s->failing_pixels, s->worst);
 	for (int g = 0; g < N_GATES; g++) {

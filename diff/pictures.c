@@ -9,7 +9,7 @@
 #define DIFFERENCE_GAIN 8
 
 const char *const picture_names[N_PICTURES] = {
-	"reference", "gl", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
+	"reference", "compared", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
 	"normal", "depth", "id",
 };
 
@@ -37,8 +37,10 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 		err = picture_take_reference(&out->ref_image, channel, &out->ref);
 	if (!err)
 		err = score_picture_from_image(&out->image, channel ? channel : "gl", &out->compared);
-	if (err == ERR_INPUT && out->ref.rgb && !channel)
+	if (err == ERR_INPUT && out->ref.rgb && !channel) {
+		out->is_beauty = 1;
 		err = score_picture_from_image(&out->image, "beauty", &out->compared);
+	}
 	if (!err && out->ref.width == out->compared.width && out->ref.height == out->compared.height)
 		err = score_make_maps(&out->ref, &out->compared, &out->maps);
 	return err;
@@ -206,7 +208,7 @@ int picture_make(const struct picture_frame *f, enum picture_kind kind, uint8_t 
 		*height = f->ref.height;
 		return make_copy(&f->ref, rgb);
 	case PICTURE_COMPARED: return make_copy(&f->compared, rgb);
-	case PICTURE_BEAUTY: return make_layer(f, "beauty", 0, rgb);
+	case PICTURE_BEAUTY: return f->is_beauty ? 0 : make_layer(f, "beauty", 0, rgb);
 	case PICTURE_SHADOW: return make_layer(f, "shadow", 1, rgb);
 	case PICTURE_RELIGHT: return make_layer(f, "relight", 1, rgb);
 	case PICTURE_REFLECT: return make_layer(f, "reflect", 1, rgb);

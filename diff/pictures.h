@@ -21,7 +21,7 @@ enum picture_kind {
 	N_PICTURES
 };
 
-/** Short names, for file and programs: "reference", "gl", "beauty", ... */
+/** Short names, for file and programs: "reference", "compared", "beauty", ... */
 extern const char *const picture_names[N_PICTURES];
 
 /* One frame with all that pictures are made of. */
@@ -29,6 +29,7 @@ struct picture_frame {
 	struct image ref_image, image;
 	struct score_picture ref, compared;
 	struct score_maps maps; /* empty where the sizes differ */
+	int is_beauty;          /* 1: the compared layer is the beauty, for want of gl; it makes one picture, not two */
 };
 
 /**

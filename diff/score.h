@@ -85,7 +85,8 @@ struct score_blame {
 struct score {
 	uint64_t frame;
 	enum score_outcome outcome;
-	uint32_t width, height; /* of the reference, or of the traced frame where there is none */
+	uint32_t width, height; /* of the reference */
+	char layer[32];         /* the layer that was compared: "gl", "beauty", ...; empty where nothing was */
 	struct score_gate gates[N_GATES];
 	double fidelity;        /* share of pixels, [0,1], that pass R1, R1b or R2; 0 where nothing was compared */
 	uint64_t failing_pixels;

@@ -93,7 +93,7 @@ static int draw_row(struct sheet *sheet, size_t row, const struct score *s, cons
 	for (int c = 0; !err && c < COLUMNS; c++) {
 		uint32_t left = GAP + (uint32_t)c * (sheet->cell_w + GAP), width, height;
 		const char *name = columns[c] == PICTURE_REFERENCE ? "raster"
-			: columns[c] == PICTURE_COMPARED && run->channel ? run->channel : picture_names[columns[c]];
+			: columns[c] == PICTURE_COMPARED ? s->layer : picture_names[columns[c]];
 		char text[96];
 		uint8_t *rgb;
 

@@ -1,0 +1,352 @@
+/*
+ * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the back
+ * buffer just before the calls that end the frames asked for; replay/ says which calls these are.
+ */
+#include "base/verbs.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <getopt.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/frames.h"
+#include "base/progress.h"
+#include "replay/replay.h"
+
+struct options {
+	const char *trace, *output;
+	struct frame_list frames;
+};
+
+/* The calls that end the frames asked for. */
+struct frame_end {
+	uint64_t frame, call;
+};
+struct frame_ends {
+	struct frame_end *ends;
+	size_t n, capacity;
+	int skipped_first; /* frame 0 was asked for, too */
+};
+
+static void print_help(FILE *out)
+{
+	fputs("usage: relume raster [OPTIONS] TRACE -o PATTERN.png\n"
+	      "\n"
+	      "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, or on an\n"
+	      "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
+	      "The first frame of a trace is left out: what glretrace shows of it is not reliable.\n"
+	      "\n"
+	      "  -f, --frames LIST     frames, as in 10-60 or 1-500x5; default: all\n"
+	      "  -o, --output PATTERN  file names with the frame number as ####, %04d or $F4, ending in .png\n"
+	      "  -h, --help            this text\n",
+	      out);
+}
+
+/** @return 0 go on, 1 help was printed, or ERR_* (reported) */
+static int parse_options(int argc, char **argv, struct options *o)
+{
+	static const struct option known[] = {
+		{ "frames", required_argument, NULL, 'f' },
+		{ "output", required_argument, NULL, 'o' },
+		{ "help", no_argument, NULL, 'h' },
+		{ NULL, 0, NULL, 0 },
+	};
+	size_t length;
+	int c, err;
+
+	optind = 1;
+	while ((c = getopt_long(argc, argv, "f:o:h", known, NULL)) != -1) {
+		switch (c) {
+		case 'f':
+			frame_list_free(&o->frames);
+			err = frame_list_parse(optarg, &o->frames);
+			if (err)
+				return err;
+			break;
+		case 'o': o->output = optarg; break;
+		case 'h':
+			print_help(stdout);
+			return 1;
+		default:
+			return ERR_USAGE; /* getopt has said why */
+		}
+	}
+	if (argc - optind != 1 || !o->output)
+		return err_report(ERR_USAGE, NULL, "relume raster takes one trace and -o PATTERN.png; "
+		                  "'relume raster --help' explains");
+	length = strlen(o->output);
+	if (!frame_pattern_has_number(o->output) || length < 4 || strcmp(o->output + length - 4, ".png") != 0)
+		return err_report(ERR_USAGE, o->output, "the pattern needs a place for the frame number and the ending .png, "
+		                  "as in out/NAME.####.png");
+	o->trace = argv[optind];
+	return 0;
+}
+
+static int add_end(struct frame_ends *ends, uint64_t frame, uint64_t call)
+{
+	if (ends->n == ends->capacity) {
+		size_t capacity = ends->capacity ? 2 * ends->capacity : 64;
+		struct frame_end *grown = realloc(ends->ends, capacity * sizeof(*grown));
+
+		if (!grown)
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		ends->ends = grown;
+		ends->capacity = capacity;
+	}
+	ends->ends[ends->n++] = (struct frame_end){ frame, call };
+	return 0;
+}
+
+static int find_frame_ends(const struct options *o, struct frame_ends *ends)
+{
+	const uint64_t last = frame_list_last(&o->frames);
+	struct replay *rp = NULL;
+	struct scene *scene;
+	int rc = replay_open(&rp, o->trace), err = rc;
+
+	while (!err && replay_frame(rp) <= last && (rc = replay_next_frame(rp, 0, &scene)) > 0) {
+		uint64_t frame = replay_frame(rp) - 1;
+
+		if (!frame_list_contains(&o->frames, frame))
+			continue;
+		if (frame == 0)
+			ends->skipped_first = 1;
+		else
+			err = add_end(ends, frame, replay_call_count(rp) - 1);
+	}
+	if (!err && rc < 0 && ends->n == 0)
+		err = rc; /* a damaged trace gives the frames in front of the damage */
+	if (!err && ends->n == 0)
+		err = err_report(ERR_USAGE, o->trace, "%s", ends->skipped_first
+		                 ? "the first frame alone cannot be had: it is not reliable"
+		                 : "the trace has none of the frames asked for");
+	replay_close(&rp);
+	return err;
+}
+
+/* A child process and what it says. */
+
+/** Run a command with its output in a file, and wait for it. @return its exit code, 128 + signal, or ERR_SYSTEM */
+static int run_command(char *const argv[], const char *log)
+{
+	pid_t pid = fork();
+	int status;
+
+	if (pid < 0)
+		return err_report(ERR_SYSTEM, argv[0], "%s", strerror(errno));
+	if (pid == 0) {
+		int fd = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+
+		dup2(fd, STDOUT_FILENO);
+		dup2(fd, STDERR_FILENO);
+		execvp(argv[0], argv);
+		_exit(errno == ENOENT ? 127 : 126);
+	}
+	while (waitpid(pid, &status, 0) < 0)
+		if (errno != EINTR)
+			return err_report(ERR_SYSTEM, argv[0], "%s", strerror(errno));
+	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/** The last line of a file that says anything. */
+static void last_line(const char *path, char *out, size_t size)
+{
+	char line[512];
+	FILE *f = fopen(path, "r");
+
+	snprintf(out, size, "it said nothing");
+	while (f && fgets(line, sizeof(line), f)) {
+		line[strcspn(line, "\r\n")] = '\0';
+		if (line[0])
+			snprintf(out, size, "%s", line);
+	}
+	if (f)
+		fclose(f);
+}
+
+/**
+ * Start an X server of our own on a display number that it chooses; sets DISPLAY.
+ * @return its process, or -1 (reported)
+ */
+static pid_t start_display(void)
+{
+	char number[16] = "", text[24];
+	ssize_t n = 0, got;
+	int fds[2];
+	pid_t pid;
+
+	if (pipe(fds) != 0 || (pid = fork()) < 0) {
+		err_report(ERR_SYSTEM, "Xvfb", "%s", strerror(errno));
+		return -1;
+	}
+	if (pid == 0) {
+		int quiet = open("/dev/null", O_RDWR);
+
+		close(fds[0]);
+		dup2(quiet, STDOUT_FILENO);
+		dup2(quiet, STDERR_FILENO);
+		snprintf(text, sizeof(text), "%d", fds[1]);
+		execlp("Xvfb", "Xvfb", "-displayfd", text, "-noreset", "-nolisten", "tcp", "-screen", "0", "2560x1600x24",
+		       (char *)NULL);
+		_exit(127);
+	}
+	close(fds[1]);
+	/* The number comes with a newline when the server is ready; the pipe ends where there is no server. */
+	while (n < (ssize_t)sizeof(number) - 1 && !memchr(number, '\n', (size_t)n) &&
+	       (got = read(fds[0], number + n, sizeof(number) - 1 - (size_t)n)) > 0)
+		n += got;
+	close(fds[0]);
+	if (n <= 1) {
+		waitpid(pid, NULL, 0);
+		err_report(ERR_SYSTEM, NULL, "there is no display, and Xvfb does not start; set DISPLAY, or install the "
+		           "Debian package xvfb");
+		return -1;
+	}
+	number[strcspn(number, "\n")] = '\0';
+	snprintf(text, sizeof(text), ":%s", number);
+	setenv("DISPLAY", text, 1);
+	setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+	return pid;
+}
+
+static void stop_display(pid_t pid)
+{
+	if (pid <= 0)
+		return;
+	kill(pid, SIGTERM);
+	waitpid(pid, NULL, 0);
+}
+
+/** The calls, for glretrace: a file with one list. */
+static int write_call_set(const struct frame_ends *ends, const char *path)
+{
+	FILE *f = fopen(path, "w");
+
+	if (!f)
+		return err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+	for (size_t i = 0; i < ends->n; i++)
+		fprintf(f, "%" PRIu64 "\n", ends->ends[i].call);
+	if (ferror(f) | fclose(f))
+		return err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+	return 0;
+}
+
+static int run_glretrace(const struct options *o, const char *folder)
+{
+	char prefix[PATH_MAX], calls[PATH_MAX], log[PATH_MAX], said[512];
+	char *argv[] = { "glretrace", "--headless", "-s", prefix, "-S", calls, (char *)o->trace, NULL };
+	int code;
+
+	snprintf(prefix, sizeof(prefix), "%s/", folder);
+	snprintf(calls, sizeof(calls), "@%s/calls", folder);
+	snprintf(log, sizeof(log), "%s/log", folder);
+	code = run_command(argv, log);
+	if (code == 127)
+		return err_report(ERR_SYSTEM, "glretrace", "not found; install the Debian package apitrace");
+	if (code < 0)
+		return code;
+	if (code != 0) {
+		last_line(log, said, sizeof(said));
+		return err_report(ERR_SYSTEM, "glretrace", "ended with code %d: %s", code, said);
+	}
+	return 0;
+}
+
+/** Give the snapshots their frames' names. */
+static int name_frames(const struct options *o, const struct frame_ends *ends, const char *folder)
+{
+	struct progress progress;
+	int err = 0;
+
+	progress_begin(&progress, "rasterized", ends->n);
+	for (size_t i = 0; !err && i < ends->n; i++) {
+		char from[PATH_MAX + 32], to[PATH_MAX];
+
+		snprintf(from, sizeof(from), "%s/%010" PRIu64 ".png", folder, ends->ends[i].call);
+		err = frame_pattern_expand(o->output, ends->ends[i].frame, to, sizeof(to));
+		if (!err && rename(from, to) != 0)
+			err = err_report(ERR_SYSTEM, to, "glretrace gave no picture at call %" PRIu64 " (%s)", ends->ends[i].call,
+			                 strerror(errno));
+		if (!err)
+			progress_step(&progress, ends->ends[i].frame, to);
+	}
+	progress_end(&progress);
+	return err;
+}
+
+/** Remove a folder of plain files. */
+static void remove_folder(const char *folder)
+{
+	DIR *dir = opendir(folder);
+
+	for (struct dirent *file; dir && (file = readdir(dir));)
+		if (file->d_name[0] != '.')
+			unlinkat(dirfd(dir), file->d_name, 0);
+	if (dir)
+		closedir(dir);
+	rmdir(folder);
+}
+
+/** A scratch folder beside the output, so that pictures arrive by rename; made with the output's own folder. */
+static int make_scratch(const char *output, char *out, size_t size)
+{
+	const char *slash = strrchr(output, '/');
+	int err = folder_make_for(output);
+
+	if (err)
+		return err;
+	if (snprintf(out, size, "%.*s.raster-XXXXXX", slash ? (int)(slash - output) + 1 : 0, output) >= (int)size)
+		return err_report(ERR_USAGE, output, "the file name is too long");
+	if (!mkdtemp(out))
+		return err_report(ERR_SYSTEM, output, "%s", strerror(errno));
+	return 0;
+}
+
+static int raster(const struct options *o, const struct frame_ends *ends)
+{
+	const char *display = getenv("DISPLAY");
+	char folder[PATH_MAX - 64], calls[PATH_MAX];
+	pid_t server = 0;
+	int err = make_scratch(o->output, folder, sizeof(folder));
+
+	if (err)
+		return err;
+	snprintf(calls, sizeof(calls), "%s/calls", folder);
+	err = write_call_set(ends, calls);
+	if (!err && !(display && display[0]) && (server = start_display()) < 0)
+		err = ERR_SYSTEM;
+	if (!err)
+		err = run_glretrace(o, folder);
+	if (!err)
+		err = name_frames(o, ends, folder);
+	stop_display(server);
+	remove_folder(folder);
+	return err;
+}
+
+int raster_main(int argc, char **argv)
+{
+	struct options o = { 0 };
+	struct frame_ends ends = { 0 };
+	int err = parse_options(argc, argv, &o);
+
+	if (!err)
+		err = find_frame_ends(&o, &ends);
+	if (!err && ends.skipped_first)
+		err_warn(o.trace, "frame 0 is left out: the first frame of a replay is not reliable");
+	if (!err)
+		err = raster(&o, &ends);
+	free(ends.ends);
+	frame_list_free(&o.frames);
+	return err > 0 ? 0 : -err;
+}
