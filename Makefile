@@ -29,7 +29,7 @@ COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kerne
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_CXX := $(wildcard diff/*.cpp)
 
-COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/page.c
+COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/dispatch.c $(BUILD)/gen/page.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -87,6 +87,10 @@ $(GENERATED_H): | $(BUILD)/deps
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
+
+# Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
+$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt $(sort $(wildcard replay/*.c))
 
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<

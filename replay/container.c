@@ -1,0 +1,334 @@
+#include "replay/container.h"
+
+#include <brotli/decode.h>
+#include <errno.h>
+#include <snappy-c.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <zlib.h>
+
+#include "base/err.h"
+
+#define PIECE_BYTES (1u << 20)
+#define CHUNK_MAX_BYTES (64u << 20) /* unpacked; recorders write 1 MiB */
+
+enum container_kind { CONTAINER_SNAPPY, CONTAINER_GZIP, CONTAINER_BROTLI };
+
+struct container {
+	char *path;
+	FILE *file;
+	uint64_t size, offset;
+	enum container_kind kind;
+	int cut, ended;
+	uint8_t *packed, *unpacked;
+	size_t packed_room, unpacked_room;
+	z_stream gzip;
+	BrotliDecoderState *brotli;
+	const uint8_t *brotli_next;
+	size_t brotli_left;
+};
+
+static int reserve(uint8_t **buffer, size_t *room, size_t bytes)
+{
+	uint8_t *grown;
+
+	if (bytes <= *room)
+		return 0;
+	grown = realloc(*buffer, bytes);
+	if (!grown)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %zu bytes of a trace", bytes);
+	*buffer = grown;
+	*room = bytes;
+	return 0;
+}
+
+/* Files that people take for traces by mistake: say what they are. */
+static const char *foreign_kind(const uint8_t *head, size_t n)
+{
+	static const struct {
+		const char *magic;
+		size_t n;
+		const char *kind;
+	} kinds[] = {
+		{ "\x89PNG", 4, "a PNG picture" },
+		{ "\xff\xd8\xff", 3, "a JPEG picture" },
+		{ "\x76\x2f\x31\x01", 4, "an OpenEXR picture" },
+		{ "\x7f""ELF", 4, "a program" },
+		{ "#!", 2, "a script" },
+		{ "PK\x03\x04", 4, "a ZIP archive" },
+		{ "RELREF1\n", 8, "a file of reference frames (the trace lies beside it)" },
+		{ "\x28\xb5\x2f\xfd", 4, "a trace packed with zstd ('apitrace repack' with no option makes one that can be read)" },
+	};
+
+	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]); i++)
+		if (n >= kinds[i].n && memcmp(head, kinds[i].magic, kinds[i].n) == 0)
+			return kinds[i].kind;
+	return NULL;
+}
+
+static int detect(struct container *c)
+{
+	uint8_t head[16];
+	size_t n = fread(head, 1, sizeof(head), c->file);
+	const char *foreign = foreign_kind(head, n);
+
+	if (n == 0)
+		return err_report(ERR_INPUT, c->path, "the file is empty; nothing was recorded into it");
+	if (foreign)
+		return err_report(ERR_INPUT, c->path, "not a trace but %s", foreign);
+	rewind(c->file);
+	if (n >= 2 && head[0] == 'a' && head[1] == 't') {
+		c->kind = CONTAINER_SNAPPY;
+		c->offset = 2;
+		return fseek(c->file, 2, SEEK_SET) ? err_report(ERR_SYSTEM, c->path, "%s", strerror(errno)) : 0;
+	}
+	if (reserve(&c->packed, &c->packed_room, PIECE_BYTES) || reserve(&c->unpacked, &c->unpacked_room, PIECE_BYTES))
+		return ERR_SYSTEM;
+	if (n >= 2 && head[0] == 0x1f && head[1] == 0x8b) {
+		c->kind = CONTAINER_GZIP;
+		if (inflateInit2(&c->gzip, 15 + 16) != Z_OK)
+			return err_report(ERR_SYSTEM, c->path, "out of memory");
+		return 0;
+	}
+	c->kind = CONTAINER_BROTLI; /* has no magic: whatever is nothing else */
+	c->brotli = BrotliDecoderCreateInstance(NULL, NULL, NULL);
+	return c->brotli ? 0 : err_report(ERR_SYSTEM, c->path, "out of memory");
+}
+
+int container_open(struct container **out, const char *path)
+{
+	struct container *c = calloc(1, sizeof(*c));
+	struct stat info;
+	int rc = ERR_SYSTEM;
+
+	*out = NULL;
+	if (!c || !(c->path = strdup(path))) {
+		err_report(ERR_SYSTEM, path, "out of memory");
+		goto fail;
+	}
+	c->file = fopen(path, "rb");
+	if (!c->file || fstat(fileno(c->file), &info)) {
+		rc = err_report(ERR_INPUT, path, "cannot be read: %s", strerror(errno));
+		goto fail;
+	}
+	if (!S_ISREG(info.st_mode)) {
+		rc = err_report(ERR_INPUT, path, S_ISDIR(info.st_mode) ? "is a folder, not a trace"
+		                                                       : "is not a plain file");
+		goto fail;
+	}
+	c->size = (uint64_t)info.st_size;
+	rc = detect(c);
+	if (rc)
+		goto fail;
+	*out = c;
+	return 0;
+fail:
+	container_close(&c);
+	return rc;
+}
+
+void container_close(struct container **c)
+{
+	if (!*c)
+		return;
+	if ((*c)->file)
+		fclose((*c)->file);
+	if ((*c)->kind == CONTAINER_GZIP)
+		inflateEnd(&(*c)->gzip);
+	if ((*c)->brotli)
+		BrotliDecoderDestroyInstance((*c)->brotli);
+	free((*c)->packed);
+	free((*c)->unpacked);
+	free((*c)->path);
+	free(*c);
+	*c = NULL;
+}
+
+/*
+ * Unpack as much of a cut raw Snappy block as is there (format_description.txt of Snappy: tags, literals, copies).
+ * The library's own decoder gives all or nothing.
+ */
+static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t room)
+{
+	size_t at = 0, made = 0;
+
+	while (at < n && in[at++] & 0x80) /* the unpacked size, LEB128 */
+		;
+	while (at < n) {
+		unsigned tag = in[at++], kind = tag & 3;
+		size_t length, distance, extra;
+
+		if (kind == 0) {
+			length = (tag >> 2) + 1;
+			extra = length > 60 ? length - 60 : 0;
+			if (extra > n - at)
+				break;
+			if (extra) {
+				length = 0;
+				for (size_t i = 0; i < extra; i++)
+					length |= (size_t)in[at + i] << (8 * i);
+				length++;
+			}
+			at += extra;
+			if (length > n - at)
+				length = n - at;
+			if (length > room - made)
+				break;
+			memcpy(out + made, in + at, length);
+			at += length;
+			made += length;
+			continue;
+		}
+		extra = kind == 3 ? 4 : kind;
+		if (extra > n - at)
+			break;
+		length = kind == 1 ? ((tag >> 2) & 7) + 4 : (tag >> 2) + 1;
+		distance = kind == 1 ? (size_t)(tag >> 5) << 8 : 0;
+		for (size_t i = 0; i < extra; i++)
+			distance |= (size_t)in[at + i] << (8 * i);
+		at += extra;
+		if (distance == 0 || distance > made || length > room - made)
+			break;
+		for (size_t i = 0; i < length; i++, made++)
+			out[made] = out[made - distance];
+	}
+	return made;
+}
+
+static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
+{
+	uint8_t head[4];
+	size_t length, unpacked, got = fread(head, 1, 4, c->file);
+
+	if (got < 4) {
+		c->cut = got > 0;
+		return 0;
+	}
+	length = head[0] | (size_t)head[1] << 8 | (size_t)head[2] << 16 | (size_t)head[3] << 24;
+	if (length == 0)
+		return 0;
+	if (length > c->size - c->offset - 4) {
+		c->cut = 1;
+		length = c->size - c->offset - 4;
+	}
+	if (reserve(&c->packed, &c->packed_room, length + 1))
+		return ERR_SYSTEM;
+	length = fread(c->packed, 1, length, c->file);
+	if (snappy_uncompressed_length((const char *)c->packed, length, &unpacked) != SNAPPY_OK)
+		return c->cut ? 0 : err_report(ERR_INPUT, c->path, "damaged at byte %llu: no Snappy chunk",
+		                               (unsigned long long)c->offset);
+	if (unpacked > CHUNK_MAX_BYTES)
+		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: a chunk that claims to hold %zu bytes",
+		                  (unsigned long long)c->offset, unpacked);
+	if (reserve(&c->unpacked, &c->unpacked_room, unpacked + 1))
+		return ERR_SYSTEM;
+	if (c->cut)
+		unpacked = unpack_cut_block(c->packed, length, c->unpacked, unpacked);
+	else if (snappy_uncompress((const char *)c->packed, length, (char *)c->unpacked, &unpacked) != SNAPPY_OK)
+		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: a Snappy chunk that does not unpack",
+		                  (unsigned long long)c->offset);
+	c->offset += 4 + length;
+	*data = c->unpacked;
+	*size = unpacked;
+	return 1;
+}
+
+/* Refill a stream decoder's input. @return bytes read */
+static size_t read_packed(struct container *c)
+{
+	size_t got = fread(c->packed, 1, PIECE_BYTES, c->file);
+
+	c->offset += got;
+	return got;
+}
+
+static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
+{
+	z_stream *z = &c->gzip;
+	int rc = Z_OK;
+
+	z->next_out = c->unpacked;
+	z->avail_out = PIECE_BYTES;
+	while (z->avail_out && rc != Z_STREAM_END) {
+		if (z->avail_in == 0) {
+			z->next_in = c->packed;
+			z->avail_in = (uInt)read_packed(c);
+			if (z->avail_in == 0) {
+				c->cut = 1;
+				break;
+			}
+		}
+		rc = inflate(z, Z_NO_FLUSH);
+		if (rc != Z_OK && rc != Z_STREAM_END)
+			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the gzip stream does not unpack (%s)",
+			                  (unsigned long long)c->offset, z->msg ? z->msg : "no reason given");
+	}
+	c->ended = rc == Z_STREAM_END || c->cut;
+	*data = c->unpacked;
+	*size = PIECE_BYTES - z->avail_out;
+	return *size > 0;
+}
+
+static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
+{
+	uint8_t *out = c->unpacked;
+	size_t room = PIECE_BYTES;
+	BrotliDecoderResult rc = BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT;
+
+	while (room && rc != BROTLI_DECODER_RESULT_SUCCESS) {
+		if (c->brotli_left == 0 && rc == BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT &&
+		    !BrotliDecoderHasMoreOutput(c->brotli)) {
+			c->brotli_next = c->packed;
+			c->brotli_left = read_packed(c);
+			if (c->brotli_left == 0) {
+				c->cut = 1;
+				break;
+			}
+		}
+		rc = BrotliDecoderDecompressStream(c->brotli, &c->brotli_left, &c->brotli_next, &room, &out, NULL);
+		if (rc == BROTLI_DECODER_RESULT_ERROR)
+			return err_report(ERR_INPUT, c->path, "not a trace: neither Snappy chunks nor gzip, and no Brotli stream "
+			                  "before byte %llu", (unsigned long long)c->offset);
+	}
+	c->ended = rc == BROTLI_DECODER_RESULT_SUCCESS || c->cut;
+	*data = c->unpacked;
+	*size = PIECE_BYTES - room;
+	return *size > 0;
+}
+
+int container_next(struct container *c, const uint8_t **data, size_t *size)
+{
+	int rc;
+
+	if (c->ended)
+		return 0;
+	switch (c->kind) {
+	case CONTAINER_SNAPPY:
+		do {
+			rc = next_snappy(c, data, size);
+			c->ended = rc <= 0 || c->cut;
+		} while (!c->ended && *size == 0);
+		return rc == 1 && *size == 0 ? 0 : rc;
+	case CONTAINER_GZIP:
+		return next_gzip(c, data, size);
+	default:
+		return next_brotli(c, data, size);
+	}
+}
+
+int container_is_cut(const struct container *c)
+{
+	return c->cut;
+}
+
+uint64_t container_offset(const struct container *c)
+{
+	return c->offset;
+}
+
+uint64_t container_size(const struct container *c)
+{
+	return c->size;
+}

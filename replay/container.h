@@ -1,0 +1,29 @@
+/*
+ * The bytes inside a trace's container: Snappy chunks, gzip or Brotli, delivered piece by piece.
+ */
+#ifndef REPLAY_CONTAINER_H
+#define REPLAY_CONTAINER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct container;
+
+/** @return 0, ERR_INPUT (reported: missing, not a file, empty, plainly something else) or ERR_SYSTEM (reported) */
+int container_open(struct container **out, const char *path);
+void container_close(struct container **c);
+
+/**
+ * The next piece of the logical stream.
+ * @param data, size  receive it; valid until the next call. 1 byte at least
+ * @return 1; 0 at the end; ERR_INPUT (reported) where the container is damaged; ERR_SYSTEM
+ */
+int container_next(struct container *c, const uint8_t **data, size_t *size);
+
+/** 1 where the file ended within a chunk or stream: what could be unpacked of it was delivered. */
+int container_is_cut(const struct container *c);
+
+uint64_t container_offset(const struct container *c); /* bytes of the file used so far */
+uint64_t container_size(const struct container *c);   /* of the file */
+
+#endif

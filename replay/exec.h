@@ -1,0 +1,317 @@
+/*
+ * The machine that executes calls: shared by the chapters of replay/ and seen by nobody else.
+ *
+ * A chapter defines one function per command with GLS_HANDLER at the start of a line; gen.py finds these and makes the
+ * table from names to them. What the dispatcher does around a handler depends on the command's kind.
+ */
+#ifndef REPLAY_EXEC_H
+#define REPLAY_EXEC_H
+
+#include <stdatomic.h>
+
+#include "capture/trace.h"
+#include "gl_tokens.h"
+#include "replay/arena.h"
+#include "replay/scene.h"
+#include "replay/state.h"
+#include "replay/table.h"
+
+struct gls_exec;
+
+typedef void gls_handler(struct gls_exec *x, struct gls_state *st, const struct call *c);
+
+enum gls_kind {
+	GLS_KIND_NONE,
+	GLS_KIND_VERTEX, /* vertex attributes: anywhere, kept in lists, pending vertices stay pending */
+	GLS_KIND_INSIDE, /* the same, but the handler decides what becomes of pending vertices (Material, CallList, End) */
+	GLS_KIND_STATE,  /* outside Begin/End only, kept in lists; pending vertices are drawn first, material and view are stale */
+	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
+	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; into a list goes what it drew */
+	GLS_KIND_CLIENT, /* client state: anywhere, never kept in lists, changes nothing that is pending */
+	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, objects, queries */
+	GLS_KIND_WINDOW  /* window system and memory: no context needed, st may be NULL */
+};
+
+#define GLS_HANDLER(name, kind) \
+	void gls_##name(struct gls_exec *x __attribute__((unused)), struct gls_state *st __attribute__((unused)), \
+	                const struct call *c __attribute__((unused)))
+
+struct gls_command {
+	const char *name;
+	gls_handler *handler; /* NULL: excused, or not done yet */
+	uint32_t kind;
+	const char *excuse;   /* why nothing needs to be done */
+	uint32_t core;        /* 1: part of GL 1.0 - 2.1 */
+};
+extern const struct gls_command gls_commands[]; /* sorted by name */
+extern const unsigned n_gls_commands;
+
+/** Index in gls_commands, or -1. */
+int32_t gls_command_find(const char *name);
+
+/* ---- arguments ---- */
+
+/** Any numeric value (numbers, enums, booleans, masks, pointers) as the type wanted; 0 where there is none. */
+double gls_value_double(const struct trace_value *v);
+int64_t gls_value_int(const struct trace_value *v);
+
+static inline const struct trace_value *arg(const struct call *c, unsigned i)
+{
+	extern const struct trace_value gls_no_value;
+	return i < c->n_args ? &c->args[i] : &gls_no_value;
+}
+static inline float arg_f(const struct call *c, unsigned i)
+{
+	const struct trace_value *v = arg(c, i);
+	return v->type == TRACE_FLOAT ? v->f : (float)gls_value_double(v);
+}
+static inline double arg_d(const struct call *c, unsigned i)
+{
+	return gls_value_double(arg(c, i));
+}
+static inline int64_t arg_i(const struct call *c, unsigned i)
+{
+	return gls_value_int(arg(c, i));
+}
+static inline uint32_t arg_u(const struct call *c, unsigned i)
+{
+	return (uint32_t)gls_value_int(arg(c, i));
+}
+/** Numbers of an array argument (or one plain number). @return how many there were; the rest of out is left alone */
+unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n);
+unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n);
+/** Elements of an array argument, NULL and 0 where it is none. */
+const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n);
+/** Bytes of a blob argument, NULL where it is none. */
+const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n);
+/** 1 where the argument is an address or NULL: an offset in a buffer object. */
+int arg_is_offset(const struct call *c, unsigned i);
+
+/* ---- geometry ---- */
+
+/* A mesh of the cache. Referenced by the cache itself, by lists and by scenes; freed with the last reference. */
+struct gls_mesh {
+	struct scene_mesh mesh; /* first */
+	atomic_uint refs;
+	uint64_t used_frame;    /* last frame that drew it */
+	uint32_t slot;          /* its place in the scene under construction, where slot_frame says so */
+	uint64_t slot_frame;
+	uint32_t n_draws;       /* draws inside: highest primitive_draw + 1 */
+	size_t bytes;
+};
+struct gls_texture_image; /* texture.h */
+
+#define GLS_MAX_PENDING_VERTICES (1u << 20)
+
+/* Vertices collected and not drawn yet. All arrays grow and are kept. */
+struct gls_geometry {
+	enum scene_primitive kind;
+	uint32_t n_vertices, room_vertices;
+	uint32_t given; /* attributes that vary, as scene_mesh.attributes */
+	float *position, *attribute[N_GLS_ATTRIBUTES]; /* 4 floats each, whatever the attribute */
+	uint8_t *edge;  /* edge flag of each vertex */
+	uint32_t *index, *primitive_draw;
+	uint8_t *edge_flags;
+	uint32_t n_primitives, room_primitives;
+	uint32_t n_draws;        /* Begin..End pairs so far */
+	uint32_t begin_vertex;   /* first vertex of the open Begin */
+	uint32_t edges_hidden;   /* any edge flag is off */
+	uint32_t touched;        /* attributes that may differ from `constant` by now: 1 << attribute */
+	float constant[N_GLS_ATTRIBUTES][4]; /* values of attributes that do not vary */
+};
+
+/** Forget all vertices. */
+void gls_geometry_clear(struct gls_geometry *g);
+void gls_geometry_free(struct gls_geometry *g);
+/** Room for n more vertices of the attributes in `given`, and n more primitives. @return 0 or ERR_SYSTEM (reported) */
+int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
+/** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM */
+int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
+/** Triangles, lines or points that a primitive mode is cut into: SCENE_*; 0 for no mode of GL's. */
+enum scene_primitive gls_mode_kind(uint32_t mode);
+/**
+ * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
+ * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
+ * @return 0 or ERR_SYSTEM
+ */
+int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements);
+/** Find or make the mesh of what is collected. @return a reference, or NULL: nothing to draw, or out of memory (reported) */
+struct gls_mesh *gls_geometry_mesh(struct gls_exec *x, struct gls_geometry *g);
+void gls_mesh_release(struct gls_mesh *mesh);
+
+/* ---- lists ---- */
+
+enum gls_op_form { GLS_OP_CALL, GLS_OP_FLOATS, GLS_OP_FLOAT_ARRAY, GLS_OP_MESH };
+
+/* One call of a list: its arguments in the list's arena. */
+struct gls_op {
+	uint16_t form;
+	uint16_t command;
+	uint32_t n; /* arguments, or floats */
+	union {
+		const struct trace_value *args; /* CALL */
+		const float *floats;            /* FLOATS, FLOAT_ARRAY */
+		const struct gls_op_mesh *mesh; /* MESH */
+	};
+};
+/* Begin..End runs or an array draw, assembled when the list was made. */
+struct gls_op_mesh {
+	struct gls_mesh *mesh; /* a reference, or NULL: only attributes */
+	uint32_t before, after; /* attributes set before the first vertex, and to be set after the last: 1 << attribute */
+	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
+	uint32_t n_draws;
+};
+struct gls_list {
+	struct gls_op *ops;
+	uint32_t n, room;
+	struct arena arena;
+	uint32_t depth_guard;
+};
+void gls_list_free(struct gls_list *list);
+/** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
+int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c);
+/** Keep a mesh in it (takes the reference). */
+int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
+
+/* ---- objects ---- */
+
+struct gls_buffer {
+	uint8_t *data;
+	size_t bytes;
+	uint64_t version; /* changes with the contents; unique among all buffers */
+	uint64_t mapped;  /* address the program saw, 0: not mapped */
+	size_t map_offset, map_bytes;
+};
+
+struct gls_share {
+	unsigned refs;
+	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
+	struct table programs;                 /* ARB program name -> target + 1 */
+	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
+};
+
+struct gls_context {
+	uint64_t handle, share_handle;
+	const char *api;
+	uint64_t calls;
+	int destroyed, shares;
+	struct gls_state state;
+};
+
+/* Size of a drawable as far as the trace tells. */
+struct gls_drawable {
+	uint32_t width, height;
+	int fixed; /* said by the recorder (relume:drawable) and not guessed from viewports */
+};
+
+/* ---- the scene under construction ---- */
+
+struct gls_frame; void gls_image_cache_free(struct gls_exec *x);
+
+/* scene.c */
+
+/* ---- the machine ---- */
+
+struct gls_exec {
+	const char *path;    /* of the trace, for messages */
+	int want;            /* 1: scenes are built */
+	int failed;          /* ERR_*: a handler met a failure of ours */
+	uint64_t frame;      /* being executed */
+	int frame_ended;     /* set by swaps */
+
+	struct gls_context **contexts; /* owned, in order of creation */
+	size_t n_contexts;
+	struct gls_context *current; /* of the thread whose call is executed */
+	struct gls_state *st;        /* &current->state or NULL */
+	struct gls_context **threads; /* current context of each thread */
+	size_t n_threads;
+	uint64_t thread;
+	struct table drawables;
+
+	struct gls_geometry geometry; /* pending vertices of st */
+	struct gls_geometry compiling; /* of list assembly and array draws */
+	struct gls_state *assembling; /* state that a list's vertices are run through when it is made (list.c) */
+	uint64_t pending_call;        /* number of the call that began them */
+	uint32_t pending_command;
+	const struct call *call;      /* being executed */
+	uint32_t command;             /* its index */
+	unsigned list_depth;
+	struct gls_frame *building;
+	struct table meshes;          /* low half of the hash -> struct gls_mesh (chains by probing the high half) */
+	struct table draws;           /* key of an array draw -> struct gls_mesh */
+	struct table images;          /* texture contents */
+	size_t mesh_bytes, image_bytes;
+	uint64_t versions;            /* last one given to a buffer, array or texture */
+	struct table maps;            /* mapped address -> struct gls_buffer */
+	uint8_t *scratch;             /* for anyone, between two lines */
+	uint32_t *elements;           /* indices of the draw being executed */
+	size_t elements_room;
+	size_t scratch_room;
+
+	uint64_t n_calls;
+	uint64_t *count, *unsupported, *errors; /* [n_gls_commands] */
+	const char **why;                       /* [n_gls_commands] what of it is not done */
+	uint32_t *error_code;                   /* [n_gls_commands] the last one */
+	struct table unknown;                   /* name -> count, of calls in no table */
+	uint64_t without_context;
+};
+
+int gls_exec_create(struct gls_exec **out, const char *path);
+void gls_exec_destroy(struct gls_exec **x);
+
+/** Execute a call of the trace. @return 0 or ERR_SYSTEM (reported) */
+int gls_exec_call(struct gls_exec *x, const struct call *c);
+
+/** Run a command of the table as if it had been met (from lists and by handlers). */
+void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command);
+
+/** Draw what is pending; called before any state that draws look at changes. */
+void gls_flush(struct gls_exec *x);
+
+/** A GL error of the program in the current call. */
+void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error);
+
+/** The current call, or the part of it named by `why` (a static string), is not done yet. */
+void gls_unsupported(struct gls_exec *x, const char *why);
+
+/** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported, x->failed). */
+void *gls_scratch(struct gls_exec *x, size_t n);
+/** Note a failure of ours: the run ends with it. */
+void gls_out_of_memory(struct gls_exec *x, size_t bytes);
+
+/* ---- between chapters ---- */
+
+void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
+void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);
+void gls_color_changed(struct gls_state *st);
+/** Called before a material parameter changes, which may happen between Begin and End. */
+void gls_before_material(struct gls_exec *x, struct gls_state *st);
+struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
+void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on);
+void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
+void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable);
+struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st);
+void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n);
+struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name);
+void gls_share_release(struct gls_share *share);
+struct gls_share *gls_share_create(void);
+
+void gls_image_cache_free(struct gls_exec *x);
+
+/* scene.c */
+int gls_frame_begin(struct gls_exec *x);
+/**
+ * Draw a mesh with the state as it is; without a scene under construction nothing happens.
+ * @param mesh    no reference is taken (the scene takes its own)
+ * @param values  attributes that the mesh does not give
+ */
+void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
+                   uint32_t command, uint64_t call_number);
+void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers);
+void gls_frame_reads_screen(struct gls_exec *x);
+struct scene *gls_frame_finish(struct gls_exec *x);
+void gls_frame_destroy(struct gls_exec *x);
+void gls_mesh_cache_trim(struct gls_exec *x);
+void gls_mesh_cache_free(struct gls_exec *x);
+
+#endif

@@ -1,0 +1,157 @@
+/* relume info: what a trace holds. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/verbs.h"
+#include "replay/json.h"
+#include "replay/replay.h"
+
+#define TOP_CALLS 20
+
+static void print_help(void)
+{
+	puts("usage: relume info [OPTIONS] TRACE\n"
+	     "\n"
+	     "Say what a trace holds: frames, calls, contexts, drawable size, what Relume does not execute yet,\n"
+	     "and the GL errors that the program itself made.\n"
+	     "\n"
+	     "  -a, --all    every command that was called, not only the most frequent\n"
+	     "  -j, --json   as JSON\n"
+	     "  -h, --help   this text");
+}
+
+static void print_counts(const char *title, const struct replay_count *counts, size_t n, size_t limit)
+{
+	if (!n)
+		return;
+	printf("\n%s\n", title);
+	for (size_t i = 0; i < n && i < limit; i++)
+		printf("%12" PRIu64 "  %s%s%s\n", counts[i].count, counts[i].name, counts[i].why ? ": " : "",
+		       counts[i].why ? counts[i].why : "");
+	if (n > limit)
+		printf("              and %zu more (--all lists them)\n", n - limit);
+}
+
+static void print_text(struct replay *rp, const char *path, size_t limit)
+{
+	const struct replay_count *counts;
+	const struct replay_context *contexts;
+	size_t n;
+
+	printf("trace       %s\n", path);
+	printf("hash        %s\n", replay_trace_hash(rp));
+	if (*replay_program(rp))
+		printf("program     %s\n", replay_program(rp));
+	printf("frames      %" PRIu64 "\n", replay_frame(rp));
+	printf("calls       %" PRIu64 "\n", replay_call_count(rp));
+	n = replay_contexts(rp, &contexts);
+	for (size_t i = 0; i < n; i++)
+		printf("context     0x%" PRIx64 ": %s, drawable %ux%u, %" PRIu64 " calls%s\n", contexts[i].handle, contexts[i].api,
+		       contexts[i].width, contexts[i].height, contexts[i].calls, contexts[i].shares ? ", shares objects" : "");
+	n = replay_calls(rp, &counts);
+	print_counts("calls by name", counts, n, limit);
+	n = replay_unsupported(rp, &counts);
+	if (!n)
+		puts("\nevery call is executed");
+	print_counts("not done yet", counts, n, (size_t)-1);
+	n = replay_gl_errors(rp, &counts);
+	print_counts("GL errors that the program made", counts, n, (size_t)-1);
+}
+
+static void json_counts(struct json *j, const char *name, const struct replay_count *counts, size_t n, const char *why)
+{
+	json_key(j, name);
+	json_begin(j, '[');
+	for (size_t i = 0; i < n; i++) {
+		json_begin(j, '{');
+		json_key_string(j, "call", counts[i].name);
+		json_key_uint(j, "count", counts[i].count);
+		if (why && counts[i].why)
+			json_key_string(j, why, counts[i].why);
+		json_end(j, '}');
+	}
+	json_end(j, ']');
+}
+
+static void print_json(struct replay *rp, const char *path)
+{
+	struct json j = { .out = stdout };
+	const struct replay_count *counts;
+	const struct replay_context *contexts;
+	size_t n;
+
+	json_begin(&j, '{');
+	json_key_string(&j, "trace", path);
+	json_key_string(&j, "hash", replay_trace_hash(rp));
+	json_key_string(&j, "program", replay_program(rp));
+	json_key_uint(&j, "frames", replay_frame(rp));
+	json_key_uint(&j, "calls", replay_call_count(rp));
+	json_key(&j, "contexts");
+	json_begin(&j, '[');
+	n = replay_contexts(rp, &contexts);
+	for (size_t i = 0; i < n; i++) {
+		json_begin(&j, '{');
+		json_key_uint(&j, "handle", contexts[i].handle);
+		json_key_string(&j, "api", contexts[i].api);
+		json_key_uint(&j, "width", contexts[i].width);
+		json_key_uint(&j, "height", contexts[i].height);
+		json_key_uint(&j, "calls", contexts[i].calls);
+		json_key_uint(&j, "shares", (uint64_t)contexts[i].shares);
+		json_end(&j, '}');
+	}
+	json_end(&j, ']');
+	n = replay_calls(rp, &counts);
+	json_counts(&j, "calls_by_name", counts, n, NULL);
+	n = replay_unsupported(rp, &counts);
+	json_counts(&j, "unsupported", counts, n, "why");
+	n = replay_gl_errors(rp, &counts);
+	json_counts(&j, "gl_errors", counts, n, "error");
+	json_end(&j, '}');
+	putchar('\n');
+}
+
+int info_main(int argc, char **argv)
+{
+	static const struct option options[] = {
+		{ "all", no_argument, NULL, 'a' }, { "json", no_argument, NULL, 'j' }, { "help", no_argument, NULL, 'h' }, { 0 },
+	};
+	size_t limit = TOP_CALLS;
+	struct replay *rp = NULL;
+	struct scene *scene = NULL;
+	int json = 0, opt, rc;
+
+	while ((opt = getopt_long(argc, argv, "ajh", options, NULL)) != -1) {
+		switch (opt) {
+		case 'a':
+			limit = (size_t)-1;
+			break;
+		case 'j':
+			json = 1;
+			break;
+		case 'h':
+			print_help();
+			return 0;
+		default:
+			return -ERR_USAGE;
+		}
+	}
+	if (argc - optind != 1)
+		return -err_report(ERR_USAGE, NULL, "info takes one trace; 'relume help info' says more");
+	rc = replay_open(&rp, argv[optind]);
+	if (rc)
+		return -rc;
+	/* Frames are built, so that what drawing does not do yet is found as well. */
+	while ((rc = replay_next_frame(rp, 1, &scene)) == 1)
+		scene_release(&scene);
+	if (rc == 0 || replay_frame(rp)) {
+		if (json)
+			print_json(rp, argv[optind]);
+		else
+			print_text(rp, argv[optind], limit);
+	}
+	replay_close(&rp);
+	return -rc;
+}

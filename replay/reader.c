@@ -1,0 +1,757 @@
+/* The grammar is in capture/trace.md; section numbers of the format's notes are not repeated here. */
+#include "replay/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/arena.h"
+#include "replay/container.h"
+#include "replay/exec.h"
+
+#define FORMAT_NEWEST 6
+#define MAX_DEPTH 16           /* arrays in structs in arrays; recorders need 3 */
+#define MAX_ARGS 256           /* of a call; GL's longest has 17 */
+#define MAX_ID (1u << 20)      /* of signatures */
+#define MAX_PENDING 1024       /* calls that have not returned */
+#define MAX_PROPERTIES 64
+#define ARENA_KEEP (64u << 20) /* a call's memory that is kept for the next one */
+
+struct pending {
+	struct call call;
+	struct trace_value args[MAX_ARGS];
+	struct arena arena;
+	int in_use;
+};
+
+/* Signatures of one kind by id. */
+struct sig_table {
+	void **items;
+	size_t n;
+};
+
+struct trace_reader {
+	char *path;
+	struct container *container;
+	const uint8_t *p, *end; /* the piece being read */
+	uint64_t piece_start;   /* logical offset of the piece's first byte */
+	const uint8_t *piece;
+	int status;             /* 0: going; 1: the bytes ended; < 0 ERR_* */
+	int ended, cut;
+	unsigned version;
+	uint64_t next_number;
+
+	struct arena sigs; /* signatures and properties */
+	struct sig_table calls, structs, enums, bitmasks, frames;
+	const char *properties[MAX_PROPERTIES][2];
+	size_t n_properties;
+
+	struct pending **pending; /* owned; a pool */
+	size_t n_pending;
+	struct pending *delivered; /* freed by the next read */
+	struct arena scratch;      /* of calls that are parsed and dropped */
+};
+
+static int fail_at(struct trace_reader *r, const char *what)
+{
+	if (r->status == 0)
+		r->status = err_report(ERR_INPUT, r->path,
+		                       "damaged in call %llu, byte %llu of the file (%llu unpacked): %s; the calls before it can "
+		                       "be used",
+		                       (unsigned long long)r->next_number, (unsigned long long)container_offset(r->container),
+		                       (unsigned long long)(r->piece_start + (uint64_t)(r->p - r->piece)), what);
+	return r->status;
+}
+
+static void *take(struct trace_reader *r, struct arena *a, size_t n)
+{
+	void *out = arena_alloc(a, n);
+
+	if (!out && r->status == 0)
+		r->status = err_report(ERR_SYSTEM, r->path, "out of memory for %zu bytes of one call", n);
+	return out;
+}
+
+/* ---- bytes ---- */
+
+static int refill(struct trace_reader *r)
+{
+	size_t n;
+	int rc;
+
+	if (r->status)
+		return 0;
+	r->piece_start += (uint64_t)(r->end - r->piece);
+	rc = container_next(r->container, &r->piece, &n);
+	if (rc != 1) {
+		r->status = rc < 0 ? rc : 1;
+		r->piece = r->p = r->end = NULL;
+		return 0;
+	}
+	r->p = r->piece;
+	r->end = r->piece + n;
+	return 1;
+}
+
+static inline unsigned read_byte(struct trace_reader *r)
+{
+	if (r->p == r->end && !refill(r))
+		return 0;
+	return *r->p++;
+}
+
+static inline uint64_t read_uint(struct trace_reader *r)
+{
+	uint64_t value = 0;
+	unsigned shift = 0, byte;
+
+	do {
+		byte = read_byte(r);
+		if (shift == 63 && byte > 1) {
+			fail_at(r, "a number of more than 64 bits");
+			return 0;
+		}
+		value |= (uint64_t)(byte & 0x7f) << shift;
+		shift += 7;
+	} while (byte & 0x80);
+	return value;
+}
+
+static void read_bytes(struct trace_reader *r, void *out, size_t n)
+{
+	uint8_t *to = out;
+
+	while (n) {
+		size_t here = (size_t)(r->end - r->p);
+		if (here == 0) {
+			if (!refill(r))
+				return;
+			continue;
+		}
+		if (here > n)
+			here = n;
+		memcpy(to, r->p, here);
+		r->p += here;
+		to += here;
+		n -= here;
+	}
+}
+
+/*
+ * n bytes into an arena, NUL-terminated. The count is not believed: room grows with the bytes that are really there.
+ */
+static uint8_t *read_block(struct trace_reader *r, struct arena *a, uint64_t n)
+{
+	size_t room = n < (4u << 20) ? (size_t)n : 4u << 20, got = 0;
+	uint8_t *out;
+
+	if (n > (uint64_t)1 << 40) {
+		fail_at(r, "a string or blob of impossible size");
+		return NULL;
+	}
+	out = take(r, a, room + 1);
+	while (out && r->status == 0) {
+		read_bytes(r, out + got, room - got);
+		got = room;
+		if (room == n)
+			break;
+		room = n - room < room ? (size_t)n : 2 * room;
+		uint8_t *grown = take(r, a, room + 1);
+		if (grown)
+			memcpy(grown, out, got);
+		out = grown;
+	}
+	if (!out || r->status)
+		return NULL;
+	out[n] = 0;
+	return out;
+}
+
+static const char *read_string(struct trace_reader *r, struct arena *a, uint64_t *count)
+{
+	uint64_t n = read_uint(r);
+
+	if (r->status)
+		return NULL;
+	if (count)
+		*count = n;
+	return (const char *)read_block(r, a, n);
+}
+
+/* ---- signatures ---- */
+
+/* The slot of an id, or NULL (failed). An empty slot: the signature follows. */
+static void **slot_of(struct trace_reader *r, struct sig_table *t, uint64_t id)
+{
+	if (r->status)
+		return NULL;
+	if (id >= MAX_ID) {
+		fail_at(r, "a signature's number is out of all measure");
+		return NULL;
+	}
+	if (id >= t->n) {
+		size_t n = t->n ? t->n : 64;
+		while (n <= id)
+			n *= 2;
+		void **grown = realloc(t->items, n * sizeof(*grown));
+		if (!grown) {
+			r->status = err_report(ERR_SYSTEM, r->path, "out of memory");
+			return NULL;
+		}
+		memset(grown + t->n, 0, (n - t->n) * sizeof(*grown));
+		t->items = grown;
+		t->n = n;
+	}
+	return &t->items[id];
+}
+
+static const char **read_names(struct trace_reader *r, uint64_t n)
+{
+	const char **names;
+
+	if (n > 65536) {
+		fail_at(r, "a signature with too many names");
+		return NULL;
+	}
+	names = take(r, &r->sigs, (n + 1) * sizeof(*names));
+	for (uint64_t i = 0; names && i < n; i++)
+		if (!(names[i] = read_string(r, &r->sigs, NULL)))
+			return NULL;
+	return names;
+}
+
+static int64_t read_tagged_int(struct trace_reader *r)
+{
+	unsigned tag = read_byte(r);
+	uint64_t value;
+
+	if (tag != TRACE_SINT && tag != TRACE_UINT) {
+		if (r->status == 0)
+			fail_at(r, "an enum's value is no number");
+		return 0;
+	}
+	value = read_uint(r);
+	return tag == TRACE_SINT ? (int64_t)-value : (int64_t)value;
+}
+
+static const struct call_sig *read_call_sig(struct trace_reader *r)
+{
+	uint64_t id = read_uint(r), n;
+	void **slot = slot_of(r, &r->calls, id);
+	struct call_sig *sig;
+
+	if (!slot || *slot)
+		return slot ? *slot : NULL;
+	sig = take(r, &r->sigs, sizeof(*sig));
+	if (!sig)
+		return NULL;
+	sig->id = id;
+	sig->name = read_string(r, &r->sigs, NULL);
+	n = read_uint(r);
+	if (!sig->name || r->status)
+		return NULL;
+	if (n > MAX_ARGS) {
+		fail_at(r, "a call with too many arguments");
+		return NULL;
+	}
+	sig->n_args = (uint32_t)n;
+	sig->arg_names = read_names(r, n);
+	if (!sig->arg_names)
+		return NULL;
+	sig->command = gls_command_find(sig->name);
+	*slot = sig;
+	return sig;
+}
+
+static const struct trace_enum_sig *read_enum_sig(struct trace_reader *r)
+{
+	void **slot = slot_of(r, &r->enums, read_uint(r));
+	struct trace_enum_sig *sig;
+	uint64_t n;
+
+	if (!slot || *slot)
+		return slot ? *slot : NULL;
+	n = r->version >= 3 ? read_uint(r) : 1;
+	if (n > 65536)
+		fail_at(r, "an enum with too many names");
+	if (r->status)
+		return NULL;
+	sig = take(r, &r->sigs, sizeof(*sig));
+	if (!sig || !(sig->names = take(r, &r->sigs, (n + 1) * sizeof(*sig->names))) ||
+	    !(sig->values = take(r, &r->sigs, (n + 1) * sizeof(*sig->values))))
+		return NULL;
+	sig->n = (uint32_t)n;
+	for (uint64_t i = 0; i < n; i++) {
+		if (!(sig->names[i] = read_string(r, &r->sigs, NULL)))
+			return NULL;
+		sig->values[i] = read_tagged_int(r);
+	}
+	if (r->status)
+		return NULL;
+	*slot = sig;
+	return sig;
+}
+
+static const struct trace_bitmask_sig *read_bitmask_sig(struct trace_reader *r)
+{
+	void **slot = slot_of(r, &r->bitmasks, read_uint(r));
+	struct trace_bitmask_sig *sig;
+	uint64_t n;
+
+	if (!slot || *slot)
+		return slot ? *slot : NULL;
+	n = read_uint(r);
+	if (n > 65536)
+		fail_at(r, "a bitmask with too many names");
+	if (r->status)
+		return NULL;
+	sig = take(r, &r->sigs, sizeof(*sig));
+	if (!sig || !(sig->names = take(r, &r->sigs, (n + 1) * sizeof(*sig->names))) ||
+	    !(sig->values = take(r, &r->sigs, (n + 1) * sizeof(*sig->values))))
+		return NULL;
+	sig->n = (uint32_t)n;
+	for (uint64_t i = 0; i < n; i++) {
+		if (!(sig->names[i] = read_string(r, &r->sigs, NULL)))
+			return NULL;
+		sig->values[i] = read_uint(r);
+	}
+	if (r->status)
+		return NULL;
+	*slot = sig;
+	return sig;
+}
+
+static const struct trace_struct_sig *read_struct_sig(struct trace_reader *r)
+{
+	void **slot = slot_of(r, &r->structs, read_uint(r));
+	struct trace_struct_sig *sig;
+	uint64_t n;
+
+	if (!slot || *slot)
+		return slot ? *slot : NULL;
+	sig = take(r, &r->sigs, sizeof(*sig));
+	if (!sig || !(sig->name = read_string(r, &r->sigs, NULL)))
+		return NULL;
+	n = read_uint(r);
+	if (r->status)
+		return NULL;
+	sig->members = read_names(r, n);
+	if (!sig->members)
+		return NULL;
+	sig->n = (uint32_t)n;
+	*slot = sig;
+	return sig;
+}
+
+/* ---- values ---- */
+
+static void read_value(struct trace_reader *r, struct arena *a, struct trace_value *v, unsigned depth);
+
+static const struct trace_value *read_items(struct trace_reader *r, struct arena *a, uint64_t n, unsigned depth)
+{
+	/* Room for what is there at most: an item takes a byte at least, and the count is not believed. */
+	size_t room = n < 4096 ? (size_t)n : 4096;
+	struct trace_value *items = take(r, a, (room + !room) * sizeof(*items));
+
+	for (uint64_t i = 0; items && i < n && r->status == 0; i++) {
+		if (i == room) {
+			struct trace_value *grown;
+			room = n - i < room ? (size_t)n : 2 * room;
+			grown = take(r, a, room * sizeof(*items));
+			if (grown)
+				memcpy(grown, items, (size_t)i * sizeof(*items));
+			items = grown;
+			if (!items)
+				break;
+		}
+		read_value(r, a, &items[i], depth + 1);
+	}
+	return items;
+}
+
+static void read_wide(struct trace_reader *r, struct arena *a, struct trace_value *v)
+{
+	uint32_t *wide;
+
+	v->count = read_uint(r);
+	if (v->count > (1u << 20)) {
+		fail_at(r, "a wide string of impossible size");
+		return;
+	}
+	v->wide = wide = take(r, a, (v->count + 1) * sizeof(*wide));
+	for (uint64_t i = 0; wide && i < v->count && r->status == 0; i++)
+		wide[i] = (uint32_t)read_uint(r);
+}
+
+static void read_value(struct trace_reader *r, struct arena *a, struct trace_value *v, unsigned depth)
+{
+	unsigned tag = read_byte(r);
+
+	v->type = (enum trace_type)tag;
+	v->sig = NULL;
+	v->count = 0;
+	v->u = 0;
+	if (depth > MAX_DEPTH) {
+		fail_at(r, "values nested too deep");
+		return;
+	}
+	switch (tag) {
+	case TRACE_NULL:
+	case TRACE_FALSE:
+		break;
+	case TRACE_TRUE:
+		v->u = 1;
+		break;
+	case TRACE_SINT:
+		v->i = (int64_t)-read_uint(r);
+		break;
+	case TRACE_UINT:
+	case TRACE_OPAQUE:
+		v->u = read_uint(r);
+		break;
+	case TRACE_FLOAT:
+		read_bytes(r, &v->f, 4);
+		break;
+	case TRACE_DOUBLE:
+		read_bytes(r, &v->d, 8);
+		break;
+	case TRACE_STRING:
+		v->str = read_string(r, a, &v->count);
+		break;
+	case TRACE_BLOB:
+		v->count = read_uint(r);
+		if (r->status == 0)
+			v->blob = read_block(r, a, v->count);
+		break;
+	case TRACE_ENUM:
+		v->sig = read_enum_sig(r);
+		if (v->sig && r->version < 3)
+			v->i = ((const struct trace_enum_sig *)v->sig)->values[0];
+		else if (v->sig)
+			v->i = read_tagged_int(r);
+		break;
+	case TRACE_BITMASK:
+		v->sig = read_bitmask_sig(r);
+		if (v->sig)
+			v->u = read_uint(r);
+		break;
+	case TRACE_ARRAY:
+		v->count = read_uint(r);
+		if (r->status == 0)
+			v->items = read_items(r, a, v->count, depth);
+		break;
+	case TRACE_STRUCT:
+		v->sig = read_struct_sig(r);
+		if (!v->sig)
+			break;
+		v->count = ((const struct trace_struct_sig *)v->sig)->n;
+		v->items = read_items(r, a, v->count, depth);
+		break;
+	case TRACE_REPR:
+		v->count = 2;
+		v->items = read_items(r, a, 2, depth);
+		break;
+	case TRACE_WSTRING:
+		read_wide(r, a, v);
+		break;
+	default:
+		fail_at(r, "a value of unknown type");
+	}
+}
+
+/* ---- events ---- */
+
+static void skip_backtrace(struct trace_reader *r, struct arena *a)
+{
+	uint64_t n = read_uint(r);
+
+	for (uint64_t i = 0; i < n && r->status == 0; i++) {
+		void **slot = slot_of(r, &r->frames, read_uint(r));
+		if (!slot || *slot)
+			continue;
+		*slot = r; /* seen; nobody wants what it says */
+		for (unsigned tag = read_byte(r); tag && r->status == 0; tag = read_byte(r)) {
+			if (tag <= 3)
+				read_string(r, a, NULL);
+			else if (tag <= 5)
+				read_uint(r);
+			else
+				fail_at(r, "a stack frame of unknown form");
+		}
+	}
+}
+
+static void read_details(struct trace_reader *r, struct pending *p)
+{
+	struct call *call = &p->call;
+
+	for (;;) {
+		unsigned tag = read_byte(r);
+		uint64_t index;
+		if (r->status)
+			return;
+		switch (tag) {
+		case 0:
+			return;
+		case 1:
+			index = read_uint(r);
+			if (index >= MAX_ARGS) {
+				fail_at(r, "an argument's number is out of all measure");
+				return;
+			}
+			for (; call->n_args <= index; call->n_args++)
+				p->args[call->n_args].type = TRACE_NONE;
+			read_value(r, &p->arena, &p->args[index], 0);
+			break;
+		case 2:
+			read_value(r, &p->arena, &call->ret, 0);
+			break;
+		case 4:
+			skip_backtrace(r, &p->arena);
+			break;
+		case 5:
+			call->flags |= (uint32_t)read_uint(r);
+			break;
+		default:
+			fail_at(r, "a detail of unknown kind");
+		}
+		if (r->status)
+			return;
+	}
+}
+
+static struct pending *new_pending(struct trace_reader *r)
+{
+	struct pending **grown, *p;
+
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (!r->pending[i]->in_use)
+			return r->pending[i];
+	if (r->n_pending == MAX_PENDING) {
+		fail_at(r, "too many calls that never returned");
+		return NULL;
+	}
+	grown = realloc(r->pending, (r->n_pending + 1) * sizeof(*grown));
+	if (grown)
+		r->pending = grown;
+	p = grown ? calloc(1, sizeof(*p)) : NULL;
+	if (!p) {
+		r->status = err_report(ERR_SYSTEM, r->path, "out of memory");
+		return NULL;
+	}
+	r->pending[r->n_pending++] = p;
+	return p;
+}
+
+static void release_pending(struct pending *p)
+{
+	arena_reset(&p->arena, ARENA_KEEP);
+	p->in_use = 0;
+}
+
+static void read_enter(struct trace_reader *r)
+{
+	struct pending *p = new_pending(r);
+	struct call *call;
+
+	if (!p)
+		return;
+	call = &p->call;
+	memset(call, 0, sizeof(*call));
+	call->thread = r->version >= 4 ? read_uint(r) : 0;
+	call->sig = read_call_sig(r);
+	if (!call->sig)
+		return;
+	call->args = p->args;
+	call->ret.type = TRACE_NONE;
+	for (; call->n_args < call->sig->n_args; call->n_args++)
+		p->args[call->n_args].type = TRACE_NONE;
+	read_details(r, p);
+	if (r->status) {
+		release_pending(p);
+		return;
+	}
+	call->number = r->next_number++;
+	p->in_use = 1;
+}
+
+/* @return the call that has returned, or NULL: failed, or a call that nobody knows */
+static struct pending *read_leave(struct trace_reader *r)
+{
+	uint64_t number = read_uint(r);
+	struct pending *p = NULL, unknown;
+
+	for (size_t i = 0; i < r->n_pending && !p; i++)
+		if (r->pending[i]->in_use && r->pending[i]->call.number == number)
+			p = r->pending[i];
+	if (p) {
+		read_details(r, p);
+		/* Cut within the return: the call itself is whole, and end_of_calls delivers it. */
+		return r->status ? NULL : p;
+	}
+	memset(&unknown, 0, sizeof(unknown));
+	read_details(r, &unknown);
+	arena_free(&unknown.arena);
+	return NULL;
+}
+
+/* At the end: calls that were entered and never left, in order. */
+static struct pending *end_of_calls(struct trace_reader *r)
+{
+	struct pending *oldest = NULL;
+
+	if (r->status == 1 && !r->ended) {
+		r->ended = 1;
+		r->cut |= container_is_cut(r->container);
+		if (r->cut)
+			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole",
+			         (unsigned long long)r->next_number);
+	}
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (r->pending[i]->in_use && (!oldest || r->pending[i]->call.number < oldest->call.number))
+			oldest = r->pending[i];
+	if (oldest)
+		oldest->call.incomplete = 1;
+	return oldest;
+}
+
+int trace_reader_next(struct trace_reader *r, const struct call **call)
+{
+	struct pending *p = NULL;
+
+	*call = NULL;
+	if (r->delivered)
+		release_pending(r->delivered);
+	r->delivered = NULL;
+	while (!p && r->status == 0) {
+		unsigned event;
+		if (r->p == r->end && !refill(r))
+			break;
+		event = read_byte(r);
+		if (event == 0)
+			read_enter(r);
+		else if (event == 1)
+			p = read_leave(r);
+		else
+			fail_at(r, "an event of unknown kind");
+		if (r->status == 1)
+			r->cut = 1;
+	}
+	if (!p && r->status == 1)
+		p = end_of_calls(r);
+	if (!p)
+		return r->status < 0 ? r->status : 0;
+	r->delivered = p;
+	*call = &p->call;
+	return 1;
+}
+
+/* ---- opening ---- */
+
+static int read_header(struct trace_reader *r)
+{
+	uint64_t semantic = 0;
+
+	r->version = (unsigned)read_uint(r);
+	if (r->status == 0 && r->version > FORMAT_NEWEST)
+		return err_report(ERR_INPUT, r->path, "not a trace, or one of format %u, which is newer than %u", r->version,
+		                  FORMAT_NEWEST);
+	if (r->version >= 6)
+		semantic = read_uint(r);
+	if (r->status == 0 && semantic > r->version)
+		return err_report(ERR_INPUT, r->path, "not a trace: its header makes no sense");
+	while (r->version >= 6 && r->status == 0) {
+		const char *name = read_string(r, &r->sigs, NULL), *value;
+		if (!name || !*name)
+			break;
+		value = read_string(r, &r->sigs, NULL);
+		if (value && r->n_properties < MAX_PROPERTIES) {
+			r->properties[r->n_properties][0] = name;
+			r->properties[r->n_properties++][1] = value;
+		}
+	}
+	if (r->status == 1 && r->piece_start == 0 && container_size(r->container) <= 2)
+		return err_report(ERR_INPUT, r->path, "holds no calls yet: the program ended before anything was written");
+	if (r->status == 1)
+		return err_report(ERR_INPUT, r->path, "cut within its header; nothing can be read from it");
+	return r->status;
+}
+
+int trace_reader_open(struct trace_reader **out, const char *path)
+{
+	struct trace_reader *r = calloc(1, sizeof(*r));
+	int rc = ERR_SYSTEM;
+
+	*out = NULL;
+	if (!r || !(r->path = strdup(path))) {
+		err_report(ERR_SYSTEM, path, "out of memory");
+		goto fail;
+	}
+	rc = container_open(&r->container, path);
+	if (rc)
+		goto fail;
+	rc = read_header(r);
+	if (rc)
+		goto fail;
+	*out = r;
+	return 0;
+fail:
+	trace_reader_close(&r);
+	return rc;
+}
+
+void trace_reader_close(struct trace_reader **reader)
+{
+	struct trace_reader *r = *reader;
+
+	if (!r)
+		return;
+	container_close(&r->container);
+	for (size_t i = 0; i < r->n_pending; i++) {
+		arena_free(&r->pending[i]->arena);
+		free(r->pending[i]);
+	}
+	free(r->pending);
+	free(r->calls.items);
+	free(r->structs.items);
+	free(r->enums.items);
+	free(r->bitmasks.items);
+	free(r->frames.items);
+	arena_free(&r->sigs);
+	free(r->path);
+	free(r);
+	*reader = NULL;
+}
+
+const char *trace_reader_property(const struct trace_reader *r, const char *name)
+{
+	for (size_t i = 0; i < r->n_properties; i++)
+		if (strcmp(r->properties[i][0], name) == 0)
+			return r->properties[i][1];
+	return NULL;
+}
+
+int trace_reader_is_cut(const struct trace_reader *r)
+{
+	return r->cut;
+}
+
+uint64_t trace_reader_offset(const struct trace_reader *r)
+{
+	return container_offset(r->container);
+}
+
+uint64_t trace_reader_size(const struct trace_reader *r)
+{
+	return container_size(r->container);
+}
+
+const char *trace_enum_name(const struct trace_value *v)
+{
+	const struct trace_enum_sig *sig = v->type == TRACE_ENUM ? v->sig : NULL;
+
+	for (uint32_t i = 0; sig && i < sig->n; i++)
+		if (sig->values[i] == v->i)
+			return sig->names[i];
+	return NULL;
+}

@@ -1,0 +1,60 @@
+/*
+ * Reads apitrace's traces (formats 0 .. 6) call by call, in a stream: memory does not grow with the file.
+ *
+ * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in which
+ * they returned. A call and all it points to are the reader's, valid until the next trace_reader_next; signatures live as
+ * long as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call that is whole.
+ */
+#ifndef REPLAY_READER_H
+#define REPLAY_READER_H
+
+#include "capture/trace.h"
+
+struct trace_reader;
+
+/* What trace_value.sig points to. */
+struct trace_enum_sig {
+	uint32_t n;
+	const char **names;
+	int64_t *values;
+};
+struct trace_bitmask_sig {
+	uint32_t n;
+	const char **names;
+	uint64_t *values;
+};
+struct trace_struct_sig {
+	const char *name;
+	uint32_t n;
+	const char **members;
+};
+
+/**
+ * Open a trace and read its header.
+ * @return 0, ERR_INPUT (reported: missing, a folder, empty, a picture, not a trace, of a newer format) or ERR_SYSTEM
+ */
+int trace_reader_open(struct trace_reader **out, const char *path);
+void trace_reader_close(struct trace_reader **r);
+
+/**
+ * The next call.
+ * @param call  receives it; NULL unless 1 is returned
+ * @return 1; 0 at the end (a file that ends within an event is warned about once); ERR_INPUT (reported with the byte and
+ *         the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the same.
+ */
+int trace_reader_next(struct trace_reader *r, const struct call **call);
+
+/** A property of the header ("process.name"), or NULL. */
+const char *trace_reader_property(const struct trace_reader *r, const char *name);
+
+/** 1 once the end has been met inside an event or chunk. */
+int trace_reader_is_cut(const struct trace_reader *r);
+
+/** Bytes of the file read so far, and its size. */
+uint64_t trace_reader_offset(const struct trace_reader *r);
+uint64_t trace_reader_size(const struct trace_reader *r);
+
+/** Name of an ENUM's value, or NULL where the signature has none. */
+const char *trace_enum_name(const struct trace_value *v);
+
+#endif

@@ -1,0 +1,260 @@
+#include "replay/replay.h"
+
+#include <stdio.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "replay/exec.h"
+#include "replay/reader.h"
+
+#define HASHED_BYTES ((size_t)1 << 20)
+
+struct replay {
+	char *path;
+	struct trace_reader *reader;
+	struct gls_exec *exec;
+	char hash[33];
+	struct replay_count *counts; /* what the last query answered */
+	size_t room;
+	struct replay_context *contexts;
+};
+
+static int hash_file(struct replay *rp)
+{
+	FILE *file = fopen(rp->path, "rb");
+	uint8_t *bytes = malloc(HASHED_BYTES + 8);
+	uint64_t size = trace_reader_size(rp->reader);
+	XXH128_hash_t hash;
+	size_t n;
+
+	if (!file || !bytes) {
+		if (file)
+			fclose(file);
+		free(bytes);
+		return err_report(ERR_SYSTEM, rp->path, "cannot be read a second time");
+	}
+	n = fread(bytes, 1, HASHED_BYTES, file);
+	memcpy(bytes + n, &size, 8);
+	hash = XXH3_128bits(bytes, n + 8);
+	snprintf(rp->hash, sizeof(rp->hash), "%016llx%016llx", (unsigned long long)hash.high64,
+	         (unsigned long long)hash.low64);
+	fclose(file);
+	free(bytes);
+	return 0;
+}
+
+int replay_open(struct replay **out, const char *path)
+{
+	struct replay *rp = calloc(1, sizeof(*rp));
+	int rc = ERR_SYSTEM;
+
+	*out = NULL;
+	if (!rp || !(rp->path = strdup(path))) {
+		err_report(ERR_SYSTEM, path, "out of memory");
+		goto fail;
+	}
+	rc = trace_reader_open(&rp->reader, path);
+	if (!rc)
+		rc = hash_file(rp);
+	if (!rc)
+		rc = gls_exec_create(&rp->exec, rp->path);
+	if (rc)
+		goto fail;
+	*out = rp;
+	return 0;
+fail:
+	replay_close(&rp);
+	return rc;
+}
+
+void replay_close(struct replay **rp)
+{
+	if (!*rp)
+		return;
+	gls_exec_destroy(&(*rp)->exec);
+	trace_reader_close(&(*rp)->reader);
+	free((*rp)->counts);
+	free((*rp)->contexts);
+	free((*rp)->path);
+	free(*rp);
+	*rp = NULL;
+}
+
+int replay_next_frame(struct replay *rp, int want, struct scene **scene)
+{
+	struct gls_exec *x = rp->exec;
+	const struct call *call;
+	int rc;
+
+	*scene = NULL;
+	x->want = want;
+	x->frame_ended = 0;
+	while (!x->frame_ended) {
+		rc = trace_reader_next(rp->reader, &call);
+		if (rc <= 0)
+			return rc;
+		rc = gls_exec_call(x, call);
+		if (rc)
+			return rc;
+	}
+	if (want) {
+		*scene = gls_frame_finish(x);
+		if (gls_frame_begin(x)) {
+			scene_release(scene);
+			return err_report(ERR_SYSTEM, rp->path, "out of memory");
+		}
+	}
+	x->frame++;
+	gls_mesh_cache_trim(x);
+	return 1;
+}
+
+uint64_t replay_frame(const struct replay *rp)
+{
+	return rp->exec->frame;
+}
+
+uint64_t replay_call_count(const struct replay *rp)
+{
+	return rp->exec->n_calls;
+}
+
+const char *replay_trace_hash(const struct replay *rp)
+{
+	return rp->hash;
+}
+
+const char *replay_program(const struct replay *rp)
+{
+	const char *name = trace_reader_property(rp->reader, "process.name");
+
+	return name ? name : "";
+}
+
+/* ---- counts ---- */
+
+static int put(struct replay *rp, size_t at, const char *name, const char *why, uint64_t count)
+{
+	if (at == rp->room) {
+		size_t room = rp->room ? 2 * rp->room : 64;
+		struct replay_count *grown = realloc(rp->counts, room * sizeof(*grown));
+		if (!grown)
+			return 0;
+		rp->counts = grown;
+		rp->room = room;
+	}
+	rp->counts[at] = (struct replay_count){ name, why, count };
+	return 1;
+}
+
+static int more_often(const void *a, const void *b)
+{
+	const struct replay_count *l = a, *r = b;
+
+	if (l->count != r->count)
+		return l->count < r->count ? 1 : -1;
+	return strcmp(l->name, r->name);
+}
+
+static size_t finish(struct replay *rp, size_t n, const struct replay_count **out)
+{
+	if (n)
+		qsort(rp->counts, n, sizeof(rp->counts[0]), more_often);
+	*out = rp->counts;
+	return n;
+}
+
+static size_t put_unknown(struct replay *rp, size_t n, const char *why)
+{
+	const struct table *t = &rp->exec->unknown;
+
+	for (size_t i = 0; i < t->room; i++)
+		if (t->entries[i].value)
+			n += (size_t)put(rp, n, ((const struct call_sig *)(uintptr_t)t->entries[i].key)->name, why,
+			                 (uintptr_t)t->entries[i].value);
+	return n;
+}
+
+size_t replay_unsupported(struct replay *rp, const struct replay_count **out)
+{
+	const struct gls_exec *x = rp->exec;
+	size_t n = 0;
+
+	for (unsigned i = 0; i < n_gls_commands; i++)
+		if (x->unsupported[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, x->why[i], x->unsupported[i]);
+	return finish(rp, put_unknown(rp, n, NULL), out);
+}
+
+size_t replay_calls(struct replay *rp, const struct replay_count **out)
+{
+	const struct gls_exec *x = rp->exec;
+	size_t n = 0;
+
+	for (unsigned i = 0; i < n_gls_commands; i++)
+		if (x->count[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, NULL, x->count[i]);
+	return finish(rp, put_unknown(rp, n, NULL), out);
+}
+
+static const char *error_name(uint32_t error)
+{
+	switch (error) {
+	case GL_INVALID_ENUM:
+		return "GL_INVALID_ENUM";
+	case GL_INVALID_VALUE:
+		return "GL_INVALID_VALUE";
+	case GL_INVALID_OPERATION:
+		return "GL_INVALID_OPERATION";
+	case GL_STACK_OVERFLOW:
+		return "GL_STACK_OVERFLOW";
+	case GL_STACK_UNDERFLOW:
+		return "GL_STACK_UNDERFLOW";
+	default:
+		return "GL_OUT_OF_MEMORY";
+	}
+}
+
+size_t replay_gl_errors(struct replay *rp, const struct replay_count **out)
+{
+	const struct gls_exec *x = rp->exec;
+	size_t n = 0;
+
+	for (unsigned i = 0; i < n_gls_commands; i++)
+		if (x->errors[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, error_name(x->error_code[i]), x->errors[i]);
+	return finish(rp, n, out);
+}
+
+size_t replay_contexts(struct replay *rp, const struct replay_context **out)
+{
+	struct gls_exec *x = rp->exec;
+
+	free(rp->contexts);
+	rp->contexts = calloc(x->n_contexts + 1, sizeof(*rp->contexts));
+	*out = rp->contexts;
+	if (!rp->contexts)
+		return 0;
+	for (size_t i = 0; i < x->n_contexts; i++) {
+		struct gls_context *ctx = x->contexts[i];
+		struct gls_drawable *d = ctx->state.ever_current ? gls_drawable_of(x, &ctx->state) : NULL;
+		rp->contexts[i] = (struct replay_context){ ctx->handle, d ? d->width : 0, d ? d->height : 0, ctx->api, ctx->calls,
+		                                           ctx->shares };
+	}
+	return x->n_contexts;
+}
+
+void replay_report_unsupported(struct replay *rp, const char *where, size_t limit)
+{
+	const struct replay_count *counts;
+	size_t n = replay_unsupported(rp, &counts);
+
+	for (size_t i = 0; i < n && i < limit; i++)
+		err_warn(where, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
+		         counts[i].why ? counts[i].why : "not done yet");
+	if (n > limit)
+		err_warn(where, "and %zu more commands that are not done yet ('relume info' lists them)", n - limit);
+}

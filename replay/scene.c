@@ -1,0 +1,578 @@
+/* The scene under construction: what a draw saw is copied here, equal things once (scene.h). */
+#include <stdlib.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "replay/mat4.h"
+#include "replay/texture.h"
+
+/* A scene with the references it holds. */
+struct owned_scene {
+	struct scene scene; /* first */
+};
+
+struct gls_frame {
+	struct owned_scene *out;
+	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws; } room;
+	struct table materials, units, lights, currents, views, stipples, spaces; /* hash -> index + 1 */
+	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
+	const struct gls_state *last;
+	uint32_t next_draw, next_primitive;
+	int cleared, reads_screen, drew;
+};
+
+/* ---- arrays that grow ---- */
+
+static int grow(void *array, uint32_t *room, uint32_t n, size_t size)
+{
+	void **p = array, *grown;
+	uint32_t wanted = *room ? *room : 16;
+
+	if (n < *room)
+		return 0;
+	while (wanted <= n)
+		wanted *= 2;
+	grown = realloc(*p, wanted * size);
+	if (!grown)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for a scene");
+	*p = grown;
+	*room = wanted;
+	return 0;
+}
+
+/* The index of equal bytes in an array, appending them where they are new; SCENE_NONE: out of memory. */
+static uint32_t intern(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size)
+{
+	uint64_t hash = XXH3_64bits(value, size);
+	uint8_t **p = array;
+	uintptr_t found;
+
+	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
+		if (memcmp(*p + (found - 1) * size, value, size) == 0)
+			return (uint32_t)(found - 1);
+	if (grow(array, room, *n, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+		return SCENE_NONE;
+	memcpy(*p + *n * size, value, size);
+	return (*n)++;
+}
+
+/* The same for a run of values that must lie together; returns the first one's index. */
+static uint32_t intern_run(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
+                           size_t size)
+{
+	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count);
+	uint8_t **p = array;
+	uintptr_t found;
+
+	if (!count)
+		return 0;
+	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
+		if (*n - (found - 1) >= count && memcmp(*p + (found - 1) * size, values, count * size) == 0)
+			return (uint32_t)(found - 1);
+	if (grow(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+		return SCENE_NONE;
+	memcpy(*p + *n * size, values, count * size);
+	*n += count;
+	return *n - count;
+}
+
+/* ---- what a draw saw ---- */
+
+static void fill_scissor(struct gls_exec *x, struct gls_state *st, int32_t out[4])
+{
+	const struct gls_drawable *d = gls_drawable_of(x, st);
+	int64_t x0 = 0, y0 = 0, x1 = d ? d->width : 0, y1 = d ? d->height : 0;
+	const int32_t *rect = st->a.scissor.rect;
+
+	if (st->a.scissor.enabled) {
+		x0 = rect[0] > x0 ? rect[0] : x0;
+		y0 = rect[1] > y0 ? rect[1] : y0;
+		x1 = (int64_t)rect[0] + rect[2] < x1 ? (int64_t)rect[0] + rect[2] : x1;
+		y1 = (int64_t)rect[1] + rect[3] < y1 ? (int64_t)rect[1] + rect[3] : y1;
+	}
+	out[0] = (int32_t)x0;
+	out[1] = (int32_t)y0;
+	out[2] = (int32_t)(x1 > x0 ? x1 - x0 : 0);
+	out[3] = (int32_t)(y1 > y0 ? y1 - y0 : 0);
+}
+
+/* Views with equal viewport rectangles share their eye space (scene.h). */
+static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
+{
+	uint64_t key = XXH3_64bits(view->viewport, sizeof(view->viewport));
+	uintptr_t found = (uintptr_t)table_find(&f->spaces, key);
+
+	if (!found) {
+		found = f->spaces.n + 1;
+		if (table_set(&f->spaces, key, (void *)found))
+			return 0;
+	}
+	return (uint32_t)(found - 1);
+}
+
+static uint32_t find_view(struct gls_exec *x, struct gls_frame *f, struct gls_state *st)
+{
+	struct scene *s = &f->out->scene;
+	struct scene_view view;
+
+	memset(&view, 0, sizeof(view));
+	memcpy(view.projection, st->projection.matrices[st->projection.depth], 64);
+	memcpy(view.viewport, st->a.viewport.rect, 16);
+	memcpy(view.depth_range, st->a.viewport.depth_range, 8);
+	fill_scissor(x, st, view.scissor);
+	view.space = space_of(f, &view);
+	return intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
+}
+
+/* The enabled target of highest precedence (sec. 3.8.15): cube map, 3D, rectangle, 2D, 1D. */
+static int enabled_target(const struct gls_unit *unit)
+{
+	static const unsigned order[] = { GLS_TEXTURE_CUBE, GLS_TEXTURE_3D, GLS_TEXTURE_RECTANGLE, GLS_TEXTURE_2D,
+	                                  GLS_TEXTURE_1D };
+
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		if (unit->enabled >> order[i] & 1)
+			return (int)order[i];
+	return -1;
+}
+
+static uint32_t texture_slot(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image)
+{
+	struct scene *s = &f->out->scene;
+
+	image->used_frame = x->frame;
+	if (image->slot_frame == x->frame + 1)
+		return image->slot;
+	if (grow(&s->textures, &f->room.textures, s->n_textures, sizeof(*s->textures)))
+		return SCENE_NONE;
+	atomic_fetch_add(&image->refs, 1);
+	s->textures[s->n_textures] = &image->texture;
+	image->slot = s->n_textures++;
+	image->slot_frame = x->frame + 1;
+	return image->slot;
+}
+
+/* @return 1 where the unit textures */
+static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, unsigned u, struct scene_unit *out)
+{
+	const struct gls_unit *unit = &st->a.texturing.units[u];
+	int target = enabled_target(unit);
+	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
+	struct gls_texture_image *image = t ? gls_texture_image_of(x, t) : NULL;
+
+	if (!image)
+		return 0;
+	*out = unit->value;
+	out->texture = texture_slot(x, f, image);
+	if (out->texture == SCENE_NONE)
+		return 0;
+	out->wrap_s = t->wrap_s;
+	out->wrap_t = t->wrap_t;
+	out->wrap_r = t->wrap_r;
+	out->min_filter = t->min_filter;
+	out->mag_filter = t->mag_filter;
+	memcpy(out->border_color, t->border_color, 16);
+	out->lod_bias = t->lod_bias + unit->lod_bias;
+	out->min_lod = t->min_lod;
+	out->max_lod = t->max_lod;
+	out->max_anisotropy = t->max_anisotropy;
+	out->compare_mode = t->compare_mode;
+	out->compare_func = t->compare_func;
+	out->depth_mode = t->depth_mode;
+	for (unsigned i = 0; i < 4; i++)
+		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
+	memcpy(out->matrix, st->texture[u].matrices[st->texture[u].depth], 64);
+	return 1;
+}
+
+/* Sec. 2.14.3: a material parameter that follows the current color shows the color of this draw. */
+static void track_color(const struct gls_lighting *l, struct scene_face *face, unsigned side, const float color[4])
+{
+	if (!l->color_material || l->color_material_face == (side ? GL_FRONT : GL_BACK))
+		return;
+	switch (l->color_material_mode) {
+	case GL_EMISSION:
+		memcpy(face->emission, color, 16);
+		break;
+	case GL_SPECULAR:
+		memcpy(face->specular, color, 16);
+		break;
+	case GL_AMBIENT:
+		memcpy(face->ambient, color, 16);
+		break;
+	case GL_DIFFUSE:
+		memcpy(face->diffuse, color, 16);
+		break;
+	default:
+		memcpy(face->ambient, color, 16);
+		memcpy(face->diffuse, color, 16);
+	}
+}
+
+static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t *count)
+{
+	struct scene *s = &f->out->scene;
+	struct scene_light lights[GLS_MAX_LIGHTS];
+
+	*count = 0;
+	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
+		if (l->lights[i].enabled)
+			lights[(*count)++] = l->lights[i].value;
+	return intern_run(&f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
+}
+
+static uint32_t fill_stipple(struct gls_frame *f, const struct gls_attribs *a)
+{
+	struct scene *s = &f->out->scene;
+
+	if (!a->polygon.stipple)
+		return SCENE_NONE;
+	return intern(&f->stipples, &s->stipples, &s->n_stipples, &f->room.stipples, a->polygon_stipple,
+	              sizeof(a->polygon_stipple));
+}
+
+static void fill_lighting(const struct gls_lighting *l, const float color[4], struct scene_material *m)
+{
+	memcpy(m->light_model_ambient, l->model_ambient, 16);
+	m->local_viewer = l->local_viewer;
+	m->two_side = l->two_side;
+	m->separate_specular = l->separate_specular;
+	m->front = l->face[0];
+	m->back = l->face[1];
+	track_color(l, &m->front, 0, color);
+	track_color(l, &m->back, 1, color);
+	m->color_material = l->color_material ? l->color_material_face : 0;
+	m->color_material_mode = l->color_material_mode;
+}
+
+static void fill_fragment_state(const struct gls_state *st, struct scene_material *m)
+{
+	const struct gls_attribs *a = &st->a;
+	const struct gls_color_buffer *b = &a->color;
+
+	m->alpha_test = a->color.alpha_test;
+	m->alpha_func = b->alpha_func;
+	m->alpha_ref = b->alpha_ref;
+	m->stencil_test = a->stencil.enabled && st->stencil_bits;
+	m->stencil_front = a->stencil.side[0];
+	m->stencil_back = a->stencil.side[1];
+	m->depth_test = a->depth.enabled && st->depth_bits;
+	m->depth_func = a->depth.func;
+	m->depth_write = a->depth.write;
+	m->blend = b->blend;
+	m->blend_equation_rgb = b->equation_rgb;
+	m->blend_equation_alpha = b->equation_alpha;
+	m->blend_src_rgb = b->src_rgb;
+	m->blend_dst_rgb = b->dst_rgb;
+	m->blend_src_alpha = b->src_alpha;
+	m->blend_dst_alpha = b->dst_alpha;
+	memcpy(m->blend_color, b->blend_color, 16);
+	m->logic_op = b->logic_op_enabled ? b->logic_op : 0;
+	m->color_mask = b->draw_buffer == GL_NONE ? 0 : b->mask;
+}
+
+static void fill_raster_state(const struct gls_attribs *a, struct scene_material *m)
+{
+	m->cull_face = a->polygon.cull ? a->polygon.cull_face : 0;
+	m->front_face = a->polygon.front_face;
+	m->polygon_mode_front = a->polygon.mode[0];
+	m->polygon_mode_back = a->polygon.mode[1];
+	m->polygon_offset = (a->polygon.offset_point ? 1u : 0) | (a->polygon.offset_line ? 2u : 0) |
+	                    (a->polygon.offset_fill ? 4u : 0);
+	m->polygon_offset_factor = a->polygon.offset_factor;
+	m->polygon_offset_units = a->polygon.offset_units;
+	m->line_stipple = a->line.stipple ? a->line.stipple_factor << 16 | a->line.stipple_pattern : 0;
+	m->line_width = a->line.width;
+	m->line_smooth = a->line.smooth;
+	m->point_size = a->point.size;
+	m->point_smooth = a->point.smooth;
+	m->polygon_smooth = a->polygon.smooth;
+	m->point_sprite = a->point.sprite;
+	memcpy(m->point_attenuation, a->point.attenuation, sizeof(m->point_attenuation));
+	m->point_size_min = a->point.size_min;
+	m->point_size_max = a->point.size_max;
+	m->point_fade_threshold = a->point.fade_threshold;
+	m->multisample = a->multisample.enabled;
+	m->clip_plane_mask = a->transform.clip_plane_mask;
+	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++)
+		if (m->clip_plane_mask >> i & 1)
+			memcpy(m->clip_plane_eye[i], a->transform.clip_plane_eye[i], 16);
+}
+
+static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const float color[4])
+{
+	struct scene *s = &f->out->scene;
+	const struct gls_attribs *a = &st->a;
+	struct scene_unit units[GLS_MAX_UNITS];
+	struct scene_material m;
+
+	memset(&m, 0, sizeof(m));
+	m.lighting = a->lighting.enabled;
+	fill_lighting(&a->lighting, color, &m);
+	if (m.lighting)
+		m.light_first = fill_lights(f, &a->lighting, &m.light_count);
+	m.normalize = a->transform.normalize;
+	m.rescale_normal = a->transform.rescale_normal;
+	m.shade_model = a->lighting.shade_model;
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		m.unit_count += (uint32_t)fill_unit(x, f, st, u, &units[m.unit_count]);
+	m.unit_first = intern_run(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
+	m.color_sum = a->fog.color_sum;
+	m.fog = a->fog.enabled;
+	m.fog_mode = a->fog.mode;
+	m.fog_coord_source = a->fog.coord_source;
+	m.fog_density = a->fog.density;
+	m.fog_start = a->fog.start;
+	m.fog_end = a->fog.end;
+	memcpy(m.fog_color, a->fog.color, 16);
+	fill_raster_state(a, &m);
+	m.polygon_stipple = fill_stipple(f, a);
+	fill_fragment_state(st, &m);
+	m.surface = st->surface;
+	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
+	return intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
+}
+
+/* Attributes that the mesh gives, and those that nothing looks at, are set to GL's initial values: equal ones meet. */
+static uint32_t find_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
+                             const float (*values)[4])
+{
+	struct scene *s = &f->out->scene;
+	struct scene_current current;
+	uint32_t given = mesh->attributes, textured = 0;
+
+	memset(&current, 0, sizeof(current));
+	for (uint32_t i = 0; i < m->unit_count; i++)
+		textured |= 1u << s->units[m->unit_first + i].unit;
+	for (unsigned i = 0; i < 4; i++) {
+		current.color[i] = given & SCENE_HAS_COLOR ? 1 : values[GLS_ATTR_COLOR][i];
+		current.secondary[i] = given & SCENE_HAS_SECONDARY ? i == 3 : values[GLS_ATTR_SECONDARY][i];
+		current.normal[i] = i < 3 ? (given & SCENE_HAS_NORMAL ? i == 2 : values[GLS_ATTR_NORMAL][i]) : 0;
+		for (unsigned u = 0; u < SCENE_MAX_UNITS; u++)
+			current.texcoord[u][i] = given >> (GLS_ATTR_TEXCOORD + u) & 1 || !(textured >> u & 1)
+			                             ? i == 3 : values[GLS_ATTR_TEXCOORD + u][i];
+	}
+	current.fog_coord = given & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
+	return intern(&f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
+}
+
+static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh)
+{
+	struct scene *s = &f->out->scene;
+
+	mesh->used_frame = x->frame;
+	if (mesh->slot_frame == x->frame + 1)
+		return mesh->slot;
+	if (grow(&s->meshes, &f->room.meshes, s->n_meshes, sizeof(*s->meshes)))
+		return SCENE_NONE;
+	atomic_fetch_add(&mesh->refs, 1);
+	s->meshes[s->n_meshes] = &mesh->mesh;
+	mesh->slot = s->n_meshes++;
+	mesh->slot_frame = x->frame + 1;
+	return mesh->slot;
+}
+
+static int name_draws(struct gls_frame *f, uint32_t command, uint64_t call_number, uint32_t n)
+{
+	struct scene *s = &f->out->scene;
+
+	for (uint32_t i = 0; i < n; i++) {
+		if (grow(&s->draws, &f->room.draws, f->next_draw, sizeof(*s->draws)))
+			return ERR_SYSTEM;
+		s->draws[f->next_draw++] = (struct scene_draw){ gls_commands[command].name, call_number };
+	}
+	return 0;
+}
+
+void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
+                   uint32_t command, uint64_t call_number)
+{
+	struct gls_frame *f = x->building;
+	struct scene_instance *instance;
+	struct scene *s;
+	uint32_t first_draw;
+
+	if (!x->want || !f->out || st->render_mode != GL_RENDER)
+		return;
+	if (st->draw_framebuffer) {
+		gls_unsupported(x, "drawing into framebuffer objects");
+		return;
+	}
+	s = &f->out->scene;
+	first_draw = f->next_draw;
+	if (name_draws(f, command, call_number, mesh->n_draws) ||
+	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
+		goto fail;
+	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
+		f->view = find_view(x, f, st);
+	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || st->a.lighting.color_material)
+		f->material = find_material(x, f, st, values[GLS_ATTR_COLOR]);
+	f->last = st;
+	st->dirty = 0;
+	instance = &s->instances[s->n_instances];
+	memset(instance, 0, sizeof(*instance));
+	instance->mesh = mesh_slot(x, f, mesh);
+	instance->view = f->view;
+	instance->material = f->material;
+	if (instance->mesh == SCENE_NONE || instance->view == SCENE_NONE || instance->material == SCENE_NONE)
+		goto fail;
+	instance->current = find_current(f, &mesh->mesh, &s->materials[f->material], values);
+	if (instance->current == SCENE_NONE)
+		goto fail;
+	instance->draw = first_draw;
+	instance->first_primitive = f->next_primitive;
+	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
+	f->next_primitive += mesh->mesh.primitive_count;
+	s->n_instances++;
+	if (s->materials[f->material].color_mask) {
+		if (!f->cleared)
+			s->needs_previous = 1;
+		f->drew = 1;
+	}
+	if (s->materials[f->material].program)
+		gls_unsupported(x, "programs: drawn as fixed function");
+	return;
+fail:
+	f->last = NULL;
+	gls_out_of_memory(x, 0);
+}
+
+void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
+{
+	struct gls_frame *f = x->building;
+	struct scene_clear clear;
+	struct scene *s;
+	const struct gls_drawable *d;
+
+	if (!x->want || !f->out || st->render_mode != GL_RENDER || !buffers || st->draw_framebuffer)
+		return;
+	s = &f->out->scene;
+	memset(&clear, 0, sizeof(clear));
+	clear.before_instance = s->n_instances;
+	clear.draw = f->next_draw;
+	clear.buffers = buffers;
+	clear.color_mask = st->a.color.draw_buffer == GL_NONE ? 0 : st->a.color.mask;
+	fill_scissor(x, st, clear.scissor);
+	memcpy(clear.color, st->a.color.clear, 16);
+	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
+		clear.buffers &= ~2u;
+	clear.depth = st->a.depth.clear;
+	clear.stencil = st->a.stencil.clear;
+	clear.stencil_mask = st->a.stencil.side[0].write_mask;
+	if (name_draws(f, x->command, x->call->number, 1) ||
+	    grow(&s->clears, &f->room.clears, s->n_clears, sizeof(*s->clears))) {
+		gls_out_of_memory(x, 0);
+		return;
+	}
+	s->clears[s->n_clears++] = clear;
+	d = gls_drawable_of(x, st);
+	if (buffers & 1 && clear.color_mask >= 7 && d && (uint32_t)clear.scissor[2] >= d->width &&
+	    (uint32_t)clear.scissor[3] >= d->height)
+		f->cleared = 1;
+}
+
+void gls_frame_reads_screen(struct gls_exec *x)
+{
+	if (x->building->out)
+		x->building->out->scene.needs_previous = 1;
+}
+
+/* ---- a frame's beginning and end ---- */
+
+static void forget_tables(struct gls_frame *f)
+{
+	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->spaces };
+
+	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
+		memset(tables[i]->entries, 0, tables[i]->room * sizeof(*tables[i]->entries));
+		tables[i]->n = 0;
+	}
+}
+
+int gls_frame_begin(struct gls_exec *x)
+{
+	struct gls_frame *f = x->building;
+
+	if (!f)
+		f = x->building = calloc(1, sizeof(*f));
+	if (!f)
+		return ERR_SYSTEM;
+	forget_tables(f);
+	memset(&f->room, 0, sizeof(f->room));
+	f->last = NULL;
+	f->next_draw = 1;
+	f->next_primitive = 0;
+	f->cleared = f->drew = f->reads_screen = 0;
+	f->out = calloc(1, sizeof(*f->out));
+	if (!f->out || grow(&f->out->scene.draws, &f->room.draws, 0, sizeof(struct scene_draw)))
+		return ERR_SYSTEM;
+	f->out->scene.draws[0] = (struct scene_draw){ "", 0 };
+	return 0;
+}
+
+struct scene *gls_frame_finish(struct gls_exec *x)
+{
+	struct gls_frame *f = x->building;
+	struct scene *s = &f->out->scene;
+	const struct gls_drawable *d = x->st ? gls_drawable_of(x, x->st) : NULL;
+
+	s->frame = x->frame;
+	s->n_primitives = f->next_primitive;
+	s->n_draws = f->next_draw - 1;
+	if (d) {
+		s->width = d->width;
+		s->height = d->height;
+		s->depth_bits = x->st->depth_bits;
+		s->stencil_bits = x->st->stencil_bits;
+		s->alpha_bits = x->st->alpha_bits;
+	}
+	f->out = NULL;
+	return s;
+}
+
+void scene_release(struct scene **scene)
+{
+	struct scene *s = *scene;
+
+	if (!s)
+		return;
+	for (uint32_t i = 0; i < s->n_meshes; i++)
+		gls_mesh_release((struct gls_mesh *)(uintptr_t)s->meshes[i]);
+	for (uint32_t i = 0; i < s->n_textures; i++)
+		gls_texture_image_release((struct gls_texture_image *)(uintptr_t)s->textures[i]);
+	free(s->instances);
+	free(s->materials);
+	free(s->units);
+	free(s->lights);
+	free(s->currents);
+	free(s->views);
+	free(s->clears);
+	free(s->stipples);
+	free(s->meshes);
+	free(s->textures);
+	free(s->draws);
+	free(s);
+	*scene = NULL;
+}
+
+void gls_frame_destroy(struct gls_exec *x)
+{
+	struct gls_frame *f = x->building;
+	struct scene *s;
+
+	if (!f)
+		return;
+	s = f->out ? &f->out->scene : NULL;
+	scene_release(&s);
+	table_free(&f->materials);
+	table_free(&f->units);
+	table_free(&f->lights);
+	table_free(&f->currents);
+	table_free(&f->views);
+	table_free(&f->stipples);
+	table_free(&f->spaces);
+	free(f);
+	x->building = NULL;
+}

@@ -1,0 +1,668 @@
+/* Pixels from the client into textures (GL 2.1 sec. 3.6, 3.8.1, 3.8.2, 3.8.8). */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/texture.h"
+
+#define MAX_SIZE 16384
+
+uint32_t gls_base_format(uint32_t f)
+{
+	switch (f) {
+	case 1:
+	case GL_LUMINANCE:
+	case GL_LUMINANCE4:
+	case GL_LUMINANCE8:
+	case GL_LUMINANCE12:
+	case GL_LUMINANCE16:
+	case GL_COMPRESSED_LUMINANCE:
+	case GL_SLUMINANCE:
+	case GL_SLUMINANCE8:
+		return GL_LUMINANCE;
+	case 2:
+	case GL_LUMINANCE_ALPHA:
+	case GL_LUMINANCE4_ALPHA4:
+	case GL_LUMINANCE6_ALPHA2:
+	case GL_LUMINANCE8_ALPHA8:
+	case GL_LUMINANCE12_ALPHA4:
+	case GL_LUMINANCE12_ALPHA12:
+	case GL_LUMINANCE16_ALPHA16:
+	case GL_COMPRESSED_LUMINANCE_ALPHA:
+	case GL_SLUMINANCE_ALPHA:
+	case GL_SLUMINANCE8_ALPHA8:
+		return GL_LUMINANCE_ALPHA;
+	case GL_ALPHA:
+	case GL_ALPHA4:
+	case GL_ALPHA8:
+	case GL_ALPHA12:
+	case GL_ALPHA16:
+	case GL_COMPRESSED_ALPHA:
+		return GL_ALPHA;
+	case GL_INTENSITY:
+	case GL_INTENSITY4:
+	case GL_INTENSITY8:
+	case GL_INTENSITY12:
+	case GL_INTENSITY16:
+	case GL_COMPRESSED_INTENSITY:
+		return GL_INTENSITY;
+	case 3:
+	case GL_RGB:
+	case GL_R3_G3_B2:
+	case GL_RGB4:
+	case GL_RGB5:
+	case GL_RGB565:
+	case GL_RGB8:
+	case GL_RGB10:
+	case GL_RGB12:
+	case GL_RGB16:
+	case GL_COMPRESSED_RGB:
+	case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
+	case GL_SRGB:
+	case GL_SRGB8:
+		return GL_RGB;
+	case 4:
+	case GL_RGBA:
+	case GL_BGRA: /* no internal format by the letter; programs use it and Mesa refuses it */
+	case GL_RGBA2:
+	case GL_RGBA4:
+	case GL_RGB5_A1:
+	case GL_RGBA8:
+	case GL_RGB10_A2:
+	case GL_RGBA12:
+	case GL_RGBA16:
+	case GL_COMPRESSED_RGBA:
+	case GL_COMPRESSED_RGBA_S3TC_DXT1_EXT:
+	case GL_COMPRESSED_RGBA_S3TC_DXT3_EXT:
+	case GL_COMPRESSED_RGBA_S3TC_DXT5_EXT:
+	case GL_SRGB_ALPHA:
+	case GL_SRGB8_ALPHA8:
+		return f == GL_BGRA ? 0 : GL_RGBA;
+	case GL_DEPTH_COMPONENT:
+	case GL_DEPTH_COMPONENT16:
+	case GL_DEPTH_COMPONENT24:
+	case GL_DEPTH_COMPONENT32:
+		return GL_DEPTH_COMPONENT;
+	default:
+		return 0;
+	}
+}
+
+/* ---- client formats, tables 3.5 and 3.6 ---- */
+
+/* Which of R G B A each component of a group is; 4: luminance (all of RGB), 5: depth. */
+struct format {
+	uint32_t token;
+	unsigned n;
+	uint8_t to[4];
+};
+
+static const struct format *find_format(uint32_t token)
+{
+	static const struct format formats[] = {
+		{ GL_RED, 1, { 0 } },         { GL_GREEN, 1, { 1 } },        { GL_BLUE, 1, { 2 } },
+		{ GL_ALPHA, 1, { 3 } },       { GL_RGB, 3, { 0, 1, 2 } },    { GL_BGR, 3, { 2, 1, 0 } },
+		{ GL_RGBA, 4, { 0, 1, 2, 3 } }, { GL_BGRA, 4, { 2, 1, 0, 3 } }, { GL_ABGR_EXT, 4, { 3, 2, 1, 0 } },
+		{ GL_LUMINANCE, 1, { 4 } },   { GL_LUMINANCE_ALPHA, 2, { 4, 3 } }, { GL_DEPTH_COMPONENT, 1, { 5 } },
+	};
+
+	for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++)
+		if (formats[i].token == token)
+			return &formats[i];
+	return NULL;
+}
+
+/* Packed types (table 3.8): bits of each component from the first one on, first in the highest bits unless reversed. */
+struct packed {
+	uint32_t token;
+	unsigned bytes, n, bits[4], reversed;
+};
+
+static const struct packed *find_packed(uint32_t token)
+{
+	static const struct packed types[] = {
+		{ GL_UNSIGNED_BYTE_3_3_2, 1, 3, { 3, 3, 2 }, 0 },
+		{ GL_UNSIGNED_BYTE_2_3_3_REV, 1, 3, { 3, 3, 2 }, 1 },
+		{ GL_UNSIGNED_SHORT_5_6_5, 2, 3, { 5, 6, 5 }, 0 },
+		{ GL_UNSIGNED_SHORT_5_6_5_REV, 2, 3, { 5, 6, 5 }, 1 },
+		{ GL_UNSIGNED_SHORT_4_4_4_4, 2, 4, { 4, 4, 4, 4 }, 0 },
+		{ GL_UNSIGNED_SHORT_4_4_4_4_REV, 2, 4, { 4, 4, 4, 4 }, 1 },
+		{ GL_UNSIGNED_SHORT_5_5_5_1, 2, 4, { 5, 5, 5, 1 }, 0 },
+		{ GL_UNSIGNED_SHORT_1_5_5_5_REV, 2, 4, { 5, 5, 5, 1 }, 1 },
+		{ GL_UNSIGNED_INT_8_8_8_8, 4, 4, { 8, 8, 8, 8 }, 0 },
+		{ GL_UNSIGNED_INT_8_8_8_8_REV, 4, 4, { 8, 8, 8, 8 }, 1 },
+		{ GL_UNSIGNED_INT_10_10_10_2, 4, 4, { 10, 10, 10, 2 }, 0 },
+		{ GL_UNSIGNED_INT_2_10_10_10_REV, 4, 4, { 10, 10, 10, 2 }, 1 },
+	};
+
+	for (size_t i = 0; i < sizeof(types) / sizeof(types[0]); i++)
+		if (types[i].token == token)
+			return &types[i];
+	return NULL;
+}
+
+static size_t plain_bytes(uint32_t type)
+{
+	switch (type) {
+	case GL_UNSIGNED_BYTE:
+	case GL_BYTE:
+		return 1;
+	case GL_UNSIGNED_SHORT:
+	case GL_SHORT:
+		return 2;
+	case GL_UNSIGNED_INT:
+	case GL_INT:
+	case GL_FLOAT:
+		return 4;
+	default:
+		return 0;
+	}
+}
+
+static uint32_t load(const uint8_t *p, size_t n, int swap)
+{
+	uint32_t value = 0;
+
+	for (size_t i = 0; i < n; i++)
+		value |= (uint32_t)p[swap ? n - 1 - i : i] << (8 * i);
+	return value;
+}
+
+/* One component as a float (table 2.9). */
+static float plain_component(const uint8_t *p, uint32_t type, int swap)
+{
+	uint32_t u = load(p, plain_bytes(type), swap);
+	float f;
+
+	switch (type) {
+	case GL_UNSIGNED_BYTE:
+		return (float)u / 255.0f;
+	case GL_BYTE:
+		return (2.0f * (int8_t)u + 1) / 255.0f;
+	case GL_UNSIGNED_SHORT:
+		return (float)u / 65535.0f;
+	case GL_SHORT:
+		return (2.0f * (int16_t)u + 1) / 65535.0f;
+	case GL_UNSIGNED_INT:
+		return (float)(u / 4294967295.0);
+	case GL_INT:
+		return (float)((2.0 * (int32_t)u + 1) / 4294967295.0);
+	default:
+		memcpy(&f, &u, 4);
+		return f;
+	}
+}
+
+static void packed_components(const uint8_t *p, const struct packed *t, int swap, float out[4])
+{
+	uint32_t word = load(p, t->bytes, swap);
+	unsigned shift = t->reversed ? 0 : 8 * t->bytes;
+
+	for (unsigned i = 0; i < t->n; i++) {
+		uint32_t max = (1u << t->bits[i]) - 1;
+		if (!t->reversed)
+			shift -= t->bits[i];
+		out[i] = (float)(word >> shift & max) / (float)max;
+		if (t->reversed)
+			shift += t->bits[i];
+	}
+}
+
+static uint8_t to_u8(float value)
+{
+	return value <= 0 || value != value ? 0 : value >= 1 ? 255 : (uint8_t)(value * 255.0f + 0.5f);
+}
+
+/* A group as RGBA of the texture's base format (tables 3.15, 3.20). */
+static void store(uint32_t base, const float rgba[4], uint8_t out[4])
+{
+	uint8_t r = to_u8(rgba[0]), g = to_u8(rgba[1]), b = to_u8(rgba[2]), a = to_u8(rgba[3]);
+
+	switch (base) {
+	case GL_ALPHA:
+		r = g = b = 0;
+		break;
+	case GL_LUMINANCE:
+		g = b = r;
+		a = 255;
+		break;
+	case GL_LUMINANCE_ALPHA:
+		g = b = r;
+		break;
+	case GL_INTENSITY:
+		g = b = a = r;
+		break;
+	case GL_RGB:
+		a = 255;
+		break;
+	}
+	out[0] = r;
+	out[1] = g;
+	out[2] = b;
+	out[3] = a;
+}
+
+static void transfer(const struct gls_pixel *p, float rgba[4])
+{
+	for (unsigned i = 0; i < 4; i++)
+		rgba[i] = rgba[i] * p->scale[i] + p->bias[i];
+}
+
+static int has_transfer(const struct gls_pixel *p)
+{
+	for (unsigned i = 0; i < 4; i++)
+		if (p->scale[i] != 1 || p->bias[i] != 0)
+			return 1;
+	return 0;
+}
+
+int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
+                      uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
+                      uint8_t *out)
+{
+	const struct gls_pixel_store *u = &st->client.unpack;
+	const struct format *f = find_format(format);
+	const struct packed *packed = find_packed(type);
+	uint32_t base = gls_base_format(internal_format);
+	size_t component = plain_bytes(type), group, row, image, start;
+	int depth_texels = base == GL_DEPTH_COMPONENT, do_transfer = has_transfer(&st->a.pixel), cut = 0;
+	int fast;
+
+	if (!f || (!component && !packed) || depth_texels != (f->to[0] == 5) || (packed && packed->n != f->n)) {
+		gls_unsupported(x, "pixels of this format and type");
+		return -1;
+	}
+	if (st->a.pixel.map_color)
+		gls_unsupported(x, "pixel maps");
+	group = packed ? packed->bytes : f->n * component;
+	row = group * (u->row_length > 0 ? (size_t)u->row_length : width);
+	/* Rows begin at multiples of the alignment (sec. 3.6.4, equation 3.13). */
+	row = (row + (size_t)u->alignment - 1) / (size_t)u->alignment * (size_t)u->alignment;
+	image = row * (u->image_height > 0 ? (size_t)u->image_height : height);
+	start = (size_t)u->skip_images * image + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
+	fast = type == GL_UNSIGNED_BYTE && !do_transfer && f->n == 4 && base == GL_RGBA;
+	for (uint32_t z = 0; z < depth; z++)
+		for (uint32_t y = 0; y < height; y++) {
+			size_t at = start + z * image + y * row;
+			for (uint32_t i = 0; i < width; i++, at += group, out += 4) {
+				float rgba[4] = { 0, 0, 0, 1 }, v[4];
+				if (at > n || group > n - at) {
+					cut = 1;
+					memset(out, 0, 4);
+					continue;
+				}
+				if (fast) {
+					for (unsigned k = 0; k < 4; k++)
+						out[f->to[k]] = data[at + k];
+					continue;
+				}
+				if (packed)
+					packed_components(data + at, packed, u->swap_bytes, v);
+				else
+					for (unsigned k = 0; k < f->n; k++)
+						v[k] = plain_component(data + at + k * component, type, u->swap_bytes);
+				if (depth_texels) {
+					v[0] = v[0] * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
+					v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
+					memcpy(out, v, 4);
+					continue;
+				}
+				for (unsigned k = 0; k < f->n; k++) {
+					if (f->to[k] == 4)
+						rgba[0] = rgba[1] = rgba[2] = v[k];
+					else
+						rgba[f->to[k]] = v[k];
+				}
+				if (do_transfer)
+					transfer(&st->a.pixel, rgba);
+				store(base, rgba, out);
+			}
+		}
+	return cut ? -2 : 0;
+}
+
+static void pixel_store(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	int64_t value = arg_i(c, 1);
+	uint32_t pname = arg_u(c, 0);
+	struct gls_pixel_store *s = pname >= GL_PACK_SWAP_BYTES && pname <= GL_PACK_ALIGNMENT ? &st->client.pack
+	                                                                                     : &st->client.unpack;
+
+	if (value < 0 || value > (1 << 24)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	switch (pname) {
+	case GL_PACK_SWAP_BYTES:
+	case GL_UNPACK_SWAP_BYTES:
+		s->swap_bytes = value != 0;
+		break;
+	case GL_PACK_LSB_FIRST:
+	case GL_UNPACK_LSB_FIRST:
+		s->lsb_first = value != 0;
+		break;
+	case GL_PACK_ROW_LENGTH:
+	case GL_UNPACK_ROW_LENGTH:
+		s->row_length = (int32_t)value;
+		break;
+	case GL_PACK_SKIP_ROWS:
+	case GL_UNPACK_SKIP_ROWS:
+		s->skip_rows = (int32_t)value;
+		break;
+	case GL_PACK_SKIP_PIXELS:
+	case GL_UNPACK_SKIP_PIXELS:
+		s->skip_pixels = (int32_t)value;
+		break;
+	case GL_PACK_ALIGNMENT:
+	case GL_UNPACK_ALIGNMENT:
+		if (value != 1 && value != 2 && value != 4 && value != 8)
+			gls_error(x, st, GL_INVALID_VALUE);
+		else
+			s->alignment = (int32_t)value;
+		break;
+	case GL_UNPACK_IMAGE_HEIGHT:
+		st->client.unpack.image_height = (int32_t)value;
+		break;
+	case GL_UNPACK_SKIP_IMAGES:
+		st->client.unpack.skip_images = (int32_t)value;
+		break;
+	case GL_PACK_IMAGE_HEIGHT:
+		st->client.pack.image_height = (int32_t)value;
+		break;
+	case GL_PACK_SKIP_IMAGES:
+		st->client.pack.skip_images = (int32_t)value;
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glPixelStorei, CLIENT) { pixel_store(x, st, c); }
+GLS_HANDLER(glPixelStoref, CLIENT) { pixel_store(x, st, c); }
+
+/* ---- specifying images ---- */
+
+/* The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. */
+static const uint8_t *pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n)
+{
+	const struct gls_buffer *b = gls_buffer_find(st, st->client.unpack.buffer);
+	uint64_t offset = (uint64_t)arg_i(c, i);
+
+	if (arg(c, i)->type == TRACE_BLOB)
+		return arg_blob(c, i, n);
+	*n = 0;
+	if (!b || offset >= b->bytes)
+		return NULL;
+	*n = b->bytes - offset;
+	return b->data + offset;
+}
+
+/* Mipmap levels from the base level on: each texel the mean of those it covers (sec. 3.8.8 leaves the filter open). */
+static void generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
+{
+	struct gls_level *from = t->base_level < GLS_MAX_LEVELS ? &t->levels[face][t->base_level] : NULL;
+
+	for (uint32_t l = t->base_level + 1; from && from->texels && l < GLS_MAX_LEVELS && l <= t->max_level; l++) {
+		struct gls_level *to = &t->levels[face][l];
+		uint32_t w = from->width > 1 ? from->width / 2 : 1, h = from->height > 1 ? from->height / 2 : 1;
+		uint32_t d = from->depth > 1 ? from->depth / 2 : 1;
+		uint8_t *texels;
+		if (from->width == 1 && from->height == 1 && from->depth == 1)
+			break;
+		if (from->border || from->base_format == GL_DEPTH_COMPONENT) {
+			gls_unsupported(x, "generated mipmaps of textures with borders or depths");
+			break;
+		}
+		texels = malloc((size_t)w * h * d * 4);
+		if (!texels) {
+			gls_out_of_memory(x, (size_t)w * h * d * 4);
+			return;
+		}
+		for (size_t i = 0; i < (size_t)w * h * d; i++) {
+			uint32_t cx = (uint32_t)(i % w), cy = (uint32_t)(i / w % h), cz = (uint32_t)(i / w / h);
+			for (unsigned k = 0; k < 4; k++) {
+				unsigned sum = 0, n = 0;
+				for (uint32_t dz = 0; dz < (from->depth > 1 ? 2u : 1u); dz++)
+					for (uint32_t dy = 0; dy < (from->height > 1 ? 2u : 1u); dy++)
+						for (uint32_t dx = 0; dx < (from->width > 1 ? 2u : 1u); dx++, n++)
+							sum += from->texels[4 * (((size_t)(2 * cz + dz) * from->height + 2 * cy + dy) * from->width +
+							                         2 * cx + dx) + k];
+				texels[4 * i + k] = (uint8_t)((sum + n / 2) / n);
+			}
+		}
+		free(to->texels);
+		*to = *from;
+		to->width = w;
+		to->height = h;
+		to->depth = d;
+		to->texels = texels;
+		to->bytes = (size_t)w * h * d * 4;
+		from = to;
+	}
+}
+
+/* The level that a call names, or NULL (error set; proxies: NULL and no error). */
+static struct gls_texture *find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
+                                      unsigned *face)
+{
+	int target = gls_texture_target_of(token, face);
+
+	if (token == GL_PROXY_TEXTURE_1D || token == GL_PROXY_TEXTURE_2D || token == GL_PROXY_TEXTURE_3D ||
+	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE)
+		return NULL;
+	if (target < 0) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return NULL;
+	}
+	if (level < 0 || level >= GLS_MAX_LEVELS) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return NULL;
+	}
+	return gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
+}
+
+/* Make a level anew, texels all 0. @return its texels or NULL */
+static struct gls_level *specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
+                                 int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
+                                 int64_t border)
+{
+	struct gls_level *l = &t->levels[face][level];
+	uint32_t base = gls_base_format(internal_format);
+	size_t bytes;
+
+	if (!base) {
+		/* Mesa takes more formats than GL 2.1 has; those of other kinds hold no colours for fixed function. */
+		gls_unsupported(x, "textures of this internal format");
+		return NULL;
+	}
+	if (width < 0 || height < 0 || depth < 0 || width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 ||
+	    (border != 0 && border != 1) || width * height * depth > (int64_t)1 << 30) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return NULL;
+	}
+	bytes = (size_t)(width * height * depth) * 4;
+	free(l->texels);
+	*l = (struct gls_level){ (uint32_t)width, (uint32_t)height, (uint32_t)depth, (uint32_t)border, internal_format, base,
+	                         NULL, bytes };
+	t->dirty = 1;
+	if (!bytes)
+		return NULL;
+	l->texels = calloc(1, bytes);
+	if (!l->texels)
+		gls_out_of_memory(x, bytes);
+	return l->texels ? l : NULL;
+}
+
+static void tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	unsigned border = 3 + n_dims; /* argument's number; format, type and pixels follow */
+	struct gls_level *l;
+	size_t n;
+	const uint8_t *pixels;
+
+	if (!t)
+		return;
+	l = specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1,
+	            n_dims > 2 ? arg_i(c, 5) : 1, arg_i(c, border));
+	if (!l)
+		return;
+	pixels = pixel_source(st, c, border + 3, &n);
+	if (pixels && gls_unpack_pixels(x, st, arg_u(c, border + 1), arg_u(c, border + 2), l->width, l->height, l->depth, pixels,
+	                                n, l->internal_format, l->texels) == -2)
+		gls_unsupported(x, "pixels beyond what the recording holds");
+	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+		generate_mipmaps(x, t, face);
+}
+
+static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face, size = 2 + n_dims, format = 2 + 2 * n_dims;
+	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
+	int64_t at[3] = { 0 }, extent[3] = { 1, 1, 1 }, room[3];
+	size_t n;
+	const uint8_t *pixels;
+	uint8_t *texels;
+
+	if (!l)
+		return;
+	if (!l->texels) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	room[0] = l->width;
+	room[1] = l->height;
+	room[2] = l->depth;
+	for (unsigned i = 0; i < n_dims; i++) {
+		at[i] = arg_i(c, 2 + i) + l->border;
+		extent[i] = arg_i(c, size + i);
+		if (at[i] < 0 || extent[i] < 0 || at[i] > room[i] || extent[i] > room[i] - at[i]) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+	}
+	pixels = pixel_source(st, c, format + 2, &n);
+	if (!pixels || !extent[0] || !extent[1] || !extent[2])
+		return;
+	texels = gls_scratch(x, (size_t)(extent[0] * extent[1] * extent[2]) * 4);
+	if (!texels || gls_unpack_pixels(x, st, arg_u(c, format), arg_u(c, format + 1), (uint32_t)extent[0],
+	                                 (uint32_t)extent[1], (uint32_t)extent[2], pixels, n, l->internal_format, texels) == -1)
+		return;
+	for (int64_t z = 0; z < extent[2]; z++)
+		for (int64_t y = 0; y < extent[1]; y++)
+			memcpy(l->texels + 4 * (((at[2] + z) * room[1] + at[1] + y) * room[0] + at[0]),
+			       texels + 4 * (z * extent[1] + y) * extent[0], 4 * (size_t)extent[0]);
+	t->dirty = 1;
+	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+		generate_mipmaps(x, t, face);
+}
+
+GLS_HANDLER(glTexImage1D, STATE) { tex_image(x, st, c, 1); }
+GLS_HANDLER(glTexImage2D, STATE) { tex_image(x, st, c, 2); }
+GLS_HANDLER(glTexImage3D, STATE) { tex_image(x, st, c, 3); }
+GLS_HANDLER(glTexSubImage1D, STATE) { tex_sub_image(x, st, c, 1); }
+GLS_HANDLER(glTexSubImage2D, STATE) { tex_sub_image(x, st, c, 2); }
+GLS_HANDLER(glTexSubImage3D, STATE) { tex_sub_image(x, st, c, 3); }
+
+GLS_HANDLER(glGenerateMipmap, STATE)
+{
+	unsigned face;
+	struct gls_texture *t = find_level(x, st, arg_u(c, 0), 0, &face);
+
+	if (!t)
+		return;
+	for (face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
+		generate_mipmaps(x, t, face);
+	t->dirty = 1;
+}
+
+/* ---- pixels of the screen: an image of the right size, all 0, until frames feed back ---- */
+
+static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+
+	gls_unsupported(x, "textures copied from the screen: left black");
+	gls_frame_reads_screen(x);
+	if (t)
+		specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1,
+		        arg_i(c, n_dims > 1 ? 7 : 6));
+}
+
+static void copy_tex_sub_image(struct gls_exec *x)
+{
+	gls_unsupported(x, "textures copied from the screen: left as they are");
+	gls_frame_reads_screen(x);
+}
+
+GLS_HANDLER(glCopyTexImage1D, STATE) { copy_tex_image(x, st, c, 1); }
+GLS_HANDLER(glCopyTexImage2D, STATE) { copy_tex_image(x, st, c, 2); }
+GLS_HANDLER(glCopyTexSubImage1D, STATE) { copy_tex_sub_image(x); }
+GLS_HANDLER(glCopyTexSubImage2D, STATE) { copy_tex_sub_image(x); }
+GLS_HANDLER(glCopyTexSubImage3D, STATE) { copy_tex_sub_image(x); }
+
+/* ---- pixel transfer, sec. 3.6.3 ---- */
+
+static void set_transfer(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_pixel *p = &st->a.pixel;
+	float value = arg_f(c, 1);
+
+	switch (arg_u(c, 0)) {
+	case GL_RED_SCALE:
+		p->scale[0] = value;
+		break;
+	case GL_GREEN_SCALE:
+		p->scale[1] = value;
+		break;
+	case GL_BLUE_SCALE:
+		p->scale[2] = value;
+		break;
+	case GL_ALPHA_SCALE:
+		p->scale[3] = value;
+		break;
+	case GL_RED_BIAS:
+		p->bias[0] = value;
+		break;
+	case GL_GREEN_BIAS:
+		p->bias[1] = value;
+		break;
+	case GL_BLUE_BIAS:
+		p->bias[2] = value;
+		break;
+	case GL_ALPHA_BIAS:
+		p->bias[3] = value;
+		break;
+	case GL_DEPTH_SCALE:
+		p->depth_scale = value;
+		break;
+	case GL_DEPTH_BIAS:
+		p->depth_bias = value;
+		break;
+	case GL_MAP_COLOR:
+		p->map_color = value != 0;
+		break;
+	case GL_MAP_STENCIL:
+		p->map_stencil = value != 0;
+		break;
+	case GL_INDEX_SHIFT:
+		p->index_shift = (int32_t)arg_i(c, 1);
+		break;
+	case GL_INDEX_OFFSET:
+		p->index_offset = (int32_t)arg_i(c, 1);
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glPixelTransferf, STATE) { set_transfer(x, st, c); }
+GLS_HANDLER(glPixelTransferi, STATE) { set_transfer(x, st, c); }
+GLS_HANDLER(glPixelZoom, STATE)
+{
+	st->a.pixel.zoom[0] = arg_f(c, 0);
+	st->a.pixel.zoom[1] = arg_f(c, 1);
+}

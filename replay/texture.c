@@ -1,0 +1,545 @@
+/* Texture objects, their parameters, environments and coordinate generation (GL 2.1 sec. 2.11.4, 3.8). */
+#include "replay/texture.h"
+
+#include <stdlib.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "replay/mat4.h"
+
+static const uint32_t target_tokens[N_GLS_TEXTURE_TARGETS] = {
+	GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE,
+};
+
+int gls_texture_target_of(uint32_t token, unsigned *face)
+{
+	*face = 0;
+	if (token >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && token <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z) {
+		*face = token - GL_TEXTURE_CUBE_MAP_POSITIVE_X;
+		return GLS_TEXTURE_CUBE;
+	}
+	for (int i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		if (target_tokens[i] == token)
+			return i;
+	return -1;
+}
+
+/* ---- objects, sec. 3.8.12 ---- */
+
+static struct gls_texture *create(uint32_t name, uint32_t target)
+{
+	struct gls_texture *t = calloc(1, sizeof(*t));
+	int rectangle = target == GLS_TEXTURE_RECTANGLE;
+
+	if (!t)
+		return NULL;
+	t->name = name;
+	t->target = target;
+	t->wrap_s = t->wrap_t = t->wrap_r = rectangle ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+	t->min_filter = rectangle ? GL_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+	t->mag_filter = GL_LINEAR;
+	t->min_lod = -1000;
+	t->max_lod = 1000;
+	t->max_level = 1000;
+	t->max_anisotropy = 1;
+	t->priority = 1;
+	t->compare_func = GL_LEQUAL;
+	t->depth_mode = GL_LUMINANCE;
+	t->dirty = 1;
+	return t;
+}
+
+void gls_texture_free(struct gls_texture *t)
+{
+	if (!t)
+		return;
+	for (unsigned face = 0; face < 6; face++)
+		for (unsigned level = 0; level < GLS_MAX_LEVELS; level++)
+			free(t->levels[face][level].texels);
+	gls_texture_image_release(t->image);
+	free(t);
+}
+
+struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target)
+{
+	uint32_t name = st->a.texturing.units[unit].bound[target];
+	struct gls_texture *t = name ? table_find(&st->share->textures, name) : NULL;
+
+	if (t && t->target == target)
+		return t;
+	if (!st->share->defaults[target]) {
+		st->share->defaults[target] = create(0, target);
+		if (!st->share->defaults[target])
+			gls_out_of_memory(x, sizeof(*t));
+	}
+	return st->share->defaults[target];
+}
+
+static struct gls_unit *active_unit(struct gls_state *st)
+{
+	return &st->a.texturing.units[st->a.texturing.active];
+}
+
+/* The object that a call with a target argument changes, or NULL (error set). */
+static struct gls_texture *addressed(struct gls_exec *x, struct gls_state *st, uint32_t token)
+{
+	unsigned face;
+	int target = gls_texture_target_of(token, &face);
+
+	if (target >= 0)
+		return gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
+	if (token >= GL_TEXTURE_1D_ARRAY && token <= GL_TEXTURE_2D_MULTISAMPLE_ARRAY)
+		gls_unsupported(x, "texture targets of later GL");
+	else
+		gls_error(x, st, GL_INVALID_ENUM);
+	return NULL;
+}
+
+GLS_HANDLER(glActiveTexture, STATE)
+{
+	uint32_t unit = arg_u(c, 0) - GL_TEXTURE0;
+
+	if (unit < GLS_MAX_UNITS)
+		st->a.texturing.active = unit;
+	else if (unit < 32)
+		gls_unsupported(x, "texture units beyond the eighth");
+	else
+		gls_error(x, st, GL_INVALID_ENUM);
+}
+
+GLS_HANDLER(glBindTexture, STATE)
+{
+	uint32_t token = arg_u(c, 0), name = arg_u(c, 1);
+	unsigned face;
+	int target = gls_texture_target_of(token, &face);
+	struct gls_texture *t;
+
+	if (target < 0 || token != target_tokens[target]) {
+		addressed(x, st, token == GL_TEXTURE_1D_ARRAY ? token : 0);
+		return;
+	}
+	t = name ? table_find(&st->share->textures, name) : NULL;
+	if (t && t->target != (uint32_t)target) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	if (name && !t) {
+		t = create(name, (uint32_t)target);
+		if (!t || table_set(&st->share->textures, name, t)) {
+			gls_texture_free(t);
+			gls_out_of_memory(x, sizeof(*t));
+			return;
+		}
+	}
+	active_unit(st)->bound[target] = name;
+}
+
+GLS_HANDLER(glDeleteTextures, NOW)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, 1, &n);
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	for (uint64_t i = 0; i < n; i++) {
+		uint32_t name = (uint32_t)gls_value_int(&names[i]);
+		if (!name)
+			continue;
+		gls_texture_free(table_remove(&st->share->textures, name));
+		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+			for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
+				if (st->a.texturing.units[u].bound[target] == name)
+					st->a.texturing.units[u].bound[target] = 0;
+	}
+}
+
+GLS_HANDLER(glPrioritizeTextures, STATE) {} /* residence of textures; nothing is drawn differently */
+
+/* ---- parameters, sec. 3.8.4 ---- */
+
+static int is_wrap(const struct gls_texture *t, uint32_t wrap)
+{
+	int any = wrap == GL_CLAMP || wrap == GL_CLAMP_TO_EDGE || wrap == GL_CLAMP_TO_BORDER;
+
+	return any || (t->target != GLS_TEXTURE_RECTANGLE &&
+	               (wrap == GL_REPEAT || wrap == GL_MIRRORED_REPEAT || wrap == GL_MIRROR_CLAMP_EXT ||
+	                wrap == GL_MIRROR_CLAMP_TO_EDGE || wrap == GL_MIRROR_CLAMP_TO_BORDER_EXT));
+}
+
+static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	struct gls_texture *t = addressed(x, st, arg_u(c, 0));
+	float v[4] = { 0 };
+	uint32_t token;
+
+	if (!t)
+		return;
+	arg_floats(c, 2, v, 4);
+	token = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	switch (arg_u(c, 1)) {
+	case GL_TEXTURE_WRAP_S:
+	case GL_TEXTURE_WRAP_T:
+	case GL_TEXTURE_WRAP_R:
+		if (!is_wrap(t, token)) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		*(arg_u(c, 1) == GL_TEXTURE_WRAP_S ? &t->wrap_s : arg_u(c, 1) == GL_TEXTURE_WRAP_T ? &t->wrap_t : &t->wrap_r) =
+			token;
+		break;
+	case GL_TEXTURE_MIN_FILTER:
+		if (token != GL_NEAREST && token != GL_LINEAR &&
+		    (token < GL_NEAREST_MIPMAP_NEAREST || token > GL_LINEAR_MIPMAP_LINEAR || t->target == GLS_TEXTURE_RECTANGLE)) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		t->min_filter = token;
+		t->dirty = 1;
+		break;
+	case GL_TEXTURE_MAG_FILTER:
+		if (token != GL_NEAREST && token != GL_LINEAR) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		t->mag_filter = token;
+		break;
+	case GL_TEXTURE_BORDER_COLOR:
+		for (unsigned i = 0; i < 4; i++) {
+			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			t->border_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
+		}
+		break;
+	case GL_TEXTURE_PRIORITY:
+		t->priority = v[0];
+		break;
+	case GL_TEXTURE_MIN_LOD:
+		t->min_lod = v[0];
+		break;
+	case GL_TEXTURE_MAX_LOD:
+		t->max_lod = v[0];
+		break;
+	case GL_TEXTURE_BASE_LEVEL:
+	case GL_TEXTURE_MAX_LEVEL:
+		if (v[0] < 0) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		*(arg_u(c, 1) == GL_TEXTURE_BASE_LEVEL ? &t->base_level : &t->max_level) = token;
+		t->dirty = 1;
+		break;
+	case GL_TEXTURE_LOD_BIAS:
+		t->lod_bias = v[0];
+		break;
+	case GL_GENERATE_MIPMAP:
+		t->generate_mipmap = v[0] != 0;
+		break;
+	case GL_TEXTURE_COMPARE_MODE:
+		t->compare_mode = token;
+		break;
+	case GL_TEXTURE_COMPARE_FUNC:
+		t->compare_func = token;
+		break;
+	case GL_DEPTH_TEXTURE_MODE:
+		t->depth_mode = token;
+		break;
+	case GL_TEXTURE_MAX_ANISOTROPY_EXT:
+		if (!(v[0] >= 1))
+			gls_error(x, st, GL_INVALID_VALUE);
+		else
+			t->max_anisotropy = v[0];
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glTexParameterf, STATE) { set_parameter(x, st, c, 0); }
+GLS_HANDLER(glTexParameterfv, STATE) { set_parameter(x, st, c, 0); }
+GLS_HANDLER(glTexParameteri, STATE) { set_parameter(x, st, c, 0); }
+GLS_HANDLER(glTexParameteriv, STATE) { set_parameter(x, st, c, 1); }
+
+/* ---- environments, sec. 3.8.13 ---- */
+
+static void set_env(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	struct gls_unit *unit = active_unit(st);
+	struct scene_unit *e = &unit->value;
+	uint32_t target = arg_u(c, 0), pname = arg_u(c, 1), token;
+	float v[4] = { 0 };
+
+	arg_floats(c, 2, v, 4);
+	token = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	if (target == GL_TEXTURE_FILTER_CONTROL && pname == GL_TEXTURE_LOD_BIAS) {
+		unit->lod_bias = v[0];
+		return;
+	}
+	if (target == GL_POINT_SPRITE && pname == GL_COORD_REPLACE) {
+		e->coord_replace = v[0] != 0;
+		return;
+	}
+	if (target != GL_TEXTURE_ENV) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 3) {
+		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
+		return;
+	}
+	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 3) {
+		e->source_alpha[pname - GL_SOURCE0_ALPHA] = token;
+		return;
+	}
+	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 3) {
+		e->operand_rgb[pname - GL_OPERAND0_RGB] = token;
+		return;
+	}
+	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 3) {
+		e->operand_alpha[pname - GL_OPERAND0_ALPHA] = token;
+		return;
+	}
+	switch (pname) {
+	case GL_TEXTURE_ENV_MODE:
+		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
+		    token != GL_COMBINE) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		e->env_mode = token;
+		break;
+	case GL_TEXTURE_ENV_COLOR:
+		for (unsigned i = 0; i < 4; i++) {
+			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			e->env_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
+		}
+		break;
+	case GL_COMBINE_RGB:
+		e->combine_rgb = token;
+		break;
+	case GL_COMBINE_ALPHA:
+		e->combine_alpha = token;
+		break;
+	case GL_RGB_SCALE:
+	case GL_ALPHA_SCALE:
+		if (v[0] != 1 && v[0] != 2 && v[0] != 4) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		*(pname == GL_RGB_SCALE ? &e->scale_rgb : &e->scale_alpha) = v[0];
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glTexEnvf, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnvfv, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnvi, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnviv, STATE) { set_env(x, st, c, 1); }
+
+/* ---- coordinate generation, sec. 2.11.4 ---- */
+
+static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct scene_unit *e = &active_unit(st)->value;
+	uint32_t coord = arg_u(c, 0) - GL_S, mode;
+	float v[4] = { 0 }, inverse[16];
+
+	if (coord > 3) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	arg_floats(c, 2, v, 4);
+	mode = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	switch (arg_u(c, 1)) {
+	case GL_TEXTURE_GEN_MODE:
+		if (mode != GL_OBJECT_LINEAR && mode != GL_EYE_LINEAR && (mode != GL_SPHERE_MAP || coord > 1) &&
+		    ((mode != GL_REFLECTION_MAP && mode != GL_NORMAL_MAP) || coord > 2)) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		e->gen_mode[coord] = mode;
+		break;
+	case GL_OBJECT_PLANE:
+		memcpy(e->gen_object_plane[coord], v, 16);
+		break;
+	case GL_EYE_PLANE:
+		mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
+		mat4_transform_plane(e->gen_eye_plane[coord], v, inverse);
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glTexGend, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGendv, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGenf, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGenfv, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGeni, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGeniv, STATE) { set_gen(x, st, c); }
+
+/* ---- completeness (sec. 3.8.10) and images ---- */
+
+static uint32_t half(uint32_t size)
+{
+	return size > 1 ? size / 2 : 1;
+}
+
+static int is_mipmapped(uint32_t filter)
+{
+	return filter != GL_NEAREST && filter != GL_LINEAR;
+}
+
+/* Levels from the base level on that continue each other; 0: no base image. */
+static uint32_t count_levels(const struct gls_texture *t, unsigned face)
+{
+	const struct gls_level *base, *level;
+	uint32_t w, h, d, n;
+
+	if (t->base_level >= GLS_MAX_LEVELS || t->base_level > t->max_level)
+		return 0;
+	base = &t->levels[face][t->base_level];
+	if (!base->texels)
+		return 0;
+	w = base->width - 2 * base->border;
+	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
+	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
+	for (n = 1; t->base_level + n < GLS_MAX_LEVELS && t->base_level + n <= t->max_level && (w > 1 || h > 1 || d > 1); n++) {
+		w = half(w);
+		h = half(h);
+		d = half(d);
+		level = base + n;
+		if (!level->texels || level->border != base->border || level->internal_format != base->internal_format ||
+		    level->width != w + 2 * base->border ||
+		    (t->target != GLS_TEXTURE_1D && level->height != h + 2 * base->border) ||
+		    (t->target == GLS_TEXTURE_3D && level->depth != d + 2 * base->border))
+			return n | 0x80000000u; /* the chain breaks off */
+	}
+	return n;
+}
+
+static int is_cube_complete(const struct gls_texture *t)
+{
+	const struct gls_level *first = &t->levels[0][t->base_level];
+
+	for (unsigned face = 0; face < 6; face++) {
+		const struct gls_level *base = &t->levels[face][t->base_level];
+		if (!base->texels || base->width != base->height || base->width != first->width ||
+		    base->internal_format != first->internal_format)
+			return 0;
+	}
+	return 1;
+}
+
+static struct gls_texture_image *build_image(struct gls_exec *x, const struct gls_texture *t, uint32_t n_levels)
+{
+	const struct gls_level *base = &t->levels[0][t->base_level];
+	unsigned n_faces = t->target == GLS_TEXTURE_CUBE ? 6 : 1;
+	uint32_t head[7] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
+	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
+	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border };
+	struct gls_texture_image *image;
+	XXH3_state_t state;
+	XXH128_hash_t hash;
+	uint64_t key;
+	size_t bytes = 0;
+	uint8_t *at;
+
+	XXH3_128bits_reset(&state);
+	XXH3_128bits_update(&state, head, sizeof(head));
+	for (uint32_t l = 0; l < n_levels; l++)
+		for (unsigned face = 0; face < n_faces; face++) {
+			const struct gls_level *level = &t->levels[face][t->base_level + l];
+			XXH3_128bits_update(&state, level->texels, level->bytes);
+			bytes += level->bytes;
+		}
+	hash = XXH3_128bits_digest(&state);
+	for (key = hash.low64; (image = table_find(&x->images, key)); key++)
+		if (image->texture.hash[1] == hash.high64 && image->texture.hash[0] == hash.low64) {
+			atomic_fetch_add(&image->refs, 1);
+			return image;
+		}
+	image = calloc(1, sizeof(*image) + bytes);
+	if (!image || table_set(&x->images, key, image)) {
+		free(image);
+		gls_out_of_memory(x, bytes);
+		return NULL;
+	}
+	atomic_init(&image->refs, 2); /* the cache's and the caller's */
+	image->texture = (struct scene_texture){ .hash = { hash.low64, hash.high64 }, .target = head[0],
+		.base_format = head[1], .width = head[2], .height = head[3], .depth = head[4], .n_levels = n_levels,
+		.border = base->border, .n_bytes = bytes };
+	image->texture.texels = at = (uint8_t *)(image + 1);
+	for (uint32_t l = 0; l < n_levels; l++)
+		for (unsigned face = 0; face < n_faces; face++) {
+			const struct gls_level *level = &t->levels[face][t->base_level + l];
+			memcpy(at, level->texels, level->bytes);
+			at += level->bytes;
+		}
+	x->image_bytes += bytes;
+	return image;
+}
+
+struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t)
+{
+	uint32_t n, n_face;
+
+	if (!t->dirty)
+		return t->image;
+	gls_texture_image_release(t->image);
+	t->image = NULL;
+	t->dirty = 0;
+	n = count_levels(t, 0);
+	if (!n || (t->target == GLS_TEXTURE_CUBE && !is_cube_complete(t)))
+		return NULL;
+	for (unsigned face = 1; face < 6 && t->target == GLS_TEXTURE_CUBE; face++) {
+		n_face = count_levels(t, face);
+		if ((n_face & 0x7fffffffu) < (n & 0x7fffffffu))
+			n = n_face | 0x80000000u;
+	}
+	if (is_mipmapped(t->min_filter) && n & 0x80000000u)
+		return NULL;
+	t->image = build_image(x, t, is_mipmapped(t->min_filter) ? n & 0x7fffffffu : 1);
+	return t->image;
+}
+
+void gls_texture_image_release(struct gls_texture_image *image)
+{
+	if (image && atomic_fetch_sub(&image->refs, 1) == 1)
+		free(image);
+}
+
+void gls_image_cache_free(struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->images.room; i++)
+		gls_texture_image_release(x->images.entries[i].value);
+	table_free(&x->images);
+}
+
+/* ---- the end of a share group ---- */
+
+void gls_share_release(struct gls_share *share)
+{
+	if (--share->refs)
+		return;
+	for (size_t i = 0; i < share->lists.room; i++)
+		if (share->lists.entries[i].value)
+			gls_list_free(share->lists.entries[i].value);
+	for (size_t i = 0; i < share->textures.room; i++)
+		gls_texture_free(share->textures.entries[i].value);
+	for (size_t i = 0; i < share->buffers.room; i++) {
+		struct gls_buffer *b = share->buffers.entries[i].value;
+		if (b)
+			free(b->data);
+		free(b);
+	}
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		gls_texture_free(share->defaults[i]);
+	table_free(&share->lists);
+	table_free(&share->textures);
+	table_free(&share->buffers);
+	table_free(&share->programs);
+	free(share);
+}

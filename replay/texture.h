@@ -1,0 +1,64 @@
+/*
+ * Texture objects (GL 2.1 sec. 3.8) and the images that scenes show of them.
+ */
+#ifndef REPLAY_TEXTURE_H
+#define REPLAY_TEXTURE_H
+
+#include "replay/exec.h"
+
+#define GLS_MAX_LEVELS 15 /* 16384 texels at most */
+
+/* One image of a mipmap, texels as in scene_texture, border included. */
+struct gls_level {
+	uint32_t width, height, depth; /* with border; 0: not specified */
+	uint32_t border, internal_format, base_format;
+	uint8_t *texels;
+	size_t bytes;
+};
+
+struct gls_texture {
+	uint32_t name, target; /* target: enum gls_texture_target; N_GLS_TEXTURE_TARGETS before the first bind */
+	struct gls_level levels[6][GLS_MAX_LEVELS]; /* faces of cubes; others use face 0 */
+	uint32_t wrap_s, wrap_t, wrap_r, min_filter, mag_filter;
+	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
+	uint32_t base_level, max_level, generate_mipmap;
+	uint32_t compare_mode, compare_func, depth_mode;
+	uint32_t dirty;                  /* image must be found again */
+	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
+};
+
+/* A scene_texture of the cache; as gls_mesh. */
+struct gls_texture_image {
+	struct scene_texture texture; /* first */
+	atomic_uint refs;
+	uint64_t used_frame;
+	uint32_t slot;
+	uint64_t slot_frame;
+};
+
+/** The object bound to a target of a unit; never NULL but out of memory (x->failed). */
+struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target);
+
+/** The image that a draw sees, NULL where the texture is incomplete (sec. 3.8.10). Borrowed. */
+struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t);
+void gls_texture_image_release(struct gls_texture_image *image);
+void gls_texture_free(struct gls_texture *t);
+
+/** gls_texture_target of a GL token (texture or cube face), -1: none. `face` receives 0 .. 5. */
+int gls_texture_target_of(uint32_t token, unsigned *face);
+
+/* ---- pixels, teximage.c ---- */
+
+/**
+ * Client pixels to texels (sec. 3.6.4): unpack state, format, type and pixel transfer.
+ * @param out  width * height * depth texels of 4 bytes, RGBA or one float where base is DEPTH_COMPONENT
+ * @return 0; -1: format or type is not known (error set); -2: too few bytes (what is there was read)
+ */
+int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
+                      uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
+                      uint8_t *out);
+
+/** Base format of an internal format (table 3.15 ff.), 0: none. */
+uint32_t gls_base_format(uint32_t internal_format);
+
+#endif
