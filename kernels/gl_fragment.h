@@ -242,23 +242,23 @@ static inline void point_coat(const struct tables *t, const struct point *p, GLO
 	for (uint32_t i = 0u; i < m->unit_count; i++) {
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
 		struct vec4 c = point_texcoord(t, p, i, p->weight);
-		float lod = 0.0f;
+		struct texture_slope slope;
+		int have_slope = view && texture_needs_slope(t, unit);
 
-		if (view && texture_needs_lod(unit)) {
-			if (!have_quad) {
-				/* llvmpipe's quads: even columns, even rows counted from the top. */
-				float qx = (float)(x & ~1u) + 0.5f;
-				float qy = (float)height - ((float)((height - 1u - row) & ~1u) + 0.5f);
+		if (have_slope && !have_quad) {
+			/* llvmpipe's quads: even columns, even rows counted from the top. */
+			float qx = (float)(x & ~1u) + 0.5f;
+			float qy = (float)height - ((float)((height - 1u - row) & ~1u) + 0.5f);
 
-				point_weights_at(p, view, qx, qy, quad[0]);
-				point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
-				point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
-				have_quad = 1;
-			}
-			lod = texture_lod(&t->textures[unit->texture], unit, point_texcoord(t, p, i, quad[0]),
-			                  point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
+			point_weights_at(p, view, qx, qy, quad[0]);
+			point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
+			point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
+			have_quad = 1;
 		}
-		coat->sample[unit->unit] = texture_sample(t, unit, c, lod);
+		if (have_slope)
+			slope = texture_slope(&t->textures[unit->texture], point_texcoord(t, p, i, quad[0]),
+			                      point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
+		coat->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
 	}
 	coat->fog_factor = m->fog ? point_fog(p) : 1.0f;
 }

@@ -243,8 +243,10 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 		pixel->gl[3] = gl.w;
 	pixel->id = draw;
 	/* A blended film without depth is no surface, unless there is nothing else. */
-	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE)
+	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
 		pixel->surface = *f;
+		v3_store(pixel->albedo, v3_load(s->albedo));
+	}
 }
 
 static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)

@@ -120,6 +120,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	if (n_slots)
 		return;
 	v4_store(out->gl, color);
+	color = point_albedo(t, &p, &coat);
+	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = stage_offset_depth(&p, windows, f.depth, bits);
 	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, lit.lights);
 }
@@ -306,17 +308,14 @@ static inline void resolve_item(const struct tables *t, GLOBAL const struct frag
 	}
 }
 
-/* surface: what the visible surface of a pixel is like, for the channels that tell. All 0 where there is none. */
-static inline void surface_item(const struct tables *t, GLOBAL const struct view *views,
-                                GLOBAL const struct window_vertex *windows, GLOBAL const struct frame_pixel *frame,
-                                uint32_t width, uint32_t height, GLOBAL float *planes, uint32_t pixel)
+/* surface: where the visible surface of a pixel lies, for the channels that tell. All 0 where there is none. */
+static inline void surface_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                GLOBAL const struct frame_pixel *frame, GLOBAL float *planes, uint32_t pixel)
 {
 	struct fragment f = frame[pixel].surface;
 	GLOBAL float *out = planes + pixel * SURFACE_PLANES;
 	struct point p;
-	struct coat coat;
 	struct vec3 at;
-	struct vec4 albedo;
 
 	for (uint32_t i = 0u; i < SURFACE_PLANES; i++)
 		out[i] = 0.0f;
@@ -324,12 +323,9 @@ static inline void surface_item(const struct tables *t, GLOBAL const struct view
 		return;
 	p = point_from_fragment(t, windows, &f);
 	at = point_position(&p);
-	point_coat(t, &p, &views[p.geometry->view], pixel % width, pixel / width, height, &coat);
-	albedo = point_albedo(t, &p, &coat);
 	v3_store(out, point_normal(&p));
 	v3_store(out + 3, at);
-	v3_store(out + 6, v3(albedo.x, albedo.y, albedo.z));
-	out[9] = -at.z;
+	out[6] = -at.z;
 }
 
 #endif

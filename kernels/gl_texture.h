@@ -43,6 +43,18 @@ static inline int texture_edge(uint32_t wrap, int i, int n, uint32_t border)
 	return i < 0 ? 0 : i < n ? i : n - 1;
 }
 
+/* The texel that stands at position i of a row of n that is wrapped. */
+static inline int texture_place(uint32_t wrap, int i, int n, uint32_t border)
+{
+	if (wrap == GL_REPEAT)
+		return texture_modulo(i, n);
+	if (wrap == GL_MIRRORED_REPEAT) {
+		i = texture_modulo(i, 2 * n);
+		return i < n ? i : 2 * n - 1 - i;
+	}
+	return texture_edge(wrap, i, n, border);
+}
+
 /*
  * Where a coordinate falls on a row of n texels.
  *
@@ -51,7 +63,7 @@ static inline int texture_edge(uint32_t wrap, int i, int n, uint32_t border)
 static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t size, uint32_t border, int linear,
                                 int *i0, int *i1, float *weight)
 {
-	int n = (int)size, first, second;
+	int n = (int)size, first;
 	float u, base;
 
 	if (wrap == GL_REPEAT && normalized)
@@ -68,22 +80,9 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 		u -= 0.5f;
 	base = M_FLOOR(u);
 	first = texture_int(base);
-	second = first + 1;
 	*weight = u - base;
-	if (wrap == GL_REPEAT) {
-		first = texture_modulo(first, n);
-		second = texture_modulo(second, n);
-	} else if (wrap == GL_MIRRORED_REPEAT) {
-		first = texture_modulo(first, 2 * n);
-		first = first < n ? first : 2 * n - 1 - first;
-		second = texture_modulo(second, 2 * n);
-		second = second < n ? second : 2 * n - 1 - second;
-	} else {
-		first = texture_edge(wrap, first, n, border);
-		second = texture_edge(wrap, second, n, border);
-	}
-	*i0 = first;
-	*i1 = second;
+	*i0 = texture_place(wrap, first, n, border);
+	*i1 = texture_place(wrap, first + 1, n, border);
 }
 
 /* One texel of a level; `layer`: slice of a 3D image or face of a cube. */
@@ -211,61 +210,125 @@ static inline struct vec4 texture_cube(struct vec4 c, int *face)
 	return v4(sc * ma + 0.5f, tc * ma + 0.5f, 0.0f, 1.0f);
 }
 
-/* 1 where the level of detail matters to the unit. */
-static inline int texture_needs_lod(GLOBAL const struct scene_unit *unit)
+/* How fast the coordinates change: texels of level 0 per pixel, to the right and downwards. */
+struct texture_slope {
+	struct vec4 right, down;
+};
+
+static inline int texture_is_anisotropic(const struct tables *t, GLOBAL const struct scene_unit *unit)
 {
-	return unit->min_filter != unit->mag_filter;
+	return unit->max_anisotropy > 1.0f && t->textures[unit->texture].target == GL_TEXTURE_2D;
+}
+
+/* 1 where the unit looks at slopes. */
+static inline int texture_needs_slope(const struct tables *t, GLOBAL const struct scene_unit *unit)
+{
+	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
 /*
- * Level of detail from the coordinates at a pixel and at its quad's neighbours to the right and below, before division.
- * llvmpipe takes one level for each 2x2 quad, from its upper row and left column.
+ * Slopes from the coordinates at a quad's upper left pixel and at its neighbours to the right and below, before division
+ * by q. llvmpipe takes them once for each 2x2 quad.
  */
-static inline float texture_lod(GLOBAL const struct texture_image *image, GLOBAL const struct scene_unit *unit,
-                                struct vec4 at, struct vec4 right, struct vec4 below)
+static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at,
+                                                 struct vec4 right, struct vec4 below)
 {
-	float w = image->target == GL_TEXTURE_RECTANGLE ? 1.0f : (float)image->width;
-	float h = image->target == GL_TEXTURE_RECTANGLE ? 1.0f : image->target == GL_TEXTURE_1D ? 0.0f : (float)image->height;
-	float d = image->target == GL_TEXTURE_3D ? (float)image->depth : 0.0f;
-	struct vec4 a, b, c, dx, dy;
-	float rho2;
+	struct vec4 size = v4((float)image->width, (float)image->height, (float)image->depth, 0.0f);
+	struct texture_slope slope;
 
 	if (image->target == GL_TEXTURE_CUBE_MAP) {
-		/* Distances on the sphere around the cube: near the middle of a face they are those on the face. */
+		/* Distances on the sphere around the cube: near the middle of a face they are half of those on the face. */
 		struct vec3 n = v3_normalize(v3(at.x, at.y, at.z));
-		struct vec3 nx = v3_sub(v3_normalize(v3(right.x, right.y, right.z)), n);
-		struct vec3 ny = v3_sub(v3_normalize(v3(below.x, below.y, below.z)), n);
+		struct vec3 dx = v3_sub(v3_normalize(v3(right.x, right.y, right.z)), n);
+		struct vec3 dy = v3_sub(v3_normalize(v3(below.x, below.y, below.z)), n);
 
-		rho2 = M_MAX(v3_dot(nx, nx), v3_dot(ny, ny)) * w * w * 0.25f;
-	} else {
-		a = v4_scale(at, 1.0f / at.w);
-		b = v4_scale(right, 1.0f / right.w);
-		c = v4_scale(below, 1.0f / below.w);
-		dx = v4_sub(b, a);
-		dy = v4_sub(c, a);
-		rho2 = M_MAX(dx.x * dx.x * w * w + dx.y * dx.y * h * h + dx.z * dx.z * d * d,
-		             dy.x * dy.x * w * w + dy.y * dy.y * h * h + dy.z * dy.z * d * d);
+		slope.right = v4_scale(v4(dx.x, dx.y, dx.z, 0.0f), 0.5f * size.x);
+		slope.down = v4_scale(v4(dy.x, dy.y, dy.z, 0.0f), 0.5f * size.x);
+		return slope;
 	}
+	if (image->target == GL_TEXTURE_RECTANGLE)
+		size = v4(1.0f, 1.0f, 0.0f, 0.0f);
+	if (image->target == GL_TEXTURE_1D)
+		size.y = 0.0f;
+	if (image->target != GL_TEXTURE_3D)
+		size.z = 0.0f;
+	at = v4_scale(at, 1.0f / at.w);
+	slope.right = v4_mul(v4_sub(v4_scale(right, 1.0f / right.w), at), size);
+	slope.down = v4_mul(v4_sub(v4_scale(below, 1.0f / below.w), at), size);
+	return slope;
+}
+
+/* log2 of the square of a number of texels, halved: llvmpipe's logarithm, exact at powers of two, straight between. */
+static inline float texture_half_log2(float rho2)
+{
+	uint32_t bits = M_BITS(rho2);
+
 	if (!(rho2 > 1.0e-30f))
 		return -100.0f;
 	if (!(rho2 < 1.0e30f))
 		return 100.0f;
-	{
-		/* llvmpipe's logarithm: exact at powers of two, straight lines between them. */
-		uint32_t bits = M_BITS(rho2);
-		float exponent = (float)((int)(bits >> 23) - 127);
-		float mantissa = M_FLOAT((bits & 0x7fffffu) | 0x3f800000u);
-		float lod = 0.5f * (exponent + (mantissa - 1.0f)) + unit->lod_bias;
-
-		return M_MIN(M_MAX(lod, unit->min_lod), unit->max_lod);
-	}
+	return 0.5f * ((float)((int)(bits >> 23) - 127) + (M_FLOAT((bits & 0x7fffffu) | 0x3f800000u) - 1.0f));
 }
 
-/* What a unit's texture gives at coordinates s t r q, at a level of detail. */
+static inline float texture_lod(GLOBAL const struct scene_unit *unit, const struct texture_slope *slope,
+                                int anisotropic)
+{
+	float px2 = v4_dot(slope->right, slope->right), py2 = v4_dot(slope->down, slope->down), rho2 = M_MAX(px2, py2);
+
+	/* The short axis of the footprint decides, as long as the long one is not too much longer. */
+	if (anisotropic)
+		rho2 = M_MAX(M_MIN(px2, py2), rho2 / (unit->max_anisotropy * unit->max_anisotropy));
+	return M_MIN(M_MAX(texture_half_log2(rho2) + unit->lod_bias, unit->min_lod), unit->max_lod);
+}
+
+/*
+ * An elliptic footprint under a Gaussian (Heckbert 1989, "Fundamentals of texture mapping and image warping", p. 59), as
+ * Mesa's software renderers sample where the maximum anisotropy is over 1, magnified or not. One level only; weights in
+ * 1024 steps.
+ */
+static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const struct texture_image *image,
+                                          GLOBAL const struct scene_unit *unit, uint32_t level,
+                                          const struct texture_slope *slope, struct vec4 c)
+{
+	float scale = 1.0f / (float)(1u << level);
+	float ux = slope->right.x * scale, vx = slope->right.y * scale, uy = slope->down.x * scale;
+	float vy = slope->down.y * scale;
+	float a = vx * vx + vy * vy + 1.0f, b = -2.0f * (ux * vx + uy * vy), e = ux * ux + uy * uy + 1.0f;
+	float f = a * e - b * b * 0.25f, d = 4.0f * e * a - b * b;
+	float box_u = 2.0f / d * M_SQRT(d * e * f), box_v = 2.0f / d * M_SQRT(a * d * f);
+	uint32_t width = texture_level_size(image->width, level), height = texture_level_size(image->height, level);
+	float u = c.x * (float)width - 0.5f, v = c.y * (float)height - 0.5f, sum_weight = 0.0f;
+	struct vec4 sum = v4(0.0f, 0.0f, 0.0f, 0.0f);
+
+	a *= 1023.0f / f;
+	b *= 1023.0f / f;
+	e *= 1023.0f / f;
+	if (!(box_u < 64.0f && box_v < 64.0f))
+		return texture_level(t, image, unit, level, 1, c, 0);
+	for (float y = M_FLOOR(v - box_v); y <= M_CEIL(v + box_v); y += 1.0f) {
+		int row = texture_place(unit->wrap_t, texture_int(y), (int)height, image->border);
+
+		for (float x = M_FLOOR(u - box_u); x <= M_CEIL(u + box_u); x += 1.0f) {
+			float q = (e * (y - v) + b * (x - u)) * (y - v) + a * (x - u) * (x - u), weight;
+			int column = texture_place(unit->wrap_s, texture_int(x), (int)width, image->border);
+
+			if (!(q < 1024.0f))
+				continue;
+			weight = M_EXP(-2.0f * M_FLOOR(M_MAX(q, 0.0f)) / 1023.0f);
+			sum = v4_add(sum, v4_scale(texture_texel(t, image, unit, level, column, row, 0), weight));
+			sum_weight += weight;
+		}
+	}
+	return sum_weight > 0.0f ? v4_scale(sum, 1.0f / sum_weight) : texture_level(t, image, unit, level, 1, c, 0);
+}
+
+/* What a unit's texture gives at coordinates s t r q. slope: NULL where there is none: the finest level. */
 static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
-                                         float lod)
+                                         const struct texture_slope *slope)
 {
 	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
+	int anisotropic = slope && texture_is_anisotropic(t, unit);
+	float lod = slope ? texture_lod(unit, slope, anisotropic) : 0.0f;
 	uint32_t filter = lod > 0.0f ? unit->min_filter : unit->mag_filter;
 	int linear = filter == GL_LINEAR || filter == GL_LINEAR_MIPMAP_NEAREST || filter == GL_LINEAR_MIPMAP_LINEAR;
 	float last = (float)(image->n_levels - 1u), level = 0.0f;
@@ -275,6 +338,13 @@ static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const st
 		c = texture_cube(c, &face);
 	else
 		c = v4_scale(c, 1.0f / c.w);
+	if (anisotropic && unit->min_filter != GL_NEAREST) {
+		int nearest = unit->min_filter == GL_NEAREST_MIPMAP_NEAREST || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST;
+
+		if (unit->min_filter != GL_LINEAR)
+			level = M_MIN(M_MAX(M_FLOOR(nearest ? lod + 0.5f : lod), 0.0f), last);
+		return texture_ellipse(t, image, unit, (uint32_t)level, slope, c);
+	}
 	if (filter == GL_NEAREST_MIPMAP_NEAREST || filter == GL_LINEAR_MIPMAP_NEAREST) {
 		level = M_MIN(M_MAX(M_FLOOR(lod + 0.5f), 0.0f), last);
 	} else if (filter == GL_NEAREST_MIPMAP_LINEAR || filter == GL_LINEAR_MIPMAP_LINEAR) {

@@ -20,12 +20,11 @@ __kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragment
 		             stage_pixel(rectangle, width, (uint32_t)get_global_id(0)));
 }
 
-__kernel void surface(TABLES_ARGUMENTS, __global const struct view *views,
-                      __global const struct window_vertex *windows, __global const struct frame_pixel *frame,
-                      uint32_t width, uint32_t height, uint32_t n, __global float *planes)
+__kernel void surface(TABLES_ARGUMENTS, __global const struct window_vertex *windows,
+                      __global const struct frame_pixel *frame, uint32_t n, __global float *planes)
 {
 	struct tables t = TABLES_NAMED;
 
 	if (get_global_id(0) < n)
-		surface_item(&t, views, windows, frame, width, height, planes, (uint32_t)get_global_id(0));
+		surface_item(&t, windows, frame, planes, (uint32_t)get_global_id(0));
 }

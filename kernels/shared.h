@@ -202,10 +202,11 @@ struct shaded {
 	float gl[4];     /* GL's own: texturing, colour sum and fog done, clamped */
 	float direct[3]; /* the same with the shadowed lights off */
 	float beauty[3]; /* the same with mirrors, too */
+	float albedo[3]; /* the surface under white light, without fog */
 	float depth;     /* window depth after polygon offset, [0,1] */
 	uint32_t flags;  /* SHADED_*; 0: there is no fragment */
 };
-SHARED_SIZE(struct shaded, 48);
+SHARED_SIZE(struct shaded, 60);
 
 #define SHADED_THERE 1u
 #define SHADED_FRONT 2u
@@ -219,10 +220,11 @@ struct frame_pixel {
 	uint32_t stencil;
 	uint32_t id;       /* draw number that wrote the colour last; 0: cleared only */
 	struct fragment surface; /* of the nearest visible surface; order SCENE_NONE: none */
+	float albedo[3];         /* its */
 };
-SHARED_SIZE(struct frame_pixel, 80);
+SHARED_SIZE(struct frame_pixel, 92);
 
-/* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, albedo.rgb, Z. */
-#define SURFACE_PLANES 10u
+/* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
+#define SURFACE_PLANES 7u
 
 #endif

@@ -144,10 +144,12 @@ static void compose_pixel(const struct planes *p, const struct frame_pixel *pixe
 		p->id[at] = (float)pixel->id;
 	store3(p->normal, surface, at);
 	store3(p->position, surface + 3, at);
-	store3(p->albedo, (float[3]){ encode(surface[6], options->display), encode(surface[7], options->display),
-	                              encode(surface[8], options->display) }, at);
+	if (drawn)
+		store3(p->albedo, (float[3]){ encode(pixel->albedo[0], options->display),
+		                              encode(pixel->albedo[1], options->display),
+		                              encode(pixel->albedo[2], options->display) }, at);
 	if (p->z)
-		p->z[at] = surface[9];
+		p->z[at] = surface[6];
 }
 
 int compose_image(const struct frame_pixel *pixels, const float *planes, const struct tracer_options *options,

@@ -780,11 +780,8 @@ static int run_surface(struct job *job)
 	struct tracer *tr = job->tr;
 	struct launch l = launch_with_tables(tr);
 
-	add(&l, tr, BUFFER_VIEWS);
 	add(&l, tr, BUFFER_WINDOWS);
 	add(&l, tr, BUFFER_FRAME);
-	add_uint(&l, &job->width);
-	add_uint(&l, &job->height);
 	add_uint(&l, &job->n_pixels);
 	add(&l, tr, BUFFER_SURFACE);
 	return run(tr, KERNEL_surface, job->n_pixels, &l);

@@ -32,7 +32,6 @@ void surface_c(const void *const *args, size_t first, size_t last)
 {
 	struct tables t = TABLES_NAMED;
 
-	for (size_t i = first; i < last && i < number(args[17]); i++)
-		surface_item(&t, args[12], args[13], args[14], number(args[15]), number(args[16]), (void *)args[18],
-		             (uint32_t)i);
+	for (size_t i = first; i < last && i < number(args[14]); i++)
+		surface_item(&t, args[12], args[13], (void *)args[15], (uint32_t)i);
 }
