@@ -28,7 +28,7 @@ class Overlay:
     def __init__(self, path):
         self.path = path
         self.types, self.lengths, self.suffixes = {}, {}, []
-        self.args, self.hooks, self.passes, self.commands = [], {"when": [], "before": [], "after": []}, [], {}
+        self.args, self.hooks, self.passes, self.commands = [], {"when": [], "before": [], "result": [], "after": []}, [], {}
         with open(path, encoding="utf-8") as stream:
             for number, line in enumerate(stream, 1):
                 line = line.strip()
@@ -248,6 +248,9 @@ class Generator:
         kind = self.lookup(name, command.name)[1]
         if stars:
             return "put_string(p_, (const char *)result, -1)" if kind == "char" or name == "GLubyte" else "put_opaque(p_, result)"
+        if kind == "enum" and command.group in self.small_groups:
+            self.used_small.add(command.group)
+            return f"put_enum_small(p_, result, enums_{command.group})"
         return f"put_{'uint' if kind == 'bits' else kind}(p_, result)"
 
     # Thunks
@@ -310,6 +313,7 @@ class Generator:
         out.append(f"\t{'' if void else 'result = '}{call}")
         if nested:
             out.append("\twriter_unnest();")
+        out += [f"\tresult = {code};" for code in self.hook("result", command)]
         if two_phases:
             out.append("\tp_ = writer_leave(call_);")
             out.append("\tif (p_) {")

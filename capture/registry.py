@@ -29,6 +29,7 @@ class Command:
     alias: str = ""      # the command it is the same as
     versions: list = field(default_factory=list)    # features that require it: ["GL_VERSION_1_0"]
     extensions: list = field(default_factory=list)  # extensions that require it
+    group: str = ""      # enum group of the result, if the registry names one
 
 
 def _declaration(element):
@@ -51,7 +52,8 @@ def read(file_name):
         params = [Param(p.find("name").text, _declaration(p), p.get("group", ""), p.get("len", ""))
                   for p in element.iterfind("param")]
         name = proto.find("name").text
-        commands[name] = Command(name, _declaration(proto), params, alias.get("name") if alias is not None else "")
+        commands[name] = Command(name, _declaration(proto), params, alias.get("name") if alias is not None else "",
+                                 group=proto.get("group", ""))
     for feature in root.iterfind("feature"):
         for required in feature.iterfind("require/command"):
             commands[required.get("name")].versions.append(feature.get("name"))

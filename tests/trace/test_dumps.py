@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""Small GL programs, recorded and dumped by apitrace, compared with what they should give.
+
+NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers. Each
+line of it must come in this order; <name> matches anything, "..." any number of lines. Run with --print NAME to see a dump.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
+RELUME = os.environ.get("RELUME", BUILD / "relume")
+
+
+def dump(name, *options):
+    """The calls of a program under the recorder, as a list of lines without numbers."""
+    with tempfile.TemporaryDirectory() as folder:
+        trace = pathlib.Path(folder, "x.trace")
+        run = subprocess.run([ROOT / "tests" / "xvfb.sh", RELUME, "record", "-o", trace, *options, "--",
+                              BUILD / "tests" / "trace" / name], capture_output=True, text=True, check=False)
+        assert run.returncode == 0, run.stdout + run.stderr
+        read = subprocess.run(["apitrace", "dump", "--color=never", "--verbose", trace], capture_output=True, text=True,
+                              check=True)
+        assert not read.stderr, read.stderr
+    lines = [re.sub(r"^\d+ ", "", line) for line in read.stdout.splitlines()]
+    return [line for line in lines if line and not line.startswith("//")]
+
+
+def matcher(line):
+    return re.compile("".join(".*" if re.fullmatch(r"<\w+>", part) else re.escape(part)
+                              for part in re.split(r"(<\w+>)", line)))
+
+
+class Dumps(unittest.TestCase):
+    def compare(self, name, *options):
+        got = dump(name, *options)
+        at, anywhere = 0, True
+        for number, line in enumerate((HERE / f"{name}.ref.txt").read_text().splitlines(), 1):
+            if line == "...":
+                anywhere = True
+                continue
+            pattern = matcher(line)
+            here = at
+            while anywhere and here < len(got) and not pattern.fullmatch(got[here]):
+                here += 1
+            self.assertTrue(here < len(got) and pattern.fullmatch(got[here]),
+                            f"{name}.ref.txt:{number}: {line}\nnot found; the dump goes on with\n" + "\n".join(got[at:at + 5]))
+            at, anywhere = here + 1, False
+
+    def test_arrays(self):
+        self.compare("arrays")
+
+    def test_pixels(self):
+        self.compare("pixels")
+
+    def test_pixels_while_read_back(self):
+        self.compare("pixels", "--ref", "color,depth")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) == 3 and sys.argv[1] == "--print":
+        print(*dump(sys.argv[2]), sep="\n")
+    else:
+        unittest.main()

@@ -1,0 +1,47 @@
+/* A 64x48 GLX window for the small programs of this folder. */
+#ifndef TESTS_TRACE_WINDOW_H
+#define TESTS_TRACE_WINDOW_H
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <GL/glx.h>
+#include <X11/Xlib.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static Display *display;
+static Window window;
+
+static inline void open_window(void)
+{
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, None };
+	XSetWindowAttributes set = { 0 };
+	XVisualInfo *visual;
+
+	display = XOpenDisplay(NULL);
+	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
+		exit(1);
+	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 64, 48, 0, visual->depth, InputOutput, visual->visual,
+	                       CWColormap, &set);
+	XMapWindow(display, window);
+	if (!glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True)))
+		exit(1);
+}
+
+static inline void end_frame(void)
+{
+	glXSwapBuffers(display, window);
+}
+
+/** The program's own check that nothing odd happened to it. */
+static inline void expect(int truth, const char *what)
+{
+	if (!truth) {
+		fprintf(stderr, "not so: %s\n", what);
+		exit(1);
+	}
+}
+
+#endif
