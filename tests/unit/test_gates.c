@@ -1,0 +1,614 @@
+/*
+ * The scorer's own test: a good frame passes every gate, each fault fails the gate that is there for it, and harmless
+ * differences fail none. The frames are made here: three draws of known colour, depth and number over a background.
+ */
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diff/score.h"
+
+enum { WIDTH = 160, HEIGHT = 120, N = WIDTH * HEIGHT };
+
+/* What is drawn; changed by a test before it makes a frame. */
+struct drawing {
+	int box, disc, bar;       /* 1: drawn */
+	int shift_x;              /* of the whole picture, pixels */
+	int texel_shift;          /* of the box's texture */
+	int other_texture;
+	double depth_offset, disc_grow;
+	int disc_as_background;   /* the disc has the background's colour */
+	int mirrored;
+};
+static const struct drawing all = { .box = 1, .disc = 1, .bar = 1 };
+
+struct sample {
+	uint8_t rgb[3];
+	float depth;
+	int id;
+};
+
+static struct sample sample_at(const struct drawing *d, int x, int y)
+{
+	struct sample s = { { 10, 12, 20 }, 1, 0 };
+	double u, v;
+
+	if (d->mirrored)
+		x = WIDTH - 1 - x;
+	x -= d->shift_x;
+	if (d->box && x >= 20 && x < 100 && y >= 20 && y < 100) {
+		int texel = (x + d->texel_shift) / 4 + y / 4;
+		static const uint8_t colors[2][3] = { { 180, 60, 40 }, { 60, 160, 90 } };
+
+		memcpy(s.rgb, colors[texel % 2], 3);
+		if (d->other_texture) {
+			s.rgb[0] = (uint8_t)(40 + (x * 5 + y * 3) % 160);
+			s.rgb[2] = 200;
+		}
+		s.depth = (float)(0.5 + 0.001 * x + 0.0005 * y + d->depth_offset);
+		s.id = 1;
+	}
+	u = x + 0.5 - 110;
+	v = y + 0.5 - 60;
+	if (d->disc && u * u + v * v < (30 + d->disc_grow) * (30 + d->disc_grow)) {
+		s.rgb[0] = (uint8_t)(d->disc_as_background ? 10 : 40);
+		s.rgb[1] = (uint8_t)(d->disc_as_background ? 12 : 90 + x / 4);
+		s.rgb[2] = (uint8_t)(d->disc_as_background ? 20 : 200);
+		s.depth = (float)(0.4 + 0.0007 * (x - 80) + d->depth_offset);
+		s.id = 2;
+	}
+	if (d->bar && x >= 125 && x < 137 && y >= 100 && y < 108) {
+		memcpy(s.rgb, (uint8_t[]){ 250, 240, 30 }, 3);
+		s.depth = (float)(0.3 + d->depth_offset);
+		s.id = 3;
+	}
+	return s;
+}
+
+static struct image reference, traced;
+static struct score_picture picture;
+static struct score_options options;
+static struct score score;
+
+static float *add(struct image *img, const char *name)
+{
+	float *plane = image_add_channel(img, name, 1);
+
+	ck_assert_ptr_nonnull(plane);
+	return plane;
+}
+
+/* As set_read makes it of a .ref file. */
+static void make_reference(const struct drawing *d, int with_depth)
+{
+	float *rgb[3], *depth = NULL;
+
+	reference = (struct image){ .width = WIDTH, .height = HEIGHT };
+	for (int c = 0; c < 3; c++)
+		rgb[c] = add(&reference, (const char[]){ "RGB"[c], 0 });
+	if (with_depth)
+		depth = add(&reference, "gl.depth");
+	for (int i = 0; i < N; i++) {
+		struct sample s = sample_at(d, i % WIDTH, i / WIDTH);
+
+		for (int c = 0; c < 3; c++)
+			rgb[c][i] = (float)s.rgb[c] / 255;
+		if (depth)
+			depth[i] = s.depth;
+	}
+	ck_assert_int_eq(image_set_attribute(&reference, "relume:encoding", "display"), 0);
+	ck_assert_int_eq(score_picture_from_image(&reference, "beauty", &picture), 0);
+}
+
+/* A whole traced frame: a shadow falls on part of the box, and the disc mirrors. */
+static void make_traced(const struct drawing *d)
+{
+	float *beauty[3], *gl[3], *shadow[3], *reflect[3], *depth, *id;
+
+	traced = (struct image){ .width = WIDTH, .height = HEIGHT };
+	for (int c = 0; c < 3; c++) {
+		char name[16];
+
+		beauty[c] = add(&traced, (const char[]){ "RGB"[c], 0 });
+		snprintf(name, sizeof(name), "gl.%c", "RGB"[c]);
+		gl[c] = add(&traced, name);
+		snprintf(name, sizeof(name), "shadow.%c", "RGB"[c]);
+		shadow[c] = add(&traced, name);
+		snprintf(name, sizeof(name), "reflect.%c", "RGB"[c]);
+		reflect[c] = add(&traced, name);
+	}
+	depth = add(&traced, "gl.depth");
+	id = add(&traced, "id");
+	for (int i = 0; i < N; i++) {
+		struct sample s = sample_at(d, i % WIDTH, i / WIDTH);
+
+		for (int c = 0; c < 3; c++) {
+			gl[c][i] = image_linear_from_display((float)s.rgb[c] / 255);
+			shadow[c][i] = s.id == 1 && i % WIDTH < 40 ? 0.25f : 1;
+			reflect[c][i] = s.id == 2 ? 0.05f : 0;
+			beauty[c][i] = gl[c][i] * shadow[c][i] + reflect[c][i];
+		}
+		depth[i] = s.depth;
+		id[i] = (float)s.id;
+	}
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:frame", "%d", 12), 0);
+}
+
+static void begin(void)
+{
+	make_reference(&all, 1);
+	make_traced(&all);
+	options = (struct score_options){ .n_ranges = 0 };
+}
+
+static void end(void)
+{
+	score_picture_free(&picture);
+	image_free(&reference);
+	image_free(&traced);
+}
+
+static void run(void)
+{
+	ck_assert_int_eq(score_frame(&picture, &traced, 12, &options, &score), 0);
+}
+
+static enum score_state state(enum score_gate_id gate)
+{
+	return score.gates[gate].state;
+}
+
+static void remake_traced(const struct drawing *d)
+{
+	image_free(&traced);
+	make_traced(d);
+}
+
+static void remake_reference(const struct drawing *d, int with_depth)
+{
+	score_picture_free(&picture);
+	image_free(&reference);
+	make_reference(d, with_depth);
+}
+
+static void expect_failed(enum score_gate_id gate)
+{
+	run();
+	ck_assert_msg(state(gate) == SCORE_FAILED, "%s did not fail: %g", score_gates[gate].name, score.gates[gate].value[0]);
+	ck_assert_int_eq(score.outcome, SCORE_FRAME_FAILED);
+}
+
+static void expect_all_passed(void)
+{
+	run();
+	for (int g = 0; g < N_GATES; g++)
+		ck_assert_msg(state((enum score_gate_id)g) != SCORE_FAILED, "%s failed: %g (%s)", score_gates[g].name,
+		              score.gates[g].value[0], score.gates[g].note);
+	ck_assert_int_eq(score.outcome, SCORE_FRAME_PASSED);
+}
+
+START_TEST(good_frame_passes_every_gate)
+{
+	expect_all_passed();
+	for (int g = 0; g < N_GATES; g++)
+		if (g != GATE_R1B && g != GATE_E3) /* no layers, no range asked for */
+			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
+	ck_assert_double_eq(score.fidelity, 1);
+	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
+	ck_assert_double_gt(score.info.beauty_flip, 0);
+	ck_assert_double_gt(score.info.effect_share[EFFECT_SHADOW], 0.05);
+}
+END_TEST
+
+START_TEST(half_channels_pass)
+{
+	/* what a half holds: 11 bits */
+	for (size_t c = 0; c < traced.n_channels; c++) {
+		if (strcmp(traced.channels[c].name, "gl.depth") == 0 || strcmp(traced.channels[c].name, "id") == 0)
+			continue;
+		traced.channels[c].full_float = 0;
+		for (int i = 0; i < N; i++) {
+			int exponent;
+			float m = frexpf(traced.channels[c].values[i], &exponent);
+
+			traced.channels[c].values[i] = ldexpf(rintf(m * 2048) / 2048, exponent);
+		}
+	}
+	expect_all_passed();
+}
+END_TEST
+
+/* V */
+
+START_TEST(one_nan_in_any_channel)
+{
+	for (size_t c = 0; c < traced.n_channels; c++) {
+		float kept = traced.channels[c].values[777];
+
+		traced.channels[c].values[777] = c % 2 ? NAN : INFINITY;
+		expect_failed(GATE_V);
+		ck_assert_ptr_nonnull(strstr(score.gates[GATE_V].note, traced.channels[c].name));
+		ck_assert_double_eq(score.fidelity, 0);
+		traced.channels[c].values[777] = kept;
+	}
+	expect_all_passed();
+}
+END_TEST
+
+START_TEST(wrong_size)
+{
+	traced.height--;
+	expect_failed(GATE_V);
+	ck_assert_int_eq(state(GATE_R1), SCORE_NOT_MEASURED);
+}
+END_TEST
+
+START_TEST(wrong_frame_number)
+{
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:frame", "13"), 0);
+	expect_failed(GATE_V);
+}
+END_TEST
+
+START_TEST(missing_channels)
+{
+	strcpy(traced.channels[0].name, "other"); /* was R */
+	expect_failed(GATE_V);
+	strcpy(traced.channels[0].name, "R");
+	options.channel = "albedo";
+	expect_failed(GATE_V);
+}
+END_TEST
+
+/* R1, R1b */
+
+static void shift_codes(int first_row, int last_row, int by)
+{
+	for (int c = 0; c < 3; c++) {
+		float *gl = image_channel(&traced, (const char[]){ 'g', 'l', '.', "RGB"[c], 0 });
+		float *beauty = image_channel(&traced, (const char[]){ "RGB"[c], 0 });
+		const float *shadow = image_channel(&traced, (const char *[]){ "shadow.R", "shadow.G", "shadow.B" }[c]);
+		const float *reflect = image_channel(&traced, (const char *[]){ "reflect.R", "reflect.G", "reflect.B" }[c]);
+
+		for (int i = first_row * WIDTH; i < last_row * WIDTH; i++) {
+			gl[i] = image_linear_from_display((float)(score_code_from_linear(gl[i]) + by) / 255);
+			beauty[i] = gl[i] * shadow[i] + reflect[i];
+		}
+	}
+}
+
+START_TEST(interior_colour)
+{
+	shift_codes(0, 1, 2); /* two codes on a row are within the bar */
+	expect_all_passed();
+	shift_codes(0, 1, 1);
+	expect_failed(GATE_R1);
+	ck_assert_double_gt(score.gates[GATE_R1].value[0], 0.1);
+	ck_assert_uint_eq(score.blame[0].draw, 0);
+}
+END_TEST
+
+START_TEST(few_interior_pixels_may_exceed)
+{
+	float *gl = image_channel(&traced, "gl.R"), *beauty = image_channel(&traced, "R");
+
+	for (int i = 0; i < 10; i++) { /* of about 17,000; in the lit part of the box */
+		int at = 70 * WIDTH + 50 + 2 * i;
+
+		gl[at] = beauty[at] =
+			image_linear_from_display((float)(score_code_from_linear(gl[at]) + 20) / 255);
+	}
+	expect_all_passed();
+	ck_assert_uint_eq(score.failing_pixels, 10);
+}
+END_TEST
+
+START_TEST(blended_pixels_have_a_bar_of_their_own)
+{
+	float *layers = add(&traced, "layers");
+
+	for (int i = 0; i < 2 * WIDTH; i++)
+		layers[i] = 2;
+	shift_codes(0, 2, 3);
+	run();
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R1B), SCORE_PASSED);
+	shift_codes(0, 2, 1);
+	expect_failed(GATE_R1B);
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+}
+END_TEST
+
+/* R2 */
+
+START_TEST(edges_may_move_by_a_rounding)
+{
+	struct drawing d = all;
+
+	d.disc_grow = 0.02; /* a pixel here and there */
+	remake_traced(&d);
+	run();
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R2), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R3), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R4), SCORE_PASSED);
+}
+END_TEST
+
+START_TEST(wrong_edges)
+{
+	/* a halo: edge pixels in a colour that no neighbour has */
+	const float *id = image_channel(&traced, "id");
+
+	for (int i = WIDTH + 1; i < N - WIDTH; i++)
+		if (id[i] == 2 && (id[i - 1] != 2 || id[i + 1] != 2))
+			image_channel(&traced, "gl.G")[i] = image_channel(&traced, "G")[i] = 0.9f;
+	expect_failed(GATE_R2);
+}
+END_TEST
+
+/* R3, R4: geometry and textures */
+
+START_TEST(missing_draw)
+{
+	struct drawing d = all;
+
+	d.bar = 0;
+	remake_traced(&d);
+	expect_failed(GATE_R3);
+	ck_assert_int_eq(state(GATE_R4), SCORE_FAILED);
+}
+END_TEST
+
+START_TEST(wrong_texture)
+{
+	struct drawing d = all;
+
+	d.other_texture = 1;
+	remake_traced(&d);
+	expect_failed(GATE_R1);
+	ck_assert_int_eq(state(GATE_R3), SCORE_FAILED);
+	ck_assert_int_eq(state(GATE_R4), SCORE_PASSED);
+	ck_assert_uint_eq(score.blame[0].draw, 1);
+	ck_assert_double_gt((double)score.blame[0].pixels / (double)score.failing_pixels, 0.9);
+}
+END_TEST
+
+START_TEST(texture_off_by_one_texel)
+{
+	struct drawing d = all;
+
+	d.texel_shift = 4;
+	remake_traced(&d);
+	expect_failed(GATE_R1);
+	ck_assert_int_eq(state(GATE_P), SCORE_FAILED);
+}
+END_TEST
+
+START_TEST(shifted_by_one_pixel)
+{
+	struct drawing d = all;
+
+	d.shift_x = 1;
+	remake_traced(&d);
+	expect_failed(GATE_R1);
+	ck_assert_int_eq(state(GATE_R4), SCORE_FAILED);
+	ck_assert_int_eq(state(GATE_R5), SCORE_FAILED);
+}
+END_TEST
+
+START_TEST(mirrored)
+{
+	struct drawing d = all;
+
+	d.mirrored = 1;
+	remake_traced(&d);
+	expect_failed(GATE_R4);
+}
+END_TEST
+
+START_TEST(missing_draw_of_the_background_s_colour)
+{
+	struct drawing d = all;
+
+	d.disc_as_background = 1;
+	remake_reference(&d, 1);
+	d.disc = 0;
+	remake_traced(&d);
+	expect_failed(GATE_R4); /* only depth tells */
+}
+END_TEST
+
+START_TEST(silhouette_without_depth_reference)
+{
+	struct drawing d = all;
+
+	remake_reference(&all, 0);
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_R5), SCORE_NOT_MEASURED);
+	ck_assert_int_eq(state(GATE_R4), SCORE_PASSED);
+	ck_assert_ptr_nonnull(strstr(score.gates[GATE_R4].note, "no depth reference"));
+	d.disc = 0;
+	remake_traced(&d);
+	expect_failed(GATE_R4);
+}
+END_TEST
+
+/* R5 */
+
+START_TEST(depth)
+{
+	struct drawing d = all;
+
+	d.depth_offset = 3e-6; /* slopes are 0.0007 to 0.0015 a pixel: 1/256 of these is allowed */
+	remake_traced(&d);
+	run();
+	ck_assert_double_gt(score.gates[GATE_R5].value[0], 0); /* the bar is flat: 2^-23 */
+	d.bar = 0;
+	d.depth_offset = 2e-6;
+	remake_reference(&(struct drawing){ .box = 1, .disc = 1 }, 1);
+	remake_traced(&d);
+	expect_all_passed();
+	d.depth_offset = 2e-5;
+	remake_traced(&d);
+	expect_failed(GATE_R5);
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+}
+END_TEST
+
+START_TEST(depth_of_16_bits)
+{
+	float *depth = image_channel(&reference, "gl.depth");
+
+	for (int i = 0; i < N; i++)
+		depth[i] = rintf(depth[i] * 65535) / 65535;
+	run();
+	ck_assert_int_eq(state(GATE_R5), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+	ck_assert_double_gt(score.fidelity, 0.99);
+}
+END_TEST
+
+/* E */
+
+START_TEST(channels_that_do_not_add_up)
+{
+	image_channel(&traced, "G")[60 * WIDTH + 30] *= 1.001f; /* in the shadow */
+	expect_failed(GATE_E1);
+	ck_assert_int_eq(state(GATE_E2), SCORE_PASSED);
+}
+END_TEST
+
+START_TEST(unexplained_difference)
+{
+	image_channel(&traced, "G")[5] += 0.1f; /* background: no effect there */
+	expect_failed(GATE_E2);
+	ck_assert_double_eq(score.gates[GATE_E2].value[0], 1);
+}
+END_TEST
+
+START_TEST(effects_within_their_range)
+{
+	options.ranges[0] = (struct score_range){ EFFECT_SHADOW, 0.01, 0.5 };
+	options.ranges[1] = (struct score_range){ EFFECT_REFRACT, NAN, 0 };
+	options.n_ranges = 2;
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_E3), SCORE_PASSED);
+	for (int c = 0; c < 3; c++) { /* all the shadows are gone, and the channels agree on it */
+		const char *shadow = (const char *[]){ "shadow.R", "shadow.G", "shadow.B" }[c];
+		const char *gl = (const char *[]){ "gl.R", "gl.G", "gl.B" }[c];
+		const char *reflect = (const char *[]){ "reflect.R", "reflect.G", "reflect.B" }[c];
+
+		for (int i = 0; i < N; i++) {
+			image_channel(&traced, shadow)[i] = 1;
+			image_channel(&traced, (const char[]){ "RGB"[c], 0 })[i] =
+				image_channel(&traced, gl)[i] + image_channel(&traced, reflect)[i];
+		}
+	}
+	expect_failed(GATE_E3);
+	ck_assert_int_eq(state(GATE_E1), SCORE_PASSED);
+}
+END_TEST
+
+/* P */
+
+START_TEST(drift_that_no_pixel_shows)
+{
+	shift_codes(0, HEIGHT, 1); /* 1/255 everywhere: within R1, but not within P */
+	expect_failed(GATE_P);
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+	ck_assert_double_gt(score.gates[GATE_P].value[0], 0.02);
+}
+END_TEST
+
+START_TEST(gamma_twice)
+{
+	for (int c = 0; c < 3; c++)
+		for (int i = 0; i < N; i++) {
+			float *v = &image_channel(&traced, (const char *[]){ "gl.R", "gl.G", "gl.B" }[c])[i];
+
+			*v = image_display_from_linear(*v);
+		}
+	expect_failed(GATE_R1);
+	ck_assert_int_eq(state(GATE_P), SCORE_FAILED);
+}
+END_TEST
+
+/* Plain pictures */
+
+START_TEST(plain_pictures_are_compared_by_colour)
+{
+	struct score_picture against = { 0 };
+
+	ck_assert_int_eq(score_picture_from_image(&reference, "beauty", &against), 0);
+	against.depth = NULL;
+	strcpy(reference.channels[3].name, "unused"); /* was gl.depth */
+	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, &score), 0);
+	ck_assert_int_eq(score.outcome, SCORE_FRAME_PASSED);
+	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
+	ck_assert_int_eq(state(GATE_R2), SCORE_NOT_MEASURED);
+	ck_assert_int_eq(state(GATE_R5), SCORE_NOT_MEASURED);
+	ck_assert_int_eq(state(GATE_E1), SCORE_NOT_MEASURED);
+	against.rgb[3 * 777 + 1] ^= 64;
+	against.rgb[3 * 778 + 1] ^= 64;
+	memset(against.rgb, 200, 3 * 30);
+	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, &score), 0);
+	ck_assert_int_eq(score.outcome, SCORE_FRAME_FAILED);
+	score_picture_free(&against);
+}
+END_TEST
+
+START_TEST(codes_round_trip)
+{
+	for (int i = 0; i < 256; i++)
+		ck_assert_int_eq(score_code_from_linear(image_linear_from_display((float)i / 255)), i);
+	ck_assert_int_eq(score_code_from_linear(NAN), 0);
+	ck_assert_int_eq(score_code_from_linear(-1), 0);
+	ck_assert_int_eq(score_code_from_linear(7), 255);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("gates");
+	TCase *tests = tcase_create("gates");
+	SRunner *runner;
+	int failed;
+
+	tcase_add_checked_fixture(tests, begin, end);
+	tcase_add_test(tests, good_frame_passes_every_gate);
+	tcase_add_test(tests, half_channels_pass);
+	tcase_add_test(tests, one_nan_in_any_channel);
+	tcase_add_test(tests, wrong_size);
+	tcase_add_test(tests, wrong_frame_number);
+	tcase_add_test(tests, missing_channels);
+	tcase_add_test(tests, interior_colour);
+	tcase_add_test(tests, few_interior_pixels_may_exceed);
+	tcase_add_test(tests, blended_pixels_have_a_bar_of_their_own);
+	tcase_add_test(tests, edges_may_move_by_a_rounding);
+	tcase_add_test(tests, wrong_edges);
+	tcase_add_test(tests, missing_draw);
+	tcase_add_test(tests, wrong_texture);
+	tcase_add_test(tests, texture_off_by_one_texel);
+	tcase_add_test(tests, shifted_by_one_pixel);
+	tcase_add_test(tests, mirrored);
+	tcase_add_test(tests, missing_draw_of_the_background_s_colour);
+	tcase_add_test(tests, silhouette_without_depth_reference);
+	tcase_add_test(tests, depth);
+	tcase_add_test(tests, depth_of_16_bits);
+	tcase_add_test(tests, channels_that_do_not_add_up);
+	tcase_add_test(tests, unexplained_difference);
+	tcase_add_test(tests, effects_within_their_range);
+	tcase_add_test(tests, drift_that_no_pixel_shows);
+	tcase_add_test(tests, gamma_twice);
+	tcase_add_test(tests, plain_pictures_are_compared_by_colour);
+	tcase_add_test(tests, codes_round_trip);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
