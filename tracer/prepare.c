@@ -292,6 +292,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	instance->draw = from->draw;
 	instance->scene_instance = index;
 	if (shape != PREPARED_FILLED) {
+		p->culls[p->n_instances] = instance->flags & (INSTANCE_CULL_FRONT | INSTANCE_CULL_BACK);
 		instance->flags = INSTANCE_SCREEN;
 		identity_rows(instance->eye_from_obj);
 		identity_rows(instance->obj_from_eye);
@@ -329,8 +330,11 @@ static void add_shapes(const struct scene *scene, struct prepared *p, struct seg
 	enum scene_primitive kind = scene->meshes[from->mesh]->kind;
 	enum prepared_shape front = shape_of_mode(m->polygon_mode_front), back = shape_of_mode(m->polygon_mode_back);
 
-	if (screen || kind != SCENE_TRIANGLES)
+	if (kind != SCENE_TRIANGLES) {
+		if (screen)
+			add_instance(scene, p, segment, index, kind == SCENE_LINES ? PREPARED_LINES : PREPARED_POINTS, 0);
 		return;
+	}
 	if (front == back) {
 		if ((front != PREPARED_FILLED) == screen)
 			add_instance(scene, p, segment, index, front, 0);
@@ -430,9 +434,10 @@ int prepare_frame(const struct scene *scene, struct prepared *out)
 	out->instances = calloc(most, sizeof(*out->instances));
 	out->geometries = calloc(most, sizeof(*out->geometries));
 	out->shapes = calloc(most, sizeof(*out->shapes));
+	out->culls = calloc(most, sizeof(*out->culls));
 	out->views = calloc(most, sizeof(*out->views));
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
-	if (!runs || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->views ||
+	if (!runs || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
 	    !out->scene_views)
 		goto fail;
 	n_runs = cut_runs(scene, runs);
@@ -474,6 +479,7 @@ void prepared_free(struct prepared *p)
 	free(p->instances);
 	free(p->geometries);
 	free(p->shapes);
+	free(p->culls);
 	free(p->views);
 	free(p->scene_views);
 	free(p->owner);

@@ -29,6 +29,7 @@ struct prepared {
 	struct instance *instances;
 	struct geometry *geometries;
 	enum prepared_shape *shapes;
+	uint32_t *culls; /* INSTANCE_CULL_* of those that are to be expanded */
 	uint32_t n_instances;
 
 	struct view *views;             /* [n_views], one a segment that draws */

@@ -239,9 +239,6 @@ static void report(const struct run *run)
 	const struct tracer_undrawn *u = tracer_undrawn(run->tracer);
 
 	replay_report_unsupported(run->replay, run->options->trace, 20);
-	if (u->lines || u->points)
-		err_warn(run->options->trace, "not drawn yet: %llu lines, %llu points", (unsigned long long)u->lines,
-		         (unsigned long long)u->points);
 	if (u->targets)
 		err_warn(run->options->trace, "not drawn yet: %llu draws to other targets than the window",
 		         (unsigned long long)u->targets);

@@ -10,6 +10,7 @@
 #include "kernels/rays.h"
 #include "tracer/accel.h"
 #include "tracer/compose.h"
+#include "tracer/expand.h"
 #include "tracer/pool.h"
 #include "tracer/prepare.h"
 
@@ -43,6 +44,8 @@ struct job {
 	const struct scene *scene;
 	const struct tracer_options *options;
 	struct prepared prepared;
+	struct expanded *expanded;       /* [n_instances]: what became of lines and points; empty for others */
+	const struct scene_mesh **extra; /* [n_instances]: their meshes, or NULL */
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
 	uint32_t width, height, n_pixels;
@@ -172,8 +175,7 @@ static int run(struct tracer *tr, enum device_kernel kernel, size_t n, const str
 
 /* --- Uploads ------------------------------------------------------------------------------------------------------ */
 
-static int place_meshes(struct job *job, struct pool *pool, size_t (*words)(const struct scene_mesh *), pool_fill *fill,
-                        int indices)
+static int place_attributes(struct job *job)
 {
 	const struct scene *scene = job->scene;
 	struct pool_item *items = calloc(scene->n_meshes + (size_t)1, sizeof(*items));
@@ -183,20 +185,45 @@ static int place_meshes(struct job *job, struct pool *pool, size_t (*words)(cons
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < scene->n_meshes; i++)
 		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
-			                       words(scene->meshes[i]), scene->meshes[i], 0 };
-	err = pool_place(pool, job->tr->dev, items, scene->n_meshes, fill);
+			                       prepare_attribute_words(scene->meshes[i]), scene->meshes[i], 0 };
+	err = pool_place(&job->tr->attributes, job->tr->dev, items, scene->n_meshes, prepare_fill_attributes);
 	for (uint32_t i = 0; i < job->prepared.n_instances && !err; i++) {
-		uint32_t mesh_index = scene->instances[job->prepared.instances[i].scene_instance].mesh;
-		const struct scene_mesh *mesh = scene->meshes[mesh_index];
-		struct geometry *g = &job->prepared.geometries[i];
+		uint32_t mesh = scene->instances[job->prepared.instances[i].scene_instance].mesh;
 
-		if (!indices) {
-			prepare_layout(mesh, items[mesh_index].place, g);
-			continue;
-		}
-		g->index = items[mesh_index].place;
-		g->primitive_draw =
-			mesh->primitive_draw ? g->index + mesh->primitive_count * (uint32_t)mesh->kind : SCENE_NONE;
+		prepare_layout(scene->meshes[mesh], items[mesh].place, &job->prepared.geometries[i]);
+	}
+	free(items);
+	return err;
+}
+
+/* Indices of the scene's meshes and of those that lines and points became. */
+static int place_indices(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct prepared *p = &job->prepared;
+	struct pool_item *items = calloc((size_t)scene->n_meshes + p->n_instances + 1, sizeof(*items));
+	size_t n = scene->n_meshes;
+	int err;
+
+	if (!items)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < n; i++)
+		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
+			                       prepare_index_words(scene->meshes[i]), scene->meshes[i], 0 };
+	for (uint32_t i = 0; i < p->n_instances; i++)
+		if (job->extra[i])
+			items[n++] = (struct pool_item){ { job->extra[i]->hash[0], job->extra[i]->hash[1] },
+				                         prepare_index_words(job->extra[i]), job->extra[i], 0 };
+	err = pool_place(&job->tr->indices, job->tr->dev, items, n, prepare_fill_indices);
+	n = scene->n_meshes;
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		uint32_t mesh = scene->instances[p->instances[i].scene_instance].mesh;
+		const struct pool_item *item = job->extra[i] ? &items[n++] : &items[mesh];
+		const struct scene_mesh *from = item->object;
+
+		p->geometries[i].index = item->place;
+		p->geometries[i].primitive_draw =
+			from->primitive_draw ? item->place + from->primitive_count * (uint32_t)from->kind : SCENE_NONE;
 	}
 	free(items);
 	return err;
@@ -309,29 +336,21 @@ static int upload_trees(struct job *job)
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------- */
 
-static int run_vertices(struct job *job)
+/* Run the vertex stage with room behind its results for what lines and points will become. */
+static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra_texcoords)
 {
 	struct tracer *tr = job->tr;
 	struct prepared *p = &job->prepared;
+	size_t n = (size_t)p->n_vertices + extra_vertices;
 	struct launch l;
-	int err = place_meshes(job, &tr->attributes, prepare_attribute_words, prepare_fill_attributes, 0);
+	int err = reserve(tr, BUFFER_VERTICES, n, sizeof(struct shaded_vertex));
 
 	if (!err)
-		err = place_meshes(job, &tr->indices, prepare_index_words, prepare_fill_indices, 1);
+		err = reserve(tr, BUFFER_WINDOWS, n, sizeof(struct window_vertex));
 	if (!err)
-		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+		err = reserve(tr, BUFFER_CLIPS, n, 4 * sizeof(float));
 	if (!err)
-		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
-	if (!err)
-		err = upload(tr, BUFFER_OWNER, p->owner, p->n_vertices, sizeof(*p->owner));
-	if (!err)
-		err = reserve(tr, BUFFER_VERTICES, p->n_vertices, sizeof(struct shaded_vertex));
-	if (!err)
-		err = reserve(tr, BUFFER_WINDOWS, p->n_vertices, sizeof(struct window_vertex));
-	if (!err)
-		err = reserve(tr, BUFFER_CLIPS, p->n_vertices, 4 * sizeof(float));
-	if (!err)
-		err = reserve(tr, BUFFER_TEXCOORDS, p->n_texcoords, 4 * sizeof(float));
+		err = reserve(tr, BUFFER_TEXCOORDS, (size_t)p->n_texcoords + extra_texcoords, 4 * sizeof(float));
 	if (err)
 		return err;
 	l = launch_with_tables(tr);
@@ -344,6 +363,115 @@ static int run_vertices(struct job *job)
 	add(&l, tr, BUFFER_CLIPS);
 	add(&l, tr, BUFFER_TEXCOORDS);
 	return run(tr, KERNEL_vertex, p->n_vertices, &l);
+}
+
+static int upload_vertex_stage(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	int err = place_attributes(job);
+
+	if (!err)
+		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+	if (!err)
+		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = upload(tr, BUFFER_OWNER, p->owner, p->n_vertices, sizeof(*p->owner));
+	if (!err)
+		err = device_reserve(tr->dev, &tr->indices.buffer, sizeof(uint32_t));
+	return err;
+}
+
+/* --- Lines and points ---------------------------------------------------------------------------------------------- */
+
+/* Expand one instance's lines or points from what the vertex stage made of their vertices. */
+static int expand_instance(struct job *job, uint32_t i)
+{
+	const struct scene *scene = job->scene;
+	const struct prepared *p = &job->prepared;
+	const struct geometry *g = &p->geometries[i];
+	const struct scene_material *m = &scene->materials[g->material];
+	size_t n = g->vertex_count, n_coords = n * m->unit_count;
+	struct shaded_vertex *vertices = malloc((n + 1) * sizeof(*vertices));
+	float (*texcoords)[4] = malloc((n_coords + 1) * sizeof(*texcoords));
+	struct expand_input in = { .mesh = scene->meshes[scene->instances[p->instances[i].scene_instance].mesh],
+		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
+		                   .shape = p->shapes[i], .cull = p->culls[i], .height = job->height,
+		                   .depth_bits = scene->depth_bits, .vertices = vertices,
+		                   .texcoords = (const float (*)[4])texcoords };
+	int err = 0;
+
+	if (!vertices || !texcoords)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err && n)
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		                  vertices, n * sizeof(*vertices));
+	if (!err && n_coords)
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_TEXCOORDS], g->texcoord_first * sizeof(*texcoords),
+		                  texcoords, n_coords * sizeof(*texcoords));
+	if (!err)
+		err = expand_primitives(&in, &job->expanded[i]);
+	free(vertices);
+	free(texcoords);
+	return err;
+}
+
+/* Put the new vertices behind the frame's own, where there is room. */
+static int upload_expanded(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	uint32_t vertex = p->n_vertices, texcoord = p->n_texcoords;
+	int err = 0;
+
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		const struct expanded *e = &job->expanded[i];
+		struct geometry *g = &p->geometries[i];
+
+		if (p->shapes[i] == PREPARED_FILLED)
+			continue;
+		job->extra[i] = &e->mesh;
+		g->flags |= GEOMETRY_EXPANDED;
+		g->vertex_first = p->instances[i].vertex_first = vertex;
+		g->vertex_count = e->n_vertices;
+		g->texcoord_first = texcoord;
+		if (e->n_vertices == 0)
+			continue;
+		err = device_write(tr->dev, tr->buffers[BUFFER_VERTICES], vertex * sizeof(*e->vertices), e->vertices,
+		                   e->n_vertices * sizeof(*e->vertices));
+		if (!err)
+			err = device_write(tr->dev, tr->buffers[BUFFER_WINDOWS], vertex * sizeof(*e->windows), e->windows,
+			                   e->n_vertices * sizeof(*e->windows));
+		for (uint32_t v = 0; v < e->n_vertices && !err; v++)
+			err = device_write(tr->dev, tr->buffers[BUFFER_CLIPS], (vertex + v) * 4 * sizeof(float),
+			                   e->vertices[v].clip, 4 * sizeof(float));
+		if (!err && e->n_texcoords)
+			err = device_write(tr->dev, tr->buffers[BUFFER_TEXCOORDS], texcoord * sizeof(*e->texcoords),
+			                   e->texcoords, e->n_texcoords * sizeof(*e->texcoords));
+		vertex += e->n_vertices;
+		texcoord += e->n_texcoords;
+	}
+	return err;
+}
+
+static int expand_all(struct job *job)
+{
+	struct prepared *p = &job->prepared;
+	uint32_t n_vertices = 0, n_texcoords = 0;
+	int err = 0;
+
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		if (p->shapes[i] == PREPARED_FILLED)
+			continue;
+		err = expand_instance(job, i);
+		n_vertices += job->expanded[i].n_vertices;
+		n_texcoords += job->expanded[i].n_texcoords;
+	}
+	if (!err && n_vertices) /* once more, with room: buffers that grow forget */
+		err = run_vertices(job, n_vertices, n_texcoords);
+	if (!err)
+		err = upload_expanded(job);
+	return err;
 }
 
 /* Eye-space positions of the instances whose trees are built there; NULL in *out where there are none. */
@@ -376,12 +504,35 @@ static int read_baked(struct job *job, float (**out)[4])
 }
 
 /* Order numbers run on through the frame's instances in draw order, whatever became of them. */
-static void number_primitives(struct job *job)
+static int number_primitives(struct job *job)
 {
+	const struct scene *scene = job->scene;
 	struct prepared *p = &job->prepared;
+	uint32_t *next = calloc((size_t)scene->n_instances + 1, sizeof(*next)), total = 0;
 
-	for (uint32_t i = 0; i < p->n_instances; i++)
-		p->instances[i].primitive_first = job->scene->instances[p->instances[i].scene_instance].first_primitive;
+	if (!next)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		uint32_t from = p->instances[i].scene_instance;
+
+		next[from] += job->extra[i] ? job->extra[i]->primitive_count :
+		                              scene->meshes[scene->instances[from].mesh]->primitive_count;
+	}
+	for (uint32_t i = 0; i < scene->n_instances; i++) {
+		uint32_t count = next[i];
+
+		next[i] = total;
+		total += count;
+	}
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		uint32_t from = p->instances[i].scene_instance;
+
+		p->instances[i].primitive_first = next[from];
+		next[from] += job->extra[i] ? job->extra[i]->primitive_count :
+		                              scene->meshes[scene->instances[from].mesh]->primitive_count;
+	}
+	free(next);
+	return 0;
 }
 
 static int build_trees(struct job *job)
@@ -392,17 +543,22 @@ static int build_trees(struct job *job)
 	float (*baked)[4];
 	int err = read_baked(job, &baked);
 
-	number_primitives(job);
+	if (!err)
+		err = number_primitives(job);
 	scene.views = p->scene_views;
 	scene.n_views = p->n_views;
 	if (!err)
-		err = accel_build_frame(tr->accel, &scene, NULL, (const float (*)[4])baked, p->instances, p->n_instances,
-		                        p->views, &job->spaces, &job->n_spaces);
+		err = accel_build_frame(tr->accel, &scene, job->extra, (const float (*)[4])baked, p->instances,
+		                        p->n_instances, p->views, &job->spaces, &job->n_spaces);
 	free(baked);
 	if (!err)
 		err = upload(tr, BUFFER_INSTANCES, p->instances, p->n_instances, sizeof(*p->instances));
 	if (!err)
 		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = place_indices(job);
+	if (!err)
+		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
 	if (!err)
 		err = upload_trees(job);
 	return err;
@@ -854,13 +1010,8 @@ static void count_undrawn(struct job *job)
 {
 	const struct scene *scene = job->scene;
 
-	for (uint32_t i = 0; i < scene->n_instances; i++) {
-		const struct scene_mesh *mesh = scene->meshes[scene->instances[i].mesh];
-
+	for (uint32_t i = 0; i < scene->n_instances; i++)
 		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
-		job->tr->undrawn.lines += mesh->kind == SCENE_LINES ? mesh->primitive_count : 0;
-		job->tr->undrawn.points += mesh->kind == SCENE_POINTS ? mesh->primitive_count : 0;
-	}
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
@@ -879,9 +1030,18 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	err = prepare_frame(scene, &job.prepared);
 	if (err)
 		return err;
-	err = upload_state(&job);
+	job.expanded = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.expanded));
+	job.extra = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.extra));
+	if (!job.expanded || !job.extra)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
-		err = run_vertices(&job);
+		err = upload_state(&job);
+	if (!err)
+		err = upload_vertex_stage(&job);
+	if (!err)
+		err = run_vertices(&job, 0, 0);
+	if (!err)
+		err = expand_all(&job);
 	if (!err)
 		err = build_trees(&job);
 	if (!err)
@@ -898,6 +1058,10 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = read_image(&job, img);
 	if (!err)
 		err = describe_image(&job, img);
+	for (uint32_t i = 0; i < job.prepared.n_instances && job.expanded; i++)
+		expanded_free(&job.expanded[i]);
+	free(job.expanded);
+	free(job.extra);
 	prepared_free(&job.prepared);
 	if (err)
 		image_free(img);

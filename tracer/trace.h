@@ -43,9 +43,8 @@ int tracer_check_aov(const char *aov);
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img);
 
-/** Primitives met so far that the tracer does not draw yet, by kind; all 0 where everything is drawn. */
+/** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
 struct tracer_undrawn {
-	uint64_t lines, points;
 	uint64_t targets; /* instances that drew to a target other than the window */
 };
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);

@@ -1,0 +1,490 @@
+#include "tracer/expand.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+
+/* A vertex on its way: attributes, and where it is in the window, y down as llvmpipe counts. */
+struct end {
+	struct shaded_vertex v;
+	float texcoord[SCENE_MAX_UNITS][4];
+	float x, y, z, w_inv;
+};
+
+static int grow(const struct expand_input *in, struct expanded *e)
+{
+	uint32_t room = e->room ? 2 * e->room : 64, units = in->material->unit_count;
+	struct shaded_vertex *vertices = realloc(e->vertices, room * 4 * sizeof(*vertices));
+	struct window_vertex *windows;
+	float (*texcoords)[4], (*position)[4];
+	uint32_t *index, *primitive_draw;
+
+	if (!vertices)
+		return ERR_SYSTEM;
+	e->vertices = vertices;
+	if (!(windows = realloc(e->windows, room * 4 * sizeof(*windows))))
+		return ERR_SYSTEM;
+	e->windows = windows;
+	if (!(texcoords = realloc(e->texcoords, ((size_t)room * 4 * units + 1) * sizeof(*texcoords))))
+		return ERR_SYSTEM;
+	e->texcoords = texcoords;
+	if (!(position = realloc(e->position, room * 4 * sizeof(*position))))
+		return ERR_SYSTEM;
+	e->position = position;
+	if (!(index = realloc(e->index, room * 6 * sizeof(*index))))
+		return ERR_SYSTEM;
+	e->index = index;
+	if (!(primitive_draw = realloc(e->primitive_draw, room * 2 * sizeof(*primitive_draw))))
+		return ERR_SYSTEM;
+	e->primitive_draw = primitive_draw;
+	e->room = room;
+	return 0;
+}
+
+/* --- Vertices ------------------------------------------------------------------------------------------------------ */
+
+static struct end load(const struct expand_input *in, uint32_t v, int side)
+{
+	struct end e = { .v = in->vertices[v] };
+	uint32_t units = in->material->unit_count;
+
+	memcpy(e.v.color[0], in->vertices[v].color[side], sizeof(e.v.color[0]));
+	memcpy(e.v.color[1], in->vertices[v].color[side], sizeof(e.v.color[1]));
+	memcpy(e.v.secondary[0], in->vertices[v].secondary[side], sizeof(e.v.secondary[0]));
+	memcpy(e.v.secondary[1], in->vertices[v].secondary[side], sizeof(e.v.secondary[1]));
+	if (units)
+		memcpy(e.texcoord, in->texcoords + (size_t)v * units, units * sizeof(e.texcoord[0]));
+	return e;
+}
+
+/* Flat shading: the colour of the primitive's last vertex. */
+static void take_color(struct end *e, const struct end *from)
+{
+	memcpy(e->v.color, from->v.color, sizeof(e->v.color));
+	memcpy(e->v.secondary, from->v.secondary, sizeof(e->v.secondary));
+}
+
+static void mix_floats(const float *a, const float *b, float wa, float wb, float *out, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		out[i] = a[i] * wa + b[i] * wb;
+}
+
+/* Attributes wa a + wb b; the place in the window stays to be found. */
+static struct end mix_ends(const struct end *a, const struct end *b, float wa, float wb)
+{
+	struct end e = *a;
+
+	mix_floats(a->v.clip, b->v.clip, wa, wb, e.v.clip, 4);
+	mix_floats(a->v.eye, b->v.eye, wa, wb, e.v.eye, 4);
+	mix_floats(&a->v.color[0][0], &b->v.color[0][0], wa, wb, &e.v.color[0][0], 8);
+	mix_floats(&a->v.secondary[0][0], &b->v.secondary[0][0], wa, wb, &e.v.secondary[0][0], 8);
+	mix_floats(a->v.normal, b->v.normal, wa, wb, e.v.normal, 3);
+	mix_floats(&a->v.fog_coord, &b->v.fog_coord, wa, wb, &e.v.fog_coord, 1);
+	mix_floats(&a->texcoord[0][0], &b->texcoord[0][0], wa, wb, &e.texcoord[0][0], SCENE_MAX_UNITS * 4);
+	return e;
+}
+
+/* As the vertex stage does, but not snapped. */
+static void project(const struct expand_input *in, struct end *e)
+{
+	const float *v = in->view->viewport, *c = e->v.clip, *range = in->view->depth_range;
+
+	e->w_inv = 1 / c[3];
+	e->x = v[2] * 0.5f * (c[0] * e->w_inv) + (v[0] + v[2] * 0.5f);
+	e->y = -v[3] * 0.5f * (c[1] * e->w_inv) + ((float)in->height - (v[1] + v[3] * 0.5f));
+	e->z = (range[1] - range[0]) * 0.5f * (c[2] * e->w_inv) + (range[1] + range[0]) * 0.5f;
+}
+
+/* Signed distances to the planes that lines are clipped at: near, far, and four around twice the view's width. */
+static float clip_distance(const float *c, int plane)
+{
+	float side = plane & 1 ? -1 : 1;
+
+	return plane < 2 ? c[3] + side * c[2] : 2 * c[3] + side * c[(plane - 2) / 2];
+}
+
+/* Cut a line to what can be seen. @return 0 where nothing is left */
+static int clip_line(struct end *a, struct end *b)
+{
+	float t0 = 0, t1 = 1;
+	struct end from = *a, to = *b;
+
+	for (int plane = 0; plane < 6; plane++) {
+		float da = clip_distance(a->v.clip, plane), db = clip_distance(b->v.clip, plane);
+
+		if (da < 0 && db < 0)
+			return 0;
+		if (da < 0)
+			t0 = fmaxf(t0, da / (da - db));
+		else if (db < 0)
+			t1 = fminf(t1, da / (da - db));
+	}
+	if (!(t0 <= t1))
+		return 0;
+	if (t0 > 0)
+		*a = mix_ends(&from, &to, 1 - t0, t0);
+	if (t1 < 1)
+		*b = mix_ends(&from, &to, 1 - t1, t1);
+	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
+}
+
+/* --- Quads --------------------------------------------------------------------------------------------------------- */
+
+/* 1/256 pixel from the pixel corner, halves as llvmpipe rounds them: a centre is 0 for it. */
+static int32_t snap(float pixels)
+{
+	return (int32_t)rintf((pixels - 0.5f) * 256) + 128;
+}
+
+/* Add a corner of a quad. x, y: in 1/256 pixel, y down. */
+static void add_corner(const struct expand_input *in, struct expanded *out, const struct end *e, int32_t x, int32_t y)
+{
+	uint32_t at = out->n_vertices++, units = in->material->unit_count;
+	int32_t up = (int32_t)in->height * 256 - y;
+	const float *v = in->view->viewport, *range = in->view->depth_range;
+	float w = 1 / e->w_inv, px = (float)x / 256, py = (float)up / 256;
+	float half_range = (range[1] - range[0]) * 0.5f;
+	struct shaded_vertex *vertex = &out->vertices[at];
+
+	*vertex = e->v;
+	vertex->clip[0] = (2 * (px - v[0]) / v[2] - 1) * w;
+	vertex->clip[1] = (2 * (py - v[1]) / v[3] - 1) * w;
+	vertex->clip[2] = half_range != 0 ? (e->z - range[0] - half_range) / half_range * w : 0;
+	vertex->clip[3] = w;
+	vertex->lit[0] = vertex->lit[1] = 0;
+	out->windows[at] = (struct window_vertex){ x, up, e->z, e->w_inv };
+	memcpy(out->position[at], (float[4]){ px, py, 0, 1 }, sizeof(out->position[at]));
+	if (units)
+		memcpy(out->texcoords + (size_t)at * units, e->texcoord, units * sizeof(e->texcoord[0]));
+	out->n_texcoords += units;
+}
+
+/* Two triangles over the last four corners, front side up. */
+static void add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw)
+{
+	uint32_t first = out->n_vertices - 4, *index = out->index + 3 * (size_t)out->n_primitives;
+	const struct window_vertex *w = out->windows + first;
+	int64_t area = ((int64_t)w[1].x - w[0].x) * ((int64_t)w[2].y - w[0].y) -
+	               ((int64_t)w[2].x - w[0].x) * ((int64_t)w[1].y - w[0].y);
+	int turn = (area > 0) != (in->material->front_face == GL_CCW);
+	uint32_t b = turn ? 3 : 1, d = turn ? 1 : 3;
+
+	memcpy(index, (uint32_t[6]){ first, first + b, first + 2, first, first + 2, first + d }, 6 * sizeof(*index));
+	out->primitive_draw[out->n_primitives] = out->primitive_draw[out->n_primitives + 1] = draw;
+	out->n_primitives += 2;
+}
+
+/* The point at share s of a projected line: attributes over w are linear in the window. */
+static struct end line_point(const struct end *a, const struct end *b, float s)
+{
+	float w_inv = a->w_inv + (b->w_inv - a->w_inv) * s, w;
+	struct end e;
+
+	if (!(w_inv > 0)) { /* beyond an end, and beyond the eye */
+		s = s < 0.5f ? 0 : 1;
+		w_inv = s > 0 ? b->w_inv : a->w_inv;
+	}
+	w = 1 / w_inv;
+	e = mix_ends(a, b, (1 - s) * a->w_inv * w, s * b->w_inv * w);
+	e.x = a->x + (b->x - a->x) * s;
+	e.y = a->y + (b->y - a->y) * s;
+	e.z = a->z + (b->z - a->z) * s;
+	e.w_inv = w_inv;
+	return e;
+}
+
+/* What a line has at a point of the window, in 1/256 pixel: things change along it only. */
+static struct end on_line(const struct end *a, const struct end *b, int32_t x, int32_t y)
+{
+	float dx = b->x - a->x, dy = b->y - a->y, length2 = dx * dx + dy * dy;
+	float s = (((float)x / 256 - a->x) * dx + ((float)y / 256 - a->y) * dy) / length2;
+
+	return line_point(a, b, fminf(fmaxf(s, -1), 2));
+}
+
+static int sign(float x)
+{
+	return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+/*
+ * Does a line that runs along its major axis by d_major and across it by d_minor draw the pixel of an end?
+ * major, minor: the end's place in its pixel, from the centre.
+ * The diamond-exit rule (sec. 3.4.1): the line draws a pixel whose diamond it leaves.
+ */
+static int draws_end(float major, float minor, float d_major, float d_minor, int first)
+{
+	int beyond = sign(major) == sign(d_major);
+	float crossing;
+
+	if (fabsf(major) + fabsf(minor) < 0.5f)
+		return first;
+	if (beyond == first)
+		return 0;
+	if ((sign(minor) == sign(d_minor)) != first)
+		return 1;
+	crossing = minor - major * (d_minor / d_major); /* where the line passes the pixel's middle */
+	return crossing < 0.5f && crossing > -0.5f;
+}
+
+/* The line a -> b, projected, as a quad. */
+static void add_line(const struct expand_input *in, struct expanded *out, const struct end *a, const struct end *b,
+                     uint32_t draw)
+{
+	float dx = b->x - a->x, dy = b->y - a->y, width = fmaxf(rintf(in->material->line_width), 1);
+	int steep = !(fabsf(dx) >= fabsf(dy));
+	float d_major = steep ? dy : dx, d_minor = steep ? dx : dy, shift[2] = { 0, 0 };
+	const struct end *ends[2] = { a, b };
+	int32_t half = (int32_t)(width * 128), x[2], y[2];
+
+	if (d_major == 0)
+		return;
+	for (int i = 0; i < 2; i++) {
+		float px = ends[i]->x - floorf(ends[i]->x) - 0.5f, py = ends[i]->y - floorf(ends[i]->y) - 0.5f;
+		float major = steep ? py : px, minor = steep ? px : py;
+		/* what the quad would cover: centres from the start on, up to the end */
+		int covers = (sign(major) == sign(d_major)) != (i == 0) || major == 0;
+
+		/* then the end moves to its pixel's edge, back along the line */
+		if (covers != draws_end(major, minor, d_major, d_minor, i == 0))
+			shift[i] = -major - 0.5f * (float)sign(d_major);
+	}
+	for (int i = 0; i < 2; i++) {
+		float along = shift[i], across = shift[i] * (d_minor / d_major);
+
+		x[i] = snap(ends[i]->x + (steep ? across : along));
+		y[i] = snap(ends[i]->y + (steep ? along : across));
+	}
+	for (int k = 0; k < 4; k++) {
+		int i = k == 1 || k == 2;
+		int32_t side = k < 2 ? -half : half;
+		int32_t cx = x[i] + (steep ? side : 0), cy = y[i] + (steep ? 0 : side);
+		struct end corner = on_line(a, b, cx, cy);
+
+		add_corner(in, out, &corner, cx, cy);
+	}
+	add_triangles(in, out, draw);
+}
+
+static void add_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
+{
+	const struct scene_material *m = in->material;
+	float size = e->v.point_size;
+	int32_t width, x, y;
+
+	if (!m->point_sprite && !m->point_smooth)
+		size = fmaxf(rintf(size), 1);
+	width = (int32_t)fmaxf(rintf(size * 256), 256);
+	x = snap(e->x) - width / 2;
+	y = snap(e->y) - width / 2;
+	for (int k = 0; k < 4; k++) {
+		int right = k == 1 || k == 2, low = k >= 2;
+		struct end corner = *e;
+
+		for (uint32_t u = 0; u < m->unit_count && m->point_sprite; u++)
+			if (in->units[u].coord_replace)
+				memcpy(corner.texcoord[u], (float[4]){ (float)right, (float)low, 0, 1 },
+				       sizeof(corner.texcoord[u]));
+		add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
+	}
+	add_triangles(in, out, draw);
+}
+
+/* --- Primitives ---------------------------------------------------------------------------------------------------- */
+
+/* State of the line stipple (sec. 3.4.2): pixels so far along a strip. */
+struct stipple {
+	uint32_t pattern, factor, counter;
+};
+
+static int add_dash(const struct expand_input *in, struct expanded *out, const struct end *a, const struct end *b,
+                    uint32_t draw)
+{
+	if (out->n_vertices / 4 == out->room && grow(in, out))
+		return ERR_SYSTEM;
+	add_line(in, out, a, b, draw);
+	return 0;
+}
+
+/* A line, clipped, projected and cut into the dashes that its stipple leaves. */
+static int line(const struct expand_input *in, struct expanded *out, struct end a, struct end b, float offset,
+                uint32_t draw, struct stipple *stipple)
+{
+	float length;
+	uint32_t start = 0, n;
+	int err = 0;
+
+	if (!clip_line(&a, &b))
+		return 0;
+	project(in, &a);
+	project(in, &b);
+	a.z = fminf(fmaxf(a.z + offset, 0), 1);
+	b.z = fminf(fmaxf(b.z + offset, 0), 1);
+	if (stipple->pattern == 0xffff)
+		return add_dash(in, out, &a, &b, draw);
+	length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
+	n = (uint32_t)ceilf(length);
+	for (uint32_t i = 0; i <= n && !err; i++) {
+		int on = i < n && stipple->pattern >> (stipple->counter / stipple->factor & 15) & 1;
+
+		if (!on && i > start) {
+			struct end from = line_point(&a, &b, (float)start / length);
+			struct end to = line_point(&a, &b, fminf((float)i / length, 1));
+
+			err = add_dash(in, out, &from, &to, draw);
+		}
+		start = on ? start : i + 1;
+		stipple->counter += i < n;
+	}
+	return err;
+}
+
+static int point(const struct expand_input *in, struct expanded *out, struct end e, float offset, uint32_t draw)
+{
+	for (int plane = 0; plane < 6; plane++) {
+		float slack = plane < 2 ? 0 : -e.v.clip[3]; /* their centre must lie in the view (sec. 2.12) */
+
+		if (clip_distance(e.v.clip, plane) + slack < 0)
+			return 0;
+	}
+	if (!(e.v.clip[3] > 0))
+		return 0;
+	project(in, &e);
+	e.z = fminf(fmaxf(e.z + offset, 0), 1);
+	if (out->n_vertices / 4 == out->room && grow(in, out))
+		return ERR_SYSTEM;
+	add_point(in, out, &e, draw);
+	return 0;
+}
+
+/* Polygon offset of a triangle that is drawn as lines or points (sec. 3.5.5). */
+static float polygon_offset(const struct expand_input *in, const struct end *e)
+{
+	const struct scene_material *m = in->material;
+	uint32_t bit = in->shape == PREPARED_LINES ? 2 : 1, bits = in->depth_bits > 24 ? 24 : in->depth_bits;
+	struct end p[3] = { e[0], e[1], e[2] };
+	float x1, y1, z1, x2, y2, z2, area, slope = 0;
+
+	if (!(m->polygon_offset & bit))
+		return 0;
+	for (int i = 0; i < 3; i++)
+		project(in, &p[i]);
+	x1 = p[1].x - p[0].x;
+	y1 = p[1].y - p[0].y;
+	z1 = p[1].z - p[0].z;
+	x2 = p[2].x - p[0].x;
+	y2 = p[2].y - p[0].y;
+	z2 = p[2].z - p[0].z;
+	area = x1 * y2 - x2 * y1;
+	if (area != 0)
+		slope = fmaxf(fabsf((z1 * y2 - z2 * y1) / area), fabsf((z2 * x1 - z1 * x2) / area));
+	return slope * m->polygon_offset_factor + m->polygon_offset_units / (float)((1u << (bits ? bits : 24)) - 1);
+}
+
+/* 1 where a triangle faces its viewer with its front (sign of its area in clip space). */
+static int is_front(const struct expand_input *in, const uint32_t *index)
+{
+	const float *a = in->vertices[index[0]].clip, *b = in->vertices[index[1]].clip, *c = in->vertices[index[2]].clip;
+	float det = a[3] * (b[0] * c[1] - c[0] * b[1]) + b[3] * (c[0] * a[1] - a[0] * c[1]) +
+	            c[3] * (a[0] * b[1] - b[0] * a[1]);
+
+	return (det > 0) == (in->material->front_face == GL_CCW);
+}
+
+static int expand_polygon(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw,
+                          struct stipple *stipple)
+{
+	const uint32_t *index = in->mesh->index + 3 * (size_t)primitive;
+	uint32_t flags = in->mesh->edge_flags ? in->mesh->edge_flags[primitive] : 7;
+	int front = is_front(in, index), side = in->material->lighting && in->material->two_side && !front, err = 0;
+	struct end e[3];
+	float offset;
+
+	if (in->cull & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK))
+		return 0;
+	for (int i = 0; i < 3; i++)
+		e[i] = load(in, index[i], side);
+	if (in->material->shade_model == GL_FLAT)
+		for (int i = 0; i < 2; i++)
+			take_color(&e[i], &e[2]);
+	offset = polygon_offset(in, e);
+	for (int i = 0; i < 3 && !err; i++) {
+		if (!(flags >> i & 1))
+			continue;
+		err = in->shape == PREPARED_LINES ? line(in, out, e[i], e[(i + 1) % 3], offset, draw, stipple) :
+		                                    point(in, out, e[i], offset, draw);
+	}
+	return err;
+}
+
+static int expand_line(const struct expand_input *in, struct expanded *out, uint32_t primitive, uint32_t draw,
+                       struct stipple *stipple)
+{
+	const uint32_t *index = in->mesh->index + 2 * (size_t)primitive;
+	struct end a = load(in, index[0], 0), b = load(in, index[1], 0);
+
+	/* A line that starts where the last one ended continues a strip. */
+	if (primitive == 0 || index[0] != index[-1])
+		stipple->counter = 0;
+	if (in->material->shade_model == GL_FLAT)
+		take_color(&a, &b);
+	return line(in, out, a, b, 0, draw, stipple);
+}
+
+static void make_mesh(struct expanded *e)
+{
+	XXH128_hash_t hash;
+
+	e->mesh = (struct scene_mesh){ .kind = SCENE_TRIANGLES, .vertex_count = e->n_vertices,
+		                       .primitive_count = e->n_primitives, .position = (const float *)e->position,
+		                       .index = e->index, .primitive_draw = e->primitive_draw };
+	hash = XXH3_128bits(e->position, e->n_vertices * sizeof(*e->position));
+	/* not to be taken for a mesh of the scene's that has the same positions, nor for the same quads of another draw */
+	hash = XXH3_128bits_withSeed(e->index, e->n_primitives * 3 * sizeof(*e->index), hash.low64 ^ hash.high64 ^ 1);
+	hash = XXH3_128bits_withSeed(e->primitive_draw, e->n_primitives * sizeof(*e->primitive_draw),
+	                             hash.low64 ^ hash.high64);
+	e->mesh.hash[0] = hash.low64;
+	e->mesh.hash[1] = hash.high64;
+}
+
+int expand_primitives(const struct expand_input *in, struct expanded *out)
+{
+	struct stipple stipple = { in->material->line_stipple ? in->material->line_stipple & 0xffff : 0xffff,
+		                   in->material->line_stipple >> 16, 0 };
+	int err = grow(in, out);
+
+	if (stipple.factor == 0)
+		stipple.factor = 1;
+	for (uint32_t i = 0; i < in->mesh->primitive_count && !err; i++) {
+		uint32_t draw = in->mesh->primitive_draw ? in->mesh->primitive_draw[i] : 0;
+
+		if (in->mesh->kind == SCENE_TRIANGLES)
+			err = expand_polygon(in, out, i, draw, &stipple);
+		else if (in->mesh->kind == SCENE_LINES)
+			err = expand_line(in, out, i, draw, &stipple);
+		else
+			err = point(in, out, load(in, in->mesh->index[i], 0), 0, draw);
+	}
+	if (err) {
+		expanded_free(out);
+		return err_report(ERR_SYSTEM, NULL, "out of memory for lines and points");
+	}
+	make_mesh(out);
+	return 0;
+}
+
+void expanded_free(struct expanded *e)
+{
+	free(e->vertices);
+	free(e->windows);
+	free(e->texcoords);
+	free(e->position);
+	free(e->index);
+	free(e->primitive_draw);
+	memset(e, 0, sizeof(*e));
+}
