@@ -2,7 +2,7 @@
  * Runs inside the traced program. Vertex arrays in client memory: what they hold is known only when it is drawn.
  *
  * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call whose pointer is a
- * blob of the elements 0 .. highest used. The driver is the authority on array state: it is asked again after any command
+ * blob of the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (content.h). The driver is the authority on array state: it is asked again after any command
  * that can have changed it. Array state cannot be asked between Begin and End, where ArrayElement is legal, so it is asked
  * before Begin, and ArrayElement of client memory is written as the immediate-mode calls that it stands for (GL 2.1 sec. 2.8).
  */
@@ -10,6 +10,7 @@
 #include <GL/glext.h>
 #include <stdlib.h>
 
+#include "capture/content.h"
 #include "capture/memory.h"
 #include "capture/wrap.h"
 
@@ -59,8 +60,16 @@ static const struct array_names {
 /* Asked for only once used: most programs have no texture units beyond the first and no generic attributes. */
 static _Atomic unsigned units_used = 1, attributes_used, arrays_used;
 
+/* What the trace has set for a slot: nothing need be written where it is what the draw needs. */
+struct written {
+	struct array array;
+	unsigned buffer; /* the recorder's own; 0: not known */
+};
+
 static __thread struct {
 	struct array arrays[N_SLOTS];
+	struct written written[N_SLOTS];
+	int own_indices; /* the trace has a buffer of ours bound for the indices of the draw to come */
 	int known;      /* the driver's state, since nothing that changes it was called */
 	int n_client;   /* enabled arrays without a buffer */
 	int n_buffered; /* enabled arrays with one */
@@ -72,6 +81,21 @@ void arrays_changed(void)
 {
 	self.known = 0;
 	arrays_used = 1;
+}
+
+void arrays_forget(void)
+{
+	memset(self.written, 0, sizeof(self.written));
+	arrays_changed();
+}
+
+/* A pointer into client memory is not written and changes nothing in the trace; an offset is and does. */
+void arrays_pointer_set(void)
+{
+	if (arrays_pointer_is_offset())
+		arrays_forget();
+	else
+		arrays_changed();
 }
 
 void arrays_attributes_used(void)
@@ -187,17 +211,6 @@ static void record_enum(unsigned command, unsigned value)
 	writer_call_end(p);
 }
 
-static void record_bind(int buffer)
-{
-	uint8_t *p = writer_enter_fake(CMD_glBindBuffer);
-
-	if (!p)
-		return;
-	p = put_enum(put_argument(p, 0), GL_ARRAY_BUFFER);
-	p = put_uint(put_argument(p, 1), (unsigned)buffer);
-	writer_call_end(p);
-}
-
 /* Bytes of one element; 0 for a size or type that is none. */
 static long element_bytes(const struct array *a)
 {
@@ -209,7 +222,8 @@ static long element_bytes(const struct array *a)
 	return size * type_bytes(a->type);
 }
 
-static void record_array(int slot, const struct array *a, long bytes)
+/* `own`: the buffer, bound in the trace, that holds the bytes from its start; 0: they are written here. */
+static void record_array(int slot, const struct array *a, long bytes, unsigned own)
 {
 	int attribute = slot >= SLOT_ATTRIBUTE && slot < SLOT_ATTRIBUTE + MAX_ATTRIBUTES;
 	const struct array_names *n = &names[slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE ? SLOT_TEXTURE : slot];
@@ -228,22 +242,64 @@ static void record_array(int slot, const struct array *a, long bytes)
 	if (attribute && !a->integer)
 		p = put_bool8(put_argument(p, index++), (unsigned)a->normalized);
 	p = put_sint(put_argument(p, index++), a->stride);
-	p = put_blob(put_argument(p, index), a->pointer, bytes);
+	p = put_argument(p, index);
+	p = own ? put_null(p) : put_blob(p, a->pointer, bytes);
 	writer_call_end(p);
+	self.written[slot].array = *a;
+	self.written[slot].buffer = own;
+}
+
+/* 1 where the trace's array is already this one. */
+static int is_written(int slot, const struct array *a, unsigned own)
+{
+	const struct written *w = &self.written[slot];
+
+	return own && w->buffer == own && w->array.size == a->size && w->array.type == a->type &&
+	       w->array.stride == a->stride && w->array.normalized == a->normalized && w->array.integer == a->integer;
+}
+
+/* What the trace has bound and active while arrays are written. */
+struct bindings {
+	unsigned buffer, unit;
+};
+
+static void bind(struct bindings *b, unsigned buffer)
+{
+	if (b->buffer != buffer)
+		content_bind(GL_ARRAY_BUFFER, buffer);
+	b->buffer = buffer;
+}
+
+static void write_array(int slot, const struct array *a, long bytes, struct bindings *b)
+{
+	unsigned own = 0, unit = GL_TEXTURE0 + (unsigned)(slot - SLOT_TEXTURE);
+	int bound = 0;
+
+	if (bytes >= CONTENT_MIN_BYTES && context_has(HAS_BUFFERS))
+		own = content_buffer(context_contents(), GL_ARRAY_BUFFER, a->pointer, bytes, &bound);
+	if (bound)
+		b->buffer = own;
+	if (is_written(slot, a, own))
+		return;
+	if (slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE && b->unit != unit) {
+		b->unit = unit;
+		record_enum(CMD_glClientActiveTexture, unit);
+	}
+	bind(b, own);
+	record_array(slot, a, bytes, own);
 }
 
 /* All client arrays, for elements 0 .. last (and instances 0 .. last_instance where an array advances by instance). */
 static void record_arrays(long last, long last_instance)
 {
-	int buffer, active, now;
+	struct bindings program, now;
 
 	if (!self.n_client || last < 0)
 		return;
-	buffer = array_buffer();
-	if (buffer)
-		record_bind(0);
-	active = now = context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ?
-	               context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0;
+	program.buffer = (unsigned)array_buffer();
+	program.unit = context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ?
+	               (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0;
+	now = program;
 	for (int slot = 0; slot < N_SLOTS; slot++) {
 		const struct array *a = &self.arrays[slot];
 		long element = element_bytes(a), elements = a->divisor ? last_instance / a->divisor : last, bytes;
@@ -259,16 +315,11 @@ static void record_arrays(long last, long last_instance)
 				           MAX_ARRAY_BYTES);
 			continue;
 		}
-		if (slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE && now != GL_TEXTURE0 + slot - SLOT_TEXTURE) {
-			now = GL_TEXTURE0 + slot - SLOT_TEXTURE;
-			record_enum(CMD_glClientActiveTexture, (unsigned)now);
-		}
-		record_array(slot, a, bytes);
+		write_array(slot, a, bytes, &now);
 	}
-	if (now != active)
-		record_enum(CMD_glClientActiveTexture, (unsigned)active);
-	if (buffer)
-		record_bind(buffer);
+	if (now.unit != program.unit)
+		record_enum(CMD_glClientActiveTexture, program.unit);
+	bind(&now, program.buffer);
 }
 
 /* Draws */
@@ -336,12 +387,42 @@ static long last_index(const void *indices, int count, unsigned type, long resta
 	return last;
 }
 
+/* Indices in client memory that were seen before: for the time of the draw a buffer of ours holds them. */
+static void bind_indices(const void *indices, long bytes)
+{
+	unsigned own;
+	int bound;
+
+	if (!indices || bytes < CONTENT_MIN_BYTES || bytes > MAX_ARRAY_BYTES || !context_has(HAS_BUFFERS) ||
+	    context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING))
+		return;
+	own = content_buffer(context_contents(), GL_ELEMENT_ARRAY_BUFFER, indices, bytes, &bound);
+	if (own && !bound)
+		content_bind(GL_ELEMENT_ARRAY_BUFFER, own);
+	self.own_indices = own != 0;
+}
+
 void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
                           unsigned base_instance)
 {
-	if (count > 0 && needed())
+	if (count <= 0 || !writer_active())
+		return;
+	if (needed())
 		record_arrays(last_index(indices, count, type, restart_index(type)) + base_vertex,
 		              (long)base_instance + instances - 1);
+	bind_indices(indices, count * type_bytes(type));
+}
+
+int arrays_own_indices(void)
+{
+	return self.own_indices;
+}
+
+void arrays_drawn(void)
+{
+	if (self.own_indices)
+		content_bind(GL_ELEMENT_ARRAY_BUFFER, 0);
+	self.own_indices = 0;
 }
 
 void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
@@ -372,7 +453,7 @@ int arrays_interleave_is_offset(unsigned format)
 void arrays_interleaved(unsigned format)
 {
 	(void)format;
-	arrays_changed();
+	arrays_pointer_set();
 	if (!writer_active() || arrays_pointer_is_offset())
 		return;
 	for (int slot = 0; slot <= SLOT_VERTEX; slot++) {

@@ -11,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "capture/content.h"
 #include "capture/relume.h"
 #include "capture/wrap.h"
 
@@ -24,6 +25,7 @@ struct context {
 	int bound; /* has been current before */
 	unsigned errors[MAX_ERRORS];
 	int n_errors;
+	struct content_table *contents;
 };
 
 struct drawable {
@@ -67,6 +69,11 @@ int context_get(unsigned pname)
 	if (current)
 		real_glGetIntegerv(pname, &value);
 	return value;
+}
+
+struct content_table **context_contents(void)
+{
+	return &current->contents;
 }
 
 /* 1 where `list` holds `name` as a whole word. */
@@ -154,8 +161,10 @@ void context_destroyed(void *handle)
 {
 	pthread_mutex_lock(&lists_lock);
 	for (struct context *c = contexts; c; c = c->next)
-		if (c->handle == handle && handle)
+		if (c->handle == handle && handle && c != current) {
 			c->handle = NULL; /* the address may come back as another context */
+			content_free(&c->contents);
+		}
 	pthread_mutex_unlock(&lists_lock);
 }
 
@@ -175,9 +184,12 @@ static void made_current(void *handle, uintptr_t drawable)
 {
 	int rectangle[4] = { 0, 0, 0, 0 };
 
+	struct context *before = current;
+
 	current = handle ? find_context(handle) : NULL;
 	current_drawable = drawable;
-	arrays_changed();
+	if (current != before)
+		arrays_forget();
 	if (!current || current->bound)
 		return;
 	current->bound = 1;

@@ -50,6 +50,8 @@ static int indices_in_buffer(void)
 
 uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type)
 {
+	if (arrays_own_indices())
+		return put_null(p);
 	if (!indices || indices_in_buffer())
 		return put_opaque(p, indices);
 	return put_blob(p, indices, count * type_bytes(type));

@@ -51,6 +51,8 @@ enum context_feature { /* what may be asked without making a GL error */
 
 /** 1 where this thread's current context has the feature. */
 int context_has(enum context_feature feature);
+/** The current context's table for content_buffer. There must be a current context. */
+struct content_table **context_contents(void);
 /** An integer state of the current context; 0 where it has none. */
 int context_get(unsigned pname);
 
@@ -83,8 +85,16 @@ void reference_read(uint64_t frame, int width, int height);
 
 /* arrays.c: vertex arrays in client memory, written when they are drawn */
 
+/** Array state can have changed. */
 void arrays_changed(void);
+/** And the trace may now have other pointers than the recorder has written last. */
+void arrays_forget(void);
+/** 1 where the indices of the draw being written lie at the start of a buffer of the recorder's own. */
+int arrays_own_indices(void);
+/** The draw has been made. */
+void arrays_drawn(void);
 void arrays_attributes_used(void);
+void arrays_pointer_set(void);
 void arrays_unit_used(unsigned texture);
 int arrays_pointer_is_offset(void);
 int arrays_interleave_is_offset(unsigned format);

@@ -1,0 +1,27 @@
+/*
+ * Runs inside the traced program. Contents that were seen before: buffer objects of the recorder's own in the trace.
+ */
+#ifndef CAPTURE_CONTENT_H
+#define CAPTURE_CONTENT_H
+
+struct content_table; /* of one context; NULL is an empty one */
+
+enum { CONTENT_MIN_BYTES = 256 }; /* less is not worth two calls */
+
+/**
+ * The buffer that holds these bytes in the trace.
+ * @param table   the current context's; made at need
+ * @param target  GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER: where it is bound in the trace while it is filled
+ * @param data    in the program; read without faulting
+ * @param bytes   at least CONTENT_MIN_BYTES
+ * @param bound   set to 1 where the trace now has it bound to the target (it has just been made), else to 0
+ * @return its name, or 0 where there is none: the bytes are new
+ */
+unsigned content_buffer(struct content_table **table, unsigned target, const void *data, long bytes, int *bound);
+
+/** Write a fake glBindBuffer. */
+void content_bind(unsigned target, unsigned buffer);
+
+void content_free(struct content_table **table);
+
+#endif
