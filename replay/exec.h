@@ -281,6 +281,9 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 
 /* ---- between chapters ---- */
 
+/* Handlers that others call as part of what they do. */
+gls_handler gls_glBegin, gls_glEnd, gls_glBindFramebuffer;
+
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);
 void gls_color_changed(struct gls_state *st);

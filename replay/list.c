@@ -354,6 +354,89 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 	return 0;
 }
 
+/*
+ * Calls that set again what the list itself has just set: dropping them lets the runs on both sides become one mesh.
+ * Programs that send every face by itself are full of them. Known are BindTexture and Material by target, or face and
+ * name; anything else but vertices makes the list forget what it knows.
+ */
+#define N_REMEMBERED 16
+struct remembered {
+	const struct gls_op *ops[N_REMEMBERED];
+	unsigned n;
+};
+
+static int equal_args(const struct gls_op *a, const struct gls_op *b)
+{
+	if (a->command != b->command || a->form != GLS_OP_CALL || b->form != GLS_OP_CALL || a->n != b->n)
+		return 0;
+	for (uint32_t i = 0; i < a->n; i++) {
+		const struct trace_value *v = &a->args[i], *w = &b->args[i];
+		if (v->type != w->type || v->count != w->count || (v->type != TRACE_ARRAY && v->u != w->u))
+			return 0;
+		for (uint64_t k = 0; v->type == TRACE_ARRAY && k < v->count; k++)
+			if (v->items[k].type != w->items[k].type || v->items[k].u != w->items[k].u)
+				return 0;
+	}
+	return 1;
+}
+
+/* Do both set the same thing, if to other values? */
+static int same_place(const struct gls_op *a, const struct gls_op *b, unsigned n_place)
+{
+	if (a->command != b->command || a->n != b->n || a->n < n_place)
+		return 0;
+	for (unsigned i = 0; i < n_place; i++)
+		if (gls_value_int(&a->args[i]) != gls_value_int(&b->args[i]))
+			return 0;
+	return 1;
+}
+
+static int is_redundant(struct remembered *r, const struct gls_op *op)
+{
+	const struct gls_command *k = &gls_commands[op->command];
+	int material = op->form == GLS_OP_CALL && strncmp(k->name, "glMaterial", 10) == 0;
+	int texture = op->form == GLS_OP_CALL && strcmp(k->name, "glBindTexture") == 0;
+
+	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || is_command(op, "glBegin") || is_command(op, "glEnd")))
+		return 0;
+	if (!material && !texture) {
+		r->n = 0;
+		return 0;
+	}
+	for (unsigned i = 0; i < r->n; i++) {
+		if (equal_args(r->ops[i], op))
+			return 1;
+		/* AMBIENT and AMBIENT_AND_DIFFUSE, FRONT and FRONT_AND_BACK overlap: when one moves, all are forgotten. */
+		if (material && strncmp(gls_commands[r->ops[i]->command].name, "glMaterial", 10) == 0 &&
+		    !same_place(r->ops[i], op, 2) &&
+		    (gls_value_int(&r->ops[i]->args[0]) != gls_value_int(&op->args[0]) ||
+		     gls_value_int(&op->args[1]) == GL_AMBIENT_AND_DIFFUSE ||
+		     gls_value_int(&r->ops[i]->args[1]) == GL_AMBIENT_AND_DIFFUSE))
+			r->ops[i--] = r->ops[--r->n];
+		else if (same_place(r->ops[i], op, material ? 2 : 1))
+			r->ops[i--] = r->ops[--r->n];
+	}
+	if (r->n < N_REMEMBERED)
+		r->ops[r->n++] = op;
+	return 0;
+}
+
+static void drop_redundant(struct gls_list *list)
+{
+	struct remembered known = { .n = 0 };
+	struct gls_op *kept = malloc((list->n + !list->n) * sizeof(*kept));
+	uint32_t n = 0;
+
+	if (!kept)
+		return; /* the list is right without it */
+	for (uint32_t i = 0; i < list->n; i++)
+		if (!is_redundant(&known, &list->ops[i]))
+			kept[n++] = list->ops[i];
+	memcpy(list->ops, kept, n * sizeof(*kept));
+	list->n = n;
+	free(kept);
+}
+
 /* The same list with its runs assembled, in an arena of its own. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
@@ -437,6 +520,7 @@ GLS_HANDLER(glEndList, NOW)
 		return;
 	}
 	st->list = NULL;
+	drop_redundant(list);
 	list = assemble(x, list);
 	remove_list(st, st->list_name);
 	if (table_set(&st->share->lists, st->list_name, list)) {

@@ -219,6 +219,40 @@ GLS_HANDLER(glEdgeFlagv, VERTEX)
 	st->a.current.edge_flag = gls_value_int(arg(c, 0)) != 0;
 }
 
+/* ---- Rect: a polygon of four corners (sec. 2.10), which Mesa draws as a quad ---- */
+
+static void rect(struct gls_exec *x, struct gls_state *st, float x1, float y1, float x2, float y2)
+{
+	const struct trace_value mode = { .type = TRACE_ENUM, .i = GL_QUADS };
+	const float corners[4][4] = { { x1, y1, 0, 1 }, { x2, y1, 0, 1 }, { x2, y2, 0, 1 }, { x1, y2, 0, 1 } };
+	struct call begin = *x->call;
+
+	begin.args = &mode;
+	begin.n_args = 1;
+	gls_glBegin(x, st, &begin);
+	for (unsigned i = 0; i < 4; i++)
+		gls_vertex(x, st, corners[i]);
+	gls_glEnd(x, st, &begin);
+}
+
+static void rect_v(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	float a[2] = { 0 }, b[2] = { 0 };
+
+	arg_floats(c, 0, a, 2);
+	arg_floats(c, 1, b, 2);
+	rect(x, st, a[0], a[1], b[0], b[1]);
+}
+
+GLS_HANDLER(glRectf, STATE) { rect(x, st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRectd, STATE) { rect(x, st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRecti, STATE) { rect(x, st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRects, STATE) { rect(x, st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRectfv, STATE) { rect_v(x, st, c); }
+GLS_HANDLER(glRectdv, STATE) { rect_v(x, st, c); }
+GLS_HANDLER(glRectiv, STATE) { rect_v(x, st, c); }
+GLS_HANDLER(glRectsv, STATE) { rect_v(x, st, c); }
+
 /*
  * ---- one line per command ----
  *
