@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+"""relume diff as a command: sets of frames, exit codes, and what it writes."""
+import json
+import os
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+RELUME = os.environ.get("RELUME", "build/relume")
+WIDTH, HEIGHT = 48, 40
+
+
+def picture(seed, width=WIDTH, height=HEIGHT):
+    """RGB rows, top first: a box that moves with the seed over a dark background."""
+    rows = []
+    for y in range(height):
+        row = bytearray()
+        for x in range(width):
+            inside = 5 + seed <= x < 25 + seed and 8 <= y < 30
+            row += bytes((200, 60 + 4 * (x % 16), 30)) if inside else b"\x0a\x0c\x14"
+        rows.append(bytes(row))
+    return rows
+
+
+def write_png(path, rows):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) +
+                     chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows))) + chunk(b"IEND", b""))
+
+
+def snappy(data):
+    """A raw Snappy block of literals only."""
+    out, n = bytearray(), len(data)
+    while True:
+        out.append(n & 127 | (128 if n > 127 else 0))
+        n >>= 7
+        if not n:
+            break
+    for at in range(0, len(data), 60):
+        part = data[at:at + 60]
+        out += bytes(((len(part) - 1) << 2,)) + part
+    return bytes(out)
+
+
+def ref_record(kind, frame, data):
+    packed = snappy(data)
+    return struct.pack("<IIIQQ", kind, WIDTH, HEIGHT, frame, len(packed)) + packed
+
+
+def ref_color(frame, rows):
+    upside_down = b"".join(b"".join(row[i:i + 3] + b"\xff" for i in range(0, len(row), 3)) for row in reversed(rows))
+    return ref_record(1, frame, upside_down)
+
+
+class Diff(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.dir = pathlib.Path(folder.name)
+        self.ref, self.traced = self.dir / "ref", self.dir / "traced"
+        for n in range(1, 5):
+            write_png(self.ref / f"a.{n:04}.png", picture(n))
+            write_png(self.traced / f"b.{n}.png", picture(n))
+
+    def diff(self, *args, expect):
+        done = subprocess.run([RELUME, "diff", *map(str, args)], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
+        return done
+
+    def outcomes(self, *args, expect):
+        run = json.loads(self.diff(*args, "--json", "-", expect=expect).stdout)
+        return {f["frame"]: f["outcome"] for f in run["frames"]}
+
+    def test_equal_sets_pass(self):
+        done = self.diff(self.ref, self.traced, expect=0)
+        self.assertRegex(done.stdout.splitlines()[-1], r"^4 frames: 4 passed; lowest fidelity 100\.000 %")
+        self.assertIn("not measured: R5", done.stdout)
+
+    def test_patterns_and_single_files(self):
+        self.diff(self.ref / "a.####.png", self.traced / "b.%d.png", expect=0)
+        self.diff(self.ref / "a.0002.png", self.traced / "b.2.png", expect=0)
+        write_png(self.dir / "one.png", picture(2))
+        self.diff(self.dir / "one.png", self.traced / "b.2.png", expect=0)
+
+    def test_failed_frame_comes_first(self):
+        write_png(self.traced / "b.3.png", picture(9))
+        done = self.diff(self.ref, self.traced, expect=1)
+        rows = [line.split()[:2] for line in done.stdout.splitlines() if re.match(r" +\d+ [a-z]", line)]
+        self.assertEqual(rows, [["3", "failed"], ["1", "passed"], ["2", "passed"], ["4", "passed"]])
+        self.assertIn("R1  interior colour", done.stdout)
+
+    def test_swapped_frames_fail(self):
+        write_png(self.traced / "b.2.png", picture(3))
+        write_png(self.traced / "b.3.png", picture(2))
+        self.assertEqual(self.outcomes(self.ref, self.traced, expect=1),
+                         {1: "passed", 2: "failed", 3: "failed", 4: "passed"})
+
+    def test_missing_and_extra_frames(self):
+        (self.traced / "b.2.png").unlink()
+        self.assertEqual(self.outcomes(self.ref, self.traced, expect=1)[2], "missing")
+        self.diff(self.ref, self.traced, "-f", "3-4", expect=0)
+        self.assertEqual(self.outcomes(self.ref, self.traced, "-f", "3-6", expect=1)[6], "missing")
+        write_png(self.traced / "b.2.png", picture(2))
+        write_png(self.traced / "b.7.png", picture(7))
+        self.assertEqual(self.outcomes(self.ref, self.traced, expect=4)[7], "extra")
+
+    def test_other_size_fails(self):
+        write_png(self.traced / "b.1.png", picture(1, WIDTH + 1))
+        done = self.diff(self.ref, self.traced, expect=1)
+        self.assertIn(f"size {WIDTH + 1} x {HEIGHT}", done.stdout)
+
+    def test_unreadable_frame(self):
+        whole = (self.traced / "b.1.png").read_bytes()
+        (self.traced / "b.1.png").write_bytes(whole[:len(whole) // 2])
+        self.assertEqual(self.outcomes(self.ref, self.traced, expect=3),
+                         {1: "unreadable", 2: "passed", 3: "passed", 4: "passed"})
+
+    def test_bad_input(self):
+        empty = self.dir / "empty"
+        empty.mkdir()
+        (self.dir / "t.trace").write_bytes(b"")
+        (self.dir / "no.ref").write_bytes(b"RELREF0\n")
+        for args in ([empty, self.traced], [self.dir / "none", self.traced], [self.ref, self.dir / "x.####.exr"],
+                     [self.dir / "no.ref", self.traced]):
+            done = self.diff(*args, expect=3)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("--ref", self.diff(self.dir / "t.trace", self.traced, expect=3).stderr)
+
+    def test_wrong_usage(self):
+        for args in ([self.ref], [self.ref, self.traced, "-f", "x"], [self.ref, self.traced, "--effects", "light=1:2"],
+                     [self.ref, self.traced, "--effects", "shadow=a:2"], [self.ref, self.traced, "-f", "2000-3000000"],
+                     [self.ref, self.traced, "--nonsense"]):
+            self.diff(*args, expect=2)
+        write_png(self.traced / "c.1.png", picture(1))
+        self.assertIn("two images of frame 1", self.diff(self.ref, self.traced, expect=2).stderr)
+
+    def test_reference_file(self):
+        depth = struct.pack("<f", 1.0) * (WIDTH * HEIGHT)
+        data = b"RELREF1\n" + b"".join(ref_color(n, picture(n)) + ref_record(2, n, depth) for n in range(1, 5))
+        (self.dir / "t.ref").write_bytes(data)
+        (self.dir / "t.trace").write_bytes(b"")
+        self.diff(self.dir / "t.ref", self.traced, expect=0)
+        done = self.diff(self.dir / "t.trace", self.traced, expect=0)
+        self.assertIn("not measured: R5 depth: the frame has no channel", done.stdout)
+        (self.dir / "t.ref").write_bytes(data[:-10000])  # the last frame's colour is cut, too
+        self.assertEqual(self.outcomes(self.dir / "t.ref", self.traced, expect=4)[4], "extra")
+
+    def test_junit(self):
+        write_png(self.traced / "b.3.png", picture(9))
+        (self.traced / "b.4.png").write_bytes(b"no")
+        self.diff(self.ref, self.traced, "--junit", self.dir / "j.xml", expect=3)
+        suite = xml.etree.ElementTree.parse(self.dir / "j.xml").getroot().find("testsuite")
+        self.assertEqual([suite.get(k) for k in ("tests", "failures", "errors")], ["4", "1", "1"])
+        self.assertIn("R1", suite.find("testcase/failure").text)
+
+    def test_report(self):
+        write_png(self.traced / "b.3.png", picture(9))
+        out = self.dir / "deep" / "report"
+        self.diff(self.ref, self.traced, "--report", out, expect=1)
+        page = (out / "index.html").read_text()
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["index.html", "sheet.png"])
+        self.assertIsNone(re.search(r"(src|href)=[\"'](?!data:)|url\(|@import|fetch\(", page), "needs the network")
+        for n in range(1, 5):
+            self.assertIn(f"pictures[{n}] = {{", page)
+        self.assertEqual(page.count('"flip": "data:image/png;base64,'), 4)
+        self.assertLess(page.index("pictures[3] ="), page.index("pictures[1] ="))  # failed first
+        self.assertTrue((out / "sheet.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_nothing_half_written(self):
+        (self.dir / "file").write_text("")
+        self.diff(self.ref, self.traced, "--report", self.dir / "file", expect=5)
+        self.diff(self.ref, self.traced, "--json", self.dir / "none" / "x.json", expect=5)
+        if pathlib.Path("/dev/full").exists():
+            self.diff(self.ref, self.traced, "--json", "/dev/full/x", expect=5)
+
+    def test_raster_usage(self):
+        for args, code in ((["t.trace"], 2), (["t.trace", "-o", "x.png"], 2), (["t.trace", "-o", "x.####.exr"], 2),
+                           ([str(self.dir / "none.trace"), "-o", str(self.dir / "x.####.png")], 3)):
+            done = subprocess.run([RELUME, "raster", *args], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual(list(self.dir.glob("x*")), [])
+
+
+if __name__ == "__main__":
+    program = unittest.main(exit=False)
+    failed = len(program.result.failures) + len(program.result.errors)
+    # counted as libcheck counts, for the runner
+    print(f"{100 if not failed else 0}%: Checks: {program.result.testsRun}, Failures: {failed}, Errors: 0")
+    sys.exit(failed != 0)
