@@ -409,7 +409,7 @@ static int gate_silhouette(const struct score_picture *ref, const struct score_p
 	if (err)
 		goto fail;
 	if (!use_depth && !found[0]) {
-		note(s, GATE_R4, "no depth reference, and every pixel is covered");
+		note(s, GATE_R4, "depth is not on both sides, and every pixel is covered");
 		goto fail;
 	}
 
@@ -427,7 +427,9 @@ static int gate_silhouette(const struct score_picture *ref, const struct score_p
 	measure(s, GATE_R4, 0, both + unmatched ? (double)both / (double)(both + unmatched) : 1, BAR_IOU);
 	measure(s, GATE_R4, 1, (double)largest, BAR_BLOB);
 	note(s, GATE_R4, "%s; %" PRIu64 " px covered, %" PRIu64 " unmatched",
-	     use_depth ? "from depth and colour" : "no depth reference: from difference to the background colour",
+	     use_depth ? "from depth and colour"
+	               : ref->depth ? "no gl.depth in the frame: from difference to the background colour"
+	                            : "no depth reference: from difference to the background colour",
 	     both + unmatched, unmatched);
 fail:
 	free(marks);

@@ -130,6 +130,8 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 		err = err_report(ERR_USAGE, o->trace, "%s", ends->skipped_first
 		                 ? "the first frame alone cannot be had: it is not reliable"
 		                 : "the trace has none of the frames asked for");
+	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
+		err_warn(o->trace, "the trace has %" PRIu64 " frames", replay_frame(rp));
 	replay_close(&rp);
 	return err;
 }

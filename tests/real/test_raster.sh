@@ -1,0 +1,39 @@
+#!/bin/sh
+# limit: 180 s
+# References made from a trace with glretrace are the frames that the program itself showed, under the same numbers.
+set -u
+command -v glxgears >/dev/null || { echo "glxgears (mesa-utils) is not installed"; exit 77; }
+command -v glretrace >/dev/null || { echo "glretrace (apitrace) is not installed"; exit 77; }
+dir=$(mktemp -d) || exit 1
+trap 'rm -rf "$dir"' EXIT
+fail() { echo "failed: $*"; exit 1; }
+
+tests/xvfb.sh "$RELUME" record -o "$dir/g.trace" --ref color,depth --quit-after 5 -- glxgears >/dev/null 2>&1 ||
+	fail "recording"
+
+# No display at all: it brings its own.
+(unset DISPLAY; exec "$RELUME" raster "$dir/g.trace" -f 0-9 -o "$dir/new/folder/g.####.png") 2>"$dir/log" || {
+	cat "$dir/log"; fail "raster"; }
+grep -q "frame 0 is left out" "$dir/log" || fail "no warning about the first frame"
+files=$(cd "$dir/new/folder" && find . -mindepth 1 | sort | tr '\n' ' ')
+[ "$files" = "./g.0001.png ./g.0002.png ./g.0003.png ./g.0004.png " ] || fail "wrong files: $files"
+grep -q "the trace has 5 frames" "$dir/log" || fail "no warning about frames that are not there"
+"$RELUME" diff "$dir/g.trace" "$dir/new/folder" -f 1-4 || fail "the frames differ"
+
+# A frame off by one is not the same.
+mkdir "$dir/off"
+for n in 1 2 3; do cp "$dir/new/folder/g.000$((n + 1)).png" "$dir/off/g.000$n.png"; done
+"$RELUME" diff "$dir/g.trace" "$dir/off" -f 1-3 >/dev/null 2>&1
+[ $? = 1 ] || fail "swapped frames passed"
+
+"$RELUME" raster "$dir/g.trace" -f 0 -o "$dir/x.####.png" 2>"$dir/log"
+[ $? = 2 ] || fail "the first frame alone"
+"$RELUME" raster "$dir/g.trace" -f 90 -o "$dir/x.####.png" 2>"$dir/log"
+[ $? = 2 ] || fail "a frame that is not there"
+PATH=/nowhere "$RELUME" raster "$dir/g.trace" -f 1 -o "$dir/x.####.png" 2>"$dir/log"
+[ $? = 5 ] || fail "no glretrace, no Xvfb"
+DISPLAY=:1 PATH=/nowhere "$RELUME" raster "$dir/g.trace" -f 1 -o "$dir/x.####.png" 2>"$dir/log"
+[ $? = 5 ] || fail "no glretrace"
+grep -q "package apitrace" "$dir/log" || fail "does not say what to install: $(cat "$dir/log")"
+left=$(find "$dir" -name 'x*' -o -name '.raster*')
+[ -z "$left" ] || fail "left behind: $left"
