@@ -1,0 +1,95 @@
+"""What the end-to-end tests share: running the command, recording programs, counting checks as libcheck does."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
+RELUME = os.environ.get("RELUME", str(BUILD / "relume"))
+SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
+GATES = ("V", "R1", "R2", "R3", "R4", "R5", "E1", "E2", "P")
+
+_results = []
+
+
+def check(good, what):
+    """Count one check; say what was wrong where it failed."""
+    _results.append(bool(good))
+    if not good:
+        print(f"wrong: {what}", flush=True)
+    return bool(good)
+
+
+def finish():
+    """Print the count and leave."""
+    failed = _results.count(False)
+    share = 100 * (len(_results) - failed) // max(len(_results), 1)
+    print(f"{share}%: Checks: {len(_results)}, Failures: {failed}, Errors: 0")
+    sys.exit(bool(failed) or not _results)
+
+
+def skip(why):
+    print(why)
+    sys.exit(77)
+
+
+def run(*args, timeout=100, **more):
+    """Run a program; return code, stdout and stderr as text."""
+    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, errors="replace", timeout=timeout, **more)
+
+
+def relume(*args, **more):
+    return run(RELUME, *args, **more)
+
+
+def must(done):
+    """The result of run, where all else depends on its success."""
+    if done.returncode != 0:
+        print(f"{' '.join(done.args)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+        check(False, "a step that the rest depends on")
+        finish()
+    return done
+
+
+def on_display(*args, **more):
+    return run(ROOT / "tests/xvfb.sh", *args, **more)
+
+
+def record(trace, *program, options=("--ref", "color,depth")):
+    """Record a program on a display of its own."""
+    return must(on_display(RELUME, "record", "-o", trace, *options, "--", *program))
+
+
+def corpus(name):
+    return BUILD / "corpus" / name
+
+
+def render(trace, folder, *options):
+    """Render frames as NAME.0000.exr into a folder; return the files in order."""
+    folder.mkdir(exist_ok=True)
+    must(relume("render", trace, "-o", folder / f"{trace.stem}.####.exr", *options, timeout=300))
+    return sorted(folder.glob("*.exr"))
+
+
+def diff(trace, folder, *options):
+    """Score; return the exit code and what --json says."""
+    done = relume("diff", trace, folder, "--json", "-", *options, timeout=300)
+    try:
+        return done.returncode, json.loads(done.stdout)
+    except ValueError:
+        print(f"relume diff: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+        check(False, "relume diff --json - prints JSON")
+        finish()
+
+
+def check_gates(score, n_frames, what, skip=()):
+    """Every frame is scored, and passes every gate but those to skip."""
+    check(len(score["frames"]) == n_frames, f"{what}: {len(score['frames'])} frames scored of {n_frames}")
+    for frame in score["frames"]:
+        for gate in GATES:
+            if gate not in skip:
+                found = frame["gates"].get(gate)
+                check(found and found["state"] == "passed", f"{what}: frame {frame['frame']}: gate {gate}: {found}")

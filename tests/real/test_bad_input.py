@@ -1,0 +1,107 @@
+#!/usr/bin/python3
+# limit: 500 s
+"""Bad input of every verb: one clear line, the right exit code, nothing left under a final name."""
+import pathlib
+import random
+import re
+import resource
+import signal
+import struct
+import zlib
+
+from helpers import RELUME, SCRATCH, check, corpus, finish, record, relume, render, run
+
+USAGE, INPUT, SYSTEM = 2, 3, 5
+WORK = SCRATCH / "out"
+PROGRESS = re.compile(r"(rendered|scored|rasterized) frame \d+")
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def write_png(path):
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(b"\0\xff\0\0")) + chunk(b"IEND", b""))
+
+
+def left_behind():
+    return [str(p) for p in WORK.rglob("*") if p.is_file()]
+
+
+def refused(done, code, what):
+    """One line on standard error, the exit code, and no file made."""
+    lines = [line for line in done.stderr.splitlines() if not PROGRESS.match(line)]
+    check(done.returncode == code, f"{what}: exit code {done.returncode}, expected {code}: {done.stderr}")
+    check(len(lines) == 1 and lines[0].startswith("relume: "), f"{what}: one line that begins with 'relume: ': {lines}")
+    check(not left_behind(), f"{what}: left behind {left_behind()}")
+
+
+def limit_file_size():
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+
+WORK.mkdir()
+good = SCRATCH / "good.trace"
+record(good, corpus("two_triangles"), "--frames", "3")
+frames = SCRATCH / "frames"
+render(good, frames)
+
+# Each verb that reads a trace, with the trace's place left open.
+READERS = {
+    "info": lambda t: ["info", t],
+    "dump": lambda t: ["dump", t],
+    "scene": lambda t: ["scene", t, "-f", "0"],
+    "render": lambda t: ["render", t, "-o", WORK / "x.####.exr"],
+    "raster": lambda t: ["raster", t, "-o", WORK / "x.####.png"],
+    "diff": lambda t: ["diff", t, frames, "--report", WORK / "report"],
+}
+
+missing, empty, picture = SCRATCH / "missing.trace", SCRATCH / "empty.trace", SCRATCH / "picture.trace"
+empty.touch()
+write_png(picture)
+for verb, arguments in READERS.items():
+    for kind, path in (("missing file", missing), ("directory", SCRATCH), ("empty file", empty), ("PNG", picture)):
+        refused(relume(*arguments(path)), INPUT, f"{verb} of a {kind}")
+    check(relume(verb).returncode == USAGE, f"{verb} of nothing")
+
+for verb in ("scene", "render"):
+    arguments = READERS[verb](good)
+    arguments = [a for a in arguments if a not in ("-f", "0")]
+    refused(relume(*arguments, "-f", "7"), USAGE, f"{verb} of a frame outside the trace")
+    refused(relume(*arguments, "-f", "1-x"), USAGE, f"{verb} of a range that is none")
+
+# A plain file where a folder should be: not even root can write below it.
+blocked = SCRATCH / "good.trace"
+refused(relume("render", good, "-o", blocked / "x.####.exr"), SYSTEM, "render into a file")
+refused(relume("diff", good, frames, "--report", blocked / "report"), SYSTEM, "diff's report into a file")
+refused(run(RELUME, "record", "-o", blocked / "x.trace", "--", "true"), SYSTEM, "record into a file")
+refused(run(RELUME, "record", "-o", WORK / "x.trace", "--", "no-such-program"), SYSTEM, "record of a missing program")
+refused(run(RELUME, "render", good, "-o", WORK / "x.####.exr", "--device", "reference",
+            preexec_fn=limit_file_size), SYSTEM, "render to a full disk")
+
+refused(relume("render", good, "-o", WORK / "x.exr"), USAGE, "render of several frames into one name")
+refused(relume("render", good, "-o", WORK / "x.####.exr", "--device", "no such device"), USAGE, "render on no device")
+refused(relume("diff", good, SCRATCH / "no-frames"), INPUT, "diff with a missing folder")
+empty_folder = SCRATCH / "none"
+empty_folder.mkdir()
+refused(relume("diff", good, empty_folder), INPUT, "diff with a folder without frames")
+
+# A trace cut anywhere is read up to its last whole call, or refused; never worse.
+data = good.read_bytes()
+rng = random.Random(1)
+cut = SCRATCH / "cut.trace"
+for size in sorted({1, 2, 3, 6, 7, len(data) - 1, *(rng.randrange(len(data)) for _ in range(200))}):
+    cut.write_bytes(data[:size])
+    done = relume("info", cut)
+    check(done.returncode in (0, INPUT) and len(done.stderr.splitlines()) <= 1,
+          f"info of the first {size} bytes: exit code {done.returncode}, {done.stderr}")
+for size in (2, len(data) // 3, len(data) // 2, len(data) - 1):
+    cut.write_bytes(data[:size])
+    for verb, arguments in READERS.items():
+        done = relume(*arguments(cut))
+        check(done.returncode in (0, 1, USAGE, INPUT), f"{verb} of the first {size} bytes: exit code {done.returncode}")
+        for path in map(pathlib.Path, left_behind()):
+            path.unlink()
+finish()

@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+"""A bar on a terminal, one plain line per frame elsewhere."""
+import os
+import pty
+import re
+import subprocess
+
+from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, relume
+
+
+def on_terminal(command):
+    """Run with standard error on a terminal; return the exit code and what was shown there."""
+    ours, theirs = pty.openpty()
+    child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=theirs)
+    os.close(theirs)
+    shown = b""
+    while True:
+        try:
+            piece = os.read(ours, 4096)
+        except OSError:  # the other side is closed
+            break
+        if not piece:
+            break
+        shown += piece
+    return child.wait(), shown.decode()
+
+
+trace = SCRATCH / "two.trace"
+record(trace, corpus("two_triangles"), "--frames", "3")
+command = [RELUME, "render", str(trace), "-f", "0-2", "-o", str(SCRATCH / "x.####.exr")]
+
+plain = must(relume(*command[1:]))
+lines = [line for line in plain.stderr.splitlines() if line.startswith("rendered frame")]
+found = [re.match(r"rendered frame (\d+), (\d+) of (\d+): .", line) for line in lines]
+check([m and m.groups() for m in found] == [("0", "1", "3"), ("1", "2", "3"), ("2", "3", "3")],
+      f"one line per frame: {plain.stderr}")
+check("\r" not in plain.stderr and "\x1b" not in plain.stderr, "no control characters outside a terminal")
+
+for old in SCRATCH.glob("x.*.exr"):
+    old.unlink()
+code, shown = on_terminal(command)
+check(code == 0, f"exit code {code} on a terminal")
+check(re.search(r"\r\x1b\[Krendered \[#*\.*\] 3/3 .*frames/s.*left", shown), f"a bar on a terminal: {shown!r}")
+check("rendered frame 0" not in shown, "no plain lines on a terminal")
+finish()
