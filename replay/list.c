@@ -380,15 +380,19 @@ static int equal_args(const struct gls_op *a, const struct gls_op *b)
 	return 1;
 }
 
-/* Do both set the same thing, if to other values? */
-static int same_place(const struct gls_op *a, const struct gls_op *b, unsigned n_place)
+/* Do both set something in common? Materials: face and name; textures: the target. */
+static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 {
-	if (a->command != b->command || a->n != b->n || a->n < n_place)
+	int64_t p, q;
+
+	if (material != (strncmp(gls_commands[a->command].name, "glMaterial", 10) == 0))
 		return 0;
-	for (unsigned i = 0; i < n_place; i++)
-		if (gls_value_int(&a->args[i]) != gls_value_int(&b->args[i]))
-			return 0;
-	return 1;
+	if (!material || a->n < 2 || b->n < 2)
+		return 1;
+	p = gls_value_int(&a->args[1]);
+	q = gls_value_int(&b->args[1]);
+	return p == q || (p == GL_AMBIENT_AND_DIFFUSE && (q == GL_AMBIENT || q == GL_DIFFUSE)) ||
+	       (q == GL_AMBIENT_AND_DIFFUSE && (p == GL_AMBIENT || p == GL_DIFFUSE));
 }
 
 static int is_redundant(struct remembered *r, const struct gls_op *op)
@@ -403,18 +407,14 @@ static int is_redundant(struct remembered *r, const struct gls_op *op)
 		r->n = 0;
 		return 0;
 	}
-	for (unsigned i = 0; i < r->n; i++) {
+	for (unsigned i = 0; i < r->n; i++)
 		if (equal_args(r->ops[i], op))
 			return 1;
-		/* AMBIENT and AMBIENT_AND_DIFFUSE, FRONT and FRONT_AND_BACK overlap: when one moves, all are forgotten. */
-		if (material && strncmp(gls_commands[r->ops[i]->command].name, "glMaterial", 10) == 0 &&
-		    !same_place(r->ops[i], op, 2) &&
-		    (gls_value_int(&r->ops[i]->args[0]) != gls_value_int(&op->args[0]) ||
-		     gls_value_int(&op->args[1]) == GL_AMBIENT_AND_DIFFUSE ||
-		     gls_value_int(&r->ops[i]->args[1]) == GL_AMBIENT_AND_DIFFUSE))
-			r->ops[i--] = r->ops[--r->n];
-		else if (same_place(r->ops[i], op, material ? 2 : 1))
-			r->ops[i--] = r->ops[--r->n];
+	for (unsigned i = 0; i < r->n;) {
+		if (overlap(r->ops[i], op, material))
+			r->ops[i] = r->ops[--r->n];
+		else
+			i++;
 	}
 	if (r->n < N_REMEMBERED)
 		r->ops[r->n++] = op;
@@ -448,6 +448,8 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 	if (!x->assembling)
 		x->assembling = calloc(1, sizeof(*x->assembling));
 	failed |= !x->assembling;
+	if (x->assembling)
+		x->assembling->a.current.edge_flag = 1;
 	x->geometry = x->compiling;
 	x->want = 1;
 	for (uint32_t i = 0; i < list->n && !failed;) {

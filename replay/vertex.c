@@ -199,15 +199,11 @@ static void split_open_primitive(struct gls_exec *x, struct gls_state *st)
 
 void gls_before_material(struct gls_exec *x, struct gls_state *st)
 {
-	struct gls_geometry *g = &x->geometry;
-
-	st->dirty |= GLS_DIRTY_MATERIAL;
-	if (!g->n_vertices)
-		return;
-	if (!st->begin_mode)
-		gls_flush(x);
-	else
+	if (x->geometry.n_vertices && st->begin_mode)
 		split_open_primitive(x, st);
+	else if (x->geometry.n_vertices)
+		gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 
 GLS_HANDLER(glEdgeFlag, VERTEX)
