@@ -151,7 +151,7 @@ $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
 
 $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -pthread
 
 check: all $(TESTS) $(HELPERS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)

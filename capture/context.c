@@ -113,7 +113,7 @@ static const struct {
 static unsigned find_features(void)
 {
 	const char *text = (const char *)real_glGetString(GL_VERSION), *extensions = NULL;
-	unsigned features = 0;
+	unsigned features = HAS_DESKTOP;
 	int major = 0, minor = 0, version, profile = 0;
 
 	if (!text)

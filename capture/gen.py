@@ -210,6 +210,7 @@ class Generator:
             "strings": lambda: f"put_strings(p_, (const char *const *){name}, {fields[0]}, "
                                f"{fields[1] if len(fields) > 1 else 'NULL'})",
             "blob": lambda: f"put_blob(p_, {name}, (long)({rest}))",
+            "room": lambda: f"put_zeros(p_, {name}, (long)({rest}))",
             "image": lambda: f"put_image(p_, {name}, {', '.join(fields)})",
             "indices": lambda: f"put_indices(p_, {name}, {fields[0]}, {fields[1]})",
             "multi_indices": lambda: f"put_multi_indices(p_, (const void *const *){name}, {', '.join(fields)})",

@@ -11,11 +11,13 @@ int pixels_in_buffer(void)
 
 static void read_layout(struct pixel_layout *layout)
 {
+	memset(layout, 0, sizeof(*layout));
+	layout->alignment = context_get(GL_UNPACK_ALIGNMENT);
+	if (!context_has(HAS_DESKTOP))
+		return;
 	layout->row_length = context_get(GL_UNPACK_ROW_LENGTH);
 	layout->skip_rows = context_get(GL_UNPACK_SKIP_ROWS);
 	layout->skip_pixels = context_get(GL_UNPACK_SKIP_PIXELS);
-	layout->alignment = context_get(GL_UNPACK_ALIGNMENT);
-	layout->image_height = layout->skip_images = 0;
 	if (context_has(HAS_3D)) {
 		layout->image_height = context_get(GL_UNPACK_IMAGE_HEIGHT);
 		layout->skip_images = context_get(GL_UNPACK_SKIP_IMAGES);
@@ -118,7 +120,7 @@ void buffer_unmapped(unsigned target)
 	void *data = NULL;
 	long bytes;
 
-	if (!writer_active() || !context_has(HAS_BUFFERS) || !buffer_get(target, GL_BUFFER_MAPPED) ||
+	if (!writer_active() || !context_has(HAS_DESKTOP) || !context_has(HAS_BUFFERS) || !buffer_get(target, GL_BUFFER_MAPPED) ||
 	    buffer_get(target, GL_BUFFER_ACCESS) == GL_READ_ONLY)
 		return;
 	bytes = buffer_get(target, GL_BUFFER_SIZE);

@@ -46,7 +46,7 @@ enum context_feature { /* what may be asked without making a GL error */
 	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
 	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
 	HAS_FIXED_RESTART = 1 << 12, HAS_INTEGER_ATTRIBUTES = 1 << 13, HAS_VERTEX_ARRAYS = 1 << 14,
-	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16
+	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */
 };
 
 /** 1 where this thread's current context has the feature. */

@@ -674,6 +674,19 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 	return p;
 }
 
+uint8_t *put_zeros(uint8_t *p, const void *data, long n)
+{
+	if (!data)
+		return put_null(p);
+	p = put_array_head(p, n);
+	for (long i = 0; i < n; i++) {
+		p = put_uint(p, 0);
+		if (i % 256 == 255)
+			p = put_room(p);
+	}
+	return put_room(p);
+}
+
 /* Elements of one type: `value` writes v[i]. Room is looked after every so many, none takes more than 128 bytes. */
 #define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
 	uint8_t *put_array_##suffix(uint8_t *p, type const *v, long n)                                                        \

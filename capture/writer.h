@@ -122,6 +122,8 @@ uint8_t *put_array_enum(uint8_t *p, const uint32_t *v, long n);
 uint8_t *put_array_bool8(uint8_t *p, const uint8_t *v, long n);
 uint8_t *put_array_bool32(uint8_t *p, const uint32_t *v, long n);
 uint8_t *put_array_ptr(uint8_t *p, const void *const *v, long n);
+/** An array of `n` zeros in place of memory at `data` that GL fills later. */
+uint8_t *put_zeros(uint8_t *p, const void *data, long n);
 /** The head of an array of `n` values that the caller puts. */
 uint8_t *put_array_head(uint8_t *p, long n);
 /** Room for any scalar values again, after many of them. */

@@ -50,6 +50,12 @@ int main(void)
 	rtMaterialEXT(RT_GLASS_EXT, 0.9f, 1.5f);
 	rtBuildKdTreeEXT();
 
+	static const float matrices[8] = { 1, 2, 3, 4, 5, 6, 7, 8 };
+	static float feedback[3];
+
+	glUniformMatrix2fv(-1, 2, GL_FALSE, matrices); /* no program: an error, with all its values */
+	expect(glGetError() == GL_INVALID_OPERATION, "no program, no uniform");
+	glFeedbackBuffer(3, GL_2D, feedback);
 	glPushMatrix();
 	glClear(0x100000); /* an error, unasked while the frame is read back */
 	end_frame();

@@ -62,6 +62,19 @@ class Dumps(unittest.TestCase):
     def test_pixels_while_read_back(self):
         self.compare("pixels", "--ref", "color,depth")
 
+    def test_loaded_by_hand(self):
+        self.compare("loaded")
+
+    def test_threads(self):
+        """Two threads draw at once: every call of both is there, whole, in each thread's order."""
+        got = dump("threads")
+        calls = [re.sub(r"^@\d+ ", "", line) for line in got]
+        self.assertEqual(sum(c.startswith("glXSwapBuffers") for c in calls), 2 * 20)
+        self.assertEqual(sum(c.startswith("glBegin") for c in calls), 2 * 20 * 200)
+        for shade in ("0.25", "0.75"):
+            self.assertEqual(sum(c == f"glColor3f(red = {shade}, green = 0, blue = 0)" for c in calls), 20 * 200)
+        self.assertFalse([c for c in calls if "incomplete" in c])
+
 
 if __name__ == "__main__":
     if len(sys.argv) == 3 and sys.argv[1] == "--print":

@@ -1,0 +1,37 @@
+#!/bin/sh
+# relume record and its users: one clear line and the right exit code for what is wrong.
+set -u
+bad=0
+# expect CODE TEXT ARGUMENTS...: exit code, and a line that holds the text.
+expect() {
+	code=$1 text=$2
+	shift 2
+	"$RELUME" record "$@" >"$TMPDIR/out" 2>&1
+	got=$?
+	if [ $got -ne "$code" ] || ! grep -q -e "$text" "$TMPDIR/out"; then
+		echo "relume record $*: exit code $got, expected $code and '$text':"
+		cat "$TMPDIR/out"
+		bad=1
+	fi
+}
+expect 0 "usage: relume record" --help
+expect 2 "no program to record"
+expect 2 "no program to record" -o x.trace --
+expect 2 "unrecognized option" --frobnicate -- true
+expect 2 "--ref takes" --ref colour -- true
+expect 2 "takes a number of frames" --quit-after 0 -- true
+expect 2 "takes a number of frames" --max-frames 1x -- true
+expect 2 "takes a number of frames" --ref-every -3 -- true
+expect 2 "NAME=VALUE" --env =x -- true
+expect 5 "cannot write" -o "$TMPDIR/no/such/folder.trace" -- true
+expect 5 "is no file" -o "$TMPDIR" -- true
+expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"
+expect 0 "no OpenGL call" -o "$TMPDIR/x.trace" -- true
+expect 7 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'exit 7'
+expect 143 "no OpenGL call" -o "$TMPDIR/x.trace" -- sh -c 'kill -TERM $$'
+expect 3 "no OpenGL call" -o "$TMPDIR/x.trace" --env WORD=three -- sh -c '[ "$WORD" = three ] && exit 3'
+if [ -e "$TMPDIR/x.trace" ]; then
+	echo "a program without OpenGL left a trace"
+	bad=1
+fi
+exit $bad
