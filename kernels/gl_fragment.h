@@ -129,12 +129,20 @@ static inline struct vec3 point_normal(const struct point *p)
  * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
  * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
  * tenth of a pixel's footprint in common windows.
+ *
+ * A pixel that its triangle covers by the snapping of vertices lies a little outside of it, and in a corner behind the
+ * next wall: the point is first taken back into the triangle, by as much.
  */
-static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 at, struct vec3 towards)
+static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 towards)
 {
-	struct vec3 n = point_plane_normal(p);
+	float w0 = M_MAX(p->weight[0], 0.0f), w1 = M_MAX(p->weight[1], 0.0f), w2 = M_MAX(p->weight[2], 0.0f);
+	struct vec3 a = point_corner(p, 0), b = point_corner(p, 1), c = point_corner(p, 2), n = point_plane_normal(p);
+	struct vec3 at = v3_scale(v3_add(v3_add(v3_scale(a, w0), v3_scale(b, w1)), v3_scale(c, w2)), 1.0f / (w0 + w1 + w2));
+	struct vec3 inwards = v3_sub(v3_scale(v3_add(v3_add(a, b), c), 1.0f / 3.0f), at);
 	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f;
+	float distance = M_SQRT(v3_dot(inwards, inwards));
 
+	at = v3_add(at, v3_scale(inwards, distance > size ? size / distance : 1.0f));
 	return v3_add(at, v3_scale(n, v3_dot(n, towards) < 0.0f ? -size : size));
 }
 

@@ -138,14 +138,13 @@ static inline void stage_no_ray(GLOBAL struct ray *ray)
 static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, GLOBAL struct ray *ray)
 {
 	GLOBAL const struct scene_light *light = &t->lights[p->material->light_first + slot];
-	struct vec3 at = point_position(p), to = v3_load(light->position_eye), o;
+	struct vec3 to = v3_load(light->position_eye), place, o;
 	int positional = light->position_eye[3] != 0.0f;
 
+	place = positional ? v3_scale(to, 1.0f / light->position_eye[3]) : to;
+	o = point_ray_origin(p, positional ? v3_sub(place, point_position(p)) : to);
 	if (positional)
-		to = v3_sub(v3_scale(to, 1.0f / light->position_eye[3]), at);
-	o = point_ray_origin(p, at, to);
-	if (positional)
-		to = v3_add(to, v3_sub(at, o));
+		to = v3_sub(place, o);
 	v3_store(ray->o, o);
 	v3_store(ray->d, to);
 	ray->t_min = 0.0f;
@@ -173,7 +172,7 @@ static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct w
 
 static inline void stage_mirror_ray(const struct point *p, struct vec3 direction, GLOBAL struct ray *ray)
 {
-	struct vec3 n = point_normal(p), at = point_position(p), d = v3_normalize(direction), plane;
+	struct vec3 n = point_normal(p), d = v3_normalize(direction), plane;
 
 	d = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n)));
 	/* A smooth normal may send the ray into the surface: let it graze instead. */
@@ -181,7 +180,7 @@ static inline void stage_mirror_ray(const struct point *p, struct vec3 direction
 	plane = v3_dot(plane, direction) > 0.0f ? v3_scale(plane, -1.0f) : plane;
 	if (v3_dot(d, plane) < 0.0f)
 		d = v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * v3_dot(d, plane))));
-	v3_store(ray->o, point_ray_origin(p, at, d));
+	v3_store(ray->o, point_ray_origin(p, d));
 	v3_store(ray->d, d);
 	ray->t_min = 0.0f;
 	ray->t_max = 1.0e30f;
