@@ -11,6 +11,7 @@
 
 #include "replay/scene.h"
 #include "kernels/shared.h"
+#include "kernels/rays.h"
 #include "kernels/lanes.h"
 
 /* Eight rays in the space of the tree they walk. */
@@ -147,7 +148,8 @@ inline int8 packet_triangle(const struct packet *p, __global const struct triang
 	*t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 	*b1 = u;
 	*b2 = v;
-	return (u >= 0) & (v >= 0) & (u + v <= 1) & (*t >= p->t_min) & (*t <= p->t_max);
+	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
+	       (*t >= p->t_min) & (*t <= p->t_max);
 }
 
 #endif

@@ -30,6 +30,9 @@
 
 #define RAYS_PER_PACKET 8u
 
+/* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
+#define RAYS_EDGE_SLACK 1e-6f
+
 /* Entries of a stack over an eight-wide tree: seven siblings a level. */
 #define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)
 

@@ -90,7 +90,8 @@ inline void try_block(struct walk *w, __global const struct triangle8 *block, ui
 	const float8 qz = fma(sx, e1y, -(sy * e1x));
 	const float8 v = fma(w->dz, qz, fma(w->dy, qy, w->dx * qx)) * inverse;
 	const float8 t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
-	uint bits = lane_bits((u >= 0) & (v >= 0) & (u + v <= 1) & (t >= w->t_min) & (t <= w->hit.t));
+	uint bits = lane_bits((u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
+	                      (t >= w->t_min) & (t <= w->hit.t));
 
 	while (bits) {
 		const uint lane = popcount((bits & -bits) - 1);

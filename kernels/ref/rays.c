@@ -73,7 +73,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	v = dot(w->d, q) * inverse;
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
-	if (u >= 0 && v >= 0 && u + v <= 1 && t >= w->t_min &&
+	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
 	    (t < w->hit.t || (t == w->hit.t && w->hit.instance == SCENE_NONE)))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
