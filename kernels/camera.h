@@ -2,9 +2,9 @@
  * camera_packet, camera_wide: which primitives cover which pixels of one view. Included by C and OpenCL C.
  *
  * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, through the view's top
- * level and the instances' binary trees; the boxes are widened by instance.pad. What the ray finds are candidates:
- * whether one covers the pixel is decided by GL's own rule on its window vertices (GL 2.1 sec. 3.5.1), so that edges
- * fall where the rasterizer puts them:
+ * level and the instances' binary trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a
+ * tile's rays instead, a pixel's hundredth wider. What they find are candidates: whether one covers a pixel is decided
+ * by GL's own rule on its window vertices (GL 2.1 sec. 3.5.1), so that edges fall where the rasterizer puts them:
  *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
  *     centre on an edge belongs to the triangle on its right, or above where the edge is level (as Mesa's llvmpipe has
  *     it for windows and for framebuffer objects), so that pixels on a shared edge are covered once.
@@ -38,7 +38,9 @@
  * at least after[pixel], ascending. A caller that wants all starts with after = 0 and goes on with the last order + 1
  * as long as CAMERA_COLUMN_MAX come.
  *
- * Work items: camera_packet_items() blocks of 4 x 2 pixels, or camera_wide_items() pixels, of the view's rectangle.
+ * Window vertices with a place lie within +-2^26 (262144 pixels).
+ *
+ * Work items: camera_packet_items() tiles of 8 x 8 pixels, or camera_wide_items() pixels, of the view's rectangle.
  */
 #ifndef KERNELS_CAMERA_H
 #define KERNELS_CAMERA_H
@@ -51,6 +53,7 @@
 #define CAMERA_COLUMN 2u
 
 #define CAMERA_COLUMN_MAX 8
+#define CAMERA_TILE 8 /* pixels across */
 
 /* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
 struct camera_rectangle {
@@ -75,7 +78,8 @@ static inline struct camera_rectangle camera_rectangle(int32_t x, int32_t y, int
 /** How many work items a rectangle takes. */
 static inline uint32_t camera_packet_items(struct camera_rectangle r)
 {
-	return (uint32_t)((r.x1 - r.x0 + 3) / 4) * (uint32_t)((r.y1 - r.y0 + 1) / 2);
+	return (uint32_t)((r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE) *
+	       (uint32_t)((r.y1 - r.y0 + CAMERA_TILE - 1) / CAMERA_TILE);
 }
 
 static inline uint32_t camera_wide_items(struct camera_rectangle r)

@@ -1,12 +1,28 @@
 /*
- * camera_packet: eight pixels, 4 x 2, a work item. See kernels/camera.h.
+ * camera_packet: a tile of 8 x 8 pixels a work item. See kernels/camera.h.
+ *
+ * The tile's rays go through the trees as one frustum, nearest child first, cut off behind the farthest of the tile's
+ * nearest fragments. A leaf's triangles are decided row by row, eight pixels at once.
  */
 #include "kernels/camera.h"
-#include "kernels/packet.h"
 #include "kernels/coverage.h"
+#include "kernels/frustum.h"
 
-/* A block of pixels on its way. Lane i is pixel x + i % 4, y + i / 4. */
-struct block {
+#define LANES ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+
+/* The far plane's lane in a tile's frustum. */
+#define FAR_PLANE 5
+
+/* What the eight pixels of a row hold. NEAREST: the nearest fragment; steps is all ones where there is none. */
+struct row {
+	int8 inside;  /* pixels of the view's rectangle */
+	int8 on;      /* of these, pixels that take fragments now */
+	int8 counts;  /* COLUMN: fragments so far */
+	uint8 steps, order, instance, primitive;
+	float8 b1, b2, depth;
+};
+
+struct tile {
 	__global const struct view *view;
 	__global const struct instance *instances;
 	__global const struct node2 *nodes;
@@ -16,69 +32,48 @@ struct block {
 	__global const uint *after;
 	__global struct fragment *fragments;
 	uint width, mode;
-	int x, y;
-	int8 inside;   /* lanes that are pixels of the view's rectangle */
-	int8 on;       /* of these, lanes that take fragments now */
-	int8 counts;   /* fragments so far */
-	struct packet eye;
-	float8 near_w, far_w, d_scale;
-	/* NEAREST */
-	uint8 order, instance, primitive, steps;
-	float8 b1, b2, depth;
+	int x, y;      /* the first pixel */
+	int changed;   /* a nearest fragment was replaced since z_far was set */
+	float z_far;   /* in normalised device coordinates: nothing behind it matters */
+	struct row rows[CAMERA_TILE];
 };
 
-/* A candidate's fragment, per lane. */
-struct covered {
-	int8 lanes;
-	float8 b1, b2, depth;
+/* A candidate: its numbers. */
+struct candidate {
+	uint order, instance, primitive;
 };
-
-#define LANE_X ((int8)(0, 1, 2, 3, 0, 1, 2, 3))
-#define LANE_Y ((int8)(0, 0, 0, 0, 1, 1, 1, 1))
 
 /* --- fragments --- */
 
-inline void shorten(struct block *b, int8 lanes)
+inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
-	const float near = b->view->depth_range[0], range = b->view->depth_range[1] - near;
-	const float8 u = (b->depth - near) / range + 4e-7f;
-	const float8 w = (1.0f - u) * b->near_w + u * b->far_w - 1e-6f * b->near_w;
-
-	if (!(range > 0))
-		return; /* the nearest depth is not the first along the ray */
-	lanes &= w * b->near_w > 0;
-	b->eye.t_max = select(b->eye.t_max, fmin(b->eye.t_max, u * b->d_scale / (b->near_w * w)), lanes);
-}
-
-inline void keep_nearest(struct block *b, const struct covered *c, uint order, uint instance, uint primitive)
-{
-	const uint8 steps = convert_uint8(c->depth * 16777215.0f + 0.5f);
-	const int8 before = b->mode == CAMERA_NEAREST_LESS ? (uint8)(order) < b->order : (uint8)(order) > b->order;
-	const int8 better = c->lanes & ((b->counts == 0) | (steps < b->steps) | ((steps == b->steps) & before));
+	struct row *row = &t->rows[y];
+	const uint8 steps = convert_uint8(depth * 16777215.0f + 0.5f);
+	const int8 before = t->mode == CAMERA_NEAREST_LESS ? (uint8)(c.order) < row->order : (uint8)(c.order) > row->order;
+	const int8 better = covered & ((steps < row->steps) | ((steps == row->steps) & before));
 
 	if (!any_lane(better))
 		return;
-	b->counts = select(b->counts, (int8)(1), better);
-	b->order = select(b->order, (uint8)(order), better);
-	b->instance = select(b->instance, (uint8)(instance), better);
-	b->primitive = select(b->primitive, (uint8)(primitive), better);
-	b->steps = select(b->steps, steps, better);
-	b->b1 = select(b->b1, c->b1, better);
-	b->b2 = select(b->b2, c->b2, better);
-	b->depth = select(b->depth, c->depth, better);
-	shorten(b, better);
+	t->changed = 1;
+	row->order = select(row->order, (uint8)(c.order), better);
+	row->instance = select(row->instance, (uint8)(c.instance), better);
+	row->primitive = select(row->primitive, (uint8)(c.primitive), better);
+	row->steps = select(row->steps, steps, better);
+	row->b1 = select(row->b1, b1, better);
+	row->b2 = select(row->b2, b2, better);
+	row->depth = select(row->depth, depth, better);
 }
 
-inline void keep_in_columns(struct block *b, const struct covered *c, uint order, uint instance, uint primitive)
+inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
 	for (int lane = 0; lane < 8; lane++) {
-		const uint pixel = (uint)(b->y + lane / 4) * b->width + (uint)(b->x + lane % 4);
-		__global struct fragment *column = b->fragments + (size_t)pixel * CAMERA_COLUMN_MAX;
-		int *count = (int *)&b->counts + lane, place = *count;
+		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
+		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
+		int *count = (int *)&t->rows[y].counts + lane, place = *count;
 
-		if (!((const int *)&c->lanes)[lane] || order < b->after[pixel])
+		if (!((const int *)&covered)[lane] || c.order < t->after[pixel])
 			continue;
-		while (place > 0 && column[place - 1].order > order)
+		while (place > 0 && column[place - 1].order > c.order)
 			place--;
 		if (place == CAMERA_COLUMN_MAX)
 			continue;
@@ -86,32 +81,62 @@ inline void keep_in_columns(struct block *b, const struct covered *c, uint order
 			++*count;
 		for (int i = *count - 1; i > place; i--)
 			column[i] = column[i - 1];
-		column[place].order = order;
-		column[place].instance = instance;
-		column[place].primitive = primitive;
-		column[place].b1 = ((const float *)&c->b1)[lane];
-		column[place].b2 = ((const float *)&c->b2)[lane];
-		column[place].depth = ((const float *)&c->depth)[lane];
+		column[place].order = c.order;
+		column[place].instance = c.instance;
+		column[place].primitive = c.primitive;
+		column[place].b1 = ((const float *)&b1)[lane];
+		column[place].b2 = ((const float *)&b2)[lane];
+		column[place].depth = ((const float *)&depth)[lane];
 	}
+}
+
+inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+{
+	if (t->mode == CAMERA_COLUMN)
+		keep_in_columns(t, y, covered, b1, b2, depth, c);
+	else
+		keep_nearest(t, y, covered, b1, b2, depth, c);
+}
+
+/* Move the far plane up to the farthest of the tile's nearest fragments. */
+inline void shorten(struct tile *t)
+{
+	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
+	uint8 steps = 0;
+	uint4 four;
+	uint2 two;
+	uint farthest;
+
+	t->changed = 0;
+	if (!(range > 0))
+		return; /* the nearest depth is not the first along the ray */
+	for (int y = 0; y < CAMERA_TILE; y++)
+		steps = max(steps, t->rows[y].steps & as_uint8(t->rows[y].on));
+	four = max(steps.lo, steps.hi);
+	two = max(four.lo, four.hi);
+	farthest = max(two.lo, two.hi);
+	/* A step more, for equal depths, and what rounding may do. */
+	if (farthest < 0x1000000u)
+		t->z_far = fmin(2.0f * (((float)farthest * (1.0f / 16777216.0f) - near) / range + 4e-7f) - 1.0f, 1.0f);
 }
 
 /* --- coverage --- */
 
 /*
- * One edge a -> b of a triangle that turns counter-clockwise once exchanged so: the edge function at the first pixel
- * centre and its steps to the right and up, in whole pixels' units of 1/256 (the fraction is in `low`). 64 bits hold
- * the function exactly; its whole part is clamped to where the few steps inside a block cannot change its sign.
+ * One edge a -> b of a triangle that turns counter-clockwise once exchanged so: the edge function at a pixel centre and
+ * its steps to the right and up. 64 bits hold the function exactly; of its whole part, which is clamped to where the
+ * steps inside a tile cannot change its sign, 32 bits do.
  */
-struct block_edge {
-	long value;  /* exact, 1/65536 square pixel, at the first centre */
+struct tile_edge {
+	long value;         /* exact, 1/65536 square pixel */
 	int step_x, step_y; /* 1/256 square pixel a pixel */
-	int whole;   /* (value - (1 where the edge itself is outside)) / 256, rounded down and clamped */
+	int whole;          /* (value - (1 where the edge itself is outside)) / 256, rounded down and clamped */
 };
 
-inline struct block_edge block_edge(struct window_vertex a, struct window_vertex b, int x, int y)
+inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, int x, int y)
 {
 	const int dx = b.x - a.x, dy = b.y - a.y;
-	struct block_edge e;
+	struct tile_edge e;
 
 	e.value = (long)dx * ((long)y * 256 + 128 - a.y) - (long)dy * ((long)x * 256 + 128 - a.x);
 	e.step_x = -dy;
@@ -120,197 +145,255 @@ inline struct block_edge block_edge(struct window_vertex a, struct window_vertex
 	return e;
 }
 
-inline int8 inside_edge(struct block_edge e)
+/* In lanes: not negative where the centre is on the inner side, on row y after the edge's own. */
+inline int8 edge_inside(struct tile_edge e, int y)
 {
-	return e.whole + (LANE_X * e.step_x + LANE_Y * e.step_y) >= 0;
+	return (e.whole + y * e.step_y) + LANES * e.step_x;
 }
 
 /*
  * The function's value in all lanes, rounded once. `small`: inside the triangle it fits into 32 bits; what overflows in
  * other lanes, or on the way, does not matter.
  */
-inline float8 edge_values(struct block_edge e, int small)
+inline float8 edge_values(struct tile_edge e, int y, int small)
 {
 	if (small)
-		return convert_float8(as_int8((uint)e.value + as_uint8(LANE_X * e.step_x + LANE_Y * e.step_y) * 256u));
-	return convert_float8((long8)(e.value) + convert_long8(LANE_X * e.step_x + LANE_Y * e.step_y) * 256);
+		return convert_float8(as_int8((uint)e.value + (uint)(y * e.step_y) * 256u + as_uint8(LANES * e.step_x) * 256u));
+	return convert_float8((long8)(e.value + (long)y * e.step_y * 256) + convert_long8(LANES * e.step_x) * 256);
 }
 
 /* All vertices have a place in the window. */
-inline struct covered cover_placed(const struct block *b, uint flags, struct window_vertex v0, struct window_vertex v1,
-                                   struct window_vertex v2)
+inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
+                       struct window_vertex v2, struct candidate c)
 {
+	/* Rows and columns of centres that the triangle's box holds. */
+	const int x_first = (min(min(v0.x, v1.x), v2.x) + 127) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - 128) >> 8;
+	const int y_first = max((min(min(v0.y, v1.y), v2.y) + 127) >> 8, t->y);
+	const int y_last = min((max(max(v0.y, v1.y), v2.y) - 128) >> 8, t->y + CAMERA_TILE - 1);
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
-	const int clockwise = area < 0;
-	struct block_edge e0, e1, e2;
-	struct covered c;
+	const int clockwise = area < 0, small = area < (1l << 28) && area > -(1l << 28);
+	struct tile_edge e0, e1, e2;
 	float inverse;
-	int small;
 
-	c.lanes = 0;
-	if (area == 0 || coverage_culled(flags, !clockwise))
-		return c;
+	if (y_first > y_last || x_first > x_last || x_last < t->x || x_first >= t->x + CAMERA_TILE || area == 0 ||
+	    coverage_culled(flags, !clockwise))
+		return;
 	/* Edge i is the one across from vertex i; turned round where the triangle runs clockwise. */
-	e0 = clockwise ? block_edge(v2, v1, b->x, b->y) : block_edge(v1, v2, b->x, b->y);
-	e1 = clockwise ? block_edge(v0, v2, b->x, b->y) : block_edge(v2, v0, b->x, b->y);
-	e2 = clockwise ? block_edge(v1, v0, b->x, b->y) : block_edge(v0, v1, b->x, b->y);
-	c.lanes = b->on & inside_edge(e0) & inside_edge(e1) & inside_edge(e2);
-	if (!any_lane(c.lanes))
-		return c;
+	e0 = clockwise ? tile_edge(v2, v1, t->x, y_first) : tile_edge(v1, v2, t->x, y_first);
+	e1 = clockwise ? tile_edge(v0, v2, t->x, y_first) : tile_edge(v2, v0, t->x, y_first);
+	e2 = clockwise ? tile_edge(v1, v0, t->x, y_first) : tile_edge(v0, v1, t->x, y_first);
 	inverse = 1.0f / (float)abs_diff(area, 0l);
-	small = area < (1l << 28) && area > -(1l << 28);
-	c.b1 = edge_values(e1, small) * inverse;
-	c.b2 = edge_values(e2, small) * inverse;
-	c.depth = v0.z + (c.b1 * (v1.z - v0.z) + c.b2 * (v2.z - v0.z));
-	c.depth = fmax(fmin(c.depth, 1.0f), 0.0f);
-	return c;
-}
+	for (int y = 0; y <= y_last - y_first; y++) {
+		const int row = y_first - t->y + y;
+		const int8 covered = t->rows[row].on & ((edge_inside(e0, y) | edge_inside(e1, y) | edge_inside(e2, y)) >= 0);
+		float8 b1, b2, depth;
 
-/* A vertex has none: pixel by pixel, there are few of these triangles. */
-inline struct covered cover_clipped(const struct block *b, uint flags, uint i0, uint i1, uint i2)
-{
-	struct covered c;
-
-	c.lanes = 0;
-	c.b1 = c.b2 = c.depth = 0;
-	for (int lane = 0; lane < 8; lane++) {
-		float b1, b2, depth;
-
-		if (!((const int *)&b->on)[lane] ||
-		    !coverage_clipped(b->view, b->window, b->clip, i0, i1, i2, flags, b->x + lane % 4, b->y + lane / 4, &b1, &b2,
-		                      &depth))
+		if (!any_lane(covered))
 			continue;
-		((int *)&c.lanes)[lane] = -1;
-		((float *)&c.b1)[lane] = b1;
-		((float *)&c.b2)[lane] = b2;
-		((float *)&c.depth)[lane] = depth;
+		b1 = edge_values(e1, y, small) * inverse;
+		b2 = edge_values(e2, y, small) * inverse;
+		depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
+		depth = select(depth, (float8)(1), depth > 1.0f);
+		depth = select(depth, (float8)(0), depth < 0.0f);
+		keep(t, row, covered, b1, b2, depth, c);
 	}
-	return c;
 }
 
-inline void try_triangle(struct block *b, uint index, __global const struct instance *instance,
+/* A homogeneous edge a -> b at the centres of a row, each the origin of its own lane: X and Y are window coordinates
+ * times w. Lanes inside, and *weight. */
+inline int8 clipped_edge(const struct tile *t, int y, struct window_vertex va, struct window_vertex vb, float8 Xa, float Ya,
+                         float wa, float8 Xb, float Yb, float wb, float sign, float8 *weight)
+{
+	const float8 e = sign * (Xa * Yb - Xb * Ya), along_y = sign * (wa * Xb - wb * Xa);
+	const float along_x = sign * (Ya * wb - Yb * wa);
+
+	*weight = select((float8)(0), e, e > 0);
+	if (va.w_inv > 0 && vb.w_inv > 0) {
+		if (sign > 0)
+			return edge_inside(tile_edge(va, vb, t->x, t->y + y), 0) >= 0;
+		return edge_inside(tile_edge(vb, va, t->x, t->y + y), 0) >= 0;
+	}
+	return (e > 0) | ((e == 0) & ((int8)(along_x > 0 ? -1 : 0) | ((int8)(along_x == 0 ? -1 : 0) & (along_y > 0))));
+}
+
+/* A vertex has none. i0, i1, i2: places in window and clip. coverage_clipped is the same for one pixel. */
+inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, struct candidate c)
+{
+	const float4 c0 = vload4(i0, t->clip), c1 = vload4(i1, t->clip), c2 = vload4(i2, t->clip);
+	const struct window_vertex v0 = t->window[i0], v1 = t->window[i1], v2 = t->window[i2];
+	__global const struct view *view = t->view;
+	const float half_w = 0.5f * view->viewport[2], half_h = 0.5f * view->viewport[3];
+	const float8 origin_x = view->viewport[0] + half_w - (convert_float8(t->x + LANES) + 0.5f);
+	const float det = c0.w * (c1.x * c2.y - c2.x * c1.y) + c1.w * (c2.x * c0.y - c0.x * c2.y) +
+	                  c2.w * (c0.x * c1.y - c1.x * c0.y);
+	const float sign = det > 0 ? 1.0f : -1.0f;
+	const float8 X0 = c0.x * half_w + c0.w * origin_x, X1 = c1.x * half_w + c1.w * origin_x;
+	const float8 X2 = c2.x * half_w + c2.w * origin_x;
+
+	if (!(det != 0) || coverage_culled(flags, det > 0))
+		return;
+	for (int y = 0; y < CAMERA_TILE; y++) {
+		const float origin_y = view->viewport[1] + half_h - ((float)(t->y + y) + 0.5f);
+		const float Y0 = c0.y * half_h + c0.w * origin_y, Y1 = c1.y * half_h + c1.w * origin_y;
+		const float Y2 = c2.y * half_h + c2.w * origin_y;
+		float8 weight0, weight1, weight2, sum, b0, b1, b2, z, w, depth;
+		int8 covered = t->rows[y].on & clipped_edge(t, y, v1, v2, X1, Y1, c1.w, X2, Y2, c2.w, sign, &weight0) &
+		               clipped_edge(t, y, v2, v0, X2, Y2, c2.w, X0, Y0, c0.w, sign, &weight1) &
+		               clipped_edge(t, y, v0, v1, X0, Y0, c0.w, X1, Y1, c1.w, sign, &weight2);
+
+		if (!any_lane(covered))
+			continue;
+		sum = weight0 + weight1 + weight2;
+		b1 = weight1 / sum;
+		b2 = weight2 / sum;
+		b0 = 1.0f - b1 - b2;
+		z = b0 * c0.z + b1 * c1.z + b2 * c2.z;
+		w = b0 * c0.w + b1 * c1.w + b2 * c2.w;
+		covered &= (sum > 0) & (z >= -w) & (z <= w) & (w > 0);
+		if (!any_lane(covered))
+			continue;
+		depth = view->depth_range[0] + (view->depth_range[1] - view->depth_range[0]) * (0.5f * (z / w) + 0.5f);
+		depth = fmax(fmin(depth, 1.0f), 0.0f);
+		keep(t, y, covered, b1, b2, depth, c);
+	}
+}
+
+inline void try_triangle(struct tile *t, uint index, __global const struct instance *instance,
                          __global const struct triangle *triangle)
 {
-	const uint first = instance->vertex_first;
+	const uint first = instance->vertex_first, primitive = triangle->primitive;
 	const uint i0 = first + triangle->vertex[0], i1 = first + triangle->vertex[1], i2 = first + triangle->vertex[2];
-	const struct window_vertex v0 = b->window[i0], v1 = b->window[i1], v2 = b->window[i2];
-	const int placed = v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0;
-	const uint order = instance->primitive_first + triangle->primitive;
-	uint primitive = triangle->primitive;
-	struct covered c;
+	const struct window_vertex v0 = t->window[i0], v1 = t->window[i1], v2 = t->window[i2];
+	struct candidate c;
 
-	if (placed) {
-		c = cover_placed(b, instance->flags, v0, v1, v2);
+	c.order = instance->primitive_first + primitive;
+	c.instance = index;
+	c.primitive = primitive;
+	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
+		try_placed(t, instance->flags, v0, v1, v2, c);
 	} else {
-		c = cover_clipped(b, instance->flags, i0, i1, i2);
-		primitive |= FRAGMENT_PERSPECTIVE;
+		c.primitive |= FRAGMENT_PERSPECTIVE;
+		try_clipped(t, instance->flags, i0, i1, i2, c);
 	}
-	if (!any_lane(c.lanes))
-		return;
-	if (b->mode == CAMERA_COLUMN)
-		keep_in_columns(b, &c, order, index, primitive);
-	else
-		keep_nearest(b, &c, order, index, primitive);
 }
 
 /* --- traversal --- */
 
-/* A packet of one octant through one instance's tree. `lanes`: those of the octant. */
-inline void walk_blas(struct block *b, struct packet *p, int octant, int8 lanes, uint index)
+/*
+ * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
+ * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
+ */
+inline struct frustum tile_frustum(const struct tile *t, __global const float *m, __global const struct node2 *root)
 {
-	__global const struct instance *instance = &b->instances[index];
-	__global const struct node2 *nodes = b->nodes + instance->node2_first;
-	__global const struct triangle *triangles = b->triangles + instance->triangle_first;
-	const struct planes planes = octant_planes(octant);
-	struct packet_entry stack[BVH_MAX_DEPTH];
-	uint depth = 0, child = 0, count = 0;
+	__global const struct view *view = t->view;
+	__global const float *p = view->projection;
+	const float scale_x = 2.0f / view->viewport[2], scale_y = 2.0f / view->viewport[3];
+	/* A pixel's hundredth more: snapping moves edges by 1/512. */
+	const float x0 = ((float)t->x + 0.49f - view->viewport[0]) * scale_x - 1.0f;
+	const float x1 = ((float)t->x + CAMERA_TILE - 0.49f - view->viewport[0]) * scale_x - 1.0f;
+	const float y0 = ((float)t->y + 0.49f - view->viewport[1]) * scale_y - 1.0f;
+	const float y1 = ((float)t->y + CAMERA_TILE - 0.49f - view->viewport[1]) * scale_y - 1.0f;
+	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that is always met. */
+	const float8 of_x = (float8)(1, -1, 0, 0, 0, 0, 0, 0), of_y = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
+	const float8 of_z = (float8)(0, 0, 0, 0, 1, -1, 0, 0), of_w = (float8)(-x0, x1, -y0, y1, 1, t->z_far, 1, 0);
+	float8 e[4], abs_e[4], o[4], abs_o[4];
 
-	b->on = lanes;
+	for (int i = 0; i < 4; i++) {
+		e[i] = of_x * p[4 * i] + of_y * p[4 * i + 1] + of_z * p[4 * i + 2] + of_w * p[4 * i + 3];
+		abs_e[i] = fabs(of_x * p[4 * i]) + fabs(of_y * p[4 * i + 1]) + fabs(of_z * p[4 * i + 2]) +
+		           fabs(of_w * p[4 * i + 3]);
+	}
+	if (!m)
+		return frustum_make(e[0], e[1], e[2], e[3], abs_e[0], abs_e[1], abs_e[2], abs_e[3], root);
+	for (int i = 0; i < 4; i++) {
+		o[i] = e[0] * m[i] + e[1] * m[4 + i] + e[2] * m[8 + i] + (i == 3 ? e[3] : (float8)(0));
+		abs_o[i] = abs_e[0] * fabs(m[i]) + abs_e[1] * fabs(m[4 + i]) + abs_e[2] * fabs(m[8 + i]) +
+		           (i == 3 ? abs_e[3] : (float8)(0));
+	}
+	return frustum_make(o[0], o[1], o[2], o[3], abs_o[0], abs_o[1], abs_o[2], abs_o[3], root);
+}
+
+inline void walk_blas(struct tile *t, uint index)
+{
+	__global const struct instance *instance = &t->instances[index];
+	__global const struct node2 *nodes = t->nodes + instance->node2_first;
+	__global const struct triangle *triangles = t->triangles + instance->triangle_first;
+	struct frustum f = tile_frustum(t, instance->eye_from_obj, nodes);
+	uint2 stack[BVH_MAX_DEPTH + 1]; /* child, count */
+	uint depth = 0;
+	uint2 entry = (uint2)(0, 0);
+
 	for (;;) {
-		if (count == 0) {
-			__global const struct node2 *node = &nodes[child];
-			__global const float *bounds = (__global const float *)node;
-			const float8 enter0 = packet_enter(p, bounds, planes, 0), enter1 = packet_enter(p, bounds, planes, 1);
-			const int8 hit0 = enter0 <= packet_leave(p, bounds, planes, 0);
-			const int8 hit1 = enter1 <= packet_leave(p, bounds, planes, 1);
-			const int any0 = any_lane(hit0), any1 = any_lane(hit1);
+		if (entry.y == 0) {
+			__global const struct node2 *node = &nodes[entry.x];
+			const float8 reach0 = frustum_reach(&f, node, 0), reach1 = frustum_reach(&f, node, 1);
+			const int meets0 = frustum_meets(reach0), meets1 = frustum_meets(reach1) && side_exists(node, 1);
+			const uint2 side0 = (uint2)(node->child[0], node->count[0]), side1 = (uint2)(node->child[1], node->count[1]);
 
-			if (any0 && any1) {
-				const uint first = any_lane(hit1 & (enter1 < enter0));
+			if (meets0 && meets1) {
+				/* What reaches farther before the far plane goes first. */
+				const int first = reach1.s5 > reach0.s5;
 
-				stack[depth].enter = first ? enter0 : enter1;
-				stack[depth].child = node->child[!first];
-				stack[depth].count = node->count[!first];
-				depth++;
-				child = node->child[first];
-				count = node->count[first];
+				stack[depth++] = first ? side0 : side1;
+				entry = first ? side1 : side0;
 				continue;
 			}
-			if (any0 || any1) {
-				child = node->child[any1];
-				count = node->count[any1];
+			if (meets0 || meets1) {
+				entry = meets0 ? side0 : side1;
 				continue;
 			}
 		} else {
-			for (uint i = 0; i < count; i++)
-				try_triangle(b, index, instance, &triangles[child + i]);
-			p->t_max = select((float8)(-INFINITY), b->eye.t_max, lanes);
+			for (uint i = 0; i < entry.y; i++)
+				try_triangle(t, index, instance, &triangles[entry.x + i]);
+			if (t->changed) {
+				const float before = t->z_far;
+
+				shorten(t);
+				if (t->z_far < before)
+					f = tile_frustum(t, instance->eye_from_obj, nodes);
+			}
 		}
-		do {
-			if (depth == 0)
-				return;
-			depth--;
-		} while (!any_lane(stack[depth].enter <= p->t_max));
-		child = stack[depth].child;
-		count = stack[depth].count;
+		if (depth == 0)
+			return;
+		entry = stack[--depth];
 	}
 }
 
-inline void walk_instance(struct block *b, uint index)
-{
-	__global const struct instance *instance = &b->instances[index];
-	int8 awake = b->eye.t_min <= b->eye.t_max, octants;
-	struct packet p;
-
-	packet_transform(&p, &b->eye, instance->obj_from_eye);
-	packet_prepare(&p, instance->pad);
-	p.t_min = b->eye.t_min;
-	octants = packet_octants(&p);
-	while (any_lane(awake)) {
-		int octant;
-		const int8 lanes = packet_next_octant(octants, &awake, &octant);
-
-		p.t_max = select((float8)(-INFINITY), b->eye.t_max, lanes);
-		walk_blas(b, &p, octant, lanes, index);
-	}
-}
-
-inline void walk_top(struct block *b, __global const struct node2 *top, __global const uint *instance_list)
+inline void walk_top(struct tile *t, __global const struct node2 *top, __global const uint *instance_list)
 {
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
 	stack[depth++] = 0;
 	while (depth) {
 		__global const struct node2 *node = &top[stack[--depth]];
+		const struct frustum f = tile_frustum(t, 0, top);
+		const int first = frustum_reach(&f, node, 1).s5 > frustum_reach(&f, node, 0).s5;
 
-		for (uint side = 0; side < 2; side++) {
-			if (!any_lane(packet_meets_box(&b->eye, node, side)))
+		/* Nearest first: instances at once, of inner children the farther one is pushed before the nearer. */
+		for (int i = 0; i < 2; i++) {
+			const uint side = first ^ i;
+
+			if (node->count[side] == 0 || !frustum_meets(frustum_reach(&f, node, side)))
 				continue;
-			if (node->count[side] == 0)
+			for (uint k = 0; k < node->count[side]; k++)
+				walk_blas(t, instance_list[node->child[side] + k]);
+		}
+		for (int i = 0; i < 2; i++) {
+			const uint side = !(first ^ i);
+
+			if (node->count[side] == 0 && side_exists(node, side) && frustum_meets(frustum_reach(&f, node, side)))
 				stack[depth++] = node->child[side];
-			for (uint i = 0; i < node->count[side]; i++)
-				walk_instance(b, instance_list[node->child[side] + i]);
 		}
 	}
 }
 
 /* Geometry in window space: pixel centres are points. */
-inline void walk_screen(struct block *b, uint index)
+inline void walk_screen(struct tile *t, uint index)
 {
-	__global const struct instance *instance = &b->instances[index];
-	__global const struct node2 *nodes = b->nodes + instance->node2_first;
-	const float x0 = (float)b->x + 0.5f - instance->pad, x1 = (float)b->x + 3.5f + instance->pad;
-	const float y0 = (float)b->y + 0.5f - instance->pad, y1 = (float)b->y + 1.5f + instance->pad;
+	__global const struct instance *instance = &t->instances[index];
+	__global const struct node2 *nodes = t->nodes + instance->node2_first;
+	const float x0 = (float)t->x + 0.5f - instance->pad, x1 = (float)t->x + CAMERA_TILE - 0.5f + instance->pad;
+	const float y0 = (float)t->y + 0.5f - instance->pad, y1 = (float)t->y + CAMERA_TILE - 0.5f + instance->pad;
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
 	stack[depth++] = 0;
@@ -323,59 +406,34 @@ inline void walk_screen(struct block *b, uint index)
 			if (node->count[side] == 0)
 				stack[depth++] = node->child[side];
 			for (uint i = 0; i < node->count[side]; i++)
-				try_triangle(b, index, instance, &b->triangles[instance->triangle_first + node->child[side] + i]);
+				try_triangle(t, index, instance, &t->triangles[instance->triangle_first + node->child[side] + i]);
 		}
 	}
 }
 
-/* The pixels' rays; lanes outside of the viewport, and all where the projection has no inverse, sleep. */
-inline void make_rays(struct block *b)
+inline void store_tile(const struct tile *t, __global uint *counts)
 {
-	__global const float *m = b->view->inverse, *viewport = b->view->viewport;
-	const float8 px = convert_float8(b->x + LANE_X) + 0.5f, py = convert_float8(b->y + LANE_Y) + 0.5f;
-	const float8 x = 2.0f * (px - viewport[0]) / viewport[2] - 1.0f;
-	const float8 y = 2.0f * (py - viewport[1]) / viewport[3] - 1.0f;
-	const float8 nx = m[0] * x + m[4] * y + (m[12] - m[8]), fx = m[0] * x + m[4] * y + (m[12] + m[8]);
-	const float8 ny = m[1] * x + m[5] * y + (m[13] - m[9]), fy = m[1] * x + m[5] * y + (m[13] + m[9]);
-	const float8 nz = m[2] * x + m[6] * y + (m[14] - m[10]), fz = m[2] * x + m[6] * y + (m[14] + m[10]);
-	const float8 nw = m[3] * x + m[7] * y + (m[15] - m[11]), fw = m[3] * x + m[7] * y + (m[15] + m[11]);
-	struct packet *p = &b->eye;
-	int8 awake;
+	for (int y = 0; y < CAMERA_TILE; y++)
+		for (int lane = 0; lane < 8; lane++) {
+			const struct row *row = &t->rows[y];
+			const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
+			struct fragment f;
 
-	p->ox = nx / nw, p->oy = ny / nw, p->oz = nz / nw;
-	p->dx = fx * nw - nx * fw, p->dy = fy * nw - ny * fw, p->dz = fz * nw - nz * fw;
-	b->d_scale = fmax(fabs(p->dx), fmax(fabs(p->dy), fabs(p->dz)));
-	p->dx /= b->d_scale, p->dy /= b->d_scale, p->dz /= b->d_scale;
-	b->near_w = nw, b->far_w = fw;
-	awake = b->inside & (px >= viewport[0]) & (px < viewport[0] + viewport[2]) & (py >= viewport[1]) &
-	        (py < viewport[1] + viewport[3]) & isfinite(p->ox + p->oy + p->oz) & isfinite(p->dx + p->dy + p->dz);
-	p->ox = select((float8)(0), p->ox, awake), p->oy = select((float8)(0), p->oy, awake);
-	p->oz = select((float8)(0), p->oz, awake), p->dx = select((float8)(1), p->dx, awake);
-	p->dy = select((float8)(1), p->dy, awake), p->dz = select((float8)(1), p->dz, awake);
-	p->t_min = 0;
-	p->t_max = select((float8)(-INFINITY), (float8)(1e30f), awake);
-	packet_prepare(p, 0);
-}
-
-inline void store_block(const struct block *b, __global uint *counts)
-{
-	for (int lane = 0; lane < 8; lane++) {
-		const size_t pixel = (size_t)(b->y + lane / 4) * b->width + (size_t)(b->x + lane % 4);
-		struct fragment f;
-
-		if (!((const int *)&b->inside)[lane])
-			continue;
-		counts[pixel] = (uint)((const int *)&b->counts)[lane];
-		if (b->mode == CAMERA_COLUMN)
-			continue;
-		f.order = ((const uint *)&b->order)[lane];
-		f.instance = ((const uint *)&b->instance)[lane];
-		f.primitive = ((const uint *)&b->primitive)[lane];
-		f.b1 = ((const float *)&b->b1)[lane];
-		f.b2 = ((const float *)&b->b2)[lane];
-		f.depth = ((const float *)&b->depth)[lane];
-		b->fragments[pixel] = f;
-	}
+			if (!((const int *)&row->inside)[lane])
+				continue;
+			if (t->mode == CAMERA_COLUMN) {
+				counts[pixel] = (uint)((const int *)&row->counts)[lane];
+				continue;
+			}
+			f.order = ((const uint *)&row->order)[lane];
+			f.instance = ((const uint *)&row->instance)[lane];
+			f.primitive = ((const uint *)&row->primitive)[lane];
+			f.b1 = ((const float *)&row->b1)[lane];
+			f.b2 = ((const float *)&row->b2)[lane];
+			f.depth = ((const float *)&row->depth)[lane];
+			t->fragments[pixel] = f;
+			counts[pixel] = f.order != SCENE_NONE;
+		}
 }
 
 __kernel void camera_packet(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
@@ -386,36 +444,46 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
                             __global struct fragment *fragments, __global uint *counts)
 {
 	__global const struct view *view = &views[view_index];
+	__global const float *viewport = view->viewport;
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
 	                                                   view->scissor[3], width, height);
-	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + 3) / 4;
-	struct block b;
+	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
+	struct tile t;
 
 	if (item >= camera_packet_items(r))
 		return;
-	b.view = view;
-	b.instances = instances;
-	b.nodes = nodes;
-	b.triangles = triangles;
-	b.window = window;
-	b.clip = clip;
-	b.after = after;
-	b.fragments = fragments;
-	b.width = width;
-	b.mode = mode;
-	b.x = r.x0 + (int)(item % columns) * 4;
-	b.y = r.y0 + (int)(item / columns) * 2;
-	b.inside = (b.x + LANE_X < r.x1) & (b.y + LANE_Y < r.y1);
-	b.counts = 0;
-	b.order = b.instance = b.primitive = SCENE_NONE;
-	b.steps = 0;
-	b.b1 = b.b2 = 0;
-	b.depth = 1;
-	make_rays(&b);
+	t.view = view;
+	t.instances = instances;
+	t.nodes = nodes;
+	t.triangles = triangles;
+	t.window = window;
+	t.clip = clip;
+	t.after = after;
+	t.fragments = fragments;
+	t.width = width;
+	t.mode = mode;
+	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
+	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;
+	t.changed = 0;
+	t.z_far = 1;
+	for (int y = 0; y < CAMERA_TILE; y++) {
+		struct row *row = &t.rows[y];
+		const float8 px = convert_float8(t.x + LANES) + 0.5f;
+		const float py = (float)(t.y + y) + 0.5f;
+
+		row->inside = (t.x + LANES < r.x1) & (int8)(t.y + y < r.y1 ? -1 : 0);
+		row->on = row->inside & (px >= viewport[0]) & (px < viewport[0] + viewport[2]) &
+		          (int8)(py >= viewport[1] && py < viewport[1] + viewport[3] ? -1 : 0);
+		row->counts = 0;
+		row->steps = row->order = row->instance = row->primitive = SCENE_NONE;
+		row->b1 = row->b2 = 0;
+		row->depth = 1;
+	}
 	if (view->tlas_count)
-		walk_top(&b, top + view->tlas_first, instance_list);
-	b.on = b.inside;
+		walk_top(&t, top + view->tlas_first, instance_list);
+	for (int y = 0; y < CAMERA_TILE; y++)
+		t.rows[y].on = t.rows[y].inside;
 	for (uint i = 0; i < view->screen_count; i++)
-		walk_screen(&b, view->screen_first + i);
-	store_block(&b, counts);
+		walk_screen(&t, view->screen_first + i);
+	store_tile(&t, counts);
 }

@@ -30,4 +30,15 @@ inline int any_lane(int8 mask)
 	return lane_bits(mask) != 0;
 }
 
+/* Minimum and maximum as the processor has them, one instruction: where x is a NaN the result is y. */
+inline float8 lanes_min(float8 x, float8 y)
+{
+	return select(y, x, x < y);
+}
+
+inline float8 lanes_max(float8 x, float8 y)
+{
+	return select(y, x, x > y);
+}
+
 #endif

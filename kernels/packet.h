@@ -76,14 +76,14 @@ inline struct planes octant_planes(int octant)
 /* Where the rays enter and leave the box of one side (0 or 1) of a node: enter <= leave where they meet it. */
 inline float8 packet_enter(const struct packet *p, __global const float *node, struct planes s, uint side)
 {
-	return fmax(fmax(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
-	            fmax(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
+	return lanes_max(lanes_max(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
+	            lanes_max(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
 }
 
 inline float8 packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
 {
-	return fmin(fmin(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
-	            fmin(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
+	return lanes_min(lanes_min(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
+	            lanes_min(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
 }
 
 /* Lanes that meet the box of one side, whatever their octants: for top levels, which are small. */
@@ -92,10 +92,10 @@ inline int8 packet_meets_box(const struct packet *p, __global const struct node2
 	const float8 x0 = node->lo[side][0] * p->ix, x1 = node->hi[side][0] * p->ix;
 	const float8 y0 = node->lo[side][1] * p->iy, y1 = node->hi[side][1] * p->iy;
 	const float8 z0 = node->lo[side][2] * p->iz, z1 = node->hi[side][2] * p->iz;
-	const float8 enter = fmax(fmax(fmin(x0, x1) + p->near_x, fmin(y0, y1) + p->near_y),
-	                          fmax(fmin(z0, z1) + p->near_z, p->t_min));
-	const float8 leave = fmin(fmin(fmax(x0, x1) + p->far_x, fmax(y0, y1) + p->far_y),
-	                          fmin(fmax(z0, z1) + p->far_z, p->t_max));
+	const float8 enter = lanes_max(lanes_max(lanes_min(x0, x1) + p->near_x, lanes_min(y0, y1) + p->near_y),
+	                          lanes_max(lanes_min(z0, z1) + p->near_z, p->t_min));
+	const float8 leave = lanes_min(lanes_min(lanes_max(x0, x1) + p->far_x, lanes_max(y0, y1) + p->far_y),
+	                          lanes_min(lanes_max(z0, z1) + p->far_z, p->t_max));
 
 	return (enter <= leave) & (int8)(node->lo[side][0] <= node->hi[side][0] ? -1 : 0);
 }

@@ -8,9 +8,10 @@
  * Walk one instance's tree with a packet of one octant. Lanes that are hit get their t_max (any: -1, they are done) and
  * *hits.
  */
-inline void walk_blas(struct packet *p, struct packet_hits *hits, int octant, int any, uint instance,
+inline void walk_blas(struct packet *packet, struct packet_hits *hits, int octant, int any, uint instance,
                       __global const struct node2 *nodes, __global const struct triangle *triangles)
 {
+	struct packet rays = *packet, *p = &rays; /* a copy of its own stays in registers */
 	const struct planes planes = octant_planes(octant);
 	struct packet_entry stack[BVH_MAX_DEPTH];
 	uint depth = 0, child = 0, count = 0;
@@ -63,8 +64,10 @@ inline void walk_blas(struct packet *p, struct packet_hits *hits, int octant, in
 			}
 		}
 		do {
-			if (depth == 0)
+			if (depth == 0) {
+				packet->t_max = p->t_max;
 				return;
+			}
 			depth--;
 		} while (!any_lane(stack[depth].enter <= p->t_max));
 		child = stack[depth].child;

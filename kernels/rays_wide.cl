@@ -45,10 +45,10 @@ inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, 
 	const float8 far_x = fma(vload8(0, rows + (24 - w->row_x)), w->ix, w->far_x);
 	const float8 far_y = fma(vload8(0, rows + (40 - w->row_y)), w->iy, w->far_y);
 	const float8 far_z = fma(vload8(0, rows + (56 - w->row_z)), w->iz, w->far_z);
-	const float8 first = fmax(fmax(near_x, near_y), fmax(near_z, w->t_min));
+	const float8 first = lanes_max(lanes_max(near_x, near_y), lanes_max(near_z, w->t_min));
 
 	*enter = first;
-	return lane_bits(first <= fmin(fmin(far_x, far_y), fmin(far_z, w->hit.t)));
+	return lane_bits(first <= lanes_min(lanes_min(far_x, far_y), lanes_min(far_z, w->hit.t)));
 }
 
 /* Push what the ray meets, farthest first, so that the nearest is popped next. */

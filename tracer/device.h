@@ -14,7 +14,7 @@
 
 /* X(name): kernel NAME in kernels/, twin NAME_c in kernels/ref/. */
 #define DEVICE_KERNELS(X) \
-	X(camera_packet)    /* camera rays, 8 pixels (4 x 2) a work item, BVH2; nearest fragment or a column of them */ \
+	X(camera_packet)    /* camera rays, a tile of 8 x 8 pixels a work item, BVH2; nearest fragment or a column of them */ \
 	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
 	X(occlude_packet)   /* shadow rays, 8 consecutive rays a work item, BVH2 */ \
 	X(occlude_wide)     /* the same, one ray a work item, 8-wide nodes */ \

@@ -420,16 +420,16 @@ void camera_packet_c(const void *const *args, size_t first, size_t last)
 {
 	const struct args a = unpack(args);
 	const struct camera_rectangle r = rectangle_of(&a);
-	const size_t columns = (size_t)(r.x1 - r.x0 + 3) / 4;
+	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
 
-	for (size_t item = first; item < last && item < camera_packet_items(r); item++)
-		for (int lane = 0; lane < 8; lane++) {
-			const int32_t x = r.x0 + (int32_t)(item % columns) * 4 + lane % 4;
-			const int32_t y = r.y0 + (int32_t)(item / columns) * 2 + lane / 4;
+	for (size_t item = first; item < last && item < camera_packet_items(r); item++) {
+		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE;
+		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE;
 
-			if (x < r.x1 && y < r.y1)
+		for (int32_t y = y0; y < y0 + CAMERA_TILE && y < r.y1; y++)
+			for (int32_t x = x0; x < x0 + CAMERA_TILE && x < r.x1; x++)
 				do_pixel(&a, x, y);
-		}
+	}
 }
 
 void camera_wide_c(const void *const *args, size_t first, size_t last)

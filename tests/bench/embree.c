@@ -1,0 +1,499 @@
+/*
+ * Our traversal kernels against Embree's on the same triangles and the same rays, in one run, alternating. A program of
+ * its own: the command never links Embree.
+ *
+ * usage: embree [--bar RATIO] [--json FILE] [--models DIR] [--repeat N] [--command TEXT]
+ *
+ * Embree gets its best: highest build quality, the fastest of its one-ray, packet (4, 8, 16) and stream calls with the
+ * flag that suits the rays, flush-to-zero and denormals-are-zero set, as many threads as ours, its own vector units as
+ * it finds them, rays laid out beforehand as each call likes them. Camera rays are made on both sides while tracing;
+ * ours also pay for what a frame with a new camera costs. Figures are medians.
+ * Exit code 0 where camera and shadow rays reach the bar, 1 where they do not.
+ */
+#include <embree3/rtcore.h>
+#include <math.h>
+#include <pthread.h>
+#include <pmmintrin.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <xmmintrin.h>
+
+#include "base/err.h"
+#include "base/progress.h"
+#include "tracer/bench.h"
+
+#define WIDTH 1600
+#define HEIGHT 1200
+#define MAX_REPEATS 99
+#define MAX_THREADS 64
+#define TASK_RAYS 4096 /* rays a thread takes at a time: a multiple of 16 */
+
+/* The calls of Embree that are compared. */
+enum call { CALL_1, CALL_4, CALL_8, CALL_16, CALL_1M, N_CALLS };
+static const char *const call_names[N_CALLS] = { "1", "4", "8", "16", "1M" };
+
+/* What is traced: the camera's rays, or one of the bench's kinds. */
+enum work { WORK_CAMERA, WORK_SHADOW, WORK_AMBIENT, N_WORKS };
+
+struct peer {
+	RTCDevice device;
+	RTCScene scene;
+	const struct bench *bench;
+	unsigned threads;
+	double build_s;
+};
+
+/* One timed pass over all rays of a kind. */
+struct pass {
+	const struct peer *peer;
+	enum work work;
+	enum call call;
+	size_t n;
+	const struct ray *rays; /* NULL: the camera's */
+	void *laid_out;         /* occlusion rays as the call likes them */
+	struct hit *hits;       /* of camera rays */
+	atomic_size_t next, n_hits;
+};
+
+/* Direction of camera ray i, in the blocks of 4 x 2 pixels that our kernel takes. */
+static inline void camera_direction(const struct bench *b, size_t i, float d[3])
+{
+	const size_t block = i / 8, lane = i % 8, columns = b->width / 4;
+	const float x = (float)(block % columns * 4 + lane % 4) + 0.5f, y = (float)(block / columns * 2 + lane / 4) + 0.5f;
+
+	d[0] = (2 * x / (float)b->width - 1) * b->view.inverse[0];
+	d[1] = (2 * y / (float)b->height - 1) * b->view.inverse[5];
+	d[2] = -1;
+}
+
+static void camera_1(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+{
+	for (size_t i = first; i < last; i++) {
+		struct RTCRayHit r = { .ray = { .tnear = 0.1f, .tfar = 1e30f, .mask = ~0u }, .hit = { .geomID = ~0u } };
+		float d[3];
+
+		camera_direction(p->peer->bench, i, d);
+		r.ray.dir_x = d[0], r.ray.dir_y = d[1], r.ray.dir_z = d[2];
+		r.hit.instID[0] = ~0u;
+		rtcIntersect1(p->peer->scene, context, &r);
+		p->hits[i] = (struct hit){ r.ray.tfar, r.hit.u, r.hit.v, r.hit.geomID, r.hit.primID };
+	}
+}
+
+#define CAMERA_N(N)                                                                                                    \
+	static void camera_##N(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)         \
+	{                                                                                                              \
+		_Alignas(64) int valid[N];                                                                             \
+		for (int k = 0; k < N; k++)                                                                            \
+			valid[k] = -1;                                                                                 \
+		for (size_t i = first; i < last; i += N) {                                                             \
+			_Alignas(64) struct RTCRayHit##N r;                                                            \
+			for (int k = 0; k < N; k++) {                                                                  \
+				float d[3];                                                                            \
+				camera_direction(p->peer->bench, i + (size_t)k, d);                                    \
+				r.ray.org_x[k] = r.ray.org_y[k] = r.ray.org_z[k] = 0;                                  \
+				r.ray.dir_x[k] = d[0], r.ray.dir_y[k] = d[1], r.ray.dir_z[k] = d[2];                   \
+				r.ray.tnear[k] = 0.1f, r.ray.tfar[k] = 1e30f, r.ray.time[k] = 0;                       \
+				r.ray.mask[k] = ~0u, r.ray.id[k] = r.ray.flags[k] = 0;                                 \
+				r.hit.geomID[k] = r.hit.instID[0][k] = ~0u;                                            \
+			}                                                                                              \
+			rtcIntersect##N(valid, p->peer->scene, context, &r);                                           \
+			for (int k = 0; k < N; k++)                                                                    \
+				p->hits[i + (size_t)k] = (struct hit){ r.ray.tfar[k], r.hit.u[k], r.hit.v[k],          \
+					                               r.hit.geomID[k], r.hit.primID[k] };             \
+		}                                                                                                      \
+	}
+CAMERA_N(4)
+CAMERA_N(8)
+CAMERA_N(16)
+
+static void camera_1m(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+{
+	struct RTCRayHit r[256];
+
+	for (size_t i = first; i < last; i += 256) {
+		const size_t n = last - i < 256 ? last - i : 256;
+
+		for (size_t k = 0; k < n; k++) {
+			float d[3];
+
+			camera_direction(p->peer->bench, i + k, d);
+			r[k] = (struct RTCRayHit){ .ray = { .tnear = 0.1f, .tfar = 1e30f, .mask = ~0u }, .hit = { .geomID = ~0u } };
+			r[k].ray.dir_x = d[0], r[k].ray.dir_y = d[1], r[k].ray.dir_z = d[2];
+			r[k].hit.instID[0] = ~0u;
+		}
+		rtcIntersect1M(p->peer->scene, context, r, (unsigned)n, sizeof(*r));
+		for (size_t k = 0; k < n; k++)
+			p->hits[i + k] = (struct hit){ r[k].ray.tfar, r[k].hit.u, r[k].hit.v, r[k].hit.geomID, r[k].hit.primID };
+	}
+}
+
+#define OCCLUDE_N(N)                                                                                                   \
+	static size_t occlude_##N(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)      \
+	{                                                                                                              \
+		struct RTCRay##N *rays = p->laid_out;                                                                  \
+		_Alignas(64) int valid[N];                                                                             \
+		for (int k = 0; k < N; k++)                                                                            \
+			valid[k] = -1;                                                                                 \
+		for (size_t i = first; i < last; i += N)                                                               \
+			rtcOccluded##N(valid, p->peer->scene, context, &rays[i / N]);                                  \
+		return 0;                                                                                              \
+	}                                                                                                              \
+	static void lay_out_##N(const struct ray *rays, size_t n, void *out)                                           \
+	{                                                                                                              \
+		struct RTCRay##N *r = out;                                                                             \
+		for (size_t i = 0; i < n; i++) {                                                                       \
+			struct RTCRay##N *to = &r[i / N];                                                              \
+			const size_t k = i % N;                                                                        \
+			to->org_x[k] = rays[i].o[0], to->org_y[k] = rays[i].o[1], to->org_z[k] = rays[i].o[2];         \
+			to->dir_x[k] = rays[i].d[0], to->dir_y[k] = rays[i].d[1], to->dir_z[k] = rays[i].d[2];         \
+			to->tnear[k] = rays[i].t_min, to->tfar[k] = rays[i].t_max;                                     \
+			to->time[k] = 0, to->mask[k] = ~0u, to->id[k] = to->flags[k] = 0;                              \
+		}                                                                                                      \
+	}                                                                                                              \
+	static float far_##N(const void *rays, size_t i)                                                               \
+	{                                                                                                              \
+		return ((const struct RTCRay##N *)rays)[i / N].tfar[i % N];                                            \
+	}
+OCCLUDE_N(4)
+OCCLUDE_N(8)
+OCCLUDE_N(16)
+
+static void occlude_1(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+{
+	struct RTCRay *rays = p->laid_out;
+
+	for (size_t i = first; i < last; i++)
+		rtcOccluded1(p->peer->scene, context, &rays[i]);
+}
+
+static void occlude_1m(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+{
+	struct RTCRay *rays = p->laid_out;
+
+	rtcOccluded1M(p->peer->scene, context, &rays[first], (unsigned)(last - first), sizeof(*rays));
+}
+
+static void lay_out_1(const struct ray *rays, size_t n, void *out)
+{
+	struct RTCRay *r = out;
+
+	for (size_t i = 0; i < n; i++)
+		r[i] = (struct RTCRay){ .org_x = rays[i].o[0], .org_y = rays[i].o[1], .org_z = rays[i].o[2],
+			                .dir_x = rays[i].d[0], .dir_y = rays[i].d[1], .dir_z = rays[i].d[2],
+			                .tnear = rays[i].t_min, .tfar = rays[i].t_max, .mask = ~0u };
+}
+
+static void lay_out(struct pass *p)
+{
+	switch (p->call) {
+	case CALL_4:
+		lay_out_4(p->rays, p->n, p->laid_out);
+		break;
+	case CALL_8:
+		lay_out_8(p->rays, p->n, p->laid_out);
+		break;
+	case CALL_16:
+		lay_out_16(p->rays, p->n, p->laid_out);
+		break;
+	default:
+		lay_out_1(p->rays, p->n, p->laid_out);
+	}
+}
+
+static float far_of(const struct pass *p, size_t i)
+{
+	switch (p->call) {
+	case CALL_4:
+		return far_4(p->laid_out, i);
+	case CALL_8:
+		return far_8(p->laid_out, i);
+	case CALL_16:
+		return far_16(p->laid_out, i);
+	default:
+		return ((const struct RTCRay *)p->laid_out)[i].tfar;
+	}
+}
+
+static void do_task(struct pass *p, struct RTCIntersectContext *context, size_t first, size_t last)
+{
+	const int camera = p->work == WORK_CAMERA;
+
+	switch (p->call) {
+	case CALL_1:
+		camera ? camera_1(p, context, first, last) : occlude_1(p, context, first, last);
+		break;
+	case CALL_4:
+		camera ? camera_4(p, context, first, last) : (void)occlude_4(p, context, first, last);
+		break;
+	case CALL_8:
+		camera ? camera_8(p, context, first, last) : (void)occlude_8(p, context, first, last);
+		break;
+	case CALL_16:
+		camera ? camera_16(p, context, first, last) : (void)occlude_16(p, context, first, last);
+		break;
+	default:
+		camera ? camera_1m(p, context, first, last) : occlude_1m(p, context, first, last);
+	}
+}
+
+static void *run_thread(void *arg)
+{
+	struct pass *p = arg;
+	struct RTCIntersectContext context;
+
+	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+	rtcInitIntersectContext(&context);
+	context.flags = p->work == WORK_AMBIENT ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+	                                        : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+	for (;;) {
+		const size_t first = atomic_fetch_add(&p->next, TASK_RAYS);
+
+		if (first >= p->n)
+			return NULL;
+		do_task(p, &context, first, first + TASK_RAYS < p->n ? first + TASK_RAYS : p->n);
+	}
+}
+
+/* One pass of Embree. */
+static double run_peer(struct pass *p)
+{
+	pthread_t threads[MAX_THREADS];
+	unsigned started = 0;
+	double start;
+
+	if (p->work != WORK_CAMERA)
+		lay_out(p);
+	p->next = 0;
+	start = progress_clock_s();
+	for (unsigned i = 1; i < p->peer->threads; i++)
+		started += pthread_create(&threads[started], NULL, run_thread, p) == 0;
+	run_thread(p);
+	while (started)
+		pthread_join(threads[--started], NULL);
+	return progress_clock_s() - start;
+}
+
+static size_t count_peer_hits(const struct pass *p)
+{
+	size_t hits = 0;
+
+	for (size_t i = 0; i < p->n; i++)
+		hits += p->work == WORK_CAMERA ? p->hits[i].instance != ~0u : far_of(p, i) < 0;
+	return hits;
+}
+
+static int open_peer(const struct bench *b, struct peer *peer)
+{
+	char config[64];
+	RTCGeometry geometry;
+	float *vertices;
+	unsigned *indices;
+
+	snprintf(config, sizeof(config), "threads=%u", peer->threads);
+	_MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+	_MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+	peer->bench = b;
+	peer->device = rtcNewDevice(config);
+	peer->scene = rtcNewScene(peer->device);
+	rtcSetSceneBuildQuality(peer->scene, RTC_BUILD_QUALITY_HIGH);
+	geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+	rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+	vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+	                                   b->mesh.n_vertices);
+	indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+	                                  b->mesh.n_triangles);
+	if (!vertices || !indices)
+		return err_report(ERR_SYSTEM, "Embree", "out of memory");
+	for (uint32_t i = 0; i < b->mesh.n_vertices; i++)
+		memcpy(vertices + 3 * (size_t)i, b->mesh.position[i], 3 * sizeof(float));
+	memcpy(indices, b->mesh.index, b->mesh.n_triangles * sizeof(*b->mesh.index));
+	rtcCommitGeometry(geometry);
+	rtcAttachGeometry(peer->scene, geometry);
+	rtcReleaseGeometry(geometry);
+	peer->build_s = progress_clock_s();
+	rtcCommitScene(peer->scene);
+	peer->build_s = progress_clock_s() - peer->build_s;
+	return rtcGetDeviceError(peer->device) ? err_report(ERR_SYSTEM, "Embree", "building failed") : 0;
+}
+
+/* The vector units Embree runs on: the widest of those it is built for that this processor has. */
+static const char *peer_isa(void)
+{
+	__builtin_cpu_init();
+	if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
+		return "AVX-512";
+	return __builtin_cpu_supports("avx2") ? "AVX2" : __builtin_cpu_supports("avx") ? "AVX" : "SSE";
+}
+
+/* One kind of rays, both sides. */
+struct result {
+	const char *name, *call, *kernel_name;
+	double ours, peer; /* Mrays/s */
+	size_t n, our_hits, peer_hits;
+};
+
+static const struct {
+	const char *name;
+	struct {
+		const char *name;
+		enum device_kernel kernel;
+	} kernels[2];
+} works[N_WORKS] = {
+	{ "camera", { { "camera_packet", KERNEL_camera_packet }, { NULL, 0 } } },
+	{ "shadow", { { "occlude_packet", KERNEL_occlude_packet }, { "occlude_wide", KERNEL_occlude_wide } } },
+	{ "incoherent", { { "occlude_packet", KERNEL_occlude_packet }, { "occlude_wide", KERNEL_occlude_wide } } },
+};
+
+static int run_ours(struct bench *b, enum work work, enum device_kernel kernel, double *seconds)
+{
+	return work == WORK_CAMERA ? bench_camera(b, kernel, seconds)
+	                           : bench_rays(b, kernel, work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT, seconds);
+}
+
+/* Alternate between our kernels and all of Embree's calls; the best median of each side counts. */
+static int compare(struct bench *b, struct peer *peer, enum work work, size_t repeats, struct result *r)
+{
+	double ours[2][MAX_REPEATS], theirs[N_CALLS][MAX_REPEATS], seconds;
+	struct pass pass = { .peer = peer, .work = work };
+	uint32_t hits = 0;
+	int err = 0;
+
+	pass.n = work == WORK_CAMERA ? (size_t)WIDTH * HEIGHT : b->n_rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
+	/* Whole packets of 16, so that no call has a tail to treat. */
+	pass.n -= pass.n % 16;
+	pass.rays = work == WORK_CAMERA ? NULL : b->rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT];
+	pass.hits = calloc(pass.n, sizeof(*pass.hits));
+	pass.laid_out = aligned_alloc(64, (pass.n * sizeof(struct RTCRay) + 64) / 64 * 64);
+	if (!pass.hits || !pass.laid_out) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto done;
+	}
+	r->name = works[work].name;
+	r->n = pass.n;
+	for (size_t i = 0; i <= repeats && !err; i++) {
+		const size_t slot = i ? i - 1 : 0; /* the first round warms up */
+
+		for (int k = 0; k < 2 && works[work].kernels[k].name && !err; k++)
+			err = run_ours(b, work, works[work].kernels[k].kernel, &ours[k][slot]);
+		for (int c = 0; c < N_CALLS && !err; c++) {
+			pass.call = (enum call)c;
+			theirs[c][slot] = run_peer(&pass);
+		}
+	}
+	for (int k = 0; k < 2 && works[work].kernels[k].name && !err; k++) {
+		seconds = (double)(work == WORK_CAMERA ? pass.n : b->n_rays[work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT]) /
+		          bench_median(ours[k], repeats) * 1e-6;
+		if (seconds > r->ours) {
+			r->ours = seconds;
+			r->kernel_name = works[work].kernels[k].name;
+		}
+	}
+	for (int c = 0; c < N_CALLS && !err; c++) {
+		seconds = (double)pass.n / bench_median(theirs[c], repeats) * 1e-6;
+		if (seconds > r->peer) {
+			r->peer = seconds;
+			r->call = call_names[c];
+		}
+	}
+	r->peer_hits = count_peer_hits(&pass);
+	if (!err)
+		err = work == WORK_CAMERA ? bench_count_camera_hits(b, &hits)
+		                          : bench_count_ray_hits(b, KERNEL_occlude_wide, work == WORK_SHADOW ? BENCH_SHADOW : BENCH_AMBIENT, &hits);
+	r->our_hits = hits;
+done:
+	free(pass.hits);
+	free(pass.laid_out);
+	return err;
+}
+
+static int write_json(const char *path, const struct bench *b, const struct peer *peer, const struct result *results,
+                      double bar, const char *command)
+{
+	FILE *out = fopen(path, "w");
+	const double ratio[2] = { results[0].ours / results[0].peer, results[1].ours / results[1].peer };
+
+	if (!out)
+		return err_report(ERR_SYSTEM, path, "cannot be written");
+	fprintf(out, "{\n  \"figure\": %.3f,\n  \"bar\": %.3f,\n", ratio[0] < ratio[1] ? ratio[0] : ratio[1], bar);
+	fprintf(out, "  \"unit\": \"times the peer's rays a second, the lesser of camera and shadow\",\n");
+	fprintf(out, "  \"peer\": \"Embree\",\n  \"peer_version\": \"%s, %s\",\n", RTC_VERSION_STRING, peer_isa());
+	fprintf(out, "  \"command\": \"%s\",\n  \"device\": \"%s\",\n", command, device_name(b->dev));
+	fprintf(out, "  \"triangles\": %u,\n  \"models\": \"%s\",\n  \"threads\": %u,\n", b->mesh.n_triangles, b->mesh.source,
+	        peer->threads);
+	fprintf(out, "  \"build_s\": { \"ours\": %.3f, \"peer\": %.3f },\n  \"rays\": [\n", b->build_s, peer->build_s);
+	for (int i = 0; i < N_WORKS; i++)
+		fprintf(out, "    { \"rays\": \"%s\", \"n\": %zu, \"ours_mrays_per_s\": %.2f, \"kernel\": \"%s\", "
+		             "\"peer_mrays_per_s\": %.2f, \"peer_call\": \"%s\", \"ratio\": %.3f, \"our_hits\": %zu, "
+		             "\"peer_hits\": %zu }%s\n",
+		        results[i].name, results[i].n, results[i].ours, results[i].kernel_name, results[i].peer,
+		        results[i].call, results[i].ours / results[i].peer, results[i].our_hits, results[i].peer_hits,
+		        i + 1 < N_WORKS ? "," : "");
+	fprintf(out, "  ]\n}\n");
+	return fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
+}
+
+int main(int argc, char **argv)
+{
+	struct result results[N_WORKS] = { { 0 } };
+	const char *json = NULL, *models = "../shared/models", *command = "embree";
+	struct device *dev = NULL;
+	struct bench *b = NULL;
+	struct peer peer = { 0 };
+	size_t repeats = 5;
+	double bar = 0;
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+	int err;
+
+	for (int i = 1; i + 1 < argc; i += 2) {
+		if (strcmp(argv[i], "--json") == 0)
+			json = argv[i + 1];
+		else if (strcmp(argv[i], "--models") == 0)
+			models = argv[i + 1];
+		else if (strcmp(argv[i], "--bar") == 0)
+			bar = atof(argv[i + 1]);
+		else if (strcmp(argv[i], "--command") == 0)
+			command = argv[i + 1];
+		else if (strcmp(argv[i], "--repeat") == 0)
+			repeats = strtoul(argv[i + 1], NULL, 10);
+		else
+			return -err_report(ERR_USAGE, NULL, "no option %s", argv[i]);
+	}
+	if (repeats < 1 || repeats > MAX_REPEATS)
+		return -err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
+	peer.threads = cores < 1 ? 1 : cores > MAX_THREADS ? MAX_THREADS : (unsigned)cores;
+	err = device_open(NULL, 0, &dev);
+	if (!err)
+		err = bench_create(dev, models, WIDTH, HEIGHT, &b);
+	if (!err)
+		err = open_peer(b, &peer);
+	for (int i = 0; i < N_WORKS && !err; i++)
+		err = compare(b, &peer, (enum work)i, repeats, &results[i]);
+	if (err)
+		goto done;
+	printf("%u triangles (%s), %ux%u, median of %zu\nours: %s\npeer: Embree %s on %s, %u threads\n", b->mesh.n_triangles,
+	       b->mesh.source, WIDTH, HEIGHT, repeats, device_name(dev), RTC_VERSION_STRING, peer_isa(), peer.threads);
+	for (int i = 0; i < N_WORKS; i++)
+		printf("%-11s %7.2f Mrays/s (%s)  Embree %7.2f (rtc*%s)  ratio %.2f%s\n", results[i].name, results[i].ours,
+		       results[i].kernel_name, results[i].peer, results[i].call, results[i].ours / results[i].peer,
+		       i == WORK_AMBIENT ? "  (for information)" : bar <= 0 ? "" : results[i].ours >= bar * results[i].peer ? "  reaches the bar" : "  BELOW THE BAR");
+	if (bar > 0)
+		printf("bar: %.2f for camera and shadow rays\n", bar);
+	if (json)
+		err = write_json(json, b, &peer, results, bar, command);
+	for (int i = 0; i < WORK_AMBIENT && !err; i++)
+		if (results[i].ours < bar * results[i].peer)
+			err = ERR_FAILED;
+done:
+	if (peer.scene)
+		rtcReleaseScene(peer.scene);
+	if (peer.device)
+		rtcReleaseDevice(peer.device);
+	bench_destroy(&b);
+	device_close(&dev);
+	return -err;
+}

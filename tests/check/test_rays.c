@@ -1,0 +1,272 @@
+/* The occlude and intersect kernels against their C twins, and the twins against all triangles one by one. */
+#include "tests/check/random_scene.h"
+
+#include "kernels/rays.h"
+
+#define N_RAYS 4099 /* not a multiple of a packet */
+#define GUARD 64
+#define GUARD_WORD 0xa5a5a5a5u
+
+struct result {
+	uint32_t occluded[N_RAYS + GUARD];
+	struct hit hits[N_RAYS + GUARD];
+};
+
+static struct ray *make_rays(struct random_scene *s)
+{
+	struct ray *rays = calloc(N_RAYS, sizeof(*rays));
+
+	for (uint32_t i = 0; i < N_RAYS; i++) {
+		struct ray *r = &rays[i];
+
+		/* Coherent for the first half, then all about; then what is strange. */
+		for (int a = 0; a < 3; a++) {
+			r->o[a] = i < N_RAYS / 2 ? 0 : between(s, -4, 4);
+			r->d[a] = i < N_RAYS / 2 ? (a == 2 ? -1 : ((float)(a ? i / 64 % 64 : i % 64) - 32) / 40) : between(s, -1, 1);
+		}
+		r->t_min = i % 5 ? 0 : between(s, 0, 3);
+		r->t_max = i % 3 ? INFINITY : between(s, 0, 9);
+		switch (i % 97) {
+		case 11: /* along an axis */
+			r->d[0] = r->d[1] = 0;
+			break;
+		case 12:
+			r->d[1] = r->d[2] = -0.0f;
+			break;
+		case 23: /* no direction */
+			r->d[0] = r->d[1] = r->d[2] = 0;
+			break;
+		case 31:
+			r->o[i % 3] = NAN;
+			break;
+		case 37:
+			r->d[i % 3] = i % 2 ? NAN : INFINITY;
+			break;
+		case 41: /* nothing between */
+			r->t_min = 2;
+			r->t_max = 1;
+			break;
+		case 43:
+			r->t_max = NAN;
+			break;
+		case 47: /* from far away */
+			for (int a = 0; a < 3; a++) {
+				r->o[a] -= 1e6f * r->d[a];
+			}
+			break;
+		case 53: /* a tiny direction, and a huge one */
+			for (int a = 0; a < 3; a++)
+				r->d[a] *= i % 2 ? 1e-12f : 1e12f;
+			break;
+		case 59: /* into a corner that triangles have in common */
+			for (int a = 0; a < 3; a++)
+				r->d[a] = s->instances[0].eye_from_obj[4 * a + 3] - r->o[a];
+			break;
+		}
+	}
+	return rays;
+}
+
+static void run(struct random_scene *s, struct device *dev, const struct ray *rays, int wide, struct result *out)
+{
+	const struct accel *a = s->accel;
+	const uint32_t n = N_RAYS, top_first = wide ? s->spaces[0].top8_first : s->spaces[0].top2_first;
+	struct device_buffer *b[] = {
+		make_buffer(dev, rays, N_RAYS * sizeof(*rays)),
+		wide ? make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)) : make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)),
+		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
+		make_buffer(dev, s->instances, sizeof(s->instances)),
+		wide ? make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8))
+		     : make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
+		wide ? make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))
+		     : make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
+		NULL, NULL,
+	};
+	const uint32_t items = wide ? n : (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
+
+	memset(out, 0xa5, sizeof(*out));
+	b[6] = make_buffer(dev, out->occluded, sizeof(out->occluded));
+	b[7] = make_buffer(dev, out->hits, sizeof(out->hits));
+	for (int kind = 0; kind < 2; kind++) {
+		const struct device_arg args[] = {
+			ARG_VALUE(n), ARG_BUFFER(b[0]), ARG_VALUE(top_first), ARG_BUFFER(b[1]), ARG_BUFFER(b[2]),
+			ARG_BUFFER(b[3]), ARG_BUFFER(b[4]), ARG_BUFFER(b[5]), ARG_BUFFER(b[6 + kind]),
+		};
+		const enum device_kernel kernel = kind ? (wide ? KERNEL_intersect_wide : KERNEL_intersect_packet)
+		                                       : (wide ? KERNEL_occlude_wide : KERNEL_occlude_packet);
+
+		ck_assert_int_eq(device_run(dev, kernel, items, args, 9), 0);
+	}
+	ck_assert_int_eq(device_read(dev, b[6], 0, out->occluded, sizeof(out->occluded)), 0);
+	ck_assert_int_eq(device_read(dev, b[7], 0, out->hits, sizeof(out->hits)), 0);
+	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
+		device_release(dev, &b[i]);
+	for (uint32_t i = 0; i < GUARD; i++) {
+		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD, "occlude writes past its end");
+		ck_assert_msg(out->hits[N_RAYS + i].primitive == GUARD_WORD, "intersect writes past its end");
+	}
+}
+
+/* All triangles of all instances, in the object space of each and in double precision. */
+static struct hit hit_all(const struct random_scene *s, const struct ray *ray, double *margin)
+{
+	struct hit best = { ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
+
+	*margin = 1;
+	for (uint32_t k = 0; k < INSTANCES; k++) {
+		const struct scene_mesh *mesh = s->mesh_list[s->scene_instances[k].mesh];
+		const float *m = s->instances[k].obj_from_eye;
+		double o[3], d[3];
+
+		for (int row = 0; row < 3; row++, m += 4) {
+			o[row] = (double)m[0] * ray->o[0] + (double)m[1] * ray->o[1] + (double)m[2] * ray->o[2] + m[3];
+			d[row] = (double)m[0] * ray->d[0] + (double)m[1] * ray->d[1] + (double)m[2] * ray->d[2];
+		}
+		for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+			double e1[3], e2[3], v[3], p[3], q[3], det, b1, b2, t, edge;
+
+			for (int a = 0; a < 3; a++) {
+				const float *p0 = mesh->position + 4 * (size_t)mesh->index[3 * i];
+
+				e1[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * i + 1] + (size_t)a] - p0[a];
+				e2[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * i + 2] + (size_t)a] - p0[a];
+				v[a] = o[a] - p0[a];
+			}
+			for (int a = 0; a < 3; a++)
+				p[a] = d[(a + 1) % 3] * e2[(a + 2) % 3] - d[(a + 2) % 3] * e2[(a + 1) % 3];
+			det = e1[0] * p[0] + e1[1] * p[1] + e1[2] * p[2];
+			b1 = (v[0] * p[0] + v[1] * p[1] + v[2] * p[2]) / det;
+			for (int a = 0; a < 3; a++)
+				q[a] = v[(a + 1) % 3] * e1[(a + 2) % 3] - v[(a + 2) % 3] * e1[(a + 1) % 3];
+			b2 = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
+			t = (e2[0] * q[0] + e2[1] * q[1] + e2[2] * q[2]) / det;
+			edge = fmin(fmin(b1, b2), 1 - b1 - b2);
+			/* How close any candidate comes to an edge, an end of the ray or the nearest hit: too close to call. */
+			if (edge > -1e-3 && t > -1e9 && t < 1e9)
+				*margin = fmin(*margin, fmin(fabs(edge), fmin(fabs(t - ray->t_min), fabs(t - ray->t_max)) / (1 + fabs(t))));
+			if (edge >= 0 && t >= ray->t_min && t <= ray->t_max) {
+				if (best.instance != SCENE_NONE)
+					*margin = fmin(*margin, fabs(t - best.t) / (1 + fabs(t)));
+				if (t < best.t || best.instance == SCENE_NONE)
+					best = (struct hit){ (float)t, (float)b1, (float)b2, k, i };
+			}
+		}
+	}
+	return best;
+}
+
+static int is_usable(const struct ray *r)
+{
+	for (int a = 0; a < 3; a++)
+		if (!isfinite(r->o[a]) || !isfinite(r->d[a]))
+			return 0;
+	return r->t_min <= r->t_max;
+}
+
+START_TEST(twins_find_what_all_triangles_give)
+{
+	struct random_scene *s = random_scene_create(choose_seed());
+	struct ray *rays = make_rays(s);
+	struct result *got = malloc(sizeof(*got));
+	struct device *dev;
+	uint32_t compared = 0;
+
+	ck_assert_int_eq(device_open("reference", 1, &dev), 0);
+	for (int wide = 0; wide < 2; wide++) {
+		run(s, dev, rays, wide, got);
+		for (uint32_t i = 0; i < N_RAYS; i++) {
+			double margin = 1;
+			struct hit want = { 0, 0, 0, SCENE_NONE, SCENE_NONE };
+
+			if (is_usable(&rays[i]))
+				want = hit_all(s, &rays[i], &margin);
+			if (margin < 1e-4 || i % 97 == 47)
+				continue;
+			compared++;
+			ck_assert_msg(got->hits[i].instance == want.instance && got->hits[i].primitive == want.primitive,
+			              "ray %u (wide %d): instance %d primitive %d t %g, all triangles give %d %d %g", i, wide,
+			              (int)got->hits[i].instance, (int)got->hits[i].primitive, got->hits[i].t, (int)want.instance,
+			              (int)want.primitive, want.t);
+			ck_assert_msg(got->occluded[i] == (want.instance != SCENE_NONE), "ray %u (wide %d): occluded %u", i, wide,
+			              got->occluded[i]);
+		}
+	}
+	ck_assert_uint_gt(compared, N_RAYS);
+	device_close(&dev);
+	free(rays);
+	free(got);
+	random_scene_free(s);
+}
+END_TEST
+
+static void compare(const struct result *want, const struct result *got, const char *what)
+{
+	for (uint32_t i = 0; i < N_RAYS; i++) {
+		const struct hit *a = &want->hits[i], *b = &got->hits[i];
+		const int tie = a->t == b->t && a->instance != SCENE_NONE && b->instance != SCENE_NONE;
+
+		ck_assert_msg(want->occluded[i] == got->occluded[i], "%s: ray %u: occluded %u, the twin has %u", what, i,
+		              got->occluded[i], want->occluded[i]);
+		ck_assert_msg(tie || (a->instance == b->instance && a->primitive == b->primitive),
+		              "%s: ray %u: instance %d primitive %d t %g, the twin has %d %d %g", what, i, (int)b->instance,
+		              (int)b->primitive, b->t, (int)a->instance, (int)a->primitive, a->t);
+		ck_assert_msg(tie || a->instance == SCENE_NONE ||
+		                      (fabsf(a->t - b->t) <= 1e-5f * fabsf(a->t) && fabsf(a->b1 - b->b1) <= 1e-5f &&
+		                       fabsf(a->b2 - b->b2) <= 1e-5f),
+		              "%s: ray %u: t %.9g b %.9g %.9g, the twin has %.9g %.9g %.9g", what, i, b->t, b->b1, b->b2, a->t,
+		              a->b1, a->b2);
+	}
+}
+
+START_TEST(kernels_agree_with_twins)
+{
+	struct random_scene *s = random_scene_create(choose_seed());
+	struct ray *rays = make_rays(s);
+	struct result *want = malloc(sizeof(*want)), *got = malloc(sizeof(*got)), *again = malloc(sizeof(*again));
+	struct device_description *list = NULL;
+	struct device *reference, *dev;
+	size_t n_devices;
+	char number[32], what[256];
+
+	ck_assert_int_eq(device_open("reference", 1, &reference), 0);
+	ck_assert_int_eq(device_list(&list, &n_devices), 0);
+	for (size_t k = 0; k < n_devices; k++) {
+		snprintf(number, sizeof(number), "%zu", k);
+		ck_assert_int_eq(device_open(number, 0, &dev), 0);
+		for (int wide = 0; wide < 2; wide++) {
+			snprintf(what, sizeof(what), "%s, %s", list[k].name, wide ? "wide" : "packet");
+			run(s, reference, rays, wide, want);
+			run(s, dev, rays, wide, got);
+			compare(want, got, what);
+			run(s, dev, rays, wide, again);
+			ck_assert_msg(memcmp(got, again, sizeof(*got)) == 0, "%s: two runs differ", what);
+		}
+		device_close(&dev);
+	}
+	device_close(&reference);
+	free(list);
+	free(rays);
+	free(want);
+	free(got);
+	free(again);
+	random_scene_free(s);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("rays");
+	TCase *tests = tcase_create("rays");
+	SRunner *runner;
+	int failed;
+
+	tcase_set_timeout(tests, 120);
+	tcase_add_test(tests, twins_find_what_all_triangles_give);
+	tcase_add_test(tests, kernels_agree_with_twins);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
