@@ -502,9 +502,13 @@ static void read_details(struct trace_reader *r, struct pending *p)
 			for (; call->n_args <= index; call->n_args++)
 				p->args[call->n_args].type = TRACE_NONE;
 			read_value(r, &p->arena, &p->args[index], 0);
+			if (r->status)
+				p->args[index].type = TRACE_NONE;
 			break;
 		case 2:
 			read_value(r, &p->arena, &call->ret, 0);
+			if (r->status)
+				call->ret.type = TRACE_NONE;
 			break;
 		case 4:
 			skip_backtrace(r, &p->arena);

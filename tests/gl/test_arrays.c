@@ -1,0 +1,163 @@
+/* Vertex arrays and buffer objects (GL 2.1 sec. 2.8, 2.9). */
+#include <math.h>
+
+#include "tests/gl/gl.h"
+
+static const float square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+static const uint8_t colors[4][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 0 } };
+
+static void client_arrays(struct gl *gl)
+{
+	gl_call(gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
+	gl_call(gl, "glEnableClientState", "e", GL_COLOR_ARRAY);
+	gl_call(gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(square), square);
+	gl_call(gl, "glColorPointer", "ieib", 4, GL_UNSIGNED_BYTE, 0, sizeof(colors), colors);
+}
+
+START_TEST(test_client_arrays)
+{
+	static const uint16_t indices[] = { 2, 3, 0, 2, 3, 1 };
+	struct gl gl = gl_open();
+	const struct scene_mesh *m;
+	struct scene *s;
+
+	client_arrays(&gl);
+	gl_call(&gl, "glDrawArrays", "eii", GL_QUADS, 0, 4);
+	gl_call(&gl, "glDrawElements", "eieb", GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, sizeof(indices), indices);
+	gl_call(&gl, "glDrawElements", "eieb", GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, sizeof(indices), indices);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 3);
+	ck_assert_uint_eq(s->n_meshes, 2);
+	m = s->meshes[s->instances[0].mesh];
+	ck_assert_floats(16, m->position, 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1);
+	ck_assert_floats(16, m->color, 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 0);
+	m = s->meshes[s->instances[1].mesh]; /* vertices in order of first use: 2 3 0 1 */
+	ck_assert_uint_eq(m->vertex_count, 4);
+	ck_assert_floats(4, m->position, 1, 1, 0, 1);
+	ck_assert_mem_eq(m->index, ((uint32_t[]){ 0, 1, 2, 0, 1, 3 }), 24);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Buffers: interleaved, strides and offsets, indices in a buffer, new contents, mapped memory. */
+START_TEST(test_buffers)
+{
+	static const struct { float position[3]; uint8_t color[4]; } data[3] = {
+		{ { 0, 0, 5 }, { 255, 0, 0, 255 } }, { { 1, 0, 5 }, { 0, 255, 0, 255 } }, { { 0, 1, 5 }, { 0, 0, 255, 255 } } };
+	static const uint8_t indices[] = { 9, 0, 1, 2 };
+	static const float nine = 9;
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 3u);
+	gl_call(&gl, "glBufferData", "eibe", GL_ARRAY_BUFFER, (int)sizeof(data), sizeof(data), data, GL_STATIC_DRAW);
+	gl_call(&gl, "glVertexPointer", "ieip", 3, GL_FLOAT, 16, (uint64_t)0);
+	gl_call(&gl, "glColorPointer", "ieip", 4, GL_UNSIGNED_BYTE, 16, (uint64_t)12);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 0u);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ELEMENT_ARRAY_BUFFER, 4u);
+	gl_call(&gl, "glBufferData", "eibe", GL_ELEMENT_ARRAY_BUFFER, 4, sizeof(indices), indices, GL_STATIC_DRAW);
+	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
+	gl_call(&gl, "glEnableClientState", "e", GL_COLOR_ARRAY);
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)1);
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0); /* index 9: beyond the end */
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 3u);
+	gl_call_address(&gl, 0x7000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
+	gl_call(&gl, "memcpy", "pbi", (uint64_t)0x7000 + 16, sizeof(nine), &nine, 4);
+	gl_call(&gl, "glUnmapBuffer", "e", GL_ARRAY_BUFFER);
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)1);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_floats(12, s->meshes[0]->position, 0, 0, 5, 1, 1, 0, 5, 1, 0, 1, 5, 1);
+	ck_assert_floats(4, s->meshes[0]->color + 8, 0, 0, 1, 1);
+	ck_assert_floats(5, s->meshes[1]->position, 0, 0, 5, 1, 9);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A list takes what the arrays held when it was made. */
+START_TEST(test_into_list)
+{
+	static const float moved[4][2] = { { 5, 0 }, { 6, 0 }, { 6, 1 }, { 5, 1 } };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	client_arrays(&gl);
+	gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
+	gl_call(&gl, "glDrawArrays", "eii", GL_QUADS, 0, 4);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(moved), moved);
+	gl_call(&gl, "glCallList", "u", 1u);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 1);
+	ck_assert_floats(1, s->meshes[0]->position, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+START_TEST(test_array_element)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	client_arrays(&gl);
+	gl_call(&gl, "glBegin", "e", GL_TRIANGLES);
+	for (int i = 0; i < 3; i++)
+		gl_call(&gl, "glArrayElement", "i", i);
+	gl_call(&gl, "glEnd", "");
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_primitives, 1);
+	ck_assert_floats(8, s->meshes[0]->color, 1, 0, 0, 1, 0, 1, 0, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Table 2.5. */
+START_TEST(test_interleaved)
+{
+	static const float t2f_n3f_v3f[3][8] = {
+		{ 0, 0, 0, 0, 1, 0, 0, 7 }, { 1, 0, 0, 0, 1, 1, 0, 7 }, { 0, 1, 0, 0, 1, 0, 1, 7 } };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glInterleavedArrays", "eib", GL_T2F_N3F_V3F, 0, sizeof(t2f_n3f_v3f), t2f_n3f_v3f);
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->meshes[0]->attributes, SCENE_HAS_NORMAL | SCENE_HAS_TEXCOORD);
+	ck_assert_floats(4, s->meshes[0]->position, 0, 0, 7, 1);
+	ck_assert_floats(8, s->meshes[0]->texcoord[0], 0, 0, 0, 1, 1, 0, 0, 1);
+	ck_assert_floats(3, s->meshes[0]->normal, 0, 0, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+START_TEST(test_errors_and_shortness)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3); /* no vertex array: nothing, and no error */
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	client_arrays(&gl);
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, -1);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glDrawArrays", "eii", 44u, 0, 3);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_FLOAT, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 2, 3); /* more than was recorded */
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("arrays", test_client_arrays, test_buffers, test_into_list, test_array_element, test_interleaved,
+         test_errors_and_shortness)
