@@ -4,9 +4,11 @@
 #include <getopt.h>
 #include <inttypes.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/err.h"
 #include "base/frames.h"
@@ -165,11 +167,35 @@ static int list_frames(const struct set *ref, const struct set *traced, const st
 	return 0;
 }
 
-/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
-static int score_one(struct set *ref, struct set *traced, uint64_t frame, const struct score_options *options,
-                     struct score *out)
+/* What the threads share. Frames are scored by whoever comes first; memory grows with threads, not with frames. */
+struct work {
+	struct set *ref, *traced;
+	const uint64_t *frames;
+	const struct score_options *options;
+	struct output_run *run;
+
+	pthread_mutex_t lock; /* over all below, and over reading from a .ref file */
+	struct progress progress;
+	size_t next;
+	int err;
+};
+
+static int read_locked(struct work *w, struct set *set, const struct set_entry *entry, struct image *img)
 {
-	const struct set_entry *r = set_find(ref, frame), *t = set_find(traced, frame);
+	int err;
+
+	if (entry->path)
+		return set_read(set, entry, img);
+	pthread_mutex_lock(&w->lock);
+	err = set_read(set, entry, img);
+	pthread_mutex_unlock(&w->lock);
+	return err;
+}
+
+/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
+static int score_one(struct work *w, uint64_t frame, struct score *out)
+{
+	const struct set_entry *r = set_find(w->ref, frame), *t = set_find(w->traced, frame);
 	struct image ref_image = { 0 }, image = { 0 };
 	struct score_picture picture = { 0 };
 	int err = 0;
@@ -177,15 +203,15 @@ static int score_one(struct set *ref, struct set *traced, uint64_t frame, const 
 	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
 	if (!r || !t)
 		return 0;
-	err = set_read(ref, r, &ref_image);
+	err = read_locked(w, w->ref, r, &ref_image);
 	if (!err)
-		err = picture_take_reference(&ref_image, options->channel, &picture);
+		err = picture_take_reference(&ref_image, w->options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
-		err_report(ERR_INPUT, r->path ? r->path : ref->name, "the reference has no colour channels");
+		err_report(ERR_INPUT, r->path ? r->path : w->ref->name, "the reference has no colour channels");
 	if (!err)
-		err = set_read(traced, t, &image);
+		err = read_locked(w, w->traced, t, &image);
 	if (!err)
-		err = score_frame(&picture, &image, frame, options, out);
+		err = score_frame(&picture, &image, frame, w->options, out);
 	if (err == ERR_INPUT) {
 		out->outcome = SCORE_FRAME_UNREADABLE;
 		err = 0;
@@ -196,25 +222,51 @@ static int score_one(struct set *ref, struct set *traced, uint64_t frame, const 
 	return err;
 }
 
+static void *score_frames(void *arg)
+{
+	struct work *w = arg;
+
+	pthread_mutex_lock(&w->lock);
+	while (!w->err && w->next < w->run->n_scores) {
+		size_t i = w->next++;
+		struct score *s = &w->run->scores[i];
+		char text[64];
+		int err;
+
+		pthread_mutex_unlock(&w->lock);
+		err = score_one(w, w->frames[i], s);
+		snprintf(text, sizeof(text), "%s, fidelity %.3f %%", score_outcome_names[s->outcome], 100 * s->fidelity);
+		pthread_mutex_lock(&w->lock);
+		if (err)
+			w->err = err;
+		w->run->counts[s->outcome]++;
+		progress_step(&w->progress, w->frames[i], text);
+	}
+	pthread_mutex_unlock(&w->lock);
+	return NULL;
+}
+
 static int score_all(struct set *ref, struct set *traced, const uint64_t *frames, const struct options *o,
                      struct output_run *run)
 {
-	struct progress progress;
-	int err = 0;
+	enum { MAX_THREADS = 16 };
+	struct work w = { .ref = ref, .traced = traced, .frames = frames, .options = &o->score, .run = run,
+	                  .lock = PTHREAD_MUTEX_INITIALIZER };
+	pthread_t threads[MAX_THREADS];
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+	int n = 0;
 
-	progress_begin(&progress, "scored", run->n_scores);
-	for (size_t i = 0; !err && i < run->n_scores; i++) {
-		struct score *s = &run->scores[i];
-		char text[64];
-
-		err = score_one(ref, traced, frames[i], &o->score, s);
-		run->counts[s->outcome]++;
-		snprintf(text, sizeof(text), "%s, fidelity %.3f %%", score_outcome_names[s->outcome], 100 * s->fidelity);
-		progress_step(&progress, frames[i], text);
-	}
-	progress_end(&progress);
-	run->seconds = progress_clock_s() - progress.start_s;
-	return err;
+	progress_begin(&w.progress, "scored", run->n_scores);
+	/* this thread works, too; one that does not start is no loss but time */
+	while (n < MAX_THREADS && n + 1 < cores && (size_t)n + 1 < run->n_scores &&
+	       pthread_create(&threads[n], NULL, score_frames, &w) == 0)
+		n++;
+	score_frames(&w);
+	while (n > 0)
+		pthread_join(threads[--n], NULL);
+	progress_end(&w.progress);
+	run->seconds = progress_clock_s() - w.progress.start_s;
+	return w.err;
 }
 
 /** "relume" and all words of the verb, for the page; the caller's, NULL without memory. getopt has sorted the words. */
