@@ -18,10 +18,21 @@ said() {
 	sed -n 's/^relume: .*: \([0-9]*\) frames, .*/\1/p' "$1"
 }
 
+# Wait until a trace has something in it.
+until_drawn() {
+	for _ in $(seq 300); do
+		[ "$(stat -c %s "$1" 2>/dev/null || echo 0)" -gt 20000 ] && return
+		sleep 0.1
+	done
+	fail "$1: nothing drawn in 30 s"
+}
+
 # Killed at some moment: every frame that was complete is in the file.
-for delay in 0.3 0.4 0.5 0.7 0.9; do
+for delay in 0 0.01 0.05 0.1 0.3; do
+	rm -f "$TMPDIR/kill.trace"
 	"$RELUME" record -o "$TMPDIR/kill.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>"$TMPDIR/log" &
 	recorder=$!
+	until_drawn "$TMPDIR/kill.trace"
 	sleep "$delay"
 	kill -KILL "$(cat "$TMPDIR/pid")"
 	wait $recorder
@@ -35,20 +46,20 @@ done
 # The command killed with the program: the trace is the same.
 "$RELUME" record -o "$TMPDIR/both.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>&1 &
 recorder=$!
-sleep 0.6
+until_drawn "$TMPDIR/both.trace"
 kill -KILL $recorder "$(cat "$TMPDIR/pid")"
 wait $recorder 2>/dev/null
 [ "$(frames_of "$TMPDIR/both.trace")" -gt 0 ] || fail "command and program killed: no frame in the trace"
 
 # A file that may not grow (RLIMIT_FSIZE, which raises SIGXFSZ): the recording ends, says so once, the program goes on.
 (
-	ulimit -f 256 # of 512 bytes
-	SHIM_FRAMES=3000 LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so "$RELUME" record -o "$TMPDIR/limit.trace" \
+	ulimit -f 160 # of 512 bytes: the command's own 72 kB of figures must fit
+	SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so" -o "$TMPDIR/limit.trace" \
 		-- glxgears 2>"$TMPDIR/log"
 	echo $? >"$TMPDIR/code"
 ) | grep -c ^frame >"$TMPDIR/frames"
 code=$(cat "$TMPDIR/code")
-[ "$(cat "$TMPDIR/frames")" -eq 3000 ] || fail "the program ended with its recording (file size limit)"
+[ "$(cat "$TMPDIR/frames")" -eq 1200 ] || fail "the program ended with its recording (file size limit)"
 [ $code -eq 5 ] || fail "exit code $code where the recording ended early"
 [ "$(grep -c 'recording ends' "$TMPDIR/log")" -eq 1 ] || fail "the end of the recording was not said once"
 got=$(frames_of "$TMPDIR/limit.trace")
@@ -56,13 +67,13 @@ got=$(frames_of "$TMPDIR/limit.trace")
 
 # A full disk.
 mkdir "$TMPDIR/small"
-if mount -t tmpfs -o size=96k none "$TMPDIR/small" 2>/dev/null; then
-	SHIM_FRAMES=3000 LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so "$RELUME" record -o "$TMPDIR/small/full.trace" \
+if mount -t tmpfs -o size=80k none "$TMPDIR/small" 2>/dev/null; then
+	SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so" -o "$TMPDIR/small/full.trace" \
 		--ref color -- glxgears >"$TMPDIR/frames" 2>"$TMPDIR/log"
 	got=$(frames_of "$TMPDIR/small/full.trace")
 	complete=$(said "$TMPDIR/log")
 	umount "$TMPDIR/small"
-	[ "$(grep -c ^frame "$TMPDIR/frames")" -eq 3000 ] || fail "the program ended with its recording (full disk)"
+	[ "$(grep -c ^frame "$TMPDIR/frames")" -eq 1200 ] || fail "the program ended with its recording (full disk)"
 	[ "$got" -ge "$complete" ] && [ "$got" -gt 0 ] || fail "full disk: $complete frames complete, $got in the trace"
 else
 	echo "no tmpfs to be mounted here: the full disk was not tried"
@@ -81,7 +92,7 @@ fi
 [ "$(wc -c <"$TMPDIR/victim")" -eq 6 ] || fail "the recorder wrote into the program's file"
 
 # A program whose child draws as well: a trace each.
-"$RELUME" record -o "$TMPDIR/two.trace" -- sh -c 'timeout 1 glxgears; timeout 1 glxgears; exit 3' >/dev/null 2>"$TMPDIR/log"
+"$RELUME" record -o "$TMPDIR/two.trace" -- sh -c 'timeout 3 glxgears; timeout 3 glxgears; exit 3' >/dev/null 2>"$TMPDIR/log"
 [ $? -eq 3 ] || fail "the program's exit code is not passed on"
 [ "$(frames_of "$TMPDIR/two.trace")" -gt 0 ] && [ "$(frames_of "$TMPDIR/two.1.trace")" -gt 0 ] ||
 	fail "two processes: $(cat "$TMPDIR/log")"

@@ -9,8 +9,8 @@ shim=$RELUME_BUILD/tests/real/checksum_shim.so
 export SHIM_FRAMES=50
 
 LD_PRELOAD=$shim glxgears 2>/dev/null | grep ^frame >"$TMPDIR/bare"
-LD_PRELOAD=$shim "$RELUME" record -o "$TMPDIR/a.trace" -- glxgears 2>/dev/null | grep ^frame >"$TMPDIR/recorded"
-LD_PRELOAD=$shim "$RELUME" record -o "$TMPDIR/b.trace" --ref color,depth -- glxgears 2>/dev/null | grep ^frame >"$TMPDIR/read"
+"$RELUME" record -o "$TMPDIR/a.trace" --env "LD_PRELOAD=$shim" -- glxgears 2>/dev/null | grep ^frame >"$TMPDIR/recorded"
+"$RELUME" record -o "$TMPDIR/b.trace" --env "LD_PRELOAD=$shim" --ref color,depth -- glxgears 2>/dev/null | grep ^frame >"$TMPDIR/read"
 if [ "$(wc -l <"$TMPDIR/bare")" -ne $SHIM_FRAMES ] || [ "$(sort -u -k4 "$TMPDIR/bare" | wc -l)" -lt 40 ]; then
 	cat "$TMPDIR/bare"
 	echo "the program drew no $SHIM_FRAMES different frames"
