@@ -2,6 +2,7 @@
 #   make deps               install the Debian packages that are missing
 #   make demo               record, ray trace and score a real program
 #   make check              all tests; ONLY="part of a name" runs some
+#   make bench              the traversal kernels beside Embree's
 #   make show               all figures beside their bars
 #   V=1                     show commands
 #   SAN=address,undefined   sanitizer build, in a folder of its own
@@ -160,13 +161,27 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity
+SHOWS := show-parity show-rays
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
 
 show-parity: all
 	@$(PYTHON) tests/show/parity.py $(BUILD)
+
+# The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
+MODELS ?= ../shared/models
+$(BUILD)/tests/bench/embree: tests/bench/embree.c $(BUILD)/parts.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS)
+
+bench: $(BUILD)/tests/bench/embree
+	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
+
+show-rays: $(BUILD)/tests/bench/embree
+	@mkdir -p $(BUILD)/show
+	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
 
 # Not part of `make show`: needs root, and minutes.
 show-fresh:
@@ -180,6 +195,6 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps check demo show show-parity show-fresh golden-update clean FORCE
+.PHONY: all deps check demo show show-parity bench show-rays show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

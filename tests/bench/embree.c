@@ -411,6 +411,7 @@ done:
 	return err;
 }
 
+/* One object: the lesser ratio beside its bar, a row for each kind of rays (tests/show/table.py), and all figures. */
 static int write_json(const char *path, const struct bench *b, const struct peer *peer, const struct result *results,
                       double bar, const char *command)
 {
@@ -419,20 +420,30 @@ static int write_json(const char *path, const struct bench *b, const struct peer
 
 	if (!out)
 		return err_report(ERR_SYSTEM, path, "cannot be written");
-	fprintf(out, "{\n  \"figure\": %.3f,\n  \"bar\": %.3f,\n", ratio[0] < ratio[1] ? ratio[0] : ratio[1], bar);
+	fprintf(out, "{\n  \"name\": \"rays\",\n  \"command\": \"%s\",\n", command);
+	fprintf(out, "  \"figure\": %.3f,\n  \"bar\": ", ratio[0] < ratio[1] ? ratio[0] : ratio[1]);
+	fprintf(out, bar > 0 ? "%.3f,\n" : "null,\n", bar);
 	fprintf(out, "  \"unit\": \"times the peer's rays a second, the lesser of camera and shadow\",\n");
 	fprintf(out, "  \"peer\": \"Embree\",\n  \"peer_version\": \"%s, %s\",\n", RTC_VERSION_STRING, peer_isa());
-	fprintf(out, "  \"command\": \"%s\",\n  \"device\": \"%s\",\n", command, device_name(b->dev));
+	fprintf(out, "  \"device\": \"%s\",\n", device_name(b->dev));
 	fprintf(out, "  \"triangles\": %u,\n  \"models\": \"%s\",\n  \"threads\": %u,\n", b->mesh.n_triangles, b->mesh.source,
 	        peer->threads);
-	fprintf(out, "  \"build_s\": { \"ours\": %.3f, \"peer\": %.3f },\n  \"rays\": [\n", b->build_s, peer->build_s);
-	for (int i = 0; i < N_WORKS; i++)
-		fprintf(out, "    { \"rays\": \"%s\", \"n\": %zu, \"ours_mrays_per_s\": %.2f, \"kernel\": \"%s\", "
-		             "\"peer_mrays_per_s\": %.2f, \"peer_call\": \"%s\", \"ratio\": %.3f, \"our_hits\": %zu, "
-		             "\"peer_hits\": %zu }%s\n",
-		        results[i].name, results[i].n, results[i].ours, results[i].kernel_name, results[i].peer,
-		        results[i].call, results[i].ours / results[i].peer, results[i].our_hits, results[i].peer_hits,
+	fprintf(out, "  \"build_s\": { \"ours\": %.3f, \"peer\": %.3f },\n  \"rows\": [\n", b->build_s, peer->build_s);
+	for (int i = 0; i < N_WORKS; i++) {
+		const struct result *r = &results[i];
+		const int judged = i != WORK_AMBIENT && bar > 0;
+
+		fprintf(out, "    { \"what\": \"%s rays\", \"figure\": \"%.2f times\", ", r->name, r->ours / r->peer);
+		if (judged)
+			fprintf(out, "\"bar\": \"%.2f times\", \"passed\": %s, ", bar, r->ours >= bar * r->peer ? "true" : "false");
+		else
+			fprintf(out, "\"bar\": null, \"passed\": null, ");
+		fprintf(out, "\"peer\": \"Embree %s %s, rtc*%s\",\n", RTC_VERSION_STRING, peer_isa(), r->call);
+		fprintf(out, "      \"n\": %zu, \"ours_mrays_per_s\": %.2f, \"kernel\": \"%s\", \"peer_mrays_per_s\": %.2f, "
+		             "\"ratio\": %.3f, \"our_hits\": %zu, \"peer_hits\": %zu }%s\n",
+		        r->n, r->ours, r->kernel_name, r->peer, r->ours / r->peer, r->our_hits, r->peer_hits,
 		        i + 1 < N_WORKS ? "," : "");
+	}
 	fprintf(out, "  ]\n}\n");
 	return fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
 }
