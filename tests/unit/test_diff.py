@@ -120,8 +120,13 @@ class Diff(unittest.TestCase):
         self.assertIn(f"size {WIDTH + 1} x {HEIGHT}", done.stdout)
 
     def test_unreadable_frame(self):
-        whole = (self.traced / "b.1.png").read_bytes()
-        (self.traced / "b.1.png").write_bytes(whole[:len(whole) // 2])
+        rows = picture(1)
+        whole = f"P6 {WIDTH} {HEIGHT} 255\n".encode() + b"".join(rows)
+        (self.traced / "b.1.png").unlink()
+        (self.traced / "b.1.ppm").write_bytes(whole)
+        self.diff(self.ref, self.traced, expect=0)
+        # cut; not as PNG: OpenImageIO 2.4 leaks a string when libpng jumps out of it
+        (self.traced / "b.1.ppm").write_bytes(whole[:len(whole) // 2])
         self.assertEqual(self.outcomes(self.ref, self.traced, expect=3),
                          {1: "unreadable", 2: "passed", 3: "passed", 4: "passed"})
 
