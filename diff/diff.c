@@ -18,6 +18,7 @@
 #include "diff/report.h"
 #include "diff/score.h"
 #include "diff/set.h"
+#include "replay/replay.h"
 
 /* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
 #define MAX_ASKED 1000000
@@ -269,6 +270,42 @@ static int score_all(struct set *ref, struct set *traced, const uint64_t *frames
 	return w.err;
 }
 
+/**
+ * Give the blamed draws their calls' names, where the references belong to a trace. What the trace does not say stays
+ * unnamed: the scores stand without it.
+ */
+static void name_blamed_draws(const char *trace, struct output_run *run)
+{
+	struct replay *rp = NULL;
+	struct scene *scene;
+	size_t i = 0;
+
+	for (;;) {
+		while (i < run->n_scores && run->scores[i].n_blame == 0)
+			i++;
+		if (i == run->n_scores || (!rp && replay_open(&rp, trace) != 0))
+			break;
+		struct score *s = &run->scores[i];
+		int want = replay_frame(rp) == s->frame;
+
+		if (replay_next_frame(rp, want, &scene) <= 0)
+			break;
+		if (!want)
+			continue;
+		for (uint32_t b = 0; b < s->n_blame; b++) {
+			uint32_t draw = s->blame[b].draw;
+
+			if (draw && draw <= scene->n_draws && scene->draws) {
+				s->blame[b].call = scene->draws[draw].call;
+				s->blame[b].call_number = scene->draws[draw].call_number;
+			}
+		}
+		scene_release(&scene);
+		i++;
+	}
+	replay_close(&rp);
+}
+
 /** "relume" and all words of the verb, for the page; the caller's, NULL without memory. getopt has sorted the words. */
 static char *join_command(int argc, char **argv)
 {
@@ -330,6 +367,8 @@ int diff_main(int argc, char **argv)
 	run.channel = o.score.channel;
 
 	err = score_all(&ref, &traced, frames, &o, &run);
+	if (!err && ref.trace)
+		name_blamed_draws(ref.trace, &run);
 	if (!err && o.report) {
 		char *command = join_command(argc, argv);
 

@@ -652,7 +652,7 @@ static void add_blame(struct score *s, uint32_t draw, uint64_t pixels)
 	}
 	for (; at > 0 && s->blame[at - 1].pixels < pixels; at--)
 		s->blame[at] = s->blame[at - 1];
-	s->blame[at] = (struct score_blame){ draw, pixels };
+	s->blame[at] = (struct score_blame){ .draw = draw, .pixels = pixels };
 }
 
 static int blame_draws(const struct score_picture *traced, const struct score_maps *maps, size_t n, struct score *s)

@@ -88,12 +88,14 @@ static void print_failure(const struct score *s, FILE *out)
 	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
 		double share = 100 * (double)s->blame[b].pixels / (double)s->failing_pixels;
 
-		if (s->blame[b].draw)
-			fprintf(out, "          draw %u holds %.3g %% of %" PRIu64 " failing pixels\n", s->blame[b].draw, share,
-			        s->failing_pixels);
+		if (!s->blame[b].draw)
+			fputs("          the background", out);
+		else if (s->blame[b].call)
+			fprintf(out, "          draw %u, %s (call %" PRIu64 "),", s->blame[b].draw, s->blame[b].call,
+			        s->blame[b].call_number);
 		else
-			fprintf(out, "          the background holds %.3g %% of %" PRIu64 " failing pixels\n", share,
-			        s->failing_pixels);
+			fprintf(out, "          draw %u", s->blame[b].draw);
+		fprintf(out, " holds %.3g %% of %" PRIu64 " failing pixels\n", share, s->failing_pixels);
 	}
 }
 
@@ -257,8 +259,12 @@ static void json_score(const struct score *s, FILE *out)
 		json_number(score_effect_names[e], s->info.effect_share[e], out);
 	}
 	fputs("}},\n     \"blame\": [", out);
-	for (uint32_t b = 0; b < s->n_blame; b++)
-		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64 "}", b ? ", " : "", s->blame[b].draw, s->blame[b].pixels);
+	for (uint32_t b = 0; b < s->n_blame; b++) {
+		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64, b ? ", " : "", s->blame[b].draw, s->blame[b].pixels);
+		if (s->blame[b].call)
+			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64, s->blame[b].call, s->blame[b].call_number);
+		fputc('}', out);
+	}
 	fputs("]}", out);
 }
 

@@ -78,8 +78,10 @@ struct score_info {
 };
 
 struct score_blame {
-	uint32_t draw;   /* id */
-	uint64_t pixels; /* failing ones it holds */
+	uint32_t draw;        /* id */
+	uint64_t pixels;      /* failing ones it holds */
+	const char *call;     /* its name, a static string; NULL: not known */
+	uint64_t call_number; /* in the trace; valid where call is */
 };
 
 struct score {

@@ -19,6 +19,7 @@ void set_free(struct set *set)
 		free(set->entries[i].path);
 	free(set->entries);
 	free(set->name);
+	free(set->trace);
 	if (set->ref.stream)
 		ref_close(&set->ref);
 	*set = (struct set){ 0 };
@@ -184,7 +185,8 @@ static int open_trace(struct set *set, const char *trace)
 		                  "or make them with 'relume raster' and name the images here", path);
 	free(set->name);
 	set->name = strdup(path);
-	if (!set->name)
+	set->trace = strdup(trace);
+	if (!set->name || !set->trace)
 		return err_report(ERR_SYSTEM, path, "out of memory");
 	return open_ref(set, path);
 }

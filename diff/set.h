@@ -19,6 +19,7 @@ struct set {
 	char *name; /* as found: the .ref file, directory, pattern or image */
 	struct set_entry *entries; /* sorted by frame, one for each */
 	size_t n_entries;
+	char *trace; /* the trace that the set was named by, NULL: none */
 	int is_single; /* one image, named as such: its frame number may be anything */
 	struct ref_file ref; /* open where the set is one */
 };
