@@ -42,7 +42,8 @@ static struct context *contexts;
 static struct drawable *drawables;
 
 static _Atomic int size_may_differ = 1;
-static int marked_width, marked_height; /* of the last size marker */
+static _Atomic int marked_width, marked_height; /* of the last size marker */
+static uint64_t max_frames, quit_after;         /* 0: no such wish */
 
 static __thread struct context *current __attribute__((tls_model("initial-exec")));
 static __thread uintptr_t current_drawable __attribute__((tls_model("initial-exec")));
@@ -316,29 +317,34 @@ struct geometry_reply { /* the X protocol's GetGeometry reply */
 	uint16_t width, height, border_width;
 };
 
+static struct {
+	void *(*get_connection)(void *);
+	unsigned (*get_geometry)(void *, uint32_t);
+	struct geometry_reply *(*get_reply)(void *, unsigned, void **);
+} xcb;
+static pthread_once_t xcb_once = PTHREAD_ONCE_INIT;
+
+static void find_xcb(void)
+{
+	void *x11 = dlopen("libX11-xcb.so.1", RTLD_LAZY | RTLD_LOCAL), *lib = dlopen("libxcb.so.1", RTLD_LAZY | RTLD_LOCAL);
+
+	if (!x11 || !lib)
+		return;
+	xcb.get_connection = (void *(*)(void *))dlsym(x11, "XGetXCBConnection");
+	xcb.get_geometry = (unsigned (*)(void *, uint32_t))dlsym(lib, "xcb_get_geometry");
+	xcb.get_reply = (struct geometry_reply * (*)(void *, unsigned, void **)) dlsym(lib, "xcb_get_geometry_reply");
+}
+
 static void ask_window_size(void *display, struct drawable *d)
 {
-	static void *(*get_connection)(void *);
-	static unsigned (*get_geometry)(void *, uint32_t);
-	static struct geometry_reply *(*get_reply)(void *, unsigned, void **);
 	struct geometry_reply *reply;
 	void *connection, *error = NULL;
 
-	if (!get_reply) {
-		void *x11 = dlopen("libX11-xcb.so.1", RTLD_LAZY | RTLD_LOCAL), *xcb = dlopen("libxcb.so.1", RTLD_LAZY | RTLD_LOCAL);
-
-		if (!x11 || !xcb)
-			return;
-		get_connection = (void *(*)(void *))dlsym(x11, "XGetXCBConnection");
-		get_geometry = (unsigned (*)(void *, uint32_t))dlsym(xcb, "xcb_get_geometry");
-		get_reply = (struct geometry_reply * (*)(void *, unsigned, void **)) dlsym(xcb, "xcb_get_geometry_reply");
-		if (!get_connection || !get_geometry || !get_reply) {
-			get_reply = NULL;
-			return;
-		}
-	}
-	connection = get_connection(display);
-	reply = get_reply(connection, get_geometry(connection, (uint32_t)d->window), &error);
+	pthread_once(&xcb_once, find_xcb);
+	if (!xcb.get_connection || !xcb.get_geometry || !xcb.get_reply)
+		return;
+	connection = xcb.get_connection(display);
+	reply = xcb.get_reply(connection, xcb.get_geometry(connection, (uint32_t)d->window), &error);
 	if (reply) {
 		d->width = reply->width;
 		d->height = reply->height;
@@ -461,19 +467,18 @@ static uint64_t frames_from(const char *name)
 	return text ? strtoull(text, NULL, 10) : 0;
 }
 
+__attribute__((constructor)) static void read_wishes(void)
+{
+	max_frames = frames_from("RELUME_MAX_FRAMES");
+	quit_after = frames_from("RELUME_QUIT_AFTER");
+}
+
 void frame_ended(void)
 {
-	static uint64_t max_frames, quit_after;
-	static int known;
 	uint64_t frames = writer_active() ? writer_frame_ended() : 0;
 
 	if (!frames)
 		return;
-	if (!known) {
-		max_frames = frames_from("RELUME_MAX_FRAMES");
-		quit_after = frames_from("RELUME_QUIT_AFTER");
-		known = 1;
-	}
 	if ((max_frames && frames >= max_frames) || (quit_after && frames >= quit_after))
 		writer_end();
 	if (quit_after && frames >= quit_after) {

@@ -8,6 +8,7 @@
 #include <GL/glext.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <snappy-c.h>
 #include <stdlib.h>
 #include <sys/mman.h>
@@ -20,8 +21,8 @@
 enum { HEADER_BYTES = 28, LOW_FD = 100 };
 
 static struct {
-	int asked; /* the environment has been read */
-	int color, depth, failed;
+	int color, depth;
+	_Atomic int failed;
 	uint64_t every;
 	char path[STATS_PATH_BYTES];
 	uint64_t bytes;
@@ -29,11 +30,10 @@ static struct {
 	size_t pixels_bytes, packed_bytes;
 } r;
 
-static void ask(void)
+__attribute__((constructor)) static void read_wishes(void)
 {
 	const char *kinds = getenv("RELUME_REF"), *every = getenv("RELUME_REF_EVERY");
 
-	r.asked = 1;
 	r.color = kinds && strstr(kinds, "color");
 	r.depth = kinds && strstr(kinds, "depth");
 	r.every = every ? strtoull(every, NULL, 10) : 1;
@@ -43,8 +43,6 @@ static void ask(void)
 
 int reference_wanted(uint64_t frame)
 {
-	if (!r.asked)
-		ask();
 	return (r.color || r.depth) && !r.failed && frame % r.every == 0;
 }
 
@@ -195,23 +193,33 @@ static void write_record(enum ref_kind kind, uint64_t frame, int width, int heig
 	append(record, packed + HEADER_BYTES);
 }
 
+/* 0 where the pixels of a frame have room and the file is begun. */
+static int make_ready(int width, int height)
+{
+	if (!r.path[0]) {
+		if (writer_sidecar(r.path, sizeof(r.path), ".ref"))
+			return -1;
+		append(REF_MAGIC, strlen(REF_MAGIC));
+	}
+	if (!grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
+		fail("no memory", ENOMEM);
+		return -1;
+	}
+	return 0;
+}
+
 void reference_read(uint64_t frame, int width, int height)
 {
+	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 	struct saved_state state = { 0 };
 	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
 
 	/* While a list is compiled the selection of the buffer to read would go into the list. */
 	if (list || width <= 0 || height <= 0)
 		return;
-	if (!r.path[0]) {
-		if (writer_sidecar(r.path, sizeof(r.path), ".ref"))
-			return;
-		append(REF_MAGIC, strlen(REF_MAGIC));
-	}
-	if (!grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
-		fail("no memory", ENOMEM);
-		return;
-	}
+	pthread_mutex_lock(&lock);
+	if (make_ready(width, height))
+		goto done;
 	context_errors_before();
 	set_up(&state);
 	if (r.color && !r.failed) {
@@ -224,5 +232,7 @@ void reference_read(uint64_t frame, int width, int height)
 	}
 	put_back(&state);
 	context_errors_after();
+done:
+	pthread_mutex_unlock(&lock);
 	errno = saved;
 }

@@ -107,9 +107,11 @@ void *resolve_command(unsigned command)
 	writer_unnest();
 	if (!found)
 		writer_say("the GL here has no %s; the program calls it all the same", commands[command].name);
-	resolve_found[command] = found ? found : (void *)absent;
+	if (!found)
+		found = (void *)absent;
+	__atomic_store_n(&resolve_found[command], found, __ATOMIC_RELAXED);
 	errno = saved;
-	return resolve_found[command];
+	return found;
 }
 
 int resolve_exists(unsigned command)

@@ -36,7 +36,9 @@ void resolve_prefer_osmesa(void);
 
 static inline void *real(unsigned command)
 {
-	return resolve_found[command] ? resolve_found[command] : resolve_command(command);
+	void *found = __atomic_load_n(&resolve_found[command], __ATOMIC_RELAXED); /* any thread's find is as good */
+
+	return found ? found : resolve_command(command);
 }
 
 /* context.c: contexts, drawables and frames */

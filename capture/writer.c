@@ -37,7 +37,8 @@ static struct {
 	_Atomic enum { IDLE, RECORDING, ENDED } state; /* IDLE: nothing called yet, no file yet */
 	uint8_t *chunk, *end, *p; /* the logical bytes not yet in the file lie in [chunk, p) */
 	char *packed;
-	uint64_t n_calls, n_frames;
+	uint64_t n_calls;
+	_Atomic uint64_t n_frames;
 	int fd;
 	dev_t device;
 	ino_t inode;
@@ -767,7 +768,8 @@ static void start_child(void)
 	close(w.fd);
 	w.fd = -1;
 	w.path[0] = '\0';
-	w.n_calls = w.n_frames = w.file_bytes = 0;
+	w.n_calls = w.file_bytes = 0;
+	w.n_frames = 0;
 	memset(command_known, 0, sizeof(command_known));
 	memset(enum_known, 0, sizeof(enum_known));
 	memset(w.bits_known, 0, sizeof(w.bits_known));
