@@ -8,19 +8,14 @@
 #include "replay/mat4.h"
 #include "replay/texture.h"
 
-/* A scene with the references it holds. */
-struct owned_scene {
-	struct scene scene; /* first */
-};
-
 struct gls_frame {
-	struct owned_scene *out;
+	struct scene *out; /* NULL between frames */
 	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws; } room;
 	struct table materials, units, lights, currents, views, stipples, spaces; /* hash -> index + 1 */
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
-	int cleared, reads_screen, drew;
+	int cleared;
 };
 
 /* ---- arrays that grow ---- */
@@ -114,7 +109,7 @@ static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 
 static uint32_t find_view(struct gls_exec *x, struct gls_frame *f, struct gls_state *st)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 	struct scene_view view;
 
 	memset(&view, 0, sizeof(view));
@@ -140,7 +135,7 @@ static int enabled_target(const struct gls_unit *unit)
 
 static uint32_t texture_slot(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 
 	image->used_frame = x->frame;
 	if (image->slot_frame == x->frame + 1)
@@ -213,7 +208,7 @@ static void track_color(const struct gls_lighting *l, struct scene_face *face, u
 
 static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t *count)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 	struct scene_light lights[GLS_MAX_LIGHTS];
 
 	*count = 0;
@@ -225,7 +220,7 @@ static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, u
 
 static uint32_t fill_stipple(struct gls_frame *f, const struct gls_attribs *a)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 
 	if (!a->polygon.stipple)
 		return SCENE_NONE;
@@ -303,7 +298,7 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 
 static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const float color[4])
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 	const struct gls_attribs *a = &st->a;
 	struct scene_unit units[GLS_MAX_UNITS];
 	struct scene_material m;
@@ -339,7 +334,7 @@ static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gl
 static uint32_t find_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
                              const float (*values)[4])
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 	struct scene_current current;
 	uint32_t given = mesh->attributes, textured = 0;
 
@@ -360,7 +355,7 @@ static uint32_t find_current(struct gls_frame *f, const struct scene_mesh *mesh,
 
 static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_mesh *mesh)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 
 	mesh->used_frame = x->frame;
 	if (mesh->slot_frame == x->frame + 1)
@@ -376,7 +371,7 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 
 static int name_draws(struct gls_frame *f, uint32_t command, uint64_t call_number, uint32_t n)
 {
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 
 	for (uint32_t i = 0; i < n; i++) {
 		if (grow(&s->draws, &f->room.draws, f->next_draw, sizeof(*s->draws)))
@@ -400,7 +395,7 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 		gls_unsupported(x, "drawing into framebuffer objects");
 		return;
 	}
-	s = &f->out->scene;
+	s = f->out;
 	first_draw = f->next_draw;
 	if (name_draws(f, command, call_number, mesh->n_draws) ||
 	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
@@ -426,11 +421,8 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
 	s->n_instances++;
-	if (s->materials[f->material].color_mask) {
-		if (!f->cleared)
-			s->needs_previous = 1;
-		f->drew = 1;
-	}
+	if (s->materials[f->material].color_mask && !f->cleared)
+		s->needs_previous = 1;
 	if (s->materials[f->material].program)
 		gls_unsupported(x, "programs: drawn as fixed function");
 	return;
@@ -448,7 +440,7 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 
 	if (!x->want || !f->out || st->render_mode != GL_RENDER || !buffers || st->draw_framebuffer)
 		return;
-	s = &f->out->scene;
+	s = f->out;
 	memset(&clear, 0, sizeof(clear));
 	clear.before_instance = s->n_instances;
 	clear.draw = f->next_draw;
@@ -476,7 +468,7 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 void gls_frame_reads_screen(struct gls_exec *x)
 {
 	if (x->building->out)
-		x->building->out->scene.needs_previous = 1;
+		x->building->out->needs_previous = 1;
 }
 
 /* ---- a frame's beginning and end ---- */
@@ -486,6 +478,8 @@ static void forget_tables(struct gls_frame *f)
 	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->spaces };
 
 	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
+		if (!tables[i]->n)
+			continue;
 		memset(tables[i]->entries, 0, tables[i]->room * sizeof(*tables[i]->entries));
 		tables[i]->n = 0;
 	}
@@ -504,18 +498,18 @@ int gls_frame_begin(struct gls_exec *x)
 	f->last = NULL;
 	f->next_draw = 1;
 	f->next_primitive = 0;
-	f->cleared = f->drew = f->reads_screen = 0;
+	f->cleared = 0;
 	f->out = calloc(1, sizeof(*f->out));
-	if (!f->out || grow(&f->out->scene.draws, &f->room.draws, 0, sizeof(struct scene_draw)))
+	if (!f->out || grow(&f->out->draws, &f->room.draws, 0, sizeof(struct scene_draw)))
 		return ERR_SYSTEM;
-	f->out->scene.draws[0] = (struct scene_draw){ "", 0 };
+	f->out->draws[0] = (struct scene_draw){ "", 0 };
 	return 0;
 }
 
 struct scene *gls_frame_finish(struct gls_exec *x)
 {
 	struct gls_frame *f = x->building;
-	struct scene *s = &f->out->scene;
+	struct scene *s = f->out;
 	const struct gls_drawable *d = x->st ? gls_drawable_of(x, x->st) : NULL;
 
 	s->frame = x->frame;
@@ -564,7 +558,7 @@ void gls_frame_destroy(struct gls_exec *x)
 
 	if (!f)
 		return;
-	s = f->out ? &f->out->scene : NULL;
+	s = f->out;
 	scene_release(&s);
 	table_free(&f->materials);
 	table_free(&f->units);
