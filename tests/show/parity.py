@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tests/show/parity.py BUILD (as `make show-parity`): does `gl` equal what OpenGL rasterized?
+"""tests/show/parity.py BUILD [PART-OF-A-NAME...] (as `make show-parity`): does `gl` equal what OpenGL rasterized?
 
 Records glxgears and the corpus' first scenes live, with reference frames read back in the program, and takes the traces
 of ../shared/traces where they are there, ten frames each, with reference frames made by glretrace (never its first
@@ -80,7 +80,7 @@ def show_live(build, work, name, program):
     trace = work / "live.trace"
     run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--quit-after",
         N_FRAMES, "--", *command, log=log)
-    return summarize(f"{name}, live", score(build / "relume", trace, trace, work, None, log), N_FRAMES, None, True,
+    return summarize(name, score(build / "relume", trace, trace, work, None, log), N_FRAMES, None, True,
                      "Mesa llvmpipe, in the program")
 
 
@@ -95,13 +95,15 @@ def show_trace(build, work, trace, last_frame):
                      RASTER_GATES, demanded, "Mesa llvmpipe, by glretrace")
 
 
-def main(build):
+def main(build, *parts):
     build = pathlib.Path(build).resolve()
     base = build / "show" / "parity"
     shutil.rmtree(base, ignore_errors=True)
     rows = []
 
     def show(name, function, *args):
+        if parts and not any(part in name for part in parts):
+            return
         work = base / re.sub(r"\W+", "_", name)
         work.mkdir(parents=True)
         begin = time.monotonic()
@@ -111,7 +113,7 @@ def main(build):
         print(f"{mark}  {row['what']}: {row['figure']} ({time.monotonic() - begin:.0f} s)", flush=True)
 
     for name, program in LIVE.items():
-        show(name, show_live, name, program)
+        show(f"{name}, live", show_live, f"{name}, live", program)
     if (TRACES / "frames.tsv").exists():
         for line in (TRACES / "frames.tsv").read_text().splitlines():
             if not line.startswith("#"):
@@ -124,4 +126,4 @@ def main(build):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))
