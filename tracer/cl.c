@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/err.h"
 #include "tracer/kernels.h"
@@ -70,12 +71,30 @@ static int report(cl_int code, const char *what)
 	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
 }
 
+/*
+ * PoCL learns cores and memory from hwloc, and hwloc from /sys; in a chroot or container without it PoCL 3.1 ends the
+ * process ("Not enough memory to run on this device"). There, hwloc is told what sysconf knows.
+ */
+static void describe_machine(void)
+{
+	long cores = sysconf(_SC_NPROCESSORS_ONLN), pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
+	char text[96];
+
+	if (access("/sys/devices/system/cpu", F_OK) == 0 || cores < 1 || pages < 1 || page_bytes < 1)
+		return;
+	snprintf(text, sizeof(text), "numa:1(memory=%lld) core:%ld pu:1", (long long)pages * page_bytes, cores);
+	setenv("HWLOC_SYNTHETIC", text, 0);
+}
+
 /* Every device of every platform, in the drivers' order. */
 static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
 {
 	cl_platform_id platforms[MAX_PLATFORMS];
 	cl_uint n_platforms = 0, n_found;
-	cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
+	cl_int code;
+
+	describe_machine();
+	code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
 
 	*n = 0;
 	if (code != CL_SUCCESS)
