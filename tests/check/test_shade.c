@@ -1,0 +1,102 @@
+/*
+ * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
+ * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror), channel by channel.
+ */
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/truth/scenes.h"
+
+#define SIZE 64
+
+static void make_scene(struct truth *t)
+{
+	const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, r = sqrtf(0.5f);
+	uint32_t floor, mirror, film, flat;
+
+	truth_init(t, SIZE, SIZE, 0.6f);
+	truth_add_light(t, 2, 3, -2, 1);
+	t->lights[0].specular[0] = t->lights[0].specular[1] = 1;
+	t->lights[0].attenuation[1] = 0.05f;
+	truth_add_light(t, -1, 1, 1, 0);
+	t->lights[1].diffuse[2] = 0.25f;
+	t->lights[1].ambient[0] = 0.1f;
+	floor = truth_add_material(t, 0.7f);
+	t->materials[floor].front.specular[0] = 0.5f;
+	t->materials[floor].front.shininess = 12;
+	t->materials[floor].fog = 1;
+	t->materials[floor].fog_mode = GL_EXP;
+	t->materials[floor].fog_density = 0.02f;
+	mirror = truth_add_material(t, 0.4f);
+	t->materials[mirror].surface.reflect = 0.6f;
+	t->materials[mirror].two_side = t->materials[mirror].local_viewer = 1;
+	film = truth_add_material(t, 0.9f);
+	t->materials[film].blend = 1;
+	t->materials[film].blend_src_rgb = t->materials[film].blend_src_alpha = GL_DST_COLOR;
+	t->materials[film].blend_dst_rgb = t->materials[film].blend_dst_alpha = GL_ONE;
+	t->materials[film].depth_write = 0;
+	flat = truth_add_material(t, 0.5f);
+	t->materials[flat].shade_model = GL_FLAT;
+	truth_add_square(t, floor, (float[3]){ 0, 0, -12 }, x, y, 6, 6);
+	truth_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ r, 0, r }, y, 1.3f, 2);
+	truth_add_square(t, flat, (float[3]){ 1.2f, 0.6f, -7 }, x, (float[3]){ 0, r, r }, 0.8f, 3);
+	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
+}
+
+START_TEST(test_device_against_twins)
+{
+	struct device_description *devices = NULL;
+	struct truth t;
+	struct image c, cl;
+	size_t n = 0;
+
+	if (device_list(&devices, &n) != 0 || n == 0)
+		return; /* no OpenCL here; said on standard error */
+	make_scene(&t);
+	setenv("RELUME_TEST_DEVICE", "reference", 1);
+	truth_render(&t, "whitted", &c);
+	for (size_t d = 0; d < n; d++) {
+		char number[24];
+
+		snprintf(number, sizeof(number), "%zu", d);
+		setenv("RELUME_TEST_DEVICE", number, 1);
+		truth_render(&t, "whitted", &cl);
+		ck_assert_uint_eq(cl.n_channels, c.n_channels);
+		for (size_t i = 0; i < c.n_channels; i++) {
+			uint32_t differ = 0;
+
+			for (size_t p = 0; p < SIZE * SIZE; p++) {
+				float a = c.channels[i].values[p], b = cl.channels[i].values[p];
+
+				differ += !(fabsf(a - b) <= 2e-3f * fmaxf(1, fabsf(a)));
+			}
+			/* A ray that grazes an edge may fall on either side of it. */
+			ck_assert_msg(differ <= SIZE * SIZE / 1000, "channel %s differs at %u pixels on device %zu",
+			              c.channels[i].name, differ, d);
+		}
+		image_free(&cl);
+	}
+	image_free(&c);
+	truth_free(&t);
+	free(devices);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("shade");
+	TCase *tests = tcase_create("shade");
+	SRunner *runner;
+	int failed;
+
+	tcase_set_timeout(tests, 240);
+	tcase_add_test(tests, test_device_against_twins);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
