@@ -424,11 +424,11 @@ static int is_redundant(struct remembered *r, const struct gls_op *op)
 static void drop_redundant(struct gls_list *list)
 {
 	struct remembered known = { .n = 0 };
-	struct gls_op *kept = malloc((list->n + !list->n) * sizeof(*kept));
+	struct gls_op *kept = list->n ? malloc(list->n * sizeof(*kept)) : NULL;
 	uint32_t n = 0;
 
 	if (!kept)
-		return; /* the list is right without it */
+		return; /* empty, or no memory: the list is right without it */
 	for (uint32_t i = 0; i < list->n; i++)
 		if (!is_redundant(&known, &list->ops[i]))
 			kept[n++] = list->ops[i];

@@ -61,10 +61,10 @@ def unpack_block(block):
     return out
 
 
-def unpack(data):
+def unpack(data, limit=None):
     assert data[:2] == b"at"
     at, out = 2, bytearray()
-    while at + 4 <= len(data):
+    while at + 4 <= len(data) and (limit is None or len(out) < limit):
         n, = struct.unpack_from("<I", data, at)
         out += unpack_block(data[at + 4:at + 4 + n])
         at += 4 + n
@@ -106,7 +106,7 @@ def mutate(stream, rng):
     return packed[:rng.randrange(len(packed))] if rng.random() < 0.1 else packed
 
 
-def limit():
+def limit_memory():
     if not SANITIZED:
         resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
 
@@ -116,7 +116,7 @@ def run(path):
     for verb in (["info", "--json"], ["scene", "-f", "3", "--json"]):
         try:
             done = subprocess.run([RELUME, *verb, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=10,
-                                  preexec_fn=limit, check=False)
+                                  preexec_fn=limit_memory, check=False)
         except subprocess.TimeoutExpired:
             return f"{verb[0]}: no end within 10 s"
         if done.returncode not in (0, 3) and not (verb[0] == "scene" and done.returncode == 2):
@@ -126,7 +126,7 @@ def run(path):
 
 def main(trace, count=200, seed=1, head=None):
     trace = pathlib.Path(trace)
-    stream = unpack(trace.read_bytes()[:head])[:head]
+    stream = unpack(trace.read_bytes(), head)[:head]
     rng = random.Random(seed)
     path = trace.with_suffix(f".mutant-{os.getpid()}")
     broken = 0

@@ -1,0 +1,159 @@
+/* Texture images, completeness, parameters (GL 2.1 sec. 3.6, 3.8). */
+#include <math.h>
+
+#include "tests/gl/gl.h"
+
+static void draw(struct gl *gl)
+{
+	gl_call(gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+}
+
+/* A 2x1 texture of a format; its texels as the scene shows them. */
+static void check_texels(uint32_t internal, uint32_t format, uint32_t type, size_t n, const void *pixels,
+                         const uint8_t wanted[8])
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, internal, 2, 1, 0, format, type, n, pixels);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_uint_eq(s->textures[0]->n_bytes, 8);
+	ck_assert_mem_eq(s->textures[0]->texels, wanted, 8);
+	scene_release(&s);
+	gl_close(&gl);
+}
+
+/* Tables 3.5, 3.8, 3.15, 3.20. */
+START_TEST(test_formats)
+{
+	static const uint8_t bytes[8] = { 10, 20, 30, 40, 50, 60, 70, 80 };
+	static const uint16_t rgb565[2] = { 0xf800, 0x07ff };
+	static const float floats[2] = { 0.5f, 2.0f };
+
+	check_texels(GL_RGBA, GL_RGBA, GL_UNSIGNED_BYTE, 8, bytes, (uint8_t[]){ 10, 20, 30, 40, 50, 60, 70, 80 });
+	check_texels(GL_RGBA, GL_BGRA, GL_UNSIGNED_BYTE, 8, bytes, (uint8_t[]){ 30, 20, 10, 40, 70, 60, 50, 80 });
+	check_texels(GL_RGB, GL_RGB, GL_UNSIGNED_BYTE, 8, bytes, (uint8_t[]){ 10, 20, 30, 255, 40, 50, 60, 255 });
+	check_texels(GL_ALPHA, GL_ALPHA, GL_UNSIGNED_BYTE, 4, bytes, (uint8_t[]){ 0, 0, 0, 10, 0, 0, 0, 20 });
+	check_texels(GL_LUMINANCE, GL_LUMINANCE, GL_UNSIGNED_BYTE, 4, bytes, (uint8_t[]){ 10, 10, 10, 255, 20, 20, 20, 255 });
+	check_texels(GL_LUMINANCE_ALPHA, GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE, 4, bytes,
+	             (uint8_t[]){ 10, 10, 10, 20, 30, 30, 30, 40 });
+	check_texels(GL_INTENSITY, GL_LUMINANCE, GL_UNSIGNED_BYTE, 4, bytes, (uint8_t[]){ 10, 10, 10, 10, 20, 20, 20, 20 });
+	check_texels(GL_RGB, GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 4, rgb565, (uint8_t[]){ 255, 0, 0, 255, 0, 255, 255, 255 });
+	check_texels(GL_LUMINANCE, GL_LUMINANCE, GL_FLOAT, 8, floats, (uint8_t[]){ 128, 128, 128, 255, 255, 255, 255, 255 });
+	check_texels(3, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, 8, bytes, (uint8_t[]){ 10, 20, 30, 255, 50, 60, 70, 255 });
+}
+END_TEST
+
+/* Sec. 3.6.1, 3.6.4: row length, skips, alignment. */
+START_TEST(test_unpack)
+{
+	uint8_t bytes[64];
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < 64; i++)
+		bytes[i] = (uint8_t)i;
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_ROW_LENGTH, 5);
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_SKIP_ROWS, 1);
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_SKIP_PIXELS, 2);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE, 2, 2, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE,
+	        sizeof(bytes), bytes);
+	draw(&gl);
+	s = gl_swap(&gl);
+	/* rows of five bytes begin at multiples of four, so every eight */
+	ck_assert_uint_eq(s->textures[0]->texels[0], 10);
+	ck_assert_uint_eq(s->textures[0]->texels[4], 11);
+	ck_assert_uint_eq(s->textures[0]->texels[8], 18);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Sec. 3.8.10: an incomplete texture switches its unit off; generated and given levels complete it. */
+START_TEST(test_completeness)
+{
+	static const uint8_t white[64] = { 255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	draw(&gl); /* no image at all */
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(white), white);
+	draw(&gl); /* the filter that textures begin with wants mipmaps */
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	draw(&gl);
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 8u);
+	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_GENERATE_MIPMAP, 1);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(white), white);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 4);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].unit_count, 0);
+	ck_assert_uint_eq(s->materials[s->instances[1].material].unit_count, 0);
+	ck_assert_uint_eq(s->materials[s->instances[2].material].unit_count, 1);
+	ck_assert_uint_eq(s->n_textures, 2);
+	ck_assert_uint_eq(s->textures[0]->n_levels, 1);
+	ck_assert_uint_eq(s->textures[1]->n_levels, 2);
+	ck_assert_mem_eq(s->textures[1]->texels + 16, ((uint8_t[]){ 128, 128, 128, 255 }), 4);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A part replaced; a texture of the same content under another name is the same one. */
+START_TEST(test_sub_image_and_content)
+{
+	static const uint8_t dark[16] = { 0 }, light[4] = { 9, 9, 9, 9 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	for (unsigned name = 1; name <= 3; name++) {
+		gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, name);
+		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+		        sizeof(dark), dark);
+		if (name == 3)
+			gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+			        sizeof(light), light);
+		draw(&gl);
+	}
+	gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 2, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(light),
+	        light);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 2);
+	ck_assert_uint_eq(s->textures[1]->texels[8], 0);
+	ck_assert_uint_eq(s->textures[1]->texels[12], 9);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Sec. 2.11.4: eye planes move with the inverse of the modelview. */
+START_TEST(test_texgen)
+{
+	static const float plane[4] = { 1, 0, 0, 0 };
+	struct gl gl = gl_open();
+	const struct scene_unit *u = &gl_state(&gl)->a.texturing.units[0].value;
+
+	gl_call(&gl, "glTranslatef", "fff", 3.0, 0.0, 0.0);
+	gl_call(&gl, "glTexGenfv", "eeF", GL_S, GL_EYE_PLANE, 4, plane);
+	gl_call(&gl, "glTexGenfv", "eeF", GL_S, GL_OBJECT_PLANE, 4, plane);
+	ck_assert_floats(4, u->gen_eye_plane[0], 1, 0, 0, -3);
+	ck_assert_floats(4, u->gen_object_plane[0], 1, 0, 0, 0);
+	gl_call(&gl, "glTexGeni", "eee", GL_R, GL_TEXTURE_GEN_MODE, GL_SPHERE_MAP);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("textures", test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
