@@ -1,0 +1,155 @@
+/* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by content. */
+#include "tests/check/random_scene.h"
+
+#include "tracer/bvh.h"
+
+#define N 3000
+
+static struct bvh_box boxes[N];
+static struct node2 nodes[N];
+static struct node8 nodes8[N];
+static uint32_t order[N], block_first[N], block_count[N];
+static uint8_t seen[N];
+
+static void check_item(uint32_t item, const float lo[3], const float hi[3])
+{
+	ck_assert_uint_eq(seen[item], 0);
+	seen[item] = 1;
+	for (int a = 0; a < 3; a++)
+		ck_assert(boxes[item].lo[a] >= lo[a] && boxes[item].hi[a] <= hi[a]);
+}
+
+static void check_node2(uint32_t index, uint32_t depth)
+{
+	ck_assert_uint_lt(depth, BVH_MAX_DEPTH);
+	for (int side = 0; side < 2; side++) {
+		const struct node2 *node = &nodes[index];
+
+		if (node->count[side] == 0 && node->child[side] == 0)
+			continue;
+		for (uint32_t k = 0; k < node->count[side]; k++)
+			check_item(order[node->child[side] + k], node->lo[side], node->hi[side]);
+		if (node->count[side] == 0)
+			check_node2(node->child[side], depth + 1);
+	}
+}
+
+static void check_node8(uint32_t index, uint32_t depth)
+{
+	ck_assert_uint_lt(depth, BVH_MAX_DEPTH);
+	for (int lane = 0; lane < 8; lane++) {
+		const struct node8 *node = &nodes8[index];
+		const float lo[3] = { node->lo[0][lane], node->lo[1][lane], node->lo[2][lane] };
+		const float hi[3] = { node->hi[0][lane], node->hi[1][lane], node->hi[2][lane] };
+
+		if (node->count[lane] == 0 && node->child[lane] == 0)
+			continue;
+		if (node->count[lane] == 0) {
+			check_node8(node->child[lane], depth + 1);
+			continue;
+		}
+		ck_assert_uint_eq(node->count[lane], 1);
+		ck_assert_uint_le(block_count[node->child[lane]], 8);
+		for (uint32_t k = 0; k < block_count[node->child[lane]]; k++)
+			check_item(order[block_first[node->child[lane]] + k], lo, hi);
+	}
+}
+
+static void check_trees(uint32_t n)
+{
+	uint32_t n_nodes, n_nodes8, n_blocks;
+
+	ck_assert_int_eq(bvh_build_sah(boxes, n, 4, nodes, &n_nodes, order), 0);
+	memset(seen, 0, sizeof(seen));
+	check_node2(0, 0);
+	for (uint32_t i = 0; i < n; i++)
+		ck_assert_msg(seen[i], "item %u of %u is in no leaf", i, n);
+	ck_assert_int_eq(bvh_collapse8(nodes, n_nodes, BVH_BLOCKS, nodes8, &n_nodes8, block_first, block_count, &n_blocks), 0);
+	ck_assert_uint_le(n_nodes8, n_nodes);
+	memset(seen, 0, sizeof(seen));
+	check_node8(0, 0);
+	for (uint32_t i = 0; i < n; i++)
+		ck_assert_msg(seen[i], "item %u of %u is in no block", i, n);
+}
+
+static void set_box(uint32_t i, float x, float y, float z, float size)
+{
+	boxes[i] = (struct bvh_box){ { x - size, y - size, z - size }, { x + size, y + size, z + size } };
+}
+
+START_TEST(all_items_in_one_leaf)
+{
+	struct random_scene r = { .random = choose_seed() };
+	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, N };
+
+	for (uint32_t i = 0; i < N; i++)
+		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
+	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
+		check_trees(counts[k]);
+}
+END_TEST
+
+START_TEST(strange_boxes_keep_the_depth)
+{
+	for (uint32_t i = 0; i < N; i++) /* all the same */
+		set_box(i, 1, 2, 3, 0);
+	check_trees(N);
+	for (uint32_t i = 0; i < N; i++) /* each farther than all before together */
+		set_box(i, ldexpf(1, (int)(i % 120) - 60), 0, 0, 0);
+	check_trees(N);
+	for (uint32_t i = 0; i < N; i++) /* unbounded ones among small ones */
+		set_box(i, (float)i, 0, 0, i % 10 ? 0.5f : 1e18f);
+	check_trees(N);
+}
+END_TEST
+
+static void build(struct random_scene *s, uint32_t n)
+{
+	ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances, n, &s->view, &s->spaces,
+	                                   &s->n_spaces), 0);
+}
+
+START_TEST(meshes_are_kept_and_dropped)
+{
+	struct random_scene *s = random_scene_create(1);
+	const size_t triangles = s->accel->n_triangles;
+	uint64_t generation = s->accel->generation;
+
+	build(s, INSTANCES);
+	ck_assert_uint_eq(s->accel->generation, generation);
+	ck_assert_uint_eq(s->instances[0].node2_first, s->instances[3].node2_first); /* the same mesh */
+	/* Only the last two meshes are used for many frames: the first goes, and theirs move up. */
+	for (int frame = 0; frame < 40; frame++)
+		ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances + 1, 2, &s->view, &s->spaces,
+		                                   &s->n_spaces), 0);
+	ck_assert_uint_lt(s->accel->n_triangles, triangles);
+	ck_assert_uint_gt(s->accel->generation, generation);
+	ck_assert_uint_eq(s->instances[1].triangle_first, 0);
+	build(s, INSTANCES);
+	ck_assert_uint_eq(s->accel->n_triangles, triangles);
+	/* A frame with nothing in it. */
+	build(s, 0);
+	ck_assert_uint_eq(s->view.tlas_count, 0);
+	ck_assert_uint_eq(s->spaces[0].n_nodes, 0);
+	random_scene_free(s);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("accel");
+	TCase *tests = tcase_create("accel");
+	SRunner *runner;
+	int failed;
+
+	tcase_set_timeout(tests, 60);
+	tcase_add_test(tests, all_items_in_one_leaf);
+	tcase_add_test(tests, strange_boxes_keep_the_depth);
+	tcase_add_test(tests, meshes_are_kept_and_dropped);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
