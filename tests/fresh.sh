@@ -44,7 +44,7 @@ inside "make demo" demo2
 second=$?
 inside "make check" check
 check=$?
-counted=$(tail -n 1 "$log/check.log")
+counted=$(grep -E '^[0-9]+ passed, ' "$log/check.log" | tail -n 1)
 cp -r "$root/root/relume/build/demo" "$log/" 2>/dev/null
 
 grep -q '^install .*nothing' "$log/demo2.log" && installed=nothing || installed=something
