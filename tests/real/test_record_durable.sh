@@ -29,10 +29,11 @@ until_drawn() {
 
 # Killed at some moment: every frame that was complete is in the file.
 for delay in 0 0.01 0.05 0.1 0.3; do
-	rm -f "$TMPDIR/kill.trace"
+	rm -f "$TMPDIR/kill.trace" "$TMPDIR/pid"
 	"$RELUME" record -o "$TMPDIR/kill.trace" -- sh -c 'echo $$ >"$TMPDIR/pid"; exec glxgears' >/dev/null 2>"$TMPDIR/log" &
 	recorder=$!
 	until_drawn "$TMPDIR/kill.trace"
+	until [ -s "$TMPDIR/pid" ]; do sleep 0.1; done
 	sleep "$delay"
 	kill -KILL "$(cat "$TMPDIR/pid")"
 	wait $recorder
