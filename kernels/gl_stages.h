@@ -85,11 +85,40 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 }
 
 /*
+ * Weights of a fragment for its attributes. Coverage and depth go by snapped vertices; llvmpipe takes attributes from
+ * the unsnapped ones (nearest filtering shows the difference), so they are found again from clip coordinates.
+ */
+static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views, uint32_t x, uint32_t y,
+                                struct fragment *f)
+{
+	struct point p;
+	GLOBAL const struct view *view;
+	float px[3], py[3], area;
+
+	if (f->primitive & FRAGMENT_PERSPECTIVE)
+		return;
+	point_vertices(t, &p, f->instance, f->primitive);
+	view = &views[p.geometry->view];
+	for (int i = 0; i < 3; i++) {
+		GLOBAL const float *c = p.vertex[i]->clip;
+		float w_inv = 1.0f / c[3], half_w = view->viewport[2] * 0.5f, half_h = view->viewport[3] * 0.5f;
+
+		px[i] = half_w * (c[0] * w_inv) + (view->viewport[0] + half_w - ((float)x + 0.5f));
+		py[i] = half_h * (c[1] * w_inv) + (view->viewport[1] + half_h - ((float)y + 0.5f));
+	}
+	area = (px[1] - px[0]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[1] - py[0]);
+	if (!(M_ABS(area) > 1.0e-3f))
+		return; /* a sliver: its snapped form is what was covered */
+	f->b1 = (px[2] * py[0] - px[0] * py[2]) / area;
+	f->b2 = (px[0] * py[1] - px[1] * py[0]) / area;
+}
+
+/*
  * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
  * n_slots > 0 gives fragments that asked their colour without the lights that were stopped.
  */
 static inline void shade_item(const struct tables *t, GLOBAL const struct view *views,
-                              GLOBAL const struct window_vertex *windows, GLOBAL const struct fragment *fragments,
+                              GLOBAL const struct window_vertex *windows, GLOBAL struct fragment *fragments,
                               GLOBAL const uint32_t *pixels, uint32_t width, uint32_t height, uint32_t bits,
                               GLOBAL const uint32_t *stopped, uint32_t n_slots, uint32_t n,
                               GLOBAL struct shaded *shaded, uint32_t item)
@@ -106,6 +135,9 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		dark = stage_dark(stopped, n_slots, n, item);
 		if (!dark || !(out->flags & SHADED_THERE))
 			return;
+	} else {
+		stage_unsnap(t, views, x, y, &f);
+		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
 	if (!n_slots && (point_clipped(&p) || stage_stippled_away(t, &p, x, y))) {

@@ -11,7 +11,7 @@ __kernel void gather(__global const struct fragment *sparse, __global const uint
 }
 
 __kernel void shade(TABLES_ARGUMENTS, __global const struct view *views, __global const struct window_vertex *windows,
-                    __global const struct fragment *fragments, __global const uint32_t *pixels, uint32_t width,
+                    __global struct fragment *fragments, __global const uint32_t *pixels, uint32_t width,
                     uint32_t height, uint32_t bits, __global const uint32_t *stopped, uint32_t n_slots, uint32_t n,
                     __global struct shaded *shaded)
 {

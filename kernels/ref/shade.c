@@ -23,7 +23,7 @@ void shade_c(const void *const *args, size_t first, size_t last)
 	struct tables t = TABLES_NAMED;
 
 	for (size_t i = first; i < last && i < number(args[21]); i++)
-		shade_item(&t, args[12], args[13], args[14], args[15], number(args[16]), number(args[17]), number(args[18]),
+		shade_item(&t, args[12], args[13], (void *)args[14], args[15], number(args[16]), number(args[17]), number(args[18]),
 		           args[19], number(args[20]), number(args[21]), (void *)args[22], (uint32_t)i);
 }
 
