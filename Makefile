@@ -143,7 +143,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS) -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/closer \
+HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/closer $(BUILD)/tests/bench/static_scene \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
@@ -152,7 +152,7 @@ $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
 
 $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -pthread
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
 check: all $(TESTS) $(HELPERS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
@@ -183,6 +183,10 @@ show-rays: $(BUILD)/tests/bench/embree
 	@mkdir -p $(BUILD)/show
 	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
 
+# Not part of `make show` yet: some of its bars do not hold.
+show-overhead: all $(BUILD)/tests/bench/static_scene
+	@$(PYTHON) tests/show/overhead.py $(BUILD)
+
 # Not part of `make show`: needs root, and minutes.
 show-fresh:
 	@tests/fresh.sh $(BUILD)
@@ -195,6 +199,6 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps check demo show show-parity bench show-rays show-fresh golden-update clean FORCE
+.PHONY: all deps check demo show show-parity bench show-rays show-overhead show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
