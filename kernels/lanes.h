@@ -11,6 +11,12 @@
 #endif
 #endif
 
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or)
+#define LANES_REDUCE 1
+#endif
+#endif
+
 /* One bit a lane. */
 inline uint lane_bits(int8 mask)
 {
@@ -27,7 +33,11 @@ inline uint lane_bits(int8 mask)
 
 inline int any_lane(int8 mask)
 {
+#ifdef LANES_REDUCE
+	return __builtin_reduce_or(mask) != 0;
+#else
 	return lane_bits(mask) != 0;
+#endif
 }
 
 /* Minimum and maximum as the processor has them, one instruction: where x is a NaN the result is y. */
@@ -37,6 +47,30 @@ inline float8 lanes_min(float8 x, float8 y)
 }
 
 inline float8 lanes_max(float8 x, float8 y)
+{
+	return select(y, x, x > y);
+}
+
+/* Rows of a packet: sixteen rays. Processors with eight lanes do them as two halves, which hides latency as well. */
+typedef float16 packf;
+typedef int16 packi;
+typedef uint16 packu;
+
+inline int any_pack(packi mask)
+{
+#ifdef LANES_REDUCE
+	return __builtin_reduce_or(mask) != 0;
+#else
+	return any_lane(mask.lo | mask.hi);
+#endif
+}
+
+inline packf pack_min(packf x, packf y)
+{
+	return select(y, x, x < y);
+}
+
+inline packf pack_max(packf x, packf y)
 {
 	return select(y, x, x > y);
 }

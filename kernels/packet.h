@@ -1,5 +1,5 @@
 /*
- * Eight rays as float8 rows against binary trees. OpenCL C only; included by the packet kernels.
+ * Eight rays as packf rows against binary trees. OpenCL C only; included by the packet kernels.
  *
  * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. The product o * i is kept in two roundings, one below
  * and one above, so that no box is missed by rounding; camera rays put the widening of boxes in there as well. Which of
@@ -16,25 +16,25 @@
 
 /* Eight rays in the space of the tree they walk. */
 struct packet {
-	float8 ox, oy, oz, dx, dy, dz;
-	float8 ix, iy, iz;                      /* 1/d, finite */
-	float8 near_x, near_y, near_z;          /* rounded down: what is added to near planes */
-	float8 far_x, far_y, far_z;             /* and up, to far planes */
-	float8 t_min, t_max;
+	packf ox, oy, oz, dx, dy, dz;
+	packf ix, iy, iz;                      /* 1/d, finite */
+	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
+	packf far_x, far_y, far_z;             /* and up, to far planes */
+	packf t_min, t_max;
 };
 
-inline float8 invert(float8 d)
+inline packf invert(packf d)
 {
-	return 1.0f / select(copysign((float8)(1e-20f), d), d, fabs(d) > 1e-20f);
+	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
 /* Fill in what follows from o and d. pad: by how much boxes are widened. */
 inline void packet_prepare(struct packet *p, float pad)
 {
-	const float8 ix = invert(p->dx), iy = invert(p->dy), iz = invert(p->dz);
-	const float8 bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
-	const float8 ex = fabs(bx) * 3e-7f + pad * fabs(ix), ey = fabs(by) * 3e-7f + pad * fabs(iy);
-	const float8 ez = fabs(bz) * 3e-7f + pad * fabs(iz);
+	const packf ix = invert(p->dx), iy = invert(p->dy), iz = invert(p->dz);
+	const packf bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
+	const packf ex = fabs(bx) * 3e-7f + pad * fabs(ix), ey = fabs(by) * 3e-7f + pad * fabs(iy);
+	const packf ez = fabs(bz) * 3e-7f + pad * fabs(iz);
 
 	p->ix = ix, p->iy = iy, p->iz = iz;
 	p->near_x = bx - ex, p->near_y = by - ey, p->near_z = bz - ez;
@@ -53,9 +53,9 @@ inline void packet_transform(struct packet *p, const struct packet *eye, __globa
 }
 
 /* Per lane, 1 bit each: the signs of the directions. */
-inline int8 packet_octants(const struct packet *p)
+inline packi packet_octants(const struct packet *p)
 {
-	return (as_int8(p->ix) >> 31 & 1) | (as_int8(p->iy) >> 31 & 2) | (as_int8(p->iz) >> 31 & 4);
+	return (as_int16(p->ix) >> 31 & 1) | (as_int16(p->iy) >> 31 & 2) | (as_int16(p->iz) >> 31 & 4);
 }
 
 /* Where in a node2 the planes lie that an octant meets first and last: number of the float for x y z of side 0. */
@@ -74,39 +74,39 @@ inline struct planes octant_planes(int octant)
 }
 
 /* Where the rays enter and leave the box of one side (0 or 1) of a node: enter <= leave where they meet it. */
-inline float8 packet_enter(const struct packet *p, __global const float *node, struct planes s, uint side)
+inline packf packet_enter(const struct packet *p, __global const float *node, struct planes s, uint side)
 {
-	return lanes_max(lanes_max(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
-	            lanes_max(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
+	return pack_max(pack_max(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
+	            pack_max(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
 }
 
-inline float8 packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
+inline packf packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
 {
-	return lanes_min(lanes_min(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
-	            lanes_min(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
+	return pack_min(pack_min(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
+	            pack_min(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
 }
 
 /* Lanes that meet the box of one side, whatever their octants: for top levels, which are small. */
-inline int8 packet_meets_box(const struct packet *p, __global const struct node2 *node, uint side)
+inline packi packet_meets_box(const struct packet *p, __global const struct node2 *node, uint side)
 {
-	const float8 x0 = node->lo[side][0] * p->ix, x1 = node->hi[side][0] * p->ix;
-	const float8 y0 = node->lo[side][1] * p->iy, y1 = node->hi[side][1] * p->iy;
-	const float8 z0 = node->lo[side][2] * p->iz, z1 = node->hi[side][2] * p->iz;
-	const float8 enter = lanes_max(lanes_max(lanes_min(x0, x1) + p->near_x, lanes_min(y0, y1) + p->near_y),
-	                          lanes_max(lanes_min(z0, z1) + p->near_z, p->t_min));
-	const float8 leave = lanes_min(lanes_min(lanes_max(x0, x1) + p->far_x, lanes_max(y0, y1) + p->far_y),
-	                          lanes_min(lanes_max(z0, z1) + p->far_z, p->t_max));
+	const packf x0 = node->lo[side][0] * p->ix, x1 = node->hi[side][0] * p->ix;
+	const packf y0 = node->lo[side][1] * p->iy, y1 = node->hi[side][1] * p->iy;
+	const packf z0 = node->lo[side][2] * p->iz, z1 = node->hi[side][2] * p->iz;
+	const packf enter = pack_max(pack_max(pack_min(x0, x1) + p->near_x, pack_min(y0, y1) + p->near_y),
+	                          pack_max(pack_min(z0, z1) + p->near_z, p->t_min));
+	const packf leave = pack_min(pack_min(pack_max(x0, x1) + p->far_x, pack_max(y0, y1) + p->far_y),
+	                          pack_min(pack_max(z0, z1) + p->far_z, p->t_max));
 
-	return (enter <= leave) & (int8)(node->lo[side][0] <= node->hi[side][0] ? -1 : 0);
+	return (enter <= leave) & (packi)(node->lo[side][0] <= node->hi[side][0] ? -1 : 0);
 }
 
 /* The lanes of a packet octant by octant: those awake in the first awake lane's octant, and they fall asleep. */
-inline int8 packet_next_octant(int8 octants, int8 *awake, int *octant)
+inline packi packet_next_octant(packi octants, packi *awake, int *octant)
 {
-	int8 lanes;
+	packi lanes;
 
 	*octant = 0;
-	for (int i = 0; i < 8; i++)
+	for (uint i = 0; i < RAYS_PER_PACKET; i++)
 		if (((const int *)awake)[i]) {
 			*octant = ((const int *)&octants)[i];
 			break;
@@ -118,32 +118,32 @@ inline int8 packet_next_octant(int8 octants, int8 *awake, int *octant)
 
 /* A subtree to be walked, and where the rays enter it. */
 struct packet_entry {
-	float8 enter;
+	packf enter;
 	uint child, count;
 };
 
 /* What a packet found, per lane. */
 struct packet_hits {
-	float8 b1, b2;
-	uint8 instance, primitive;
+	packf b1, b2;
+	packu instance, primitive;
 };
 
 /* Moeller and Trumbore: lanes hit at t in t_min .. t_max; b1, b2 of all lanes. */
-inline int8 packet_triangle(const struct packet *p, __global const struct triangle *tri, float8 *t, float8 *b1,
-                            float8 *b2)
+inline packi packet_triangle(const struct packet *p, __global const struct triangle *tri, packf *t, packf *b1,
+                            packf *b2)
 {
 	const float e1x = tri->e1[0], e1y = tri->e1[1], e1z = tri->e1[2];
 	const float e2x = tri->e2[0], e2y = tri->e2[1], e2z = tri->e2[2];
-	const float8 px = fma(p->dy, e2z, -(p->dz * e2y));
-	const float8 py = fma(p->dz, e2x, -(p->dx * e2z));
-	const float8 pz = fma(p->dx, e2y, -(p->dy * e2x));
-	const float8 inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
-	const float8 sx = p->ox - tri->v0[0], sy = p->oy - tri->v0[1], sz = p->oz - tri->v0[2];
-	const float8 u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
-	const float8 qx = fma(sy, e1z, -(sz * e1y));
-	const float8 qy = fma(sz, e1x, -(sx * e1z));
-	const float8 qz = fma(sx, e1y, -(sy * e1x));
-	const float8 v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
+	const packf px = fma(p->dy, e2z, -(p->dz * e2y));
+	const packf py = fma(p->dz, e2x, -(p->dx * e2z));
+	const packf pz = fma(p->dx, e2y, -(p->dy * e2x));
+	const packf inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
+	const packf sx = p->ox - tri->v0[0], sy = p->oy - tri->v0[1], sz = p->oz - tri->v0[2];
+	const packf u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
+	const packf qx = fma(sy, e1z, -(sz * e1y));
+	const packf qy = fma(sz, e1x, -(sx * e1z));
+	const packf qz = fma(sx, e1y, -(sy * e1x));
+	const packf v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
 
 	*t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 	*b1 = u;

@@ -28,7 +28,7 @@
 #include "replay/scene.h"
 #include "kernels/shared.h"
 
-#define RAYS_PER_PACKET 8u
+#define RAYS_PER_PACKET 16u
 
 /* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
 #define RAYS_EDGE_SLACK 1e-6f

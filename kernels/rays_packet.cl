@@ -13,53 +13,49 @@ inline void walk_blas(struct packet *packet, struct packet_hits *hits, int octan
 {
 	struct packet rays = *packet, *p = &rays; /* a copy of its own stays in registers */
 	const struct planes planes = octant_planes(octant);
-	struct packet_entry stack[BVH_MAX_DEPTH];
+	struct packet_entry stack[BVH_MAX_DEPTH + 1];
 	uint depth = 0, child = 0, count = 0;
 
 	for (;;) {
 		if (count == 0) {
 			__global const struct node2 *node = &nodes[child];
 			__global const float *bounds = (__global const float *)node;
-			const float8 enter0 = packet_enter(p, bounds, planes, 0), enter1 = packet_enter(p, bounds, planes, 1);
-			const int8 hit0 = enter0 <= packet_leave(p, bounds, planes, 0);
-			const int8 hit1 = enter1 <= packet_leave(p, bounds, planes, 1);
-			const int any0 = any_lane(hit0), any1 = any_lane(hit1);
+			const packf enter0 = packet_enter(p, bounds, planes, 0), enter1 = packet_enter(p, bounds, planes, 1);
+			const packi hit0 = enter0 <= packet_leave(p, bounds, planes, 0);
+			const packi hit1 = enter1 <= packet_leave(p, bounds, planes, 1);
+			const int any0 = any_pack(hit0), any1 = any_pack(hit1);
 
-			if (any0 && any1) {
-				/* Where any ray enters side 1 before side 0 and meets it, that goes first. */
-				const uint first = any_lane(hit1 & (enter1 < enter0));
+			if (any0 | any1) {
+				/* Where any ray enters side 1 before side 0 and meets it, that goes first; any hit takes any order. */
+				const uint first = any ? !any0 : (uint)(any1 & (!any0 | any_pack(hit1 & (enter1 < enter0))));
 
-				stack[depth].enter = first ? enter0 : enter1;
+				if (!any)
+					stack[depth].enter = first ? enter0 : enter1;
 				stack[depth].child = node->child[!first];
 				stack[depth].count = node->count[!first];
-				depth++;
+				depth += (uint)(any0 & any1);
 				child = node->child[first];
 				count = node->count[first];
 				continue;
 			}
-			if (any0 || any1) {
-				child = node->child[any1];
-				count = node->count[any1];
-				continue;
-			}
 		} else {
 			for (uint i = 0; i < count; i++) {
-				float8 t, b1, b2;
-				const int8 hit = packet_triangle(p, &triangles[child + i], &t, &b1, &b2);
+				packf t, b1, b2;
+				const packi hit = packet_triangle(p, &triangles[child + i], &t, &b1, &b2);
 
-				if (!any_lane(hit))
+				if (!any_pack(hit))
 					continue;
 				if (any) {
-					p->t_max = select(p->t_max, (float8)(-INFINITY), hit);
-					hits->instance = select(hits->instance, (uint8)(instance), hit);
+					p->t_max = select(p->t_max, (packf)(-INFINITY), hit);
+					hits->instance = select(hits->instance, (packu)(instance), hit);
 				} else {
-					const int8 closer = hit & ((t < p->t_max) | (hits->instance == SCENE_NONE));
+					const packi closer = hit & ((t < p->t_max) | (hits->instance == SCENE_NONE));
 
 					p->t_max = select(p->t_max, t, closer);
 					hits->b1 = select(hits->b1, b1, closer);
 					hits->b2 = select(hits->b2, b2, closer);
-					hits->instance = select(hits->instance, (uint8)(instance), closer);
-					hits->primitive = select(hits->primitive, (uint8)(triangles[child + i].primitive), closer);
+					hits->instance = select(hits->instance, (packu)(instance), closer);
+					hits->primitive = select(hits->primitive, (packu)(triangles[child + i].primitive), closer);
 				}
 			}
 		}
@@ -69,7 +65,7 @@ inline void walk_blas(struct packet *packet, struct packet_hits *hits, int octan
 				return;
 			}
 			depth--;
-		} while (!any_lane(stack[depth].enter <= p->t_max));
+		} while (any ? !any_pack(p->t_min <= p->t_max) : !any_pack(stack[depth].enter <= p->t_max));
 		child = stack[depth].child;
 		count = stack[depth].count;
 	}
@@ -80,18 +76,18 @@ inline void walk_instance(struct packet *eye, struct packet_hits *hits, int any,
                           __global const struct triangle *triangles)
 {
 	__global const struct instance *instance = &instances[index];
-	int8 awake = eye->t_min <= eye->t_max, octants;
+	packi awake = eye->t_min <= eye->t_max, octants;
 	struct packet p;
 
 	packet_transform(&p, eye, instance->obj_from_eye);
 	packet_prepare(&p, 0);
 	p.t_min = eye->t_min;
 	octants = packet_octants(&p);
-	while (any_lane(awake)) {
+	while (any_pack(awake)) {
 		int octant;
-		const int8 lanes = packet_next_octant(octants, &awake, &octant);
+		const packi lanes = packet_next_octant(octants, &awake, &octant);
 
-		p.t_max = select((float8)(-INFINITY), eye->t_max, lanes);
+		p.t_max = select((packf)(-INFINITY), eye->t_max, lanes);
 		walk_blas(&p, hits, octant, any, index, nodes + instance->node2_first, triangles + instance->triangle_first);
 		eye->t_max = select(eye->t_max, p.t_max, lanes);
 	}
@@ -108,7 +104,7 @@ inline void walk_top(struct packet *eye, struct packet_hits *hits, int any, __gl
 		__global const struct node2 *node = &top[stack[--depth]];
 
 		for (uint side = 0; side < 2; side++) {
-			if (!any_lane(packet_meets_box(eye, node, side)))
+			if (!any_pack(packet_meets_box(eye, node, side)))
 				continue;
 			if (node->count[side] == 0)
 				stack[depth++] = node->child[side];
@@ -121,8 +117,8 @@ inline void walk_top(struct packet *eye, struct packet_hits *hits, int any, __gl
 /* Rows from eight rays; lanes past the end, and rays that hit nothing by definition, sleep. */
 inline void load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
-	float8 t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;
-	int8 finite;
+	packf t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;
+	packi finite;
 
 	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n; i++) {
 		__global const struct ray *ray = &rays[first + i];
@@ -132,10 +128,10 @@ inline void load_rays(struct packet *p, __global const struct ray *rays, uint fi
 		((float *)&t_min)[i] = ray->t_min, ((float *)&t_max)[i] = ray->t_max;
 	}
 	finite = isfinite(ox) & isfinite(oy) & isfinite(oz) & isfinite(dx) & isfinite(dy) & isfinite(dz) & (t_min <= t_max);
-	p->ox = select((float8)(0), ox, finite), p->oy = select((float8)(0), oy, finite), p->oz = select((float8)(0), oz, finite);
-	p->dx = select((float8)(1), dx, finite), p->dy = select((float8)(1), dy, finite), p->dz = select((float8)(1), dz, finite);
-	p->t_min = select((float8)(1), t_min, finite);
-	p->t_max = select((float8)(-INFINITY), t_max, finite);
+	p->ox = select((packf)(0), ox, finite), p->oy = select((packf)(0), oy, finite), p->oz = select((packf)(0), oz, finite);
+	p->dx = select((packf)(1), dx, finite), p->dy = select((packf)(1), dy, finite), p->dz = select((packf)(1), dz, finite);
+	p->t_min = select((packf)(1), t_min, finite);
+	p->t_max = select((packf)(-INFINITY), t_max, finite);
 	packet_prepare(p, 0);
 }
 
