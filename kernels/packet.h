@@ -1,5 +1,5 @@
 /*
- * Eight rays as packf rows against binary trees. OpenCL C only; included by the packet kernels.
+ * Sixteen rays as rows of a lane each against binary trees. OpenCL C only; included by the packet kernels.
  *
  * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. The product o * i is kept in two roundings, one below
  * and one above, so that no box is missed by rounding; camera rays put the widening of boxes in there as well. Which of
@@ -14,7 +14,7 @@
 #include "kernels/rays.h"
 #include "kernels/lanes.h"
 
-/* Eight rays in the space of the tree they walk. */
+/* Sixteen rays in the space of the tree they walk. */
 struct packet {
 	packf ox, oy, oz, dx, dy, dz;
 	packf ix, iy, iz;                      /* 1/d, finite */

@@ -1,5 +1,5 @@
 /*
- * occlude_packet, intersect_packet: eight consecutive rays a work item against binary trees. See kernels/rays.h.
+ * occlude_packet, intersect_packet: sixteen consecutive rays a work item against binary trees. See kernels/rays.h.
  */
 #include "kernels/rays.h"
 #include "kernels/packet.h"
@@ -114,7 +114,7 @@ inline void walk_top(struct packet *eye, struct packet_hits *hits, int any, __gl
 	}
 }
 
-/* Rows from eight rays; lanes past the end, and rays that hit nothing by definition, sleep. */
+/* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. */
 inline void load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
 	packf t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;

@@ -16,9 +16,9 @@
 #define DEVICE_KERNELS(X) \
 	X(camera_packet)    /* camera rays, a tile of 8 x 8 pixels a work item, BVH2; nearest fragment or a column of them */ \
 	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
-	X(occlude_packet)   /* shadow rays, 8 consecutive rays a work item, BVH2 */ \
+	X(occlude_packet)   /* shadow rays, a packet of consecutive rays a work item, BVH2 */ \
 	X(occlude_wide)     /* the same, one ray a work item, 8-wide nodes */ \
-	X(intersect_packet) /* nearest hit, 8 consecutive coherent rays a work item, BVH2 */ \
+	X(intersect_packet) /* nearest hit, a packet of coherent rays a work item, BVH2 */ \
 	X(intersect_wide)   /* the same, one ray a work item, 8-wide nodes */ \
 	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
@@ -83,7 +83,7 @@ void device_close(struct device **dev);
 /** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
 const char *device_name(const struct device *dev);
 
-/** 1 where one work item should hold eight rays (CPU families: the *_packet kernels), 0 where one (GPUs). */
+/** 1 where one work item should hold a packet of rays (CPU families: the *_packet kernels), 0 where one (GPUs). */
 int device_prefers_packets(const struct device *dev);
 
 /**
