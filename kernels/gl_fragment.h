@@ -125,25 +125,55 @@ static inline struct vec3 point_normal(const struct point *p)
 }
 
 /*
+ * Weights of a place inside of the triangle, at least `inset` away from its edges, where the triangle is that wide: the
+ * point's own unless it lies at an edge, or beyond one that covers its pixel by the snapping of vertices.
+ */
+static inline void point_inset_weights(const struct point *p, float inset, float *weight)
+{
+	struct vec3 a = point_corner(p, 0), b = point_corner(p, 1), c = point_corner(p, 2);
+	struct vec3 edge[3], cross;
+	float area, sum = 0.0f;
+
+	edge[0] = v3_sub(c, b);
+	edge[1] = v3_sub(a, c);
+	edge[2] = v3_sub(b, a);
+	cross = v3_cross(edge[2], edge[0]);
+	area = M_SQRT(v3_dot(cross, cross));
+	for (int i = 0; i < 3; i++) {
+		float length = M_SQRT(v3_dot(edge[i], edge[i]));
+		float least = inset * length * 3.0f < area ? inset * length / area : 1.0f / 3.0f;
+
+		weight[i] = M_MAX(p->weight[i], least);
+		sum += weight[i];
+	}
+	for (int i = 0; i < 3; i++)
+		weight[i] /= sum;
+}
+
+/*
  * Where secondary rays start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
  * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
  * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
  * tenth of a pixel's footprint in common windows.
  *
- * A pixel that its triangle covers by the snapping of vertices lies a little outside of it, and in a corner behind the
- * next wall: the point is first taken back into the triangle, by as much.
+ * Coverage and depth go by vertices snapped to 1/256 pixel, so that a pixel's point may lie a little outside of its
+ * triangle, or behind a wall that meets it: the ray would start behind the next wall and a lit junction show dark
+ * pixels. The point is therefore first taken back into its triangle, and then, by as much again, against `from`, the
+ * direction of the ray that led to it: what lies before it on that ray was seen through, so nothing stands there. Not so
+ * where `towards` leads away through the other side of the triangle.
  */
-static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 towards)
+static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 towards, struct vec3 from)
 {
-	float w0 = M_MAX(p->weight[0], 0.0f), w1 = M_MAX(p->weight[1], 0.0f), w2 = M_MAX(p->weight[2], 0.0f);
-	struct vec3 a = point_corner(p, 0), b = point_corner(p, 1), c = point_corner(p, 2), n = point_plane_normal(p);
-	struct vec3 at = v3_scale(v3_add(v3_add(v3_scale(a, w0), v3_scale(b, w1)), v3_scale(c, w2)), 1.0f / (w0 + w1 + w2));
-	struct vec3 inwards = v3_sub(v3_scale(v3_add(v3_add(a, b), c), 1.0f / 3.0f), at);
-	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f;
-	float distance = M_SQRT(v3_dot(inwards, inwards));
+	struct vec3 at = point_position(p), n = point_plane_normal(p), back = v3_scale(v3_normalize(from), -1.0f);
+	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f, weight[3];
 
-	at = v3_add(at, v3_scale(inwards, distance > size ? size / distance : 1.0f));
-	return v3_add(at, v3_scale(n, v3_dot(n, towards) < 0.0f ? -size : size));
+	n = v3_dot(n, towards) < 0.0f ? v3_scale(n, -1.0f) : n;
+	point_inset_weights(p, size, weight);
+	at = v3_add(v3_add(v3_scale(point_corner(p, 0), weight[0]), v3_scale(point_corner(p, 1), weight[1])),
+	            v3_scale(point_corner(p, 2), weight[2]));
+	if (v3_dot(n, back) > 0.0f)
+		at = v3_add(at, v3_scale(back, size));
+	return v3_add(at, v3_scale(n, size));
 }
 
 /* --- Colour ---------------------------------------------------------------------------------------------------- */

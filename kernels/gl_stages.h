@@ -166,15 +166,30 @@ static inline void stage_no_ray(GLOBAL struct ray *ray)
 	ray->t_max = 0.0f;
 }
 
-/* The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. */
-static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, GLOBAL struct ray *ray)
+/* The direction in which a view looks through a pixel: from its near to its far point. */
+static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, uint32_t x, uint32_t y)
+{
+	float nx = 2.0f * ((float)x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
+	float ny = 2.0f * ((float)y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
+	struct vec4 near = m4_mul(view->inverse, v4(nx, ny, -1.0f, 1.0f));
+	struct vec4 far = m4_mul(view->inverse, v4(nx, ny, 1.0f, 1.0f));
+
+	return v3(far.x * near.w - near.x * far.w, far.y * near.w - near.y * far.w, far.z * near.w - near.z * far.w);
+}
+
+/*
+ * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`: the
+ * direction of the ray that led to the point.
+ */
+static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, struct vec3 from,
+                                   GLOBAL struct ray *ray)
 {
 	GLOBAL const struct scene_light *light = &t->lights[p->material->light_first + slot];
 	struct vec3 to = v3_load(light->position_eye), place, o;
 	int positional = light->position_eye[3] != 0.0f;
 
 	place = positional ? v3_scale(to, 1.0f / light->position_eye[3]) : to;
-	o = point_ray_origin(p, positional ? v3_sub(place, point_position(p)) : to);
+	o = point_ray_origin(p, positional ? v3_sub(place, point_position(p)) : to, from);
 	if (positional)
 		to = v3_sub(place, o);
 	v3_store(ray->o, o);
@@ -184,9 +199,11 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 }
 
 /* shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted. */
-static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                   GLOBAL const struct fragment *fragments, GLOBAL const struct shaded *shaded,
-                                   uint32_t n, GLOBAL struct ray *rays, uint32_t item)
+static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct view *views,
+                                   GLOBAL const struct window_vertex *windows,
+                                   GLOBAL const struct fragment *fragments, GLOBAL const uint32_t *pixels,
+                                   uint32_t width, GLOBAL const struct shaded *shaded, uint32_t n,
+                                   GLOBAL struct ray *rays, uint32_t item)
 {
 	uint32_t slot = item / n, i = item % n;
 	struct fragment f = fragments[i];
@@ -197,7 +214,8 @@ static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct w
 		return;
 	}
 	p = point_from_fragment(t, windows, &f);
-	stage_light_ray(t, &p, slot, &rays[item]);
+	stage_light_ray(t, &p, slot,
+	                stage_view_direction(&views[p.geometry->view], pixels[i] % width, pixels[i] / width), &rays[item]);
 }
 
 /* --- Mirrors ----------------------------------------------------------------------------------------------------- */
@@ -212,21 +230,10 @@ static inline void stage_mirror_ray(const struct point *p, struct vec3 direction
 	plane = v3_dot(plane, direction) > 0.0f ? v3_scale(plane, -1.0f) : plane;
 	if (v3_dot(d, plane) < 0.0f)
 		d = v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * v3_dot(d, plane))));
-	v3_store(ray->o, point_ray_origin(p, d));
+	v3_store(ray->o, point_ray_origin(p, d, direction));
 	v3_store(ray->d, d);
 	ray->t_min = 0.0f;
 	ray->t_max = 1.0e30f;
-}
-
-/* The direction in which a view looks through a pixel: from its near to its far point. */
-static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, uint32_t x, uint32_t y)
-{
-	float nx = 2.0f * ((float)x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
-	float ny = 2.0f * ((float)y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
-	struct vec4 near = m4_mul(view->inverse, v4(nx, ny, -1.0f, 1.0f));
-	struct vec4 far = m4_mul(view->inverse, v4(nx, ny, 1.0f, 1.0f));
-
-	return v3(far.x * near.w - near.x * far.w, far.y * near.w - near.y * far.w, far.z * near.w - near.z * far.w);
 }
 
 /* mirror_ray: the first reflected ray of a fragment, and what share of the beauty it carries (0: none). */
@@ -318,7 +325,7 @@ static inline void hit_ray_item(const struct tables *t, GLOBAL const struct hit 
 		return;
 	}
 	p = point_from_hit(t, &hit, v3_load(rays[i].d));
-	stage_light_ray(t, &p, slot, &out[item]);
+	stage_light_ray(t, &p, slot, v3_load(rays[i].d), &out[item]);
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */

@@ -22,14 +22,15 @@ __kernel void shade(TABLES_ARGUMENTS, __global const struct view *views, __globa
 		           (uint32_t)get_global_id(0));
 }
 
-__kernel void shadow_ray(TABLES_ARGUMENTS, __global const struct window_vertex *windows,
-                         __global const struct fragment *fragments, __global const struct shaded *shaded, uint32_t n,
-                         uint32_t n_rays, __global struct ray *rays)
+__kernel void shadow_ray(TABLES_ARGUMENTS, __global const struct view *views,
+                         __global const struct window_vertex *windows, __global const struct fragment *fragments,
+                         __global const uint32_t *pixels, uint32_t width, __global const struct shaded *shaded,
+                         uint32_t n, uint32_t n_rays, __global struct ray *rays)
 {
 	struct tables t = TABLES_NAMED;
 
 	if (get_global_id(0) < n_rays)
-		shadow_ray_item(&t, windows, fragments, shaded, n, rays, (uint32_t)get_global_id(0));
+		shadow_ray_item(&t, views, windows, fragments, pixels, width, shaded, n, rays, (uint32_t)get_global_id(0));
 }
 
 __kernel void mirror_ray(TABLES_ARGUMENTS, __global const struct view *views,

@@ -609,8 +609,11 @@ static int trace_shadows(struct job *job, const struct accel_space *space, uint3
 		err = reserve(tr, BUFFER_STOPPED, n_rays, sizeof(uint32_t));
 	if (err)
 		return err;
+	add(&l, tr, BUFFER_VIEWS);
 	add(&l, tr, BUFFER_WINDOWS);
 	add(&l, tr, BUFFER_FRAGMENTS);
+	add(&l, tr, BUFFER_PIXELS);
+	add_uint(&l, &job->width);
 	add(&l, tr, BUFFER_SHADED);
 	add_uint(&l, &n);
 	add_uint(&l, &n_rays);

@@ -31,8 +31,9 @@ void shadow_ray_c(const void *const *args, size_t first, size_t last)
 {
 	struct tables t = TABLES_NAMED;
 
-	for (size_t i = first; i < last && i < number(args[16]); i++)
-		shadow_ray_item(&t, args[12], args[13], args[14], number(args[15]), (void *)args[17], (uint32_t)i);
+	for (size_t i = first; i < last && i < number(args[19]); i++)
+		shadow_ray_item(&t, args[12], args[13], args[14], args[15], number(args[16]), args[17], number(args[18]),
+		                (void *)args[20], (uint32_t)i);
 }
 
 void mirror_ray_c(const void *const *args, size_t first, size_t last)

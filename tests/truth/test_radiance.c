@@ -1,6 +1,6 @@
 /*
  * Pictures whose every pixel is known in closed form: Lambert's law on a square and inside a sphere, the outline of a
- * shadow, a mirror that shows a plane.
+ * shadow, a mirror that shows a plane, a lit corner without a spot of shadow.
  */
 #include <check.h>
 #include <math.h>
@@ -144,6 +144,84 @@ START_TEST(test_mirror)
 }
 END_TEST
 
+/* Turn a direction about y, then about x. */
+static void turn(float turn_y, float turn_x, const float in[3], float out[3])
+{
+	float x = cosf(turn_y) * in[0] + sinf(turn_y) * in[2], z = cosf(turn_y) * in[2] - sinf(turn_y) * in[0];
+
+	out[0] = x;
+	out[1] = cosf(turn_x) * in[1] - sinf(turn_x) * z;
+	out[2] = sinf(turn_x) * in[1] + cosf(turn_x) * z;
+}
+
+/* Whether a pixel shows a wall from the room's side: not what of it runs on behind another wall. */
+static int inside(const struct image *img, uint32_t x, uint32_t y, const float middle[3], float e[3][3], float scale)
+{
+	float p[3] = { at(img, "P.X", x, y), at(img, "P.Y", x, y), at(img, "P.Z", x, y) };
+
+	if (at(img, "id", x, y) == 0)
+		return 0;
+	for (int i = 0; i < 3; i++) {
+		float along = (p[0] - middle[0]) * e[i][0] + (p[1] - middle[1]) * e[i][1] + (p[2] - middle[2]) * e[i][2];
+
+		if (along < -1.001f * scale)
+			return 0;
+	}
+	return 1;
+}
+
+/*
+ * Three walls that meet in a corner and run on past each other by `overlap`, with a light on their side: every pixel
+ * sees the light, above all those along the junctions, whose shadow rays start next to another wall.
+ * @return pixels in shadow
+ */
+static uint32_t corner_specks(float turn_y, float turn_x, float overlap, uint32_t cells, float scale)
+{
+	static const float axis[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+	const float middle[3] = { 0, 0, -4 * scale }, half = (1 + overlap) * scale;
+	float e[3][3];
+	struct truth t;
+	struct image img;
+	uint32_t material, specks = 0;
+
+	for (int i = 0; i < 3; i++)
+		turn(turn_y, turn_x, axis[i], e[i]);
+	truth_init(&t, SIZE, SIZE, 0.6f);
+	truth_add_light(&t, middle[0] + 0.3f * scale * (e[0][0] + e[1][0] + e[2][0]),
+	                middle[1] + 0.3f * scale * (e[0][1] + e[1][1] + e[2][1]),
+	                middle[2] + 0.3f * scale * (e[0][2] + e[1][2] + e[2][2]), 1);
+	material = truth_add_material(&t, 0.7f);
+	for (int i = 0; i < 3; i++) { /* the wall at -1 on axis i; -overlap .. beyond it on the others */
+		float centre[3];
+
+		for (int k = 0; k < 3; k++)
+			centre[k] = middle[k] - scale * (e[i][k] + overlap * (e[(i + 1) % 3][k] + e[(i + 2) % 3][k]));
+		truth_add_square(&t, material, centre, e[(i + 1) % 3], e[(i + 2) % 3], half, cells);
+	}
+	truth_render(&t, "whitted", &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++)
+			specks += inside(&img, x, y, middle, e, scale) && at(&img, "shadow.G", x, y) < 1;
+	image_free(&img);
+	truth_free(&t);
+	return specks;
+}
+
+START_TEST(test_corner_without_specks)
+{
+	static const float overlaps[] = { 0, 0.25f }, scales[] = { 1, 20 };
+
+	for (int i = 0; i < 6; i++)
+		for (uint32_t k = 0; k < 8; k++) {
+			float turn_y = -0.6f - 0.07f * (float)i, turn_x = 0.4f + 0.09f * (float)i;
+			uint32_t specks = corner_specks(turn_y, turn_x, overlaps[k & 1], k & 2 ? 7 : 1, scales[k >> 2]);
+
+			ck_assert_msg(specks == 0, "%u dark pixels: turned by %g and %g, overlap %g, case %u", specks,
+			              (double)turn_y, (double)turn_x, (double)overlaps[k & 1], k);
+		}
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("radiance");
@@ -156,6 +234,7 @@ int main(void)
 	tcase_add_test(tests, test_enclosing_sphere);
 	tcase_add_test(tests, test_shadow_shape);
 	tcase_add_test(tests, test_mirror);
+	tcase_add_test(tests, test_corner_without_specks);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
