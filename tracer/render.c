@@ -242,6 +242,9 @@ static void report(const struct run *run)
 	if (u->targets)
 		err_warn(run->options->trace, "not drawn yet: %llu draws to other targets than the window",
 		         (unsigned long long)u->targets);
+	if (u->smooth)
+		err_warn(run->options->trace, "not smoothed yet: %llu draws of smooth lines or points are drawn plain",
+		         (unsigned long long)u->smooth);
 }
 
 static int render(const struct options *o)

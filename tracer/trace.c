@@ -1015,6 +1015,19 @@ static void count_undrawn(struct job *job)
 
 	for (uint32_t i = 0; i < scene->n_instances; i++)
 		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
+	for (uint32_t i = 0, last = SCENE_NONE; i < job->prepared.n_instances; i++) {
+		const struct scene_material *m = &scene->materials[job->prepared.geometries[i].material];
+		enum prepared_shape shape = job->prepared.shapes[i];
+		uint32_t from = job->prepared.instances[i].scene_instance;
+
+		if (from == last) /* faces of one draw in several shapes follow each other */
+			continue;
+		if ((shape == PREPARED_LINES && m->line_smooth) ||
+		    (shape == PREPARED_POINTS && m->point_smooth && !m->point_sprite)) {
+			job->tr->undrawn.smooth++;
+			last = from;
+		}
+	}
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
@@ -1029,10 +1042,10 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		                  (unsigned long long)scene->frame, scene->width, scene->height);
 	job.n_pixels = scene->width * scene->height;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	count_undrawn(&job);
 	err = prepare_frame(scene, &job.prepared);
 	if (err)
 		return err;
+	count_undrawn(&job);
 	job.expanded = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.expanded));
 	job.extra = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.extra));
 	if (!job.expanded || !job.extra)

@@ -46,6 +46,8 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 /** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
 struct tracer_undrawn {
 	uint64_t targets; /* instances that drew to a target other than the window */
+	uint64_t smooth;  /* instances whose lines or points were to be smoothed (GL 2.1 sec. 3.3.1, 3.4.2): they are drawn
+	                     with the coverage of plain ones */
 };
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
 

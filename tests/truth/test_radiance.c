@@ -222,6 +222,35 @@ START_TEST(test_corner_without_specks)
 }
 END_TEST
 
+/* What is not drawn as OpenGL would is counted, one a draw. */
+START_TEST(test_smooth_lines_are_counted)
+{
+	struct tracer_options options = { .mode = TRACER_GL };
+	struct device *dev = NULL;
+	struct tracer *tracer = NULL;
+	struct truth t;
+	uint32_t material;
+
+	truth_init(&t, SIZE, SIZE, 0);
+	material = truth_add_material(&t, 0.7f);
+	truth_add_square(&t, material, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 0.5f, 2);
+	t.materials[material].polygon_mode_front = t.materials[material].polygon_mode_back = GL_LINE;
+	ck_assert_int_eq(device_open("reference", 0, &dev), 0);
+	ck_assert_int_eq(tracer_create(&tracer, dev), 0);
+	for (uint32_t smooth = 0; smooth < 2; smooth++) {
+		struct image img = { .width = 0 };
+
+		t.materials[material].line_smooth = smooth;
+		ck_assert_int_eq(tracer_render(tracer, &t.scene, &options, &img), 0);
+		ck_assert_uint_eq(tracer_undrawn(tracer)->smooth, smooth);
+		image_free(&img);
+	}
+	tracer_destroy(&tracer);
+	device_close(&dev);
+	truth_free(&t);
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("radiance");
@@ -235,6 +264,7 @@ int main(void)
 	tcase_add_test(tests, test_shadow_shape);
 	tcase_add_test(tests, test_mirror);
 	tcase_add_test(tests, test_corner_without_specks);
+	tcase_add_test(tests, test_smooth_lines_are_counted);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
