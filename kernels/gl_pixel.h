@@ -242,6 +242,10 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
 	pixel->id = draw;
+	if (m->blend && !m->logic_op)
+		pixel->layers++;
+	else if ((mask & 7u) == 7u && !m->logic_op)
+		pixel->layers = 0u;
 	/* A blended film without depth is no surface, unless there is nothing else. */
 	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
 		pixel->surface = *f;
@@ -261,6 +265,7 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 		}
 		if ((clear->color_mask & 7u) == 7u) {
 			pixel->id = 0u;
+			pixel->layers = 0u;
 			pixel->surface.order = SCENE_NONE;
 		}
 	}

@@ -221,8 +221,9 @@ struct frame_pixel {
 	uint32_t id;       /* draw number that wrote the colour last; 0: cleared only */
 	struct fragment surface; /* of the nearest visible surface; order SCENE_NONE: none */
 	float albedo[3];         /* its */
+	uint32_t layers;         /* fragments blended into the colour since it was last cleared or written over */
 };
-SHARED_SIZE(struct frame_pixel, 92);
+SHARED_SIZE(struct frame_pixel, 96);
 
 /* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
 #define SURFACE_PLANES 7u

@@ -12,7 +12,7 @@
 #include "base/err.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
-	                               NULL };
+	                               "layers", NULL };
 
 int compose_wants(const char *aov, const char *group)
 {
@@ -36,7 +36,7 @@ static float to_half(float x)
 /* The channels of an image that is being composed; NULL where they are not asked for. */
 struct planes {
 	float *beauty[4], *gl[4], *depth, *shadow[3], *relight[3], *reflect[3], *refract[3];
-	float *z, *normal[3], *position[3], *albedo[3], *id;
+	float *z, *normal[3], *position[3], *albedo[3], *id, *layers;
 };
 
 static int add_group(struct image *img, const char *group, const char *letters, int full, float **planes)
@@ -82,6 +82,8 @@ static int add_channels(struct image *img, const char *aov, struct planes *p)
 		failed = add_group(img, "albedo", "RGB", 0, p->albedo);
 	if (compose_wants(aov, "id") && !failed)
 		failed = !(p->id = image_add_channel(img, "id", 1));
+	if (compose_wants(aov, "layers") && !failed)
+		failed = !(p->layers = image_add_channel(img, "layers", 1));
 	return failed ? -1 : 0;
 }
 
@@ -142,6 +144,8 @@ static void compose_pixel(const struct planes *p, const struct frame_pixel *pixe
 		p->depth[at] = pixel->depth_exact;
 	if (p->id)
 		p->id[at] = (float)pixel->id;
+	if (p->layers)
+		p->layers[at] = (float)pixel->layers;
 	store3(p->normal, surface, at);
 	store3(p->position, surface + 3, at);
 	if (drawn)

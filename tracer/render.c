@@ -38,8 +38,8 @@ static void print_help(FILE *out)
 	      "      --threads N      compute threads of a CPU device (default: all cores)\n"
 	      "      --mode MODE      whitted (default), gl (GL's picture alone), normals\n"
 	      "      --encoding E     linear (default) or display (GL's own numbers)\n"
-	      "      --aov LIST       channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id\n"
-	      "                       (default: all)\n"
+	      "      --aov LIST       channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,\n"
+	      "                       layers (default: all)\n"
 	      "      --depth N        mirror bounces at most (default 4)\n"
 	      "  -h, --help           this text\n",
 	      out);

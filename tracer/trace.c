@@ -97,7 +97,7 @@ int tracer_check_aov(const char *aov)
 			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
 		if (!known)
 			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, "
-			                  "reflect, refract, Z, N, P, albedo and id", (int)n, at);
+			                  "reflect, refract, Z, N, P, albedo, id and layers", (int)n, at);
 		at += n + (at[n] == ',');
 	}
 	return 0;
