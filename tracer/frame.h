@@ -1,0 +1,144 @@
+/*
+ * Inside of the wavefront (trace.c, upload.c, secondary.c): the tracer, a frame on its way through it, and how kernels
+ * are launched. Functions return 0 or ERR_SYSTEM (reported).
+ */
+#ifndef TRACER_FRAME_H
+#define TRACER_FRAME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/accel.h"
+#include "tracer/expand.h"
+#include "tracer/pool.h"
+#include "tracer/prepare.h"
+#include "tracer/trace.h"
+
+/* The buffers of a frame that are not pools. */
+enum buffer {
+	BUFFER_GEOMETRIES, BUFFER_MATERIALS, BUFFER_LIGHTS, BUFFER_UNITS, BUFFER_CURRENTS, BUFFER_STIPPLES,
+	BUFFER_TEXTURES, BUFFER_VIEWS, BUFFER_INSTANCES,
+	BUFFER_OWNER, BUFFER_VERTICES, BUFFER_TEXCOORDS, BUFFER_WINDOWS, BUFFER_CLIPS,
+	BUFFER_NODES2, BUFFER_NODES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
+	BUFFER_AFTER, BUFFER_SPARSE, BUFFER_COUNTS, BUFFER_FIRST,
+	BUFFER_FRAGMENTS, BUFFER_PIXELS, BUFFER_SHADED,
+	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_MIRROR_RAYS, BUFFER_SHARES, BUFFER_HITS, BUFFER_WANTED, BUFFER_BACKGROUND,
+	BUFFER_FRAME, BUFFER_SURFACE,
+	N_BUFFERS
+};
+
+struct tracer {
+	struct device *dev;
+	struct accel *accel;
+	uint64_t uploaded; /* accel->generation of the trees on the device */
+	struct pool attributes, indices, texels;
+	struct device_buffer *buffers[N_BUFFERS];
+	uint32_t *counts, *first; /* [pixels], host copies */
+	size_t n_counted;
+	struct tracer_undrawn undrawn;
+};
+
+/* One frame on its way. */
+struct job {
+	struct tracer *tr;
+	const struct scene *scene;
+	const struct tracer_options *options;
+	struct prepared prepared;
+	struct expanded *expanded;       /* [n_instances]: what became of lines and points; empty for others */
+	const struct scene_mesh **extra; /* [n_instances]: their meshes, or NULL */
+	const struct accel_space *spaces;
+	uint32_t n_spaces;
+	uint32_t width, height, n_pixels;
+	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
+	float background[4];
+};
+
+/* --- upload.c: what of a scene the device needs ------------------------------------------------------------------- */
+
+/** Attributes and indices of the frame's meshes into the pools, and their places into the geometries. */
+int place_attributes(struct job *job);
+int place_indices(struct job *job);
+
+/** Materials, lights, texture units and textures, current values, stipples. */
+int upload_state(struct job *job);
+
+/** What accel_build_frame made; the trees of meshes only where they changed. */
+int upload_trees(struct job *job);
+
+/* --- secondary.c: shadows and mirrors of the fragments in the list ------------------------------------------------ */
+
+/** What rays from a view's fragments may hit, or NULL: nothing. */
+const struct accel_space *space_of_view(const struct job *job, uint32_t view);
+
+/** Ask all lights from all n fragments of the list: BUFFER_STOPPED[slot][fragment]. */
+int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** Follow the mirrors of all n fragments of the list, bounce by bounce, into their beauty. */
+int trace_mirrors(struct job *job, const struct accel_space *space, uint32_t n);
+
+/* --- Small change ------------------------------------------------------------------------------------------------- */
+
+static inline int reserve(struct tracer *tr, enum buffer buffer, size_t count, size_t size)
+{
+	return device_reserve(tr->dev, &tr->buffers[buffer], count * size);
+}
+
+static inline int upload(struct tracer *tr, enum buffer buffer, const void *data, size_t count, size_t size)
+{
+	int err = reserve(tr, buffer, count, size);
+
+	return err || count == 0 ? err : device_write(tr->dev, tr->buffers[buffer], 0, data, count * size);
+}
+
+/* Arguments of a launch, counted as they are added. */
+struct launch {
+	struct device_arg args[32];
+	size_t n;
+};
+
+static inline void add_buffer(struct launch *l, const struct device_buffer *buffer)
+{
+	l->args[l->n++] = ARG_BUFFER(buffer);
+}
+
+static inline void add(struct launch *l, const struct tracer *tr, enum buffer buffer)
+{
+	add_buffer(l, tr->buffers[buffer]);
+}
+
+static inline void add_bytes(struct launch *l, const void *value, size_t bytes)
+{
+	l->args[l->n++] = (struct device_arg){ .value = value, .bytes = bytes };
+}
+
+static inline void add_uint(struct launch *l, const uint32_t *value)
+{
+	add_bytes(l, value, sizeof(*value));
+}
+
+/* The tables that every shading kernel takes first (kernels/gl_tables.h). */
+static inline struct launch launch_with_tables(const struct tracer *tr)
+{
+	struct launch l = { .n = 0 };
+
+	add(&l, tr, BUFFER_GEOMETRIES);
+	add(&l, tr, BUFFER_MATERIALS);
+	add(&l, tr, BUFFER_LIGHTS);
+	add(&l, tr, BUFFER_UNITS);
+	add(&l, tr, BUFFER_CURRENTS);
+	add_buffer(&l, tr->attributes.buffer);
+	add_buffer(&l, tr->indices.buffer);
+	add(&l, tr, BUFFER_VERTICES);
+	add(&l, tr, BUFFER_TEXCOORDS);
+	add(&l, tr, BUFFER_TEXTURES);
+	add_buffer(&l, tr->texels.buffer);
+	add(&l, tr, BUFFER_STIPPLES);
+	return l;
+}
+
+static inline int run(struct tracer *tr, enum device_kernel kernel, size_t n, const struct launch *l)
+{
+	return device_run(tr->dev, kernel, n, l->args, l->n);
+}
+
+#endif
