@@ -19,8 +19,8 @@
  *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
  *                                 same t one, the same one each time
  *
- * Work items: as many as hold n_rays in packets of RAYS_PER_PACKET for *_packet, n_rays for *_wide. A space with nothing to hit (accel_space.n_nodes == 0)
- * is the caller's to leave out.
+ * Work items: as many as hold n_rays in packets of RAYS_PER_PACKET for *_packet, n_rays for *_wide. A space with nothing
+ * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
  */
 #ifndef KERNELS_RAYS_H
 #define KERNELS_RAYS_H
