@@ -117,18 +117,26 @@ $(BUILD)/flags: FORCE | $(BUILD)/deps
 
 deps: $(BUILD)/deps
 
-$(BUILD)/deps: Makefile
+# What only one proof target needs stands in DEPS_NAME and is installed by $(BUILD)/deps.NAME.
+define INSTALL
 	@mkdir -p $(@D)
-	@missing=$$(printf '%s\n' $(DEPS) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(DEPS) \
+	@missing=$$(printf '%s\n' $(1) | grep -vxF "$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(1) \
 		2>/dev/null | sed -n 's/^installed //p')"); \
 	if [ -n "$$missing" ]; then \
 		echo "installing from Debian:" $$missing "(see $@.log)"; \
 		[ "$$(id -u)" = 0 ] || sudo=sudo; \
 		export DEBIAN_FRONTEND=noninteractive; \
-		{ $$sudo apt-get -q update && $$sudo apt-get -q -y --no-install-recommends install $$missing; } \
+		{ $$sudo apt-get -q update && $$sudo apt-get -q -y -o DPkg::Lock::Timeout=300 --no-install-recommends install $$missing; } \
 			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
 	fi
 	@touch $@
+endef
+
+$(BUILD)/deps: Makefile
+	$(call INSTALL,$(DEPS))
+
+$(BUILD)/deps.%: Makefile
+	$(call INSTALL,$(DEPS_$*))
 
 $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
