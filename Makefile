@@ -20,7 +20,7 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lstdc++ -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lcyaml -lstdc++ -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c arrays.c content.c memory.c writer.c reference.c)
@@ -36,7 +36,7 @@ COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
-	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev \
+	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libcyaml-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \

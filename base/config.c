@@ -1,0 +1,130 @@
+#include "base/config.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+/* What libcyaml says about the first thing that is wrong, and the line that it names first in its backtrace. */
+struct complaint {
+	char text[256];
+	int line;
+};
+
+static void take_complaint(cyaml_log_t level, void *context, const char *fmt, va_list args)
+{
+	struct complaint *c = context;
+	char text[256], *at;
+	int line;
+
+	(void)level;
+	vsnprintf(text, sizeof(text), fmt, args);
+	text[strcspn(text, "\n")] = '\0';
+	at = strstr(text, "line: ");
+	if (at && sscanf(at, "line: %d", &line) == 1) {
+		if (!c->line)
+			c->line = line;
+		return;
+	}
+	if (!c->text[0] && !strstr(text, "Backtrace"))
+		snprintf(c->text, sizeof(c->text), "%s", strncmp(text, "Load: ", 6) == 0 ? text + 6 : text);
+}
+
+static cyaml_config_t make_config(struct complaint *complaint)
+{
+	return (cyaml_config_t){ .log_fn = complaint ? take_complaint : NULL, .log_ctx = complaint, .mem_fn = cyaml_mem,
+	                         .log_level = CYAML_LOG_ERROR };
+}
+
+static int read_all(const char *path, char **out, size_t *n)
+{
+	FILE *f = fopen(path, "rb");
+	char *data = NULL;
+	size_t used = 0, size = 0;
+
+	if (!f)
+		return err_report(ERR_INPUT, path, "%s", strerror(errno));
+	for (;;) {
+		if (used == size) {
+			char *grown = realloc(data, size = size ? 2 * size : 4096);
+
+			if (!grown) {
+				free(data);
+				fclose(f);
+				return err_report(ERR_SYSTEM, path, "out of memory");
+			}
+			data = grown;
+		}
+		size_t got = fread(data + used, 1, size - used, f);
+
+		used += got;
+		if (got == 0)
+			break;
+	}
+	if (ferror(f)) {
+		free(data);
+		fclose(f);
+		return err_report(ERR_INPUT, path, "%s", strerror(errno));
+	}
+	fclose(f);
+	*out = data;
+	*n = used;
+	return 0;
+}
+
+/**
+ * libcyaml names the line it has read last, which for a key stands before it. Where the message names a key, its line is
+ * the first one from there that holds it.
+ */
+static int line_of_key(const char *text, const char *end, const struct complaint *c)
+{
+	const char *key = strstr(c->text, "key: ") ? strstr(c->text, "key: ") + 5
+		: strstr(c->text, "already seen: ") ? strstr(c->text, "already seen: ") + 14 : NULL;
+	const size_t n = key ? strlen(key) : 0;
+	int line = 1, first = c->line + (key && strstr(c->text, "already seen") ? 1 : 0);
+
+	for (const char *at = text; key && at + n < end; at++) {
+		if (line >= first && memcmp(at, key, n) == 0 && at[n] == ':')
+			return line;
+		line += *at == '\n';
+	}
+	return c->line;
+}
+
+int config_load(const char *path, const cyaml_schema_value_t *schema, void **out)
+{
+	struct complaint complaint = { "", 0 };
+	const cyaml_config_t config = make_config(&complaint);
+	char *text = NULL;
+	size_t n = 0;
+	cyaml_err_t code;
+	int err = read_all(path, &text, &n);
+
+	if (err)
+		return err;
+	*out = NULL;
+	code = cyaml_load_data((const uint8_t *)text, n, &config, schema, out, NULL);
+	complaint.line = code == CYAML_OK ? 0 : line_of_key(text, text + n, &complaint);
+	free(text);
+	if (code == CYAML_OK && *out)
+		return 0;
+	if (code == CYAML_OK)
+		return err_report(ERR_INPUT, path, "the file is empty");
+	if (code == CYAML_ERR_OOM)
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	if (complaint.line)
+		return err_report(ERR_INPUT, path, "line %d: %s", complaint.line,
+		                  complaint.text[0] ? complaint.text : cyaml_strerror(code));
+	return err_report(ERR_INPUT, path, "%s", complaint.text[0] ? complaint.text : cyaml_strerror(code));
+}
+
+void config_free(const cyaml_schema_value_t *schema, void *data)
+{
+	const cyaml_config_t config = make_config(NULL);
+
+	if (data)
+		cyaml_free(&config, schema, data, 0);
+}

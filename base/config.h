@@ -1,0 +1,20 @@
+/*
+ * Configuration: YAML files against a schema of libcyaml: unknown keys, wrong types and values out of range are errors that name the
+ * file and the line.
+ */
+#ifndef BASE_CONFIG_H
+#define BASE_CONFIG_H
+
+#include <cyaml/cyaml.h>
+
+/**
+ * Load a file. Keys that the schema does not know are errors.
+ *
+ * @param schema  its root must be a pointer (CYAML_FLAG_POINTER) to a mapping
+ * @param out     receives the data; free with config_free and the same schema. (libyaml has taken the names yaml_*.)
+ * @return 0; ERR_INPUT (reported: missing, no YAML, or not what the schema says, with its line); ERR_SYSTEM (reported)
+ */
+int config_load(const char *path, const cyaml_schema_value_t *schema, void **out);
+void config_free(const cyaml_schema_value_t *schema, void *data);
+
+#endif
