@@ -203,6 +203,8 @@ class Generator:
             return f"pixels_in_buffer() ? put_opaque(p_, {name}) : {before}", None
         if word in ("in", "out"):
             return self.array(command, param, word, rest)
+        if word == "returned":
+            return f"put_opaque(p_, {name})", f"put_returned(p_, {name}, (long)({rest}))"
         fields = rest.split()
         code = {
             "opaque": lambda: f"put_opaque(p_, {name})",

@@ -22,7 +22,9 @@ enum { MAX_NUMBER_BYTES = 24, PATIENCE_S = 5 };
 
 struct options {
 	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
-	const char *ref, *ref_every, *max_frames, *quit_after;
+	const char *ref, *ref_every, *max_frames, *quit_after, *frame_end;
+	uint64_t max_bytes;
+	int no_children;
 	char **program;
 };
 
@@ -32,11 +34,18 @@ static void print_help(FILE *out)
 	      "\n"
 	      "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
 	      "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
+	      "SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGUSR2 are passed on to the program.\n"
 	      "\n"
 	      "  -o, --output NAME.trace  where to record to (PROGRAM.trace in the current directory); replaced\n"
 	      "      --ref KINDS          keep what the program showed in NAME.ref: color, depth, or color,depth\n"
 	      "      --ref-every N        only every Nth frame of these\n"
+	      "      --frame-end CALL     a frame ends with each swap and, for programs that do not swap, with each:\n"
+	      "                           flush, finish, clear (of the color buffer), or readpixels after something was\n"
+	      "                           drawn (swap: with nothing else; OSMesa: with flush and finish)\n"
 	      "      --max-frames N       end the recording after N frames; the program goes on\n"
+	      "      --max-size BYTES     end the recording after the first frame that makes the trace so large (K, M and G\n"
+	      "                           count 1024, 1024^2, 1024^3); the program goes on\n"
+	      "      --no-children        record only the process that is started, not those that it starts\n"
 	      "      --quit-after N       end the recording and the program after N frames, and exit with 0\n"
 	      "      --env NAME=VALUE     set a variable for the program; may be repeated\n"
 	      "  -h, --help               this text\n"
@@ -54,6 +63,37 @@ static int check_number(const char *option, const char *text)
 	if (*text < '0' || *text > '9' || strlen(text) >= MAX_NUMBER_BYTES || strtoull(text, &end, 10) == 0 || *end || errno)
 		return err_report(ERR_USAGE, NULL, "%s takes a number of frames, not '%s'", option, text);
 	return 0;
+}
+
+/* Bytes, with K, M or G behind. */
+static int read_size(const char *text, uint64_t *out)
+{
+	static const char units[] = "KMG";
+	const char *unit = NULL;
+	uint64_t size;
+	char *end;
+
+	errno = 0;
+	size = strtoull(text, &end, 10);
+	if (*text >= '0' && *text <= '9' && *end)
+		unit = strchr(units, *end);
+	for (int i = 0; unit && i <= unit - units && !errno; i++, size *= 1024)
+		if (size > UINT64_MAX / 1024)
+			errno = ERANGE;
+	if (errno || !size || *text < '0' || *text > '9' || end[unit ? 1 : 0])
+		return err_report(ERR_USAGE, NULL, "--max-size takes a number of bytes such as 500M, not '%s'", text);
+	*out = size;
+	return 0;
+}
+
+static int check_frame_end(const char *text)
+{
+	static const char *const names[] = FRAME_TRIGGER_NAMES;
+
+	for (int i = 0; i < N_FRAME_TRIGGERS; i++)
+		if (strcmp(text, names[i]) == 0)
+			return 0;
+	return err_report(ERR_USAGE, NULL, "--frame-end takes swap, flush, finish, clear or readpixels, not '%s'", text);
 }
 
 static int check_ref(const char *text)
@@ -86,11 +126,13 @@ static int set_trace(struct options *o, const char *name)
 /* Fills `o`; returns 0, ERR_USAGE (reported), or 1 where the help text was asked for. */
 static int parse(int argc, char **argv, struct options *o)
 {
-	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV };
+	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV, FRAME_END, MAX_SIZE, NO_CHILDREN };
 	static const struct option table[] = {
 		{ "output", required_argument, NULL, 'o' },       { "ref", required_argument, NULL, REF },
 		{ "ref-every", required_argument, NULL, REF_EVERY }, { "max-frames", required_argument, NULL, MAX_FRAMES },
 		{ "quit-after", required_argument, NULL, QUIT_AFTER }, { "env", required_argument, NULL, ENV },
+		{ "frame-end", required_argument, NULL, FRAME_END }, { "max-size", required_argument, NULL, MAX_SIZE },
+		{ "no-children", no_argument, NULL, NO_CHILDREN },
 		{ "help", no_argument, NULL, 'h' },               { NULL, 0, NULL, 0 },
 	};
 	const char *output = NULL;
@@ -116,6 +158,16 @@ static int parse(int argc, char **argv, struct options *o)
 		case QUIT_AFTER:
 			o->quit_after = optarg;
 			rc = check_number("--quit-after", optarg);
+			break;
+		case FRAME_END:
+			o->frame_end = optarg;
+			rc = check_frame_end(optarg);
+			break;
+		case MAX_SIZE:
+			rc = read_size(optarg, &o->max_bytes);
+			break;
+		case NO_CHILDREN:
+			o->no_children = 1;
 			break;
 		case ENV:
 			if (!strchr(optarg, '=') || optarg[0] == '=')
@@ -221,6 +273,15 @@ static void set_or_unset(const char *name, const char *value)
 		unsetenv(name);
 }
 
+static void set_number(const char *name, uint64_t value)
+{
+	char text[MAX_NUMBER_BYTES];
+
+	snprintf(text, sizeof(text), "%" PRIu64, value);
+	set_or_unset(name, value ? text : NULL);
+}
+
+/* In the child, before it becomes the program. */
 static void set_environment(const struct options *o, const char *recorder, const char *stats_path)
 {
 	const char *others = getenv("LD_PRELOAD");
@@ -234,6 +295,9 @@ static void set_environment(const struct options *o, const char *recorder, const
 	set_or_unset("RELUME_REF_EVERY", o->ref_every);
 	set_or_unset("RELUME_MAX_FRAMES", o->max_frames);
 	set_or_unset("RELUME_QUIT_AFTER", o->quit_after);
+	set_or_unset("RELUME_FRAME_END", o->frame_end);
+	set_number("RELUME_MAX_SIZE", o->max_bytes);
+	set_number("RELUME_ONLY_PROCESS", o->no_children ? (uint64_t)getpid() : 0);
 }
 
 static volatile sig_atomic_t child_pid;

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "capture/sizes.h"
+#include "capture/stats.h"
 #include "capture/writer.h"
 #include "commands.h"
 #include "enums.h"
@@ -41,7 +42,7 @@ static inline void *real(unsigned command)
 	return found ? found : resolve_command(command);
 }
 
-/* context.c: contexts, drawables and frames */
+/* context.c: contexts */
 
 enum context_feature { /* what may be asked without making a GL error */
 	HAS_FIXED_FUNCTION = 1 << 0, HAS_BUFFERS = 1 << 1, HAS_PIXEL_BUFFERS = 1 << 2, HAS_MAP_RANGE = 1 << 3,
@@ -51,6 +52,8 @@ enum context_feature { /* what may be asked without making a GL error */
 	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */
 };
 
+/** 1 where this thread has a context. */
+int context_is_current(void);
 /** 1 where this thread's current context has the feature. */
 int context_has(enum context_feature feature);
 /** The current context's table for content_buffer. There must be a current context. */
@@ -69,6 +72,13 @@ unsigned context_pending_error(unsigned error);
 void context_errors_before(void);
 void context_errors_after(void);
 
+/* frame.c: drawables and the ends of frames */
+
+/** What this thread draws to from now on. */
+void frame_drawable_glx(void *display, unsigned long drawable);
+void frame_drawable_egl(void *display, void *surface);
+void frame_drawable_osmesa(void *context, int width, int height);
+
 void drawable_is_window(unsigned long glx_window, unsigned long window);
 void drawable_is_pbuffer(void *display, unsigned long pbuffer);
 void drawable_may_have_changed(void);
@@ -76,7 +86,13 @@ void drawable_may_have_changed(void);
 void frame_end_glx(void *display, unsigned long drawable);
 void frame_end_egl(void *display, void *surface);
 void frame_ended(void);
-void frame_may_have_ended(void);
+
+void frame_primitive_begins(void);
+void frame_primitive_ended(void);
+void frame_drawn(void);
+void frame_cleared(unsigned buffers);
+/** A call that ends a frame where `record --frame-end` says so, `truth` holds, and something was drawn since the last one. */
+void frame_may_end(enum frame_trigger trigger, int truth);
 
 /* reference.c: what the program shows, read back */
 
@@ -122,6 +138,14 @@ uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *co
 uint8_t *put_attribs(uint8_t *p, const int *list, int end);
 uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end);
 long polygon_stipple_count(void);
+
+/* readback.c: how much the program has read back; -1: not into memory, or not known */
+
+long read_pixels_bytes(unsigned format, unsigned type, int width, int height);
+long texture_image_bytes(unsigned target, int level, unsigned format, unsigned type);
+long compressed_image_bytes(unsigned target, int level);
+/** So many bytes that a call has returned; below 0: their address, or offset in a buffer. */
+uint8_t *put_returned(uint8_t *p, const void *data, long bytes);
 
 void buffer_unmapped(unsigned target);
 void buffer_flushed(unsigned target, long offset, long length);

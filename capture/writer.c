@@ -55,6 +55,7 @@ static char wanted_path[PATH_BYTES]; /* RELUME_TRACE */
 static struct recorder_stats *stats;
 static struct stats_process own_process; /* where the command maps no file of figures */
 static _Atomic uint32_t n_threads;
+static int only_this_process; /* no child of it gets a trace */
 
 /* initial-exec: reached without a call, and the library is there from the start. */
 static __thread struct {
@@ -553,6 +554,11 @@ uint64_t writer_frames(void)
 	return w.n_frames;
 }
 
+uint64_t writer_bytes(void)
+{
+	return w.process ? w.process->bytes : 0;
+}
+
 uint64_t writer_frame_ended(void)
 {
 	uint8_t *p = begin();
@@ -763,7 +769,13 @@ static void start_child(void)
 {
 	unlock();
 	self.depth = 0;
-	if (w.state != RECORDING)
+	if (w.state == ENDED)
+		return;
+	if (only_this_process) {
+		w.state = ENDED;
+		return;
+	}
+	if (w.state == IDLE)
 		return;
 	close(w.fd);
 	w.fd = -1;
@@ -794,10 +806,11 @@ static void map_stats(const char *path)
 
 __attribute__((constructor)) static void writer_start(void)
 {
-	const char *path = getenv("RELUME_TRACE"), *figures = getenv("RELUME_STATS");
+	const char *path = getenv("RELUME_TRACE"), *figures = getenv("RELUME_STATS"), *only = getenv("RELUME_ONLY_PROCESS");
 	int saved = errno;
 
-	if (!path || !*path || strlen(path) >= sizeof(wanted_path)) {
+	only_this_process = only != NULL;
+	if (!path || !*path || strlen(path) >= sizeof(wanted_path) || (only && atol(only) != getpid())) {
 		w.state = ENDED;
 	} else {
 		strcpy(wanted_path, path);

@@ -74,6 +74,9 @@ void writer_flush_sometimes(void);
 /** Frames completed so far: the number of the frame being drawn. */
 uint64_t writer_frames(void);
 
+/** Bytes of the trace in the file. */
+uint64_t writer_bytes(void);
+
 /** End the recording, all of it written; calls pass through from here on. */
 void writer_end(void);
 

@@ -97,4 +97,17 @@ fi
 [ $? -eq 3 ] || fail "the program's exit code is not passed on"
 [ "$(frames_of "$TMPDIR/two.trace")" -gt 0 ] && [ "$(frames_of "$TMPDIR/two.1.trace")" -gt 0 ] ||
 	fail "two processes: $(cat "$TMPDIR/log")"
+
+# Children not followed: what the program becomes by exec is recorded, what it starts beside itself is not.
+"$RELUME" record -o "$TMPDIR/one.trace" --no-children --quit-after 5 -- sh -c 'timeout 1 glxgears; exec glxgears' \
+	>/dev/null 2>"$TMPDIR/log" || fail "no children: exit code $?"
+[ "$(frames_of "$TMPDIR/one.trace")" -eq 5 ] && [ ! -e "$TMPDIR/one.1.trace" ] || fail "no children: $(cat "$TMPDIR/log")"
+
+# A size that is enough: the frame that reaches it is the last one, the program goes on.
+SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/checksum_shim.so" -o "$TMPDIR/size.trace" \
+	--max-size 20K -- glxgears >"$TMPDIR/frames" 2>"$TMPDIR/log" || fail "largest size: exit code $?"
+[ "$(grep -c ^frame "$TMPDIR/frames")" -eq 1200 ] || fail "the program ended with its recording (largest size)"
+size=$(stat -c %s "$TMPDIR/size.trace")
+[ "$size" -ge 20480 ] && [ "$size" -lt 30000 ] || fail "largest size 20K: $size bytes"
+[ "$(frames_of "$TMPDIR/size.trace")" -eq "$(said "$TMPDIR/log")" ] || fail "largest size: $(cat "$TMPDIR/log")"
 exit 0

@@ -23,6 +23,10 @@ expect 2 "takes a number of frames" --quit-after 0 -- true
 expect 2 "takes a number of frames" --max-frames 1x -- true
 expect 2 "takes a number of frames" --ref-every -3 -- true
 expect 2 "NAME=VALUE" --env =x -- true
+expect 2 "--frame-end takes" --frame-end sometimes -- true
+expect 2 "number of bytes" --max-size 5X -- true
+expect 2 "number of bytes" --max-size 0 -- true
+expect 2 "number of bytes" --max-size 99999999999999999999G -- true
 expect 5 "cannot write" -o "$TMPDIR/no/such/folder.trace" -- true
 expect 5 "is no file" -o "$TMPDIR" -- true
 expect 5 "cannot start" -o "$TMPDIR/x.trace" -- "$TMPDIR/no-such-program"

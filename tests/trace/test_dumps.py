@@ -2,7 +2,7 @@
 """Small GL programs, recorded and dumped by apitrace, compared with what they should give.
 
 NAME.c beside this file is the program, NAME.ref.txt its calls as `apitrace dump` prints them, without call numbers. Each
-line of it must come in this order; <name> matches anything, "..." any number of lines. Run with --print NAME to see a dump.
+line of it must come in this order; <name> matches anything, "..." any number of lines. Run with --print NAME [OPTIONS of relume record] to see a dump.
 """
 import os
 import pathlib
@@ -65,6 +65,21 @@ class Dumps(unittest.TestCase):
     def test_loaded_by_hand(self):
         self.compare("loaded")
 
+    def test_readback(self):
+        self.compare("readback", "--frame-end", "readpixels", "--ref", "color,depth")
+
+    def test_frames_end_where_asked(self):
+        """The terminator stands right before a clear or a reading, right after a flush or a finish."""
+        for end, call, frames in (("clear", "glClear(", 1), ("readpixels", "glReadPixels(", 2), ("flush", "glFlush(", 2),
+                                  ("finish", "glFinish(", 2)):
+            got = [line for line in dump("readback", "--frame-end", end) if not line.startswith("glStringMarker")]
+            at = [i for i, line in enumerate(got) if line.startswith("glFrameTerminatorGREMEDY() // fake")]
+            self.assertEqual(len(at), frames, end)
+            for i in at:
+                self.assertTrue(got[i - 1 if end.startswith("f") else i + 1].startswith(call), got[i - 2:i + 3])
+        got = dump("readback", "--frame-end", "swap")
+        self.assertFalse([line for line in got if "Terminator" in line])
+
     def test_threads(self):
         """Two threads draw at once: every call of both is there, whole, in each thread's order."""
         got = dump("threads")
@@ -77,7 +92,7 @@ class Dumps(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 3 and sys.argv[1] == "--print":
-        print(*dump(sys.argv[2]), sep="\n")
+    if len(sys.argv) >= 3 and sys.argv[1] == "--print":
+        print(*dump(*sys.argv[2:]), sep="\n")
     else:
         unittest.main()
