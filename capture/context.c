@@ -18,6 +18,7 @@ struct context {
 	unsigned errors[MAX_ERRORS];
 	int n_errors;
 	struct content_table *contents;
+	struct runs_table *runs;
 };
 
 /* Only grows, under the lock; few entries. */
@@ -50,6 +51,11 @@ int context_get(unsigned pname)
 struct content_table **context_contents(void)
 {
 	return &current->contents;
+}
+
+struct runs_table **context_runs(void)
+{
+	return current ? &current->runs : NULL;
 }
 
 /* 1 where `list` holds `name` as a whole word. */
@@ -140,6 +146,7 @@ void context_destroyed(void *handle)
 		if (c->handle == handle && handle && c != current) {
 			c->handle = NULL; /* the address may come back as another context */
 			content_free(&c->contents);
+			runs_free(&c->runs);
 		}
 	pthread_mutex_unlock(&list_lock);
 }

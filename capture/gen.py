@@ -29,6 +29,7 @@ class Overlay:
         self.path = path
         self.types, self.lengths, self.suffixes = {}, {}, []
         self.args, self.hooks, self.passes, self.commands = [], {"when": [], "before": [], "result": [], "after": []}, [], {}
+        self.runs = []
         with open(path, encoding="utf-8") as stream:
             for number, line in enumerate(stream, 1):
                 line = line.strip()
@@ -68,6 +69,8 @@ class Overlay:
             if len(fields) != 2:
                 self.fail(number, "pass needs commands and a reason")
             self.passes.append((number, self.pattern(number, fields[0]), fields[1]))
+        elif word == "run":
+            self.runs.append((number, self.pattern(number, rest), ""))
         elif word == "command":
             self.command(number, rest)
         else:
@@ -99,7 +102,7 @@ class Overlay:
         for number, names, params, _ in self.args:
             if not any(params.fullmatch(p.name) for c in commands.values() if names.fullmatch(c.name) for p in c.params):
                 self.fail(number, "no command has such a parameter")
-        for number, names, _ in self.passes + sum(self.hooks.values(), []):
+        for number, names, _ in self.passes + self.runs + sum(self.hooks.values(), []):
             if not any(names.fullmatch(name) for name in commands):
                 self.fail(number, "no command has such a name")
 
@@ -282,6 +285,60 @@ class Generator:
             return str(reason)
         return None
 
+    # Runs: the arguments as plain memory
+
+    LETTERS = {"s8": "b", "s16": "s", "s32": "i", "u8": "B", "u16": "S", "u32": "I", "f32": "f", "f64": "d", "bool8": "t", "enum": "e"}
+
+    def shape(self, command):
+        """struct command's shape, [(member of a packed struct, parameter, its elements)]; None where it is in no run."""
+        if not any(names.fullmatch(command.name) for _, names, _ in self.overlay.runs):
+            return None
+        shape, members = "", []
+        for param in command.params:
+            kind = self.element(param.type, command.name)
+            base = self.c_type(param.type, command.name).replace("const", "").replace("*", "").strip()
+            if kind not in self.LETTERS:
+                raise InputError(f"{self.overlay.path}: '{param.name}' of {command.name} cannot stand in a run")
+            if not param.pointer:
+                letter = self.LETTERS[kind]
+                if kind == "enum" and param.group in self.small_groups:
+                    letter = "p"
+                if any(names.fullmatch(command.name) and params.fullmatch(param.name) and kind.startswith("symbol")
+                       for _, names, params, kind in self.overlay.args):
+                    letter = "y"
+                shape += letter
+                members.append((base, param.name, None))
+                continue
+            count = self.count(param.length, command)
+            shape += (count if count.isdigit() else "*") + self.LETTERS[kind]
+            members.append((base, param.name, count))
+        return shape, members
+
+    def run(self, command):
+        """[(condition, statements)] of the call's record in an open run."""
+        _, members = self.shape(command)
+        put = f"runs_put(CMD_{command.name}, "
+        if len(members) == 1 and members[0][2]:
+            base, name, count = members[0]
+            return f"runs_open() && {name} && {put}{name}, {count} * sizeof({base}))", []
+        lines, sizes, pointers = ["\tstruct __attribute__((packed)) {"], "sizeof(args_)", ""
+        for base, name, count in members:
+            room = "" if not count else f"[{count if count.isdigit() else 4}]"
+            lines.append(f"\t\t{base} {name}{room};")
+        lines.append("\t} args_;")
+        for base, name, count in members:
+            if not count:
+                lines.append(f"\targs_.{name} = {name};")
+                continue
+            size = f"{count} * sizeof({base})" if count.isdigit() else f"(unsigned)count_ * sizeof({base})"
+            pointers += f" && {name}"
+            if not count.isdigit():
+                lines.insert(0, f"\tlong count_ = {count};")
+                pointers += " && count_ > 0 && count_ <= 4"
+                sizes = f"sizeof(args_) - (4 - (unsigned)count_) * sizeof({base})"
+            lines.append(f"\tif (runs_open(){pointers})\n\t\tmemcpy(args_.{name}, {name}, {size});")
+        return f"runs_open(){pointers} && {put}&args_, {sizes})", lines
+
     def thunk(self, command, passed):
         void = command.result == "void"
         arguments = ", ".join(p.name for p in command.params)
@@ -301,9 +358,16 @@ class Generator:
             out.append("\tuint64_t call_ = 0;")
         if not void:
             out.append(f"\t{result} result;")
+        in_run = self.shape(command) and not when
+        if in_run:
+            condition, lines = self.run(command)
+            out += lines
         out.append("")
         out += [f"\t{code};" for code in self.hook("before", command)]
-        out.append(f"\tp_ = {when} ? {enter} : NULL;" if when else f"\tp_ = {enter};")
+        if in_run:
+            out.append(f"\tp_ = {condition} ? NULL : {enter};")
+        else:
+            out.append(f"\tp_ = {when} ? {enter} : NULL;" if when else f"\tp_ = {enter};")
         out.append("\tif (p_) {")
         for i, before, _ in written:
             if before:
@@ -379,7 +443,9 @@ def main(overlay_path, directory):
     table = [BANNER + '#include "capture/wrap.h"\n#include "thunks.h"\n', "const struct command commands[N_COMMANDS] = {"]
     for name, command in gen.commands.items():
         arguments = "".join(p.name + "\\0" for p in command.params)
-        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", (void *){name} }},')
+        shape = gen.shape(command)
+        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", (void *){name}, '
+                     + (f'"{shape[0]}" }},' if shape else "NULL },"))
     prototypes = [f"SHOWN {gen.c_type(c.result, n)} {n}({gen.signature(c)});" for n, c in gen.commands.items()]
     write(directory, "thunks.h", [BANNER + "#ifndef GEN_THUNKS_H\n#define GEN_THUNKS_H\n"] + prototypes + ["", "#endif"])
     write(directory, "commands.c", table + ["};"])

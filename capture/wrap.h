@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "capture/runs.h"
 #include "capture/sizes.h"
 #include "capture/stats.h"
 #include "capture/writer.h"
@@ -58,6 +59,8 @@ int context_is_current(void);
 int context_has(enum context_feature feature);
 /** The current context's table for content_buffer. There must be a current context. */
 struct content_table **context_contents(void);
+/** The current context's runs; NULL where there is no context. */
+struct runs_table **context_runs(void);
 /** An integer state of the current context; 0 where it has none. */
 int context_get(unsigned pname);
 

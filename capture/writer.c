@@ -46,6 +46,7 @@ static struct {
 	char path[PATH_BYTES];     /* of this process' trace; "" before it has one */
 	uint8_t bits_known[N_BITS_ENTRIES];
 	uint8_t visual_known, memcpy_known;
+	_Atomic unsigned epoch;
 	struct stats_process *process; /* never NULL once recording */
 } w = { .fd = -1 };
 
@@ -61,6 +62,7 @@ static int only_this_process; /* no child of it gets a trace */
 static __thread struct {
 	unsigned depth;  /* > 0: inside the writer or nested, nothing is recorded */
 	unsigned number; /* 1-based */
+	void (*waiting)(void); /* writes calls that wait */
 } self __attribute__((tls_model("initial-exec")));
 
 static void lock(void)
@@ -390,6 +392,7 @@ static void open_trace(void)
 		w.inode = st.st_ino;
 	}
 	w.state = RECORDING;
+	w.epoch++;
 	error = append("at", 2);
 	if (error) {
 		give_up(error, "cannot write");
@@ -442,11 +445,32 @@ static void end(uint8_t *p)
 	self.depth = 0;
 }
 
+void writer_wait_with(void (*flush)(void))
+{
+	self.waiting = flush;
+}
+
+unsigned writer_epoch(void)
+{
+	return w.epoch;
+}
+
+static void write_waiting(void)
+{
+	void (*flush)(void) = self.waiting;
+
+	self.waiting = NULL;
+	flush();
+}
+
 /* `id` is the signature's in this trace. */
 static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known, unsigned flags)
 {
-	uint8_t *p = begin();
+	uint8_t *p;
 
+	if (self.waiting)
+		write_waiting();
+	p = begin();
 	if (!p)
 		return NULL;
 	if (!self.number)
@@ -476,7 +500,7 @@ uint8_t *writer_enter_fake(unsigned command)
 
 uint8_t *writer_enter_memcpy(void)
 {
-	static const struct command memory_copy = { "memcpy", 3, "dest\0src\0n\0", NULL };
+	static const struct command memory_copy = { "memcpy", 3, "dest\0src\0n\0", NULL, NULL };
 
 	return enter(0, &memory_copy, &w.memcpy_known, FLAG_FAKE);
 }

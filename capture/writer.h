@@ -19,6 +19,12 @@ struct command {
 	unsigned n_args;
 	const char *arg_names; /* one after the other, each with its NUL */
 	void *thunk;
+	/*
+	 * What its arguments are, one after the other, where the command may stand in a run (runs.h); else NULL. f d: floats of 4
+	 * and 8 bytes; b s i, B S I: signed and unsigned integers of 1, 2, 4; e: enumerant, p: of a primitive, t: truth, y: number
+	 * or enumerant. A digit before it: an array of so many; '*': as many as there are bytes.
+	 */
+	const char *shape;
 };
 extern const struct command commands[]; /* generated; sorted by name */
 
@@ -58,6 +64,12 @@ void writer_leave_end(uint8_t *p);
 /** Between these, calls of this thread are the window system library's own and not recorded. */
 void writer_nest(void);
 void writer_unnest(void);
+
+/** Called once, before the next call of this thread is begun: calls that wait to be written. NULL: none wait any more. */
+void writer_wait_with(void (*flush)(void));
+
+/** Which trace of this process it is that is being written, from 1 on: what was written to an earlier one is not there. */
+unsigned writer_epoch(void);
 
 /** 1 where a call made now by this thread would be recorded. */
 int writer_active(void);

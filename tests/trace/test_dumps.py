@@ -80,6 +80,9 @@ class Dumps(unittest.TestCase):
         got = dump("readback", "--frame-end", "swap")
         self.assertFalse([line for line in got if "Terminator" in line])
 
+    def test_runs(self):
+        self.compare("runs")
+
     def test_threads(self):
         """Two threads draw at once: every call of both is there, whole, in each thread's order."""
         got = dump("threads")

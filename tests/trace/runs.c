@@ -1,0 +1,62 @@
+/* Immediate mode that repeats itself: what may become a list that only the trace has, and what may not. */
+#include "window.h"
+
+enum { CORNERS = 12 };
+
+/* A fan of enough calls to be worth a list. */
+static void fan(float shade)
+{
+	glBegin(GL_TRIANGLE_FAN);
+	for (int i = 0; i < CORNERS; i++) {
+		glColor3f(shade, (float)i / CORNERS, 0);
+		glVertex2f(i & 1 ? 0.5f : -0.5f, (float)i / CORNERS - 0.5f);
+	}
+	glEnd();
+}
+
+/* With a call between that is no part of any run: all of it is written as it came. */
+static void interrupted(void)
+{
+	glBegin(GL_TRIANGLE_FAN);
+	for (int i = 0; i < CORNERS; i++) {
+		glColor4ub(1, 2, 3, (unsigned char)i);
+		glVertex2i(i, 1);
+		if (i == 5)
+			glEvalCoord1f(0.5f);
+	}
+	glEnd();
+}
+
+int main(void)
+{
+	unsigned list;
+
+	open_window();
+	fan(0.25f); /* seen first: a list at once, while few have been made in vain */
+	fan(0.25f);
+	interrupted();
+	interrupted();
+	fan(0.75f);
+	glBegin(GL_POINTS); /* too short */
+	glVertex2f(0, 0);
+	glEnd();
+	end_frame();
+
+	/* A list of the program's own keeps its calls, and its name is its own affair. */
+	list = glGenLists(2);
+	expect(list == 1, "the first names of lists");
+	glNewList(list, GL_COMPILE_AND_EXECUTE);
+	fan(0.25f);
+	glEndList();
+	expect(!glIsList(0xFFFFFF), "no list of the recorder's in the program");
+	fan(0.25f);
+	glCallList(list);
+	fan(0.75f);
+
+	/* From here on vertices depend on an edge flag set outside of their run. */
+	glEdgeFlag(GL_FALSE);
+	fan(0.25f);
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	end_frame();
+	return 0;
+}
