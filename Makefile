@@ -195,6 +195,11 @@ show-rays: $(BUILD)/tests/bench/embree
 show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
+# Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
+DEPS_piglit := piglit
+show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
+	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
+
 # Not part of `make show`: needs root, and minutes.
 show-fresh:
 	@tests/fresh.sh $(BUILD)
@@ -207,6 +212,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps check demo show show-parity bench show-rays show-overhead show-fresh golden-update clean FORCE
+.PHONY: all deps check demo show show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
+	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+"""tests/show/piglit.py BUILD record|parity [PART-OF-A-NAME...] (`make show-piglit-record`, `make show-piglit-parity`): the fixed-function part of piglit.
+
+record: every program runs once bare and once under the recorder; the verdicts, subtests included, must be the same. A program
+whose verdict differs runs twice more bare: one that does not agree with itself is unsteady and does not count.
+parity: the recordings of that campaign (made first where there are none by this recorder) are rendered, and the last frame of
+each is scored against what the program itself showed: R1, R1b, R2 and R3. Programs that draw with shaders or ARB programs
+are listed apart, and so are pictures of one colour only, which prove little.
+
+Programs run as `piglit run --no-concurrency` runs them, on a window; piglit swaps nothing, so a frame ends where a program
+reads the pixels that it judges. Recordings lie in BUILD/show/piglit, every outcome in BUILD/show/piglit.tsv and piglit-parity.tsv.
+Needs a display: run under tests/xvfb.sh.
+"""
+import ast
+import collections
+import ctypes
+import gzip
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree
+
+PIGLIT = next(iter(pathlib.Path("/usr/lib").glob("*/piglit")), pathlib.Path("/usr/lib/piglit"))
+GROUPS = re.compile(
+    r"spec@(!opengl (1\.[0-5]|2\.[01])|arb_(depth_texture|draw_buffers|map_buffer_range|multisample|occlusion_query|pixel_buffer_object"
+    r"|point_parameters|point_sprite|provoking_vertex|texture_compression|texture_cube_map|texture_env_crossbar|texture_rectangle"
+    r"|vertex_array_object|vertex_buffer_object)|apple_vertex_array_object|ati_draw_buffers"
+    r"|ext_(fog_coord|framebuffer_blit|framebuffer_object|packed_depth_stencil|texture_compression_s3tc|texture_env_combine"
+    r"|texture_lod_bias|texture_srgb|texture_swizzle|vertex_array_bgra)|mesa_pack_invert|nv_primitive_restart"
+    r"|nv_texture_env_combine4|sgis_generate_mipmap|3dfx_texture_compression_fxt1)@")
+LIMIT_S = 40        # some hang on llvmpipe without any recorder
+RENDER_LIMIT_S = 120
+MAX_TRACE_BYTES = 200 << 20
+BAR_PARITY = 0.9
+PROGRAM_CALLS = {"glLinkProgram", "glLinkProgramARB", "glProgramStringARB", "glEndFragmentShaderATI"}
+
+
+def find_tests(parts):
+    """[(name, command)] of the suite's list, each command once."""
+    root = xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / "opengl.xml.gz")).getroot()
+    tests, seen = [], set()
+    for test in root.iter("Test"):
+        name = test.get("name")
+        option = test.find("option[@name='command']")
+        if test.get("type") != "gl" or option is None or not GROUPS.match(name):
+            continue
+        command = tuple(ast.literal_eval(option.get("value")))
+        if command not in seen and (not parts or any(part in name for part in parts)):
+            seen.add(command)
+            tests.append((name, command))
+    return tests
+
+
+def run(command, limit_s):
+    """(exit code or "timeout", output)."""
+    child = subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             start_new_session=True, env=dict(os.environ, PIGLIT_SOURCE_DIR=str(PIGLIT)))
+    try:
+        out, _ = child.communicate(timeout=limit_s)
+        return child.returncode, out.decode(errors="replace")
+    except subprocess.TimeoutExpired:
+        os.killpg(child.pid, signal.SIGKILL)
+        out, _ = child.communicate()
+        return "timeout", out.decode(errors="replace")
+
+
+def verdict(code, output):
+    """One line: the verdict, the subtests' and, for a program that ends otherwise, how."""
+    result, subtests = "none", {}
+    for line in re.findall(r"^PIGLIT: (\{.*\})\s*$", output, re.M):
+        said = json.loads(line)
+        result = said.get("result", result)
+        subtests.update(said.get("subtest", {}))
+    if code == "timeout":
+        result = "timeout"
+    elif code < 0 or code >= 128:
+        result = f"signal {-code if code < 0 else code - 128}"
+    return " ".join([result] + [f"{name}={subtests[name]}" for name in sorted(subtests)])
+
+
+def fingerprint(build):
+    return hashlib.sha256((build / "librelume.so").read_bytes()).hexdigest()
+
+
+def campaign(build, tests, base):
+    shutil.rmtree(base, ignore_errors=True)
+    base.mkdir(parents=True)
+    rows, begin = [], time.monotonic()
+    for number, (name, command) in enumerate(tests, 1):
+        program = [PIGLIT / "bin" / command[0], *command[1:], "-auto"]
+        row = {"name": name, "command": " ".join(command), "frames": 0, "bare": verdict(*run(program, LIMIT_S))}
+        if row["bare"].startswith("timeout"):
+            row |= {"recorded": "-", "state": "hangs without the recorder"}
+        else:
+            work = base / re.sub(r"\W+", "_", name)
+            work.mkdir()
+            code, out = run([build / "relume", "record", "-o", work / "x.trace", "--frame-end", "readpixels", "--ref", "color,depth",
+                             "--max-size", MAX_TRACE_BYTES, "--", *program], LIMIT_S * 2)
+            row["recorded"] = verdict(code, out)
+            row["frames"] = max([int(n) for n in re.findall(r"x\.trace: (\d+) frames", out)] or [0])
+            row["state"] = "same"
+            if row["recorded"] != row["bare"]:
+                again = {verdict(*run(program, LIMIT_S)) for _ in range(2)} | {row["bare"]}
+                row["state"] = "unsteady" if len(again) > 1 else "changed"
+                (work / "output").write_text(out)
+        rows.append(row)
+        if row["state"] not in ("same", "unsteady") or number % 25 == 0 or number == len(tests):
+            print(f"{number}/{len(tests)} {time.monotonic() - begin:.0f} s: {name}: {row['state']}"
+                  + (f" ({brief(row['bare'])} -> {brief(row['recorded'])})" if row["state"] == "changed" else ""), flush=True)
+    (base / "runs.json").write_text(json.dumps({"fingerprint": fingerprint(build), "rows": rows}, indent=1))
+    return rows
+
+
+def recorded_rows(build, tests, base):
+    """What a campaign of this recorder left, or a new campaign."""
+    try:
+        kept = json.loads((base / "runs.json").read_text())
+    except (OSError, ValueError):
+        kept = {"rows": [], "fingerprint": None}
+    if kept["fingerprint"] != fingerprint(build):
+        kept["rows"] = []
+    names = {name for name, _ in tests}
+    rows = [row for row in kept["rows"] if row["name"] in names]
+    return rows if len(rows) == len(tests) else campaign(build, tests, base)
+
+
+def brief(said):
+    """A verdict without the subtests that pass."""
+    result, *subtests = said.split(" ")
+    odd = [s for s in re.findall(r"\S[^=]*=\w+", " ".join(subtests)) if not s.endswith("=pass")]
+    return " ".join([result, *odd]) + (f" of {said.count('=')} subtests" if "=" in said else "")
+
+
+def write_table(path, columns, rows):
+    with open(path, "w", encoding="utf-8") as out:
+        for row in [dict(zip(columns, columns)), *rows]:
+            out.write("\t".join(str(row.get(c, "")) for c in columns) + "\n")
+
+
+def one_colour(path, frame):
+    """1 where a reference frame shows one colour only."""
+    snappy = ctypes.CDLL("libsnappy.so.1")
+    data, at = path.read_bytes(), 8
+    while at + 28 <= len(data):
+        kind, width, height = (int.from_bytes(data[at + i:at + i + 4], "little") for i in (0, 4, 8))
+        number, size = (int.from_bytes(data[at + i:at + i + 8], "little") for i in (12, 20))
+        at += 28
+        if kind == 1 and number == frame:
+            pixels = ctypes.create_string_buffer(width * height * 4)
+            got = ctypes.c_size_t(len(pixels))
+            snappy.snappy_uncompress(data[at:at + size], size, pixels, ctypes.byref(got))
+            return pixels.raw[:len(pixels)] == pixels.raw[:4] * (width * height)
+        at += size
+    return False
+
+
+def score(build, work, row):
+    """Fill a row with what became of its last frame."""
+    last, relume = str(row["frames"] - 1), build / "relume"
+    row["frame"] = last
+    code, out = run([relume, "info", "--json", "--all", work / "x.trace"], RENDER_LIMIT_S)
+    try:
+        info = json.loads(out)
+    except ValueError:
+        info = {"calls_by_name": [], "unsupported": [{"call": "unreadable"}]}
+    row["programs"] = any(call["call"] in PROGRAM_CALLS for call in info["calls_by_name"])
+    row["left_out"] = "; ".join(call["call"] for call in info["unsupported"])[:300]
+    row["one_colour"] = one_colour(work / "x.ref", int(last))
+    shutil.rmtree(work / "frames", ignore_errors=True)
+    code, out = run([relume, "render", work / "x.trace", "--mode", "gl", "-f", last, "-o", work / "frames" / "x.####.exr"], RENDER_LIMIT_S)
+    (work / "log").write_text(out)
+    if code != 0:
+        row |= {"parity": "not rendered", "why": f"exit {code}"}
+        return
+    done = subprocess.run([relume, "diff", work / "x.trace", work / "frames", "-f", last, "--json", "-"], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    try:
+        frame = json.loads(done.stdout)["frames"][0]
+        states = {gate: frame["gates"][gate]["state"] for gate in ("R1", "R1b", "R2", "R3")}
+    except (ValueError, KeyError, IndexError):
+        row |= {"parity": "not scored", "why": (done.stderr.strip().splitlines() or ["?"])[-1][:200]}
+        return
+    failed = [gate for gate, state in states.items() if state == "failed"]
+    row["parity"] = "fails" if failed or states["R3"] != "passed" else "passes"
+    row["why"] = " ".join(failed) + "".join(f"; {b}" for b in frame.get("blame", [])[:1])
+    row["fidelity"] = f"{frame['fidelity']:.5f}"
+
+
+def show(build, name, rows, target):
+    (build / "show" / f"{name}.json").write_text(json.dumps({"name": name, "command": f"make {target}", "rows": rows}, indent=1) + "\n")
+    for row in rows:
+        mark = {True: "holds", False: "FAILS", None: "-    "}[row["passed"]]
+        print(f"{mark}  {row['what']}: {row['figure']}" + (f" (bar: {row['bar']})" if row["bar"] else ""))
+    return 1 if any(row["passed"] is False for row in rows) else 0
+
+
+def main(build, what, *parts):
+    build = pathlib.Path(build).resolve()
+    if not (PIGLIT / "bin").is_dir():
+        sys.exit("piglit is not installed: make build/deps.piglit")
+    base = build / "show" / "piglit"
+    tests = find_tests(parts)
+    peer = "piglit on Mesa llvmpipe"
+    if what == "record":
+        rows = campaign(build, tests, base)
+        write_table(build / "show" / "piglit.tsv", ("name", "command", "bare", "recorded", "state", "frames"),
+                    [row | {"bare": brief(row["bare"]), "recorded": brief(row["recorded"])} for row in rows])
+        ran = [row for row in rows if not row["bare"].startswith("timeout")]
+        verdicts = collections.Counter(row["bare"].split()[0] for row in ran)
+        changed = [row["name"] for row in rows if row["state"] == "changed"]
+        unsteady = [row["name"] for row in rows if row["state"] == "unsteady"]
+        print("without the recorder:", ", ".join(f"{n} {v}" for v, n in verdicts.most_common()), f"; {len(rows) - len(ran)} hang")
+        for name in unsteady:
+            print(f"unsteady without the recorder: {name}")
+        return show(build, "piglit-record", [
+            {"what": f"verdicts of {len(ran)} programs that changed under the recorder", "figure": len(changed), "bar": "0", "peer": peer,
+             "passed": not changed and bool(ran)}], "show-piglit-record")
+    rows = [row for row in recorded_rows(build, tests, base) if row["bare"].split()[0] == "pass" and row["frames"]]
+    begin = time.monotonic()
+    for number, row in enumerate(rows, 1):
+        score(build, base / re.sub(r"\W+", "_", row["name"]), row)
+        if row["parity"] != "passes" or number % 25 == 0 or number == len(rows):
+            print(f"{number}/{len(rows)} {time.monotonic() - begin:.0f} s: {row['name']}: {row['parity']} {row['why']}"[:160], flush=True)
+        write_table(build / "show" / "piglit-parity.tsv",
+                    ("name", "command", "frame", "parity", "why", "fidelity", "programs", "one_colour", "left_out"), rows[:number])
+    shown = []
+    for title, chosen, bar in (
+            ("last frames of fixed-function programs that pass R1 to R3",
+             [r for r in rows if not r["programs"] and not r["one_colour"]], BAR_PARITY),
+            ("the same, pictures of one colour", [r for r in rows if not r["programs"] and r["one_colour"]], None),
+            ("programs that draw with shaders", [r for r in rows if r["programs"]], None)):
+        good = sum(r["parity"] == "passes" for r in chosen)
+        share = good / len(chosen) if chosen else 0
+        shown.append({"what": title, "figure": f"{good} of {len(chosen)} ({100 * share:.1f} %)", "bar": f"{100 * bar:.0f} %" if bar else None,
+                      "peer": peer, "passed": share >= bar if bar else None})
+    return show(build, "piglit-parity", shown, "show-piglit-parity")
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
