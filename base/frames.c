@@ -114,16 +114,133 @@ uint64_t frame_list_last(const struct frame_list *list)
 	return last;
 }
 
+/** The first frame of a range from `from` on. */
+static int next_of_range(const struct frame_range *r, uint64_t from, uint64_t *frame)
+{
+	uint64_t steps;
+
+	if (from <= r->first) {
+		*frame = r->first;
+		return 1;
+	}
+	if (from > r->last)
+		return 0;
+	steps = (from - r->first - 1) / r->step + 1;
+	if (steps > (r->last - r->first) / r->step)
+		return 0;
+	*frame = r->first + steps * r->step;
+	return 1;
+}
+
+int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *frame)
+{
+	uint64_t candidate;
+	int found = 0;
+
+	if (list->n_ranges == 0) {
+		*frame = from;
+		return 1;
+	}
+	for (size_t i = 0; i < list->n_ranges; i++)
+		if (next_of_range(&list->ranges[i], from, &candidate) && (!found || candidate < *frame)) {
+			*frame = candidate;
+			found = 1;
+		}
+	return found;
+}
+
+/** 1 where no two ranges can hold the same frame, so that counts add up. */
+static int is_disjoint(const struct frame_list *list)
+{
+	for (size_t i = 1; i < list->n_ranges; i++)
+		if (list->ranges[i].first <= list->ranges[i - 1].last)
+			return 0;
+	return 1;
+}
+
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end)
 {
 	uint64_t count = 0;
 
 	if (list->n_ranges == 0)
 		return end;
-	/* Ranges may overlap, so frames are asked for one by one; the cost is that of naming them. */
-	for (uint64_t frame = 0; frame < end && frame <= frame_list_last(list); frame++)
-		count += (uint64_t)frame_list_contains(list, frame);
+	if (is_disjoint(list)) {
+		for (size_t i = 0; i < list->n_ranges; i++) {
+			const struct frame_range *r = &list->ranges[i];
+
+			if (r->first < end)
+				count += ((end - 1 < r->last ? end - 1 : r->last) - r->first) / r->step + 1;
+		}
+		return count;
+	}
+	/* Ranges overlap, so frames are asked for one by one; the cost is that of naming them. */
+	for (uint64_t frame = 0; frame_list_next(list, frame, &frame) && frame < end; frame++)
+		count++;
 	return count;
+}
+
+int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n)
+{
+	const char *p = text;
+
+	if (!parse_number(&p, i) || *p++ != '/' || !parse_number(&p, n) || *p || *i < 1 || *i > *n)
+		return err_report(ERR_USAGE, NULL, "'%s' is no chunk; write i/n with i from 1 to n, as in 3/50", text);
+	return 0;
+}
+
+/** The frame with so many before it in the list. */
+static uint64_t frame_of_rank(const struct frame_list *list, uint64_t rank)
+{
+	uint64_t frame = 0;
+
+	if (list->n_ranges == 0)
+		return rank;
+	if (is_disjoint(list)) {
+		for (size_t i = 0; i < list->n_ranges; i++) {
+			const struct frame_range *r = &list->ranges[i];
+			uint64_t count = (r->last - r->first) / r->step + 1;
+
+			if (rank < count)
+				return r->first + rank * r->step;
+			rank -= count;
+		}
+		return UINT64_MAX;
+	}
+	for (; frame_list_next(list, frame, &frame) && rank; frame++)
+		rank--;
+	return frame;
+}
+
+int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n)
+{
+	uint64_t total = frame_list_count(list, end), first, last;
+	/* total * i / n without overflow */
+	uint64_t from = total / n * (i - 1) + total % n * (i - 1) / n, to = total / n * i + total % n * i / n;
+	size_t kept = 0;
+
+	if (from == to)
+		return 1;
+	first = frame_of_rank(list, from);
+	last = frame_of_rank(list, to - 1);
+	if (list->n_ranges == 0) {
+		list->ranges = malloc(sizeof(*list->ranges));
+		if (!list->ranges)
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		list->ranges[0] = (struct frame_range){ first, last, 1 };
+		list->n_ranges = 1;
+		return 0;
+	}
+	for (size_t k = 0; k < list->n_ranges; k++) {
+		struct frame_range r = list->ranges[k];
+
+		if (!next_of_range(&r, first, &r.first) || r.first > last)
+			continue;
+		r.last = r.last < last ? r.last : last;
+		list->ranges[kept++] = r;
+	}
+	list->n_ranges = kept;
+	qsort(list->ranges, kept, sizeof(*list->ranges), compare_first);
+	return 0;
 }
 
 /** The frame number's place in a pattern: where it starts, how long it is, and the width it is padded to. */
@@ -147,6 +264,9 @@ static int find_number(const char *pattern, size_t *start, size_t *length, int *
 		} else if (p[0] == '$' && p[1] == 'F') {
 			q += 2;
 			*width = (*q >= '1' && *q <= '9') ? *q++ - '0' : 0;
+		} else if (strncmp(p, "{frame}", 7) == 0) {
+			q += 7;
+			*width = 0;
 		} else {
 			continue;
 		}

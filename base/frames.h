@@ -3,7 +3,8 @@
  *
  * A range list is "1-500", "1-500x5" (every fifth), "7", or several of these with commas. Frames count from 0, in the
  * order of the trace's frame ends.
- * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d" or "$F4" ("$F" alone: no padding).
+ * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d", "$F4" ("$F" alone: no padding) or
+ * "{frame}" (no padding).
  */
 #ifndef BASE_FRAMES_H
 #define BASE_FRAMES_H
@@ -37,6 +38,19 @@ uint64_t frame_list_last(const struct frame_list *list);
 
 /** How many frames below `end` the list asks for. */
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end);
+
+/** The first frame from `from` on that the list asks for. @return 1, or 0 where there is none */
+int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *frame);
+
+/** Parse "i/n", 1 <= i <= n. @return 0 or ERR_USAGE (reported) */
+int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n);
+
+/**
+ * Cut the list down to its i-th part of n: consecutive frames, parts as equal as can be, every frame in exactly one part.
+ * @param end  how many frames there are; those beyond it belong to no part
+ * @return 0; 1 where this part holds no frame (the list is left as it is); ERR_SYSTEM (reported)
+ */
+int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n);
 
 /** 1 where the pattern holds a place for a frame number. */
 int frame_pattern_has_number(const char *pattern);

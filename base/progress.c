@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -15,18 +16,45 @@ double progress_clock_s(void)
 	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+uint64_t progress_peak_memory(void)
+{
+	struct rusage usage;
+
+	return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+int progress_style_of(const char *word)
+{
+	static const char *const words[] = { "auto", "bar", "lines", "json", "none" };
+
+	for (int i = 0; i < (int)(sizeof(words) / sizeof(words[0])); i++)
+		if (strcmp(word, words[i]) == 0)
+			return i;
+	return -1;
+}
+
+void progress_begin_style(struct progress *p, const char *verb, uint64_t total, enum progress_style style)
+{
+	if (style == PROGRESS_AUTO)
+		style = isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_LINES;
+	*p = (struct progress){ .verb = verb, .total = total, .style = style, .start_s = progress_clock_s() };
+	if (style == PROGRESS_JSON) {
+		printf("{\"event\": \"begin\", \"verb\": \"%s\", \"total\": %" PRIu64 "}\n", verb, total);
+		fflush(stdout);
+	}
+}
+
 void progress_begin(struct progress *p, const char *verb, uint64_t total)
 {
-	*p = (struct progress){
-		.verb = verb, .total = total, .terminal = isatty(STDERR_FILENO), .start_s = progress_clock_s(),
-	};
+	progress_begin_style(p, verb, total, PROGRESS_AUTO);
 }
 
 static void draw_bar(const struct progress *p, uint64_t frame)
 {
 	enum { WIDTH = 30 };
 	double elapsed = progress_clock_s() - p->start_s;
-	double rate = elapsed > 0 ? (double)p->done / elapsed : 0;
+	/* Skipped frames cost next to nothing; what is left is counted by those that were worked on. */
+	double rate = elapsed > 0 ? (double)(p->done - p->skipped) / elapsed : 0;
 	char bar[WIDTH + 1];
 
 	if (p->total == 0) {
@@ -46,17 +74,76 @@ static void draw_bar(const struct progress *p, uint64_t frame)
 void progress_step(struct progress *p, uint64_t frame, const char *text)
 {
 	p->done++;
-	if (p->terminal)
+	if (p->style == PROGRESS_BAR)
 		draw_bar(p, frame);
-	else if (p->total)
+	else if (p->style == PROGRESS_LINES && p->total)
 		fprintf(stderr, "%s frame %" PRIu64 ", %" PRIu64 " of %" PRIu64 ": %s\n", p->verb, frame, p->done,
 		        p->total, text);
-	else
+	else if (p->style == PROGRESS_LINES)
 		fprintf(stderr, "%s frame %" PRIu64 ": %s\n", p->verb, frame, text);
+}
+
+static void note_slow(struct progress *p, uint64_t frame, double seconds)
+{
+	size_t at = PROGRESS_SLOWEST;
+
+	while (at > 0 && p->slowest[at - 1].seconds < seconds)
+		at--;
+	if (at == PROGRESS_SLOWEST)
+		return;
+	memmove(&p->slowest[at + 1], &p->slowest[at], (PROGRESS_SLOWEST - 1 - at) * sizeof(p->slowest[0]));
+	p->slowest[at].frame = frame;
+	p->slowest[at].seconds = seconds;
+}
+
+void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds)
+{
+	char text[64];
+	int skipped = strcmp(state, "skipped") == 0, failed = strcmp(state, "failed") == 0;
+
+	snprintf(text, sizeof(text), "%.2f s", seconds);
+	p->skipped += (uint64_t)skipped;
+	p->failed += (uint64_t)failed;
+	if (!skipped && !failed)
+		note_slow(p, frame, seconds);
+	progress_step(p, frame, skipped ? "there already" : failed ? "failed" : text);
+	if (p->style == PROGRESS_JSON) {
+		printf("{\"event\": \"frame\", \"frame\": %" PRIu64 ", \"state\": \"%s\", \"seconds\": %.3f, \"done\": %"
+		       PRIu64 ", \"total\": %" PRIu64 "}\n", frame, state, seconds, p->done, p->total);
+		fflush(stdout);
+	}
 }
 
 void progress_end(struct progress *p)
 {
-	if (p->terminal)
+	if (p->style == PROGRESS_BAR)
 		fputs("\r\033[K", stderr);
+	if (p->style == PROGRESS_JSON) {
+		printf("{\"event\": \"end\", \"done\": %" PRIu64 ", \"skipped\": %" PRIu64 ", \"failed\": %" PRIu64
+		       ", \"seconds\": %.3f, \"peak_memory_bytes\": %" PRIu64 "}\n", p->done, p->skipped, p->failed,
+		       progress_clock_s() - p->start_s, progress_peak_memory());
+		fflush(stdout);
+	}
+}
+
+void progress_summary(const struct progress *p)
+{
+	double elapsed = progress_clock_s() - p->start_s;
+	uint64_t worked = p->done - p->skipped - p->failed;
+	char text[512];
+	size_t n = 0;
+
+	if (p->style == PROGRESS_JSON || p->style == PROGRESS_NONE)
+		return;
+	n += (size_t)snprintf(text + n, sizeof(text) - n, "%s %" PRIu64 " frames in %.1f s (%.2f frames/s)", p->verb, worked,
+	                      elapsed, elapsed > 0 ? (double)worked / elapsed : 0.0);
+	if (p->skipped)
+		n += (size_t)snprintf(text + n, sizeof(text) - n, ", %" PRIu64 " were there already", p->skipped);
+	if (p->failed)
+		n += (size_t)snprintf(text + n, sizeof(text) - n, ", %" PRIu64 " failed", p->failed);
+	n += (size_t)snprintf(text + n, sizeof(text) - n, "; peak memory %" PRIu64 " MiB", progress_peak_memory() >> 20);
+	for (size_t i = 0; i < PROGRESS_SLOWEST && p->slowest[i].seconds > 0; i++)
+		n += (size_t)snprintf(text + n, sizeof(text) - n, "%s frame %" PRIu64 " %.2f s", i ? "," : "; slowest:",
+		                      p->slowest[i].frame, p->slowest[i].seconds);
+	fprintf(stderr, "%s\n", text);
 }

@@ -1,25 +1,51 @@
 /*
  * Progress of a run over frames: a bar with rate and time left where standard error is a terminal, one plain line per
- * frame elsewhere (farm managers parse "VERB frame N, DONE of TOTAL: TEXT").
+ * frame elsewhere (farm managers parse "VERB frame N, DONE of TOTAL: TEXT"), or JSON, one object a line, on standard output:
+ *
+ *     {"event": "begin", "verb": "rendered", "total": 500}
+ *     {"event": "frame", "frame": 12, "state": "done", "seconds": 0.123, "done": 3, "total": 500}
+ *     {"event": "end", "done": 500, "seconds": 61.2, "peak_memory_bytes": 536870912}
+ *
+ * A state is "done", "skipped" (there already) or "failed"; total is 0 where it is not known.
  */
 #ifndef BASE_PROGRESS_H
 #define BASE_PROGRESS_H
 
 #include <stdint.h>
 
+enum progress_style { PROGRESS_AUTO, PROGRESS_BAR, PROGRESS_LINES, PROGRESS_JSON, PROGRESS_NONE };
+
+#define PROGRESS_SLOWEST 3
+
 struct progress {
 	const char *verb;   /* "rendered", "scored"; borrowed */
 	uint64_t total;     /* frames in all; 0 where it is not known */
-	uint64_t done;
-	int terminal;
+	uint64_t done, skipped, failed; /* done: all that were dealt with */
+	enum progress_style style;      /* never AUTO once begun */
 	double start_s;
+	struct { uint64_t frame; double seconds; } slowest[PROGRESS_SLOWEST]; /* slowest first; seconds 0: none */
 };
 
-/** Start a run of `total` frames. */
+/** Start a run of `total` frames: a bar or lines. */
 void progress_begin(struct progress *p, const char *verb, uint64_t total);
+
+/** The same in a style asked for; PROGRESS_AUTO picks bar or lines. */
+void progress_begin_style(struct progress *p, const char *verb, uint64_t total, enum progress_style style);
+
+/** The style that a word names ("bar", "lines", "json", "none", "auto"), or -1. */
+int progress_style_of(const char *word);
 
 /** One frame is done. `text` says how it went ("0.12 s, 2 views"); shown on plain lines only. */
 void progress_step(struct progress *p, uint64_t frame, const char *text);
+
+/** The same for a frame that took so many seconds, was skipped or has failed ("done", "skipped", "failed"). */
+void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds);
+
+/** Print what the run came to: frames, rate, the slowest frames, peak memory. After progress_end. */
+void progress_summary(const struct progress *p);
+
+/** The most memory that this process has held so far, in bytes. */
+uint64_t progress_peak_memory(void);
 
 /** Clear the bar. Prints nothing itself. */
 void progress_end(struct progress *p);

@@ -112,6 +112,31 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 	return 1;
 }
 
+int replay_seek(struct replay *rp, uint64_t frame)
+{
+	struct scene *none;
+	int rc = 1;
+
+	while (rc == 1 && rp->exec->frame < frame)
+		rc = replay_next_frame(rp, 0, &none);
+	return rc;
+}
+
+int replay_frame_count(struct replay *rp, uint64_t *n)
+{
+	struct replay *counter;
+	struct scene *none;
+	int rc = replay_open(&counter, rp->path);
+
+	if (rc)
+		return rc;
+	while ((rc = replay_next_frame(counter, 0, &none)) == 1)
+		;
+	*n = replay_frame(counter);
+	replay_close(&counter);
+	return rc;
+}
+
 uint64_t replay_frame(const struct replay *rp)
 {
 	return rp->exec->frame;

@@ -35,6 +35,15 @@ void replay_close(struct replay **rp);
  */
 int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 
+/**
+ * Execute up to a frame, so that replay_next_frame finishes that one. Only forward.
+ * @return 1; 0 the trace has no such frame; ERR_* as replay_next_frame
+ */
+int replay_seek(struct replay *rp, uint64_t frame);
+
+/** How many frames the trace has. @return 0 or ERR_* (reported) */
+int replay_frame_count(struct replay *rp, uint64_t *n);
+
 /** Give a scene back; NULL is allowed. Sets *scene to NULL. May run in any thread. */
 void scene_release(struct scene **scene);
 

@@ -1,6 +1,7 @@
 #include "tracer/cl.h"
 
 #include <CL/cl.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,12 +27,19 @@
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
 static const char options[] = "-cl-std=CL1.2";
 
-struct cl_device {
+/* What all that were shared from one device have in common. */
+struct cl_common {
+	pthread_mutex_t lock;
+	unsigned refs;
 	cl_device_id root, id; /* id: root, or a sub-device of it */
 	cl_context context;
-	cl_command_queue queue;
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
-	cl_kernel kernels[N_DEVICE_KERNELS];
+};
+
+struct cl_device {
+	struct cl_common *common;
+	cl_command_queue queue;
+	cl_kernel kernels[N_DEVICE_KERNELS]; /* of its own: arguments are part of a kernel object */
 	int cpu;
 };
 
@@ -149,7 +157,7 @@ int cl_list(struct device_description **out, size_t *n)
 }
 
 /* A sub-device of so many units, so that a run uses no more cores than it was given. */
-static int limit_threads(struct cl_device *dev, unsigned threads)
+static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 {
 	const cl_device_partition_property counts[] = { CL_DEVICE_PARTITION_BY_COUNTS, threads,
 		                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0 };
@@ -157,7 +165,7 @@ static int limit_threads(struct cl_device *dev, unsigned threads)
 	cl_int code;
 
 	clGetDeviceInfo(dev->root, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
-	if (!dev->cpu || threads == 0 || threads >= units)
+	if (!cpu || threads == 0 || threads >= units)
 		return 0;
 	code = clCreateSubDevices(dev->root, counts, 1, &dev->id, NULL);
 	if (code == CL_SUCCESS)
@@ -166,10 +174,58 @@ static int limit_threads(struct cl_device *dev, unsigned threads)
 	return report(code, "this device cannot be limited to fewer threads");
 }
 
+static void release_common(struct cl_common *c)
+{
+	unsigned refs;
+
+	if (!c)
+		return;
+	pthread_mutex_lock(&c->lock);
+	refs = --c->refs;
+	pthread_mutex_unlock(&c->lock);
+	if (refs)
+		return;
+	for (size_t i = 0; c->programs && i < n_kernel_files; i++)
+		if (c->programs[i])
+			clReleaseProgram(c->programs[i]);
+	free(c->programs);
+	if (c->context)
+		clReleaseContext(c->context);
+	if (c->id != c->root)
+		clReleaseDevice(c->id);
+	pthread_mutex_destroy(&c->lock);
+	free(c);
+}
+
+static struct cl_common *create_common(void)
+{
+	struct cl_common *c = calloc(1, sizeof(*c));
+
+	if (c)
+		c->programs = calloc(n_kernel_files + 1, sizeof(*c->programs));
+	if (!c || !c->programs) {
+		free(c);
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		return NULL;
+	}
+	pthread_mutex_init(&c->lock, NULL);
+	c->refs = 1;
+	return c;
+}
+
+static int open_queue(struct cl_device *dev)
+{
+	cl_int code;
+
+	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, 0, &code);
+	return dev->queue ? 0 : report(code, "clCreateCommandQueue");
+}
+
 int cl_open(size_t number, unsigned threads, struct cl_device **out)
 {
 	cl_device_id ids[MAX_DEVICES];
 	struct cl_device *dev = NULL;
+	struct cl_common *common;
 	cl_device_type type = 0;
 	cl_int code;
 	size_t n;
@@ -180,32 +236,50 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 	if (number >= n)
 		return err_report(ERR_SYSTEM, "OpenCL", "device %zu is gone", number);
 	dev = calloc(1, sizeof(*dev));
-	if (dev)
-		dev->programs = calloc(n_kernel_files + 1, sizeof(*dev->programs));
-	if (!dev || !dev->programs) {
-		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!dev)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	common = dev->common = create_common();
+	if (!common) {
+		err = ERR_SYSTEM;
 		goto fail;
 	}
-	dev->root = dev->id = ids[number];
-	clGetDeviceInfo(dev->root, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+	common->root = common->id = ids[number];
+	clGetDeviceInfo(common->root, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
 	dev->cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
-	err = limit_threads(dev, threads);
+	err = limit_threads(common, dev->cpu, threads);
 	if (err)
 		goto fail;
-	dev->context = clCreateContext(NULL, 1, &dev->id, NULL, NULL, &code);
-	if (!dev->context) {
+	common->context = clCreateContext(NULL, 1, &common->id, NULL, NULL, &code);
+	if (!common->context) {
 		err = report(code, "clCreateContext");
 		goto fail;
 	}
-	dev->queue = clCreateCommandQueue(dev->context, dev->id, 0, &code);
-	if (!dev->queue) {
-		err = report(code, "clCreateCommandQueue");
+	err = open_queue(dev);
+	if (err)
 		goto fail;
-	}
 	*out = dev;
 	return 0;
 fail:
 	cl_close(&dev);
+	return err;
+}
+
+int cl_share(struct cl_device *dev, struct cl_device **out)
+{
+	struct cl_device *other = calloc(1, sizeof(*other));
+	int err;
+
+	if (!other)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	pthread_mutex_lock(&dev->common->lock);
+	dev->common->refs++;
+	pthread_mutex_unlock(&dev->common->lock);
+	other->common = dev->common;
+	other->cpu = dev->cpu;
+	err = open_queue(other);
+	if (err)
+		cl_close(&other);
+	*out = other;
 	return err;
 }
 
@@ -219,16 +293,9 @@ void cl_close(struct cl_device **dev)
 	for (size_t i = 0; i < N_DEVICE_KERNELS; i++)
 		if (d->kernels[i])
 			clReleaseKernel(d->kernels[i]);
-	for (size_t i = 0; d->programs && i < n_kernel_files; i++)
-		if (d->programs[i])
-			clReleaseProgram(d->programs[i]);
-	free(d->programs);
 	if (d->queue)
 		clReleaseCommandQueue(d->queue);
-	if (d->context)
-		clReleaseContext(d->context);
-	if (d->id != d->root)
-		clReleaseDevice(d->id);
+	release_common(d->common);
 	free(d);
 }
 
@@ -254,7 +321,7 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
 	if (b->mem)
 		clReleaseMemObject(b->mem);
 	b->bytes = 0;
-	b->mem = clCreateBuffer(dev->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+	b->mem = clCreateBuffer(dev->common->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
 	if (!b->mem) {
 		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
 		return report(code, what);
@@ -298,7 +365,7 @@ int cl_finish(struct cl_device *dev)
 	return code == CL_SUCCESS ? 0 : report(code, "clFinish");
 }
 
-static void report_build_log(struct cl_device *dev, cl_program program, const char *name)
+static void report_build_log(struct cl_common *dev, cl_program program, const char *name)
 {
 	size_t bytes = 0;
 	char *log;
@@ -311,7 +378,7 @@ static void report_build_log(struct cl_device *dev, cl_program program, const ch
 	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
 }
 
-static int build_program(struct cl_device *dev, size_t file)
+static int build_program(struct cl_common *dev, size_t file)
 {
 	const char *texts[] = { prelude, kernel_files[file].text };
 	cl_program program;
@@ -343,10 +410,12 @@ static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const c
 	for (size_t i = 0; i < n_kernel_places; i++) {
 		if (strcmp(kernel_places[i].kernel, name) != 0)
 			continue;
-		err = build_program(dev, kernel_places[i].file);
+		pthread_mutex_lock(&dev->common->lock);
+		err = build_program(dev->common, kernel_places[i].file);
+		pthread_mutex_unlock(&dev->common->lock);
 		if (err)
 			return err;
-		dev->kernels[kernel] = clCreateKernel(dev->programs[kernel_places[i].file], name, &code);
+		dev->kernels[kernel] = clCreateKernel(dev->common->programs[kernel_places[i].file], name, &code);
 		return dev->kernels[kernel] ? 0 : report(code, name);
 	}
 	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);

@@ -25,6 +25,9 @@ int cl_list(struct device_description **out, size_t *n);
 int cl_open(size_t number, unsigned threads, struct cl_device **out);
 void cl_close(struct cl_device **dev);
 
+/** The same device with a queue of its own, for another thread; programs are compiled once for all. As cl_open. */
+int cl_share(struct cl_device *dev, struct cl_device **out);
+
 int cl_is_cpu(const struct cl_device *dev);
 
 /* As their namesakes in device.h. */

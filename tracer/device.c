@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +30,7 @@ static const struct {
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
 	unsigned threads;     /* of the reference device */
+	atomic_int interrupted;
 	char name[320];
 };
 
@@ -133,6 +135,88 @@ void device_close(struct device **dev)
 	*dev = NULL;
 }
 
+/* "0,1,2" for every OpenCL device. @return to be freed, or NULL (reported) */
+static char *name_all(void)
+{
+	struct device_description *list = NULL;
+	size_t n, at = 0;
+	char *text;
+
+	if (cl_list(&list, &n))
+		return NULL;
+	free(list);
+	text = malloc(8 * n + 8);
+	for (size_t i = 0; text && i < n; i++)
+		at += (size_t)sprintf(text + at, i ? ",%zu" : "%zu", i);
+	if (!text)
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+	return text;
+}
+
+int device_open_list(const char *choices, unsigned threads, struct device ***out, size_t *n)
+{
+	char *text = !choices ? NULL : strcmp(choices, "all") == 0 ? name_all() : strdup(choices), *save = NULL;
+	int err = choices && !text ? ERR_SYSTEM : 0;
+
+	*n = 0;
+	*out = calloc(1 + (choices ? strlen(text ? text : "") : 0), sizeof(**out));
+	if (!*out)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err && !text)
+		err = device_open(NULL, threads, &(*out)[(*n)++]);
+	for (char *name = text ? strtok_r(text, ",", &save) : NULL; !err && name; name = strtok_r(NULL, ",", &save))
+		err = device_open(name, threads, &(*out)[(*n)++]);
+	if (!err && *n == 0)
+		err = err_report(ERR_USAGE, NULL, "--device names none; 'relume devices' lists them");
+	free(text);
+	if (err)
+		device_close_list(out, n);
+	return err;
+}
+
+void device_close_list(struct device ***devices, size_t *n)
+{
+	for (size_t i = 0; *devices && i < *n; i++)
+		device_close(&(*devices)[i]);
+	free(*devices);
+	*devices = NULL;
+	*n = 0;
+}
+
+int device_share(struct device *dev, struct device **out)
+{
+	struct device *other = calloc(1, sizeof(*other));
+	int err = 0;
+
+	if (!other)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	other->threads = dev->threads;
+	memcpy(other->name, dev->name, sizeof(other->name));
+	if (dev->cl)
+		err = cl_share(dev->cl, &other->cl);
+	if (err) {
+		free(other);
+		return err;
+	}
+	*out = other;
+	return 0;
+}
+
+void device_interrupt(struct device *dev)
+{
+	atomic_store(&dev->interrupted, 1);
+}
+
+void device_resume(struct device *dev)
+{
+	atomic_store(&dev->interrupted, 0);
+}
+
+int device_is_interrupted(const struct device *dev)
+{
+	return atomic_load(&dev->interrupted);
+}
+
 const char *device_name(const struct device *dev)
 {
 	return dev->name;
@@ -178,6 +262,8 @@ void device_release(struct device *dev, struct device_buffer **buffer)
 
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
 {
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
 	if (dev->cl)
 		return cl_write(dev->cl, buffer->cl, offset, data, bytes);
 	if (bytes)
@@ -187,6 +273,8 @@ int device_write(struct device *dev, struct device_buffer *buffer, size_t offset
 
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes)
 {
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
 	if (dev->cl)
 		return cl_read(dev->cl, buffer->cl, offset, data, bytes);
 	if (bytes)
@@ -238,6 +326,8 @@ int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, co
 {
 	struct cl_arg cl_args[MAX_ARGS];
 
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
 	if (n_items == 0)
 		return 0;
 	if (n_args > MAX_ARGS)

@@ -80,6 +80,31 @@ int device_list(struct device_description **out, size_t *n);
 int device_open(const char *choice, unsigned threads, struct device **out);
 void device_close(struct device **dev);
 
+/**
+ * Open several devices.
+ * @param choices  as `choice` above, several with commas; "all": every OpenCL device
+ * @param out, n   receive an array; device_close_list
+ * @return as device_open
+ */
+int device_open_list(const char *choices, unsigned threads, struct device ***out, size_t *n);
+void device_close_list(struct device ***devices, size_t *n);
+
+/**
+ * The same device once more, with a queue of its own: a device is used by one thread at a time. Buffers belong to the one
+ * that made them. The two may be closed in any order.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int device_share(struct device *dev, struct device **out);
+
+/**
+ * Break off: from now on device_run, device_write and device_read do nothing and return ERR_SYSTEM without a report. May be
+ * called from any thread; what is running on the device runs to its end. What the frame under way had placed on the device
+ * is in no certain state: make a new tracer after device_resume.
+ */
+void device_interrupt(struct device *dev);
+void device_resume(struct device *dev);
+int device_is_interrupted(const struct device *dev);
+
 /** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
 const char *device_name(const struct device *dev);
 

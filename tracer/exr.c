@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/err.h"
+#include "base/part.h"
 #include "tracer/image.h"
 
 #define ZIP_LEVEL 4 /* 2.4 times faster than the library's 6, a fifth more bytes */
@@ -219,13 +219,15 @@ int image_write_exr(const struct image *img, const char *path)
 		return err_report(ERR_SYSTEM, path, "an empty image cannot be written");
 	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
 		return err_report(ERR_SYSTEM, path, "cannot be written: it is a directory");
-	if (snprintf(temporary, sizeof(temporary), "%s.%ld.part", path, (long)getpid()) >= (int)sizeof(temporary))
-		return err_report(ERR_SYSTEM, path, "cannot be written: the name is too long");
+	if (part_begin(path, temporary, sizeof(temporary)))
+		return ERR_SYSTEM;
 
 	errno = 0;
 	rc = exr_start_write(&file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup);
-	if (rc != EXR_ERR_SUCCESS)
-		return err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
+	if (rc != EXR_ERR_SUCCESS) {
+		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
+		goto fail;
+	}
 	rc = define_part(file, img);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = write_attributes(file, img);
@@ -243,13 +245,9 @@ int image_write_exr(const struct image *img, const char *path)
 		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
 		goto fail;
 	}
-	if (rename(temporary, path) != 0) {
-		result = err_report(ERR_SYSTEM, path, "cannot be renamed into place: %s", strerror(errno));
-		goto fail;
-	}
-	return 0;
+	return part_finish(temporary, path);
 fail:
-	unlink(temporary);
+	part_drop(temporary);
 	return result;
 }
 

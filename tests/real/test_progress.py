@@ -27,7 +27,7 @@ def on_terminal(command):
 
 trace = SCRATCH / "two.trace"
 record(trace, corpus("two_triangles"), "--frames", "3")
-command = [RELUME, "render", str(trace), "-f", "0-2", "-o", str(SCRATCH / "x.####.exr")]
+command = [RELUME, "render", str(trace), "-j", "1", "-f", "0-2", "-o", str(SCRATCH / "x.####.exr")]
 
 plain = must(relume(*command[1:]))
 lines = [line for line in plain.stderr.splitlines() if line.startswith("rendered frame")]

@@ -45,6 +45,47 @@ START_TEST(test_not_ranges)
 }
 END_TEST
 
+/** The frames below 1000 of the i-th of n parts; "none" where it holds none. */
+static const char *chunk_of(const char *text, uint64_t end, uint64_t i, uint64_t n)
+{
+	static char out[256];
+	struct frame_list list = { 0 };
+	uint64_t frame = 0;
+	size_t at = 0;
+	int rc;
+
+	out[0] = '\0';
+	if (*text)
+		ck_assert_int_eq(frame_list_parse(text, &list), 0);
+	rc = frame_list_chunk(&list, end, i, n);
+	ck_assert(rc == 0 || rc == 1);
+	for (; rc == 0 && frame < 1000 && frame_list_next(&list, frame, &frame); frame++)
+		at += (size_t)snprintf(out + at, sizeof(out) - at, at ? " %d" : "%d", (int)frame);
+	frame_list_free(&list);
+	return rc ? "none" : out;
+}
+
+START_TEST(test_chunks)
+{
+	uint64_t i, n;
+
+	ck_assert_str_eq(chunk_of("", 10, 1, 3), "0 1 2");
+	ck_assert_str_eq(chunk_of("", 10, 2, 3), "3 4 5");
+	ck_assert_str_eq(chunk_of("", 10, 3, 3), "6 7 8 9");
+	ck_assert_str_eq(chunk_of("0-9x3,20", 30, 1, 2), "0 3");
+	ck_assert_str_eq(chunk_of("0-9x3,20", 30, 2, 2), "6 9 20");
+	ck_assert_str_eq(chunk_of("1-6,2-8x2,8", 30, 2, 3), "3 4"); /* 1 2 | 3 4 | 5 6 8 */
+	ck_assert_str_eq(chunk_of("1-6,2-8x2,8", 30, 3, 3), "5 6 8");
+	ck_assert_str_eq(chunk_of("5,7", 30, 1, 4), "none");
+	ck_assert_str_eq(chunk_of("5,7", 30, 2, 4), "5");
+	ck_assert_int_eq(frame_chunk_parse("3/50", &i, &n), 0);
+	ck_assert(i == 3 && n == 50);
+	ck_assert_int_eq(frame_chunk_parse("0/5", &i, &n), ERR_USAGE);
+	ck_assert_int_eq(frame_chunk_parse("6/5", &i, &n), ERR_USAGE);
+	ck_assert_int_eq(frame_chunk_parse("1-5", &i, &n), ERR_USAGE);
+}
+END_TEST
+
 START_TEST(test_last_and_count)
 {
 	struct frame_list list = { 0 };
@@ -75,6 +116,7 @@ START_TEST(test_patterns)
 	ck_assert_str_eq(expanded("a.%d.exr", 12), "a.12.exr");
 	ck_assert_str_eq(expanded("a.$F4.exr", 12), "a.0012.exr");
 	ck_assert_str_eq(expanded("a.$F.exr", 12), "a.12.exr");
+	ck_assert_str_eq(expanded("a.{frame}.exr", 12), "a.12.exr");
 	ck_assert_str_eq(expanded("a.##.exr", 12345), "a.12345.exr");
 	ck_assert_str_eq(expanded("100%/a.###.exr", 1), "100%/a.001.exr");
 	ck_assert_int_eq(frame_pattern_has_number("a.%s.exr"), 0);
@@ -103,6 +145,7 @@ int main(void)
 
 	tcase_add_test(tcase, test_ranges);
 	tcase_add_test(tcase, test_not_ranges);
+	tcase_add_test(tcase, test_chunks);
 	tcase_add_test(tcase, test_last_and_count);
 	tcase_add_test(tcase, test_patterns);
 	tcase_add_test(tcase, test_pattern_too_long);

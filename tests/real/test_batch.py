@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""Frames in bulk: chunks, what is there already, the same bytes whatever runs at once, signals, time limits.
+
+limit: 200 s
+"""
+import json
+import signal
+import subprocess
+import time
+
+from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, relume
+
+trace = SCRATCH / "two.trace"
+record(trace, corpus("two_triangles"), "--frames", "8", options=())
+out = SCRATCH / "out"
+
+
+def render(*options, to=out, code=0):
+    done = relume("render", trace, "-o", to / "x.{frame}.exr", *options)
+    check(done.returncode == code, f"render {options}: exit code {done.returncode} and not {code}: {done.stderr}")
+    return done
+
+
+def files(folder=out):
+    return {p.name: p.read_bytes() for p in sorted(folder.iterdir())}
+
+
+# Chunks: every frame in exactly one.
+chunks = [render("--chunk", f"{i}/3", "--dry-run").stdout.splitlines() for i in (1, 2, 3)]
+check([len(c) for c in chunks] == [2, 3, 3] and [line.split(":")[0] for c in chunks for line in c] ==
+      [f"frame {i}" for i in range(8)], f"three chunks of eight frames: {chunks}")
+check(not out.exists(), "a dry run writes nothing")
+render("--chunk", "9/20")  # holds no frame of eight: nothing to do is no failure
+render("--chunk", "4/3", code=2)
+render("-f", "8", code=2)
+
+# One or three frames at once, in order or in chunks: the same bytes.
+render("-j", "1")
+whole = files()
+check(sorted(whole) == [f"x.{i}.exr" for i in range(8)], f"all frames are there and nothing else: {sorted(whole)}")
+for i in (1, 2):
+    render("-j", "3", "--chunk", f"{i}/2", to=SCRATCH / "parallel")
+check(files(SCRATCH / "parallel") == whole, "three at once and in two chunks: the same bytes")
+
+# What is there is left; what is torn, zeroed, of other settings or missing is made.
+done = render("--skip-existing")
+check(done.stderr.count("there already") == 9, f"all are there: {done.stderr}")  # eight lines and the summary's
+(out / "x.1.exr").write_bytes(whole["x.1.exr"][:-100])
+hole = bytearray(whole["x.2.exr"])
+hole[len(hole) // 2:len(hole) // 2 + 512] = bytes(512)
+(out / "x.2.exr").write_bytes(hole)
+(out / "x.3.exr").write_bytes(b"")
+(out / "x.4.exr").write_bytes(whole["x.5.exr"])
+(out / "x.6.exr").unlink()
+lines = [json.loads(line) for line in render("--skip-existing", "--progress", "json").stdout.splitlines()]
+made = {line["frame"] for line in lines if line.get("state") == "done"}
+check(made == {1, 2, 3, 4, 6}, f"torn, zeroed, empty, of another frame and missing ones are made: {made}")
+check(lines[0] == {"event": "begin", "verb": "rendered", "total": 8} and lines[-1]["event"] == "end" and
+      lines[-1]["skipped"] == 3, f"progress as JSON: {lines}")
+check(files() == whole, "and are the same bytes again")
+check("made otherwise" in render("--skip-existing", "--dry-run", "--depth", "2").stdout, "other settings are noticed")
+check("leave" not in render("--skip-existing", "--force", "--dry-run").stdout, "--force renders all")
+
+# Signals: an exit code of their own, no unfinished file, a second run goes on.
+for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+    folder = SCRATCH / f"signal{code}"
+    command = [RELUME, "render", str(trace), "-o", str(folder / "x.{frame}.exr"), "-j", "1"]
+    child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    child.stderr.readline()  # the first frame is there
+    child.send_signal(number)
+    said = child.communicate(timeout=60)[1]
+    left = files(folder)
+    check(child.returncode == code, f"{number.name}: exit code {child.returncode}: {said}")
+    check(1 <= len(left) < 8 and all(whole[name] == data for name, data in left.items()),
+          f"{number.name}: some frames are there and whole: {sorted(left)}")
+    must(relume(*command[1:], "--skip-existing"))
+    check(files(folder) == whole, f"{number.name}: a second run goes on")
+
+# A frame that takes too long is given up, and the run says so.
+late = render("--timeout-per-frame", "0.0001", "-f", "0-2", to=SCRATCH / "late", code=5)
+check(late.stderr.count("given up") == 3, f"three frames are given up: {late.stderr}")
+check(not (SCRATCH / "late").exists() or not files(SCRATCH / "late"), "and leave nothing")
+finish()
