@@ -1,23 +1,26 @@
 /*
  * A Cornell box of exactly 34 triangles: five walls and two boxes, one positional light below the ceiling. Vertex, normal
  * and colour arrays drawn by glDrawArrays, from client memory or from a buffer object (--vbo). With --mirror the red
- * wall is a mirror where a recorder listens, and an ordinary wall otherwise.
+ * wall is a mirror where a recorder listens, and an ordinary wall otherwise. --glass adds a box of glass in front, --mesh a
+ * model of 100,000 triangles (or --model's) on the short box.
  *
  *   cc -o cornell corpus/cornell.c -lglut -lGLU -lGL -lm
  */
 #include <math.h>
 #include <stddef.h>
 
+#include "mesh.h"
 #include "program.h"
 
-enum { N_TRIANGLES = 34, RED_WALL_VERTICES = 6 };
+enum { N_TRIANGLES = 34, RED_WALL_VERTICES = 6, GLASS_VERTICES = 36 };
 
 struct vertex {
 	float position[3], normal[3], color[3];
 };
 
-static struct vertex vertices[3 * N_TRIANGLES];
+static struct vertex vertices[3 * N_TRIANGLES + GLASS_VERTICES];
 static size_t n_vertices;
+static struct mesh model;
 
 static const float white[3] = { 0.8f, 0.8f, 0.8f }, red[3] = { 0.8f, 0.1f, 0.1f }, green[3] = { 0.1f, 0.7f, 0.15f };
 
@@ -53,8 +56,8 @@ static void add_walls(void)
 	add_quad((const float[4][3]){ { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 } }, white);
 }
 
-/** A box that stands on the floor, turned about the vertical. */
-static void add_box(float x, float z, float half_width, float height, float turn_deg)
+/** A box so far above the floor, turned about the vertical. */
+static void add_box(float x, float z, float half_width, float bottom, float height, float turn_deg)
 {
 	/* corners by bit: 1 right, 2 top, 4 front */
 	static const int faces[6][4] = { { 4, 5, 7, 6 }, { 1, 0, 2, 3 }, { 5, 1, 3, 7 },
@@ -69,35 +72,44 @@ static void add_box(float x, float z, float half_width, float height, float turn
 			float dz = faces[f][i] & 4 ? half_width : -half_width;
 
 			corners[i][0] = x + c * dx + s * dz;
-			corners[i][1] = faces[f][i] & 2 ? height - 1 : -1;
+			corners[i][1] = bottom + (faces[f][i] & 2 ? height : 0) - 1;
 			corners[i][2] = z - s * dx + c * dz;
 		}
 		add_quad((const float(*)[3])corners, white);
 	}
 }
 
-static void init(void)
+static GLuint buffer; /* 0: client memory */
+
+/** Arrays of the box and its walls. */
+static void point_at_box(void)
 {
-	const char *base = (const char *)vertices;
+	const char *base = buffer ? NULL : (const char *)vertices;
 
-	add_walls();
-	add_box(-0.35f, -0.35f, 0.3f, 1.2f, 18);
-	add_box(0.37f, 0.3f, 0.3f, 0.6f, -17);
-
-	if (program.vbo) {
-		GLuint buffer;
-
-		glGenBuffers(1, &buffer);
-		glBindBuffer(GL_ARRAY_BUFFER, buffer);
-		glBufferData(GL_ARRAY_BUFFER, sizeof(vertices), vertices, GL_STATIC_DRAW);
-		base = NULL;
-	}
+	glBindBuffer(GL_ARRAY_BUFFER, buffer);
 	glVertexPointer(3, GL_FLOAT, sizeof(struct vertex), base + offsetof(struct vertex, position));
 	glNormalPointer(GL_FLOAT, sizeof(struct vertex), base + offsetof(struct vertex, normal));
 	glColorPointer(3, GL_FLOAT, sizeof(struct vertex), base + offsetof(struct vertex, color));
 	glEnableClientState(GL_VERTEX_ARRAY);
 	glEnableClientState(GL_NORMAL_ARRAY);
 	glEnableClientState(GL_COLOR_ARRAY);
+}
+
+static void init(void)
+{
+	add_walls();
+	add_box(-0.35f, -0.35f, 0.3f, 0, 1.2f, 18);
+	add_box(0.37f, 0.3f, 0.3f, 0, 0.6f, -17);
+	add_box(-0.3f, 0.6f, 0.22f, 0.02f, 0.7f, 30); /* the glass; a gap keeps its bottom apart from the floor */
+	if (program.mesh)
+		model = mesh_load(program.model, 500, 100);
+
+	if (program.vbo) {
+		glGenBuffers(1, &buffer);
+		glBindBuffer(GL_ARRAY_BUFFER, buffer);
+		glBufferData(GL_ARRAY_BUFFER, sizeof(vertices), vertices, GL_STATIC_DRAW);
+	}
+	point_at_box();
 
 	glEnable(GL_DEPTH_TEST);
 	glEnable(GL_LIGHTING);
@@ -108,6 +120,23 @@ static void init(void)
 	glLoadIdentity();
 	gluPerspective(45, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.1, 20);
 	glMatrixMode(GL_MODELVIEW);
+}
+
+static void draw_model(void)
+{
+	glPushMatrix();
+	glTranslatef(0.37f, -0.07f, 0.3f);
+	glScalef(0.32f, 0.32f, 0.32f);
+	glEnable(GL_NORMALIZE);
+	glDisableClientState(GL_COLOR_ARRAY);
+	glColor3f(0.8f, 0.7f, 0.3f);
+	glBindBuffer(GL_ARRAY_BUFFER, 0);
+	glVertexPointer(3, GL_FLOAT, 0, model.positions);
+	glNormalPointer(GL_FLOAT, 0, model.normals);
+	glDrawElements(GL_TRIANGLES, (GLsizei)(3 * model.n_triangles), GL_UNSIGNED_INT, model.triangles);
+	point_at_box();
+	glDisable(GL_NORMALIZE);
+	glPopMatrix();
 }
 
 static void draw(void)
@@ -133,6 +162,13 @@ static void draw(void)
 	glDrawArrays(GL_TRIANGLES, 0, RED_WALL_VERTICES);
 	rtMaterialEXT(RT_MATTE_EXT, 0, 1);
 	glDrawArrays(GL_TRIANGLES, RED_WALL_VERTICES, 3 * N_TRIANGLES - RED_WALL_VERTICES);
+	if (program.mesh)
+		draw_model();
+	if (program.glass) {
+		rtMaterialEXT(RT_GLASS_EXT, 0.9f, 1.5f);
+		glDrawArrays(GL_TRIANGLES, 3 * N_TRIANGLES, GLASS_VERTICES);
+		rtMaterialEXT(RT_MATTE_EXT, 0, 1);
+	}
 }
 
 int main(int argc, char **argv)

@@ -189,8 +189,11 @@ static void mesh_add_normals(struct mesh *m)
 	}
 }
 
-/** The model to show: the OBJ file, or the knot where `path` is NULL. Exits with a line on standard error on failure. */
-static inline struct mesh mesh_load(const char *path)
+/**
+ * The model to show: the OBJ file, or the knot of 2 * along * around triangles where `path` is NULL. Exits with a line on
+ * standard error on failure.
+ */
+static inline struct mesh mesh_load(const char *path, unsigned along, unsigned around)
 {
 	struct mesh m = { 0 };
 
@@ -199,7 +202,7 @@ static inline struct mesh mesh_load(const char *path)
 		exit(1);
 	}
 	if (!path)
-		mesh_make_knot(&m, 512, 48);
+		mesh_make_knot(&m, along, around);
 	mesh_fit(&m);
 	mesh_add_normals(&m);
 	return m;

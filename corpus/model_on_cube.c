@@ -11,7 +11,7 @@ static struct mesh model;
 
 static void init(void)
 {
-	model = mesh_load(program.model);
+	model = mesh_load(program.model, 512, 48);
 	glClearColor(0.5f, 0.6f, 0.7f, 1);
 	glEnable(GL_DEPTH_TEST);
 	glEnable(GL_CULL_FACE);

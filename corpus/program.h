@@ -6,6 +6,8 @@
  *   --animate camera|light|none
  *   --vbo                   arrays from a buffer object where the program has arrays
  *   --mirror                make a mirror where the program has one to make
+ *   --glass                 add something of glass where the program has it
+ *   --mesh                  add the model where the program can do without
  *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
  *   --ortho                 parallel projection where the program has a choice
  */
@@ -32,7 +34,7 @@ struct program {
 	const char *title;
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
 	long frames;        /* 0: no end */
-	int animate_camera, animate_light, vbo, mirror, ortho;
+	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
 	const char *model; /* NULL: none given */
 };
 
@@ -51,8 +53,8 @@ static void program_display(void)
 
 static void program_usage(const char *name)
 {
-	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--ortho] "
-	        "[--model FILE]\n", name);
+	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--glass] [--mesh] "
+	        "[--ortho] [--model FILE]\n", name);
 	exit(2);
 }
 
@@ -71,6 +73,10 @@ static void program_parse(int argc, char **argv)
 			program.vbo = 1;
 		else if (strcmp(argv[i], "--mirror") == 0)
 			program.mirror = 1;
+		else if (strcmp(argv[i], "--glass") == 0)
+			program.glass = 1;
+		else if (strcmp(argv[i], "--mesh") == 0)
+			program.mesh = 1;
 		else if (strcmp(argv[i], "--ortho") == 0)
 			program.ortho = 1;
 		else if (i + 1 == argc)

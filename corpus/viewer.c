@@ -47,7 +47,7 @@ static void init(void)
 {
 	const double aspect = (double)PROGRAM_WIDTH / PROGRAM_HEIGHT;
 
-	model = mesh_load(program.model);
+	model = mesh_load(program.model, 512, 48);
 	if (program.vbo)
 		fill_buffers();
 	else

@@ -24,6 +24,7 @@
 #define M_MIN(x, y) fmin(x, y)
 #define M_MAX(x, y) fmax(x, y)
 #define M_COS(x) cos(x)
+#define M_SIN(x) sin(x)
 #define M_BITS(x) as_uint(x)
 #define M_FLOAT(x) as_float(x)
 #else
@@ -42,6 +43,7 @@
 #define M_MIN(x, y) fminf(x, y)
 #define M_MAX(x, y) fmaxf(x, y)
 #define M_COS(x) cosf(x)
+#define M_SIN(x) sinf(x)
 #define M_BITS(x) common_bits(x)
 #define M_FLOAT(x) common_float(x)
 
@@ -124,6 +126,16 @@ static inline struct vec3 v3_add(struct vec3 a, struct vec3 b)
 static inline struct vec3 v3_sub(struct vec3 a, struct vec3 b)
 {
 	return v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static inline struct vec3 v3_mul(struct vec3 a, struct vec3 b)
+{
+	return v3(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
+static inline float v3_most(struct vec3 a)
+{
+	return M_MAX(M_MAX(a.x, a.y), a.z);
 }
 
 static inline struct vec3 v3_scale(struct vec3 a, float s)

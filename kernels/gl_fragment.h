@@ -208,20 +208,44 @@ static inline struct lit point_lit_from_vertices(const struct point *p)
 	return lit;
 }
 
-/* The same with some lights' diffuse and specular light left out: the vertices are lit again without them. */
-static inline struct lit point_lit_again(const struct tables *t, const struct point *p, uint32_t dark)
+/* The same with shares of the lights' diffuse and specular light: the vertices are lit again. */
+static inline struct lit point_lit_again(const struct tables *t, const struct point *p, const struct vec3 *seen)
 {
 	int side = point_side(p);
 	struct lit a, b, c;
 
-	c = vertex_color(t, p->geometry, p->vertex[2], p->number[2], side, dark);
+	c = vertex_color(t, p->geometry, p->vertex[2], p->number[2], side, seen);
 	if (p->material->shade_model == GL_FLAT)
 		return c;
-	a = vertex_color(t, p->geometry, p->vertex[0], p->number[0], side, dark);
-	b = vertex_color(t, p->geometry, p->vertex[1], p->number[1], side, dark);
+	a = vertex_color(t, p->geometry, p->vertex[0], p->number[0], side, seen);
+	b = vertex_color(t, p->geometry, p->vertex[1], p->number[1], side, seen);
 	c.color = point_mix(p, a.color, b.color, c.color);
 	c.secondary = point_mix(p, a.secondary, b.secondary, c.secondary);
 	return c;
+}
+
+/* The colour at the point that the draw gave its vertices. */
+static inline struct vec4 point_given_color(const struct tables *t, const struct point *p)
+{
+	struct vec4 last = tables_color(t, p->geometry, p->number[2]);
+
+	return p->material->shade_model == GL_FLAT ? last : point_mix(p, tables_color(t, p->geometry, p->number[0]),
+	                                                              tables_color(t, p->geometry, p->number[1]), last);
+}
+
+/* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */
+static inline struct lit point_lit_here(const struct tables *t, const struct point *p, const struct vec3 *seen)
+{
+	int side = point_side(p);
+	struct vec3 at = point_position(p), n;
+
+	if (!p->material->lighting || p->geometry->flags & GEOMETRY_EXPANDED)
+		return point_lit_from_vertices(p);
+	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
+	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
+	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	return light_vertex(p->material, t->lights, v4(at.x, at.y, at.z, 1.0f), side ? v3_scale(n, -1.0f) : n,
+	                    point_given_color(t, p), side, seen);
 }
 
 static inline struct vec4 point_texcoord(const struct tables *t, const struct point *p, uint32_t i,

@@ -32,17 +32,35 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
 }
 
+/* How much of a light arrives at a place before anything stands in its way, and the unit vector towards it. */
+static inline float light_strength(GLOBAL const struct scene_light *light, struct vec3 at, struct vec3 *to_light)
+{
+	struct vec3 to = v3_load(light->position_eye);
+	float strength = 1.0f;
+
+	if (light->position_eye[3] != 0.0f) {
+		float distance;
+
+		to = v3_sub(v3_scale(to, 1.0f / light->position_eye[3]), at);
+		distance = M_SQRT(v3_dot(to, to));
+		strength = 1.0f / (light->attenuation[0] +
+		                   distance * (light->attenuation[1] + distance * light->attenuation[2]));
+	}
+	*to_light = v3_normalize(to);
+	return strength * light_spot(light, *to_light);
+}
+
 /*
  * Light one side of a vertex.
  *
  * eye     the vertex in eye space, homogeneous
  * normal  of the side to be lit
  * vertex_color  the current colour at the vertex, for color material
- * dark    bit i: light i of the list gives its ambient light only
+ * seen    NULL, or for each light of the list the share of its diffuse and specular light that arrives
  */
 static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
                                       struct vec4 eye, struct vec3 normal, struct vec4 vertex_color, int back,
-                                      uint32_t dark)
+                                      const struct vec3 *seen)
 {
 	GLOBAL const struct scene_face *face = back ? &m->back : &m->front;
 	uint32_t tracks = m->color_material == GL_FRONT_AND_BACK || m->color_material == (back ? GL_BACK : GL_FRONT);
@@ -62,20 +80,10 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	out.lights = 0u;
 	for (uint32_t i = 0u; i < m->light_count; i++) {
 		GLOBAL const struct scene_light *light = &lights[m->light_first + i];
-		struct vec3 to_light = v3_load(light->position_eye);
+		struct vec3 to_light;
 		struct vec4 ambient_light = v4_mul(ambient, v4_load(light->ambient));
-		float strength = 1.0f, n_l;
+		float strength = light_strength(light, at, &to_light), n_l;
 
-		if (light->position_eye[3] != 0.0f) {
-			float distance;
-
-			to_light = v3_sub(v3_scale(to_light, 1.0f / light->position_eye[3]), at);
-			distance = M_SQRT(v3_dot(to_light, to_light));
-			strength = 1.0f / (light->attenuation[0] +
-			                   distance * (light->attenuation[1] + distance * light->attenuation[2]));
-		}
-		to_light = v3_normalize(to_light);
-		strength *= light_spot(light, to_light);
 		primary = v4_add(primary, v4_scale(ambient_light, strength));
 		n_l = v3_dot(normal, to_light);
 		if (n_l > 0.0f && strength > 0.0f) {
@@ -87,13 +95,17 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 
 			if (matte.x + matte.y + matte.z + gloss.x + gloss.y + gloss.z > 0.0f)
 				out.lights |= 1u << i;
-			if (!(dark >> i & 1u)) {
-				primary = v4_add(primary, matte);
-				if (m->separate_specular)
-					secondary = v4_add(secondary, gloss);
-				else
-					primary = v4_add(primary, gloss);
+			if (seen) {
+				struct vec4 share = v4(seen[i].x, seen[i].y, seen[i].z, 1.0f);
+
+				matte = v4_mul(matte, share);
+				gloss = v4_mul(gloss, share);
 			}
+			primary = v4_add(primary, matte);
+			if (m->separate_specular)
+				secondary = v4_add(secondary, gloss);
+			else
+				primary = v4_add(primary, gloss);
 		}
 	}
 	primary.w = diffuse.w;

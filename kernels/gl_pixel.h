@@ -1,6 +1,6 @@
 /*
- * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run three times side by side: for GL's
- * own colours, for the shadowed ones and for the beauty. All three follow the decisions of the first.
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run side by side for GL's own
+ * colours and for each step from them to the beauty (struct shaded). All follow the decisions of the first.
  *
  * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; the
  * last one written stays as it is.
@@ -206,12 +206,33 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	return pass;
 }
 
+static inline void pixel_store(GLOBAL float *out, struct vec3 color, uint32_t mask)
+{
+	if (mask & 1u)
+		out[0] = color.x;
+	if (mask & 2u)
+		out[1] = color.y;
+	if (mask & 4u)
+		out[2] = color.z;
+}
+
+/* One part of a fragment's colour over the same part of the pixel. */
+static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL const float *source, float source_alpha,
+                              float alpha, GLOBAL float *destination, int opaque)
+{
+	struct vec4 s = v4(source[0], source[1], source[2], source_alpha);
+
+	if (!opaque)
+		s = pixel_source(m, s, v4(destination[0], destination[1], destination[2], alpha));
+	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
+}
+
 /* One fragment through all operations. `draw`: its draw number. */
 static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                               GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
                               uint32_t bits)
 {
-	struct vec4 gl, direct, beauty, old_gl;
+	struct vec4 gl, old_gl;
 	uint32_t mask = m->color_mask;
 	float alpha;
 
@@ -220,25 +241,12 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 	old_gl = v4_load(pixel->gl);
 	alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f;
 	gl = pixel_source(m, v4_load(s->gl), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
-	direct = pixel_source(m, v4(s->direct[0], s->direct[1], s->direct[2], s->gl[3]),
-	                      v4(pixel->direct[0], pixel->direct[1], pixel->direct[2], alpha));
-	beauty = pixel_source(m, v4(s->beauty[0], s->beauty[1], s->beauty[2], s->gl[3]),
-	                      v4(pixel->beauty[0], pixel->beauty[1], pixel->beauty[2], alpha));
-	if (mask & 1u) {
-		pixel->gl[0] = gl.x;
-		pixel->direct[0] = direct.x;
-		pixel->beauty[0] = beauty.x;
-	}
-	if (mask & 2u) {
-		pixel->gl[1] = gl.y;
-		pixel->direct[1] = direct.y;
-		pixel->beauty[1] = beauty.y;
-	}
-	if (mask & 4u) {
-		pixel->gl[2] = gl.z;
-		pixel->direct[2] = direct.z;
-		pixel->beauty[2] = beauty.z;
-	}
+	pixel_store(pixel->gl, v3(gl.x, gl.y, gl.z), mask);
+	pixel_part(m, s->shadowed, s->gl[3], alpha, pixel->shadowed, 0);
+	pixel_part(m, s->direct, s->gl[3], alpha, pixel->direct, 0);
+	pixel_part(m, s->mirrored, s->gl[3], alpha, pixel->mirrored, 0);
+	/* What is seen through glass is traced; blending would show it once more. */
+	pixel_part(m, s->beauty, s->gl[3], alpha, pixel->beauty, m->surface.transmit > 0.0f);
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
 	pixel->id = draw;
@@ -261,7 +269,8 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 				continue;
 			pixel->gl[c] = clamp01(clear->color[c]);
 			if (c < 3u)
-				pixel->direct[c] = pixel->beauty[c] = clamp01(clear->color[c]);
+				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] =
+					clamp01(clear->color[c]);
 		}
 		if ((clear->color_mask & 7u) == 7u) {
 			pixel->id = 0u;

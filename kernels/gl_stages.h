@@ -59,14 +59,17 @@ static inline float stage_offset_depth(const struct point *p, GLOBAL const struc
 	return clamp01(depth);
 }
 
-/* Bit k set: the k-th light of the material's list is stopped on its way to the item. */
-static inline uint32_t stage_dark(GLOBAL const uint32_t *stopped, uint32_t n_slots, uint32_t n, uint32_t item)
+/* Shares of the material's lights that arrive at the item. @return 1 where any is dimmed */
+static inline int stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item,
+                             struct vec3 *seen)
 {
-	uint32_t dark = 0u;
+	int dimmed = 0;
 
-	for (uint32_t slot = 0u; slot < n_slots; slot++)
-		dark |= stopped[slot * n + item] ? 1u << slot : 0u;
-	return dark;
+	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++) {
+		seen[slot] = slot < n_slots ? v3_load(arriving + (slot * n + item) * 3u) : v3(1.0f, 1.0f, 1.0f);
+		dimmed |= seen[slot].x < 1.0f || seen[slot].y < 1.0f || seen[slot].z < 1.0f;
+	}
+	return dimmed;
 }
 
 /* Lights of the list that a ray must be sent to. Expanded lines and points take no shadows. */
@@ -114,28 +117,95 @@ static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view
 }
 
 /*
+ * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
+ * What is not lit by GL shows its colour as it is.
+ */
+static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct coat *coat,
+                                         const struct vec3 *seen)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	struct vec3 n = point_normal(p), at = point_position(p), sum = v3(0.0f, 0.0f, 0.0f);
+	struct vec4 c;
+	struct lit lit;
+
+	if (!m->lighting || p->geometry->flags & GEOMETRY_EXPANDED) {
+		lit = point_lit_from_vertices(p);
+		c = point_finish(t, p, coat, &lit);
+		return v3(c.x, c.y, c.z);
+	}
+	for (uint32_t i = 0u; i < m->light_count; i++) {
+		GLOBAL const struct scene_light *light = &t->lights[m->light_first + i];
+		struct vec3 to_light;
+		float strength = light_strength(light, at, &to_light), cosine = v3_dot(n, to_light);
+
+		if (cosine > 0.0f)
+			sum = v3_add(sum, v3_mul(v3_scale(v3_load(light->diffuse), strength * cosine), seen[i]));
+	}
+	c = point_albedo(t, p, coat);
+	return v3_add(v3_load(point_side(p) ? m->back.emission : m->front.emission), v3_mul(sum, v3(c.x, c.y, c.z)));
+}
+
+/* Lights of the list that stage_radiance can be lit by. */
+static inline uint32_t stage_radiant_lights(const struct tables *t, const struct point *p)
+{
+	struct vec3 n = point_normal(p), at = point_position(p), to_light;
+	uint32_t lights = 0u;
+
+	if (!p->material->lighting)
+		return 0u;
+	for (uint32_t i = 0u; i < p->material->light_count; i++)
+		if (light_strength(&t->lights[p->material->light_first + i], at, &to_light) > 0.0f &&
+		    v3_dot(n, to_light) > 0.0f)
+			lights |= 1u << i;
+	return lights;
+}
+
+static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 color)
+{
+	v3_store(out->direct, color);
+	v3_store(out->mirrored, color);
+	v3_store(out->beauty, color);
+}
+
+/* What is added to GL's own lighting: `color` in its place, from the way of lighting. */
+static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct coat *coat,
+                                      uint32_t transport, const struct vec3 *seen, struct vec4 color)
+{
+	struct lit lit;
+
+	if (transport == TRANSPORT_PATH)
+		return stage_radiance(t, p, coat, seen);
+	if (transport != TRANSPORT_RELIGHT)
+		return v3(color.x, color.y, color.z);
+	lit = point_lit_here(t, p, seen);
+	color = point_finish(t, p, coat, &lit);
+	return v3(color.x, color.y, color.z);
+}
+
+/*
  * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
- * n_slots > 0 gives fragments that asked their colour without the lights that were stopped.
+ * n_slots > 0 gives fragments that asked their colour with what arrives of the lights. transport: TRANSPORT_*.
  */
 static inline void shade_item(const struct tables *t, GLOBAL const struct view *views,
                               GLOBAL const struct window_vertex *windows, GLOBAL struct fragment *fragments,
                               GLOBAL const uint32_t *pixels, uint32_t width, uint32_t height, uint32_t bits,
-                              GLOBAL const uint32_t *stopped, uint32_t n_slots, uint32_t n,
+                              GLOBAL const float *arriving, uint32_t n_slots, uint32_t transport, uint32_t n,
                               GLOBAL struct shaded *shaded, uint32_t item)
 {
 	struct fragment f = fragments[item];
 	GLOBAL struct shaded *out = &shaded[item];
-	uint32_t x = pixels[item] % width, y = pixels[item] / width, dark = 0u;
+	uint32_t x = pixels[item] % width, y = pixels[item] / width, lights;
+	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct point p;
 	struct coat coat;
 	struct lit lit;
 	struct vec4 color;
 
-	if (n_slots) {
-		dark = stage_dark(stopped, n_slots, n, item);
-		if (!dark || !(out->flags & SHADED_THERE))
-			return;
-	} else {
+	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
+		return;
+	if (n_slots && !(out->flags & SHADED_THERE))
+		return;
+	if (!n_slots) {
 		stage_unsnap(t, views, x, y, &f);
 		fragments[item] = f;
 	}
@@ -145,187 +215,22 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		return;
 	}
 	point_coat(t, &p, &views[p.geometry->view], x, y, height, &coat);
-	lit = dark ? point_lit_again(t, &p, dark) : point_lit_from_vertices(&p);
+	lit = n_slots ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
 	color = point_finish(t, &p, &coat, &lit);
-	v3_store(out->direct, v3(color.x, color.y, color.z));
-	v3_store(out->beauty, v3(color.x, color.y, color.z));
+	v3_store(out->shadowed, v3(color.x, color.y, color.z));
+	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
 	if (n_slots)
 		return;
 	v4_store(out->gl, color);
 	color = point_albedo(t, &p, &coat);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = stage_offset_depth(&p, windows, f.depth, bits);
-	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, lit.lights);
-}
-
-static inline void stage_no_ray(GLOBAL struct ray *ray)
-{
-	v3_store(ray->o, v3(0.0f, 0.0f, 0.0f));
-	v3_store(ray->d, v3(0.0f, 0.0f, 1.0f));
-	ray->t_min = 1.0f;
-	ray->t_max = 0.0f;
-}
-
-/* The direction in which a view looks through a pixel: from its near to its far point. */
-static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, uint32_t x, uint32_t y)
-{
-	float nx = 2.0f * ((float)x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
-	float ny = 2.0f * ((float)y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
-	struct vec4 near = m4_mul(view->inverse, v4(nx, ny, -1.0f, 1.0f));
-	struct vec4 far = m4_mul(view->inverse, v4(nx, ny, 1.0f, 1.0f));
-
-	return v3(far.x * near.w - near.x * far.w, far.y * near.w - near.y * far.w, far.z * near.w - near.z * far.w);
-}
-
-/*
- * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`: the
- * direction of the ray that led to the point.
- */
-static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, struct vec3 from,
-                                   GLOBAL struct ray *ray)
-{
-	GLOBAL const struct scene_light *light = &t->lights[p->material->light_first + slot];
-	struct vec3 to = v3_load(light->position_eye), place, o;
-	int positional = light->position_eye[3] != 0.0f;
-
-	place = positional ? v3_scale(to, 1.0f / light->position_eye[3]) : to;
-	o = point_ray_origin(p, positional ? v3_sub(place, point_position(p)) : to, from);
-	if (positional)
-		to = v3_sub(place, o);
-	v3_store(ray->o, o);
-	v3_store(ray->d, to);
-	ray->t_min = 0.0f;
-	ray->t_max = positional ? 1.0f : 1.0e30f;
-}
-
-/* shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted. */
-static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct view *views,
-                                   GLOBAL const struct window_vertex *windows,
-                                   GLOBAL const struct fragment *fragments, GLOBAL const uint32_t *pixels,
-                                   uint32_t width, GLOBAL const struct shaded *shaded, uint32_t n,
-                                   GLOBAL struct ray *rays, uint32_t item)
-{
-	uint32_t slot = item / n, i = item % n;
-	struct fragment f = fragments[i];
-	struct point p;
-
-	if (!(shaded[i].flags & SHADED_THERE) || !(shaded[i].flags & SHADED_WANTS(slot))) {
-		stage_no_ray(&rays[item]);
-		return;
-	}
-	p = point_from_fragment(t, windows, &f);
-	stage_light_ray(t, &p, slot,
-	                stage_view_direction(&views[p.geometry->view], pixels[i] % width, pixels[i] / width), &rays[item]);
-}
-
-/* --- Mirrors ----------------------------------------------------------------------------------------------------- */
-
-static inline void stage_mirror_ray(const struct point *p, struct vec3 direction, GLOBAL struct ray *ray)
-{
-	struct vec3 n = point_normal(p), d = v3_normalize(direction), plane;
-
-	d = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n)));
-	/* A smooth normal may send the ray into the surface: let it graze instead. */
-	plane = point_plane_normal(p);
-	plane = v3_dot(plane, direction) > 0.0f ? v3_scale(plane, -1.0f) : plane;
-	if (v3_dot(d, plane) < 0.0f)
-		d = v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * v3_dot(d, plane))));
-	v3_store(ray->o, point_ray_origin(p, d, direction));
-	v3_store(ray->d, d);
-	ray->t_min = 0.0f;
-	ray->t_max = 1.0e30f;
-}
-
-/* mirror_ray: the first reflected ray of a fragment, and what share of the beauty it carries (0: none). */
-static inline void mirror_ray_item(const struct tables *t, GLOBAL const struct view *views,
-                                   GLOBAL const struct window_vertex *windows,
-                                   GLOBAL const struct fragment *fragments, GLOBAL const uint32_t *pixels,
-                                   uint32_t width, GLOBAL struct shaded *shaded, GLOBAL struct ray *rays,
-                                   GLOBAL float *shares, uint32_t item)
-{
-	struct fragment f = fragments[item];
-	GLOBAL struct shaded *s = &shaded[item];
-	struct point p;
-	float share;
-
-	stage_no_ray(&rays[item]);
-	shares[item] = 0.0f;
-	if (!(s->flags & SHADED_THERE))
-		return;
-	p = point_from_fragment(t, windows, &f);
-	share = clamp01(p.material->surface.reflect);
-	if (!(share > 0.0f) || p.geometry->flags & GEOMETRY_EXPANDED)
-		return;
-	stage_mirror_ray(&p, stage_view_direction(&views[p.geometry->view], pixels[item] % width, pixels[item] / width),
-	                 &rays[item]);
-	shares[item] = share;
-	v3_store(s->beauty, v3_scale(v3_load(s->beauty), 1.0f - share));
-}
-
-/*
- * shade_hit with n_slots == 0: what lights the hit must ask for (lights[item]). With `finish`: its colour without the
- * stopped lights goes into the fragment's beauty by its share, and the next ray and share take their place.
- * background: what a ray sees that hits nothing.
- */
-static inline void shade_hit_item(const struct tables *t, GLOBAL const struct hit *hits, uint32_t finish, uint32_t last,
-                                  GLOBAL const uint32_t *stopped, uint32_t n_slots, uint32_t n,
-                                  GLOBAL const float *background, GLOBAL uint32_t *wanted, GLOBAL struct ray *rays,
-                                  GLOBAL float *shares, GLOBAL struct shaded *shaded, uint32_t item)
-{
-	struct hit hit = hits[item];
-	GLOBAL struct shaded *s = &shaded[item];
-	float share = shares[item], next;
-	struct vec3 direction = v3_load(rays[item].d);
-	struct point p;
-	struct coat coat;
-	struct lit lit;
-	struct vec4 color;
-	uint32_t dark;
-
-	if (!finish)
-		wanted[item] = 0u;
-	if (!(share > 0.0f))
-		return;
-	if (hit.instance == SCENE_NONE) {
-		if (finish) {
-			v3_store(s->beauty, v3_add(v3_load(s->beauty), v3_scale(v3_load(background), share)));
-			shares[item] = 0.0f;
-			stage_no_ray(&rays[item]);
-		}
-		return;
-	}
-	p = point_from_hit(t, &hit, direction);
-	if (!finish) {
-		wanted[item] = stage_wanted(&p, point_lit_from_vertices(&p).lights);
-		return;
-	}
-	dark = stage_dark(stopped, n_slots, n, item);
-	lit = dark ? point_lit_again(t, &p, dark) : point_lit_from_vertices(&p);
-	point_coat(t, &p, (GLOBAL const struct view *)0, 0u, 0u, 0u, &coat);
-	color = point_finish(t, &p, &coat, &lit);
-	next = last ? 0.0f : clamp01(p.material->surface.reflect);
-	v3_store(s->beauty, v3_add(v3_load(s->beauty), v3_scale(v3(color.x, color.y, color.z), share * (1.0f - next))));
-	shares[item] = share * next;
-	if (next > 0.0f)
-		stage_mirror_ray(&p, direction, &rays[item]);
-	else
-		stage_no_ray(&rays[item]);
-}
-
-/* hit_ray: from hits to lights, as shadow_ray does from fragments. `rays`: those that led to the hits. */
-static inline void hit_ray_item(const struct tables *t, GLOBAL const struct hit *hits, GLOBAL const struct ray *rays,
-                                GLOBAL const uint32_t *wanted, uint32_t n, GLOBAL struct ray *out, uint32_t item)
-{
-	uint32_t slot = item / n, i = item % n;
-	struct hit hit = hits[i];
-	struct point p;
-
-	if (!(wanted[i] & SHADED_WANTS(slot))) {
-		stage_no_ray(&out[item]);
-		return;
-	}
-	p = point_from_hit(t, &hit, v3_load(rays[i].d));
-	stage_light_ray(t, &p, slot, v3_load(rays[i].d), &out[item]);
+	lights = lit.lights;
+	if (transport == TRANSPORT_RELIGHT)
+		lights |= point_lit_here(t, &p, seen).lights;
+	else if (transport == TRANSPORT_PATH)
+		lights |= stage_radiant_lights(t, &p);
+	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, lights);
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */

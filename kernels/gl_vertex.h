@@ -21,9 +21,10 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 
-/* One side's colour of a vertex; `dark` as in light_vertex. The fragment stage calls this again for shadows. */
+/* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
 static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
-                                      GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back, uint32_t dark)
+                                      GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back,
+                                      const struct vec3 *seen)
 {
 	GLOBAL const struct scene_material *m = &t->materials[g->material];
 	struct vec3 normal = v3_load(vertex->normal);
@@ -31,7 +32,7 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 
 	if (m->lighting)
 		return light_vertex(m, t->lights, v4_load(vertex->eye), back ? v3_scale(normal, -1.0f) : normal,
-		                    tables_color(t, g, v), back, dark);
+		                    tables_color(t, g, v), back, seen);
 	lit.color = v4_clamp01(tables_color(t, g, v));
 	lit.secondary = v4_clamp01(tables_secondary(t, g, v));
 	lit.lights = 0u;
@@ -132,8 +133,8 @@ static inline void vertex_item(const struct tables *t, GLOBAL const struct view 
 	v3_store(out->normal, normal);
 	windows[item] = vertex_window(view, clip, (float)height);
 
-	front = vertex_color(t, g, out, v, 0, 0u);
-	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, 0u) : front;
+	front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
+	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;
 	v4_store(out->color[0], front.color);
 	v4_store(out->color[1], back.color);
 	v4_store(out->secondary[0], front.secondary);

@@ -102,6 +102,7 @@ SHARED_SIZE(struct triangle8, 320);
 #define INSTANCE_FRONT_CW 16u    /* front faces run clockwise in window space */
 #define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
                                     pixels, camera rays meet it as points; never secondary */
+#define INSTANCE_SKY 128u        /* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
 
 /* One instance as the kernels see it. */
@@ -199,22 +200,51 @@ SHARED_SIZE(struct texture_image, 92);
 
 /* The fragment's colours as the per-fragment operations take them. */
 struct shaded {
-	float gl[4];     /* GL's own: texturing, colour sum and fog done, clamped */
-	float direct[3]; /* the same with the shadowed lights off */
-	float beauty[3]; /* the same with mirrors, too */
-	float albedo[3]; /* the surface under white light, without fog */
-	float depth;     /* window depth after polygon offset, [0,1] */
-	uint32_t flags;  /* SHADED_*; 0: there is no fragment */
+	float gl[4];       /* GL's own: texturing, colour sum and fog done, clamped */
+	float shadowed[3]; /* the same with the shadowed lights dimmed or off */
+	float direct[3];   /* the same lit per pixel, where that is asked for, and by light from other surfaces */
+	float mirrored[3]; /* the same with what mirrors show */
+	float beauty[3];   /* the same with what is seen through glass */
+	float albedo[3];   /* the surface under white light, without fog */
+	float depth;       /* window depth after polygon offset, [0,1] */
+	uint32_t flags;    /* SHADED_*; 0: there is no fragment */
 };
-SHARED_SIZE(struct shaded, 60);
+SHARED_SIZE(struct shaded, 84);
 
 #define SHADED_THERE 1u
 #define SHADED_FRONT 2u
 #define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
 
+/*
+ * What a ray carries on its way from a fragment: how much of the light it finds counts, and where. The ray itself stands
+ * in a buffer of its own, at the same place.
+ */
+struct path {
+	float weight[3];
+	uint32_t target; /* fragment in the list; for rays to lights: slot * n + item */
+	uint32_t kind;   /* PATH_*: to which of the fragment's parts its light belongs */
+	uint32_t depth;  /* bounces so far, the fragment's own not counted */
+	uint32_t medium; /* material of the body that it travels in, or SCENE_NONE */
+};
+SHARED_SIZE(struct path, 28);
+
+#define PATH_DIFFUSE 0u
+#define PATH_REFLECT 1u
+#define PATH_REFRACT 2u
+
+/* Rays that leave a fragment, and a hit, at most: mirrored, let through, scattered. */
+#define PATHS_PER_FRAGMENT 3u
+#define PATHS_PER_HIT 2u
+
+/* How a point is lit and where its rays go. */
+#define TRANSPORT_GL 0u      /* light as GL has it, from its vertices; mirrors and glass */
+#define TRANSPORT_RELIGHT 1u /* the same lit at each pixel */
+#define TRANSPORT_DIFFUSE 2u /* as GL, and one bounce from surface to surface */
+#define TRANSPORT_PATH 3u    /* no ambient light; what surfaces send each other takes its place */
+
 /* One pixel of the frame while it is being drawn. */
 struct frame_pixel {
-	float gl[4], direct[3], beauty[3];
+	float gl[4], shadowed[3], direct[3], mirrored[3], beauty[3]; /* as in struct shaded */
 	uint32_t depth;    /* as the depth buffer holds it: in steps of its bits */
 	float depth_exact; /* the same before it was quantised, [0,1] */
 	uint32_t stencil;
@@ -223,7 +253,7 @@ struct frame_pixel {
 	float albedo[3];         /* its */
 	uint32_t layers;         /* fragments blended into the colour since it was last cleared or written over */
 };
-SHARED_SIZE(struct frame_pixel, 96);
+SHARED_SIZE(struct frame_pixel, 120);
 
 /* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
 #define SURFACE_PLANES 7u

@@ -52,9 +52,12 @@ struct scene_face {
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {
-	float reflect;  /* share of light mirrored, [0,1] */
-	float transmit; /* share of light let through, [0,1] */
-	float ior;      /* index of refraction where transmit > 0; 0 counts as 1 */
+	float reflect;   /* share of light mirrored, [0,1] */
+	float transmit;  /* share of light let through, [0,1]; together with reflect at most 1 */
+	float ior;       /* index of refraction where transmit > 0; 0 counts as 1 */
+	float absorb[3]; /* where transmit > 0: what a unit of eye space inside takes of the light, exp(-absorb x length) */
+	float roughness; /* of mirrors: how far directions stray, as a share of the direction's length */
+	uint32_t hidden; /* bits: 1 casts no shadow, 2 is not seen in mirrors and through glass */
 };
 
 /* One stage of the fixed-function stencil, per side (GL 2.1 sec. 4.1.5). */

@@ -190,6 +190,9 @@ static void write_material(struct json *j, const struct scene_material *m)
 	FLOAT(&m->surface, reflect);
 	FLOAT(&m->surface, transmit);
 	FLOAT(&m->surface, ior);
+	FLOATS(&m->surface, absorb);
+	FLOAT(&m->surface, roughness);
+	UINT(&m->surface, hidden);
 	json_end(j, '}');
 	UINT(m, program);
 	json_end(j, '}');

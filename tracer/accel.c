@@ -486,7 +486,8 @@ static int build_space_top(struct accel *accel, const struct scene *scene, const
 
 	top->n = 0;
 	for (uint32_t i = 0; i < n; i++)
-		if (scene->views[instances[i].view].space == space->space && (instances[i].flags & INSTANCE_SECONDARY) &&
+		if (scene->views[instances[i].view].space == space->space &&
+		    (instances[i].flags & (space->sky ? INSTANCE_SKY : INSTANCE_SECONDARY)) &&
 		    !(instances[i].flags & INSTANCE_SCREEN))
 			top_add(top, i, &instances[i], &boxes[i], 0);
 	space->top2_first = (uint32_t)accel->n_top2;
@@ -499,12 +500,16 @@ static int build_space_top(struct accel *accel, const struct scene *scene, const
 	return err;
 }
 
-/* The eye spaces of the scene's views, each once. */
-static int list_spaces(struct accel *accel, const struct scene *scene)
+/* The eye spaces of the scene's views, each once, and once more for its skies. */
+static int list_spaces(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n)
 {
+	uint32_t skies = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		skies |= instances[i].flags & INSTANCE_SKY;
 	free(accel->spaces);
 	accel->n_spaces = 0;
-	accel->spaces = calloc(scene->n_views + 1, sizeof(*accel->spaces));
+	accel->spaces = calloc(2 * (size_t)scene->n_views + 1, sizeof(*accel->spaces));
 	if (!accel->spaces)
 		return out_of_memory();
 	for (uint32_t i = 0; i < scene->n_views; i++) {
@@ -512,8 +517,12 @@ static int list_spaces(struct accel *accel, const struct scene *scene)
 
 		while (k < accel->n_spaces && accel->spaces[k].space != scene->views[i].space)
 			k++;
-		if (k == accel->n_spaces)
-			accel->spaces[accel->n_spaces++].space = scene->views[i].space;
+		if (k < accel->n_spaces)
+			continue;
+		for (int sky = 0; sky <= (skies != 0); sky++) {
+			accel->spaces[accel->n_spaces].space = scene->views[i].space;
+			accel->spaces[accel->n_spaces++].sky = sky;
+		}
 	}
 	return 0;
 }
@@ -522,7 +531,7 @@ static int build_tops(struct accel *accel, const struct scene *scene, const stru
                       const struct bvh_box *boxes, struct view *views)
 {
 	struct top top = { NULL, NULL, NULL, 0 };
-	int err = list_spaces(accel, scene);
+	int err = list_spaces(accel, scene, instances, n);
 
 	if (err)
 		return err;

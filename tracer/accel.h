@@ -7,9 +7,10 @@
 #include "kernels/shared.h"
 #include "replay/scene.h"
 
-/* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY. */
+/* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY, or its skies (INSTANCE_SKY). */
 struct accel_space {
 	uint32_t space;      /* number as in scene_view.space */
+	int sky;             /* 1: of the skies; such spaces are there only where the frame has skies */
 	uint32_t top2_first; /* in accel.top2 */
 	uint32_t top8_first; /* in accel.top8 */
 	uint32_t n_nodes;    /* 0: nothing to hit */

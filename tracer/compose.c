@@ -92,23 +92,29 @@ static float encode(float display, int keep)
 	return keep ? display : image_linear_from_display(display);
 }
 
+/* What is left to explain, rounded as it is stored; what rounding alone leaves is no effect. */
+static float effect(float rest, float of)
+{
+	return fabsf(rest) > fabsf(of) * 0x1p-9f ? to_half(rest) : 0;
+}
+
 /* One colour channel of one pixel, taken apart. */
 static void decompose(const struct planes *p, const struct frame_pixel *pixel, int c, int keep, size_t at)
 {
-	float gl = to_half(encode(pixel->gl[c], keep)), direct = encode(pixel->direct[c], keep);
-	float beauty = encode(pixel->beauty[c], keep), exact = encode(pixel->gl[c], keep);
-	float shadow = 1, relight = 0, reflect = 0, rest;
+	float exact = encode(pixel->gl[c], keep), gl = to_half(exact), shadowed = encode(pixel->shadowed[c], keep);
+	float direct = encode(pixel->direct[c], keep), mirrored = encode(pixel->mirrored[c], keep);
+	float shadow = 1, relight, reflect = 0, refract = 0, sum;
 
-	if (gl > 0 && direct < exact)
-		shadow = to_half(fmaxf(direct / exact, 0));
-	rest = direct - gl * shadow;
-	/* what rounding alone leaves is no effect */
-	if (fabsf(rest) > fabsf(direct) * 0x1p-9f)
-		relight = to_half(rest);
-	rest = gl * shadow + relight;
-	if (pixel->beauty[c] != pixel->direct[c])
-		reflect = to_half(beauty - rest);
-	p->beauty[c][at] = to_half(rest + reflect);
+	if (gl > 0 && shadowed < exact)
+		shadow = to_half(fmaxf(shadowed / exact, 0));
+	relight = effect(direct - gl * shadow, direct);
+	sum = gl * shadow + relight;
+	if (pixel->mirrored[c] != pixel->direct[c])
+		reflect = to_half(mirrored - sum);
+	sum += reflect;
+	if (pixel->beauty[c] != pixel->mirrored[c])
+		refract = to_half(encode(pixel->beauty[c], keep) - sum);
+	p->beauty[c][at] = to_half(sum + refract);
 	if (p->gl[c])
 		p->gl[c][at] = gl;
 	if (p->shadow[c])
@@ -117,6 +123,8 @@ static void decompose(const struct planes *p, const struct frame_pixel *pixel, i
 		p->relight[c][at] = relight;
 	if (p->reflect[c])
 		p->reflect[c][at] = reflect;
+	if (p->refract[c])
+		p->refract[c][at] = refract;
 }
 
 static void store3(float *const planes[3], const float *values, size_t at)

@@ -24,9 +24,18 @@
 	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
 	X(shadow_ray)       /* one fragment a work item: its ray to one light */ \
-	X(mirror_ray)       /* one fragment a work item: its first reflected ray */ \
-	X(hit_ray)          /* one hit of a reflected ray a work item: its ray to one light */ \
-	X(shade_hit)        /* one hit of a reflected ray a work item: its colour and the next ray */ \
+	X(hit_ray)          /* one hit of a path a work item: its ray to one light */ \
+	X(ao_ray)           /* one fragment a work item: a look around */ \
+	X(shadow_sum)       /* one ray to a light a work item: what arrives where nothing stopped it */ \
+	X(shadow_start)     /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
+	X(shadow_walk)      /* one of these a work item: past what it hit */ \
+	X(gather_paths)     /* one path a work item: its next rays into one dense list */ \
+	X(leave)            /* one fragment a work item: its mirrored, bent and scattered rays */ \
+	X(sky_ray)          /* one path a work item: its look at the sky where it hit nothing */ \
+	X(want_lights)      /* one path a work item: lights to be asked for at its hit */ \
+	X(shade_hit)        /* one path a work item: the colour it found and its next rays */ \
+	X(credit)           /* one path a work item: what it found into its fragment */ \
+	X(ao_shade)         /* one fragment a work item: its openness as its colour */ \
 	X(clear)            /* one pixel a work item: a Clear */ \
 	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
 	X(surface)          /* one pixel a work item: what the visible surface is like */

@@ -22,7 +22,10 @@ enum buffer {
 	BUFFER_NODES2, BUFFER_NODES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
 	BUFFER_AFTER, BUFFER_SPARSE, BUFFER_COUNTS, BUFFER_FIRST,
 	BUFFER_FRAGMENTS, BUFFER_PIXELS, BUFFER_SHADED,
-	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_MIRROR_RAYS, BUFFER_SHARES, BUFFER_HITS, BUFFER_WANTED, BUFFER_BACKGROUND,
+	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_ARRIVING, BUFFER_WANTED, BUFFER_BACKGROUND, BUFFER_PLACES,
+	BUFFER_PATHS, BUFFER_PATH_RAYS, BUFFER_PATH_HITS, BUFFER_NEXT_PATHS, BUFFER_NEXT_RAYS, BUFFER_NEXT_COUNTS,
+	BUFFER_SKY_RAYS, BUFFER_SKY_HITS, BUFFER_GIVEN,
+	BUFFER_WALKERS, BUFFER_WALK_RAYS, BUFFER_WALK_HITS, BUFFER_NEXT_WALKERS, BUFFER_NEXT_WALK_RAYS,
 	BUFFER_FRAME, BUFFER_SURFACE,
 	N_BUFFERS
 };
@@ -35,6 +38,8 @@ struct tracer {
 	struct device_buffer *buffers[N_BUFFERS];
 	uint32_t *counts, *first; /* [pixels], host copies */
 	size_t n_counted;
+	uint32_t *path_counts; /* [path_room], host copy */
+	size_t path_room;
 	struct tracer_undrawn undrawn;
 };
 
@@ -51,6 +56,13 @@ struct job {
 	uint32_t width, height, n_pixels;
 	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
 	float background[4];
+	uint32_t pass, n_passes; /* the frame is traced so many times, moved within the pixel */
+};
+
+/* A frame's picture while it grows, pass by pass. */
+struct picture {
+	struct frame_pixel *pixels, *later;
+	float *planes;
 };
 
 /* --- upload.c: what of a scene the device needs ------------------------------------------------------------------- */
@@ -65,16 +77,22 @@ int upload_state(struct job *job);
 /** What accel_build_frame made; the trees of meshes only where they changed. */
 int upload_trees(struct job *job);
 
-/* --- secondary.c: shadows and mirrors of the fragments in the list ------------------------------------------------ */
+/* --- secondary.c: rays from the fragments in the list -------------------------------------------------------------- */
 
-/** What rays from a view's fragments may hit, or NULL: nothing. */
-const struct accel_space *space_of_view(const struct job *job, uint32_t view);
+/** What rays from a view's fragments may hit: its surfaces, or its skies; NULL: nothing. */
+const struct accel_space *space_of_view(const struct job *job, uint32_t view, int sky);
 
-/** Ask all lights from all n fragments of the list: BUFFER_STOPPED[slot][fragment]. */
+/** How points are lit and where their rays go: TRANSPORT_*. */
+uint32_t transport_of(const struct tracer_options *options);
+
+/** Ask all lights from all n fragments of the list: BUFFER_ARRIVING[slot][fragment], three shares each. */
 int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n);
 
-/** Follow the mirrors of all n fragments of the list, bounce by bounce, into their beauty. */
-int trace_mirrors(struct job *job, const struct accel_space *space, uint32_t n);
+/** How open the surroundings of all n fragments are, in place of their colours or over them. */
+int trace_openness(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** Follow the mirrored, bent and scattered rays of all n fragments, bounce by bounce, into their parts. */
+int trace_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
 
 /* --- Small change ------------------------------------------------------------------------------------------------- */
 

@@ -236,6 +236,35 @@ static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, co
 	return 2 * farthest * sqrtf(eye) / 256 * sqrtf(shrink) + 4e-6f * size;
 }
 
+/*
+ * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none
+ * themselves, so that all else is in front of them.
+ * @param skies  [n_instances], all 0; receives 1 for each
+ */
+static int find_skies(const struct scene *scene, uint8_t *skies)
+{
+	uint32_t *space = malloc((scene->n_views + (size_t)1) * sizeof(*space)); /* the first view with the same one */
+	uint8_t *deep = calloc(scene->n_views + (size_t)1, 1);
+
+	for (uint32_t v = 0; v < scene->n_views && space && deep; v++) {
+		space[v] = 0;
+		while (scene->views[space[v]].space != scene->views[v].space)
+			space[v]++;
+	}
+	for (uint32_t i = 0; i < scene->n_instances && space && deep; i++) {
+		const struct scene_instance *instance = &scene->instances[i];
+		const struct scene_material *m = &scene->materials[instance->material];
+
+		if (m->depth_test && m->depth_write)
+			deep[space[instance->view]] = 1;
+		skies[i] = !deep[space[instance->view]] && (m->color_mask & 7) && !m->stencil_test &&
+		           scene->views[instance->view].projection[11] != 0;
+	}
+	free(deep);
+	free(space);
+	return space && deep ? 0 : -1;
+}
+
 static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape)
 {
 	uint32_t flags = 0;
@@ -243,8 +272,7 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 
 	if (!m->blend && !m->alpha_test && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
-	/* Blended draws that leave no depth are light or film (glows, blob shadows), nothing that stands in light's way. */
-	if (m->depth_test && draws_color && (!m->blend || m->depth_write) && shape == PREPARED_FILLED)
+	if (m->depth_test && draws_color && shape == PREPARED_FILLED)
 		flags |= INSTANCE_SECONDARY;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
 		flags |= INSTANCE_CULL_FRONT;
@@ -286,6 +314,8 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->n_texcoords += mesh->vertex_count * m->unit_count;
 
 	instance->flags = instance_flags(m, shape) | cull;
+	if (p->skies[index] && shape == PREPARED_FILLED)
+		instance->flags = (instance->flags & ~INSTANCE_SECONDARY) | INSTANCE_SKY;
 	instance->vertex_first = g->vertex_first;
 	instance->material = from->material;
 	instance->view = segment->view;
@@ -318,7 +348,10 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	segment->instance_count++;
 	if (m->lighting && m->light_count > p->n_light_slots)
 		p->n_light_slots = m->light_count;
-	p->has_mirrors |= m->surface.reflect > 0;
+	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
+	if (instance->flags & INSTANCE_SECONDARY)
+		p->has_veils |= m->blend || m->alpha_test || m->clip_plane_mask || m->surface.transmit > 0 ||
+		                m->surface.hidden;
 }
 
 /* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */
@@ -405,12 +438,14 @@ static uint32_t cut_runs(const struct scene *scene, struct run *runs)
 	return n;
 }
 
-static void make_view(const struct scene_view *from, struct view *view)
+static void make_view(const struct scene_view *from, const float shift[2], struct view *view)
 {
 	double inverse[16];
 
 	memcpy(view->projection, from->projection, sizeof(view->projection));
 	memcpy(view->viewport, from->viewport, sizeof(view->viewport));
+	view->viewport[0] += shift[0];
+	view->viewport[1] += shift[1];
 	memcpy(view->depth_range, from->depth_range, sizeof(view->depth_range));
 	memcpy(view->scissor, from->scissor, sizeof(view->scissor));
 	if (!invert(from->projection, inverse))
@@ -424,7 +459,7 @@ static int draws_to_window(const struct scene *scene, uint32_t instance)
 	return scene->views[scene->instances[instance].view].target == 0;
 }
 
-int prepare_frame(const struct scene *scene, struct prepared *out)
+int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out)
 {
 	size_t most = 2 * (size_t)scene->n_instances + 1;
 	struct run *runs = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*runs));
@@ -437,8 +472,9 @@ int prepare_frame(const struct scene *scene, struct prepared *out)
 	out->culls = calloc(most, sizeof(*out->culls));
 	out->views = calloc(most, sizeof(*out->views));
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
+	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
 	if (!runs || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
-	    !out->scene_views)
+	    !out->scene_views || !out->skies || find_skies(scene, out->skies) != 0)
 		goto fail;
 	n_runs = cut_runs(scene, runs);
 	for (uint32_t r = 0; r < n_runs; r++) {
@@ -450,7 +486,7 @@ int prepare_frame(const struct scene *scene, struct prepared *out)
 			continue;
 		segment->view = out->n_views;
 		out->scene_views[out->n_views] = scene->views[scene->instances[runs[r].first].view];
-		make_view(&out->scene_views[out->n_views], &out->views[out->n_views]);
+		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);
 		out->n_views++;
 		for (int screen = 0; screen < 2; screen++)
 			for (uint32_t i = runs[r].first; i < runs[r].end; i++)
@@ -483,5 +519,6 @@ void prepared_free(struct prepared *p)
 	free(p->views);
 	free(p->scene_views);
 	free(p->owner);
+	free(p->skies);
 	memset(p, 0, sizeof(*p));
 }

@@ -39,16 +39,19 @@ struct prepared {
 	uint32_t n_vertices;  /* of all instances */
 	uint32_t n_texcoords; /* [4] each */
 	uint32_t *owner;      /* [n_vertices]: instance */
+	uint8_t *skies;       /* [scene's instances]: 1 where it is a sky */
 	uint32_t n_light_slots; /* most lights in any lit material */
-	int has_mirrors;
+	int has_mirrors; /* a surface mirrors or lets light through */
+	int has_veils;   /* what stops a ray to a light may let some of it pass */
 };
 
 /**
  * Prepare a frame.
+ * @param shift  by how much its picture is moved, pixels: pixel centres then show what lies beside them
  * @param out  all zero; filled on success; free with prepared_free
  * @return 0 or ERR_SYSTEM (reported)
  */
-int prepare_frame(const struct scene *scene, struct prepared *out);
+int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out);
 void prepared_free(struct prepared *p);
 
 /** Where a mesh's arrays lie among the words of its block, in a geometry's fields; relative to `base`. */

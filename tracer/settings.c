@@ -22,11 +22,19 @@ static const char help[] =
 	"      --force          render all, the opposite of --skip-existing (default)\n"
 	"      --dry-run        only say what would be done, a line for each frame\n"
 	"How the picture is made:\n"
-	"      --mode MODE      whitted (default), gl (GL's picture alone), normals\n"
+	"      --mode MODE      whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone;\n"
+	"                       normals; ao: how open surfaces are; ao-phong: the same over GL's picture;\n"
+	"                       diffuse: whitted, and one bounce of light between surfaces; path: all bounces\n"
 	"      --encoding E     linear (default) or display (GL's own numbers)\n"
 	"      --aov LIST       channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,\n"
 	"                       layers (default: all)\n"
-	"      --depth N        mirror bounces at most (default 4)\n"
+	"      --depth N        bounces at most (default 4)\n"
+	"      --samples N      pictures moved within the pixel, of which a frame is the mean (default 1); gl, Z, N, P,\n"
+	"                       albedo and id stay those of pixel centres\n"
+	"      --rays N         rays to each light that has a radius, and around each point in the ao modes, a sample\n"
+	"                       (default 16)\n"
+	"      --reach X        how far the ao modes look, in units of eye space (default: without end)\n"
+	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number or part of the name as 'relume devices' lists\n"
 	"                       them, with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)\n"
@@ -50,8 +58,8 @@ enum effect {
 	RUN           /* which frames, where to, on what: never a pixel */
 };
 
-enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, DEVICE, THREADS, JOBS, MEMORY, TIMEOUT, PROGRESS,
-	   HELP, N_KEYS };
+enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, SAMPLES, RAYS, REACH, RELIGHT,
+	   DEVICE, THREADS, JOBS, MEMORY, TIMEOUT, PROGRESS, HELP, N_KEYS };
 
 #define FIRST_KEY 256 /* what getopt_long returns for the first row */
 
@@ -71,6 +79,10 @@ static const struct row {
 	[ENCODING] = { "encoding", required_argument, PICTURE, 0 },
 	[AOV] = { "aov", required_argument, PICTURE, 0 },
 	[DEPTH] = { "depth", required_argument, PICTURE, 0 },
+	[SAMPLES] = { "samples", required_argument, PICTURE, 0 },
+	[RAYS] = { "rays", required_argument, PICTURE, 0 },
+	[REACH] = { "reach", required_argument, PICTURE, 0 },
+	[RELIGHT] = { "relight", no_argument, PICTURE, 0 },
 	[DEVICE] = { "device", required_argument, RUN, 0 },
 	[THREADS] = { "threads", required_argument, RUN, 0 },
 	[JOBS] = { "jobs", required_argument, RUN, 'j' },
@@ -130,9 +142,19 @@ static int parse_seconds(const char *text, double *out)
 	return 0;
 }
 
+static int parse_length(const char *text, const char *option, float *out)
+{
+	char *end;
+
+	*out = strtof(text, &end);
+	if (end == text || *end || !(*out > 0) || *out > 1e30f)
+		return err_report(ERR_USAGE, NULL, "--%s takes a length above 0, not '%s'", option, text);
+	return 0;
+}
+
 static int parse_option(struct settings *s, enum key key, const char *value)
 {
-	static const char *const modes[] = { "whitted", "gl", "normals", NULL };
+	static const char *const modes[] = { "whitted", "gl", "normals", "ao", "ao-phong", "diffuse", "path", NULL };
 	static const char *const encodings[] = { "linear", "display", NULL };
 	const char *name = rows[key].name;
 	int err = 0, word = 0;
@@ -153,6 +175,10 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 	case ENCODING: return parse_word(value, name, encodings, &s->tracer.display);
 	case AOV: s->tracer.aov = value; return tracer_check_aov(value);
 	case DEPTH: return parse_number(value, name, 64, &s->tracer.depth);
+	case SAMPLES: return parse_number(value, name, 65536, &s->tracer.samples);
+	case RAYS: return parse_number(value, name, 4096, &s->tracer.rays);
+	case REACH: return parse_length(value, name, &s->tracer.reach);
+	case RELIGHT: s->tracer.relight = 1; return 0;
 	case DEVICE: s->device = value; return 0;
 	case THREADS: return parse_number(value, name, 1024, &s->threads);
 	case JOBS: return parse_number(value, name, 64, &s->jobs);

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "kernels/camera.h"
+#include "kernels/sample.h"
 #include "tracer/compose.h"
 #include "tracer/frame.h"
 
@@ -37,6 +38,7 @@ void tracer_destroy(struct tracer **tracer)
 		device_release(tr->dev, &tr->buffers[i]);
 	free(tr->counts);
 	free(tr->first);
+	free(tr->path_counts);
 	free(tr);
 	*tracer = NULL;
 }
@@ -404,6 +406,7 @@ static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots
 static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 {
 	struct tracer *tr = job->tr;
+	uint32_t transport = transport_of(job->options);
 	struct launch l = launch_with_tables(tr);
 
 	add(&l, tr, BUFFER_VIEWS);
@@ -413,8 +416,9 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	add_uint(&l, &job->width);
 	add_uint(&l, &job->height);
 	add_uint(&l, &job->bits);
-	add(&l, tr, BUFFER_STOPPED);
+	add(&l, tr, BUFFER_ARRIVING);
 	add_uint(&l, &slots);
+	add_uint(&l, &transport);
 	add_uint(&l, &n);
 	add(&l, tr, BUFFER_SHADED);
 	return run(tr, KERNEL_shade, n, &l);
@@ -438,20 +442,24 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	return run(tr, KERNEL_resolve, n, &l);
 }
 
-/* The fragments of the list: GL's colours, then shadows, then mirrors. */
-static int shade_list(struct job *job, const struct accel_space *space, uint32_t n)
+/* The fragments of the list: GL's colours, then what rays from them find. */
+static int shade_list(struct job *job, uint32_t view, uint32_t n)
 {
+	const struct accel_space *space = space_of_view(job, view, 0);
+	enum tracer_mode mode = job->options->mode;
 	int err = run_shade(job, 0, n);
 
-	if (job->options->mode != TRACER_WHITTED || !space)
+	if (err || !space || mode == TRACER_GL || mode == TRACER_NORMALS)
 		return err;
-	if (!err && job->prepared.n_light_slots) {
+	if (mode == TRACER_AO || mode == TRACER_AO_PHONG)
+		return trace_openness(job, space, n);
+	if (job->prepared.n_light_slots) {
 		err = trace_shadows(job, space, n);
 		if (!err)
 			err = run_shade(job, job->prepared.n_light_slots, n);
 	}
-	if (!err && job->prepared.has_mirrors && job->options->depth)
-		err = trace_mirrors(job, space, n);
+	if (!err && job->options->depth && (job->prepared.has_mirrors || transport_of(job->options) >= TRANSPORT_DIFFUSE))
+		err = trace_paths(job, space, space_of_view(job, view, 1), n);
 	return err;
 }
 
@@ -481,7 +489,7 @@ static int run_segment(struct job *job, const struct segment *segment)
 			break;
 		err = run_gather(job, r, slots, n_list);
 		if (!err)
-			err = shade_list(job, space_of_view(job, segment->view), n_list);
+			err = shade_list(job, segment->view, n_list);
 		if (!err)
 			err = run_resolve(job, r);
 	}
@@ -511,7 +519,7 @@ static int reserve_pixels(struct job *job)
 	if (!err)
 		err = reserve(tr, BUFFER_SURFACE, (size_t)job->n_pixels * SURFACE_PLANES, sizeof(float));
 	if (!err)
-		err = reserve(tr, BUFFER_STOPPED, 1, sizeof(uint32_t));
+		err = reserve(tr, BUFFER_ARRIVING, 1, 3 * sizeof(float));
 	return err;
 }
 
@@ -536,28 +544,55 @@ static int run_surface(struct job *job)
 	return run(tr, KERNEL_surface, job->n_pixels, &l);
 }
 
-/* The picture from the device, and what the scene says about it. */
-static int read_image(struct job *job, struct image *img)
+/* --- The picture from the device ----------------------------------------------------------------------------------- */
+
+/* Parts of a pixel that are the mean of all passes; the others are the first one's, which looks through pixel centres. */
+static float *pixel_part_of(struct frame_pixel *pixel, int part)
+{
+	float *parts[] = { pixel->shadowed, pixel->direct, pixel->mirrored, pixel->beauty };
+
+	return parts[part];
+}
+
+/* The pixels after a pass: the first pass's as they are, later ones added by their share. */
+static int read_pass(struct job *job, struct picture *picture)
 {
 	struct tracer *tr = job->tr;
-	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
-	float *planes = malloc((size_t)job->n_pixels * SURFACE_PLANES * sizeof(*planes));
-	int err;
+	struct frame_pixel *to = job->pass == 0 ? picture->pixels : picture->later;
+	float share = 1.0f / (float)job->n_passes;
+	int err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, to, job->n_pixels * sizeof(*to));
 
-	if (!pixels || !planes) {
-		err = err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
-		goto done;
-	}
-	err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, pixels, job->n_pixels * sizeof(*pixels));
-	if (!err)
-		err = device_read(tr->dev, tr->buffers[BUFFER_SURFACE], 0, planes,
-		                  (size_t)job->n_pixels * SURFACE_PLANES * sizeof(*planes));
-	if (!err)
-		err = compose_image(pixels, planes, job->options, img);
-done:
-	free(pixels);
-	free(planes);
-	return err;
+	if (!err && job->pass == 0)
+		err = device_read(tr->dev, tr->buffers[BUFFER_SURFACE], 0, picture->planes,
+		                  (size_t)job->n_pixels * SURFACE_PLANES * sizeof(*picture->planes));
+	if (err || job->n_passes == 1)
+		return err;
+	for (uint32_t i = 0; i < job->n_pixels; i++)
+		for (int part = 0; part < 4; part++) {
+			float *sum = pixel_part_of(&picture->pixels[i], part), *one = pixel_part_of(&to[i], part);
+
+			for (int c = 0; c < 3; c++)
+				sum[c] = job->pass == 0 ? one[c] * share : sum[c] + one[c] * share;
+		}
+	return 0;
+}
+
+static void picture_free(struct picture *picture)
+{
+	free(picture->pixels);
+	free(picture->later);
+	free(picture->planes);
+}
+
+static int picture_create(const struct job *job, struct picture *picture)
+{
+	picture->pixels = malloc(job->n_pixels * sizeof(*picture->pixels));
+	picture->later = job->n_passes > 1 ? malloc(job->n_pixels * sizeof(*picture->later)) : NULL;
+	picture->planes = malloc((size_t)job->n_pixels * SURFACE_PLANES * sizeof(*picture->planes));
+	if (picture->pixels && picture->planes && (picture->later || job->n_passes == 1))
+		return 0;
+	picture_free(picture);
+	return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
 }
 
 /*
@@ -620,55 +655,81 @@ static void count_undrawn(struct job *job)
 	}
 }
 
+/* One look at the frame, into the device's BUFFER_FRAME and BUFFER_SURFACE. */
+static int trace_pass(struct job *job)
+{
+	float shift[2] = { 0, 0 };
+	int err;
+
+	if (job->pass > 0) {
+		sample_square(SAMPLE_JITTER, job->pass, &shift[0], &shift[1]);
+		shift[0] -= 0.5f;
+		shift[1] -= 0.5f;
+	}
+	err = prepare_frame(job->scene, shift, &job->prepared);
+	if (err)
+		return err;
+	if (job->pass == 0)
+		count_undrawn(job);
+	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
+	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
+	if (!job->expanded || !job->extra)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err)
+		err = upload_state(job);
+	if (!err)
+		err = upload_vertex_stage(job);
+	if (!err)
+		err = run_vertices(job, 0, 0);
+	if (!err)
+		err = expand_all(job);
+	if (!err)
+		err = build_trees(job);
+	if (!err)
+		err = reserve_pixels(job);
+	if (!err)
+		err = clear_all(job);
+	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
+		err = run_segment(job, &job->prepared.segments[i]);
+	if (!err)
+		err = run_surface(job);
+	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
+		expanded_free(&job->expanded[i]);
+	free(job->expanded);
+	free(job->extra);
+	prepared_free(&job->prepared);
+	return err;
+}
+
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img)
 {
-	struct job job = { .tr = tracer, .scene = scene, .options = options, .width = scene->width,
-		           .height = scene->height };
+	struct tracer_options known = *options;
+	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width,
+		           .height = scene->height, .n_passes = options->samples ? options->samples : 1 };
+	struct picture picture = { .pixels = NULL };
 	int err;
 
 	if (scene->width == 0 || scene->height == 0 || scene->width > 16384 || scene->height > 16384)
 		return err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered",
 		                  (unsigned long long)scene->frame, scene->width, scene->height);
+	if (known.rays == 0)
+		known.rays = 16;
 	job.n_pixels = scene->width * scene->height;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	err = prepare_frame(scene, &job.prepared);
-	if (err)
-		return err;
-	count_undrawn(&job);
-	job.expanded = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.expanded));
-	job.extra = calloc(job.prepared.n_instances + (size_t)1, sizeof(*job.extra));
-	if (!job.expanded || !job.extra)
-		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (!err)
-		err = upload_state(&job);
-	if (!err)
-		err = upload_vertex_stage(&job);
-	if (!err)
-		err = run_vertices(&job, 0, 0);
-	if (!err)
-		err = expand_all(&job);
-	if (!err)
-		err = build_trees(&job);
-	if (!err)
-		err = reserve_pixels(&job);
-	if (!err)
-		err = clear_all(&job);
-	for (uint32_t i = 0; i < job.prepared.n_segments && !err; i++)
-		err = run_segment(&job, &job.prepared.segments[i]);
-	if (!err)
-		err = run_surface(&job);
+	err = picture_create(&job, &picture);
+	for (; job.pass < job.n_passes && !err; job.pass++) {
+		err = trace_pass(&job);
+		if (!err)
+			err = read_pass(&job, &picture);
+	}
 	img->width = job.width;
 	img->height = job.height;
 	if (!err)
-		err = read_image(&job, img);
+		err = compose_image(picture.pixels, picture.planes, options, img);
 	if (!err)
 		err = describe_image(&job, img);
-	for (uint32_t i = 0; i < job.prepared.n_instances && job.expanded; i++)
-		expanded_free(&job.expanded[i]);
-	free(job.expanded);
-	free(job.extra);
-	prepared_free(&job.prepared);
+	picture_free(&picture);
 	if (err)
 		image_free(img);
 	return err;

@@ -13,15 +13,23 @@
 #include "tracer/image.h"
 
 enum tracer_mode {
-	TRACER_WHITTED, /* GL's picture, hard shadows, mirrors */
-	TRACER_GL,      /* GL's picture alone: beauty equals gl */
-	TRACER_NORMALS  /* eye-space normals as colours */
+	TRACER_WHITTED,  /* GL's picture, shadows, mirrors, glass */
+	TRACER_GL,       /* GL's picture alone: beauty equals gl */
+	TRACER_NORMALS,  /* eye-space normals as colours */
+	TRACER_AO,       /* how open each surface is, as grey */
+	TRACER_AO_PHONG, /* the same over GL's picture */
+	TRACER_DIFFUSE,  /* whitted, and one bounce of light from surface to surface */
+	TRACER_PATH      /* light followed from surface to surface, no ambient light */
 };
 
 struct tracer_options {
 	enum tracer_mode mode;
 	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
-	unsigned depth;   /* mirror bounces at most */
+	unsigned depth;   /* bounces at most */
+	unsigned samples; /* pictures moved within the pixel, of which the frame is the mean; 0 counts as 1 */
+	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
+	float reach;      /* of openness, eye-space units; 0: without end */
+	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
 

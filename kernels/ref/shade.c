@@ -2,7 +2,7 @@
 #include "kernels/gl_stages.h"
 #include "tracer/device.h"
 
-extern device_twin gather_c, shade_c, shadow_ray_c, mirror_ray_c, hit_ray_c, shade_hit_c;
+extern device_twin gather_c, shade_c;
 
 static uint32_t number(const void *arg)
 {
@@ -22,43 +22,7 @@ void shade_c(const void *const *args, size_t first, size_t last)
 {
 	struct tables t = TABLES_NAMED;
 
-	for (size_t i = first; i < last && i < number(args[21]); i++)
+	for (size_t i = first; i < last && i < number(args[22]); i++)
 		shade_item(&t, args[12], args[13], (void *)args[14], args[15], number(args[16]), number(args[17]), number(args[18]),
-		           args[19], number(args[20]), number(args[21]), (void *)args[22], (uint32_t)i);
-}
-
-void shadow_ray_c(const void *const *args, size_t first, size_t last)
-{
-	struct tables t = TABLES_NAMED;
-
-	for (size_t i = first; i < last && i < number(args[19]); i++)
-		shadow_ray_item(&t, args[12], args[13], args[14], args[15], number(args[16]), args[17], number(args[18]),
-		                (void *)args[20], (uint32_t)i);
-}
-
-void mirror_ray_c(const void *const *args, size_t first, size_t last)
-{
-	struct tables t = TABLES_NAMED;
-
-	for (size_t i = first; i < last && i < number(args[17]); i++)
-		mirror_ray_item(&t, args[12], args[13], args[14], args[15], number(args[16]), (void *)args[18],
-		                (void *)args[19], (void *)args[20], (uint32_t)i);
-}
-
-void hit_ray_c(const void *const *args, size_t first, size_t last)
-{
-	struct tables t = TABLES_NAMED;
-
-	for (size_t i = first; i < last && i < number(args[16]); i++)
-		hit_ray_item(&t, args[12], args[13], args[14], number(args[15]), (void *)args[17], (uint32_t)i);
-}
-
-void shade_hit_c(const void *const *args, size_t first, size_t last)
-{
-	struct tables t = TABLES_NAMED;
-
-	for (size_t i = first; i < last && i < number(args[17]); i++)
-		shade_hit_item(&t, args[12], number(args[13]), number(args[14]), args[15], number(args[16]),
-		               number(args[17]), args[18], (void *)args[19], (void *)args[20], (void *)args[21],
-		               (void *)args[22], (uint32_t)i);
+		           args[19], number(args[20]), number(args[21]), number(args[22]), (void *)args[23], (uint32_t)i);
 }

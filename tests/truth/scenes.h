@@ -4,6 +4,7 @@
 
 #include <check.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -173,21 +174,58 @@ static inline void truth_add_square(struct truth *t, uint32_t material, const fl
 	free(normal);
 }
 
+/** One number of a channel; x from the left, y from the top. */
+static inline float truth_at(const struct image *img, const char *channel, uint32_t x, uint32_t y)
+{
+	const float *plane = image_channel(img, channel);
+
+	ck_assert_ptr_nonnull(plane);
+	return plane[(size_t)y * img->width + x];
+}
+
+/** Beauty is what its parts say, at every pixel. */
+static inline void truth_check_closure(const struct image *img)
+{
+	static const char letters[] = "RGB";
+
+	for (int c = 0; c < 3; c++)
+		for (uint32_t y = 0; y < img->height; y++)
+			for (uint32_t x = 0; x < img->width; x++) {
+				float part[6];
+				static const char *const names[] = { "", "gl.", "shadow.", "relight.", "reflect.", "refract." };
+
+				for (int i = 0; i < 6; i++) {
+					char name[16];
+
+					snprintf(name, sizeof(name), "%s%c", names[i], letters[c]);
+					part[i] = truth_at(img, name, x, y);
+				}
+				ck_assert_float_eq_tol(part[0], part[1] * part[2] + part[3] + part[4] + part[5],
+				                       fabsf(part[0]) * 0x1p-9f + 1e-6f);
+			}
+}
+
 /** Render on the device that environment RELUME_TEST_DEVICE names ("reference" where it names none). */
-static inline void truth_render(const struct truth *t, const char *mode, struct image *img)
+static inline void truth_render_with(const struct truth *t, const struct tracer_options *options, struct image *img)
 {
 	const char *choice = getenv("RELUME_TEST_DEVICE");
-	struct tracer_options options = { .mode = strcmp(mode, "gl") == 0 ? TRACER_GL : TRACER_WHITTED, .display = 1,
-		                          .depth = 4 };
 	struct device *dev = NULL;
 	struct tracer *tracer = NULL;
 
 	memset(img, 0, sizeof(*img));
 	ck_assert_int_eq(device_open(choice ? choice : "reference", 0, &dev), 0);
 	ck_assert_int_eq(tracer_create(&tracer, dev), 0);
-	ck_assert_int_eq(tracer_render(tracer, &t->scene, &options, img), 0);
+	ck_assert_int_eq(tracer_render(tracer, &t->scene, options, img), 0);
 	tracer_destroy(&tracer);
 	device_close(&dev);
+}
+
+static inline void truth_render(const struct truth *t, const char *mode, struct image *img)
+{
+	struct tracer_options options = { .mode = strcmp(mode, "gl") == 0 ? TRACER_GL : TRACER_WHITTED, .display = 1,
+		                          .depth = 4 };
+
+	truth_render_with(t, &options, img);
 }
 
 #endif
