@@ -8,10 +8,12 @@
  */
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <limits.h>
 #include <stdlib.h>
 
 #include "capture/content.h"
 #include "capture/memory.h"
+#include "capture/mirror.h"
 #include "capture/wrap.h"
 
 enum { MAX_UNITS = 8, MAX_ATTRIBUTES = 16, INDEX_BATCH = 16384 };
@@ -64,6 +66,7 @@ static _Atomic unsigned units_used = 1, attributes_used, arrays_used;
 struct written {
 	struct array array;
 	unsigned buffer; /* the recorder's own; 0: not known */
+	long offset;     /* in it */
 };
 
 static __thread struct {
@@ -71,6 +74,7 @@ static __thread struct {
 	struct written written[N_SLOTS];
 	int own_indices; /* the trace has a buffer of ours bound for the indices of the draw to come */
 	int known;      /* the driver's state, since nothing that changes it was called */
+	unsigned epoch; /* of the trace that has what is in `written` */
 	int n_client;   /* enabled arrays without a buffer */
 	int n_buffered; /* enabled arrays with one */
 } self __attribute__((tls_model("initial-exec")));
@@ -222,8 +226,8 @@ static long element_bytes(const struct array *a)
 	return size * type_bytes(a->type);
 }
 
-/* `own`: the buffer, bound in the trace, that holds the bytes from its start; 0: they are written here. */
-static void record_array(int slot, const struct array *a, long bytes, unsigned own)
+/* `own`: the buffer, bound in the trace, that holds the array at `offset`; 0: its bytes are written here. */
+static void record_array(int slot, const struct array *a, long bytes, unsigned own, long offset)
 {
 	int attribute = slot >= SLOT_ATTRIBUTE && slot < SLOT_ATTRIBUTE + MAX_ATTRIBUTES;
 	const struct array_names *n = &names[slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE ? SLOT_TEXTURE : slot];
@@ -243,18 +247,19 @@ static void record_array(int slot, const struct array *a, long bytes, unsigned o
 		p = put_bool8(put_argument(p, index++), (unsigned)a->normalized);
 	p = put_sint(put_argument(p, index++), a->stride);
 	p = put_argument(p, index);
-	p = own ? put_null(p) : put_blob(p, a->pointer, bytes);
+	p = own ? put_opaque(p, offset) : put_blob(p, a->pointer, bytes);
 	writer_call_end(p);
 	self.written[slot].array = *a;
 	self.written[slot].buffer = own;
+	self.written[slot].offset = offset;
 }
 
 /* 1 where the trace's array is already this one. */
-static int is_written(int slot, const struct array *a, unsigned own)
+static int is_written(int slot, const struct array *a, unsigned own, long offset)
 {
 	const struct written *w = &self.written[slot];
 
-	return own && w->buffer == own && w->array.size == a->size && w->array.type == a->type &&
+	return own && w->buffer == own && w->offset == offset && w->array.size == a->size && w->array.type == a->type &&
 	       w->array.stride == a->stride && w->array.normalized == a->normalized && w->array.integer == a->integer;
 }
 
@@ -270,53 +275,84 @@ static void bind(struct bindings *b, unsigned buffer)
 	b->buffer = buffer;
 }
 
-static void write_array(int slot, const struct array *a, long bytes, struct bindings *b)
+/* Elements of a draw; of arrays that advance by instance, `instances` counted from `base_instance` on. */
+struct drawn {
+	long first, last, base_instance, instances;
+};
+
+static int is_client(const struct array *a)
+{
+	return a->enabled && !a->buffer && a->pointer && element_bytes(a);
+}
+
+/* Arrays that lie in one another (structs of position, normal, colour) share memory: where it starts, and where an element ends. */
+static const uint8_t *shared_start(const struct array *a, long *element_end)
+{
+	const uint8_t *start = a->pointer, *end = a->pointer + element_bytes(a);
+
+	for (int slot = 0; slot < N_SLOTS && a->stride; slot++) {
+		const struct array *other = &self.arrays[slot];
+
+		if (!is_client(other) || other->stride != a->stride || other->divisor != a->divisor)
+			continue;
+		if (labs(other->pointer - a->pointer) >= a->stride)
+			continue;
+		start = other->pointer < start ? other->pointer : start;
+		end = other->pointer + element_bytes(other) > end ? other->pointer + element_bytes(other) : end;
+	}
+	if (end - start > a->stride) /* they overlap otherwise than as members of a struct */
+		start = a->pointer, end = a->pointer + element_bytes(a);
+	*element_end = end - start;
+	return start;
+}
+
+static void write_array(int slot, const struct array *a, const struct drawn *d, struct bindings *b)
 {
 	unsigned own = 0, unit = GL_TEXTURE0 + (unsigned)(slot - SLOT_TEXTURE);
+	long element = element_bytes(a), stride = a->stride ? a->stride : element, element_end, bytes;
+	long first = a->divisor ? d->base_instance : d->first;
+	long last = a->divisor ? d->base_instance + (d->instances - 1) / a->divisor : d->last;
+	const uint8_t *start = shared_start(a, &element_end);
 	int bound = 0;
 
+	bytes = stride * last + element;
+	if (bytes > MAX_ARRAY_BYTES) {
+		static _Atomic int said;
+
+		if (!said++)
+			writer_say("a draw reaches beyond %d bytes of a client array; its arrays are not recorded",
+			           MAX_ARRAY_BYTES);
+		return;
+	}
 	if (bytes >= CONTENT_MIN_BYTES && context_has(HAS_BUFFERS))
-		own = content_buffer(context_contents(), GL_ARRAY_BUFFER, a->pointer, bytes, &bound);
+		own = mirror_buffer(context_mirrors(), GL_ARRAY_BUFFER, start, stride * first, stride * last + element_end, &bound,
+		                    NULL);
 	if (bound)
 		b->buffer = own;
-	if (is_written(slot, a, own))
+	if (is_written(slot, a, own, a->pointer - start))
 		return;
 	if (slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE && b->unit != unit) {
 		b->unit = unit;
 		record_enum(CMD_glClientActiveTexture, unit);
 	}
 	bind(b, own);
-	record_array(slot, a, bytes, own);
+	record_array(slot, a, bytes, own, own ? a->pointer - start : 0);
 }
 
-/* All client arrays, for elements 0 .. last (and instances 0 .. last_instance where an array advances by instance). */
-static void record_arrays(long last, long last_instance)
+/* All client arrays, for the elements drawn. */
+static void record_arrays(const struct drawn *d)
 {
 	struct bindings program, now;
 
-	if (!self.n_client || last < 0)
+	if (!self.n_client || d->last < 0)
 		return;
 	program.buffer = (unsigned)array_buffer();
 	program.unit = context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ?
 	               (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0;
 	now = program;
-	for (int slot = 0; slot < N_SLOTS; slot++) {
-		const struct array *a = &self.arrays[slot];
-		long element = element_bytes(a), elements = a->divisor ? last_instance / a->divisor : last, bytes;
-
-		if (!a->enabled || a->buffer || !a->pointer || !element)
-			continue;
-		bytes = (a->stride ? a->stride : element) * elements + element;
-		if (bytes > MAX_ARRAY_BYTES) {
-			static _Atomic int said;
-
-			if (!said++)
-				writer_say("a draw reaches beyond %d bytes of a client array; its arrays are not recorded",
-				           MAX_ARRAY_BYTES);
-			continue;
-		}
-		write_array(slot, a, bytes, &now);
-	}
+	for (int slot = 0; slot < N_SLOTS; slot++)
+		if (is_client(&self.arrays[slot]))
+			write_array(slot, &self.arrays[slot], d, &now);
 	if (now.unit != program.unit)
 		record_enum(CMD_glClientActiveTexture, program.unit);
 	bind(&now, program.buffer);
@@ -329,26 +365,35 @@ static int needed(void)
 {
 	if (!arrays_used || !writer_active())
 		return 0;
+	if (self.epoch != writer_epoch()) {
+		self.epoch = writer_epoch();
+		arrays_forget(); /* another trace, which has nothing of what was written to the one before */
+	}
 	refresh();
 	return self.n_client > 0;
 }
 
 void arrays_draw(int first, int count, int instances, unsigned base_instance)
 {
+	struct drawn d = { first, (long)first + count - 1, base_instance, instances };
+
 	if (count > 0 && first >= 0 && needed())
-		record_arrays((long)first + count - 1, (long)base_instance + instances - 1);
+		record_arrays(&d);
 }
 
 void arrays_multi_draw(const int *first, const int *count, int draws)
 {
-	long last = -1;
+	struct drawn d = { LONG_MAX, -1, 0, 1 };
 
 	if (!first || !count || !needed())
 		return;
-	for (int i = 0; i < draws; i++)
-		if (count[i] > 0 && first[i] >= 0 && (long)first[i] + count[i] - 1 > last)
-			last = (long)first[i] + count[i] - 1;
-	record_arrays(last, 0);
+	for (int i = 0; i < draws; i++) {
+		if (count[i] <= 0 || first[i] < 0)
+			continue;
+		d.first = first[i] < d.first ? first[i] : d.first;
+		d.last = (long)first[i] + count[i] - 1 > d.last ? (long)first[i] + count[i] - 1 : d.last;
+	}
+	record_arrays(&d);
 }
 
 /* The index that starts a new primitive and is no vertex; -1 for none. */
@@ -361,15 +406,15 @@ static long restart_index(unsigned type)
 	return -1;
 }
 
-/* Highest of `count` indices in client memory or, as an offset, in the element array buffer. */
-static long last_index(const void *indices, int count, unsigned type, long restart)
+/* Widens `d` by the lowest and highest of `count` indices in client memory or, as an offset, in the element array buffer. */
+static void find_range(const void *indices, int count, unsigned type, long restart, long base, struct drawn *d)
 {
 	uint8_t batch[INDEX_BATCH];
-	long size = type_bytes(type), last = -1, bytes = count * size;
+	long size = type_bytes(type), lowest = LONG_MAX, highest = -1, bytes = count * size;
 	int buffered = context_has(HAS_BUFFERS) && context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING);
 
 	if ((size != 1 && size != 2 && size != 4) || (!buffered && !indices))
-		return -1;
+		return;
 	for (long at = 0; at < bytes; at += INDEX_BATCH) {
 		long n = bytes - at < INDEX_BATCH ? bytes - at : INDEX_BATCH;
 
@@ -380,37 +425,67 @@ static long last_index(const void *indices, int count, unsigned type, long resta
 		for (long i = 0; i < n / size; i++) {
 			long index = size == 1 ? batch[i] : size == 2 ? ((uint16_t *)batch)[i] : ((uint32_t *)batch)[i];
 
-			if (index != restart && index > last)
-				last = index;
+			if (index == restart)
+				continue;
+			highest = index > highest ? index : highest;
+			lowest = index < lowest ? index : lowest;
 		}
 	}
-	return last;
+	if (highest < 0)
+		return;
+	d->first = lowest + base < d->first ? lowest + base : d->first;
+	d->last = highest + base > d->last ? highest + base : d->last;
 }
 
-/* Indices in client memory that were seen before: for the time of the draw a buffer of ours holds them. */
-static void bind_indices(const void *indices, long bytes)
+/* Indices in client memory have a buffer in the trace: for the time of the draw it is bound. Returns what is known of them. */
+static struct mirror_indices *bind_indices(const void *indices, long bytes)
 {
+	struct mirror_indices *known;
 	unsigned own;
-	int bound;
+	int bound = 0;
 
 	if (!indices || bytes < CONTENT_MIN_BYTES || bytes > MAX_ARRAY_BYTES || !context_has(HAS_BUFFERS) ||
 	    context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING))
-		return;
-	own = content_buffer(context_contents(), GL_ELEMENT_ARRAY_BUFFER, indices, bytes, &bound);
+		return NULL;
+	own = mirror_buffer(context_mirrors(), GL_ELEMENT_ARRAY_BUFFER, indices, 0, bytes, &bound, &known);
 	if (own && !bound)
 		content_bind(GL_ELEMENT_ARRAY_BUFFER, own);
 	self.own_indices = own != 0;
+	return known;
 }
 
 void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
                           unsigned base_instance)
 {
-	if (count <= 0 || !writer_active())
+	struct drawn d = { LONG_MAX, -1, base_instance, instances };
+	struct mirror_indices *known, found = { 0 };
+
+	if (count <= 0)
 		return;
-	if (needed())
-		record_arrays(last_index(indices, count, type, restart_index(type)) + base_vertex,
-		              (long)base_instance + instances - 1);
-	bind_indices(indices, count * type_bytes(type));
+	if (!needed()) {
+		if (writer_active())
+			bind_indices(indices, count * type_bytes(type));
+		return;
+	}
+	found.bytes = count * type_bytes(type);
+	found.type = type;
+	found.restart = restart_index(type);
+	known = bind_indices(indices, found.bytes);
+	if (known && known->bytes == found.bytes && known->type == type && known->restart == found.restart) {
+		found = *known;
+	} else {
+		find_range(indices, count, type, found.restart, 0, &d);
+		found.lowest = d.first;
+		found.highest = d.last;
+		if (known)
+			*known = found;
+	}
+	if (found.highest < 0)
+		return;
+	d.first = found.lowest + base_vertex;
+	d.last = found.highest + base_vertex;
+	d.first = d.first < 0 ? 0 : d.first;
+	record_arrays(&d);
 }
 
 int arrays_own_indices(void)
@@ -428,18 +503,16 @@ void arrays_drawn(void)
 void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
                                 const int *base_vertex)
 {
-	long last = -1, restart;
+	struct drawn d = { LONG_MAX, -1, 0, 1 };
+	long restart;
 
 	if (!count || !indices || !needed())
 		return;
 	restart = restart_index(type);
-	for (int i = 0; i < draws; i++) {
-		long here = last_index(indices[i], count[i], type, restart);
-
-		here += base_vertex && here >= 0 ? base_vertex[i] : 0;
-		last = here > last ? here : last;
-	}
-	record_arrays(last, 0);
+	for (int i = 0; i < draws; i++)
+		find_range(indices[i], count[i], type, restart, base_vertex ? base_vertex[i] : 0, &d);
+	d.first = d.first < 0 ? 0 : d.first;
+	record_arrays(&d);
 }
 
 /* InterleavedArrays sets pointers, which are written when drawn, and which arrays are enabled, which is written here. */

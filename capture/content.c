@@ -9,12 +9,10 @@
 #define XXH_INLINE_ALL
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <pthread.h>
 #include <sys/mman.h>
 #include <xxhash.h>
 
 #include "capture/content.h"
-#include "capture/memory.h"
 #include "capture/wrap.h"
 
 enum { N_ENTRIES = 1 << 13, FIRST_NAME = 0x60000000 }; /* names that no program gets from glGenBuffers */
@@ -26,40 +24,12 @@ struct content_entry {
 	unsigned buffer; /* 0: seen once */
 };
 struct content_table {
+	unsigned epoch; /* of the trace that has the buffers */
 	long owned_bytes;
 	struct content_entry entries[N_ENTRIES];
 };
 
 static _Atomic unsigned next_name = FIRST_NAME;
-
-/* A copy to hash, as the program's memory may be unmapped under us. One for all threads. */
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static void *copy;
-static size_t copy_bytes;
-
-static int hash_memory(const void *data, long bytes, XXH128_hash_t *out)
-{
-	int ok = 0;
-
-	pthread_mutex_lock(&lock);
-	if ((size_t)bytes > copy_bytes) {
-		size_t room = ((size_t)bytes + 0xFFFF) & ~(size_t)0xFFFF;
-		void *more = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-
-		if (more == MAP_FAILED)
-			goto done;
-		if (copy)
-			munmap(copy, copy_bytes);
-		copy = more;
-		copy_bytes = room;
-	}
-	memory_read(copy, data, (size_t)bytes);
-	*out = XXH3_128bits(copy, (size_t)bytes);
-	ok = 1;
-done:
-	pthread_mutex_unlock(&lock);
-	return ok;
-}
 
 void content_bind(unsigned target, unsigned buffer)
 {
@@ -72,27 +42,33 @@ void content_bind(unsigned target, unsigned buffer)
 	writer_call_end(p);
 }
 
-static void record_buffer(unsigned target, unsigned name, const void *data, long bytes)
+unsigned content_new_buffer(void)
 {
+	unsigned name = next_name++;
 	uint8_t *p = writer_enter_fake(CMD_glGenBuffers);
 	uint64_t call;
 
 	if (!p)
-		return;
+		return name;
 	p = put_sint(put_argument(p, 0), 1);
 	call = writer_enter_end(p);
 	p = writer_leave(call);
 	if (!p)
-		return;
+		return name;
 	p = put_array_u32(put_argument(p, 1), &name, 1);
 	writer_leave_end(p);
-	content_bind(target, name);
-	p = writer_enter_fake(CMD_glBufferData);
+	return name;
+}
+
+void content_data(unsigned target, const void *data, long bytes)
+{
+	uint8_t *p = writer_enter_fake(CMD_glBufferData);
+
 	if (!p)
 		return;
 	p = put_enum(put_argument(p, 0), target);
 	p = put_sint(put_argument(p, 1), bytes);
-	p = put_blob(put_argument(p, 2), data, bytes);
+	p = put_own_blob(put_argument(p, 2), data, bytes);
 	p = put_enum(put_argument(p, 3), GL_STATIC_DRAW);
 	writer_call_end(p);
 }
@@ -102,25 +78,27 @@ unsigned content_buffer(struct content_table **table, unsigned target, const voi
 	struct content_entry *entry;
 	XXH128_hash_t hash;
 
-	*bound = 0;
+	if (*table && (*table)->epoch != writer_epoch())
+		content_free(table);
 	if (!*table) {
 		void *pages = mmap(NULL, sizeof(**table), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 
 		if (pages == MAP_FAILED)
 			return 0;
 		*table = pages;
+		(*table)->epoch = writer_epoch();
 	}
-	if (!hash_memory(data, bytes, &hash))
-		return 0;
+	hash = XXH3_128bits(data, (size_t)bytes);
 	entry = &(*table)->entries[hash.low64 % N_ENTRIES];
 	if (entry->bytes != bytes || !XXH128_isEqual(entry->hash, hash)) {
 		*entry = (struct content_entry){ hash, bytes, 0 }; /* a buffer that lived here is forgotten, not wrong */
 		return 0;
 	}
 	if (!entry->buffer && (*table)->owned_bytes + bytes <= MAX_OWNED_BYTES) {
-		entry->buffer = next_name++;
+		entry->buffer = content_new_buffer();
 		(*table)->owned_bytes += bytes;
-		record_buffer(target, entry->buffer, data, bytes);
+		content_bind(target, entry->buffer);
+		content_data(target, data, bytes);
 		*bound = 1;
 	}
 	return entry->buffer;

@@ -11,16 +11,20 @@ enum { CONTENT_MIN_BYTES = 256 }; /* less is not worth two calls */
 /**
  * The buffer that holds these bytes in the trace.
  * @param table   the current context's; made at need
- * @param target  GL_ARRAY_BUFFER or GL_ELEMENT_ARRAY_BUFFER: where it is bound in the trace while it is filled
- * @param data    in the program; read without faulting
+ * @param target  where it is bound in the trace while it is filled: GL_ARRAY_BUFFER and the like
+ * @param data    the recorder's own copy
  * @param bytes   at least CONTENT_MIN_BYTES
- * @param bound   set to 1 where the trace now has it bound to the target (it has just been made), else to 0
+ * @param bound   set to 1 where the trace now has it bound to the target (it has just been made), else left
  * @return its name, or 0 where there is none: the bytes are new
  */
 unsigned content_buffer(struct content_table **table, unsigned target, const void *data, long bytes, int *bound);
 
 /** Write a fake glBindBuffer. */
 void content_bind(unsigned target, unsigned buffer);
+/** Write a fake glGenBuffers; returns the name. */
+unsigned content_new_buffer(void);
+/** Write a fake glBufferData of the buffer that is bound; `data` may be NULL. */
+void content_data(unsigned target, const void *data, long bytes);
 
 void content_free(struct content_table **table);
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "capture/content.h"
+#include "capture/mirror.h"
 #include "capture/wrap.h"
 
 enum { MAX_ERRORS = 8 };
@@ -18,6 +19,7 @@ struct context {
 	unsigned errors[MAX_ERRORS];
 	int n_errors;
 	struct content_table *contents;
+	struct mirror_table *mirrors;
 	struct runs_table *runs;
 };
 
@@ -51,6 +53,11 @@ int context_get(unsigned pname)
 struct content_table **context_contents(void)
 {
 	return &current->contents;
+}
+
+struct mirror_table **context_mirrors(void)
+{
+	return &current->mirrors;
 }
 
 struct runs_table **context_runs(void)
@@ -146,6 +153,7 @@ void context_destroyed(void *handle)
 		if (c->handle == handle && handle && c != current) {
 			c->handle = NULL; /* the address may come back as another context */
 			content_free(&c->contents);
+			mirror_free(&c->mirrors);
 			runs_free(&c->runs);
 		}
 	pthread_mutex_unlock(&list_lock);

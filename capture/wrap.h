@@ -57,8 +57,9 @@ enum context_feature { /* what may be asked without making a GL error */
 int context_is_current(void);
 /** 1 where this thread's current context has the feature. */
 int context_has(enum context_feature feature);
-/** The current context's table for content_buffer. There must be a current context. */
+/** The current context's tables for content_buffer and mirror_buffer. There must be a current context. */
 struct content_table **context_contents(void);
+struct mirror_table **context_mirrors(void);
 /** The current context's runs; NULL where there is no context. */
 struct runs_table **context_runs(void);
 /** An integer state of the current context; 0 where it has none. */

@@ -689,6 +689,25 @@ uint8_t *put_blob(uint8_t *p, const void *data, long bytes)
 	return put_sized(p, TAG_BLOB, data, bytes);
 }
 
+uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes)
+{
+	const uint8_t *from = data;
+
+	if (!data)
+		return put_null(p);
+	*p++ = TAG_BLOB;
+	p = put_varint(p, (uint64_t)bytes);
+	while (bytes) {
+		long n = w.end - p < bytes ? w.end - p : bytes;
+
+		memcpy(p, from, (size_t)n);
+		p = put_room(p + n);
+		from += n;
+		bytes -= n;
+	}
+	return put_room(p);
+}
+
 uint8_t *put_array_head(uint8_t *p, long n)
 {
 	*p++ = TAG_ARRAY;

@@ -118,6 +118,8 @@ uint8_t *put_string(uint8_t *p, const char *s, long bytes);
 uint8_t *put_text(uint8_t *p, const char *s, long size);
 /** Raw memory, read without ever faulting: what cannot be read is written as zeros (memory.h). */
 uint8_t *put_blob(uint8_t *p, const void *data, long bytes);
+/** Raw memory of the recorder's own. */
+uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes);
 /** `count` texts; `lengths` may be NULL, and an entry below 0 means up to the NUL. */
 uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const int *lengths);
 /** An XVisualInfo. */
