@@ -4,6 +4,8 @@
 #   make check              all tests; ONLY="part of a name" runs some
 #   make bench              the traversal kernels beside Embree's
 #   make show               all figures beside their bars
+#   make install            into PREFIX (/usr/local), below DESTDIR; make uninstall takes it away again
+#   make deb                a Debian package, looked at by lintian
 #   V=1                     show commands
 #   SAN=address,undefined   sanitizer build, in a folder of its own
 #   BUILD=DIR               build elsewhere
@@ -40,7 +42,9 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \
-	fonts-dejavu-core
+	fonts-dejavu-core pkg-config zsh fish man-db
+
+DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
@@ -49,7 +53,7 @@ TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fai
 all: $(BUILD)/relume $(BUILD)/librelume.so $(CORPUS)
 
 $(BUILD)/relume: $(COMMAND_OBJ)
-	$(Q)$(CC) $(ALL_CFLAGS) -o $@ $^ $(LIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -63,7 +67,7 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 # C++ inside, no symbol of its own that the program could replace.
 RECORDER_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -I$(BUILD)/recorder/gen -fvisibility=hidden
 $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/exports.map
-	$(Q)$(CXX) -shared -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/exports.map \
+	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/exports.map \
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
 $(BUILD)/recorder/gen/stamp: capture/gen.py capture/registry.py capture/overlay.txt | $(BUILD)/deps
@@ -208,11 +212,29 @@ show-fresh:
 golden-update: all
 	@$(PYTHON) tests/golden/test_golden.py --update
 
+# Man pages and shell completion come from the command's own help texts.
+$(BUILD)/pages/stamp: packaging/pages.py $(BUILD)/relume
+	$(Q)rm -rf $(@D)
+	$(Q)$(PYTHON) -B packaging/pages.py $(BUILD)/relume $(@D)
+	@touch $@
+
+pages: $(BUILD)/pages/stamp
+
+PREFIX ?= /usr/local
+install: all pages
+	$(Q)packaging/install.sh install '$(BUILD)' '$(PREFIX)' '$(DESTDIR)'
+
+uninstall: pages
+	$(Q)packaging/install.sh uninstall '$(BUILD)' '$(PREFIX)' '$(DESTDIR)'
+
+deb: $(BUILD)/deps $(BUILD)/deps.deb
+	@packaging/deb.sh '$(BUILD)'
+
 clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps check demo show show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
+.PHONY: all deps pages install uninstall deb check demo show show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
 	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

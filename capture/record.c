@@ -205,7 +205,8 @@ static int find_recorder(char *out, size_t size)
 	*strrchr(command, '/') = '\0';
 	for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++)
 		if (snprintf(out, size, "%s/%s", command, places[i]) < (int)size && access(out, R_OK) == 0)
-			return 0;
+			return !strpbrk(out, " :") ? 0 : err_report(ERR_SYSTEM, out, "a library whose path holds a space or a colon "
+			                                            "cannot be preloaded; install Relume elsewhere");
 	return err_report(ERR_SYSTEM, NULL, "the recorder is not at %s/%s", command, places[0]);
 }
 

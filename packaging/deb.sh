@@ -1,0 +1,21 @@
+#!/bin/sh
+# packaging/deb.sh BUILD (as `make deb`): build the Debian package from a copy of the tree, and have lintian look at it.
+# Leaves BUILD/deb/*.deb; exits with lintian's code, which tells errors and warnings.
+set -eu
+cd "$(dirname "$0")/.."
+version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
+out=$1/deb
+rm -rf "$out"
+mkdir -p "$out/relume-$version"
+if git rev-parse --git-dir >/dev/null 2>&1; then
+	git ls-files -z --cached --others --exclude-standard
+else
+	find . -path ./build -prune -o -type f -print0
+fi | tar -c --null --files-from=- --ignore-failed-read | tar -x -C "$out/relume-$version"
+cd "$out/relume-$version"
+mv packaging/debian debian
+head -n 1 debian/changelog | grep -q "^relume ($version) " || { echo "debian/changelog does not speak of version $version" >&2; exit 1; }
+dpkg-buildpackage -us -uc -b >../build.log 2>&1 || { tail -n 30 ../build.log >&2; exit 5; }
+cd ..
+ls ./*.deb
+lintian --fail-on error,warning --display-info ./*.changes

@@ -1,0 +1,37 @@
+#!/bin/sh
+# packaging/install.sh install|uninstall BUILD PREFIX [DESTDIR]: put everything into its place, or take it away again.
+#
+# One list serves both, so that nothing is left behind. Files appear whole: install(1) into place, then rename.
+set -eu
+cd "$(dirname "$0")/.."
+verb=$1 build=$2 prefix=$3 root=${4-}$3
+
+# place MODE FILE NAME: NAME is relative to the prefix.
+place() {
+	if [ "$verb" = uninstall ]; then
+		rm -f "$root/$3"
+		# Folders that are ours alone go when they are empty.
+		case $3 in
+		lib/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
+		esac
+		return
+	fi
+	mkdir -p "$root/${3%/*}"
+	install -m "$1" "$2" "$root/$3.new"
+	mv -f "$root/$3.new" "$root/$3"
+}
+
+version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
+sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build/relume.pc"
+
+place 755 "$build/relume" bin/relume
+place 644 "$build/librelume.so" lib/relume/librelume.so
+place 644 capture/relume.h include/relume.h
+place 644 "$build/relume.pc" share/pkgconfig/relume.pc
+place 644 README.md share/doc/relume/README.md
+for page in "$build"/pages/man/*.1; do
+	place 644 "$page" "share/man/man1/${page##*/}"
+done
+place 644 "$build/pages/bash/relume" share/bash-completion/completions/relume
+place 644 "$build/pages/zsh/_relume" share/zsh/site-functions/_relume
+place 644 "$build/pages/fish/relume.fish" share/fish/vendor_completions.d/relume.fish

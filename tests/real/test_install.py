@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""make install into a folder: what is installed runs from there, explains itself and is found; uninstall leaves nothing."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+from helpers import BUILD, ROOT, SCRATCH, check, finish, must, on_display, run
+
+PLACE = SCRATCH / "place"
+PREFIX = PLACE / "usr"
+
+
+def make(target):
+    return run("make", "-C", ROOT, "--no-print-directory", target, f"BUILD={os.path.relpath(BUILD, ROOT)}", "PREFIX=/usr", f"DESTDIR={PLACE}")
+
+
+must(make("install"))
+relume = PREFIX / "bin/relume"
+version = re.search(r'RELUME_VERSION "(.*)"', (ROOT / "base/version.h").read_text())[1]
+
+# It runs from there, and finds its own recorder, not the one of the build.
+done = must(on_display(relume, "record", "-o", SCRATCH / "gears.trace", "--quit-after", "3", "--", "glxgears"))
+check("3 frames" in done.stderr, f"the installed command records: {done.stderr}")
+maps = run(relume, "record", "-o", SCRATCH / "cat.trace", "--", "cat", "/proc/self/maps").stdout
+found = set(re.findall(r"/\S.*librelume\.so", maps))
+check(found == {str(PREFIX / "lib/relume/librelume.so")}, f"its recorder is the installed one: {found}")
+must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
+check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
+
+# What the dynamic linker cannot preload is said, not passed over.
+spaced = SCRATCH / "a place"
+shutil.copytree(PREFIX, spaced)
+done = run(spaced / "bin/relume", "record", "-o", SCRATCH / "none.trace", "--", "true")
+check(done.returncode == 5 and "cannot be preloaded" in done.stderr, f"a path with a space: {done.returncode}, {done.stderr}")
+
+# The header, through pkg-config.
+env = dict(os.environ, PKG_CONFIG_PATH=str(PREFIX / "share/pkgconfig"))
+check(run("pkg-config", "--modversion", "relume", env=env).stdout.strip() == version, "pkg-config knows the version")
+flags = run("pkg-config", f"--define-variable=prefix={PREFIX}", "--cflags", "relume", env=env).stdout
+include = flags.strip().removeprefix("-I").replace("\\ ", " ")
+program = SCRATCH / "mirror.c"
+program.write_text("#include <relume.h>\nint main(void) { rtMaterialEXT(RT_MIRROR_EXT, 0.5f, 1); return 0; }\n")
+must(run("cc", "-I", include, "-o", SCRATCH / "mirror", program))
+check(run(SCRATCH / "mirror").returncode == 0, "a program with the header runs without a recorder")
+
+# A page for every verb that says every option of its help text; no complaint of the formatter.
+verbs = re.findall(r"^  (\w+) ", run(relume, "help").stdout, re.M)
+options = {v: set(re.findall(r"^ {2,6}(?:-\w, )?(--[a-z][\w-]*)", run(relume, "help", v).stdout, re.M))
+           for v in verbs if v != "help"}
+for verb, known in options.items():
+    source = PREFIX / f"share/man/man1/relume-{verb}.1"
+    page = run("man", "--warnings", "-P", "cat", "-l", source, env=dict(os.environ, MANWIDTH="300", LC_ALL="C.UTF-8"))
+    check(page.returncode == 0 and not page.stderr, f"man relume-{verb}: {page.stderr}")
+    text = re.sub(r".\x08", "", page.stdout)
+    check(all(o in text for o in known), f"man relume-{verb} says every option: {known - set(text.split())}")
+# The help texts themselves say every option that the verbs' tables have.
+tables = {f"--{name}" for source in ROOT.glob("*/*.c") if source.parent.name not in ("tests", "corpus")
+          for name in re.findall(r'\{ "([a-z][a-z-]+)", (?:no|required|optional)_argument', source.read_text())}
+check(len(tables) > 30 and tables <= set().union(*options.values()), f"every option is explained: {tables - set().union(*options.values())}")
+
+# Each shell completes a verb, an option of it, and nothing of another verb.
+BASH = f"""source '{PREFIX}/share/bash-completion/completions/relume'
+COMP_WORDS=(relume "$@"); COMP_CWORD=$#; _relume; printf '%s\\n' "${{COMPREPLY[@]}}\""""
+ZSH = f"""zmodload zsh/zpty; zpty shell zsh -f -i
+zpty -w shell "PS1=; fpath=('{PREFIX}/share/zsh/site-functions' $fpath); autoload -U compinit; compinit -D -u; print rea''dy"
+until [[ $line = *ready* ]]; do zpty -r shell line || exit 1; done
+zpty -w -n shell "$1"$'\\t\\t'
+sleep 1; while zpty -r -t shell line; do print -r -- $line; done"""
+
+
+def by_bash(*words):
+    return set(run("bash", "-c", BASH, "-", *words).stdout.split())
+
+
+def by_zsh(*words):
+    shown = subprocess.run(["env", "TERM=dumb", "zsh", "-f", "-c", ZSH, "-", " ".join(["relume", *words])], stdin=subprocess.DEVNULL,
+                           stdout=subprocess.PIPE, text=True, errors="replace", timeout=60, cwd=SCRATCH, check=False).stdout
+    return set(re.findall(r"(?<![\w-])[\w-]+", shown))
+
+
+def by_fish(*words):
+    home = dict(os.environ, HOME=str(SCRATCH), XDG_DATA_DIRS=str(PREFIX / "share"))
+    done = run("fish", "--no-config", "-c", f"source '{PREFIX}/share/fish/vendor_completions.d/relume.fish'; "
+               f"complete -C 'relume {' '.join(words)}'", env=home)
+    return {line.split("\t")[0] for line in done.stdout.splitlines()}
+
+
+for complete in (by_bash, by_zsh, by_fish):
+    name = complete.__name__
+    found = complete("rec")
+    check("record" in found and "diff" not in found, f"{name}: relume rec -> {found}")
+    found = complete("diff", "--j")
+    check({"--json", "--junit"} <= found and "--report" not in found, f"{name}: relume diff --j -> {found}")
+    found = complete("record", "--q")
+    check("--quit-after" in found and "--json" not in found, f"{name}: relume record --q -> {found}")
+
+must(make("uninstall"))
+left = [str(p) for p in pathlib.Path(PLACE).rglob("*") if not p.is_dir()]
+check(not left, f"uninstall leaves nothing: {left}")
+check(not (PREFIX / "lib/relume").exists(), "nor a folder of ours")
+finish()
