@@ -25,7 +25,7 @@ ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXX
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lcyaml -lstdc++ -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c readback.c arrays.c content.c mirror.c runs.c memory.c writer.c reference.c)
+RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
@@ -42,7 +42,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \
-	fonts-dejavu-core pkg-config zsh fish man-db
+	fonts-dejavu-core xdotool pkg-config zsh fish man-db
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 

@@ -363,7 +363,7 @@ static void record_arrays(const struct drawn *d)
 /* 1 where a draw has client arrays that must be written. */
 static int needed(void)
 {
-	if (!arrays_used || !writer_active())
+	if (!arrays_used || !writer_active() || skip_draws())
 		return 0;
 	if (self.epoch != writer_epoch()) {
 		self.epoch = writer_epoch();
@@ -460,7 +460,7 @@ void arrays_draw_elements(int count, unsigned type, const void *indices, int bas
 	struct drawn d = { LONG_MAX, -1, base_instance, instances };
 	struct mirror_indices *known, found = { 0 };
 
-	if (count <= 0)
+	if (count <= 0 || skip_draws())
 		return;
 	if (!needed()) {
 		if (writer_active())

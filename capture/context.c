@@ -83,6 +83,7 @@ static const struct {
 } feature_table[] = {
 	{ HAS_3D, 12, { "GL_EXT_texture3D" } },
 	{ HAS_MULTITEXTURE, 13, { "GL_ARB_multitexture" } },
+	{ HAS_WINDOW_POS, 14, { "GL_ARB_window_pos" } },
 	{ HAS_FOG_COORD, 14, { "GL_EXT_fog_coord" } },
 	{ HAS_SECONDARY_COLOR, 14, { "GL_EXT_secondary_color" } },
 	{ HAS_BUFFERS, 15, { "GL_ARB_vertex_buffer_object" } },

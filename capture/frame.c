@@ -30,10 +30,13 @@ struct drawable {
 static pthread_mutex_t list_lock = PTHREAD_MUTEX_INITIALIZER;
 static struct drawable *drawables;
 
+static _Atomic uint64_t program_frames; /* recorded or not */
 static _Atomic int size_may_differ = 1;
 static _Atomic int marked_width, marked_height; /* of the last size marker */
 static struct {
 	uint64_t max_frames, quit_after, max_bytes; /* 0: no such wish */
+	uint64_t first, last;                       /* of the program's frames, from 0 */
+	int paused;                                 /* to begin with */
 	enum frame_trigger trigger;
 } wish;
 
@@ -202,6 +205,8 @@ static void frame_end(uintptr_t drawable, int width, int height)
 {
 	char text[64];
 
+	if (skip_active())
+		return;
 	if ((width != marked_width || height != marked_height || writer_frames() == 0) && width > 0 && height > 0) {
 		snprintf(text, sizeof(text), "relume:drawable %d %d", width, height);
 		record_marker(text);
@@ -346,6 +351,11 @@ static uint64_t number_from(const char *name)
 	return text ? strtoull(text, NULL, 10) : 0;
 }
 
+static int is_wanted(uint64_t frame)
+{
+	return frame >= wish.first && (wish.paused ^ (writer_toggles() & 1)) == 0;
+}
+
 __attribute__((constructor)) static void read_wishes(void)
 {
 	static const char *const names[] = FRAME_TRIGGER_NAMES;
@@ -354,18 +364,19 @@ __attribute__((constructor)) static void read_wishes(void)
 	wish.max_frames = number_from("RELUME_MAX_FRAMES");
 	wish.quit_after = number_from("RELUME_QUIT_AFTER");
 	wish.max_bytes = number_from("RELUME_MAX_SIZE");
+	wish.first = number_from("RELUME_FIRST_FRAME");
+	wish.last = getenv("RELUME_LAST_FRAME") ? number_from("RELUME_LAST_FRAME") : UINT64_MAX;
+	wish.paused = getenv("RELUME_PAUSED") != NULL;
 	for (unsigned i = 0; trigger && i < N_FRAME_TRIGGERS; i++)
 		if (strcmp(trigger, names[i]) == 0)
 			wish.trigger = (enum frame_trigger)i;
+	if (!is_wanted(0))
+		skip_begin();
 }
 
-void frame_ended(void)
+/* What follows from a frame that is in the trace. */
+static void frame_recorded(uint64_t frames)
 {
-	uint64_t frames = writer_active() ? writer_frame_ended() : 0;
-
-	self.drawn = self.primitives = self.in_primitive = 0;
-	if (!frames)
-		return;
 	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after))
 		writer_end();
 	if (wish.max_bytes && writer_bytes() >= wish.max_bytes) {
@@ -376,5 +387,38 @@ void frame_ended(void)
 	if (wish.quit_after && frames >= wish.quit_after) {
 		writer_note_quit();
 		kill(getpid(), SIGTERM);
+	}
+}
+
+/* The size of what is current, asked when it was last swapped, or none. */
+static void current_size(int *width, int *height)
+{
+	struct drawable *d = self.system != SYSTEM_OSMESA && self.drawable ? find_drawable(self.drawable) : NULL;
+
+	*width = d ? d->width : self.system == SYSTEM_OSMESA ? self.width : 0;
+	*height = d ? d->height : self.system == SYSTEM_OSMESA ? self.height : 0;
+}
+
+void frame_ended(void)
+{
+	uint64_t frames, next;
+	int width, height;
+
+	self.drawn = self.primitives = self.in_primitive = 0;
+	if (!writer_active())
+		return;
+	next = ++program_frames;
+	frames = skip_active() ? 0 : writer_frame_ended();
+	if (frames)
+		frame_recorded(frames);
+	if (next > wish.last)
+		writer_end();
+	if (is_wanted(next) == !skip_active() || !writer_active())
+		return;
+	if (skip_active()) {
+		current_size(&width, &height);
+		skip_end(width, height);
+	} else {
+		skip_begin();
 	}
 }

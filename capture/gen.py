@@ -29,7 +29,7 @@ class Overlay:
         self.path = path
         self.types, self.lengths, self.suffixes = {}, {}, []
         self.args, self.hooks, self.passes, self.commands = [], {"when": [], "before": [], "result": [], "after": []}, [], {}
-        self.runs = []
+        self.runs, self.draws = [], []
         with open(path, encoding="utf-8") as stream:
             for number, line in enumerate(stream, 1):
                 line = line.strip()
@@ -71,6 +71,8 @@ class Overlay:
             self.passes.append((number, self.pattern(number, fields[0]), fields[1]))
         elif word == "run":
             self.runs.append((number, self.pattern(number, rest), ""))
+        elif word == "draws":
+            self.draws.append((number, self.pattern(number, rest), ""))
         elif word == "command":
             self.command(number, rest)
         else:
@@ -102,7 +104,7 @@ class Overlay:
         for number, names, params, _ in self.args:
             if not any(params.fullmatch(p.name) for c in commands.values() if names.fullmatch(c.name) for p in c.params):
                 self.fail(number, "no command has such a parameter")
-        for number, names, _ in self.passes + self.runs + sum(self.hooks.values(), []):
+        for number, names, _ in self.passes + self.runs + self.draws + sum(self.hooks.values(), []):
             if not any(names.fullmatch(name) for name in commands):
                 self.fail(number, "no command has such a name")
 
@@ -445,7 +447,8 @@ def main(overlay_path, directory):
         arguments = "".join(p.name + "\\0" for p in command.params)
         shape = gen.shape(command)
         table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", (void *){name}, '
-                     + (f'"{shape[0]}" }},' if shape else "NULL },"))
+                     + (f'"{shape[0]}"' if shape else "NULL")
+                     + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.draws) else ", 0 },"))
     prototypes = [f"SHOWN {gen.c_type(c.result, n)} {n}({gen.signature(c)});" for n, c in gen.commands.items()]
     write(directory, "thunks.h", [BANNER + "#ifndef GEN_THUNKS_H\n#define GEN_THUNKS_H\n"] + prototypes + ["", "#endif"])
     write(directory, "commands.c", table + ["};"])

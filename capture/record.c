@@ -16,6 +16,7 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
+#include "capture/key.h"
 #include "capture/stats.h"
 
 enum { MAX_NUMBER_BYTES = 24, PATIENCE_S = 5 };
@@ -24,7 +25,8 @@ struct options {
 	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
 	const char *ref, *ref_every, *max_frames, *quit_after, *frame_end;
 	uint64_t max_bytes;
-	int no_children;
+	const char *first_frame, *last_frame, *start_key;
+	int no_children, paused;
 	char **program;
 };
 
@@ -34,11 +36,16 @@ static void print_help(FILE *out)
 	      "\n"
 	      "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
 	      "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
-	      "SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGUSR2 are passed on to the program.\n"
+	      "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
+	      "again at the end of a frame; what the program makes and sets meanwhile is kept, so that what follows is whole.\n"
 	      "\n"
 	      "  -o, --output NAME.trace  where to record to (PROGRAM.trace in the current directory); replaced\n"
 	      "      --ref KINDS          keep what the program showed in NAME.ref: color, depth, or color,depth\n"
 	      "      --ref-every N        only every Nth frame of these\n"
+	      "      --frames A-B         record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace\n"
+	      "                           begins with all that they need and calls them 0 to B-A; the program goes on\n"
+	      "      --paused             begin with recording switched off\n"
+	      "      --start-key KEY      the same; the key (F9, Pause, r, ...; as X calls it) switches as SIGUSR2 does\n"
 	      "      --frame-end CALL     a frame ends with each swap and, for programs that do not swap, with each:\n"
 	      "                           flush, finish, clear (of the color buffer), or readpixels after something was\n"
 	      "                           drawn (swap: with nothing else; OSMesa: with flush and finish)\n"
@@ -86,6 +93,21 @@ static int read_size(const char *text, uint64_t *out)
 	return 0;
 }
 
+/* "A-B" or "A-", cut in two in place. */
+static int read_frames(char *text, struct options *o)
+{
+	size_t digits = strspn(text, "0123456789"), more = text[digits] == '-' ? strspn(text + digits + 1, "0123456789") : 0;
+	char *last = text + digits + 1;
+
+	if (!digits || digits >= MAX_NUMBER_BYTES - 4 || more >= MAX_NUMBER_BYTES - 4 || text[digits] != '-' || last[more] ||
+	    (more && strtoull(last, NULL, 10) < strtoull(text, NULL, 10)))
+		return err_report(ERR_USAGE, NULL, "--frames takes the first and the last frame as in 10-19, or 10-, not '%s'", text);
+	text[digits] = '\0';
+	o->first_frame = text;
+	o->last_frame = more ? last : NULL;
+	return 0;
+}
+
 static int check_frame_end(const char *text)
 {
 	static const char *const names[] = FRAME_TRIGGER_NAMES;
@@ -126,13 +148,14 @@ static int set_trace(struct options *o, const char *name)
 /* Fills `o`; returns 0, ERR_USAGE (reported), or 1 where the help text was asked for. */
 static int parse(int argc, char **argv, struct options *o)
 {
-	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV, FRAME_END, MAX_SIZE, NO_CHILDREN };
+	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV, FRAME_END, MAX_SIZE, NO_CHILDREN, FRAMES, PAUSED, START_KEY };
 	static const struct option table[] = {
 		{ "output", required_argument, NULL, 'o' },       { "ref", required_argument, NULL, REF },
 		{ "ref-every", required_argument, NULL, REF_EVERY }, { "max-frames", required_argument, NULL, MAX_FRAMES },
 		{ "quit-after", required_argument, NULL, QUIT_AFTER }, { "env", required_argument, NULL, ENV },
 		{ "frame-end", required_argument, NULL, FRAME_END }, { "max-size", required_argument, NULL, MAX_SIZE },
-		{ "no-children", no_argument, NULL, NO_CHILDREN },
+		{ "no-children", no_argument, NULL, NO_CHILDREN }, { "frames", required_argument, NULL, FRAMES },
+		{ "paused", no_argument, NULL, PAUSED }, { "start-key", required_argument, NULL, START_KEY },
 		{ "help", no_argument, NULL, 'h' },               { NULL, 0, NULL, 0 },
 	};
 	const char *output = NULL;
@@ -165,6 +188,15 @@ static int parse(int argc, char **argv, struct options *o)
 			break;
 		case MAX_SIZE:
 			rc = read_size(optarg, &o->max_bytes);
+			break;
+		case FRAMES:
+			rc = read_frames(optarg, o);
+			break;
+		case START_KEY:
+			o->start_key = optarg;
+			/* fall through */
+		case PAUSED:
+			o->paused = 1;
 			break;
 		case NO_CHILDREN:
 			o->no_children = 1;
@@ -297,21 +329,26 @@ static void set_environment(const struct options *o, const char *recorder, const
 	set_or_unset("RELUME_MAX_FRAMES", o->max_frames);
 	set_or_unset("RELUME_QUIT_AFTER", o->quit_after);
 	set_or_unset("RELUME_FRAME_END", o->frame_end);
+	set_or_unset("RELUME_FIRST_FRAME", o->first_frame);
+	set_or_unset("RELUME_LAST_FRAME", o->last_frame);
+	set_or_unset("RELUME_PAUSED", o->paused ? "1" : NULL);
 	set_number("RELUME_MAX_SIZE", o->max_bytes);
 	set_number("RELUME_ONLY_PROCESS", o->no_children ? (uint64_t)getpid() : 0);
 }
 
 static volatile sig_atomic_t child_pid;
+static struct recorder_stats *shared; /* for the handler */
 
 /* SIGALRM only wakes the wait below. */
 static void forward(int signal)
 {
-	if (signal == SIGALRM)
-		return;
-	if (child_pid > 0)
+	if (signal == SIGUSR2)
+		shared->toggles++;
+	else if (signal != SIGALRM && child_pid > 0)
 		kill((pid_t)child_pid, signal);
 }
 
+/* SIGUSR2 is taken, not forwarded. */
 static const int forwarded[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 };
 enum { N_FORWARDED = sizeof(forwarded) / sizeof(forwarded[0]) };
 
@@ -348,6 +385,7 @@ static int run(const struct options *o, const char *recorder, const char *stats_
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
 	int pipe_fds[2], error = 0, status = 0;
+	pid_t watcher = -1;
 
 	if (pipe2(pipe_fds, O_CLOEXEC))
 		return -1;
@@ -378,8 +416,11 @@ static int run(const struct options *o, const char *recorder, const char *stats_
 	if (read(pipe_fds[0], &error, sizeof(error)) != sizeof(error))
 		error = 0;
 	close(pipe_fds[0]);
+	if (!error && o->start_key)
+		watcher = key_watch(o->start_key, SIGUSR2);
 	status = wait_for_child(stats);
 	child_pid = 0;
+	key_forget(watcher);
 	for (int i = 0; i < N_FORWARDED; i++)
 		sigaction(forwarded[i], &old[i], NULL);
 	errno = error;
@@ -417,9 +458,12 @@ int record_main(int argc, char **argv)
 
 	if (rc)
 		return rc > 0 ? 0 : -rc;
+	if (o.start_key && (rc = key_check(o.start_key)))
+		return -rc;
 	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = clear_output(&o)) ||
 	    (rc = make_stats(stats_path, sizeof(stats_path), &stats)))
 		return -rc;
+	shared = stats;
 	status = run(&o, recorder, stats_path, stats);
 	if (status < 0) {
 		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));

@@ -57,17 +57,14 @@ enum {
 	N_TRANSFER = sizeof(transfer_state) / sizeof(transfer_state[0])
 };
 
-struct saved_state {
-	int pack[N_PACK], map_color, pack_buffer, pack_invert, framebuffer, read_buffer;
-	float transfer[N_TRANSFER];
-};
+_Static_assert((int)N_PACK == (int)READING_PACK && (int)N_TRANSFER == (int)READING_TRANSFER, "wrap.h has room for what is saved");
 
 static unsigned read_target(void)
 {
 	return context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER : GL_FRAMEBUFFER;
 }
 
-static void set_up(struct saved_state *s)
+void reading_begin(struct reading_state *s)
 {
 	if (context_has(HAS_FRAMEBUFFERS)) {
 		s->framebuffer = context_get(context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER_BINDING :
@@ -104,7 +101,7 @@ static void set_up(struct saved_state *s)
 	}
 }
 
-static void put_back(const struct saved_state *s)
+void reading_end(const struct reading_state *s)
 {
 	if (context_has(HAS_FIXED_FUNCTION)) {
 		for (int i = 0; i < N_TRANSFER; i++)
@@ -211,7 +208,7 @@ static int make_ready(int width, int height)
 void reference_read(uint64_t frame, int width, int height)
 {
 	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-	struct saved_state state = { 0 };
+	struct reading_state state = { 0 };
 	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
 
 	/* While a list is compiled the selection of the buffer to read would go into the list. */
@@ -221,7 +218,7 @@ void reference_read(uint64_t frame, int width, int height)
 	if (make_ready(width, height))
 		goto done;
 	context_errors_before();
-	set_up(&state);
+	reading_begin(&state);
 	if (r.color && !r.failed) {
 		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, r.pixels);
 		write_record(REF_COLOR, frame, width, height);
@@ -230,7 +227,7 @@ void reference_read(uint64_t frame, int width, int height)
 		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, r.pixels);
 		write_record(REF_DEPTH, frame, width, height);
 	}
-	put_back(&state);
+	reading_end(&state);
 	context_errors_after();
 done:
 	pthread_mutex_unlock(&lock);

@@ -129,15 +129,38 @@ static void write_record(unsigned command, const uint8_t *at, unsigned bytes)
 	writer_call_end(p);
 }
 
+/* 1 where what the record sets is set again by one of the following: nothing is drawn in between. */
+static int is_overwritten(const uint8_t *at, const uint8_t *end)
+{
+	enum { LOOK_AHEAD = 12 };
+	uint32_t first, word;
+
+	memcpy(&first, at, sizeof(first));
+	if (commands[first & 0xFFFF].shape[0] == 'e' || strncmp(commands[first & 0xFFFF].name, "glVertexAttrib", 14) == 0)
+		return 0; /* material, texture unit or attribute: set what an argument says */
+	for (int i = 0; i < LOOK_AHEAD; i++) {
+		memcpy(&word, at, sizeof(word));
+		at += 4 + (((word >> 16) + 3) & ~3u);
+		if (at >= end)
+			return 0;
+		memcpy(&word, at, sizeof(word));
+		if ((word & 0xFFFF) == (first & 0xFFFF))
+			return 1;
+	}
+	return 0;
+}
+
 static void write_records(const uint8_t *at, size_t bytes)
 {
 	const uint8_t *end = at + bytes;
+	int skip = skip_draws();
 
 	while (at < end) {
 		uint32_t word;
 
 		memcpy(&word, at, sizeof(word));
-		write_record(word & 0xFFFF, at + 4, word >> 16);
+		if (!skip || !is_overwritten(at, end))
+			write_record(word & 0xFFFF, at + 4, word >> 16);
 		at += 4 + (((word >> 16) + 3) & ~3u);
 	}
 }
@@ -335,7 +358,7 @@ int runs_end(void)
 		run = look_up(t, self.room, bytes);
 	if (run && run->list && run->seen == 1)
 		t->credit++;
-	else if (run && !run->list && (run->seen || t->credit > 0) && make_list(t, run, self.room) && !run->seen)
+	else if (run && !run->list && !skip_draws() && (run->seen || t->credit > 0) && make_list(t, run, self.room) && !run->seen)
 		t->credit--;
 	if (run && run->list)
 		write_list_call(CMD_glCallList, run->list, 0);

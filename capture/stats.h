@@ -27,6 +27,7 @@ struct stats_unknown {
 };
 
 struct recorder_stats {
+	_Atomic uint32_t toggles; /* how often the command was told to switch recording on or off */
 	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables: what did not fit is not shown */
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];

@@ -50,7 +50,7 @@ enum context_feature { /* what may be asked without making a GL error */
 	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
 	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
 	HAS_FIXED_RESTART = 1 << 12, HAS_INTEGER_ATTRIBUTES = 1 << 13, HAS_VERTEX_ARRAYS = 1 << 14,
-	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */
+	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */, HAS_WINDOW_POS = 1 << 18
 };
 
 /** 1 where this thread has a context. */
@@ -104,6 +104,29 @@ void frame_may_end(enum frame_trigger trigger, int truth);
 int reference_wanted(uint64_t frame);
 /** Read the current context's default framebuffer; changes no state that the program can see. */
 void reference_read(uint64_t frame, int width, int height);
+
+/** All state that reading pixels depends on set to its initial value, the window's framebuffer bound; then put back. */
+enum { READING_PACK = 6, READING_TRANSFER = 10 };
+struct reading_state {
+	int pack[READING_PACK], map_color, pack_buffer, pack_invert, framebuffer, read_buffer;
+	float transfer[READING_TRANSFER];
+};
+void reading_begin(struct reading_state *s);
+void reading_end(const struct reading_state *s);
+
+/* skip.c: frames that are not recorded */
+
+/** 1 while frames are not recorded. */
+int skip_active(void);
+/** 1 where a draw made now is left out. */
+int skip_draws(void);
+/** The next frame is not recorded, and so on until skip_end, which puts what they have drawn into the trace. */
+void skip_begin(void);
+/** @param width, height  of the window; 0 where there is none */
+void skip_end(int width, int height);
+void skip_list_state(void);
+void skip_texture_copied(unsigned target);
+void skip_texture_attached(unsigned target, unsigned name);
 
 /* arrays.c: vertex arrays in client memory, written when they are drawn */
 

@@ -25,6 +25,7 @@ struct command {
 	 * or enumerant. A digit before it: an array of so many; '*': as many as there are bytes.
 	 */
 	const char *shape;
+	int draws; /* 1: does nothing but draw, or end a frame */
 };
 extern const struct command commands[]; /* generated; sorted by name */
 
@@ -64,6 +65,12 @@ void writer_leave_end(uint8_t *p);
 /** Between these, calls of this thread are the window system library's own and not recorded. */
 void writer_nest(void);
 void writer_unnest(void);
+
+/** Calls of which `left_out` says 1 are not written, until this is called with NULL. */
+void writer_skip(int (*left_out)(unsigned command));
+
+/** How often recording was switched on or off from outside, by the command's signal or key. */
+unsigned writer_toggles(void);
 
 /** Called once, before the next call of this thread is begun: calls that wait to be written. NULL: none wait any more. */
 void writer_wait_with(void (*flush)(void));

@@ -23,6 +23,11 @@ expect 2 "takes a number of frames" --quit-after 0 -- true
 expect 2 "takes a number of frames" --max-frames 1x -- true
 expect 2 "takes a number of frames" --ref-every -3 -- true
 expect 2 "NAME=VALUE" --env =x -- true
+expect 2 "--frames takes" --frames 10 -- true
+expect 2 "--frames takes" --frames 9-3 -- true
+expect 2 "--frames takes" --frames -3 -- true
+expect 5 "no X display" --start-key F9 --env DISPLAY= -- true
+expect 2 "knows no key" --start-key F99x -- true
 expect 2 "--frame-end takes" --frame-end sometimes -- true
 expect 2 "number of bytes" --max-size 5X -- true
 expect 2 "number of bytes" --max-size 0 -- true
