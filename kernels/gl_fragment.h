@@ -233,18 +233,36 @@ static inline struct vec4 point_given_color(const struct tables *t, const struct
 	                                                              tables_color(t, p->geometry, p->number[1]), last);
 }
 
+/* The lights of a point beyond GL: its own where a rule has given it some. */
+static inline struct light_list point_lights(const struct point *p)
+{
+	GLOBAL const struct scene_material *m = p->material;
+
+	return m->surface.relit ? light_list(m->surface.light_first, m->surface.light_count) :
+	                          light_list(m->light_first, m->light_count);
+}
+
+/* Whether light has a part in a point's colour. */
+static inline int point_takes_light(const struct point *p)
+{
+	return (p->material->lighting || p->material->surface.relit) && !(p->geometry->flags & GEOMETRY_EXPANDED);
+}
+
 /* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */
 static inline struct lit point_lit_here(const struct tables *t, const struct point *p, const struct vec3 *seen)
 {
 	int side = point_side(p);
 	struct vec3 at = point_position(p), n;
 
-	if (!p->material->lighting || p->geometry->flags & GEOMETRY_EXPANDED)
+	if (!point_takes_light(p))
 		return point_lit_from_vertices(p);
+	if (!p->material->lighting)
+		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
+		                    point_given_color(t, p), side, seen);
 	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
-	return light_vertex(p->material, t->lights, v4(at.x, at.y, at.z, 1.0f), side ? v3_scale(n, -1.0f) : n,
+	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f), side ? v3_scale(n, -1.0f) : n,
 	                    point_given_color(t, p), side, seen);
 }
 

@@ -13,6 +13,20 @@ struct lit {
 	uint32_t lights;              /* bit i: light i of the list adds diffuse or specular light */
 };
 
+/* Lights that stand side by side in the frame's. */
+struct light_list {
+	uint32_t first, count;
+};
+
+static inline struct light_list light_list(uint32_t first, uint32_t count)
+{
+	struct light_list list;
+
+	list.first = first;
+	list.count = count;
+	return list;
+}
+
 /* The material's own colours of a side, or the vertex's where color material tracks them (sec. 2.14.3). */
 static inline struct vec4 light_material_color(GLOBAL const float *own, uint32_t tracked, struct vec4 vertex_color)
 {
@@ -56,10 +70,12 @@ static inline float light_strength(GLOBAL const struct scene_light *light, struc
  * eye     the vertex in eye space, homogeneous
  * normal  of the side to be lit
  * vertex_color  the current colour at the vertex, for color material
+ * list    lights[list.first .. +list.count) light it, whatever the material says
+ * matte_only  1: nothing but the vertex colour counts of the material
  * seen    NULL, or for each light of the list the share of its diffuse and specular light that arrives
  */
 static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
-                                      struct vec4 eye, struct vec3 normal, struct vec4 vertex_color, int back,
+                                      struct light_list list, int matte_only, struct vec4 eye, struct vec3 normal, struct vec4 vertex_color, int back,
                                       const struct vec3 *seen)
 {
 	GLOBAL const struct scene_face *face = back ? &m->back : &m->front;
@@ -77,9 +93,13 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	struct vec3 to_viewer = m->local_viewer ? v3_normalize(v3_scale(at, -1.0f)) : v3(0.0f, 0.0f, 1.0f);
 	struct lit out;
 
+	if (matte_only) {
+		ambient = diffuse = vertex_color;
+		specular = primary = v4(0.0f, 0.0f, 0.0f, 0.0f);
+	}
 	out.lights = 0u;
-	for (uint32_t i = 0u; i < m->light_count; i++) {
-		GLOBAL const struct scene_light *light = &lights[m->light_first + i];
+	for (uint32_t i = 0u; i < list.count; i++) {
+		GLOBAL const struct scene_light *light = &lights[list.first + i];
 		struct vec3 to_light;
 		struct vec4 ambient_light = v4_mul(ambient, v4_load(light->ambient));
 		float strength = light_strength(light, at, &to_light), n_l;

@@ -51,7 +51,7 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
 static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, struct vec3 from,
                                    float u, float v, GLOBAL struct ray *ray)
 {
-	GLOBAL const struct scene_light *light = &t->lights[p->material->light_first + slot];
+	GLOBAL const struct scene_light *light = &t->lights[point_lights(p).first + slot];
 	struct vec3 to = v3_load(light->position_eye), at = point_position(p), place, o;
 	int positional = light->position_eye[3] != 0.0f;
 
@@ -462,7 +462,7 @@ static inline void leave_item(const struct tables *t, GLOBAL const struct view *
 	mirrored = v3_scale(v3_load(s->direct), 1.0f - split.mirrored);
 	v3_store(s->mirrored, mirrored);
 	v3_store(s->beauty, v3_sub(mirrored, v3_scale(v3_load(s->direct), split.through)));
-	if (transport >= TRANSPORT_DIFFUSE && p.material->lighting)
+	if (transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
 		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, sample);
 	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, sample);
 	if (split.through > 0.0f) {
@@ -496,9 +496,7 @@ static inline void want_lights_item(const struct tables *t, GLOBAL const struct 
 	if (hit.instance == SCENE_NONE)
 		return;
 	p = point_from_hit(t, &hit, v3_load(rays[item].d));
-	wanted[item] = stage_wanted(&p, transport == TRANSPORT_PATH ? stage_radiant_lights(t, &p) :
-	                                transport == TRANSPORT_RELIGHT ? point_lit_here(t, &p, (const struct vec3 *)0).lights :
-	                                point_lit_from_vertices(&p).lights);
+	wanted[item] = stage_wanted(&p, stage_lights(t, &p, transport));
 }
 
 /* The colour of what a path hit, with what arrives of the lights. */
@@ -509,14 +507,9 @@ static inline struct vec4 hit_color(const struct tables *t, const struct point *
 	struct vec4 color;
 	struct vec3 c;
 
-	if (transport == TRANSPORT_RELIGHT)
-		lit = point_lit_here(t, p, seen);
-	else
-		lit = dimmed ? point_lit_again(t, p, seen) : point_lit_from_vertices(p);
+	lit = dimmed && !p->material->surface.relit ? point_lit_again(t, p, seen) : point_lit_from_vertices(p);
 	color = point_finish(t, p, coat, &lit);
-	if (transport != TRANSPORT_PATH)
-		return color;
-	c = stage_radiance(t, p, coat, seen);
+	c = stage_relit(t, p, coat, transport, seen, color);
 	return v4(c.x, c.y, c.z, color.w);
 }
 
@@ -567,7 +560,7 @@ static inline void branch_one(const struct tables *t, struct branches *b, const 
 		branch_mirror(b, p, d, weight, b->from.kind, seed, sample);
 	} else if (u < s->mirrored + s->through) {
 		branch_through(b, p, d, s, v3_mul(weight, glass_tint(t, p, coat)), b->from.kind);
-	} else if (p->material->lighting) {
+	} else if (point_takes_light(p)) {
 		albedo = point_albedo(t, p, coat);
 		branch_scatter(b, p, d, v3_mul(weight, v3(albedo.x, albedo.y, albedo.z)), b->from.kind, seed, sample);
 	}

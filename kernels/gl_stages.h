@@ -124,17 +124,18 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
                                          const struct vec3 *seen)
 {
 	GLOBAL const struct scene_material *m = p->material;
+	struct light_list list = point_lights(p);
 	struct vec3 n = point_normal(p), at = point_position(p), sum = v3(0.0f, 0.0f, 0.0f);
 	struct vec4 c;
 	struct lit lit;
 
-	if (!m->lighting || p->geometry->flags & GEOMETRY_EXPANDED) {
+	if (!point_takes_light(p)) {
 		lit = point_lit_from_vertices(p);
 		c = point_finish(t, p, coat, &lit);
-		return v3(c.x, c.y, c.z);
+		return v3_add(v3(c.x, c.y, c.z), v3_load(m->surface.emission));
 	}
-	for (uint32_t i = 0u; i < m->light_count; i++) {
-		GLOBAL const struct scene_light *light = &t->lights[m->light_first + i];
+	for (uint32_t i = 0u; i < list.count; i++) {
+		GLOBAL const struct scene_light *light = &t->lights[list.first + i];
 		struct vec3 to_light;
 		float strength = light_strength(light, at, &to_light), cosine = v3_dot(n, to_light);
 
@@ -142,22 +143,35 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 			sum = v3_add(sum, v3_mul(v3_scale(v3_load(light->diffuse), strength * cosine), seen[i]));
 	}
 	c = point_albedo(t, p, coat);
-	return v3_add(v3_load(point_side(p) ? m->back.emission : m->front.emission), v3_mul(sum, v3(c.x, c.y, c.z)));
+	sum = v3_add(v3_mul(sum, v3(c.x, c.y, c.z)), v3_load(m->surface.emission));
+	return m->lighting ? v3_add(v3_load(point_side(p) ? m->back.emission : m->front.emission), sum) : sum;
 }
 
 /* Lights of the list that stage_radiance can be lit by. */
 static inline uint32_t stage_radiant_lights(const struct tables *t, const struct point *p)
 {
+	struct light_list list = point_lights(p);
 	struct vec3 n = point_normal(p), at = point_position(p), to_light;
 	uint32_t lights = 0u;
 
-	if (!p->material->lighting)
+	if (!point_takes_light(p))
 		return 0u;
-	for (uint32_t i = 0u; i < p->material->light_count; i++)
-		if (light_strength(&t->lights[p->material->light_first + i], at, &to_light) > 0.0f &&
+	for (uint32_t i = 0u; i < list.count; i++)
+		if (light_strength(&t->lights[list.first + i], at, &to_light) > 0.0f &&
 		    v3_dot(n, to_light) > 0.0f)
 			lights |= 1u << i;
 	return lights;
+}
+
+/* Lights that must be asked for before a point can be lit. */
+static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport)
+{
+	if (transport == TRANSPORT_PATH)
+		return stage_radiant_lights(t, p);
+	if (transport == TRANSPORT_RELIGHT && !p->material->surface.relit)
+		return point_lit_from_vertices(p).lights | point_lit_here(t, p, (const struct vec3 *)0).lights;
+	return p->material->surface.relit ? point_lit_here(t, p, (const struct vec3 *)0).lights :
+	                                    point_lit_from_vertices(p).lights;
 }
 
 static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 color)
@@ -175,11 +189,11 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 
 	if (transport == TRANSPORT_PATH)
 		return stage_radiance(t, p, coat, seen);
-	if (transport != TRANSPORT_RELIGHT)
-		return v3(color.x, color.y, color.z);
-	lit = point_lit_here(t, p, seen);
-	color = point_finish(t, p, coat, &lit);
-	return v3(color.x, color.y, color.z);
+	if (transport == TRANSPORT_RELIGHT || p->material->surface.relit) {
+		lit = point_lit_here(t, p, seen);
+		color = point_finish(t, p, coat, &lit);
+	}
+	return v3_add(v3(color.x, color.y, color.z), v3_load(p->material->surface.emission));
 }
 
 /*
@@ -194,7 +208,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 {
 	struct fragment f = fragments[item];
 	GLOBAL struct shaded *out = &shaded[item];
-	uint32_t x = pixels[item] % width, y = pixels[item] / width, lights;
+	uint32_t x = pixels[item] % width, y = pixels[item] / width;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct point p;
 	struct coat coat;
@@ -215,7 +229,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		return;
 	}
 	point_coat(t, &p, &views[p.geometry->view], x, y, height, &coat);
-	lit = n_slots ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
+	lit = n_slots && !p.material->surface.relit ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
 	color = point_finish(t, &p, &coat, &lit);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
 	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
@@ -225,12 +239,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	color = point_albedo(t, &p, &coat);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = stage_offset_depth(&p, windows, f.depth, bits);
-	lights = lit.lights;
-	if (transport == TRANSPORT_RELIGHT)
-		lights |= point_lit_here(t, &p, seen).lights;
-	else if (transport == TRANSPORT_PATH)
-		lights |= stage_radiant_lights(t, &p);
-	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, lights);
+	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport));
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */

@@ -31,7 +31,7 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	struct lit lit;
 
 	if (m->lighting)
-		return light_vertex(m, t->lights, v4_load(vertex->eye), back ? v3_scale(normal, -1.0f) : normal,
+		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye), back ? v3_scale(normal, -1.0f) : normal,
 		                    tables_color(t, g, v), back, seen);
 	lit.color = v4_clamp01(tables_color(t, g, v));
 	lit.secondary = v4_clamp01(tables_secondary(t, g, v));

@@ -171,11 +171,14 @@ void gls_flush(struct gls_exec *x)
 {
 	struct gls_geometry *g = &x->geometry;
 	struct gls_mesh *mesh;
+	uint32_t list = x->drawn_list;
 
 	if (g->n_primitives && x->st) {
 		mesh = gls_geometry_mesh(x, g);
+		x->drawn_list = x->pending_list;
 		if (mesh)
 			gls_frame_add(x, x->st, mesh, (const float (*)[4])g->constant, x->pending_command, x->pending_call);
+		x->drawn_list = list;
 		gls_mesh_release(mesh);
 	}
 	gls_geometry_clear(g);

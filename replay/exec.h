@@ -232,7 +232,8 @@ struct gls_exec {
 	struct gls_geometry compiling; /* of list assembly and array draws */
 	struct gls_state *assembling; /* state that a list's vertices are run through when it is made (list.c) */
 	uint64_t pending_call;        /* number of the call that began them */
-	uint32_t pending_command;
+	uint32_t pending_command, pending_list;
+	uint32_t drawn_list;          /* the outermost list being called; 0: none */
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
 	unsigned list_depth;

@@ -203,7 +203,8 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 
 	if (!list || x->list_depth == MAX_NESTING)
 		return;
-	x->list_depth++;
+	if (x->list_depth++ == 0)
+		x->drawn_list = name;
 	for (uint32_t i = 0; i < list->n && !x->failed; i++) {
 		const struct gls_op *op = &list->ops[i];
 		if (op->form == GLS_OP_MESH) {
@@ -214,7 +215,8 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 		gls_dispatch(x, &c, op->command);
 		x->command = command;
 	}
-	x->list_depth--;
+	if (--x->list_depth == 0)
+		x->drawn_list = 0;
 }
 
 /* ---- assembling runs of Begin..End ---- */

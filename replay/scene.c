@@ -369,14 +369,14 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 	return mesh->slot;
 }
 
-static int name_draws(struct gls_frame *f, uint32_t command, uint64_t call_number, uint32_t n)
+static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t command, uint64_t call_number, uint32_t n)
 {
 	struct scene *s = f->out;
 
 	for (uint32_t i = 0; i < n; i++) {
 		if (grow(&s->draws, &f->room.draws, f->next_draw, sizeof(*s->draws)))
 			return ERR_SYSTEM;
-		s->draws[f->next_draw++] = (struct scene_draw){ gls_commands[command].name, call_number };
+		s->draws[f->next_draw++] = (struct scene_draw){ gls_commands[command].name, call_number, x->drawn_list };
 	}
 	return 0;
 }
@@ -397,7 +397,7 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	}
 	s = f->out;
 	first_draw = f->next_draw;
-	if (name_draws(f, command, call_number, mesh->n_draws) ||
+	if (name_draws(x, f, command, call_number, mesh->n_draws) ||
 	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
@@ -453,7 +453,7 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 	clear.depth = st->a.depth.clear;
 	clear.stencil = st->a.stencil.clear;
 	clear.stencil_mask = st->a.stencil.side[0].write_mask;
-	if (name_draws(f, x->command, x->call->number, 1) ||
+	if (name_draws(x, f, x->command, x->call->number, 1) ||
 	    grow(&s->clears, &f->room.clears, s->n_clears, sizeof(*s->clears))) {
 		gls_out_of_memory(x, 0);
 		return;
@@ -502,7 +502,7 @@ int gls_frame_begin(struct gls_exec *x)
 	f->out = calloc(1, sizeof(*f->out));
 	if (!f->out || grow(&f->out->draws, &f->room.draws, 0, sizeof(struct scene_draw)))
 		return ERR_SYSTEM;
-	f->out->draws[0] = (struct scene_draw){ "", 0 };
+	f->out->draws[0] = (struct scene_draw){ "", 0, 0 };
 	return 0;
 }
 

@@ -58,6 +58,10 @@ struct scene_surface {
 	float absorb[3]; /* where transmit > 0: what a unit of eye space inside takes of the light, exp(-absorb x length) */
 	float roughness; /* of mirrors: how far directions stray, as a share of the direction's length */
 	uint32_t hidden; /* bits: 1 casts no shadow, 2 is not seen in mirrors and through glass */
+	float emission[3]; /* light of its own beside what GL shows */
+	/* 1: beside GL's picture, which stays, the surface is lit at each pixel by scene.lights[light_first .. +light_count)
+	   instead of GL's own; what GL does not light is then matte, of the colour it shows */
+	uint32_t relit, light_first, light_count;
 };
 
 /* One stage of the fixed-function stencil, per side (GL 2.1 sec. 4.1.5). */
@@ -260,6 +264,7 @@ struct scene {
 	struct scene_draw {
 		const char *call; /* a static string */
 		uint64_t call_number;
+		uint32_t list; /* the display list that it came from, as the program called it; 0: none */
 	} *draws;
 };
 

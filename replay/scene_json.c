@@ -193,6 +193,7 @@ static void write_material(struct json *j, const struct scene_material *m)
 	FLOATS(&m->surface, absorb);
 	FLOAT(&m->surface, roughness);
 	UINT(&m->surface, hidden);
+	FLOATS(&m->surface, emission);
 	json_end(j, '}');
 	UINT(m, program);
 	json_end(j, '}');
@@ -285,6 +286,7 @@ static void write_instance(struct json *j, const struct scene *s, const struct s
 	FLOATS(in, modelview);
 	json_key_string(j, "call", s->draws[in->draw].call);
 	json_key_uint(j, "call_number", s->draws[in->draw].call_number);
+	json_key_uint(j, "list", s->draws[in->draw].list);
 	json_end(j, '}');
 }
 

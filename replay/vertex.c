@@ -115,6 +115,7 @@ GLS_HANDLER(glBegin, INSIDE)
 	if (!g->n_vertices) {
 		x->pending_call = x->call->number;
 		x->pending_command = x->command;
+		x->pending_list = x->drawn_list;
 	}
 	st->begin_mode = mode + 1;
 }

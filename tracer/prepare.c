@@ -348,6 +348,8 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	segment->instance_count++;
 	if (m->lighting && m->light_count > p->n_light_slots)
 		p->n_light_slots = m->light_count;
+	if (m->surface.relit && m->surface.light_count > p->n_light_slots)
+		p->n_light_slots = m->surface.light_count;
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
 	if (instance->flags & INSTANCE_SECONDARY)
 		p->has_veils |= m->blend || m->alpha_test || m->clip_plane_mask || m->surface.transmit > 0 ||

@@ -34,6 +34,8 @@ static const char help[] =
 	"      --rays N         rays to each light that has a radius, and around each point in the ao modes, a sample\n"
 	"                       (default 16)\n"
 	"      --reach X        how far the ao modes look, in units of eye space (default: without end)\n"
+	"      --look FILE      rules, YAML: what surfaces are made of, lights added, moved, off or with a size\n"
+	"                       (tracer/look.h shows all keys)\n"
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number or part of the name as 'relume devices' lists\n"
@@ -58,7 +60,7 @@ enum effect {
 	RUN           /* which frames, where to, on what: never a pixel */
 };
 
-enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, SAMPLES, RAYS, REACH, RELIGHT,
+enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, SAMPLES, RAYS, REACH, LOOK, RELIGHT,
 	   DEVICE, THREADS, JOBS, MEMORY, TIMEOUT, PROGRESS, HELP, N_KEYS };
 
 #define FIRST_KEY 256 /* what getopt_long returns for the first row */
@@ -82,6 +84,7 @@ static const struct row {
 	[SAMPLES] = { "samples", required_argument, PICTURE, 0 },
 	[RAYS] = { "rays", required_argument, PICTURE, 0 },
 	[REACH] = { "reach", required_argument, PICTURE, 0 },
+	[LOOK] = { "look", required_argument, PICTURE_FILE, 0 },
 	[RELIGHT] = { "relight", no_argument, PICTURE, 0 },
 	[DEVICE] = { "device", required_argument, RUN, 0 },
 	[THREADS] = { "threads", required_argument, RUN, 0 },
@@ -178,6 +181,11 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 	case SAMPLES: return parse_number(value, name, 65536, &s->tracer.samples);
 	case RAYS: return parse_number(value, name, 4096, &s->tracer.rays);
 	case REACH: return parse_length(value, name, &s->tracer.reach);
+	case LOOK:
+		look_free(&s->look);
+		err = look_load(value, &s->look);
+		s->tracer.look = s->look;
+		return err;
 	case RELIGHT: s->tracer.relight = 1; return 0;
 	case DEVICE: s->device = value; return 0;
 	case THREADS: return parse_number(value, name, 1024, &s->threads);
@@ -286,4 +294,5 @@ int settings_parse(struct settings *s, int argc, char **argv)
 void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
+	look_free(&s->look);
 }

@@ -20,6 +20,7 @@ struct settings {
 	uint64_t memory_bytes;  /* 0: no limit */
 	double frame_s;         /* 0: no limit */
 	enum progress_style progress;
+	struct look *look;
 	struct tracer_options tracer;
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
 };

@@ -705,6 +705,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
                   struct image *img)
 {
 	struct tracer_options known = *options;
+	struct scene changed = { .instances = NULL };
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width,
 		           .height = scene->height, .n_passes = options->samples ? options->samples : 1 };
 	struct picture picture = { .pixels = NULL };
@@ -718,6 +719,10 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	job.n_pixels = scene->width * scene->height;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
 	err = picture_create(&job, &picture);
+	if (!err && options->look) {
+		err = look_apply(options->look, scene, &changed);
+		job.scene = &changed;
+	}
 	for (; job.pass < job.n_passes && !err; job.pass++) {
 		err = trace_pass(&job);
 		if (!err)
@@ -729,6 +734,8 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = compose_image(picture.pixels, picture.planes, options, img);
 	if (!err)
 		err = describe_image(&job, img);
+	if (options->look && changed.instances)
+		look_release(&changed);
 	picture_free(&picture);
 	if (err)
 		image_free(img);

@@ -11,6 +11,7 @@
 #include "replay/scene.h"
 #include "tracer/device.h"
 #include "tracer/image.h"
+#include "tracer/look.h"
 
 enum tracer_mode {
 	TRACER_WHITTED,  /* GL's picture, shadows, mirrors, glass */
@@ -29,6 +30,7 @@ struct tracer_options {
 	unsigned samples; /* pictures moved within the pixel, of which the frame is the mean; 0 counts as 1 */
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float reach;      /* of openness, eye-space units; 0: without end */
+	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
