@@ -17,6 +17,7 @@ static const struct verb {
 	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_main, "score traced frames against rasterized ones, or any two sets" },
+	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
 	{ "devices", devices_main, "list the OpenCL devices" },
 	{ "bench", bench_main, "measure the tracer's kernels" },
 };

@@ -17,5 +17,6 @@ int devices_main(int argc, char **argv); /* tracer/devices.c */
 int bench_main(int argc, char **argv);   /* tracer/bench.c */
 int raster_main(int argc, char **argv);  /* diff/raster.c */
 int diff_main(int argc, char **argv);    /* diff/diff.c */
+int approve_main(int argc, char **argv); /* diff/approve.c */
 
 #endif

@@ -9,22 +9,27 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/progress.h"
+#include "diff/baseline.h"
+#include "diff/oiio.h"
 #include "diff/output.h"
 #include "diff/pictures.h"
 #include "diff/report.h"
 #include "diff/score.h"
 #include "diff/set.h"
+#include "diff/settings.h"
 #include "replay/replay.h"
 
 /* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
 #define MAX_ASKED 1000000
 
 struct options {
-	const char *reference, *traced, *report, *json, *junit;
+	const char *reference, *traced, *report, *json, *junit, *config, *baseline;
+	int annotations;
 	struct frame_list frames;
 	struct score_options score;
 };
@@ -32,6 +37,7 @@ struct options {
 static void print_help(FILE *out)
 {
 	fputs("usage: relume diff [OPTIONS] REF TRACED\n"
+	      "       relume diff [OPTIONS] --baseline DIR TRACED\n"
 	      "\n"
 	      "Score traced frames against their references, frame by frame and gate by gate.\n"
 	      "\n"
@@ -44,13 +50,17 @@ static void print_help(FILE *out)
 	      "      --channel LAYER    what to compare with the reference: gl (default where there is one), beauty, albedo, ...\n"
 	      "      --effects E=LO:HI  gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent\n"
 	      "                         of the pixels; either may be left out; may be given several times\n"
+	      "      --baseline DIR     gate B: compare with the frames that 'relume approve' put there\n"
+	      "      --config FILE      bars, masks, flaky frames (default: relume-diff.yaml where there is one)\n"
+	      "      --yee              measure Yee's metric, too, which is slow\n"
 	      "      --report DIR       DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet\n"
 	      "      --json FILE        every figure and bar as JSON; - for standard output, instead of the table\n"
 	      "      --junit FILE       JUnit XML, one case for each frame\n"
+	      "      --annotations      print workflow commands (::error, ::warning) that CI servers show beside a change\n"
 	      "  -h, --help             this text\n"
 	      "\n"
 	      "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
-	      "4 there are traced frames without a reference, and all others passed.\n",
+	      "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
 	      out);
 }
 
@@ -88,7 +98,8 @@ wrong:
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
 static int parse_options(int argc, char **argv, struct options *o)
 {
-	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_REPORT, OPT_JSON, OPT_JUNIT };
+	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_REPORT, OPT_JSON, OPT_JUNIT, OPT_BASELINE, OPT_CONFIG, OPT_YEE,
+	       OPT_ANNOTATIONS };
 	static const struct option known[] = {
 		{ "frames", required_argument, NULL, 'f' },
 		{ "channel", required_argument, NULL, OPT_CHANNEL },
@@ -96,6 +107,10 @@ static int parse_options(int argc, char **argv, struct options *o)
 		{ "report", required_argument, NULL, OPT_REPORT },
 		{ "json", required_argument, NULL, OPT_JSON },
 		{ "junit", required_argument, NULL, OPT_JUNIT },
+		{ "baseline", required_argument, NULL, OPT_BASELINE },
+		{ "config", required_argument, NULL, OPT_CONFIG },
+		{ "yee", no_argument, NULL, OPT_YEE },
+		{ "annotations", no_argument, NULL, OPT_ANNOTATIONS },
 		{ "help", no_argument, NULL, 'h' },
 		{ NULL, 0, NULL, 0 },
 	};
@@ -113,6 +128,10 @@ static int parse_options(int argc, char **argv, struct options *o)
 		case OPT_REPORT: o->report = optarg; break;
 		case OPT_JSON: o->json = optarg; break;
 		case OPT_JUNIT: o->junit = optarg; break;
+		case OPT_BASELINE: o->baseline = optarg; break;
+		case OPT_CONFIG: o->config = optarg; break;
+		case OPT_YEE: o->score.yee = oiio_compare_yee; break;
+		case OPT_ANNOTATIONS: o->annotations = 1; break;
 		case 'h':
 			print_help(stdout);
 			return 1;
@@ -122,10 +141,10 @@ static int parse_options(int argc, char **argv, struct options *o)
 	}
 	if (err)
 		return err;
-	if (argc - optind != 2)
+	if (argc - optind != 2 && !(argc - optind == 1 && o->baseline))
 		return err_report(ERR_USAGE, NULL, "relume diff takes REF and TRACED; 'relume diff --help' explains");
-	o->reference = argv[optind];
-	o->traced = argv[optind + 1];
+	o->reference = argc - optind == 2 ? argv[optind] : NULL;
+	o->traced = argv[argc - 1];
 	return 0;
 }
 
@@ -136,22 +155,32 @@ static int compare_frames(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/** All frames to score: those of both sets that are asked for, and those asked for by number that neither has. */
-static int list_frames(const struct set *ref, const struct set *traced, const struct frame_list *asked, uint64_t **out,
-                       size_t *n_out)
+/**
+ * All frames to score: those of both sets and of the baseline that are asked for, and those asked for by number that none
+ * has.
+ */
+static int list_frames(const struct set *ref, const struct set *traced, const struct baseline *baseline,
+                       const struct frame_list *asked, uint64_t **out, size_t *n_out)
 {
 	const struct set *sets[2] = { ref, traced };
 	uint64_t n_asked = asked->n_ranges && frame_list_last(asked) < MAX_ASKED
 		? frame_list_count(asked, frame_list_last(asked) + 1) : 0;
-	uint64_t *frames = calloc(ref->n_entries + traced->n_entries + n_asked + 1, sizeof(*frames));
-	size_t n = 0, unique = 0;
+	size_t n = 0, unique = 0, n_approved = 0;
+	uint64_t *frames;
 
+	for (size_t v = 0; v < baseline->n_variants; v++)
+		n_approved += baseline->variants[v]->n_frames;
+	frames = calloc(ref->n_entries + traced->n_entries + n_approved + n_asked + 1, sizeof(*frames));
 	if (!frames)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (int s = 0; s < 2; s++)
 		for (size_t i = 0; i < sets[s]->n_entries; i++)
 			if (frame_list_contains(asked, sets[s]->entries[i].frame))
 				frames[n++] = sets[s]->entries[i].frame;
+	for (size_t v = 0; v < baseline->n_variants; v++)
+		for (uint32_t i = 0; i < baseline->variants[v]->n_frames; i++)
+			if (frame_list_contains(asked, baseline->variants[v]->frames[i].frame))
+				frames[n++] = baseline->variants[v]->frames[i].frame;
 	for (uint64_t f = 0; n_asked && f <= frame_list_last(asked); f++)
 		if (frame_list_contains(asked, f))
 			frames[n++] = f;
@@ -171,8 +200,8 @@ static int list_frames(const struct set *ref, const struct set *traced, const st
 /* What the threads share. Frames are scored by whoever comes first; memory grows with threads, not with frames. */
 struct work {
 	struct set *ref, *traced;
+	const struct baseline *baseline;
 	const uint64_t *frames;
-	const struct score_options *options;
 	struct output_run *run;
 
 	pthread_mutex_t lock; /* over all below, and over reading from a .ref file */
@@ -193,26 +222,75 @@ static int read_locked(struct work *w, struct set *set, const struct set_entry *
 	return err;
 }
 
+/** What an image says of its size and what is ignored in it, without a reference. */
+static struct score_picture picture_of_size(const struct image *img)
+{
+	return (struct score_picture){ .width = img->width, .height = img->height };
+}
+
+/** A frame that failed nothing but gates that are known to be flaky is no failure. */
+static void judge_flaky(const struct settings_frame *settings, struct score *s)
+{
+	unsigned failed = 0;
+
+	for (int g = 0; g < N_GATES; g++)
+		failed |= s->gates[g].state == SCORE_FAILED ? 1u << g : 0;
+	if (s->outcome != SCORE_FRAME_FAILED || !(failed & settings->flaky_gates) || failed & ~settings->flaky_gates)
+		return;
+	s->outcome = SCORE_FRAME_FLAKY;
+	s->flaky_reason = settings->flaky_reason;
+}
+
+/** Score an image that is there, against a reference (NULL: none), an approved frame, or both. */
+static int score_image(struct work *w, uint64_t frame, struct score_picture *picture, const struct image *image,
+                       struct score *out)
+{
+	const struct output_run *run = w->run;
+	struct settings_frame settings = { 0 };
+	struct score_approved approved;
+	struct image was = { 0 };
+	int found = 0;
+	int err = settings_for_frame(run->settings, run->name, frame, run->options, picture->width, picture->height, &settings);
+
+	picture->ignore = settings.ignore;
+	if (!err && w->baseline->dir)
+		err = baseline_look_up(w->baseline, image, frame, &was, &approved, &found);
+	if (!err)
+		err = score_frame(picture, image, frame, &settings.options, found ? &approved : NULL, out);
+	if (!err) {
+		judge_flaky(&settings, out);
+		if (out->outcome == SCORE_FRAME_PASSED && w->baseline->dir && !found)
+			out->outcome = SCORE_FRAME_NEW;
+	}
+	settings_frame_free(&settings);
+	image_free(&was);
+	return err;
+}
+
 /** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
 static int score_one(struct work *w, uint64_t frame, struct score *out)
 {
 	const struct set_entry *r = set_find(w->ref, frame), *t = set_find(w->traced, frame);
+	const int needs_reference = w->run->reference != NULL;
 	struct image ref_image = { 0 }, image = { 0 };
 	struct score_picture picture = { 0 };
 	int err = 0;
 
 	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
-	if (!r || !t)
+	if (!t || (!r && needs_reference))
 		return 0;
-	err = read_locked(w, w->ref, r, &ref_image);
-	if (!err)
-		err = picture_take_reference(&ref_image, w->options->channel, &picture);
+	if (r)
+		err = read_locked(w, w->ref, r, &ref_image);
+	if (!err && r)
+		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
 		err_report(ERR_INPUT, r->path ? r->path : w->ref->name, "the reference has no colour channels");
 	if (!err)
 		err = read_locked(w, w->traced, t, &image);
+	if (!err && !r)
+		picture = picture_of_size(&image);
 	if (!err)
-		err = score_frame(&picture, &image, frame, w->options, out);
+		err = score_image(w, frame, &picture, &image, out);
 	if (err == ERR_INPUT) {
 		out->outcome = SCORE_FRAME_UNREADABLE;
 		err = 0;
@@ -247,11 +325,11 @@ static void *score_frames(void *arg)
 	return NULL;
 }
 
-static int score_all(struct set *ref, struct set *traced, const uint64_t *frames, const struct options *o,
+static int score_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
                      struct output_run *run)
 {
 	enum { MAX_THREADS = 16 };
-	struct work w = { .ref = ref, .traced = traced, .frames = frames, .options = &o->score, .run = run,
+	struct work w = { .ref = ref, .traced = traced, .baseline = baseline, .frames = frames, .run = run,
 	                  .lock = PTHREAD_MUTEX_INITIALIZER };
 	pthread_t threads[MAX_THREADS];
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -268,6 +346,27 @@ static int score_all(struct set *ref, struct set *traced, const uint64_t *frames
 	progress_end(&w.progress);
 	run->seconds = progress_clock_s() - w.progress.start_s;
 	return w.err;
+}
+
+/** What a draw used, as far as the scene tells: program object, and the texels of its first texture. */
+static void describe_draw(const struct scene *scene, struct score_blame *b)
+{
+	const struct scene_instance *found = NULL;
+
+	for (uint32_t i = 0; i < scene->n_instances; i++)
+		if (scene->instances[i].draw <= b->draw && (!found || scene->instances[i].draw >= found->draw))
+			found = &scene->instances[i];
+	if (!found)
+		return;
+
+	const struct scene_material *m = &scene->materials[found->material];
+
+	b->has_program = m->program != 0;
+	if (m->unit_count) {
+		const struct scene_texture *t = scene->textures[scene->units[m->unit_first].texture];
+
+		b->texture = XXH64(t->texels, t->n_bytes, 0);
+	}
 }
 
 /**
@@ -298,6 +397,7 @@ static void name_blamed_draws(const char *trace, struct output_run *run)
 			if (draw && draw <= scene->n_draws && scene->draws) {
 				s->blame[b].call = scene->draws[draw].call;
 				s->blame[b].call_number = scene->draws[draw].call_number;
+				describe_draw(scene, &s->blame[b]);
 			}
 		}
 		scene_release(&scene);
@@ -323,22 +423,78 @@ static char *join_command(int argc, char **argv)
 	return text;
 }
 
+/** The recording's name, which the globs of a configuration match: the file without folder and extension. */
+static void name_run(const char *path, char *out, size_t size)
+{
+	size_t n = strlen(path);
+	const char *name;
+
+	while (n > 1 && path[n - 1] == '/')
+		n--;
+	for (name = path + n; name > path && name[-1] != '/'; name--)
+		;
+	snprintf(out, size, "%.*s", (int)(path + n - name), name);
+	if (strrchr(out, '.') && strrchr(out, '.') != out)
+		*strrchr(out, '.') = '\0';
+}
+
 static int exit_code(const struct output_run *run)
 {
 	if (run->counts[SCORE_FRAME_UNREADABLE])
 		return -ERR_INPUT;
 	if (run->counts[SCORE_FRAME_FAILED] || run->counts[SCORE_FRAME_MISSING])
 		return -ERR_FAILED;
-	if (run->counts[SCORE_FRAME_EXTRA])
+	if (run->counts[SCORE_FRAME_EXTRA] || run->counts[SCORE_FRAME_NEW])
 		return -ERR_BASELINE;
 	return 0;
+}
+
+/** Everything that is compared, and how. */
+static int open_all(struct options *o, struct set *ref, struct set *traced, struct baseline *baseline,
+                    struct settings **settings)
+{
+	const char *config = o->config ? o->config : access("relume-diff.yaml", F_OK) == 0 ? "relume-diff.yaml" : NULL;
+	int err = config ? settings_read(config, settings) : 0;
+
+	if (!err && o->reference)
+		err = set_open(o->reference, ref);
+	if (!err)
+		err = set_open(o->traced, traced);
+	if (!err && *settings && !o->baseline)
+		o->baseline = settings_baseline(*settings);
+	if (!err && o->baseline)
+		err = baseline_open(o->baseline, baseline);
+	/* Two single images are a pair whatever their numbers. */
+	if (!err && ref->is_single && traced->is_single)
+		ref->entries[0].frame = traced->entries[0].frame;
+	return err;
+}
+
+static int write_all(const struct options *o, const struct output_run *run, struct set *ref, struct set *traced)
+{
+	int err = 0;
+
+	if (o->report)
+		err = report_write(run, ref, traced, o->report);
+	if (!err && o->json)
+		err = output_json(run, o->json);
+	if (!err && o->junit)
+		err = output_junit(run, o->junit);
+	if (!err && !(o->json && strcmp(o->json, "-") == 0))
+		output_table(run, stdout);
+	if (!err && o->annotations)
+		output_annotations(run, o->json && strcmp(o->json, "-") == 0 ? stderr : stdout);
+	return err;
 }
 
 int diff_main(int argc, char **argv)
 {
 	struct options o = { 0 };
 	struct set ref = { 0 }, traced = { 0 };
+	struct baseline baseline = { 0 };
+	struct settings *settings = NULL;
 	struct output_run run = { 0 };
+	char name[256], *command = NULL;
 	uint64_t *frames = NULL;
 	int err = parse_options(argc, argv, &o), code = 0;
 
@@ -346,46 +502,39 @@ int diff_main(int argc, char **argv)
 		frame_list_free(&o.frames);
 		return err > 0 ? 0 : -err;
 	}
-	err = set_open(o.reference, &ref);
-	if (!err)
-		err = set_open(o.traced, &traced);
+	err = open_all(&o, &ref, &traced, &baseline, &settings);
 	if (err)
 		goto fail;
-	/* Two single images are a pair whatever their numbers. */
-	if (ref.is_single && traced.is_single)
-		ref.entries[0].frame = traced.entries[0].frame;
-	err = list_frames(&ref, &traced, &o.frames, &frames, &run.n_scores);
+	err = list_frames(&ref, &traced, &baseline, &o.frames, &frames, &run.n_scores);
 	if (err)
 		goto fail;
 	run.scores = calloc(run.n_scores, sizeof(*run.scores));
-	if (!run.scores) {
+	command = join_command(argc, argv);
+	if (!run.scores || !command) {
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 		goto fail;
 	}
-	run.reference = ref.name;
+	name_run(ref.trace ? ref.trace : ref.ref.stream ? ref.name : o.traced, name, sizeof(name));
+	run.reference = o.reference ? ref.name : NULL;
 	run.traced = o.traced;
-	run.channel = o.score.channel;
+	run.baseline = o.baseline;
+	run.name = name;
+	run.command = command;
+	run.options = &o.score;
+	run.settings = settings;
 
-	err = score_all(&ref, &traced, frames, &o, &run);
+	err = score_all(&ref, &traced, &baseline, frames, &run);
 	if (!err && ref.trace)
 		name_blamed_draws(ref.trace, &run);
-	if (!err && o.report) {
-		char *command = join_command(argc, argv);
-
-		err = command ? report_write(&run, &ref, &traced, o.report, command)
-		              : err_report(ERR_SYSTEM, NULL, "out of memory");
-		free(command);
-	}
-	if (!err && o.json)
-		err = output_json(&run, o.json);
-	if (!err && o.junit)
-		err = output_junit(&run, o.junit);
-	if (!err && !(o.json && strcmp(o.json, "-") == 0))
-		output_table(&run, stdout);
+	if (!err)
+		err = write_all(&o, &run, &ref, &traced);
 	code = exit_code(&run);
 fail:
 	free(run.scores);
+	free(command);
 	free(frames);
+	baseline_close(&baseline);
+	settings_free(&settings);
 	set_free(&traced);
 	set_free(&ref);
 	frame_list_free(&o.frames);

@@ -154,23 +154,46 @@ static void filter_y(const float *in, float *out, int width, int height, const s
 }
 
 /* To YCxCz, a linear form of L*a*b* (sec. 4.1). Y of the paper's features is (plane 0 + 16) / 116. */
-static void fill_ycxcz(const uint8_t *rgb, const struct planes *out, size_t n_pixels)
+static void put_ycxcz(const float linear[3], const struct planes *out, size_t i)
+{
+	float xyz[3];
+
+	multiply(XYZ_FROM_RGB, linear, xyz);
+	for (int c = 0; c < 3; c++)
+		xyz[c] /= WHITE[c];
+	out->p[0][i] = 116 * xyz[1] - 16;
+	out->p[1][i] = 500 * (xyz[0] - xyz[1]);
+	out->p[2][i] = 200 * (xyz[1] - xyz[2]);
+}
+
+static void fill_from_codes(const uint8_t *rgb, const struct planes *out, size_t n_pixels)
 {
 	float linear[256];
 
 	for (int i = 0; i < 256; i++)
 		linear[i] = image_linear_from_display((float)i / 255);
-	for (size_t i = 0; i < n_pixels; i++) {
-		const float v[3] = { linear[rgb[3 * i]], linear[rgb[3 * i + 1]], linear[rgb[3 * i + 2]] };
-		float xyz[3];
+	for (size_t i = 0; i < n_pixels; i++)
+		put_ycxcz((const float[]){ linear[rgb[3 * i]], linear[rgb[3 * i + 1]], linear[rgb[3 * i + 2]] }, out, i);
+}
 
-		multiply(XYZ_FROM_RGB, v, xyz);
-		for (int c = 0; c < 3; c++)
-			xyz[c] /= WHITE[c];
-		out->p[0][i] = 116 * xyz[1] - 16;
-		out->p[1][i] = 500 * (xyz[0] - xyz[1]);
-		out->p[2][i] = 200 * (xyz[1] - xyz[2]);
-	}
+/* A rational fit of the ACES film curve (Narkowicz 2015, scaled by 0.6), as HDR-FLIP has it; linear in and out. */
+static float film_curve(float x)
+{
+	float y;
+
+	x = x > 0 ? x : 0; /* NaN is 0 */
+	x = x < 1e9f ? x : 1e9f;
+	y = (0.36f * 2.51f * x * x + 0.6f * 0.03f * x) / (0.36f * 2.43f * x * x + 0.6f * 0.59f * x + 0.14f);
+	return y < 1 ? y : 1;
+}
+
+static void fill_from_linear(const float *const rgb[3], float exposure, const struct planes *out, size_t n_pixels)
+{
+	const float gain = exp2f(exposure);
+
+	for (size_t i = 0; i < n_pixels; i++)
+		put_ycxcz((const float[]){ film_curve(gain * rgb[0][i]), film_curve(gain * rgb[1][i]),
+		                           film_curve(gain * rgb[2][i]) }, out, i);
 }
 
 /*
@@ -285,12 +308,67 @@ static void find_features(const float *y, float *edges, float *points, float *sc
 	}
 }
 
-int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, float *error, double *mean)
+/* What both forms need: twelve planes and a padded row. */
+struct workspace {
+	float *memory, *padded;
+	struct planes pics[2];
+	float *edges[2], *points[2], *scratch, *part;
+};
+
+static int make_workspace(struct workspace *w, uint32_t width, uint32_t height)
 {
 	enum { PLANES = 12 };
 	const size_t n = (size_t)width * height;
-	const int w = (int)width, h = (int)height;
-	float *memory, *plane[PLANES];
+	float *at = w->memory = calloc(n * PLANES + width + 2 * MAX_RADIUS + LANES, sizeof(*at));
+
+	if (!at)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
+	float **const all[PLANES] = { &w->pics[0].p[0], &w->pics[0].p[1], &w->pics[0].p[2], &w->pics[1].p[0], &w->pics[1].p[1],
+	                              &w->pics[1].p[2], &w->edges[0], &w->edges[1], &w->points[0], &w->points[1],
+	                              &w->scratch, &w->part };
+
+	for (int i = 0; i < PLANES; i++)
+		*all[i] = at + (size_t)i * n;
+	w->padded = at + (size_t)PLANES * n;
+	return 0;
+}
+
+/** From filled pictures to errors. `error` keeps what is larger in it where `is_maximum`. */
+static void compare_pictures(const struct workspace *w, uint32_t width, uint32_t height, int is_maximum, float *error)
+{
+	const size_t n = (size_t)width * height;
+	const float max_error = largest_color_error();
+
+	for (int i = 0; i < 2; i++) {
+		find_features(w->pics[i].p[0], w->edges[i], w->points[i], w->scratch, w->part, w->padded, (int)width, (int)height);
+		filter_contrast(&w->pics[i], (int)width, (int)height, w->scratch, w->part, w->padded);
+		lab_from_ycxcz(&w->pics[i], n);
+	}
+	for (size_t i = 0; i < n; i++) {
+		const float lab_a[3] = { w->pics[0].p[0][i], w->pics[0].p[1][i], w->pics[0].p[2][i] };
+		const float lab_b[3] = { w->pics[1].p[0][i], w->pics[1].p[1][i], w->pics[1].p[2][i] };
+		float edge = fabsf(w->edges[0][i] - w->edges[1][i]), point = fabsf(w->points[0][i] - w->points[1][i]);
+		float feature = sqrtf((edge > point ? edge : point) / sqrtf(2));
+		float e = powf(color_error(lab_a, lab_b, max_error), 1 - feature);
+
+		error[i] = is_maximum && error[i] > e ? error[i] : e;
+	}
+}
+
+static double mean_of(const float *error, size_t n)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += (double)error[i];
+	return sum / (double)n;
+}
+
+int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, float *error, double *mean)
+{
+	const size_t n = (size_t)width * height;
+	struct workspace w = { 0 };
+	int err;
 
 	if (memcmp(a, b, 3 * n) == 0) {
 		if (error)
@@ -298,39 +376,53 @@ int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t he
 		*mean = 0;
 		return 0;
 	}
-	memory = calloc(n * PLANES + width + 2 * MAX_RADIUS + LANES, sizeof(*memory));
-	if (!memory)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
-	for (int i = 0; i < PLANES; i++)
-		plane[i] = memory + (size_t)i * n;
-	const struct planes pics[2] = { { { plane[0], plane[1], plane[2] } }, { { plane[3], plane[4], plane[5] } } };
-	float *edges[2] = { plane[6], plane[7] }, *points[2] = { plane[8], plane[9] };
-	float *scratch = plane[10], *part = plane[11], *padded = memory + (size_t)PLANES * n;
-
-	for (int i = 0; i < 2; i++) {
-		fill_ycxcz(i ? b : a, &pics[i], n);
-		find_features(pics[i].p[0], edges[i], points[i], scratch, part, padded, w, h);
-		filter_contrast(&pics[i], w, h, scratch, part, padded);
-		lab_from_ycxcz(&pics[i], n);
-	}
-
-	const float max_error = largest_color_error();
-	double sum = 0;
-
-	for (size_t i = 0; i < n; i++) {
-		const float lab_a[3] = { plane[0][i], plane[1][i], plane[2][i] };
-		const float lab_b[3] = { plane[3][i], plane[4][i], plane[5][i] };
-		float edge = fabsf(edges[0][i] - edges[1][i]), point = fabsf(points[0][i] - points[1][i]);
-		float feature = sqrtf((edge > point ? edge : point) / sqrtf(2));
-		float e = powf(color_error(lab_a, lab_b, max_error), 1 - feature);
-
-		if (error)
-			error[i] = e;
-		sum += (double)e;
-	}
-	*mean = sum / (double)n;
-	free(memory);
+	err = make_workspace(&w, width, height);
+	if (err)
+		return err;
+	fill_from_codes(a, &w.pics[0], n);
+	fill_from_codes(b, &w.pics[1], n);
+	if (!error)
+		error = w.part; /* no filter needs it any more when errors are written */
+	compare_pictures(&w, width, height, 0, error);
+	*mean = mean_of(error, n);
+	free(w.memory);
 	return 0;
+}
+
+int flip_compare_hdr(const float *const a[3], const float *const b[3], uint32_t width, uint32_t height, float *error,
+                     double *mean)
+{
+	enum { EXPOSURES = 4 };
+	const float start = 0.083f, stop = 3.557f;
+	const size_t n = (size_t)width * height;
+	struct workspace w = { 0 };
+	float *own = NULL;
+	int err = 0;
+
+	if (!error)
+		error = own = malloc((n ? n : 1) * sizeof(*own));
+	if (!error)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
+	if (memcmp(a[0], b[0], n * sizeof(float)) == 0 && memcmp(a[1], b[1], n * sizeof(float)) == 0 &&
+	    memcmp(a[2], b[2], n * sizeof(float)) == 0) {
+		memset(error, 0, n * sizeof(*error));
+		*mean = 0;
+		goto done;
+	}
+	err = make_workspace(&w, width, height);
+	for (int k = 0; !err && k < EXPOSURES; k++) {
+		float exposure = start + (stop - start) * (float)k / (EXPOSURES - 1);
+
+		fill_from_linear(a, exposure, &w.pics[0], n);
+		fill_from_linear(b, exposure, &w.pics[1], n);
+		compare_pictures(&w, width, height, k > 0, error);
+	}
+	if (!err)
+		*mean = mean_of(error, n);
+done:
+	free(w.memory);
+	free(own);
+	return err;
 }
 
 void flip_magma(float value, uint8_t rgb[3])

@@ -4,16 +4,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-double metric_psnr_db(const uint8_t *a, const uint8_t *b, size_t n_pixels)
+/** Sum of squared differences of codes. */
+static double squared_error(const uint8_t *a, const uint8_t *b, size_t n)
 {
-	double sum = 0;
+	uint64_t sum = 0;
 
-	for (size_t i = 0; i < 3 * n_pixels; i++) {
+	for (size_t i = 0; i < n; i++) {
 		int d = a[i] - b[i];
 
-		sum += d * d;
+		sum += (uint64_t)(d * d);
 	}
+	return (double)sum;
+}
+
+double metric_psnr_db(const uint8_t *a, const uint8_t *b, size_t n_pixels)
+{
+	double sum = squared_error(a, b, 3 * n_pixels);
+
 	return sum == 0 ? INFINITY : 10 * log10(255.0 * 255.0 / (sum / (3.0 * (double)n_pixels)));
+}
+
+double metric_rmse(const uint8_t *a, const uint8_t *b, size_t n_pixels)
+{
+	return n_pixels ? sqrt(squared_error(a, b, 3 * n_pixels) / (3.0 * (double)n_pixels)) / 255 : 0;
+}
+
+double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels)
+{
+	double sum = 0, linear[256];
+
+	for (int i = 0; i < 256; i++)
+		linear[i] = (double)image_linear_from_display((float)i / 255);
+	for (size_t i = 0; i < 3 * n_pixels; i++) {
+		double r = linear[ref[i]], d = linear[test[i]] - r;
+
+		if (d != 0)
+			sum += d * d / (r * r + 0.01);
+	}
+	return n_pixels ? sum / (3.0 * (double)n_pixels) : 0;
 }
 
 /* Structural similarity. */

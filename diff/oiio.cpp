@@ -43,13 +43,13 @@ bool add_channel(struct image *img, const char *name, bool full_float, const std
 	return true;
 }
 
-int fill(struct image *img, const OIIO::ImageSpec &spec, const std::vector<float> &pixels, const char *path)
+/** Channels of one part; `prefix` (a part's name and a dot, or nothing) goes before their names. */
+int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, const std::vector<float> &pixels,
+             const char *path)
 {
 	const bool full_float = spec.format == OIIO::TypeDesc::FLOAT || is_integer(spec.format);
-	const bool grey = spec.nchannels <= 2 && spec.channel_name(0) != "R";
+	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
 
-	img->width = uint32_t(spec.width);
-	img->height = uint32_t(spec.height);
 	if (grey) {
 		for (const char *name : { "R", "G", "B" })
 			if (!add_channel(img, name, full_float, pixels, spec.nchannels, 0))
@@ -58,13 +58,18 @@ int fill(struct image *img, const OIIO::ImageSpec &spec, const std::vector<float
 			return ERR_SYSTEM;
 	}
 	for (int c = 0; !grey && c < spec.nchannels; c++) {
-		const std::string name = spec.channel_name(c);
+		const std::string name = prefix + std::string(spec.channel_name(c));
 
 		if (name.empty() || name.size() >= sizeof(img->channels[0].name))
 			return err_report(ERR_INPUT, path, "channel %d has no usable name", c);
-		if (!add_channel(img, name.c_str(), full_float, pixels, spec.nchannels, c))
+		if (!image_channel(img, name.c_str()) && !add_channel(img, name.c_str(), full_float, pixels, spec.nchannels, c))
 			return ERR_SYSTEM;
 	}
+	return 0;
+}
+
+int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
+{
 	for (const char *name : { "relume:frame", "relume:encoding", "relume:trace", "relume:device" }) {
 		const std::string text = spec.get_string_attribute(name);
 
@@ -76,6 +81,19 @@ int fill(struct image *img, const OIIO::ImageSpec &spec, const std::vector<float
 	return 0;
 }
 
+/**
+ * What goes before the channels of a part: nothing for the first one and for parts whose channels carry their layer
+ * already; a part that is named as a layer gives it its name.
+ */
+std::string prefix_of(const OIIO::ImageSpec &spec, int part)
+{
+	const std::string name = spec.get_string_attribute("oiio:subimagename");
+
+	if (part == 0 || name.empty() || spec.channel_name(0).find('.') != std::string::npos)
+		return "";
+	return name + ".";
+}
+
 int read_image(struct image *img, const char *path)
 {
 	OIIO::ImageSpec config;
@@ -85,18 +103,30 @@ int read_image(struct image *img, const char *path)
 	auto in = OIIO::ImageInput::open(path, &config);
 	if (!in)
 		return err_report(ERR_INPUT, path, "%s", OIIO::geterror().c_str());
-	const OIIO::ImageSpec spec = in->spec();
-	if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
-	    int64_t(spec.width) * spec.height > MAX_PIXELS)
-		return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
-		                  spec.height, spec.depth, spec.nchannels);
-	std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-	if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-		return err_report(ERR_INPUT, path, "%s", in->geterror().c_str());
-	int err = fill(img, spec, pixels, path);
-	if (err)
-		image_free(img);
-	return err;
+	const OIIO::ImageSpec first = in->spec();
+	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are other pictures */
+
+	for (int part = 0; in->seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
+		const OIIO::ImageSpec spec = in->spec();
+
+		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
+		    int64_t(spec.width) * spec.height > MAX_PIXELS)
+			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
+			                  spec.height, spec.depth, spec.nchannels);
+		if (spec.deep)
+			return err_report(ERR_INPUT, path, "part %d is deep: several samples a pixel are no picture yet", part);
+		if (spec.width != first.width || spec.height != first.height)
+			return err_report(ERR_INPUT, path, "part %d is of another size than the first one", part);
+		std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+		if (!in->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+			return err_report(ERR_INPUT, path, "%s", in->geterror().c_str());
+		img->width = uint32_t(spec.width);
+		img->height = uint32_t(spec.height);
+		int err = add_part(img, spec, prefix_of(spec, part), pixels, path);
+		if (err)
+			return err;
+	}
+	return add_attributes(img, first);
 }
 
 int encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
@@ -125,7 +155,11 @@ int encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int chann
 int oiio_read(struct image *img, const char *path)
 {
 	try {
-		return read_image(img, path);
+		int err = read_image(img, path);
+
+		if (err)
+			image_free(img);
+		return err;
 	} catch (const std::exception &e) {
 		image_free(img);
 		return err_report(ERR_SYSTEM, path, "%s", e.what());
@@ -152,5 +186,27 @@ int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int 
 		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, FONT, color) ? 0 : ERR_SYSTEM;
 	} catch (const std::exception &) {
 		return ERR_SYSTEM;
+	}
+}
+
+int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
+{
+	try {
+		const OIIO::ImageSpec codes(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
+		OIIO::ImageBuf pics[2];
+
+		for (int i = 0; i < 2; i++) {
+			OIIO::ImageBuf wrapped(codes, const_cast<uint8_t *>(i ? b : a));
+
+			/* it wants floats of its own */
+			if (!pics[i].copy(wrapped, OIIO::TypeDesc::FLOAT))
+				return err_report(ERR_SYSTEM, NULL, "Yee's metric: %s", pics[i].geterror().c_str());
+		}
+		OIIO::ImageBufAlgo::CompareResults results;
+
+		*count = OIIO::ImageBufAlgo::compare_Yee(pics[0], pics[1], results);
+		return 0;
+	} catch (const std::exception &e) {
+		return err_report(ERR_SYSTEM, NULL, "Yee's metric: %s", e.what());
 	}
 }

@@ -14,7 +14,8 @@ extern "C" {
 #include "tracer/image.h"
 
 /**
- * Read any image OpenImageIO knows (first part, first level, data window only).
+ * Read any image OpenImageIO knows (first level, data window only; of OpenEXR all parts, a part's name being the layer of
+ * its channels, of other formats the first picture).
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
  *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute
@@ -34,6 +35,13 @@ int oiio_read(struct image *img, const char *path);
  */
 int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
                     size_t *out_bytes);
+
+/**
+ * Yee's perceptual metric (compare_Yee, as idiff -p), on codes: how many pixels look different.
+ * @param count  receives the number
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count);
 
 /**
  * Draw text into RGB pixels.

@@ -54,7 +54,7 @@ void output_order(const struct output_run *run, size_t *out)
 
 	for (int passed = 0; passed < 2; passed++)
 		for (size_t i = 0; i < run->n_scores; i++)
-			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed)
+			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed) /* what did not pass is of interest */
 				out[n++] = i;
 }
 
@@ -64,6 +64,9 @@ void output_gate_text(const struct score_gate *gate, const struct score_gate_inf
 
 	out[0] = '\0';
 	for (int f = 0; gate->state != SCORE_NOT_MEASURED && f < info->n_figures && used < size; f++) {
+		/* a figure that holds is left out where the note says what else is wrong */
+		if (gate->state == SCORE_FAILED && gate->note[0] && gate->value[f] == gate->bar[f])
+			continue;
 		const char *unit = info->figures[f].unit, *space = unit[0] ? " " : "";
 		int n = snprintf(out + used, size - used, "%s%s %.6g%s%s (bar %s %.6g%s%s)", f ? ", " : "",
 		                 info->figures[f].name, gate->value[f], space, unit,
@@ -75,27 +78,61 @@ void output_gate_text(const struct score_gate *gate, const struct score_gate_inf
 		snprintf(out + used, size - used, "%s%s", used ? "; " : "", gate->note);
 }
 
+/** "draw 12, glDrawElements (call 345), texture 0123..., in the approved frame". */
+static void output_blame_text(const struct score_blame *b, char *out, size_t size)
+{
+	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
+
+	if (b->draw && b->call && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", %s (call %" PRIu64 ")", b->call, b->call_number);
+	if (b->draw && b->has_program && n < size)
+		n += (size_t)snprintf(out + n, size - n, " with a program object");
+	if (b->draw && b->texture && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", texture %016" PRIx64, b->texture);
+	if (b->is_approved && n < size)
+		snprintf(out + n, size - n, ", in the approved frame,");
+}
+
+static int is_compared(const struct score *s)
+{
+	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
+		s->outcome == SCORE_FRAME_NEW;
+}
+
+static int has_warning(const struct score *s)
+{
+	for (int g = 0; g < N_GATES; g++)
+		if (s->gates[g].state == SCORE_WARNED)
+			return 1;
+	return 0;
+}
+
+const struct score *output_first_wrong(const struct output_run *run)
+{
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (run->scores[i].outcome == SCORE_FRAME_FAILED || run->scores[i].outcome == SCORE_FRAME_MISSING)
+			return &run->scores[i];
+	return NULL;
+}
+
 static void print_failure(const struct score *s, FILE *out)
 {
 	char text[512];
 
 	for (int g = 0; g < N_GATES; g++) {
-		if (s->gates[g].state != SCORE_FAILED)
+		if (s->gates[g].state < SCORE_WARNED)
 			continue;
 		output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
-		fprintf(out, "          %-3s %s: %s\n", score_gates[g].name, score_gates[g].title, text);
+		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
+		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
 	}
+	if (s->outcome == SCORE_FRAME_FLAKY)
+		fprintf(out, "          known to be flaky: %s\n", s->flaky_reason);
 	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
-		double share = 100 * (double)s->blame[b].pixels / (double)s->failing_pixels;
+		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
 
-		if (!s->blame[b].draw)
-			fputs("          the background", out);
-		else if (s->blame[b].call)
-			fprintf(out, "          draw %u, %s (call %" PRIu64 "),", s->blame[b].draw, s->blame[b].call,
-			        s->blame[b].call_number);
-		else
-			fprintf(out, "          draw %u", s->blame[b].draw);
-		fprintf(out, " holds %.3g %% of %" PRIu64 " failing pixels\n", share, s->failing_pixels);
+		output_blame_text(&s->blame[b], text, sizeof(text));
+		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixels\n", text, share, s->blamed_pixels);
 	}
 }
 
@@ -125,7 +162,7 @@ void output_table(const struct output_run *run, FILE *out)
 		const struct score *s = &run->scores[order[i]];
 
 		fprintf(out, "%7" PRIu64 " %-10s", s->frame, score_outcome_names[s->outcome]);
-		if (s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED) {
+		if (is_compared(s)) {
 			fprintf(out, " %8.3f%%", 100 * s->fidelity);
 			print_figure(s, GATE_R1, 0, out);
 			print_figure(s, GATE_R2, 0, out);
@@ -141,7 +178,7 @@ void output_table(const struct output_run *run, FILE *out)
 				fprintf(out, " %8.4g ", s->info.beauty_flip);
 		}
 		fputc('\n', out);
-		if (s->outcome == SCORE_FRAME_FAILED)
+		if (s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY || has_warning(s))
 			print_failure(s, out);
 	}
 	free(order);
@@ -150,7 +187,7 @@ void output_table(const struct output_run *run, FILE *out)
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[i];
 
-		if (s->outcome != SCORE_FRAME_PASSED && s->outcome != SCORE_FRAME_FAILED)
+		if (!is_compared(s))
 			continue;
 		if (s->gates[GATE_V].state != SCORE_PASSED)
 			continue;
@@ -176,11 +213,13 @@ void output_summary(const struct output_run *run, FILE *out)
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[i];
 
-		if (s->outcome <= SCORE_FRAME_FAILED && (!worst || s->fidelity < worst->fidelity))
+		if (is_compared(s) && (!worst || s->fidelity < worst->fidelity))
 			worst = s;
 	}
-	if (worst)
+	if (worst && run->reference)
 		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
+	if (output_first_wrong(run))
+		fprintf(out, "; first wrong frame %" PRIu64, output_first_wrong(run)->frame);
 	fputc('\n', out);
 }
 
@@ -211,10 +250,8 @@ static void json_number(const char *name, double value, FILE *out)
 
 static void json_gate(const struct score_gate *gate, const struct score_gate_info *info, FILE *out)
 {
-	static const char *const states[] = { "not measured", "passed", "failed" };
-
 	fprintf(out, "\"%s\": {\"title\": \"%s\", \"state\": \"%s\", \"figures\": [", info->name, info->title,
-	        states[gate->state]);
+	        score_state_names[gate->state]);
 	for (int f = 0; gate->state != SCORE_NOT_MEASURED && f < info->n_figures; f++) {
 		fprintf(out, "%s{\"name\": \"%s\", \"unit\": \"%s\", ", f ? ", " : "", info->figures[f].name,
 		        info->figures[f].unit);
@@ -246,6 +283,12 @@ static void json_score(const struct score *s, FILE *out)
 	fputs(", ", out);
 	json_number("gl_ssim", s->info.gl_ssim, out);
 	fputs(", ", out);
+	json_number("gl_rmse", s->info.gl_rmse, out);
+	fputs(", ", out);
+	json_number("gl_mrse", s->info.gl_mrse, out);
+	fputs(", ", out);
+	json_number("gl_yee", s->info.gl_yee, out);
+	fputs(", ", out);
 	json_number("beauty_flip", s->info.beauty_flip, out);
 	fputs(", ", out);
 	json_number("beauty_psnr_db", s->info.beauty_psnr_db, out);
@@ -258,11 +301,23 @@ static void json_score(const struct score *s, FILE *out)
 		fputs(e ? ", " : "", out);
 		json_number(score_effect_names[e], s->info.effect_share[e], out);
 	}
-	fputs("}},\n     \"blame\": [", out);
+	fprintf(out, "}},\n     \"blamed_pixels\": %" PRIu64 ", ", s->blamed_pixels);
+	if (s->flaky_reason) {
+		fputs("\"flaky_reason\": ", out);
+		output_json_string(s->flaky_reason, out);
+		fputs(", ", out);
+	}
+	fputs("\"blame\": [", out);
 	for (uint32_t b = 0; b < s->n_blame; b++) {
-		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64, b ? ", " : "", s->blame[b].draw, s->blame[b].pixels);
-		if (s->blame[b].call)
-			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64, s->blame[b].call, s->blame[b].call_number);
+		const struct score_blame *by = &s->blame[b];
+
+		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", b ? ", " : "",
+		        by->draw, by->pixels, by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
+		if (by->call)
+			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->call, by->call_number,
+			        by->has_program ? "true" : "false");
+		if (by->call && by->texture)
+			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->texture);
 		fputc('}', out);
 	}
 	fputs("]}", out);
@@ -271,12 +326,21 @@ static void json_score(const struct score *s, FILE *out)
 void output_json_stream(const struct output_run *run, FILE *out)
 {
 	fputs("{\"format\": \"relume-diff\", \"version\": 1,\n \"reference\": ", out);
-	output_json_string(run->reference, out);
+	output_json_string(run->reference ? run->reference : "", out);
 	fputs(", \"traced\": ", out);
 	output_json_string(run->traced, out);
-	fputs(",\n \"channel\": ", out);
-	output_json_string(run->channel ? run->channel : "", out);
-	fprintf(out, ", \"seconds\": %.3f,\n \"counts\": {", run->seconds);
+	fputs(", \"baseline\": ", out);
+	output_json_string(run->baseline ? run->baseline : "", out);
+	fputs(",\n \"name\": ", out);
+	output_json_string(run->name, out);
+	fputs(", \"command\": ", out);
+	output_json_string(run->command, out);
+	fputs(", \"channel\": ", out);
+	output_json_string(run->options->channel ? run->options->channel : "", out);
+	fprintf(out, ", \"seconds\": %.3f,", run->seconds);
+	if (output_first_wrong(run))
+		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", output_first_wrong(run)->frame);
+	fputs("\n \"counts\": {", out);
 	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
 		fprintf(out, "%s\"%s\": %" PRIu64, o ? ", " : "", score_outcome_names[o], run->counts[o]);
 	fputs("},\n \"frames\": [", out);
@@ -325,12 +389,18 @@ static void junit_case(const struct score *s, FILE *out)
 		return;
 	case SCORE_FRAME_FAILED:
 		break;
+	case SCORE_FRAME_FLAKY:
+		fputs(">\n      <skipped message=\"", out);
+		output_escaped(s->flaky_reason, out);
+		fputs("\"/>\n    </testcase>\n", out);
+		return;
 	case SCORE_FRAME_UNREADABLE:
 		fputs(">\n      <error message=\"unreadable\"/>\n    </testcase>\n", out);
 		return;
 	default:
 		fprintf(out, ">\n      <failure message=\"%s\"/>\n    </testcase>\n",
-		        s->outcome == SCORE_FRAME_MISSING ? "there is no traced frame" : "there is no reference");
+		        s->outcome == SCORE_FRAME_MISSING ? "there is no traced frame"
+		        : s->outcome == SCORE_FRAME_NEW ? "there is no approved frame" : "there is no reference");
 		return;
 	}
 	fputs(">\n      <failure message=\"", out);
@@ -354,17 +424,63 @@ static void junit_case(const struct score *s, FILE *out)
 int output_junit(const struct output_run *run, const char *path)
 {
 	uint64_t errors = run->counts[SCORE_FRAME_UNREADABLE];
-	uint64_t failures = run->n_scores - run->counts[SCORE_FRAME_PASSED] - errors;
+	uint64_t skipped = run->counts[SCORE_FRAME_FLAKY];
+	uint64_t failures = run->n_scores - run->counts[SCORE_FRAME_PASSED] - errors - skipped;
 	struct output_file file;
 
 	if (output_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	fprintf(file.stream, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"relume diff ");
 	output_escaped(run->traced, file.stream);
-	fprintf(file.stream, "\" tests=\"%zu\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"0\" time=\"%.3f\">\n",
-	        run->n_scores, failures, errors, run->seconds);
+	fprintf(file.stream, "\" tests=\"%zu\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"%" PRIu64
+	        "\" time=\"%.3f\">\n", run->n_scores, failures, errors, skipped, run->seconds);
 	for (size_t i = 0; i < run->n_scores; i++)
 		junit_case(&run->scores[i], file.stream);
 	fputs("  </testsuite>\n</testsuites>\n", file.stream);
 	return output_close(&file, 1);
+}
+
+/* Annotations. */
+
+/** Text as the value of a workflow command: %, CR and LF are escaped. */
+static void annotation_text(const char *text, FILE *out)
+{
+	for (const char *p = text; *p; p++) {
+		if (*p == '%')
+			fputs("%25", out);
+		else if (*p == '\n')
+			fputs("%0A", out);
+		else if (*p == '\r')
+			fputs("%0D", out);
+		else
+			fputc(*p, out);
+	}
+}
+
+void output_annotations(const struct output_run *run, FILE *out)
+{
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[i];
+		const char *kind = s->outcome == SCORE_FRAME_FLAKY || s->outcome == SCORE_FRAME_PASSED ? "warning" : "error";
+		char text[512];
+
+		if (s->outcome == SCORE_FRAME_PASSED && !has_warning(s))
+			continue;
+		fprintf(out, "::%s title=relume diff%%3A frame %" PRIu64 " %s::", kind, s->frame,
+		        s->outcome == SCORE_FRAME_PASSED ? "warns" : score_outcome_names[s->outcome]);
+		annotation_text(run->traced, out);
+		for (int g = 0; g < N_GATES; g++) {
+			if (s->gates[g].state < SCORE_WARNED)
+				continue;
+			output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+			fprintf(out, "%%0A%s %s: ", score_gates[g].name, score_gates[g].title);
+			annotation_text(text, out);
+		}
+		if (s->n_blame) {
+			output_blame_text(&s->blame[0], text, sizeof(text));
+			fputs("%0A", out);
+			annotation_text(text, out);
+		}
+		fputc('\n', out);
+	}
 }

@@ -7,11 +7,16 @@
 #include <stdio.h>
 
 #include "diff/score.h"
+#include "diff/settings.h"
 
 /* A whole comparison. */
 struct output_run {
-	const char *reference, *traced; /* as the user named them */
-	const char *channel;            /* compared layer, NULL: gl where there is one */
+	const char *reference, *traced; /* as the user named them; reference NULL: only approved frames */
+	const char *baseline;           /* folder of approved frames, NULL: none */
+	const char *name;               /* of the recording, as configurations match it */
+	const char *command;            /* the command line that made this */
+	const struct score_options *options; /* of the command line */
+	const struct settings *settings;     /* NULL: none */
 	struct score *scores;           /* sorted by frame */
 	size_t n_scores;
 	uint64_t counts[N_SCORE_OUTCOMES];
@@ -53,6 +58,12 @@ void output_json_string(const char *text, FILE *out);
 
 /** JUnit XML: a suite with one case for each frame. @return 0 or ERR_SYSTEM (reported) */
 int output_junit(const struct output_run *run, const char *path);
+
+/** Workflow commands: one ::error line for each frame that did not pass, one ::warning line for each that warns. */
+void output_annotations(const struct output_run *run, FILE *out);
+
+/** The first frame, by number, that failed or is missing; NULL where none did. */
+const struct score *output_first_wrong(const struct output_run *run);
 
 /** Text with the characters that XML and HTML give a meaning replaced. */
 void output_escaped(const char *text, FILE *out);

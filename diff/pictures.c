@@ -23,16 +23,21 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 	return err;
 }
 
-int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const char *channel,
+int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
                        struct picture_frame *out)
 {
 	const struct set_entry *r = set_find(ref, frame), *t = set_find(traced, frame);
+	const char *channel;
 	int err = r && t ? 0 : ERR_INPUT;
 
 	if (!err)
 		err = set_read(ref, r, &out->ref_image);
 	if (!err)
 		err = set_read(traced, t, &out->image);
+	if (!err)
+		err = settings_for_frame(run->settings, run->name, frame, run->options, out->ref_image.width,
+		                         out->ref_image.height, &out->settings);
+	channel = out->settings.options.channel;
 	if (!err)
 		err = picture_take_reference(&out->ref_image, channel, &out->ref);
 	if (!err)
@@ -41,14 +46,16 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 		out->is_beauty = 1;
 		err = score_picture_from_image(&out->image, "beauty", &out->compared);
 	}
+	out->ref.ignore = out->settings.ignore;
 	if (!err && out->ref.width == out->compared.width && out->ref.height == out->compared.height)
-		err = score_make_maps(&out->ref, &out->compared, &out->maps);
+		err = score_make_maps(&out->ref, &out->compared, &out->settings.options, &out->maps);
 	return err;
 }
 
 void picture_frame_free(struct picture_frame *frame)
 {
 	score_maps_free(&frame->maps);
+	settings_frame_free(&frame->settings);
 	score_picture_free(&frame->compared);
 	score_picture_free(&frame->ref);
 	image_free(&frame->image);

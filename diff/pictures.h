@@ -4,8 +4,10 @@
 #ifndef DIFF_PICTURES_H
 #define DIFF_PICTURES_H
 
+#include "diff/output.h"
 #include "diff/score.h"
 #include "diff/set.h"
+#include "diff/settings.h"
 
 enum picture_kind {
 	PICTURE_REFERENCE,  /* as recorded */
@@ -29,16 +31,17 @@ struct picture_frame {
 	struct image ref_image, image;
 	struct score_picture ref, compared;
 	struct score_maps maps; /* empty where the sizes differ */
+	struct settings_frame settings;
 	int is_beauty;          /* 1: the compared layer is the beauty, for want of gl; it makes one picture, not two */
 };
 
 /**
  * Read one frame of both sets.
- * @param channel  compared layer, NULL: gl where there is one, else the plain colours
+ * @param run      for what is compared and ignored
  * @param out      all zero; free with picture_frame_free, also on failure
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
-int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const char *channel,
+int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
                        struct picture_frame *out);
 void picture_frame_free(struct picture_frame *frame);
 

@@ -31,11 +31,11 @@ static void write_base64(const uint8_t *bytes, size_t n, FILE *out)
 }
 
 /** One frame's pictures as members of the page's table of pictures; *used grows by what they take. */
-static int write_pictures(struct set *ref, struct set *traced, uint64_t number, const char *channel, FILE *out,
-                          size_t *used)
+static int write_pictures(struct set *ref, struct set *traced, uint64_t number, const struct output_run *run,
+                          FILE *out, size_t *used)
 {
 	struct picture_frame frame = { 0 };
-	int err = picture_frame_read(ref, traced, number, channel, &frame);
+	int err = picture_frame_read(ref, traced, number, run, &frame);
 
 	if (err)
 		goto fail;
@@ -79,7 +79,7 @@ static int write_all_pictures(const struct output_run *run, struct set *ref, str
 
 	for (size_t i = 0; !err && i < run->n_scores && used < PICTURE_BUDGET; i++)
 		if (run->scores[i].outcome == SCORE_FRAME_FAILED)
-			err = write_pictures(ref, traced, run->scores[i].frame, run->channel, out, &used);
+			err = write_pictures(ref, traced, run->scores[i].frame, run, out, &used);
 	for (size_t i = 0; !err && i < run->n_scores && used < PICTURE_BUDGET; i++) {
 		const struct score *s = &run->scores[i];
 
@@ -87,7 +87,7 @@ static int write_all_pictures(const struct output_run *run, struct set *ref, str
 			continue;
 		/* the k-th sample is taken at place k * n / SAMPLE */
 		if (n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE >= taken * n_passed) {
-			err = write_pictures(ref, traced, s->frame, run->channel, out, &used);
+			err = write_pictures(ref, traced, s->frame, run, out, &used);
 			taken++;
 		}
 		seen++;
@@ -95,8 +95,7 @@ static int write_all_pictures(const struct output_run *run, struct set *ref, str
 	return err;
 }
 
-static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path,
-                      const char *command)
+static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
 {
 	const char *marker = strstr(report_page, DATA_MARKER);
 	struct output_file file;
@@ -107,8 +106,6 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	fwrite(report_page, 1, (size_t)(marker - report_page), file.stream);
 	fputs("const run = ", file.stream);
 	output_json_stream(run, file.stream);
-	fputs(";\nconst command = ", file.stream);
-	output_json_string(command, file.stream);
 	fputs(";\nconst pictures = {};\n", file.stream);
 	err = write_all_pictures(run, ref, traced, file.stream);
 	fputs(marker + strlen(DATA_MARKER), file.stream);
@@ -119,7 +116,7 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	return output_close(&file, 1);
 }
 
-int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir, const char *command)
+int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir)
 {
 	char path[PATH_MAX];
 	int compared = 0;
@@ -131,7 +128,7 @@ int report_write(const struct output_run *run, struct set *ref, struct set *trac
 		compared |= was_compared(&run->scores[i]);
 	if (snprintf(path, sizeof(path), "%s/index.html", dir) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, dir, "the name is too long");
-	err = write_page(run, ref, traced, path, command);
+	err = write_page(run, ref, traced, path);
 	if (err || !compared)
 		return err;
 	if (snprintf(path, sizeof(path), "%s/sheet.png", dir) >= (int)sizeof(path))

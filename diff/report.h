@@ -11,11 +11,9 @@
  * Write DIR/index.html (what did not pass first, pictures as data URIs) and DIR/sheet.png (a few frames: reference,
  * gl, beauty, difference side by side). Pictures of all frames that failed are in the page as long as these are no
  * more than about 64 MB; of frames that passed, a sample; the page says which are left out.
- *
- * @param command  the command line that made it, shown in the page
  * @return 0 or ERR_SYSTEM (reported; files that were not whole are not there)
  */
-int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir, const char *command);
+int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir);
 
 /** The contact sheet alone. @return 0 or ERR_SYSTEM (reported) */
 int sheet_write(const struct output_run *run, struct set *ref, struct set *traced, const char *path);

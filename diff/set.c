@@ -286,13 +286,25 @@ fail:
 	return ERR_SYSTEM;
 }
 
+/** 1 where an OpenEXR file is tiled, deep or of several parts (version field, bits 9, 11 and 12): what image.h does not read. */
+static int is_foreign_exr(const char *path)
+{
+	uint8_t head[8] = { 0 };
+	FILE *f = fopen(path, "rb");
+	size_t n = f ? fread(head, 1, sizeof(head), f) : 0;
+
+	if (f)
+		fclose(f);
+	return n == sizeof(head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
+}
+
 int set_read(struct set *set, const struct set_entry *entry, struct image *img)
 {
 	int err;
 
 	if (entry->path)
-		return strcasecmp(extension_of(entry->path), "exr") == 0 ? image_read_exr(img, entry->path)
-		                                                         : oiio_read(img, entry->path);
+		return strcasecmp(extension_of(entry->path), "exr") == 0 && !is_foreign_exr(entry->path)
+			? image_read_exr(img, entry->path) : oiio_read(img, entry->path);
 	err = add_record(set, REF_COLOR, entry->frame, img);
 	if (!err)
 		err = add_record(set, REF_DEPTH, entry->frame, img);

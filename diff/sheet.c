@@ -88,7 +88,7 @@ static int draw_row(struct sheet *sheet, size_t row, const struct score *s, cons
 {
 	struct picture_frame frame = { 0 };
 	uint32_t top = GAP + (uint32_t)row * (sheet->cell_h + LABEL + GAP);
-	int err = picture_frame_read(ref, traced, s->frame, run->channel, &frame);
+	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
 
 	for (int c = 0; !err && c < COLUMNS; c++) {
 		uint32_t left = GAP + (uint32_t)c * (sheet->cell_w + GAP), width, height;

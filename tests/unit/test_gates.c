@@ -152,7 +152,7 @@ static void end(void)
 
 static void run(void)
 {
-	ck_assert_int_eq(score_frame(&picture, &traced, 12, &options, &score), 0);
+	ck_assert_int_eq(score_frame(&picture, &traced, 12, &options, NULL, &score), 0);
 }
 
 static enum score_state state(enum score_gate_id gate)
@@ -193,7 +193,7 @@ START_TEST(good_frame_passes_every_gate)
 {
 	expect_all_passed();
 	for (int g = 0; g < N_GATES; g++)
-		if (g != GATE_R1B && g != GATE_E3) /* no layers, no range asked for */
+		if (g != GATE_R1B && g != GATE_E3 && g != GATE_B) /* no layers, no range asked for, nothing approved */
 			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
 	ck_assert_double_eq(score.fidelity, 1);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
@@ -545,7 +545,7 @@ START_TEST(plain_pictures_are_compared_by_colour)
 	ck_assert_int_eq(score_picture_from_image(&reference, "beauty", &against), 0);
 	against.depth = NULL;
 	strcpy(reference.channels[3].name, "unused"); /* was gl.depth */
-	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, &score), 0);
+	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, NULL, &score), 0);
 	ck_assert_int_eq(score.outcome, SCORE_FRAME_PASSED);
 	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
 	ck_assert_int_eq(state(GATE_R2), SCORE_NOT_MEASURED);
@@ -554,7 +554,7 @@ START_TEST(plain_pictures_are_compared_by_colour)
 	against.rgb[3 * 777 + 1] ^= 64;
 	against.rgb[3 * 778 + 1] ^= 64;
 	memset(against.rgb, 200, 3 * 30);
-	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, &score), 0);
+	ck_assert_int_eq(score_frame(&against, &reference, 3, &options, NULL, &score), 0);
 	ck_assert_int_eq(score.outcome, SCORE_FRAME_FAILED);
 	score_picture_free(&against);
 }

@@ -1,0 +1,50 @@
+/*
+ * relume-diff.yaml: what is compared how, by recording and by frame. Its form is described in diff/README.md.
+ *
+ * Every rule whose glob and frames match applies, in the order of the file; a rule's preset comes before the rule itself,
+ * and what a preset inherits before the preset. Later bars win; lists of rectangles and channels add up.
+ */
+#ifndef DIFF_SETTINGS_H
+#define DIFF_SETTINGS_H
+
+#include "diff/score.h"
+
+struct settings; /* opaque */
+
+enum { SETTINGS_MAX_BARS = 64, SETTINGS_MAX_CHANNELS = 64 };
+
+/* What the rules come to for one frame; points into the settings. */
+struct settings_frame {
+	struct score_options options;
+	struct score_bar bars[SETTINGS_MAX_BARS];
+	const char *channels[SETTINGS_MAX_CHANNELS];
+	uint8_t *ignore;            /* [height][width], owned; NULL: nothing is ignored */
+	unsigned flaky_gates;       /* bit g: gate g is known to be flaky here */
+	const char *flaky_reason;   /* of the last entry that matched; NULL: none */
+};
+
+/**
+ * Read a file. Unknown keys, wrong types, unknown presets, bad ranges and dates, unreadable masks are errors.
+ * @return 0, ERR_INPUT (reported, with the line where it can be told) or ERR_SYSTEM (reported)
+ */
+int settings_read(const char *path, struct settings **out);
+void settings_free(struct settings **settings);
+
+/** The folder of approved frames that the file names, relative to where the file lies; NULL: none. Borrowed. */
+const char *settings_baseline(const struct settings *settings);
+
+/**
+ * What holds for one frame.
+ *
+ * @param settings  NULL: nothing but what the command line says
+ * @param name      of the recording, matched by the globs ("gears")
+ * @param base      what the command line says; copied, then changed by the rules
+ * @param width, height  of the frame, for masks and rectangles
+ * @param out       all zero; free with settings_frame_free; must not move while options are in use
+ * @return 0, ERR_INPUT (reported: a mask of another size, or too many bars) or ERR_SYSTEM (reported)
+ */
+int settings_for_frame(const struct settings *settings, const char *name, uint64_t frame,
+                       const struct score_options *base, uint32_t width, uint32_t height, struct settings_frame *out);
+void settings_frame_free(struct settings_frame *frame);
+
+#endif
