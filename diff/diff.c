@@ -314,7 +314,8 @@ static void *score_frames(void *arg)
 
 		pthread_mutex_unlock(&w->lock);
 		err = score_one(w, w->frames[i], s);
-		snprintf(text, sizeof(text), "%s, fidelity %.3f %%", score_outcome_names[s->outcome], 100 * s->fidelity);
+		snprintf(text, sizeof(text), w->run->reference ? "%s, fidelity %.3f %%" : "%s", score_outcome_names[s->outcome],
+		         100 * s->fidelity);
 		pthread_mutex_lock(&w->lock);
 		if (err)
 			w->err = err;

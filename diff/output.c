@@ -163,7 +163,10 @@ void output_table(const struct output_run *run, FILE *out)
 
 		fprintf(out, "%7" PRIu64 " %-10s", s->frame, score_outcome_names[s->outcome]);
 		if (is_compared(s)) {
-			fprintf(out, " %8.3f%%", 100 * s->fidelity);
+			if (run->reference)
+				fprintf(out, " %8.3f%%", 100 * s->fidelity);
+			else
+				fprintf(out, " %9s", "- ");
 			print_figure(s, GATE_R1, 0, out);
 			print_figure(s, GATE_R2, 0, out);
 			print_figure(s, GATE_R3, 0, out);

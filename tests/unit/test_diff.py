@@ -181,6 +181,69 @@ class Diff(unittest.TestCase):
         self.assertLess(page.index("pictures[3] ="), page.index("pictures[1] ="))  # failed first
         self.assertTrue((out / "sheet.png").read_bytes().startswith(b"\x89PNG"))
 
+    def config(self, text):
+        path = self.dir / "c.yaml"
+        path.write_text(text)
+        return "--config", path
+
+    def test_configuration(self):
+        write_png(self.traced / "b.3.png", picture(9))
+        ignore = "ignore: [{x: 5, y: 0, width: 40, height: 40}]"
+        self.diff(self.ref, self.traced, *self.config(f"rules:\n- match: 'tr*'\n  {ignore}\n"), expect=0)
+        self.diff(self.ref, self.traced, *self.config(f"rules:\n- match: 'x*'\n  {ignore}\n"), expect=1)
+        self.diff(self.ref, self.traced, *self.config(f"rules:\n- frames: 1-2\n  {ignore}\n"), expect=1)
+        presets = "presets:\n- name: a\n  ignore: [{x: 5, y: 0, width: 10, height: 40}]\n" \
+                  "- name: b\n  inherits: a\n  ignore: [{x: 15, y: 0, width: 30, height: 40}]\n"
+        self.diff(self.ref, self.traced, *self.config(f"{presets}rules:\n- preset: b\n"), expect=0)
+        self.diff(self.ref, self.traced, *self.config(f"{presets}rules:\n- preset: a\n"), expect=1)
+        white = [bytes(3 * 5) + b"\xff" * (3 * 40) + bytes(3 * 3)] * HEIGHT
+        write_png(self.dir / "m.png", white)
+        self.diff(self.ref, self.traced, *self.config("rules:\n- mask: m.png\n"), expect=0)
+
+    def test_bars(self):
+        shifted = [bytes(b + 1 if b < 255 else b for b in row) for row in picture(2)]
+        write_png(self.traced / "b.2.png", shifted)
+        frames = lambda *args, expect: json.loads(self.diff(self.ref, self.traced, *args, "--json", "-", expect=expect).stdout)["frames"]
+        self.assertEqual(frames(expect=1)[1]["gates"]["P"]["state"], "failed")
+        loose = self.config("rules:\n- bars: [{gate: P, fail: 0.1, warn: 0.01}]\n")
+        self.assertEqual(frames(*loose, expect=0)[1]["gates"]["P"]["state"], "warned")
+        done = self.diff(self.ref, self.traced, *loose, "--annotations", expect=0)
+        self.assertIn("::warning title=relume diff%3A frame 2 warns::", done.stdout)
+        better = self.config("rules:\n- bars: [{gate: P, fail: 0.1, better: 0.02}]\n")
+        self.assertEqual([f["outcome"] for f in frames(*better, expect=1)], ["failed", "passed", "failed", "failed"])
+
+    def test_flaky(self):
+        shifted = [bytes(b + 1 if b < 255 else b for b in row) for row in picture(2)]
+        write_png(self.traced / "b.2.png", shifted)
+        entry = "flaky:\n- {{frames: '2', gates: [{}], reason: a driver, expires: {}}}\n"
+        good = self.config(entry.format("P", "2999-01-31"))
+        self.assertEqual(self.outcomes(self.ref, self.traced, *good, expect=0)[2], "flaky")
+        self.diff(self.ref, self.traced, *good, "--junit", self.dir / "j.xml", expect=0)
+        suite = xml.etree.ElementTree.parse(self.dir / "j.xml").getroot().find("testsuite")
+        self.assertEqual(suite.find("testcase/skipped").get("message"), "a driver")
+        done = self.diff(self.ref, self.traced, *self.config(entry.format("P", "2001-01-31")), expect=1)
+        self.assertIn("expired", done.stderr)
+        self.diff(self.ref, self.traced, *self.config(entry.format("R1", "2999-01-31")), expect=1)
+
+    def test_bad_configuration(self):
+        for text, said in (("rules:\n- match: a\n  bar: 3\n", "line 3: Unexpected key: bar"),
+                           ("rules:\n- bars:\n  - gate: R9\n    fail: 1\n", "line 3: "),
+                           ("rules:\n- bars: [{gate: R1, fail: x}]\n", "line 2: "),
+                           ("rules:\n- preset: none\n", "no preset 'none'"),
+                           ("presets:\n- {name: a, inherits: b}\n- {name: b, inherits: a}\n", "does not stand before"),
+                           ("flaky:\n- {gates: [P], reason: x, expires: 2030-13-01}\n", "is no day"),
+                           ("rules:\n- mask: none.png\n", "none.png"),
+                           ("rules:\n- bars: [{gate: R1, figure: 3, fail: 1}]\n", "has 1 figure")):
+            done = self.diff(self.ref, self.traced, *self.config(text), expect=3)
+            self.assertIn(said, done.stderr)
+
+    def test_first_wrong_frame(self):
+        write_png(self.traced / "b.3.png", picture(9))
+        (self.traced / "b.4.png").unlink()
+        done = self.diff(self.ref, self.traced, "--annotations", expect=1)
+        self.assertIn("first wrong frame 3", done.stdout)
+        self.assertEqual(len(re.findall("^::error ", done.stdout, re.M)), 2)
+
     def test_nothing_half_written(self):
         (self.dir / "file").write_text("")
         self.diff(self.ref, self.traced, "--report", self.dir / "file", expect=5)

@@ -560,6 +560,174 @@ START_TEST(plain_pictures_are_compared_by_colour)
 }
 END_TEST
 
+/* Bars of a configuration, masks */
+
+START_TEST(warnings_and_improvements)
+{
+	struct score_bar bars[2] = { { GATE_P, 0, NAN, 0.001, NAN }, { GATE_R1, 0, NAN, NAN, 1e-6 } };
+
+	options.bars = bars;
+	options.n_bars = 1;
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_P), SCORE_PASSED);
+	shift_codes(0, 10, 1); /* a twelfth of the picture: a FLIP of 0.0025 */
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_P), SCORE_WARNED);
+	bars[0].bar = 0.001;
+	expect_failed(GATE_P);
+	bars[0] = (struct score_bar){ GATE_R1, 0, NAN, NAN, 0.5 }; /* 0 is better than anybody thought */
+	bars[0].better = 0.05;
+	expect_failed(GATE_R1);
+	ck_assert(score.gates[GATE_R1].better_than_expected);
+}
+END_TEST
+
+START_TEST(ignored_pixels_do_not_count)
+{
+	static uint8_t ignore[N];
+	struct drawing d = all;
+
+	d.bar = 0;
+	remake_traced(&d);
+	expect_failed(GATE_R3);
+	for (int y = 99; y < 109; y++)
+		memset(ignore + y * WIDTH + 124, 1, 14);
+	picture.ignore = ignore;
+	expect_all_passed();
+	ck_assert_uint_eq(score.failing_pixels, 0);
+	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
+	d.disc = 0; /* what is not ignored still counts */
+	remake_traced(&d);
+	expect_failed(GATE_R3);
+}
+END_TEST
+
+START_TEST(demanded_channels)
+{
+	static const char *const names[] = { "shadow.R", "refract.G" };
+
+	options.channels = names;
+	options.n_channels = 1;
+	expect_all_passed();
+	options.n_channels = 2;
+	expect_failed(GATE_V);
+	ck_assert_ptr_nonnull(strstr(score.gates[GATE_V].note, "refract.G"));
+}
+END_TEST
+
+START_TEST(left_out_effects_are_not_measured)
+{
+	for (size_t c = 0; c < traced.n_channels; c++)
+		if (strncmp(traced.channels[c].name, "shadow", 6) == 0)
+			traced.channels[c].name[0] = 'x';
+	expect_failed(GATE_E1);
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:aov", "gl,reflect,relight,refract"), 0);
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_E1), SCORE_NOT_MEASURED);
+	ck_assert_int_eq(state(GATE_E2), SCORE_NOT_MEASURED);
+}
+END_TEST
+
+/* B */
+
+static struct image before;
+
+/* An approved frame as the drawing makes it, and what the traced frame looks like beside it. */
+static void approve(const struct drawing *d, struct score_approved *approved)
+{
+	struct image kept = traced;
+
+	traced = (struct image){ 0 };
+	make_traced(d);
+	before = traced;
+	traced = kept;
+	*approved = (struct score_approved){ .image = &before, .same_channels = 1 };
+}
+
+static void run_approved(const struct score_approved *approved)
+{
+	ck_assert_int_eq(score_frame(&picture, &traced, 12, &options, approved, &score), 0);
+}
+
+START_TEST(baseline_by_hash)
+{
+	struct score_approved approved = { .same_hashes = 1, .same_device = 1, .same_channels = 1 };
+
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_PASSED);
+	approved.same_hashes = 0; /* the same device gives the same bytes, or something has changed */
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_FAILED);
+	approved.same_device = 0; /* nothing to compare with */
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_NOT_MEASURED);
+}
+END_TEST
+
+START_TEST(baseline_of_another_device)
+{
+	struct score_approved approved;
+	float *red = image_channel(&traced, "R");
+
+	approve(&all, &approved);
+	for (int i = 0; i < N; i++)
+		red[i] *= 1 + 0x1p-11f; /* other last bits */
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_PASSED);
+	red[7] += 0.01f; /* 1 of 19,200 pixels is 0.005 % */
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_PASSED);
+	red[8] += 0.01f;
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_FAILED);
+	approved.same_channels = 0;
+	red[7] -= 0.01f;
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_FAILED);
+	image_free(&before);
+}
+END_TEST
+
+START_TEST(baseline_sees_lost_shadows_and_names_the_draw)
+{
+	struct score_approved approved;
+
+	approve(&all, &approved);
+	for (int c = 0; c < 3; c++) {
+		float *shadow = image_channel(&traced, (const char *[]){ "shadow.R", "shadow.G", "shadow.B" }[c]);
+		float *beauty = image_channel(&traced, (const char[]){ "RGB"[c], 0 });
+
+		for (int i = 0; i < N; i++) {
+			beauty[i] /= shadow[i];
+			shadow[i] = 1;
+		}
+	}
+	run_approved(&approved);
+	ck_assert_int_eq(state(GATE_B), SCORE_FAILED);
+	ck_assert_int_eq(state(GATE_E1), SCORE_PASSED);
+	ck_assert_double_gt(score.gates[GATE_B].value[1], 0.01);
+	ck_assert_uint_eq(score.blame[0].draw, 1);
+	ck_assert_uint_eq(score.blame[0].x0, 20);
+	ck_assert_uint_eq(score.blame[0].x1, 39);
+	image_free(&before);
+}
+END_TEST
+
+START_TEST(blame_of_a_missing_draw_by_the_approved_frame)
+{
+	struct score_approved approved;
+	struct drawing d = all;
+
+	approve(&all, &approved);
+	d.bar = 0;
+	remake_traced(&d);
+	run_approved(&approved);
+	ck_assert_uint_eq(score.blame[0].draw, 3);
+	ck_assert(score.blame[0].is_approved);
+	image_free(&before);
+}
+END_TEST
+
 START_TEST(codes_round_trip)
 {
 	for (int i = 0; i < 256; i++)
@@ -604,6 +772,14 @@ int main(void)
 	tcase_add_test(tests, drift_that_no_pixel_shows);
 	tcase_add_test(tests, gamma_twice);
 	tcase_add_test(tests, plain_pictures_are_compared_by_colour);
+	tcase_add_test(tests, warnings_and_improvements);
+	tcase_add_test(tests, ignored_pixels_do_not_count);
+	tcase_add_test(tests, demanded_channels);
+	tcase_add_test(tests, left_out_effects_are_not_measured);
+	tcase_add_test(tests, baseline_by_hash);
+	tcase_add_test(tests, baseline_of_another_device);
+	tcase_add_test(tests, baseline_sees_lost_shadows_and_names_the_draw);
+	tcase_add_test(tests, blame_of_a_missing_draw_by_the_approved_frame);
 	tcase_add_test(tests, codes_round_trip);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);

@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# limit: 300 s
+"""relume approve: provenance, what it prints, and what relume diff makes of approved frames."""
+import os
+import re
+import shutil
+
+from helpers import RELUME, SCRATCH, check, corpus, diff, finish, must, record, relume, render, run
+
+trace, out, base = SCRATCH / "c.trace", SCRATCH / "out", SCRATCH / "base"
+record(trace, corpus("cornell"), "--frames", "3", "--animate", "camera")
+render(trace, out)
+
+
+def approve(*args):
+    return must(relume("approve", *args)).stdout
+
+
+def outcomes(code, *args):
+    got, score = diff(*args)
+    check(got == code, f"exit code {got}, expected {code}: {args}")
+    return [f["outcome"] for f in score["frames"]], score["frames"]
+
+
+found, frames = outcomes(4, trace, out, "--baseline", base)
+check(found == ["new"] * 3, f"nothing is approved yet: {found}")
+text = approve(out, base, "-n")
+check(not base.exists() and "frame 1: new" in text and "nothing was written" in text, f"a dry run: {text}")
+env = dict(os.environ, SOURCE_DATE_EPOCH="1000000000")
+text = must(run(RELUME, "approve", out, base, "--by", "somebody", "--reason", "they are right", env=env)).stdout
+check("3 new, 0 changed" in text, f"first approval: {text}")
+sheet, = base.glob("*/baseline.yaml")
+lines = sheet.read_text().splitlines()
+for line in ('approved_by: "somebody"', 'approved_at: "2001-09-09T01:46:40Z"', 'reason: "they are right"'):
+    check(line in lines, f"provenance: {line}")
+check(re.search(r'^trace: "[0-9a-f]{32}"$', sheet.read_text(), re.M), "the trace's hash")
+check(len([line for line in lines if line.startswith("- {frame: ")]) == 3, "one line a frame")
+check(len(list(base.glob("*/frame.*.exr"))) == 3, "frames are stored")
+
+found, frames = outcomes(0, trace, out, "--baseline", base)
+check(found == ["passed"] * 3, f"the same frames: {found}")
+check(all("approved hash" in f["gates"]["B"]["note"] for f in frames), "the fast path")
+found, frames = outcomes(0, "--baseline", base, out)
+check(found == ["passed"] * 3 and frames[0]["gates"]["R1"]["state"] == "not measured", "without a reference")
+
+# Other pixels of the same device: a failure; approving them says what changed.
+shutil.copy(out / "c.0001.exr", SCRATCH / "kept.exr")
+render(trace, SCRATCH / "gl", "--mode", "gl", "-f", "1")
+shutil.copy(SCRATCH / "gl" / "c.0001.exr", out / "c.0001.exr")
+found, frames = outcomes(1, trace, out, "--baseline", base)
+check(found == ["passed", "failed", "passed"], f"one frame has changed: {found}")
+check("same device" in frames[1]["gates"]["B"]["note"], f"{frames[1]['gates']['B']}")
+text = approve(out, base, "-n")
+check(re.search(r"frame 1: changed: \d+ of \d+ pixels", text) and "2 as approved before" in text, f"an update: {text}")
+shutil.copy(SCRATCH / "kept.exr", out / "c.0001.exr")
+
+# The C twins are another device: its frames are compared number by number.
+render(trace, SCRATCH / "twins", "--device", "reference")
+found, frames = outcomes(0, trace, SCRATCH / "twins", "--baseline", base)
+check(found == ["passed"] * 3, f"another device: {found}")
+approve(SCRATCH / "twins", base, "--hashes")
+check(len(list(base.glob("*/baseline.yaml"))) == 2, "a variant for each device")
+found, frames = outcomes(0, trace, SCRATCH / "twins", "--baseline", base)
+check(all("approved hash" in f["gates"]["B"]["note"] for f in frames), "its own hashes now")
+
+(out / "c.0002.exr").unlink()
+found, _ = outcomes(1, "--baseline", base, out)
+check(found == ["passed", "passed", "missing"], f"an approved frame without a traced one: {found}")
+
+sheet.write_text(sheet.read_text().replace("version: 1", "version: one"))
+done = relume("diff", trace, out, "--baseline", base)
+check(done.returncode == 3 and "line 2" in done.stderr, f"a damaged file: {done.stderr}")
+check(relume("approve", trace, base).returncode != 0, "a trace is no set of traced frames")
+check(relume("approve", out).returncode == 2, "two names are wanted")
+finish()
