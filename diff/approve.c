@@ -283,8 +283,8 @@ static int approve_all(const struct options *o, struct set *set, const struct ba
 			snprintf(device, sizeof(device), "%s", image_attribute(&img, "relume:device"));
 			snprintf(trace, sizeof(trace), "%s", attribute_or(&img, "relume:trace", ""));
 			snprintf(version, sizeof(version), "%s", attribute_or(&img, "relume:version", ""));
-			snprintf(settings, sizeof(settings), "encoding %s, channels %s", attribute_or(&img, "relume:encoding", "linear"),
-			         attribute_or(&img, "relume:aov", "all"));
+			snprintf(settings, sizeof(settings), "%s, encoding %s, channels %s", attribute_or(&img, "relume:settings", "?"),
+			         attribute_or(&img, "relume:encoding", "linear"), attribute_or(&img, "relume:aov", "all"));
 			err = begin_update(&u, b, device);
 			if (!err && !o->dry_run)
 				err = folder_make(u.folder);

@@ -21,7 +21,7 @@
 #include "diff/report.h"
 #include "diff/score.h"
 #include "diff/set.h"
-#include "diff/settings.h"
+#include "diff/rules.h"
 #include "replay/replay.h"
 
 /* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
@@ -229,7 +229,7 @@ static struct score_picture picture_of_size(const struct image *img)
 }
 
 /** A frame that failed nothing but gates that are known to be flaky is no failure. */
-static void judge_flaky(const struct settings_frame *settings, struct score *s)
+static void judge_flaky(const struct score_rules_frame *settings, struct score *s)
 {
 	unsigned failed = 0;
 
@@ -246,11 +246,11 @@ static int score_image(struct work *w, uint64_t frame, struct score_picture *pic
                        struct score *out)
 {
 	const struct output_run *run = w->run;
-	struct settings_frame settings = { 0 };
+	struct score_rules_frame settings = { 0 };
 	struct score_approved approved;
 	struct image was = { 0 };
 	int found = 0;
-	int err = settings_for_frame(run->settings, run->name, frame, run->options, picture->width, picture->height, &settings);
+	int err = score_rules_for_frame(run->settings, run->name, frame, run->options, picture->width, picture->height, &settings);
 
 	picture->ignore = settings.ignore;
 	if (!err && w->baseline->dir)
@@ -262,7 +262,7 @@ static int score_image(struct work *w, uint64_t frame, struct score_picture *pic
 		if (out->outcome == SCORE_FRAME_PASSED && w->baseline->dir && !found)
 			out->outcome = SCORE_FRAME_NEW;
 	}
-	settings_frame_free(&settings);
+	score_rules_frame_free(&settings);
 	image_free(&was);
 	return err;
 }
@@ -452,17 +452,17 @@ static int exit_code(const struct output_run *run)
 
 /** Everything that is compared, and how. */
 static int open_all(struct options *o, struct set *ref, struct set *traced, struct baseline *baseline,
-                    struct settings **settings)
+                    struct score_rules **settings)
 {
 	const char *config = o->config ? o->config : access("relume-diff.yaml", F_OK) == 0 ? "relume-diff.yaml" : NULL;
-	int err = config ? settings_read(config, settings) : 0;
+	int err = config ? score_rules_read(config, settings) : 0;
 
 	if (!err && o->reference)
 		err = set_open(o->reference, ref);
 	if (!err)
 		err = set_open(o->traced, traced);
 	if (!err && *settings && !o->baseline)
-		o->baseline = settings_baseline(*settings);
+		o->baseline = score_rules_baseline(*settings);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
 	/* Two single images are a pair whatever their numbers. */
@@ -493,7 +493,7 @@ int diff_main(int argc, char **argv)
 	struct options o = { 0 };
 	struct set ref = { 0 }, traced = { 0 };
 	struct baseline baseline = { 0 };
-	struct settings *settings = NULL;
+	struct score_rules *settings = NULL;
 	struct output_run run = { 0 };
 	char name[256], *command = NULL;
 	uint64_t *frames = NULL;
@@ -535,7 +535,7 @@ fail:
 	free(command);
 	free(frames);
 	baseline_close(&baseline);
-	settings_free(&settings);
+	score_rules_free(&settings);
 	set_free(&traced);
 	set_free(&ref);
 	frame_list_free(&o.frames);

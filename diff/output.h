@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "diff/score.h"
-#include "diff/settings.h"
+#include "diff/rules.h"
 
 /* A whole comparison. */
 struct output_run {
@@ -16,7 +16,7 @@ struct output_run {
 	const char *name;               /* of the recording, as configurations match it */
 	const char *command;            /* the command line that made this */
 	const struct score_options *options; /* of the command line */
-	const struct settings *settings;     /* NULL: none */
+	const struct score_rules *settings;     /* NULL: none */
 	struct score *scores;           /* sorted by frame */
 	size_t n_scores;
 	uint64_t counts[N_SCORE_OUTCOMES];

@@ -35,7 +35,7 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 	if (!err)
 		err = set_read(traced, t, &out->image);
 	if (!err)
-		err = settings_for_frame(run->settings, run->name, frame, run->options, out->ref_image.width,
+		err = score_rules_for_frame(run->settings, run->name, frame, run->options, out->ref_image.width,
 		                         out->ref_image.height, &out->settings);
 	channel = out->settings.options.channel;
 	if (!err)
@@ -55,7 +55,7 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 void picture_frame_free(struct picture_frame *frame)
 {
 	score_maps_free(&frame->maps);
-	settings_frame_free(&frame->settings);
+	score_rules_frame_free(&frame->settings);
 	score_picture_free(&frame->compared);
 	score_picture_free(&frame->ref);
 	image_free(&frame->image);

@@ -7,7 +7,7 @@
 #include "diff/output.h"
 #include "diff/score.h"
 #include "diff/set.h"
-#include "diff/settings.h"
+#include "diff/rules.h"
 
 enum picture_kind {
 	PICTURE_REFERENCE,  /* as recorded */
@@ -31,7 +31,7 @@ struct picture_frame {
 	struct image ref_image, image;
 	struct score_picture ref, compared;
 	struct score_maps maps; /* empty where the sizes differ */
-	struct settings_frame settings;
+	struct score_rules_frame settings;
 	int is_beauty;          /* 1: the compared layer is the beauty, for want of gl; it makes one picture, not two */
 };
 

@@ -257,6 +257,10 @@ static int write_picture(struct run *run, struct picture *picture)
 	char path[MAX_PATH_BYTES];
 	int err = stamp_image(&run->p->stamp, &picture->img);
 
+	/* what was left out on purpose explains nothing that is missing */
+	if (!err && run->p->settings->tracer.aov)
+		err = image_set_attribute(&picture->img, "relume:aov", "%s", run->p->settings->tracer.aov);
+
 	if (!err)
 		err = frame_pattern_expand(run->p->settings->output, picture->frame, path, sizeof(path));
 	if (!err)

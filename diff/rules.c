@@ -1,4 +1,4 @@
-#include "diff/settings.h"
+#include "diff/rules.h"
 
 #include <fnmatch.h>
 #include <math.h>
@@ -158,7 +158,7 @@ static const cyaml_schema_field_t file_fields[] = {
 static const cyaml_schema_value_t file_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct yaml_file, file_fields) };
 
 /* What is made of it. */
-struct settings {
+struct score_rules {
 	char *path;
 	struct yaml_file *file;
 	struct frame_list *rule_frames, *flaky_frames; /* [n_rules], [n_flaky] */
@@ -186,7 +186,7 @@ static const struct yaml_rule *find_preset(const struct yaml_file *file, const c
 	return NULL;
 }
 
-static int check_rule(const struct settings *s, const struct yaml_rule *rule, struct image *mask)
+static int check_rule(const struct score_rules *s, const struct yaml_rule *rule, struct image *mask)
 {
 	for (uint32_t i = 0; i < rule->n_bars; i++) {
 		const struct yaml_bar *b = &rule->bars[i];
@@ -213,7 +213,7 @@ static int check_rule(const struct settings *s, const struct yaml_rule *rule, st
 }
 
 /** Presets are known, and inherit from presets that stand before them: there is no circle. */
-static int check_presets(const struct settings *s)
+static int check_presets(const struct score_rules *s)
 {
 	const struct yaml_file *f = s->file;
 
@@ -232,7 +232,7 @@ static int check_presets(const struct settings *s)
 	return 0;
 }
 
-static int check_flaky(struct settings *s)
+static int check_flaky(struct score_rules *s)
 {
 	for (uint32_t i = 0; i < s->file->n_flaky; i++) {
 		const struct yaml_flaky *f = &s->file->flaky[i];
@@ -253,7 +253,7 @@ static int check_flaky(struct settings *s)
 	return 0;
 }
 
-static int check_all(struct settings *s)
+static int check_all(struct score_rules *s)
 {
 	struct yaml_file *f = s->file;
 	int err;
@@ -281,9 +281,9 @@ static int check_all(struct settings *s)
 	return err ? err : check_flaky(s);
 }
 
-int settings_read(const char *path, struct settings **out)
+int score_rules_read(const char *path, struct score_rules **out)
 {
-	struct settings *s = calloc(1, sizeof(*s));
+	struct score_rules *s = calloc(1, sizeof(*s));
 	int err = ERR_SYSTEM;
 
 	*out = s;
@@ -294,13 +294,13 @@ int settings_read(const char *path, struct settings **out)
 	if (!err)
 		err = check_all(s);
 	if (err)
-		settings_free(out);
+		score_rules_free(out);
 	return err;
 }
 
-void settings_free(struct settings **settings)
+void score_rules_free(struct score_rules **settings)
 {
-	struct settings *s = *settings;
+	struct score_rules *s = *settings;
 
 	if (!s)
 		return;
@@ -324,7 +324,7 @@ void settings_free(struct settings **settings)
 	*settings = NULL;
 }
 
-const char *settings_baseline(const struct settings *settings)
+const char *score_rules_baseline(const struct score_rules *settings)
 {
 	return settings->baseline;
 }
@@ -334,7 +334,7 @@ static int matches(const char *glob, const struct frame_list *frames, const char
 	return (!glob || fnmatch(glob, name, 0) == 0) && frame_list_contains(frames, frame);
 }
 
-static int need_ignore(const struct settings *s, uint32_t width, uint32_t height, struct settings_frame *out)
+static int need_ignore(const struct score_rules *s, uint32_t width, uint32_t height, struct score_rules_frame *out)
 {
 	const size_t n = (size_t)width * height;
 
@@ -343,8 +343,8 @@ static int need_ignore(const struct settings *s, uint32_t width, uint32_t height
 	return out->ignore ? 0 : err_report(ERR_SYSTEM, s->path, "out of memory");
 }
 
-static int apply_mask(const struct settings *s, const struct image *mask, uint32_t width, uint32_t height,
-                      struct settings_frame *out)
+static int apply_mask(const struct score_rules *s, const struct image *mask, uint32_t width, uint32_t height,
+                      struct score_rules_frame *out)
 {
 	const size_t n = (size_t)width * height;
 	const float *plane;
@@ -362,8 +362,8 @@ static int apply_mask(const struct settings *s, const struct image *mask, uint32
 	return 0;
 }
 
-static int apply_rectangle(const struct settings *s, const struct yaml_rectangle *r, uint32_t width, uint32_t height,
-                           struct settings_frame *out)
+static int apply_rectangle(const struct score_rules *s, const struct yaml_rectangle *r, uint32_t width, uint32_t height,
+                           struct score_rules_frame *out)
 {
 	if (need_ignore(s, width, height, out) != 0)
 		return ERR_SYSTEM;
@@ -373,8 +373,8 @@ static int apply_rectangle(const struct settings *s, const struct yaml_rectangle
 	return 0;
 }
 
-static int apply_rule(const struct settings *s, const struct yaml_rule *rule, const struct image *mask, uint32_t width,
-                      uint32_t height, struct settings_frame *out)
+static int apply_rule(const struct score_rules *s, const struct yaml_rule *rule, const struct image *mask, uint32_t width,
+                      uint32_t height, struct score_rules_frame *out)
 {
 	const char *parent = rule->preset ? rule->preset : rule->inherits;
 	int err = 0;
@@ -387,16 +387,16 @@ static int apply_rule(const struct settings *s, const struct yaml_rule *rule, co
 	for (uint32_t i = 0; i < rule->n_bars; i++) {
 		const struct yaml_bar *b = &rule->bars[i];
 
-		if (out->options.n_bars == SETTINGS_MAX_BARS)
-			return err_report(ERR_INPUT, s->path, "more than %d bars for one frame", SETTINGS_MAX_BARS);
+		if (out->options.n_bars == SCORE_RULES_MAX_BARS)
+			return err_report(ERR_INPUT, s->path, "more than %d bars for one frame", SCORE_RULES_MAX_BARS);
 		out->bars[out->options.n_bars++] = (struct score_bar){
 			b->gate, b->figure ? (int)b->figure - 1 : 0, b->fail ? *b->fail : NAN, b->warn ? *b->warn : NAN,
 			b->better ? *b->better : NAN
 		};
 	}
 	for (uint32_t i = 0; i < rule->n_channels; i++) {
-		if (out->options.n_channels == SETTINGS_MAX_CHANNELS)
-			return err_report(ERR_INPUT, s->path, "more than %d channels for one frame", SETTINGS_MAX_CHANNELS);
+		if (out->options.n_channels == SCORE_RULES_MAX_CHANNELS)
+			return err_report(ERR_INPUT, s->path, "more than %d channels for one frame", SCORE_RULES_MAX_CHANNELS);
 		out->channels[out->options.n_channels++] = rule->channels[i];
 	}
 	for (uint32_t i = 0; i < rule->n_effects; i++) {
@@ -417,8 +417,8 @@ static int apply_rule(const struct settings *s, const struct yaml_rule *rule, co
 	return err;
 }
 
-int settings_for_frame(const struct settings *settings, const char *name, uint64_t frame,
-                       const struct score_options *base, uint32_t width, uint32_t height, struct settings_frame *out)
+int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
+                       const struct score_options *base, uint32_t width, uint32_t height, struct score_rules_frame *out)
 {
 	const struct yaml_file *f = settings ? settings->file : NULL;
 	int err = 0;
@@ -439,7 +439,7 @@ int settings_for_frame(const struct settings *settings, const char *name, uint64
 	return err;
 }
 
-void settings_frame_free(struct settings_frame *frame)
+void score_rules_frame_free(struct score_rules_frame *frame)
 {
 	free(frame->ignore);
 	frame->ignore = NULL;

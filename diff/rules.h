@@ -4,20 +4,20 @@
  * Every rule whose glob and frames match applies, in the order of the file; a rule's preset comes before the rule itself,
  * and what a preset inherits before the preset. Later bars win; lists of rectangles and channels add up.
  */
-#ifndef DIFF_SETTINGS_H
-#define DIFF_SETTINGS_H
+#ifndef DIFF_RULES_H
+#define DIFF_RULES_H
 
 #include "diff/score.h"
 
-struct settings; /* opaque */
+struct score_rules; /* opaque */
 
-enum { SETTINGS_MAX_BARS = 64, SETTINGS_MAX_CHANNELS = 64 };
+enum { SCORE_RULES_MAX_BARS = 64, SCORE_RULES_MAX_CHANNELS = 64 };
 
 /* What the rules come to for one frame; points into the settings. */
-struct settings_frame {
+struct score_rules_frame {
 	struct score_options options;
-	struct score_bar bars[SETTINGS_MAX_BARS];
-	const char *channels[SETTINGS_MAX_CHANNELS];
+	struct score_bar bars[SCORE_RULES_MAX_BARS];
+	const char *channels[SCORE_RULES_MAX_CHANNELS];
 	uint8_t *ignore;            /* [height][width], owned; NULL: nothing is ignored */
 	unsigned flaky_gates;       /* bit g: gate g is known to be flaky here */
 	const char *flaky_reason;   /* of the last entry that matched; NULL: none */
@@ -27,11 +27,11 @@ struct settings_frame {
  * Read a file. Unknown keys, wrong types, unknown presets, bad ranges and dates, unreadable masks are errors.
  * @return 0, ERR_INPUT (reported, with the line where it can be told) or ERR_SYSTEM (reported)
  */
-int settings_read(const char *path, struct settings **out);
-void settings_free(struct settings **settings);
+int score_rules_read(const char *path, struct score_rules **out);
+void score_rules_free(struct score_rules **settings);
 
 /** The folder of approved frames that the file names, relative to where the file lies; NULL: none. Borrowed. */
-const char *settings_baseline(const struct settings *settings);
+const char *score_rules_baseline(const struct score_rules *settings);
 
 /**
  * What holds for one frame.
@@ -40,11 +40,11 @@ const char *settings_baseline(const struct settings *settings);
  * @param name      of the recording, matched by the globs ("gears")
  * @param base      what the command line says; copied, then changed by the rules
  * @param width, height  of the frame, for masks and rectangles
- * @param out       all zero; free with settings_frame_free; must not move while options are in use
+ * @param out       all zero; free with score_rules_frame_free; must not move while options are in use
  * @return 0, ERR_INPUT (reported: a mask of another size, or too many bars) or ERR_SYSTEM (reported)
  */
-int settings_for_frame(const struct settings *settings, const char *name, uint64_t frame,
-                       const struct score_options *base, uint32_t width, uint32_t height, struct settings_frame *out);
-void settings_frame_free(struct settings_frame *frame);
+int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
+                       const struct score_options *base, uint32_t width, uint32_t height, struct score_rules_frame *out);
+void score_rules_frame_free(struct score_rules_frame *frame);
 
 #endif
