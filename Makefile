@@ -22,7 +22,7 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lbrotlidec -lz -lxxhash -lcyaml -lstdc++ -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lpng -lbrotlidec -lz -lxxhash -lcyaml -lstdc++ -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c writer.c reference.c)
@@ -38,7 +38,7 @@ COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
-	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libcyaml-dev \
+	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \
@@ -173,7 +173,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays
+SHOWS := show-parity show-rays show-export
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -194,6 +194,12 @@ bench: $(BUILD)/tests/bench/embree
 show-rays: $(BUILD)/tests/bench/embree
 	@mkdir -p $(BUILD)/show
 	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
+
+# Exported frames in another program.
+.PHONY: show-export
+DEPS_export := blender python3-numpy
+show-export: all $(BUILD)/deps.export
+	@$(PYTHON) tests/show/export.py $(BUILD)
 
 # Not part of `make show` yet: some of its bars do not hold.
 show-overhead: all $(BUILD)/tests/bench/static_scene

@@ -14,6 +14,7 @@ static const struct verb {
 	{ "info", info_main, "what a trace holds: frames, calls, what is not handled" },
 	{ "dump", dump_main, "print a trace's calls as text" },
 	{ "scene", scene_main, "print the scene of a frame" },
+	{ "export", export_main, "a frame as glTF, for other programs" },
 	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_main, "score traced frames against rasterized ones, or any two sets" },

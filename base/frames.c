@@ -179,6 +179,16 @@ uint64_t frame_list_count(const struct frame_list *list, uint64_t end)
 	return count;
 }
 
+int frame_number_parse(const char *text, uint64_t *frame)
+{
+	char *end;
+
+	*frame = strtoull(text, &end, 10);
+	if (end == text || *end || *text == '-')
+		return err_report(ERR_USAGE, NULL, "'%s' is no frame number", text);
+	return 0;
+}
+
 int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n)
 {
 	const char *p = text;

@@ -42,6 +42,9 @@ uint64_t frame_list_count(const struct frame_list *list, uint64_t end);
 /** The first frame from `from` on that the list asks for. @return 1, or 0 where there is none */
 int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *frame);
 
+/** Parse one frame number. @return 0 or ERR_USAGE (reported) */
+int frame_number_parse(const char *text, uint64_t *frame);
+
 /** Parse "i/n", 1 <= i <= n. @return 0 or ERR_USAGE (reported) */
 int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n);
 

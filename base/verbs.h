@@ -12,6 +12,7 @@ int record_main(int argc, char **argv);  /* capture/record.c */
 int info_main(int argc, char **argv);    /* replay/info.c */
 int dump_main(int argc, char **argv);    /* replay/dump.c */
 int scene_main(int argc, char **argv);   /* replay/scene_json.c */
+int export_main(int argc, char **argv);  /* replay/export.c */
 int render_main(int argc, char **argv);  /* tracer/render.c */
 int devices_main(int argc, char **argv); /* tracer/devices.c */
 int bench_main(int argc, char **argv);   /* tracer/bench.c */

@@ -94,13 +94,36 @@ void json_key_float(struct json *j, const char *name, double value)
 	json_float(j, value);
 }
 
-void json_key_floats(struct json *j, const char *name, const float *values, size_t n)
+void json_key_bool(struct json *j, const char *name, int value)
 {
 	json_key(j, name);
-	json_begin(j, '[');
-	j->flat = 1;
-	for (size_t i = 0; i < n; i++)
-		json_float(j, values[i]);
-	json_end(j, ']');
-	j->flat = 0;
+	start_item(j);
+	fputs(value ? "true" : "false", j->out);
+}
+
+/* An array of numbers on one line. */
+#define NUMBERS(j, name, n, write) \
+	do { \
+		json_key(j, name); \
+		json_begin(j, '['); \
+		(j)->flat = 1; \
+		for (size_t i = 0; i < (n); i++) \
+			write; \
+		json_end(j, ']'); \
+		(j)->flat = 0; \
+	} while (0)
+
+void json_key_floats(struct json *j, const char *name, const float *values, size_t n)
+{
+	NUMBERS(j, name, n, json_float(j, (double)values[i]));
+}
+
+void json_key_uints(struct json *j, const char *name, const uint32_t *values, size_t n)
+{
+	NUMBERS(j, name, n, json_uint(j, values[i]));
+}
+
+void json_key_ints(struct json *j, const char *name, const int32_t *values, size_t n)
+{
+	NUMBERS(j, name, n, json_float(j, values[i]));
 }

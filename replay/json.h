@@ -27,7 +27,10 @@ void json_float(struct json *j, double value);
 
 void json_key_string(struct json *j, const char *name, const char *text);
 void json_key_uint(struct json *j, const char *name, uint64_t value);
+void json_key_bool(struct json *j, const char *name, int value);
 void json_key_float(struct json *j, const char *name, double value);
 void json_key_floats(struct json *j, const char *name, const float *values, size_t n);
+void json_key_uints(struct json *j, const char *name, const uint32_t *values, size_t n);
+void json_key_ints(struct json *j, const char *name, const int32_t *values, size_t n);
 
 #endif

@@ -1,7 +1,7 @@
 #include "replay/replay.h"
 
+#include <inttypes.h>
 #include <stdio.h>
-
 #include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
@@ -135,6 +135,23 @@ int replay_frame_count(struct replay *rp, uint64_t *n)
 	*n = replay_frame(counter);
 	replay_close(&counter);
 	return rc;
+}
+
+int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)
+{
+	struct replay *rp = NULL;
+	int rc = replay_open(&rp, path);
+
+	if (rc)
+		return rc;
+	rc = replay_seek(rp, frame);
+	if (rc == 1)
+		rc = replay_next_frame(rp, 1, scene);
+	if (rc == 0)
+		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frames (0 to %" PRIu64 ")",
+		                frame, replay_frame(rp), replay_frame(rp) ? replay_frame(rp) - 1 : 0);
+	replay_close(&rp);
+	return rc < 0 ? rc : 0;
 }
 
 uint64_t replay_frame(const struct replay *rp)

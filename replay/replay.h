@@ -44,6 +44,12 @@ int replay_seek(struct replay *rp, uint64_t frame);
 /** How many frames the trace has. @return 0 or ERR_* (reported) */
 int replay_frame_count(struct replay *rp, uint64_t *n);
 
+/**
+ * Build the scene of one frame of a trace.
+ * @return 0; ERR_USAGE (reported) where the trace has no such frame; else as replay_open and replay_next_frame
+ */
+int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
+
 /** Give a scene back; NULL is allowed. Sets *scene to NULL. May run in any thread. */
 void scene_release(struct scene **scene);
 

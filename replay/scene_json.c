@@ -2,9 +2,9 @@
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/err.h"
+#include "base/frames.h"
 #include "base/verbs.h"
 #include "replay/json.h"
 #include "replay/replay.h"
@@ -68,28 +68,6 @@ static void print_text(const struct scene *s)
 #define UINT(object, field) json_key_uint(j, #field, (object)->field)
 #define FLOAT(object, field) json_key_float(j, #field, (double)(object)->field)
 #define FLOATS(object, field) json_key_floats(j, #field, (const float *)(object)->field, sizeof((object)->field) / sizeof(float))
-
-static void json_uints(struct json *j, const char *name, const uint32_t *values, size_t n)
-{
-	json_key(j, name);
-	json_begin(j, '[');
-	j->flat = 1;
-	for (size_t i = 0; i < n; i++)
-		json_uint(j, values[i]);
-	json_end(j, ']');
-	j->flat = 0;
-}
-
-static void json_ints(struct json *j, const char *name, const int32_t *values, size_t n)
-{
-	json_key(j, name);
-	json_begin(j, '[');
-	j->flat = 1;
-	for (size_t i = 0; i < n; i++)
-		json_float(j, values[i]);
-	json_end(j, ']');
-	j->flat = 0;
-}
 
 static void write_face(struct json *j, const char *name, const struct scene_face *f)
 {
@@ -221,13 +199,13 @@ static void write_unit(struct json *j, const struct scene_unit *u)
 	FLOATS(u, env_color);
 	UINT(u, combine_rgb);
 	UINT(u, combine_alpha);
-	json_uints(j, "source_rgb", u->source_rgb, 3);
-	json_uints(j, "source_alpha", u->source_alpha, 3);
-	json_uints(j, "operand_rgb", u->operand_rgb, 3);
-	json_uints(j, "operand_alpha", u->operand_alpha, 3);
+	json_key_uints(j, "source_rgb", u->source_rgb, 3);
+	json_key_uints(j, "source_alpha", u->source_alpha, 3);
+	json_key_uints(j, "operand_rgb", u->operand_rgb, 3);
+	json_key_uints(j, "operand_alpha", u->operand_alpha, 3);
 	FLOAT(u, scale_rgb);
 	FLOAT(u, scale_alpha);
-	json_uints(j, "gen_mode", u->gen_mode, 4);
+	json_key_uints(j, "gen_mode", u->gen_mode, 4);
 	FLOATS(u, gen_object_plane);
 	FLOATS(u, gen_eye_plane);
 	FLOATS(u, matrix);
@@ -268,7 +246,7 @@ static void write_view(struct json *j, const struct scene_view *v)
 	FLOATS(v, projection);
 	FLOATS(v, viewport);
 	FLOATS(v, depth_range);
-	json_ints(j, "scissor", v->scissor, 4);
+	json_key_ints(j, "scissor", v->scissor, 4);
 	UINT(v, target);
 	UINT(v, space);
 	json_end(j, '}');
@@ -297,7 +275,7 @@ static void write_clear(struct json *j, const struct scene_clear *c)
 	UINT(c, draw);
 	UINT(c, target);
 	UINT(c, buffers);
-	json_ints(j, "scissor", c->scissor, 4);
+	json_key_ints(j, "scissor", c->scissor, 4);
 	FLOATS(c, color);
 	FLOAT(c, depth);
 	UINT(c, stencil);
@@ -333,9 +311,9 @@ static void write_mesh(struct json *j, const struct scene_mesh *m, int vertices)
 			if (m->texcoord[u])
 				json_key_floats(j, name, m->texcoord[u], 4 * n);
 		}
-		json_uints(j, "index", m->index, (size_t)m->primitive_count * m->kind);
+		json_key_uints(j, "index", m->index, (size_t)m->primitive_count * m->kind);
 		if (m->primitive_draw)
-			json_uints(j, "primitive_draw", m->primitive_draw, m->primitive_count);
+			json_key_uints(j, "primitive_draw", m->primitive_draw, m->primitive_count);
 	}
 	json_end(j, '}');
 }
@@ -394,24 +372,6 @@ static void print_json(const struct scene *s, int vertices)
 	putchar('\n');
 }
 
-/* Skip to a frame and build it. */
-static int find_scene(const char *path, uint64_t frame, struct scene **scene)
-{
-	struct replay *rp = NULL;
-	int rc = replay_open(&rp, path);
-
-	if (rc)
-		return rc;
-	do
-		rc = replay_next_frame(rp, replay_frame(rp) == frame, scene);
-	while (rc == 1 && !*scene);
-	if (rc == 0)
-		rc = err_report(ERR_USAGE, path, "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frames (0 to %" PRIu64 ")",
-		                frame, replay_frame(rp), replay_frame(rp) ? replay_frame(rp) - 1 : 0);
-	replay_close(&rp);
-	return rc < 0 ? rc : 0;
-}
-
 int scene_main(int argc, char **argv)
 {
 	static const struct option options[] = {
@@ -421,14 +381,12 @@ int scene_main(int argc, char **argv)
 	struct scene *scene = NULL;
 	uint64_t frame = 0;
 	int json = 0, vertices = 0, opt, rc;
-	char *end;
 
 	while ((opt = getopt_long(argc, argv, "f:jvh", options, NULL)) != -1) {
 		switch (opt) {
 		case 'f':
-			frame = strtoull(optarg, &end, 10);
-			if (end == optarg || *end || *optarg == '-')
-				return -err_report(ERR_USAGE, NULL, "'%s' is no frame number", optarg);
+			if (frame_number_parse(optarg, &frame))
+				return -ERR_USAGE;
 			break;
 		case 'j':
 			json = 1;
@@ -445,7 +403,7 @@ int scene_main(int argc, char **argv)
 	}
 	if (argc - optind != 1)
 		return -err_report(ERR_USAGE, NULL, "scene takes one trace; 'relume help scene' says more");
-	rc = find_scene(argv[optind], frame, &scene);
+	rc = replay_one_frame(argv[optind], frame, &scene);
 	if (rc)
 		return -rc;
 	if (json)

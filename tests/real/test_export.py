@@ -1,0 +1,60 @@
+#!/usr/bin/python3
+"""relume export: valid glTF 2.0 whose triangles are, in eye space, those of `relume scene`, on recordings of two kinds.
+"""
+import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from glb import Glb  # noqa: E402
+from helpers import ROOT, SCRATCH, check, finish, must, relume  # noqa: E402
+
+COLOR = 7
+
+
+def expected_eye(scene):
+    """Corners of the triangles of each draw that writes colour, in eye space; those with one corner twice cover nothing."""
+    found = {}
+    for item in scene["instances"]:
+        mesh, material = scene["meshes"][item["mesh"]], scene["materials"][item["material"]]
+        if mesh["kind"] != "triangles" or not material["color_mask"] & COLOR:
+            continue
+        m, p = item["modelview"], mesh["position"]
+        index = mesh["index"]
+        whole = [v for i in range(0, len(index), 3) if len(set(index[i:i + 3])) == 3 for v in index[i:i + 3]]
+        for v in whole:
+            clip = [sum(m[4 * k + i] * p[4 * v + k] for k in range(4)) for i in range(4)]
+            found.setdefault(f"draw {item['draw']}", []).append(tuple(c / clip[3] for c in clip[:3]))
+    return found
+
+
+def same(left, right):
+    """The same corners; which of a triangle's comes first, and in which sense, is glTF's affair."""
+    def rows(corners):
+        return sorted(sorted(corners[i:i + 3]) for i in range(0, len(corners), 3))
+    size = max((abs(c) for corner in right for c in corner), default=0)
+    return len(left) == len(right) and all(abs(a - b) <= 1e-5 * size for l, r in zip(rows(left), rows(right))
+                                           for p, q in zip(l, r) for a, b in zip(p, q))
+
+
+for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/golden/two_triangles.trace", 1)):
+    out = SCRATCH / "new folder" / f"{trace.stem}.glb"
+    must(relume("export", trace, "-f", frame, "-o", out))
+    scene = json.loads(must(relume("scene", trace, "-f", frame, "--json", "--vertices")).stdout)
+    try:
+        glb = Glb(out)
+    except ValueError as broken:
+        check(False, f"{trace.stem}: {broken}")
+        continue
+    exported, expected = glb.triangles_eye(), expected_eye(scene)
+    check(exported.keys() == expected.keys() and expected, f"{trace.stem}: draws {exported.keys()} of {expected.keys()}")
+    check(all(same(exported.get(name, []), corners) for name, corners in expected.items()), f"{trace.stem}: triangles in eye space")
+    lit = {light for m in scene["materials"] if m["lighting"] for light in range(m["light_first"], m["light_first"] + m["light_count"])}
+    lights = glb.json.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
+    check(bool(lights) == bool(lit) and len(lights) <= len(lit), f"{trace.stem}: {len(lights)} lights of {len(lit)}")
+    check(len(glb.json.get("cameras", [])) >= 1, f"{trace.stem}: a camera")
+
+done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
+check(done.returncode == 2 and "no frame 99999" in done.stderr, f"a frame that is not there: {done.returncode} {done.stderr}")
+check(not list(SCRATCH.glob("none*")), "nothing is left of a failed export")
+finish()
