@@ -11,7 +11,8 @@
 #endif
 #endif
 
-#if defined(__has_builtin)
+/* LANES_PORTABLE: for interpreters of kernels, which know the language and no compiler's own functions. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
 #if __has_builtin(__builtin_reduce_or)
 #define LANES_REDUCE 1
 #endif
