@@ -187,6 +187,9 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	int use_stencil = m->stencil_test && pixel_stencil_bits(bits), pass;
 	GLOBAL const struct scene_stencil *stencil = s->flags & SHADED_FRONT ? &m->stencil_front : &m->stencil_back;
 
+	if ((use_stencil && stencil->func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_STENCIL) ||
+	    (m->depth_test && m->depth_func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_DEPTH))
+		pixel->unknown |= PIXEL_UNKNOWN_TEST;
 	if (m->alpha_test && !pixel_compare(m->alpha_func, s->gl[3], m->alpha_ref))
 		return 0;
 	if (use_stencil &&
@@ -202,6 +205,7 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	if (pass && m->depth_test && m->depth_write && pixel_depth_bits(bits)) {
 		pixel->depth = steps;
 		pixel->depth_exact = s->depth;
+		pixel->unknown &= ~PIXEL_UNKNOWN_DEPTH;
 	}
 	return pass;
 }
@@ -252,8 +256,10 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 	pixel->id = draw;
 	if (m->blend && !m->logic_op)
 		pixel->layers++;
-	else if ((mask & 7u) == 7u && !m->logic_op)
+	else if ((mask & 7u) == 7u && !m->logic_op) {
 		pixel->layers = 0u;
+		pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
+	}
 	/* A blended film without depth is no surface, unless there is nothing else. */
 	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
 		pixel->surface = *f;
@@ -276,16 +282,19 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 			pixel->id = 0u;
 			pixel->layers = 0u;
 			pixel->surface.order = SCENE_NONE;
+			pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
 		}
 	}
 	if (clear->buffers & 2u) {
 		pixel->depth = pixel_depth_steps(clear->depth, pixel_depth_bits(bits));
 		pixel->depth_exact = clamp01(clear->depth);
+		pixel->unknown &= ~PIXEL_UNKNOWN_DEPTH;
 	}
 	if (clear->buffers & 4u) {
 		uint32_t top = pixel_bits_mask(pixel_stencil_bits(bits)), mask = clear->stencil_mask;
 
 		pixel->stencil = (pixel->stencil & ~mask) | (clear->stencil & top & mask);
+		pixel->unknown &= (mask & top) == top ? ~PIXEL_UNKNOWN_STENCIL : ~0u;
 	}
 }
 

@@ -197,6 +197,25 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 }
 
 /*
+ * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module
+ * has it: ramps one pixel wide across the line's sides and ends; a ramp over the point's outermost pixel. 0: nothing.
+ */
+static inline float stage_coverage(const struct point *p, const struct fragment *f)
+{
+	struct vec4 c, a = v4_load(p->vertex[0]->color[1]);
+	float inside;
+
+	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
+		return 1.0f;
+	c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
+	                     v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
+	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
+		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
+	inside = c.x * c.x + c.y * c.y;
+	return inside <= c.z ? 1.0f : clamp01((1.0f - inside) / (1.0f - c.z));
+}
+
+/*
  * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
  * n_slots > 0 gives fragments that asked their colour with what arrives of the lights. transport: TRANSPORT_*.
  */
@@ -214,6 +233,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	struct coat coat;
 	struct lit lit;
 	struct vec4 color;
+	float coverage;
 
 	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
 		return;
@@ -224,7 +244,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
-	if (!n_slots && (point_clipped(&p) || stage_stippled_away(t, &p, x, y))) {
+	coverage = stage_coverage(&p, &f);
+	if (!n_slots && (point_clipped(&p) || stage_stippled_away(t, &p, x, y) || !(coverage > 0.0f))) {
 		out->flags = 0u;
 		return;
 	}
@@ -235,6 +256,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
 	if (n_slots)
 		return;
+	color.w *= coverage;
 	v4_store(out->gl, color);
 	color = point_albedo(t, &p, &coat);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));

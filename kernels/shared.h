@@ -171,6 +171,14 @@ SHARED_SIZE(struct shaded_vertex, 128);
 
 /* bits of geometry.flags */
 #define GEOMETRY_EXPANDED 1u /* lines or points made into triangles after the vertex stage: nothing to light again */
+/*
+ * Smooth ones: their vertices' color[1], which nothing else uses, holds where they are for the coverage (stage_coverage).
+ *   line   pixels across the line, half its width and a half, pixels along it from its middle, half its length and a half;
+ *          of lines shorter than a pixel the last two are shrunk so that they fade as they get shorter
+ *   point  x and y in its circle of radius 1, square of the radius up to which it is covered wholly
+ */
+#define GEOMETRY_SMOOTH_LINE 2u
+#define GEOMETRY_SMOOTH_POINT 4u
 
 /* One instance as the vertex and fragment stages see it; the same index as its struct instance. */
 struct geometry {
@@ -252,8 +260,15 @@ struct frame_pixel {
 	struct fragment surface; /* of the nearest visible surface; order SCENE_NONE: none */
 	float albedo[3];         /* its */
 	uint32_t layers;         /* fragments blended into the colour since it was last cleared or written over */
+	uint32_t unknown;        /* PIXEL_UNKNOWN_* */
 };
-SHARED_SIZE(struct frame_pixel, 120);
+SHARED_SIZE(struct frame_pixel, 124);
+
+/* What a pixel still holds from before the scene, where the scene does not say what that was. */
+#define PIXEL_UNKNOWN_COLOR 1u
+#define PIXEL_UNKNOWN_DEPTH 2u
+#define PIXEL_UNKNOWN_STENCIL 4u
+#define PIXEL_UNKNOWN_TEST 8u /* a test compared with it */
 
 /* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
 #define SURFACE_PLANES 7u

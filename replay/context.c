@@ -70,7 +70,7 @@ struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st)
 	return d;
 }
 
-void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable)
+void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
 {
 	gls_flush(x);
 	if (x->thread < x->n_threads)
@@ -80,6 +80,7 @@ void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t draw
 	if (!ctx)
 		return;
 	ctx->state.drawable = drawable;
+	ctx->state.read_drawable = read;
 	ctx->state.ever_current = 1;
 	ctx->state.dirty = GLS_DIRTY_ALL;
 }
@@ -92,13 +93,15 @@ static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, c
 	return ctx ? ctx : create_context(x, handle, 0, api);
 }
 
-static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned context, const char *api)
+static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
+                         const char *api)
 {
 	uint64_t handle = (uint64_t)arg_i(c, context);
 
 	if (c->ret.type != TRACE_NONE && gls_value_int(&c->ret) == 0)
 		return; /* it failed: the old one stays current */
-	gls_make_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable));
+	gls_make_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable),
+	                 (uint64_t)arg_i(c, read));
 }
 
 static void destroy_context(struct gls_exec *x, const struct call *c, unsigned context)
@@ -111,9 +114,10 @@ static void destroy_context(struct gls_exec *x, const struct call *c, unsigned c
 }
 
 /* The frame of the drawable that is swapped ends, and with it the trace's frame. */
-static void swap(struct gls_exec *x)
+static void swap(struct gls_exec *x, uint64_t drawable)
 {
 	gls_flush(x);
+	x->swapped = table_find(&x->drawables, drawable) || !x->st ? drawable : x->st->drawable;
 	x->frame_ended = 1;
 }
 
@@ -130,10 +134,10 @@ GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
 	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), "GLX");
 }
 GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
-GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 2, "GLX"); }
-GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 3, "GLX"); }
-GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x); }
-GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x); }
+GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
+GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "GLX"); }
+GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state between contexts"); }
 
 GLS_HANDLER(eglCreateContext, WINDOW)
@@ -141,19 +145,19 @@ GLS_HANDLER(eglCreateContext, WINDOW)
 	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), "EGL");
 }
 GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
-GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 3, "EGL"); }
-GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x); }
-GLS_HANDLER(eglSwapBuffersWithDamageEXT, WINDOW) { swap(x); }
-GLS_HANDLER(eglSwapBuffersWithDamageKHR, WINDOW) { swap(x); }
-GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW) { swap(x); }
+GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
+GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(eglSwapBuffersWithDamageEXT, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(eglSwapBuffersWithDamageKHR, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 
 /* Contexts of other window systems, as apitrace records them. */
-GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x); }
-GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x); }
-GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x); }
-GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x); }
+GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, (uint64_t)gls_value_int(&c->ret), 0, "WGL"); }
-GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 1, "WGL"); }
+GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 1, "WGL"); }
 
 /* ---- markers of our recorder (capture/trace.md) and of rtMaterialEXT ---- */
 
@@ -193,5 +197,5 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		return;
 	drawable = gls_drawable_of(x, st);
 	if (drawable)
-		*drawable = (struct gls_drawable){ width, height, 1 };
+		drawable->width = width, drawable->height = height, drawable->fixed = 1;
 }

@@ -299,7 +299,7 @@ int gls_exec_create(struct gls_exec **out, const char *path)
 	x->errors = calloc(n_gls_commands, sizeof(*x->errors));
 	x->why = calloc(n_gls_commands, sizeof(*x->why));
 	x->error_code = calloc(n_gls_commands, sizeof(*x->error_code));
-	if (!x->count || !x->unsupported || !x->errors || !x->why || !x->error_code || gls_frame_begin(x)) {
+	if (!x->count || !x->unsupported || !x->errors || !x->why || !x->error_code ) {
 		gls_exec_destroy(&x);
 		return err_report(ERR_SYSTEM, path, "out of memory");
 	}
@@ -320,12 +320,14 @@ void gls_exec_destroy(struct gls_exec **exec)
 	free(x->contexts);
 	free(x->threads);
 	for (size_t i = 0; i < x->drawables.room; i++)
-		free(x->drawables.entries[i].value);
+		if (x->drawables.entries[i].value) {
+			gls_surface_free(&((struct gls_drawable *)x->drawables.entries[i].value)->surface);
+			free(x->drawables.entries[i].value);
+		}
 	table_free(&x->drawables);
 	gls_geometry_free(&x->geometry);
 	gls_geometry_free(&x->compiling);
 	free(x->assembling);
-	gls_frame_destroy(x);
 	gls_mesh_cache_free(x);
 	gls_image_cache_free(x);
 	table_free(&x->maps);

@@ -12,6 +12,7 @@
 #include "capture/trace.h"
 #include "gl_tokens.h"
 #include "replay/arena.h"
+#include "replay/replay.h"
 #include "replay/scene.h"
 #include "replay/state.h"
 #include "replay/table.h"
@@ -198,17 +199,31 @@ struct gls_context {
 	struct gls_state state;
 };
 
-/* Size of a drawable as far as the trace tells. */
+/* A picture that several may hold on to; freed with the last reference, in any thread. */
+struct gls_picture {
+	struct scene_picture picture; /* first */
+	atomic_uint refs;
+};
+
+/* Something that is drawn to: what it held, and what happened to it since. All zero: black, and nothing happened. */
+struct gls_surface {
+	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
+	struct gls_frame *frame;     /* owned: events; NULL: none */
+	struct gls_picture *picture; /* a reference: what it held before them, */
+	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
+	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
+};
+
+/* A window or pbuffer as far as the trace tells. */
 struct gls_drawable {
 	uint32_t width, height;
-	int fixed; /* said by the recorder (relume:drawable) and not guessed from viewports */
+	int fixed; /* size said by the recorder (relume:drawable) and not guessed from viewports */
+	struct gls_surface surface;
 };
 
 /* ---- the scene under construction ---- */
 
-struct gls_frame; void gls_image_cache_free(struct gls_exec *x);
-
-/* scene.c */
+struct gls_frame;
 
 /* ---- the machine ---- */
 
@@ -237,7 +252,13 @@ struct gls_exec {
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
 	unsigned list_depth;
-	struct gls_frame *building;
+	uint64_t swapped;             /* drawable of the swap that ended the frame */
+	uint64_t serial;              /* of the last scene begun */
+	replay_supply *supply;        /* makes pixels; NULL: nobody does */
+	void *supply_user;
+	int missing;                  /* 1: some texture has pixels missing that were drawn in skipped frames */
+	int shows_through;            /* 1: some frame did show what was there before it */
+	int rewind;                   /* 1: a frame needs pixels of skipped ones: all must be built from the start */
 	struct table meshes;          /* low half of the hash -> struct gls_mesh (chains by probing the high half) */
 	struct table draws;           /* key of an array draw -> struct gls_mesh */
 	struct table images;          /* texture contents */
@@ -293,7 +314,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st);
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on);
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
-void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable);
+void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read);
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st);
 void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n);
 struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name);
@@ -302,20 +323,47 @@ struct gls_share *gls_share_create(void);
 
 void gls_image_cache_free(struct gls_exec *x);
 
-/* scene.c */
-int gls_frame_begin(struct gls_exec *x);
+/* scene.c: events of a surface. Without a scene under construction (x->want 0) nothing happens. */
 /**
- * Draw a mesh with the state as it is; without a scene under construction nothing happens.
+ * Draw a mesh with the state as it is.
  * @param mesh    no reference is taken (the scene takes its own)
  * @param values  attributes that the mesh does not give
  */
 void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
                    uint32_t command, uint64_t call_number);
 void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers);
-void gls_frame_reads_screen(struct gls_exec *x);
+/** The scene of all events so far, valid until the next one; begun where there is none. Borrowed; NULL: out of memory. */
+struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
+/** The same, taken out of the surface: a reference for the caller. No events are left. */
+struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
+/** Forget all events. */
+void gls_frame_drop(struct gls_surface *surface);
+/** Nothing from before the events shows any more. */
+void gls_frame_all_known(struct gls_surface *surface);
+uint64_t gls_frame_events(const struct gls_surface *surface);
+/** Where the picture of the first *events events is kept; the surface must have a frame. */
+struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events);
+struct scene *gls_scene_reference(struct scene *scene);
+
+/* feedback.c: pixels that were drawn and are needed */
+/** What the context draws to; NULL: out of memory, or an incomplete framebuffer object. */
+struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st);
+/**
+ * The pixels of a surface as all events so far leave them.
+ * @return borrowed, valid until the surface's next event; NULL: not to be had (counted, or x->rewind is set)
+ */
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface);
+/** The same of what the context reads from (ReadBuffer, read framebuffer, read drawable). */
+const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st);
+/** The frame of the drawable that was swapped: its scene, a reference for the caller; NULL: out of memory or x->rewind. */
 struct scene *gls_frame_finish(struct gls_exec *x);
-void gls_frame_destroy(struct gls_exec *x);
+/** A frame was executed without being built: what it drew is not known. */
+void gls_frame_skip(struct gls_exec *x);
+void gls_surface_free(struct gls_surface *surface);
+void gls_picture_release(struct gls_picture *picture);
+
 void gls_mesh_cache_trim(struct gls_exec *x);
+void gls_image_cache_trim(struct gls_exec *x);
 void gls_mesh_cache_free(struct gls_exec *x);
 
 #endif

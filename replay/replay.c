@@ -20,6 +20,9 @@ struct replay {
 	struct replay_count *counts; /* what the last query answered */
 	size_t room;
 	struct replay_context *contexts;
+	replay_supply *supply;
+	void *supply_user;
+	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
 };
 
 static int hash_file(struct replay *rp)
@@ -83,14 +86,20 @@ void replay_close(struct replay **rp)
 	*rp = NULL;
 }
 
-int replay_next_frame(struct replay *rp, int want, struct scene **scene)
+void replay_set_supplier(struct replay *rp, replay_supply *supply, void *user)
+{
+	rp->exec->supply = rp->supply = supply;
+	rp->exec->supply_user = rp->supply_user = user;
+}
+
+/* Execute one frame. @return as replay_next_frame; 1 with exec->rewind set: it could not be built */
+static int run_frame(struct replay *rp, int want, struct scene **scene)
 {
 	struct gls_exec *x = rp->exec;
 	const struct call *call;
 	int rc;
 
-	*scene = NULL;
-	x->want = want;
+	x->want = want || rp->build_all;
 	x->frame_ended = 0;
 	while (!x->frame_ended) {
 		rc = trace_reader_next(rp->reader, &call);
@@ -99,17 +108,60 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 		rc = gls_exec_call(x, call);
 		if (rc)
 			return rc;
+		if (x->rewind)
+			return 1;
 	}
-	if (want) {
+	if (x->want)
 		*scene = gls_frame_finish(x);
-		if (gls_frame_begin(x)) {
-			scene_release(scene);
-			return err_report(ERR_SYSTEM, rp->path, "out of memory");
-		}
-	}
+	else
+		gls_frame_skip(x);
+	if (x->rewind)
+		return 1;
+	if (x->want && !*scene)
+		return x->failed ? x->failed : err_report(ERR_SYSTEM, rp->path, "out of memory");
+	if (!want)
+		scene_release(scene);
 	x->frame++;
 	gls_mesh_cache_trim(x);
+	gls_image_cache_trim(x);
 	return 1;
+}
+
+/* Start again, and come as far as before the frame that asked for it, with every frame built. */
+static int rewind_and_build(struct replay *rp)
+{
+	uint64_t frame = rp->exec->frame;
+	struct scene *scene = NULL;
+	int rc;
+
+	gls_exec_destroy(&rp->exec);
+	trace_reader_close(&rp->reader);
+	rc = trace_reader_open(&rp->reader, rp->path);
+	if (!rc)
+		rc = gls_exec_create(&rp->exec, rp->path);
+	if (rc)
+		return rc;
+	rp->exec->supply = rp->supply;
+	rp->exec->supply_user = rp->supply_user;
+	rp->build_all = 1;
+	while (rp->exec->frame < frame) {
+		rc = run_frame(rp, 0, &scene);
+		if (rc != 1)
+			return rc;
+	}
+	return 1;
+}
+
+int replay_next_frame(struct replay *rp, int want, struct scene **scene)
+{
+	int rc;
+
+	*scene = NULL;
+	rc = run_frame(rp, want, scene);
+	if (rc != 1 || !rp->exec->rewind)
+		return rc;
+	rc = rewind_and_build(rp);
+	return rc == 1 ? run_frame(rp, want, scene) : rc;
 }
 
 int replay_seek(struct replay *rp, uint64_t frame)

@@ -15,7 +15,16 @@ struct gls_frame {
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
-	int cleared;
+	uint32_t cleared; /* buffers wholly cleared so far, bits as in scene_clear */
+	uint64_t serial;  /* of the scene: what meshes and images remember their slots by */
+	struct gls_picture *snapshot; /* a reference: what the first snapshot_events events make, or NULL */
+	uint64_t snapshot_events;
+};
+
+/* A scene as this file makes it. Owned by whoever holds a reference: the caller of replay_next_frame, a surface. */
+struct gls_scene {
+	struct scene scene; /* first */
+	atomic_uint refs;
 };
 
 /* ---- arrays that grow ---- */
@@ -77,7 +86,7 @@ static uint32_t intern_run(struct table *t, void *array, uint32_t *n, uint32_t *
 
 static void fill_scissor(struct gls_exec *x, struct gls_state *st, int32_t out[4])
 {
-	const struct gls_drawable *d = gls_drawable_of(x, st);
+	const struct gls_surface *d = gls_surface_of(x, st);
 	int64_t x0 = 0, y0 = 0, x1 = d ? d->width : 0, y1 = d ? d->height : 0;
 	const int32_t *rect = st->a.scissor.rect;
 
@@ -138,14 +147,14 @@ static uint32_t texture_slot(struct gls_exec *x, struct gls_frame *f, struct gls
 	struct scene *s = f->out;
 
 	image->used_frame = x->frame;
-	if (image->slot_frame == x->frame + 1)
+	if (image->slot_frame == f->serial)
 		return image->slot;
 	if (grow(&s->textures, &f->room.textures, s->n_textures, sizeof(*s->textures)))
 		return SCENE_NONE;
 	atomic_fetch_add(&image->refs, 1);
 	s->textures[s->n_textures] = &image->texture;
 	image->slot = s->n_textures++;
-	image->slot_frame = x->frame + 1;
+	image->slot_frame = f->serial;
 	return image->slot;
 }
 
@@ -159,6 +168,8 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 
 	if (!image)
 		return 0;
+	if (x->missing && x->supply && gls_texture_is_missing(t))
+		x->rewind = 1;
 	*out = unit->value;
 	out->texture = texture_slot(x, f, image);
 	if (out->texture == SCENE_NONE)
@@ -358,14 +369,14 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 	struct scene *s = f->out;
 
 	mesh->used_frame = x->frame;
-	if (mesh->slot_frame == x->frame + 1)
+	if (mesh->slot_frame == f->serial)
 		return mesh->slot;
 	if (grow(&s->meshes, &f->room.meshes, s->n_meshes, sizeof(*s->meshes)))
 		return SCENE_NONE;
 	atomic_fetch_add(&mesh->refs, 1);
 	s->meshes[s->n_meshes] = &mesh->mesh;
 	mesh->slot = s->n_meshes++;
-	mesh->slot_frame = x->frame + 1;
+	mesh->slot_frame = f->serial;
 	return mesh->slot;
 }
 
@@ -381,20 +392,24 @@ static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t co
 	return 0;
 }
 
+/* Buffers whose contents a draw of this material lets through or compares with; bits as in scene_clear. */
+static uint32_t looks_at(const struct scene_material *m)
+{
+	return (m->color_mask ? 1u : 0) | (m->depth_test && m->depth_func != GL_ALWAYS ? 2u : 0) | (m->stencil_test ? 4u : 0);
+}
+
+static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st);
+
 void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
                    uint32_t command, uint64_t call_number)
 {
-	struct gls_frame *f = x->building;
+	struct gls_frame *f;
 	struct scene_instance *instance;
 	struct scene *s;
 	uint32_t first_draw;
 
-	if (!x->want || !f->out || st->render_mode != GL_RENDER)
+	if (!x->want || st->render_mode != GL_RENDER || !(f = frame_of(x, st)))
 		return;
-	if (st->draw_framebuffer) {
-		gls_unsupported(x, "drawing into framebuffer objects");
-		return;
-	}
 	s = f->out;
 	first_draw = f->next_draw;
 	if (name_draws(x, f, command, call_number, mesh->n_draws) ||
@@ -421,8 +436,7 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
 	s->n_instances++;
-	if (s->materials[f->material].color_mask && !f->cleared)
-		s->needs_previous = 1;
+	s->needs_previous |= looks_at(&s->materials[f->material]) & ~f->cleared ? 1u : 0;
 	if (s->materials[f->material].program)
 		gls_unsupported(x, "programs: drawn as fixed function");
 	return;
@@ -433,12 +447,13 @@ fail:
 
 void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 {
-	struct gls_frame *f = x->building;
+	struct gls_frame *f;
 	struct scene_clear clear;
 	struct scene *s;
-	const struct gls_drawable *d;
+	const struct gls_surface *d = gls_surface_of(x, st);
+	int whole;
 
-	if (!x->want || !f->out || st->render_mode != GL_RENDER || !buffers || st->draw_framebuffer)
+	if (!x->want || st->render_mode != GL_RENDER || !buffers || !(f = frame_of(x, st)))
 		return;
 	s = f->out;
 	memset(&clear, 0, sizeof(clear));
@@ -459,70 +474,128 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 		return;
 	}
 	s->clears[s->n_clears++] = clear;
-	d = gls_drawable_of(x, st);
-	if (buffers & 1 && clear.color_mask >= 7 && d && (uint32_t)clear.scissor[2] >= d->width &&
-	    (uint32_t)clear.scissor[3] >= d->height)
-		f->cleared = 1;
-}
-
-void gls_frame_reads_screen(struct gls_exec *x)
-{
-	if (x->building->out)
-		x->building->out->needs_previous = 1;
+	whole = d && (uint32_t)clear.scissor[2] >= d->width && (uint32_t)clear.scissor[3] >= d->height;
+	if (whole && (clear.color_mask & 7) == 7)
+		f->cleared |= clear.buffers & 1;
+	if (whole)
+		f->cleared |= clear.buffers & ((clear.stencil_mask & 255) == 255 ? 6u : 2u);
 }
 
 /* ---- a frame's beginning and end ---- */
 
-static void forget_tables(struct gls_frame *f)
+static void free_frame(struct gls_frame *f)
 {
 	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->spaces };
 
-	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
-		if (!tables[i]->n)
-			continue;
-		memset(tables[i]->entries, 0, tables[i]->room * sizeof(*tables[i]->entries));
-		tables[i]->n = 0;
-	}
+	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++)
+		table_free(tables[i]);
+	scene_release(&f->out);
+	gls_picture_release(f->snapshot);
+	free(f);
 }
 
-int gls_frame_begin(struct gls_exec *x)
+static struct gls_frame *make_frame(struct gls_exec *x)
 {
-	struct gls_frame *f = x->building;
+	struct gls_frame *f = calloc(1, sizeof(*f));
+	struct gls_scene *scene = calloc(1, sizeof(*scene));
 
-	if (!f)
-		f = x->building = calloc(1, sizeof(*f));
-	if (!f)
-		return ERR_SYSTEM;
-	forget_tables(f);
-	memset(&f->room, 0, sizeof(f->room));
-	f->last = NULL;
+	if (!f || !scene)
+		goto fail;
+	atomic_init(&scene->refs, 1);
+	f->out = &scene->scene;
+	scene = NULL;
 	f->next_draw = 1;
-	f->next_primitive = 0;
-	f->cleared = 0;
-	f->out = calloc(1, sizeof(*f->out));
-	if (!f->out || grow(&f->out->draws, &f->room.draws, 0, sizeof(struct scene_draw)))
-		return ERR_SYSTEM;
+	f->serial = ++x->serial;
+	if (grow(&f->out->draws, &f->room.draws, 0, sizeof(struct scene_draw)))
+		goto fail;
 	f->out->draws[0] = (struct scene_draw){ "", 0, 0 };
-	return 0;
+	return f;
+fail:
+	free(scene);
+	if (f)
+		free_frame(f);
+	gls_out_of_memory(x, sizeof(*f));
+	return NULL;
 }
 
-struct scene *gls_frame_finish(struct gls_exec *x)
+/* The events of what the context draws to; NULL: out of memory, or nothing to draw to. */
+static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st)
 {
-	struct gls_frame *f = x->building;
+	struct gls_surface *surface = gls_surface_of(x, st);
+
+	if (surface && !surface->frame)
+		surface->frame = make_frame(x);
+	return surface ? surface->frame : NULL;
+}
+
+/* What the scene so far is a scene of. */
+static void describe(struct gls_exec *x, const struct gls_surface *surface, struct gls_frame *f)
+{
 	struct scene *s = f->out;
-	const struct gls_drawable *d = x->st ? gls_drawable_of(x, x->st) : NULL;
 
 	s->frame = x->frame;
+	s->serial = f->serial;
 	s->n_primitives = f->next_primitive;
 	s->n_draws = f->next_draw - 1;
-	if (d) {
-		s->width = d->width;
-		s->height = d->height;
-		s->depth_bits = x->st->depth_bits;
-		s->stencil_bits = x->st->stencil_bits;
-		s->alpha_bits = x->st->alpha_bits;
-	}
-	f->out = NULL;
+	s->width = surface->width;
+	s->height = surface->height;
+	s->depth_bits = surface->depth_bits;
+	s->stencil_bits = surface->stencil_bits;
+	s->alpha_bits = surface->alpha_bits;
+	if (!(f->cleared & 1) && !s->n_instances)
+		s->needs_previous = 1;
+}
+
+struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)
+{
+	if (!surface->frame)
+		surface->frame = make_frame(x);
+	if (!surface->frame)
+		return NULL;
+	describe(x, surface, surface->frame);
+	return surface->frame->out;
+}
+
+void gls_frame_all_known(struct gls_surface *surface)
+{
+	surface->frame->out->needs_previous = 0;
+	surface->frame->cleared |= 1;
+}
+
+uint64_t gls_frame_events(const struct gls_surface *surface)
+{
+	const struct gls_frame *f = surface->frame;
+
+	return f ? (uint64_t)f->out->n_instances + f->out->n_clears : 0;
+}
+
+struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events)
+{
+	*events = &surface->frame->snapshot_events;
+	return &surface->frame->snapshot;
+}
+
+struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct scene *s = gls_frame_scene(x, surface);
+
+	if (!s)
+		return NULL;
+	surface->frame->out = NULL;
+	gls_frame_drop(surface);
+	return s;
+}
+
+void gls_frame_drop(struct gls_surface *surface)
+{
+	if (surface->frame)
+		free_frame(surface->frame);
+	surface->frame = NULL;
+}
+
+struct scene *gls_scene_reference(struct scene *s)
+{
+	atomic_fetch_add(&((struct gls_scene *)s)->refs, 1);
 	return s;
 }
 
@@ -530,12 +603,14 @@ void scene_release(struct scene **scene)
 {
 	struct scene *s = *scene;
 
-	if (!s)
+	*scene = NULL;
+	if (!s || atomic_fetch_sub(&((struct gls_scene *)s)->refs, 1) != 1)
 		return;
 	for (uint32_t i = 0; i < s->n_meshes; i++)
 		gls_mesh_release((struct gls_mesh *)(uintptr_t)s->meshes[i]);
 	for (uint32_t i = 0; i < s->n_textures; i++)
 		gls_texture_image_release((struct gls_texture_image *)(uintptr_t)s->textures[i]);
+	gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
 	free(s->instances);
 	free(s->materials);
 	free(s->units);
@@ -548,25 +623,4 @@ void scene_release(struct scene **scene)
 	free(s->textures);
 	free(s->draws);
 	free(s);
-	*scene = NULL;
-}
-
-void gls_frame_destroy(struct gls_exec *x)
-{
-	struct gls_frame *f = x->building;
-	struct scene *s;
-
-	if (!f)
-		return;
-	s = f->out;
-	scene_release(&s);
-	table_free(&f->materials);
-	table_free(&f->units);
-	table_free(&f->lights);
-	table_free(&f->currents);
-	table_free(&f->views);
-	table_free(&f->stipples);
-	table_free(&f->spaces);
-	free(f);
-	x->building = NULL;
 }

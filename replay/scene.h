@@ -238,8 +238,21 @@ struct scene_texture {
 	size_t n_bytes;
 };
 
+/*
+ * Pixels of a drawable as GL's frame buffer holds them after each operation: rounded to its bits. Row 0 is the bottom row.
+ * Arrays are [height][width]; what a drawable has not (depth_bits 0) is there all the same and means nothing.
+ */
+struct scene_picture {
+	uint32_t width, height;
+	uint8_t *rgba;    /* 4 bytes each; alpha is 255 where the drawable has none */
+	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
+	uint8_t *stencil;
+	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does not hold */
+};
+
 struct scene {
 	uint64_t frame;         /* number in the trace, from 0 */
+	uint64_t serial;        /* different for each scene of a replay; one that grows keeps it */
 	uint32_t width, height; /* of the drawable; the frame's picture */
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
 
@@ -258,7 +271,9 @@ struct scene {
 		n_textures;
 	uint32_t n_primitives; /* in all instances */
 	uint32_t n_draws;
-	uint32_t needs_previous; /* 1: pixels of an earlier frame show through (no full clear, screen copies) */
+	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
+	uint32_t needs_previous;
+	const struct scene_picture *start; /* what was there before the first event; NULL: black, far and 0, or not known */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */
 	struct scene_draw {

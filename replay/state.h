@@ -254,7 +254,7 @@ struct gls_state {
 	uint32_t list_name, list_mode;
 
 	/* drawable */
-	uint64_t drawable;
+	uint64_t drawable, read_drawable;
 	uint32_t ever_current;
 	uint32_t alpha_bits, depth_bits, stencil_bits, double_buffered;
 };

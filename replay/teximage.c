@@ -256,6 +256,12 @@ static int has_transfer(const struct gls_pixel *p)
 	return 0;
 }
 
+void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4])
+{
+	transfer(&st->a.pixel, rgba);
+	store(base, rgba, out);
+}
+
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out)
@@ -398,7 +404,7 @@ static const uint8_t *pixel_source(struct gls_state *st, const struct call *c, u
 }
 
 /* Mipmap levels from the base level on: each texel the mean of those it covers (sec. 3.8.8 leaves the filter open). */
-static void generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
+void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
 {
 	struct gls_level *from = t->base_level < GLS_MAX_LEVELS ? &t->levels[face][t->base_level] : NULL;
 
@@ -441,9 +447,8 @@ static void generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned
 	}
 }
 
-/* The level that a call names, or NULL (error set; proxies: NULL and no error). */
-static struct gls_texture *find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
-                                      unsigned *face)
+struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
+                                           unsigned *face)
 {
 	int target = gls_texture_target_of(token, face);
 
@@ -461,10 +466,9 @@ static struct gls_texture *find_level(struct gls_exec *x, struct gls_state *st, 
 	return gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
 }
 
-/* Make a level anew, texels all 0. @return its texels or NULL */
-static struct gls_level *specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
-                                 int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
-                                 int64_t border)
+struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
+                                      int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
+                                      int64_t border)
 {
 	struct gls_level *l = &t->levels[face][level];
 	uint32_t base = gls_base_format(internal_format);
@@ -483,7 +487,7 @@ static struct gls_level *specify(struct gls_exec *x, struct gls_state *st, struc
 	bytes = (size_t)(width * height * depth) * 4;
 	free(l->texels);
 	*l = (struct gls_level){ (uint32_t)width, (uint32_t)height, (uint32_t)depth, (uint32_t)border, internal_format, base,
-	                         NULL, bytes };
+	                         NULL, bytes, 0 };
 	t->dirty = 1;
 	if (!bytes)
 		return NULL;
@@ -496,7 +500,7 @@ static struct gls_level *specify(struct gls_exec *x, struct gls_state *st, struc
 static void tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
 {
 	unsigned face;
-	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	unsigned border = 3 + n_dims; /* argument's number; format, type and pixels follow */
 	struct gls_level *l;
 	size_t n;
@@ -504,7 +508,7 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 
 	if (!t)
 		return;
-	l = specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1,
+	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1,
 	            n_dims > 2 ? arg_i(c, 5) : 1, arg_i(c, border));
 	if (!l)
 		return;
@@ -513,13 +517,13 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 	                                n, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
 	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
-		generate_mipmaps(x, t, face);
+		gls_texture_generate_mipmaps(x, t, face);
 }
 
 static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
 {
 	unsigned face, size = 2 + n_dims, format = 2 + 2 * n_dims;
-	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
 	int64_t at[3] = { 0 }, extent[3] = { 1, 1, 1 }, room[3];
 	size_t n;
@@ -556,7 +560,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 			       texels + 4 * (z * extent[1] + y) * extent[0], 4 * (size_t)extent[0]);
 	t->dirty = 1;
 	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
-		generate_mipmaps(x, t, face);
+		gls_texture_generate_mipmaps(x, t, face);
 }
 
 GLS_HANDLER(glTexImage1D, STATE) { tex_image(x, st, c, 1); }
@@ -569,40 +573,14 @@ GLS_HANDLER(glTexSubImage3D, STATE) { tex_sub_image(x, st, c, 3); }
 GLS_HANDLER(glGenerateMipmap, STATE)
 {
 	unsigned face;
-	struct gls_texture *t = find_level(x, st, arg_u(c, 0), 0, &face);
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
 
 	if (!t)
 		return;
 	for (face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
-		generate_mipmaps(x, t, face);
+		gls_texture_generate_mipmaps(x, t, face);
 	t->dirty = 1;
 }
-
-/* ---- pixels of the screen: an image of the right size, all 0, until frames feed back ---- */
-
-static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
-{
-	unsigned face;
-	struct gls_texture *t = find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
-
-	gls_unsupported(x, "textures copied from the screen: left black");
-	gls_frame_reads_screen(x);
-	if (t)
-		specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1,
-		        arg_i(c, n_dims > 1 ? 7 : 6));
-}
-
-static void copy_tex_sub_image(struct gls_exec *x)
-{
-	gls_unsupported(x, "textures copied from the screen: left as they are");
-	gls_frame_reads_screen(x);
-}
-
-GLS_HANDLER(glCopyTexImage1D, STATE) { copy_tex_image(x, st, c, 1); }
-GLS_HANDLER(glCopyTexImage2D, STATE) { copy_tex_image(x, st, c, 2); }
-GLS_HANDLER(glCopyTexSubImage1D, STATE) { copy_tex_sub_image(x); }
-GLS_HANDLER(glCopyTexSubImage2D, STATE) { copy_tex_sub_image(x); }
-GLS_HANDLER(glCopyTexSubImage3D, STATE) { copy_tex_sub_image(x); }
 
 /* ---- pixel transfer, sec. 3.6.3 ---- */
 

@@ -9,6 +9,9 @@
 #include "base/err.h"
 #include "replay/mat4.h"
 
+#define IMAGE_KEEP_FRAMES 8                  /* frames that an unused image is kept */
+#define IMAGE_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
+
 static const uint32_t target_tokens[N_GLS_TEXTURE_TARGETS] = {
 	GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE,
 };
@@ -505,10 +508,37 @@ struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_te
 	return t->image;
 }
 
+int gls_texture_is_missing(const struct gls_texture *t)
+{
+	for (unsigned face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
+		for (unsigned level = 0; level < GLS_MAX_LEVELS; level++)
+			if (t->levels[face][level].missing)
+				return 1;
+	return 0;
+}
+
 void gls_texture_image_release(struct gls_texture_image *image)
 {
 	if (image && atomic_fetch_sub(&image->refs, 1) == 1)
 		free(image);
+}
+
+/* Screen copies make a new image each frame: drop those that the cache alone holds and nobody drew for a while. */
+void gls_image_cache_trim(struct gls_exec *x)
+{
+	if (x->image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)
+		return;
+	for (size_t i = 0; i < x->images.room;) {
+		struct table_entry e = x->images.entries[i];
+		struct gls_texture_image *image = e.value;
+		if (!image || atomic_load(&image->refs) > 1 || image->used_frame + IMAGE_KEEP_FRAMES > x->frame) {
+			i++;
+			continue;
+		}
+		x->image_bytes -= image->texture.n_bytes;
+		table_remove(&x->images, e.key); /* may move another one into this place: look again */
+		gls_texture_image_release(image);
+	}
 }
 
 void gls_image_cache_free(struct gls_exec *x)

@@ -14,6 +14,7 @@ struct gls_level {
 	uint32_t border, internal_format, base_format;
 	uint8_t *texels;
 	size_t bytes;
+	uint32_t missing; /* 1: what it holds was drawn in a frame that was skipped */
 };
 
 struct gls_texture {
@@ -57,6 +58,24 @@ int gls_texture_target_of(uint32_t token, unsigned *face);
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out);
+
+/** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of a base format. */
+void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4]);
+
+/** The object whose level a call names, or NULL (error set; proxies: NULL and no error). */
+struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
+                                           unsigned *face);
+
+/** Make a level anew, texels all 0. @return the level, or NULL: it has no texels (error set where it is one) */
+struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
+                                      int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
+                                      int64_t border);
+
+/** Levels above the base level out of it (sec. 3.8.8). */
+void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face);
+
+/** 1 where pixels of a level were drawn in a frame that was skipped. */
+int gls_texture_is_missing(const struct gls_texture *t);
 
 /** Base format of an internal format (table 3.15 ff.), 0: none. */
 uint32_t gls_base_format(uint32_t internal_format);

@@ -100,22 +100,25 @@ static void project(const struct expand_input *in, struct end *e)
 	e->z = (range[1] - range[0]) * 0.5f * (c[2] * e->w_inv) + (range[1] + range[0]) * 0.5f;
 }
 
-/* Signed distances to the planes that lines are clipped at: near, far, and four around twice the view's width. */
-static float clip_distance(const float *c, int plane)
+/*
+ * Signed distances to the planes that lines are clipped at: near, far, and four around so many times the view's width: 1 where
+ * the new end shows (it fades a smooth line out), else 2.
+ */
+static float clip_distance(const float *c, int plane, float band)
 {
 	float side = plane & 1 ? -1 : 1;
 
-	return plane < 2 ? c[3] + side * c[2] : 2 * c[3] + side * c[(plane - 2) / 2];
+	return plane < 2 ? c[3] + side * c[2] : band * c[3] + side * c[(plane - 2) / 2];
 }
 
 /* Cut a line to what can be seen. @return 0 where nothing is left */
-static int clip_line(struct end *a, struct end *b)
+static int clip_line(struct end *a, struct end *b, float band)
 {
 	float t0 = 0, t1 = 1;
 	struct end from = *a, to = *b;
 
 	for (int plane = 0; plane < 6; plane++) {
-		float da = clip_distance(a->v.clip, plane), db = clip_distance(b->v.clip, plane);
+		float da = clip_distance(a->v.clip, plane, band), db = clip_distance(b->v.clip, plane, band);
 
 		if (da < 0 && db < 0)
 			return 0;
@@ -271,6 +274,56 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	add_triangles(in, out, draw);
 }
 
+/* A corner of a smooth quad: its place is not snapped for attributes. coverage: see GEOMETRY_SMOOTH_LINE */
+static void add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct end *e, float x, float y,
+                              const float coverage[4])
+{
+	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
+	const float *v = in->view->viewport;
+	float w = 1 / e->w_inv;
+
+	add_corner(in, out, e, snap(x), snap(y));
+	vertex->clip[0] = (2 * (x - v[0]) / v[2] - 1) * w;
+	vertex->clip[1] = (2 * ((float)in->height - y - v[1]) / v[3] - 1) * w;
+	memcpy(vertex->color[1], coverage, sizeof(vertex->color[1]));
+}
+
+/* A smooth line as Mesa's draw module (22.3) makes it: longer by half a pixel at each end, wider by half a pixel a side. */
+static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct end *a, const struct end *b,
+                            uint32_t draw)
+{
+	float dx = b->x - a->x, dy = b->y - a->y, length = sqrtf(dx * dx + dy * dy);
+	float half_length = length < 1 ? length : 0.5f * length + 0.5f;
+	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f;
+
+	if (!(length > 0))
+		return;
+	dx /= length;
+	dy /= length;
+	for (int k = 0; k < 4; k++) {
+		const struct end *e = k == 1 || k == 2 ? b : a;
+		float along = e == b ? 0.5f : -0.5f, across = k < 2 ? half : -half;
+
+		add_smooth_corner(in, out, e, e->x + along * dx - across * dy, e->y + along * dy + across * dx,
+		                  (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });
+	}
+	add_triangles(in, out, draw);
+}
+
+static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
+{
+	const float *fade = in->material->point_attenuation, size = e->v.point_size;
+	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
+	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size, whole = (1 - 1 / radius) * (1 - 1 / radius);
+
+	for (int k = 0; k < 4; k++) {
+		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
+
+		add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, whole, 1 });
+	}
+	add_triangles(in, out, draw);
+}
+
 static void add_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
 {
 	const struct scene_material *m = in->material;
@@ -307,7 +360,10 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 {
 	if (out->n_vertices / 4 == out->room && grow(in, out))
 		return ERR_SYSTEM;
-	add_line(in, out, a, b, draw);
+	if (in->material->line_smooth)
+		add_smooth_line(in, out, a, b, draw);
+	else
+		add_line(in, out, a, b, draw);
 	return 0;
 }
 
@@ -319,7 +375,7 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 	uint32_t start = 0, n;
 	int err = 0;
 
-	if (!clip_line(&a, &b))
+	if (!clip_line(&a, &b, in->material->line_smooth ? 1 : 2))
 		return 0;
 	project(in, &a);
 	project(in, &b);
@@ -347,9 +403,7 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 static int point(const struct expand_input *in, struct expanded *out, struct end e, float offset, uint32_t draw)
 {
 	for (int plane = 0; plane < 6; plane++) {
-		float slack = plane < 2 ? 0 : -e.v.clip[3]; /* their centre must lie in the view (sec. 2.12) */
-
-		if (clip_distance(e.v.clip, plane) + slack < 0)
+		if (clip_distance(e.v.clip, plane, 1) < 0) /* their centre must lie in the view (sec. 2.12) */
 			return 0;
 	}
 	if (!(e.v.clip[3] > 0))
@@ -358,7 +412,10 @@ static int point(const struct expand_input *in, struct expanded *out, struct end
 	e.z = fminf(fmaxf(e.z + offset, 0), 1);
 	if (out->n_vertices / 4 == out->room && grow(in, out))
 		return ERR_SYSTEM;
-	add_point(in, out, &e, draw);
+	if (in->material->point_smooth && !in->material->point_sprite)
+		add_smooth_point(in, out, &e, draw);
+	else
+		add_point(in, out, &e, draw);
 	return 0;
 }
 

@@ -41,6 +41,7 @@ struct tracer {
 	uint32_t *path_counts; /* [path_room], host copy */
 	size_t path_room;
 	struct tracer_undrawn undrawn;
+	uint64_t drawn_serial, drawn_events; /* scene whose pixels BUFFER_FRAME holds: serial, and how many events it had */
 };
 
 /* One frame on its way. */

@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/queue.h"
+#include "tracer/feed.h"
 
 #define MAX_PATH_BYTES 4096
 #define MAX_WRITERS 8
@@ -188,7 +189,6 @@ static void add_undrawn(struct run *run, const struct tracer *tracer)
 
 	pthread_mutex_lock(&run->lock);
 	run->p->undrawn.targets += u->targets;
-	run->p->undrawn.smooth += u->smooth;
 	pthread_mutex_unlock(&run->lock);
 }
 
@@ -353,6 +353,7 @@ int pipeline_run(struct pipeline *p)
 	struct run run = { .p = p };
 	size_t n = p->n_devices * p->jobs;
 	struct worker *workers = calloc(n, sizeof(*workers));
+	struct feed feed = { .parent = p->devices[0] };
 	int err = workers ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	pthread_mutex_init(&run.lock, NULL);
@@ -363,8 +364,11 @@ int pipeline_run(struct pipeline *p)
 		err = queue_init(&run.pictures, writer_count(), 0);
 	if (!err)
 		err = seat_workers(&run, workers, n);
+	replay_set_supplier(p->replay, feed_supply, &feed);
 	if (!err)
 		err = start_and_join(&run, workers, n);
+	replay_set_supplier(p->replay, NULL, NULL);
+	feed_free(&feed);
 	for (size_t i = 0; workers && i < n; i++)
 		if (i % p->jobs && workers[i].dev)
 			device_close(&workers[i].dev);

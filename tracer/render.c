@@ -64,9 +64,6 @@ static void report(const struct pipeline *p)
 	replay_report_unsupported(p->replay, trace, 20);
 	if (u->targets)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
-	if (u->smooth)
-		err_warn(trace, "not smoothed yet: %llu draws of smooth lines or points are drawn plain",
-		         (unsigned long long)u->smooth);
 }
 
 static int render_frames(struct pipeline *p, uint64_t total)

@@ -1,11 +1,13 @@
 #include "tracer/trace.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "kernels/camera.h"
 #include "kernels/sample.h"
+#include "kernels/gl_pixel.h"
 #include "tracer/compose.h"
 #include "tracer/frame.h"
 
@@ -163,6 +165,11 @@ static int upload_expanded(struct job *job)
 			continue;
 		job->extra[i] = &e->mesh;
 		g->flags |= GEOMETRY_EXPANDED;
+		if (p->shapes[i] == PREPARED_LINES && job->scene->materials[g->material].line_smooth)
+			g->flags |= GEOMETRY_SMOOTH_LINE;
+		if (p->shapes[i] == PREPARED_POINTS && job->scene->materials[g->material].point_smooth &&
+		    !job->scene->materials[g->material].point_sprite)
+			g->flags |= GEOMETRY_SMOOTH_POINT;
 		g->vertex_first = p->instances[i].vertex_first = vertex;
 		g->vertex_count = e->n_vertices;
 		g->texcoord_first = texcoord;
@@ -532,6 +539,36 @@ static int clear_all(struct job *job)
 	return run_clear(job, &clear);
 }
 
+/* Put the pixels on the device that were there before the scene, or say that they are not known. */
+static int upload_start(struct job *job)
+{
+	const struct scene_picture *start = job->scene->start;
+	struct frame_pixel *pixels = calloc(job->n_pixels, sizeof(*pixels));
+	uint32_t far = pixel_bits_mask(pixel_depth_bits(job->bits) > 24 ? 24 : pixel_depth_bits(job->bits));
+	int err;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+	for (uint32_t i = 0; i < job->n_pixels; i++) {
+		struct frame_pixel *p = &pixels[i];
+
+		p->surface.order = SCENE_NONE;
+		p->unknown = start ? 0 : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
+		for (int c = 0; c < 4 && start; c++)
+			p->gl[c] = (float)start->rgba[4 * (size_t)i + (size_t)c] / 255.0f;
+		memcpy(p->shadowed, p->gl, sizeof(p->shadowed));
+		memcpy(p->direct, p->gl, sizeof(p->direct));
+		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
+		memcpy(p->beauty, p->gl, sizeof(p->beauty));
+		p->depth = start ? start->depth[i] : far;
+		p->depth_exact = far ? (float)p->depth / (float)far : 1;
+		p->stencil = start ? start->stencil[i] : 0;
+	}
+	err = device_write(job->tr->dev, job->tr->buffers[BUFFER_FRAME], 0, pixels, job->n_pixels * sizeof(*pixels));
+	free(pixels);
+	return err;
+}
+
 static int run_surface(struct job *job)
 {
 	struct tracer *tr = job->tr;
@@ -640,19 +677,36 @@ static void count_undrawn(struct job *job)
 
 	for (uint32_t i = 0; i < scene->n_instances; i++)
 		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
-	for (uint32_t i = 0, last = SCENE_NONE; i < job->prepared.n_instances; i++) {
-		const struct scene_material *m = &scene->materials[job->prepared.geometries[i].material];
-		enum prepared_shape shape = job->prepared.shapes[i];
-		uint32_t from = job->prepared.instances[i].scene_instance;
+}
 
-		if (from == last) /* faces of one draw in several shapes follow each other */
-			continue;
-		if ((shape == PREPARED_LINES && m->line_smooth) ||
-		    (shape == PREPARED_POINTS && m->point_smooth && !m->point_sprite)) {
-			job->tr->undrawn.smooth++;
-			last = from;
-		}
+/* Changes whenever a scene shows something else. */
+static uint64_t events_of(const struct scene *scene)
+{
+	return 2 * ((uint64_t)scene->n_instances + scene->n_clears) + (scene->start != NULL);
+}
+
+/* Pixels of the frame on the device, rounded as GL's frame buffer is. */
+static int read_picture(struct tracer *tr, const struct scene *scene, struct scene_picture *picture)
+{
+	size_t n = (size_t)scene->width * scene->height;
+	struct frame_pixel *pixels = malloc(n * sizeof(*pixels));
+	int err;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
+	err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, pixels, n * sizeof(*pixels));
+	picture->unknown = 0;
+	for (size_t i = 0; i < n && !err; i++) {
+		for (int c = 0; c < 4; c++)
+			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(pixels[i].gl[c]) * 255.0f);
+		if (!scene->alpha_bits)
+			picture->rgba[4 * i + 3] = 255;
+		picture->depth[i] = pixels[i].depth;
+		picture->stencil[i] = (uint8_t)pixels[i].stencil;
+		picture->unknown += (pixels[i].unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 	}
+	free(pixels);
+	return err;
 }
 
 /* One look at the frame, into the device's BUFFER_FRAME and BUFFER_SURFACE. */
@@ -688,7 +742,7 @@ static int trace_pass(struct job *job)
 	if (!err)
 		err = reserve_pixels(job);
 	if (!err)
-		err = clear_all(job);
+		err = job->scene->start || job->scene->needs_previous ? upload_start(job) : clear_all(job);
 	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
 		err = run_segment(job, &job->prepared.segments[i]);
 	if (!err)
@@ -701,6 +755,34 @@ static int trace_pass(struct job *job)
 	return err;
 }
 
+static int check_size(const struct scene *scene)
+{
+	if (scene->width && scene->height && scene->width <= 16384 && scene->height <= 16384)
+		return 0;
+	return err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered",
+	                  (unsigned long long)scene->frame, scene->width, scene->height);
+}
+
+int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+{
+	const struct tracer_options options = { .mode = TRACER_GL };
+	struct job job = { .tr = tracer, .scene = scene, .options = &options, .width = scene->width,
+		           .height = scene->height, .n_pixels = scene->width * scene->height, .n_passes = 1 };
+	int err = check_size(scene);
+
+	/* The frame that was rendered last is often the one that the next begins with. */
+	if (err || (scene->serial && tracer->drawn_serial == scene->serial && tracer->drawn_events == events_of(scene)))
+		return err ? err : read_picture(tracer, scene, picture);
+	tracer->drawn_serial = 0;
+	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
+	err = trace_pass(&job);
+	if (!err) {
+		tracer->drawn_serial = scene->serial;
+		tracer->drawn_events = events_of(scene);
+	}
+	return err ? err : read_picture(tracer, scene, picture);
+}
+
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img)
 {
@@ -711,9 +793,9 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	struct picture picture = { .pixels = NULL };
 	int err;
 
-	if (scene->width == 0 || scene->height == 0 || scene->width > 16384 || scene->height > 16384)
-		return err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered",
-		                  (unsigned long long)scene->frame, scene->width, scene->height);
+	if (check_size(scene) != 0)
+		return ERR_SYSTEM;
+	tracer->drawn_serial = 0;
 	if (known.rays == 0)
 		known.rays = 16;
 	job.n_pixels = scene->width * scene->height;

@@ -53,11 +53,16 @@ int tracer_check_aov(const char *aov);
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img);
 
+/**
+ * What GL drew of a scene, as pixels: rounded to the frame buffer's bits, no shadows, no mirrors.
+ * @param picture  of the scene's size, arrays allocated; filled
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture);
+
 /** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
 struct tracer_undrawn {
 	uint64_t targets; /* instances that drew to a target other than the window */
-	uint64_t smooth;  /* instances whose lines or points were to be smoothed (GL 2.1 sec. 3.3.1, 3.4.2): they are drawn
-	                     with the coverage of plain ones */
 };
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
 

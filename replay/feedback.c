@@ -1,0 +1,237 @@
+/*
+ * Pixels that feed back: what was drawn, needed as pixels (screen copies, frames that are not cleared, framebuffer
+ * objects). They are rendered by whoever set a supplier (replay.h), from the scene of all events so far, and only when
+ * somebody asks.
+ *
+ * A frame may show what the one before left. What a drawable held at the beginning of a frame is therefore kept: as a
+ * picture where one was made, else as the scene that would make it. Where frames were skipped it is not known; the frame
+ * that turns out to need it sets x->rewind, and replay.c starts again and builds every frame.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/exec.h"
+
+/* ---- pictures ---- */
+
+void gls_picture_release(struct gls_picture *p)
+{
+	if (!p || atomic_fetch_sub(&p->refs, 1) != 1)
+		return;
+	free(p->picture.rgba);
+	free(p->picture.depth);
+	free(p->picture.stencil);
+	free(p);
+}
+
+static struct gls_picture *reference(struct gls_picture *p)
+{
+	if (p)
+		atomic_fetch_add(&p->refs, 1);
+	return p;
+}
+
+/* A black one, far and 0. NULL: out of memory (reported) */
+static struct gls_picture *make_picture(struct gls_exec *x, const struct scene *s)
+{
+	size_t n = (size_t)s->width * s->height, room = n + !n;
+	struct gls_picture *p = calloc(1, sizeof(*p));
+	uint32_t far = (1u << (s->depth_bits > 24 ? 24 : s->depth_bits)) - 1;
+
+	if (p) {
+		atomic_init(&p->refs, 1);
+		p->picture.width = s->width;
+		p->picture.height = s->height;
+		p->picture.rgba = calloc(room, 4);
+		p->picture.depth = malloc(room * sizeof(*p->picture.depth));
+		p->picture.stencil = calloc(room, 1);
+	}
+	if (!p || !p->picture.rgba || !p->picture.depth || !p->picture.stencil) {
+		gls_picture_release(p);
+		gls_out_of_memory(x, n * 9);
+		return NULL;
+	}
+	for (size_t i = 0; i < n; i++) {
+		p->picture.depth[i] = far;
+		p->picture.rgba[4 * i + 3] = s->alpha_bits ? 0 : 255;
+	}
+	return p;
+}
+
+/* What a scene shows. NULL: it cannot be had */
+static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
+{
+	struct gls_picture *p = make_picture(x, s);
+
+	if (!p || !s->width || !s->height)
+		return p;
+	if (x->supply(x->supply_user, s, &p->picture) != 0) {
+		if (!x->failed)
+			x->failed = ERR_SYSTEM; /* reported by the supplier */
+		gls_picture_release(p);
+		return NULL;
+	}
+	return p;
+}
+
+/* ---- surfaces ---- */
+
+static void forget(struct gls_surface *surface)
+{
+	gls_picture_release(surface->picture);
+	surface->picture = NULL;
+	scene_release(&surface->before);
+}
+
+void gls_surface_free(struct gls_surface *surface)
+{
+	gls_frame_drop(surface);
+	forget(surface);
+}
+
+static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint64_t name)
+{
+	uint64_t drawn = st->drawable;
+	struct gls_drawable *d;
+	struct gls_surface *s;
+
+	st->drawable = name;
+	d = gls_drawable_of(x, st);
+	st->drawable = drawn;
+	if (!d)
+		return NULL;
+	s = &d->surface;
+	s->width = d->width;
+	s->height = d->height;
+	s->depth_bits = st->depth_bits;
+	s->stencil_bits = st->stencil_bits;
+	s->alpha_bits = st->alpha_bits;
+	return s;
+}
+
+struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
+{
+	if (st->draw_framebuffer) {
+		gls_unsupported(x, "drawing into framebuffer objects");
+		return NULL;
+	}
+	return window(x, st, st->drawable);
+}
+
+/* A window of another size has nothing of the old one's. */
+static void check_size(struct gls_surface *surface, const struct scene *s)
+{
+	if ((surface->picture && (surface->picture->picture.width != s->width || surface->picture->picture.height != s->height)) ||
+	    (surface->before && (surface->before->width != s->width || surface->before->height != s->height)))
+		forget(surface);
+}
+
+/*
+ * Give the scene of a surface what was there before it, where that shows through.
+ * @param snapshot  receives what the scene makes where that had to be found out, or NULL: a reference for the caller
+ * @return 1 the scene is whole; 0 it is not, and cannot be made so now
+ */
+static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, struct gls_picture **snapshot)
+{
+	*snapshot = NULL;
+	check_size(surface, s);
+	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
+		return 1;
+	if (!surface->picture) {
+		/* It may be that nothing shows through: a sky over all of it. */
+		int try = s->n_instances && !(x->shows_through && surface->before);
+
+		if (try && !(*snapshot = render(x, s)))
+			return 0;
+		if (*snapshot && !(*snapshot)->picture.unknown) {
+			gls_frame_all_known(surface);
+			return 1;
+		}
+		x->shows_through |= try;
+		gls_picture_release(*snapshot);
+		*snapshot = NULL;
+		if (surface->skipped) {
+			x->rewind = 1;
+			return 0;
+		}
+		surface->picture = render(x, surface->before);
+		scene_release(&surface->before);
+		if (!surface->picture)
+			return 0;
+	}
+	s->start = &reference(surface->picture)->picture;
+	return 1;
+}
+
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct gls_picture **kept, *snapshot;
+	uint64_t *events;
+	struct scene *s;
+
+	if (!x->want || !surface)
+		return NULL;
+	if (!x->supply) {
+		gls_unsupported(x, "needs pixels that were drawn: only a renderer has them");
+		return NULL;
+	}
+	s = gls_frame_scene(x, surface);
+	if (!s)
+		return NULL;
+	kept = gls_frame_snapshot(surface, &events);
+	if (*kept && *events == gls_frame_events(surface))
+		return &(*kept)->picture;
+	if (!find_start(x, surface, s, &snapshot))
+		return NULL;
+	if (!snapshot)
+		snapshot = s->start && !gls_frame_events(surface) ? reference((struct gls_picture *)(uintptr_t)s->start) :
+		                                                    render(x, s);
+	gls_picture_release(*kept);
+	*kept = snapshot;
+	*events = gls_frame_events(surface);
+	return snapshot ? &snapshot->picture : NULL;
+}
+
+const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st)
+{
+	gls_flush(x);
+	if (st->read_framebuffer) {
+		gls_unsupported(x, "reading framebuffer objects");
+		return NULL;
+	}
+	return gls_surface_read(x, window(x, st, st->read_drawable));
+}
+
+/* ---- ends of frames ---- */
+
+struct scene *gls_frame_finish(struct gls_exec *x)
+{
+	struct gls_state none = { .drawable = x->swapped }, *st = x->st ? x->st : &none;
+	struct gls_surface *surface = window(x, st, x->swapped);
+	struct gls_picture *snapshot = NULL;
+	struct scene *s = surface ? gls_frame_scene(x, surface) : NULL;
+
+	if (!s || (x->supply && !find_start(x, surface, s, &snapshot)))
+		return NULL;
+	s = gls_frame_take(x, surface);
+	forget(surface);
+	surface->skipped = 0;
+	if (snapshot)
+		surface->picture = snapshot;
+	else if (x->supply)
+		surface->before = gls_scene_reference(s);
+	return s;
+}
+
+void gls_frame_skip(struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->drawables.room; i++) {
+		struct gls_drawable *d = x->drawables.entries[i].value;
+
+		if (!d)
+			continue;
+		gls_surface_free(&d->surface);
+		d->surface.skipped = 1;
+	}
+}
