@@ -41,7 +41,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
-	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl \
+	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
 	fonts-dejavu-core xdotool pkg-config zsh fish man-db
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian

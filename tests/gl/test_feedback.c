@@ -1,0 +1,205 @@
+/* Pixels that feed back (GL 2.1 sec. 3.8.2, 4.2, 4.3): who asks for which pixels, and what becomes of them. */
+#include "tests/gl/gl.h"
+
+/* A supplier that paints every picture in one colour, and remembers what it was asked. */
+struct painter {
+	uint8_t color[4];
+	uint32_t unknown, asked, n_instances, had_start;
+};
+
+static int paint(void *user, const struct scene *scene, struct scene_picture *picture)
+{
+	struct painter *p = user;
+
+	p->asked++;
+	p->n_instances = scene->n_instances;
+	p->had_start = scene->start != NULL;
+	for (size_t i = 0; i < (size_t)scene->width * scene->height; i++) {
+		memcpy(picture->rgba + 4 * i, p->color, 4);
+		picture->depth[i] = 1 << 23;
+		picture->stencil[i] = 7;
+	}
+	picture->unknown = scene->start ? 0 : p->unknown;
+	return 0;
+}
+
+static struct gl open_with(struct painter *p)
+{
+	struct gl gl = gl_open();
+
+	gl.x->supply = paint;
+	gl.x->supply_user = p;
+	return gl;
+}
+
+static void triangle(struct gl *gl)
+{
+	gl_call(gl, "glBegin", "e", GL_TRIANGLES);
+	gl_call(gl, "glVertex2f", "ff", 0.0, 0.0);
+	gl_call(gl, "glVertex2f", "ff", 1.0, 0.0);
+	gl_call(gl, "glVertex2f", "ff", 0.0, 1.0);
+	gl_call(gl, "glEnd", "");
+}
+
+static void textured_triangle(struct gl *gl)
+{
+	gl_call(gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(gl, "glEnable", "e", GL_TEXTURE_2D);
+	triangle(gl);
+	gl_call(gl, "glDisable", "e", GL_TEXTURE_2D);
+}
+
+/* CopyTexImage2D (sec. 3.8.2): the screen as the calls so far left it, in the texture's own base format. */
+START_TEST(test_copy_tex_image)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_with(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	triangle(&gl);
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_LUMINANCE, 0, 0, 16, 8, 0);
+	ck_assert_uint_eq(p.asked, 1);
+	ck_assert_uint_eq(p.n_instances, 1);
+	textured_triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_uint_eq(s->textures[0]->width, 16);
+	ck_assert_uint_eq(s->textures[0]->height, 8);
+	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[4]){ 10, 10, 10, 255 }), 4);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* CopyTexSubImage2D of depth, partly off the screen: only what is on it changes; equal screens are rendered once. */
+START_TEST(test_copy_tex_sub_image)
+{
+	struct painter p = { { 1, 2, 3, 4 }, 0, 0, 0, 0 };
+	struct gl gl = open_with(&p);
+	float zeros[64] = { 0 }, first, last;
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 8, 8, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+	        sizeof(zeros), zeros);
+	gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 0, 0, 60, 60, 8, 8);
+	gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 0, 0, 60, 60, 8, 8);
+	ck_assert_uint_eq(p.asked, 1);
+	textured_triangle(&gl);
+	s = gl_swap(&gl);
+	memcpy(&first, s->textures[0]->texels, 4);
+	memcpy(&last, s->textures[0]->texels + 4 * 63, 4);
+	ck_assert_float_eq_tol(first, 8388608.0f / 16777215.0f, 1e-7f);
+	ck_assert_float_eq(last, 0);
+	gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 4, 4, 0, 0, 5, 1);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A frame that is drawn without a clear shows the one before; one that covers it all does not; a cleared one neither. */
+START_TEST(test_previous_frame)
+{
+	struct painter p = { { 9, 9, 9, 9 }, 5, 0, 0, 0 };
+	struct gl gl = open_with(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_ptr_null(s->start);
+	ck_assert_uint_eq(p.asked, 0);
+	scene_release(&s);
+	triangle(&gl); /* pixels of the last frame show through */
+	s = gl_swap(&gl);
+	ck_assert_ptr_nonnull(s->start);
+	ck_assert_mem_eq(s->start->rgba, p.color, 4);
+	ck_assert_uint_eq(s->start->stencil[0], 7);
+	scene_release(&s);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	p.asked = 0;
+	s = gl_swap(&gl);
+	ck_assert_ptr_null(s->start);
+	ck_assert_uint_eq(p.asked, 0);
+	scene_release(&s);
+	gl_close(&gl);
+
+	p.unknown = 0; /* now everything is covered: nothing of the last frame is asked for */
+	gl = open_with(&p);
+	for (int i = 0; i < 2; i++) {
+		triangle(&gl);
+		s = gl_swap(&gl);
+		ck_assert_ptr_null(s->start);
+		scene_release(&s);
+	}
+	gl_close(&gl);
+}
+END_TEST
+
+/* Frames that were skipped: what they drew is asked for only where it shows, and then the replay must start again. */
+START_TEST(test_skipped_frames)
+{
+	struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
+	struct gl gl = open_with(&p);
+	struct scene *s;
+
+	gl.x->want = 0;
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 8, 8, 0);
+	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+	gls_frame_skip(gl.x);
+	gl.x->want = 1;
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_int_eq(gl.x->rewind, 0); /* covered */
+	scene_release(&s);
+	textured_triangle(&gl);
+	ck_assert_int_eq(gl.x->rewind, 1);
+	gl_close(&gl);
+	p.unknown = 1;
+	gl = open_with(&p);
+	gls_frame_skip(gl.x);
+	triangle(&gl);
+	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+	ck_assert_ptr_null(gls_frame_finish(gl.x));
+	ck_assert_int_eq(gl.x->rewind, 1);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Drawables keep their events apart: a swap ends the frame of the one that is swapped. */
+START_TEST(test_drawables)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	triangle(&gl);
+	gl_call(&gl, "glXMakeCurrent", "pup", (uint64_t)1, 8u, (uint64_t)0x10);
+	gl_call(&gl, "glViewport", "iiii", 0, 0, 32, 16);
+	triangle(&gl);
+	triangle(&gl);
+	gl_call(&gl, "glXMakeCurrent", "pup", (uint64_t)1, 7u, (uint64_t)0x10);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_draws, 1);
+	ck_assert_uint_eq(s->width, 64);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Nobody renders: counted, the texture stays as it is. */
+START_TEST(test_no_supplier)
+{
+	struct gl gl = gl_open();
+
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 8, 8, 0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("feedback", test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
+         test_no_supplier)
