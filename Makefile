@@ -28,7 +28,7 @@ LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpe
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
-COMMAND_SRC := relume.c $(wildcard base/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
+COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_CXX := $(wildcard diff/*.cpp)
 
@@ -42,7 +42,8 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core xdotool pkg-config zsh fish man-db
+	fonts-dejavu-core xdotool pkg-config zsh fish man-db \
+	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 

@@ -19,6 +19,7 @@ static const struct verb {
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_main, "score traced frames against rasterized ones, or any two sets" },
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
+	{ "farm", farm_main, "render on many machines: array jobs of Slurm, or scripts" },
 	{ "devices", devices_main, "list the OpenCL devices" },
 	{ "bench", bench_main, "measure the tracer's kernels" },
 };

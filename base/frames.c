@@ -295,6 +295,14 @@ int frame_pattern_has_number(const char *pattern)
 	return find_number(pattern, &start, &length, &width);
 }
 
+size_t frame_pattern_prefix(const char *pattern)
+{
+	size_t start, length;
+	int width;
+
+	return find_number(pattern, &start, &length, &width) ? start : strlen(pattern);
+}
+
 int frame_pattern_expand(const char *pattern, uint64_t frame, char *out, size_t size)
 {
 	size_t start, length;

@@ -58,6 +58,9 @@ int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t
 /** 1 where the pattern holds a place for a frame number. */
 int frame_pattern_has_number(const char *pattern);
 
+/** How many bytes of the pattern stand before the frame number; all, where it holds none. */
+size_t frame_pattern_prefix(const char *pattern);
+
 /**
  * Put a frame number into a pattern.
  * @param out, size  receives the name, NUL-terminated

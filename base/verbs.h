@@ -14,6 +14,7 @@ int dump_main(int argc, char **argv);    /* replay/dump.c */
 int scene_main(int argc, char **argv);   /* replay/scene_json.c */
 int export_main(int argc, char **argv);  /* replay/export.c */
 int render_main(int argc, char **argv);  /* tracer/render.c */
+int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* tracer/devices.c */
 int bench_main(int argc, char **argv);   /* tracer/bench.c */
 int raster_main(int argc, char **argv);  /* diff/raster.c */

@@ -1,0 +1,311 @@
+#include "farm/job.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/part.h"
+#include "farm/program.h"
+
+#define DEFAULT_CHUNK 50
+#define MAX_TASKS 1000000
+
+const char farm_help[] =
+	"usage: relume farm submit TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
+	"       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
+	"       relume farm status|retry|cancel FOLDER\n"
+	"\n"
+	"Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
+	"Every machine must see the trace and the frames under the same names.\n"
+	"\n"
+	"submit  starts an array job that renders, and one after it that scores and writes a page; prints their numbers\n"
+	"        and the job's FOLDER, which lies beside the frames: out/gears.####.exr has out/gears.farm\n"
+	"script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
+	"status  says how many frames are whole, and what waits and runs; exits with 1 while frames are missing\n"
+	"retry   renders what is missing or damaged and in no one's hands, and scores again\n"
+	"cancel  ends what waits and runs; frames that are whole stay\n"
+	"\n"
+	"  -f, --frames LIST    frames, as in 1-500 or 1-500x5\n"
+	"  -o, --output PATTERN file names: ####, %04d, $F4 or {frame} stand for the frame number\n"
+	"      --chunk N        frames in a task, at most (default 50)\n"
+	"      --reference REF  what to score against, as for 'relume diff' (default: what was recorded with --ref)\n"
+	"      --gres LIST      what each task needs of a node, as gpu:1\n"
+	"      --sbatch OPTION  one more option of sbatch, as --sbatch=--partition=night; may be repeated\n"
+	"      --local          on this machine, though Slurm is there\n"
+	"      --for ENGINE     slurm, parallel or make\n"
+	"  -h, --help           this text\n"
+	"\n"
+	"Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
+	"5 Slurm or the system failed.\n";
+
+static int parse_engine(const char *text, enum farm_engine *out)
+{
+	static const struct { const char *name; enum farm_engine engine; } known[] = {
+		{ "slurm", FARM_SLURM }, { "parallel", FARM_PARALLEL }, { "make", FARM_MAKE },
+	};
+
+	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+		if (strcmp(text, known[i].name) == 0) {
+			*out = known[i].engine;
+			return 0;
+		}
+	return err_report(ERR_USAGE, NULL, "--for takes slurm, parallel or make, not '%s'", text);
+}
+
+static int parse_chunk(const char *text, uint64_t *out)
+{
+	char *end;
+
+	errno = 0;
+	*out = strtoull(text, &end, 10);
+	if (errno || *text < '0' || *text > '9' || *end || *out == 0)
+		return err_report(ERR_USAGE, NULL, "--chunk takes a number of frames, not '%s'", text);
+	return 0;
+}
+
+/* Which frames, where to and which of them anew is said once, before the "--". */
+static int check_render_options(const struct farm_job *job)
+{
+	static const char *const ours[] = { "-f", "--frames", "-o", "--output", "--chunk", "--force", "--dry-run" };
+
+	for (int i = 0; i < job->n_render; i++)
+		for (size_t k = 0; k < sizeof(ours) / sizeof(ours[0]); k++) {
+			size_t n = strlen(ours[k]);
+
+			if (strncmp(job->render[i], ours[k], n) == 0 &&
+			    (n == 2 || job->render[i][n] == '\0' || job->render[i][n] == '='))
+				return err_report(ERR_USAGE, NULL, "%s does not belong behind '--': the farm cuts the frames itself",
+				                  ours[k]);
+		}
+	return 0;
+}
+
+/* out/gears.####.exr -> out/gears.farm */
+static int name_folder(struct farm_job *job)
+{
+	size_t n = frame_pattern_prefix(job->output);
+
+	while (n && strchr("._-", job->output[n - 1]))
+		n--;
+	if (snprintf(job->folder, sizeof(job->folder), "%.*s%sfarm", (int)n, job->output,
+	             n && job->output[n - 1] != '/' ? "." : "") >= (int)sizeof(job->folder))
+		return err_report(ERR_USAGE, job->output, "the name is too long");
+	return 0;
+}
+
+static int find_places(struct farm_job *job)
+{
+	ssize_t n = readlink("/proc/self/exe", job->relume, sizeof(job->relume) - 1);
+
+	if (n < 0 || !getcwd(job->directory, sizeof(job->directory)))
+		return err_report(ERR_SYSTEM, NULL, "cannot find this command or the current directory: %s", strerror(errno));
+	job->relume[n] = '\0';
+	return 0;
+}
+
+/* The recorded references lie in NAME.ref beside NAME.trace; `relume diff` finds them by the trace. */
+static const char *recorded_reference(const struct farm_job *job)
+{
+	size_t n = strlen(job->trace);
+	char name[PATH_MAX];
+
+	if (n > 6 && strcmp(job->trace + n - 6, ".trace") == 0)
+		n -= 6;
+	if (snprintf(name, sizeof(name), "%.*s.ref", (int)n, job->trace) >= (int)sizeof(name) || access(name, R_OK) != 0)
+		return NULL;
+	return job->trace;
+}
+
+static int parse_words(struct farm_job *job, uint64_t *chunk)
+{
+	enum { CHUNK = 256, REFERENCE, GRES, SBATCH, LOCAL, FOR };
+	static const struct option table[] = {
+		{ "frames", required_argument, NULL, 'f' },        { "output", required_argument, NULL, 'o' },
+		{ "chunk", required_argument, NULL, CHUNK },       { "reference", required_argument, NULL, REFERENCE },
+		{ "gres", required_argument, NULL, GRES },         { "sbatch", required_argument, NULL, SBATCH },
+		{ "local", no_argument, NULL, LOCAL },             { "for", required_argument, NULL, FOR },
+		{ "help", no_argument, NULL, 'h' },                { NULL, 0, NULL, 0 },
+	};
+	int argc = job->n_words, option, err = 0;
+	char **argv = job->words;
+
+	/* What stands behind the first "--" is not ours to sort. */
+	for (int i = 1; i < argc; i++)
+		if (strcmp(argv[i], "--") == 0) {
+			job->render = argv + i + 1;
+			job->n_render = argc - i - 1;
+			argc = i;
+			break;
+		}
+	optind = 1;
+	while (!err && (option = getopt_long(argc, argv, "f:o:h", table, NULL)) != -1) {
+		switch (option) {
+		case 'f': job->frames_text = optarg; break;
+		case 'o': job->output = optarg; break;
+		case CHUNK: err = parse_chunk(optarg, chunk); break;
+		case REFERENCE: job->reference = optarg; break;
+		case GRES: job->gres = optarg; break;
+		case SBATCH: job->sbatch[job->n_sbatch++] = optarg; break;
+		case LOCAL: job->engine = FARM_LOCAL; break;
+		case FOR: err = parse_engine(optarg, &job->engine); break;
+		case 'h':
+			fputs(farm_help, stdout);
+			return 1;
+		default:
+			return ERR_USAGE; /* getopt_long has said what */
+		}
+	}
+	if (err)
+		return err;
+	if (argc - optind != 1 || !job->frames_text || !job->output)
+		return err_report(ERR_USAGE, NULL, "relume farm takes one TRACE, -f FRAMES and -o PATTERN; 'relume farm --help' explains");
+	job->trace = argv[optind];
+	return 0;
+}
+
+int farm_job_parse(int argc, char **argv, struct farm_job *out)
+{
+	uint64_t chunk = DEFAULT_CHUNK;
+	int err;
+
+	out->words = calloc((size_t)argc + 1, sizeof(*out->words));
+	out->sbatch = calloc((size_t)argc + 1, sizeof(*out->sbatch));
+	if (!out->words || !out->sbatch)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (out->n_words = 0; out->n_words < argc; out->n_words++)
+		if (!(out->words[out->n_words] = strdup(argv[out->n_words])))
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+	out->engine = program_exists("sbatch") ? FARM_SLURM : FARM_LOCAL;
+	err = parse_words(out, &chunk);
+	if (!err)
+		err = check_render_options(out);
+	if (!err)
+		err = frame_list_parse(out->frames_text, &out->frames);
+	if (!err && !frame_pattern_has_number(out->output))
+		err = err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
+	if (err)
+		return err;
+	out->n_frames = frame_list_count(&out->frames, frame_list_last(&out->frames) + 1);
+	out->n_tasks = (out->n_frames + chunk - 1) / chunk;
+	if (out->n_tasks > MAX_TASKS)
+		return err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
+		                  out->n_tasks);
+	if (!out->reference)
+		out->reference = recorded_reference(out);
+	err = name_folder(out);
+	return err ? err : find_places(out);
+}
+
+void farm_job_free(struct farm_job *job)
+{
+	for (int i = 0; i < job->n_words; i++)
+		free(job->words[i]);
+	free(job->words);
+	free(job->sbatch);
+	frame_list_free(&job->frames);
+	*job = (struct farm_job){ 0 };
+}
+
+int farm_job_save(const struct farm_job *job)
+{
+	char path[PATH_MAX + 16], part[PATH_MAX + 128];
+	FILE *file;
+	int err = folder_make(job->folder);
+
+	snprintf(path, sizeof(path), "%s/arguments", job->folder);
+	if (!err)
+		err = part_begin(path, part, sizeof(part));
+	if (err)
+		return err;
+	file = fopen(part, "w");
+	if (!file)
+		return err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
+	fwrite(job->directory, 1, strlen(job->directory) + 1, file);
+	/* The words as they were typed: getopt_long has sorted its own array, which means the same. */
+	for (int i = 0; i < job->n_words; i++)
+		fwrite(job->words[i], 1, strlen(job->words[i]) + 1, file);
+	err = ferror(file);
+	if (fclose(file) || err) {
+		err = err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
+		part_drop(part);
+		return err;
+	}
+	return part_finish(part, path);
+}
+
+/* The file's text, ended by NUL beyond its size; the caller's. */
+static char *read_arguments(const char *path, size_t *size)
+{
+	FILE *file = fopen(path, "r");
+	char *text = NULL;
+	long n;
+
+	if (file && fseek(file, 0, SEEK_END) == 0 && (n = ftell(file)) > 0 && (text = calloc((size_t)n + 1, 1))) {
+		rewind(file);
+		*size = fread(text, 1, (size_t)n, file);
+	}
+	if (file)
+		fclose(file);
+	return text;
+}
+
+int farm_job_load(const char *folder, struct farm_job *out)
+{
+	char path[PATH_MAX + 16], wanted[PATH_MAX], found[PATH_MAX];
+	size_t size = 0, n = 0;
+	char *text, **argv;
+	int err = 0;
+
+	snprintf(path, sizeof(path), "%s/arguments", folder);
+	text = read_arguments(path, &size);
+	if (!text || !realpath(folder, wanted)) {
+		free(text);
+		return err_report(ERR_INPUT, folder, "is no job of 'relume farm submit'");
+	}
+	argv = calloc(size + 1, sizeof(*argv));
+	if (!argv) {
+		free(text);
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	/* The first word is the directory. */
+	for (char *p = text + strlen(text) + 1; p < text + size; p += strlen(p) + 1)
+		argv[n++] = p;
+	if (chdir(text) != 0)
+		err = err_report(ERR_INPUT, text, "%s; the job was submitted there", strerror(errno));
+	if (!err)
+		err = farm_job_parse((int)n, argv, out);
+	if (!err && (!realpath(out->folder, found) || strcmp(found, wanted) != 0))
+		err = err_report(ERR_INPUT, folder, "was made as %s/%s and has been moved", text, out->folder);
+	free(argv);
+	free(text);
+	return err > 0 ? ERR_INPUT : err;
+}
+
+uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame)
+{
+	/* As frame_list_chunk cuts: parts as equal as can be, in order. */
+	uint64_t low = 1, high = job->n_tasks;
+
+	if (!frame_list_contains(&job->frames, frame))
+		return 0;
+	while (low < high) {
+		uint64_t middle = low + (high - low) / 2;
+		struct frame_list part = { 0 };
+		int rc = frame_list_parse(job->frames_text, &part);
+
+		if (!rc)
+			rc = frame_list_chunk(&part, UINT64_MAX, middle, job->n_tasks);
+		if (rc || frame <= frame_list_last(&part))
+			high = middle;
+		else
+			low = middle + 1;
+		frame_list_free(&part);
+	}
+	return low;
+}

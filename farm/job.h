@@ -1,0 +1,66 @@
+/*
+ * A job: frames of a trace, cut into tasks for the machines of a farm.
+ *
+ * A job has a folder beside its frames: out/gears.####.exr has out/gears.farm. It holds
+ *
+ *     arguments   the working directory and the words of `relume farm submit`, each ended by NUL: all that is ever kept
+ *     job.sh      the script that the engine runs, made from them (script.h)
+ *     slurm       the numbers of its Slurm jobs, one line for each submission: array job, report job or "-"
+ *     lock/, log/ of each task; report/, scores.json
+ *
+ * What has been done is never written down: the frames themselves say so (`relume render --skip-existing --dry-run`), and
+ * Slurm knows what waits and runs. So nothing here can disagree with the world.
+ */
+#ifndef FARM_JOB_H
+#define FARM_JOB_H
+
+#include <limits.h>
+#include <stdint.h>
+
+#include "base/frames.h"
+
+enum farm_engine { FARM_LOCAL, FARM_SLURM, FARM_PARALLEL, FARM_MAKE };
+
+struct farm_job {
+	/* As given; borrowed from `words`. Relative names are relative to `directory`. */
+	const char *trace, *output, *frames_text;
+	const char *reference; /* what the report scores against; NULL: nothing is scored */
+	const char *gres;      /* generic resources a task asks Slurm for, or NULL */
+	char **sbatch;         /* owned array of n_sbatch further options of sbatch */
+	int n_sbatch;
+	char **render;         /* n_render options of `relume render` */
+	int n_render;
+
+	enum farm_engine engine;
+	struct frame_list frames;   /* of frames_text; owned */
+	uint64_t n_frames, n_tasks; /* n_tasks: as many as it takes for no task to have more than --chunk frames */
+
+	char directory[PATH_MAX]; /* where the words were typed; absolute */
+	char relume[PATH_MAX];    /* this command; absolute */
+	char folder[PATH_MAX];    /* the job's folder, relative to directory or absolute */
+	char **words;             /* owned; argv of submit without its first word */
+	int n_words;
+	char reference_of_trace[PATH_MAX];
+};
+
+/** What `relume help farm` says. */
+extern const char farm_help[];
+
+/**
+ * Make a job from the words after `submit` or `script`, in the current directory.
+ * @param out  zero-initialised; free with farm_job_free in any case
+ * @return 0, 1 where help was printed, or ERR_* (reported)
+ */
+int farm_job_parse(int argc, char **argv, struct farm_job *out);
+void farm_job_free(struct farm_job *job);
+
+/** Keep the words in the job's folder, which is made. @return 0 or ERR_SYSTEM (reported) */
+int farm_job_save(const struct farm_job *job);
+
+/** Find a job by its folder, and go to the directory where it was submitted. @return 0 or ERR_* (reported) */
+int farm_job_load(const char *folder, struct farm_job *out);
+
+/** The number, from 1, of the task that a frame belongs to; 0 where it is none of the job's. */
+uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame);
+
+#endif

@@ -1,0 +1,18 @@
+/*
+ * The script that an engine runs: plain shell, or a Makefile, that needs nothing of Relume but `relume render` and
+ * `relume diff`. `relume farm script` prints it and `relume farm submit` runs the very same.
+ */
+#ifndef FARM_SCRIPT_H
+#define FARM_SCRIPT_H
+
+#include <stdio.h>
+
+#include "farm/job.h"
+
+/** Print the script of job->engine. @return 0, or ERR_USAGE (reported) where a word cannot be said in that language */
+int farm_script_print(const struct farm_job *job, FILE *out);
+
+/** Write it as job.sh into the job's folder, whole or not at all. @return 0 or ERR_* (reported) */
+int farm_script_save(const struct farm_job *job);
+
+#endif

@@ -1,0 +1,141 @@
+#include "farm/slurm.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "farm/program.h"
+
+static int ask(char *const *argv, char **out)
+{
+	int rc = program_read(argv, out);
+
+	if (rc > 0) {
+		free(*out);
+		*out = NULL;
+		return err_report(ERR_SYSTEM, NULL, "%s failed with exit code %d; is Slurm's controller running?", argv[0], rc);
+	}
+	return rc;
+}
+
+/* The numbers of the Slurm jobs this job was handed over as: pairs of array and report, 0 for none. The caller's. */
+static int read_numbers(const struct farm_job *job, uint64_t **out, size_t *n)
+{
+	char path[PATH_MAX + 16], array[32], report[32];
+	uint64_t *numbers = NULL;
+	FILE *file;
+
+	*out = NULL;
+	*n = 0;
+	snprintf(path, sizeof(path), "%s/slurm", job->folder);
+	file = fopen(path, "r");
+	while (file && fscanf(file, "%31s %31s", array, report) == 2) {
+		uint64_t *grown = realloc(numbers, (*n + 2) * sizeof(*grown));
+
+		if (!grown) {
+			fclose(file);
+			free(numbers);
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		}
+		numbers = grown;
+		numbers[(*n)++] = strtoull(array, NULL, 10); /* "-" is none */
+		numbers[(*n)++] = strtoull(report, NULL, 10);
+	}
+	if (file)
+		fclose(file);
+	*out = numbers;
+	return 0;
+}
+
+int slurm_read(const struct farm_job *job, struct slurm_queue *out)
+{
+	static char *const squeue[] = { "squeue", "--noheader", "--array", "--me", "--format=%F %K %T", NULL };
+	uint64_t *numbers, number;
+	char task[32], state[32], *text;
+	size_t n = 0;
+	int err = read_numbers(job, &numbers, &n);
+
+	if (err)
+		return err;
+	out->holds = calloc(job->n_tasks + 1, 1);
+	err = out->holds ? ask(squeue, &text) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (char *line = err ? NULL : strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+		if (sscanf(line, "%" SCNu64 " %31s %31s", &number, task, state) != 3)
+			continue;
+		for (size_t i = 0; i < n; i++) {
+			uint64_t index = strtoull(task, NULL, 10);
+
+			if (numbers[i] != number || number == 0)
+				continue;
+			if (i % 2) {
+				out->report = 1;
+			} else if (index <= job->n_tasks) {
+				out->holds[index] = 1;
+				*(strcmp(state, "PENDING") == 0 ? &out->waiting : &out->running) += 1;
+			}
+			break;
+		}
+	}
+	if (!err)
+		free(text);
+	free(numbers);
+	return err;
+}
+
+void slurm_free(struct slurm_queue *queue)
+{
+	free(queue->holds);
+	*queue = (struct slurm_queue){ 0 };
+}
+
+int slurm_cancel(const struct farm_job *job)
+{
+	uint64_t *numbers;
+	char **argv, *text, (*words)[24];
+	size_t n = 0, k = 0;
+	int err = read_numbers(job, &numbers, &n);
+
+	if (err)
+		return err;
+	argv = calloc(n + 3, sizeof(*argv));
+	words = calloc(n + 1, sizeof(*words));
+	if (!argv || !words)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err) {
+		argv[k++] = "scancel";
+		argv[k++] = "--quiet"; /* of jobs that are over */
+		for (size_t i = 0; i < n; i++)
+			if (numbers[i]) {
+				snprintf(words[i], sizeof(words[i]), "%" PRIu64, numbers[i]);
+				argv[k++] = words[i];
+			}
+		if (k > 2) {
+			err = ask(argv, &text);
+			free(text);
+		}
+	}
+	free(words);
+	free(argv);
+	free(numbers);
+	return err;
+}
+
+int slurm_check_size(const struct farm_job *job)
+{
+	static char *const scontrol[] = { "scontrol", "show", "config", NULL };
+	char *text = NULL, *found;
+	uint64_t most = 0;
+	int err = ask(scontrol, &text);
+
+	if (err)
+		return err;
+	found = strstr(text, "MaxArraySize");
+	if (found && sscanf(found, "MaxArraySize = %" SCNu64, &most) == 1 && job->n_tasks >= most)
+		err = err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than this cluster's arrays hold (%" PRIu64
+		                 "); --chunk %" PRIu64 " makes few enough", job->n_tasks, most - 1,
+		                 (job->n_frames + most - 2) / (most - 1));
+	free(text);
+	return err;
+}

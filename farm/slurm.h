@@ -1,0 +1,23 @@
+/* What Slurm knows of a job: asked each time, never kept. */
+#ifndef FARM_SLURM_H
+#define FARM_SLURM_H
+
+#include "farm/job.h"
+
+struct slurm_queue {
+	uint64_t running, waiting; /* tasks */
+	int report;                /* 1 where the report waits or runs */
+	unsigned char *holds;      /* [n_tasks + 1]: whether the task of that number waits or runs; owned */
+};
+
+/** Ask which tasks of the job wait or run. @param out zero-initialised @return 0 or ERR_SYSTEM (reported) */
+int slurm_read(const struct farm_job *job, struct slurm_queue *out);
+void slurm_free(struct slurm_queue *queue);
+
+/** End all of the job's tasks and reports. @return 0 or ERR_SYSTEM (reported) */
+int slurm_cancel(const struct farm_job *job);
+
+/** Would the cluster take an array of so many tasks? @return 0, ERR_USAGE or ERR_SYSTEM (reported) */
+int slurm_check_size(const struct farm_job *job);
+
+#endif

@@ -1,0 +1,196 @@
+"""A Slurm cluster on this machine alone: munge, slurmctld and one slurmd for each node, all in a scratch folder.
+
+Every daemon is the real one of Debian. Ports are free ones of the loopback interface, munge has a key and a socket of
+its own, and nothing is read from or written to /etc, so that it neither needs nor disturbs a cluster that is there
+already. Each node has one core, and its slurmd and all its tasks are bound to it.
+"""
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
+SEARCH = os.environ["PATH"] + ":/usr/sbin:/sbin"
+
+
+def missing_programs():
+    return [p for p in PROGRAMS if not shutil.which(p, path=SEARCH)]
+
+
+def free_ports(count):
+    """Ports that nobody listens on; held all at once, so that they differ."""
+    held = [socket.socket() for _ in range(count)]
+    for s in held:
+        s.bind(("127.0.0.1", 0))
+    ports = [s.getsockname()[1] for s in held]
+    for s in held:
+        s.close()
+    return ports
+
+
+def parents():
+    """{pid: (parent, command)} of every process."""
+    found = {}
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = stat.read_text(errors="replace")
+        except OSError:
+            continue  # it ended meanwhile
+        name, fields = text[text.index("(") + 1:text.rindex(")")], text[text.rindex(")") + 2:].split()
+        if fields[0] not in "ZX":
+            found[int(stat.parent.name)] = (int(fields[1]), name)
+    return found
+
+
+class Cluster:
+    """Started and ended by `with`. `env` holds what slurm's commands need to find it."""
+
+    def __init__(self, folder, n_nodes=2, gres=None, settings=()):
+        self.folder = pathlib.Path(folder)
+        self.nodes = [f"n{i + 1}" for i in range(n_nodes)]
+        self.daemons = {}  # name: Popen
+        self.gres = gres
+        self.settings = settings
+        self.config = self.folder / "slurm.conf"
+        self.env = dict(os.environ, PATH=SEARCH, SLURM_CONF=str(self.config))
+
+    def __enter__(self):
+        self.folder.mkdir(parents=True, mode=0o755)
+        try:
+            self._configure()
+            self._start_munge()
+            self.start("slurmctld")
+            for node in self.nodes:
+                self.start(node)
+            self.wait_ready()
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(self, *exc):
+        self.close()
+
+    def _configure(self):
+        controller, *ports = free_ports(1 + len(self.nodes))
+        host = socket.gethostname().partition(".")[0]
+        for sub in ("state", "munge"):
+            (self.folder / sub).mkdir(mode=0o700)
+        user = "root" if os.getuid() == 0 else os.environ.get("USER", str(os.getuid()))
+        gres = f" Gres={self.gres}" if self.gres else ""
+        lines = [
+            "ClusterName=test", f"SlurmctldHost={host}(127.0.0.1)", f"SlurmUser={user}", f"SlurmdUser={user}",
+            f"SlurmctldPort={controller}", f"AuthInfo=socket={self.folder}/munge/socket",
+            f"StateSaveLocation={self.folder}/state", f"SlurmdSpoolDir={self.folder}/spool.%n",
+            f"SlurmctldPidFile={self.folder}/slurmctld.pid", f"SlurmdPidFile={self.folder}/%n.pid",
+            "ProctrackType=proctrack/linuxproc", "TaskPlugin=task/none", "MpiDefault=none",
+            "SelectType=select/cons_tres", "SelectTypeParameters=CR_Core",
+            "SchedulerParameters=batch_sched_delay=0,sched_min_interval=1000,bf_interval=1", "SlurmdParameters=config_overrides",
+            "SlurmdTimeout=10", "KillWait=2", "ReturnToService=2", "MessageTimeout=5", "JobRequeue=1",
+            *self.settings,
+            *(["GresTypes=gpu"] if self.gres else []),
+            *(f"NodeName={n} NodeHostname={host} NodeAddr=127.0.0.1 Port={p} CPUs=1 State=UNKNOWN{gres}"
+              for n, p in zip(self.nodes, ports)),
+            "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP",
+        ]
+        self.config.write_text("\n".join(lines) + "\n")
+        if self.gres:
+            # Device files of the right kind are all that Slurm asks for.
+            (self.folder / "gres.conf").write_text("Name=gpu File=/dev/null\n")
+
+    def _start_munge(self):
+        key = self.folder / "munge" / "key"
+        key.touch(mode=0o600)
+        key.write_bytes(os.urandom(128))
+        munge = self.folder / "munge"
+        self._spawn("munged", ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={munge}/socket",
+                               f"--pid-file={munge}/pid", f"--seed-file={munge}/seed", f"--log-file={munge}/log"])
+        self._wait(lambda: (munge / "socket").exists(), 20, "munged has no socket")
+        # Others than the owner may speak to it: the folder alone says who.
+        munge.chmod(0o711)
+
+    def _spawn(self, name, command):
+        log = open(self.folder / f"{name}.log", "ab")
+        self.daemons[name] = subprocess.Popen(command, env=self.env, stdin=subprocess.DEVNULL, stdout=log,
+                                              stderr=subprocess.STDOUT)
+        log.close()
+
+    def start(self, name):
+        """Start (again) slurmctld or the slurmd of a node."""
+        if name == "slurmctld":
+            self._spawn(name, ["slurmctld", "-D", "-f", self.config])
+        else:
+            core = self.nodes.index(name) % os.cpu_count()
+            self._spawn(name, ["taskset", "-c", str(core), "slurmd", "-D", "-N", name, "-f", self.config])
+
+    def kill(self, name):
+        """SIGKILL a daemon, as a crash does; its children live on."""
+        daemon = self.daemons.pop(name)
+        daemon.kill()
+        daemon.wait()
+
+    def run(self, *command, timeout=60, **more):
+        return subprocess.run([str(c) for c in command], env=self.env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, errors="replace", timeout=timeout, **more)
+
+    def _wait(self, ready, seconds, what):
+        end = time.monotonic() + seconds
+        while not ready():
+            dead = [n for n, d in self.daemons.items() if d.poll() is not None]
+            if dead or time.monotonic() > end:
+                logs = "\n".join((self.folder / f"{n}.log").read_text(errors="replace")[-2000:] for n in dead or self.daemons)
+                raise RuntimeError(f"{what}{', ended: ' + ', '.join(dead) if dead else ''}\n{logs}")
+            time.sleep(0.1)
+
+    def wait_ready(self):
+        """Every node idle or at work."""
+        def ready():
+            done = self.run("sinfo", "-h", "-N", "-o", "%N %t")
+            states = dict(line.split() for line in done.stdout.splitlines()) if done.returncode == 0 else {}
+            return all(states.get(n) in ("idle", "mix", "alloc", "comp") for n in self.nodes)
+        self._wait(ready, 60, "the nodes are not ready")
+
+    def queue(self):
+        """Lines of squeue: job, task, state; None while the controller does not answer."""
+        done = self.run("squeue", "-h", "-r", "-o", "%A %K %T")
+        return None if done.returncode else [line.split() for line in done.stdout.splitlines()]
+
+    def wait_empty(self, seconds):
+        self._wait(lambda: self.queue() == [], seconds, "jobs are left in the queue")
+
+    def below(self, name=None):
+        """Processes below this cluster's daemons and the step daemons whose slurmd was killed: [(pid, command)]."""
+        table = parents()
+        ours = {d.pid for d in self.daemons.values()}
+        # A slurmstepd leaves its slurmd's process tree; its environment and open log name our folder.
+        for pid, (_, command) in table.items():
+            if command == "slurmstepd" and self._is_ours(pid):
+                ours.add(pid)
+        found = set(ours)
+        while True:
+            more = {p for p, (parent, _) in table.items() if parent in found} - found
+            if not more:
+                break
+            found |= more
+        daemons = {d.pid for d in self.daemons.values()}
+        return [(p, table[p][1]) for p in found - daemons if p in table and name in (None, table[p][1])]
+
+    def _is_ours(self, pid):
+        try:
+            return f"SLURM_CONF={self.config}".encode() in pathlib.Path(f"/proc/{pid}/environ").read_bytes()
+        except OSError:
+            return False
+
+    def close(self):
+        for pid, _ in self.below():
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except OSError:
+                pass
+        for daemon in reversed(list(self.daemons.values())):
+            daemon.kill()
+            daemon.wait()
+        self.daemons.clear()

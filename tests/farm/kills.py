@@ -1,0 +1,110 @@
+"""Kill tasks, slurmd and slurmctld at random while a farm renders, and count how often each frame lands."""
+import ctypes
+import os
+import pathlib
+import random
+import signal
+import struct
+import time
+
+IN_MOVED_TO = 0x80
+
+
+class Landings:
+    """How often each frame's file was renamed into a folder, as the kernel tells it."""
+
+    def __init__(self, folder):
+        libc = ctypes.CDLL(None, use_errno=True)
+        self.fd = libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
+        if self.fd < 0 or libc.inotify_add_watch(self.fd, os.fsencode(folder), IN_MOVED_TO) < 0:
+            raise OSError(ctypes.get_errno(), "inotify")
+        self.counts = {}
+
+    def read(self):
+        while True:
+            try:
+                data = os.read(self.fd, 1 << 20)
+            except BlockingIOError:
+                return self.counts
+            at = 0
+            while at < len(data):
+                _, mask, _, size = struct.unpack_from("iIII", data, at)
+                name = data[at + 16:at + 16 + size].rstrip(b"\0").decode()
+                at += 16 + size
+                if mask & IN_MOVED_TO and name.endswith(".exr"):
+                    self.counts[name] = self.counts.get(name, 0) + 1
+                assert mask & 0x4000 == 0, "events were lost"
+
+
+class Killer:
+    """Kills by turns what is there, and starts daemons again after a while, as an init system does."""
+
+    def __init__(self, cluster, seed):
+        self.cluster = cluster
+        self.random = random.Random(seed)
+        self.down = {}  # daemon: when it is to be started again
+        self.done = {"task": 0, "slurmd": 0, "slurmctld": 0}
+
+    def total(self):
+        return sum(self.done.values())
+
+    def revive(self, everything=False):
+        for name, when in list(self.down.items()):
+            if everything or time.monotonic() > when:
+                self.cluster.start(name)
+                del self.down[name]
+
+    def strike(self):
+        """Kill one thing. Tasks are most often hit, daemons now and then."""
+        kind = self.random.choices(("task", "slurmd", "slurmctld"), (6, 3, 1))[0]
+        if kind == "task":
+            victims = [pid for pid, command in self.cluster.below() if command == "relume"]
+            if not victims:
+                return
+            try:
+                os.kill(self.random.choice(victims), signal.SIGKILL)
+            except ProcessLookupError:
+                return
+        else:
+            names = [n for n in (self.cluster.nodes if kind == "slurmd" else ["slurmctld"]) if n in self.cluster.daemons]
+            if not names:
+                return
+            name = self.random.choice(names)
+            self.cluster.kill(name)
+            # Mostly back at once; a node that stays away longer than SlurmdTimeout is given up and its task started again.
+            away = 15 if kind == "slurmd" and self.random.random() < 0.2 else self.random.uniform(0.2, 2)
+            self.down[name] = time.monotonic() + away
+        self.done[kind] += 1
+
+
+def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0.2, 1.5), min_landed=1):
+    """
+    Strike until there were n_kills, retrying whenever nothing is left in the queue; then retry until all frames are whole.
+    Returns the number of retries. Kills begin when the first frames have landed.
+    """
+    retries = 0
+    end = time.monotonic() + end_s
+    while sum(landings.read().values()) < min_landed:
+        assert time.monotonic() < end, "no frame ever landed"
+        time.sleep(0.05)
+    while True:
+        assert time.monotonic() < end, f"not done after {end_s} s, {killer.done}"
+        killer.revive()
+        if killer.total() < n_kills:
+            killer.strike()
+            time.sleep(killer.random.uniform(*pause))
+        else:
+            killer.revive(everything=True)
+            time.sleep(0.3)
+        queue = cluster.queue()
+        if queue:
+            continue
+        if queue is None or killer.down and "slurmctld" in killer.down:
+            continue  # the controller is away
+        status = cluster.run(relume, "farm", "status", folder, cwd=pathlib.Path(folder).parent)
+        if status.returncode == 0 and killer.total() >= n_kills:
+            return retries
+        if status.returncode in (0, 1) and " 0 missing, 0 damaged, 0 made" not in status.stdout:
+            retries += cluster.run(relume, "farm", "retry", folder).returncode == 0
+        elif status.returncode == 0:
+            return retries  # all frames are whole before all kills were made: the caller sees how many there were
