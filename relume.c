@@ -12,6 +12,7 @@ static const struct verb {
 } verbs[] = {
 	{ "record", record_main, "run a program and record its OpenGL calls" },
 	{ "info", info_main, "what a trace holds: frames, calls, what is not handled" },
+	{ "index", index_main, "index a trace, so that rendering begins at any frame at once" },
 	{ "dump", dump_main, "print a trace's calls as text" },
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "a frame as glTF, for other programs" },

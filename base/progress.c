@@ -83,6 +83,14 @@ void progress_step(struct progress *p, uint64_t frame, const char *text)
 		fprintf(stderr, "%s frame %" PRIu64 ": %s\n", p->verb, frame, text);
 }
 
+void progress_start(const struct progress *p, uint64_t frame, double seconds)
+{
+	if (p->style != PROGRESS_JSON)
+		return;
+	printf("{\"event\": \"start\", \"frame\": %" PRIu64 ", \"seconds\": %.4f}\n", frame, seconds);
+	fflush(stdout);
+}
+
 static void note_slow(struct progress *p, uint64_t frame, double seconds)
 {
 	size_t at = PROGRESS_SLOWEST;

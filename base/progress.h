@@ -3,6 +3,7 @@
  * frame elsewhere (farm managers parse "VERB frame N, DONE of TOTAL: TEXT"), or JSON, one object a line, on standard output:
  *
  *     {"event": "begin", "verb": "rendered", "total": 500}
+ *     {"event": "start", "frame": 12, "seconds": 0.05}
  *     {"event": "frame", "frame": 12, "state": "done", "seconds": 0.123, "done": 3, "total": 500}
  *     {"event": "end", "done": 500, "seconds": 61.2, "peak_memory_bytes": 536870912}
  *
@@ -38,7 +39,10 @@ int progress_style_of(const char *word);
 /** One frame is done. `text` says how it went ("0.12 s, 2 views"); shown on plain lines only. */
 void progress_step(struct progress *p, uint64_t frame, const char *text);
 
-/** The same for a frame that took so many seconds, was skipped or has failed ("done", "skipped", "failed"). */
+/** Work on the first frame begins, so many seconds after the command did: said as JSON alone. */
+void progress_start(const struct progress *p, uint64_t frame, double seconds);
+
+/** As progress_step, for a frame that took so many seconds, was skipped or has failed ("done", "skipped", "failed"). */
 void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds);
 
 /** Print what the run came to: frames, rate, the slowest frames, peak memory. After progress_end. */

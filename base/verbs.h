@@ -10,6 +10,7 @@
 
 int record_main(int argc, char **argv);  /* capture/record.c */
 int info_main(int argc, char **argv);    /* replay/info.c */
+int index_main(int argc, char **argv);   /* replay/index_main.c */
 int dump_main(int argc, char **argv);    /* replay/dump.c */
 int scene_main(int argc, char **argv);   /* replay/scene_json.c */
 int export_main(int argc, char **argv);  /* replay/export.c */

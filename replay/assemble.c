@@ -268,6 +268,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	if (!m)
 		return NULL;
 	memset(m, 0, sizeof(*m));
+	memset((uint8_t *)m + bytes - 64, 0, 64); /* what rounding up left over: equal meshes are equal bytes */
 	mesh = &m->mesh;
 	arrays[GLS_ATTR_NORMAL] = &mesh->normal;
 	arrays[GLS_ATTR_COLOR] = &mesh->color;

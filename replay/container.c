@@ -20,6 +20,7 @@ struct container {
 	char *path;
 	FILE *file;
 	uint64_t size, offset;
+	uint64_t piece; /* offset of the chunk last delivered */
 	enum container_kind kind;
 	int cut, ended;
 	uint8_t *packed, *unpacked;
@@ -202,6 +203,8 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	uint8_t head[4];
 	size_t length, unpacked, got = fread(head, 1, 4, c->file);
 
+	c->piece = c->offset;
+
 	if (got < 4) {
 		c->cut = got > 0;
 		return 0;
@@ -316,6 +319,38 @@ int container_next(struct container *c, const uint8_t **data, size_t *size)
 	default:
 		return next_brotli(c, data, size);
 	}
+}
+
+uint64_t container_piece(const struct container *c)
+{
+	return c->kind == CONTAINER_SNAPPY ? c->piece : UINT64_MAX;
+}
+
+static int restart_gzip(struct container *c)
+{
+	c->gzip.avail_in = 0;
+	return inflateReset(&c->gzip) == Z_OK;
+}
+
+static int restart_brotli(struct container *c)
+{
+	BrotliDecoderDestroyInstance(c->brotli);
+	c->brotli = BrotliDecoderCreateInstance(NULL, NULL, NULL);
+	c->brotli_left = 0;
+	return c->brotli != NULL;
+}
+
+int container_seek(struct container *c, uint64_t offset)
+{
+	if (offset == 0)
+		offset = c->kind == CONTAINER_SNAPPY ? 2 : 0;
+	c->cut = c->ended = 0;
+	c->offset = offset;
+	if (fseeko(c->file, (off_t)offset, SEEK_SET))
+		return err_report(ERR_SYSTEM, c->path, "%s", strerror(errno));
+	if ((c->kind == CONTAINER_GZIP && !restart_gzip(c)) || (c->kind == CONTAINER_BROTLI && !restart_brotli(c)))
+		return err_report(ERR_SYSTEM, c->path, "out of memory");
+	return 0;
 }
 
 int container_is_cut(const struct container *c)

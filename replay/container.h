@@ -20,6 +20,15 @@ void container_close(struct container **c);
  */
 int container_next(struct container *c, const uint8_t **data, size_t *size);
 
+/** Where in the file the piece last delivered begins; UINT64_MAX where one cannot start there (gzip, Brotli). */
+uint64_t container_piece(const struct container *c);
+
+/**
+ * Go on from such a place, or (offset 0) from the beginning.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int container_seek(struct container *c, uint64_t offset);
+
 /** 1 where the file ended within a chunk or stream: what could be unpacked of it was delivered. */
 int container_is_cut(const struct container *c);
 

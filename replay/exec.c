@@ -307,6 +307,24 @@ int gls_exec_create(struct gls_exec **out, const char *path)
 	return 0;
 }
 
+void gls_exec_take_counts(struct gls_exec *x, struct gls_exec *other)
+{
+	struct gls_exec mine = *x;
+
+	x->count = other->count;
+	x->unsupported = other->unsupported;
+	x->errors = other->errors;
+	x->why = other->why;
+	x->error_code = other->error_code;
+	x->unknown = other->unknown;
+	other->count = mine.count;
+	other->unsupported = mine.unsupported;
+	other->errors = mine.errors;
+	other->why = mine.why;
+	other->error_code = mine.error_code;
+	other->unknown = mine.unknown;
+}
+
 void gls_exec_destroy(struct gls_exec **exec)
 {
 	struct gls_exec *x = *exec;

@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "replay/arena.h"
+#include "replay/bytes.h"
 #include "replay/container.h"
 #include "replay/exec.h"
 
@@ -30,6 +31,14 @@ struct sig_table {
 	size_t n;
 };
 
+enum sig_kind { SIG_CALL, SIG_STRUCT, SIG_ENUM, SIG_BITMASK, SIG_FRAME, N_SIG_KINDS };
+
+/* A signature was defined: which, and how far into the unpacked stream. */
+struct definition {
+	enum sig_kind kind;
+	uint64_t id, offset;
+};
+
 struct trace_reader {
 	char *path;
 	struct container *container;
@@ -42,7 +51,9 @@ struct trace_reader {
 	uint64_t next_number;
 
 	struct arena sigs; /* signatures and properties */
-	struct sig_table calls, structs, enums, bitmasks, frames;
+	struct sig_table tables[N_SIG_KINDS];
+	struct definition *definitions; /* in the order of the file */
+	size_t n_definitions, definitions_room;
 	const char *properties[MAX_PROPERTIES][2];
 	size_t n_properties;
 
@@ -181,8 +192,10 @@ static const char *read_string(struct trace_reader *r, struct arena *a, uint64_t
 /* ---- signatures ---- */
 
 /* The slot of an id, or NULL (failed). An empty slot: the signature follows. */
-static void **slot_of(struct trace_reader *r, struct sig_table *t, uint64_t id)
+static void **slot_of(struct trace_reader *r, enum sig_kind kind, uint64_t id)
 {
+	struct sig_table *t = &r->tables[kind];
+
 	if (r->status)
 		return NULL;
 	if (id >= MAX_ID) {
@@ -203,6 +216,24 @@ static void **slot_of(struct trace_reader *r, struct sig_table *t, uint64_t id)
 		t->n = n;
 	}
 	return &t->items[id];
+}
+
+/* A signature is whole: note where it ends, so that one knows before which places of the file it stands. */
+static void define(struct trace_reader *r, enum sig_kind kind, uint64_t id, void *sig)
+{
+	if (r->n_definitions == r->definitions_room) {
+		size_t room = r->definitions_room ? 2 * r->definitions_room : 64;
+		struct definition *grown = realloc(r->definitions, room * sizeof(*grown));
+		if (!grown) {
+			r->status = err_report(ERR_SYSTEM, r->path, "out of memory");
+			return;
+		}
+		r->definitions = grown;
+		r->definitions_room = room;
+	}
+	r->definitions[r->n_definitions++] =
+		(struct definition){ kind, id, r->piece_start + (uint64_t)(r->p - r->piece) };
+	r->tables[kind].items[id] = sig;
 }
 
 static const char **read_names(struct trace_reader *r, uint64_t n)
@@ -237,7 +268,7 @@ static int64_t read_tagged_int(struct trace_reader *r)
 static const struct call_sig *read_call_sig(struct trace_reader *r)
 {
 	uint64_t id = read_uint(r), n;
-	void **slot = slot_of(r, &r->calls, id);
+	void **slot = slot_of(r, SIG_CALL, id);
 	struct call_sig *sig;
 
 	if (!slot || *slot)
@@ -259,13 +290,14 @@ static const struct call_sig *read_call_sig(struct trace_reader *r)
 	if (!sig->arg_names)
 		return NULL;
 	sig->command = gls_command_find(sig->name);
-	*slot = sig;
+	define(r, SIG_CALL, id, sig);
 	return sig;
 }
 
 static const struct trace_enum_sig *read_enum_sig(struct trace_reader *r)
 {
-	void **slot = slot_of(r, &r->enums, read_uint(r));
+	uint64_t id = read_uint(r);
+	void **slot = slot_of(r, SIG_ENUM, id);
 	struct trace_enum_sig *sig;
 	uint64_t n;
 
@@ -288,13 +320,14 @@ static const struct trace_enum_sig *read_enum_sig(struct trace_reader *r)
 	}
 	if (r->status)
 		return NULL;
-	*slot = sig;
+	define(r, SIG_ENUM, id, sig);
 	return sig;
 }
 
 static const struct trace_bitmask_sig *read_bitmask_sig(struct trace_reader *r)
 {
-	void **slot = slot_of(r, &r->bitmasks, read_uint(r));
+	uint64_t id = read_uint(r);
+	void **slot = slot_of(r, SIG_BITMASK, id);
 	struct trace_bitmask_sig *sig;
 	uint64_t n;
 
@@ -317,13 +350,14 @@ static const struct trace_bitmask_sig *read_bitmask_sig(struct trace_reader *r)
 	}
 	if (r->status)
 		return NULL;
-	*slot = sig;
+	define(r, SIG_BITMASK, id, sig);
 	return sig;
 }
 
 static const struct trace_struct_sig *read_struct_sig(struct trace_reader *r)
 {
-	void **slot = slot_of(r, &r->structs, read_uint(r));
+	uint64_t id = read_uint(r);
+	void **slot = slot_of(r, SIG_STRUCT, id);
 	struct trace_struct_sig *sig;
 	uint64_t n;
 
@@ -339,7 +373,7 @@ static const struct trace_struct_sig *read_struct_sig(struct trace_reader *r)
 	if (!sig->members)
 		return NULL;
 	sig->n = (uint32_t)n;
-	*slot = sig;
+	define(r, SIG_STRUCT, id, sig);
 	return sig;
 }
 
@@ -466,10 +500,11 @@ static void skip_backtrace(struct trace_reader *r, struct arena *a)
 	uint64_t n = read_uint(r);
 
 	for (uint64_t i = 0; i < n && r->status == 0; i++) {
-		void **slot = slot_of(r, &r->frames, read_uint(r));
+		uint64_t id = read_uint(r);
+		void **slot = slot_of(r, SIG_FRAME, id);
 		if (!slot || *slot)
 			continue;
-		*slot = r; /* seen; nobody wants what it says */
+		define(r, SIG_FRAME, id, r); /* seen; nobody wants what it says */
 		for (unsigned tag = read_byte(r); tag && r->status == 0; tag = read_byte(r)) {
 			if (tag <= 3)
 				read_string(r, a, NULL);
@@ -650,6 +685,179 @@ int trace_reader_next(struct trace_reader *r, const struct call **call)
 	return 1;
 }
 
+/* ---- coming back ---- */
+
+int trace_reader_place(const struct trace_reader *r, struct trace_place *place)
+{
+	*place = (struct trace_place){ container_piece(r->container), r->piece_start,
+	                               r->piece_start + (uint64_t)(r->p - r->piece), r->next_number };
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (r->pending[i]->in_use && r->pending[i] != r->delivered)
+			return 0;
+	return r->status == 0;
+}
+
+static void put_texts(struct bytes *b, const char **texts, uint32_t n)
+{
+	bytes_put_u64(b, n);
+	for (uint32_t i = 0; i < n; i++)
+		bytes_put_text(b, texts[i]);
+}
+
+int trace_reader_signatures(const struct trace_reader *r, uint8_t **out, size_t *n)
+{
+	struct bytes b = { .n = 0 };
+
+	for (size_t i = 0; i < r->n_definitions; i++) {
+		const struct definition *d = &r->definitions[i];
+		const void *sig = r->tables[d->kind].items[d->id];
+		bytes_put_u64(&b, d->kind);
+		bytes_put_u64(&b, d->id);
+		bytes_put_u64(&b, d->offset);
+		if (d->kind == SIG_CALL) {
+			bytes_put_text(&b, ((const struct call_sig *)sig)->name);
+			put_texts(&b, ((const struct call_sig *)sig)->arg_names, ((const struct call_sig *)sig)->n_args);
+		} else if (d->kind == SIG_STRUCT) {
+			bytes_put_text(&b, ((const struct trace_struct_sig *)sig)->name);
+			put_texts(&b, ((const struct trace_struct_sig *)sig)->members, ((const struct trace_struct_sig *)sig)->n);
+		} else if (d->kind == SIG_ENUM || d->kind == SIG_BITMASK) { /* the two structs differ in the sign alone */
+			const struct trace_bitmask_sig *values = sig;
+			put_texts(&b, values->names, values->n);
+			bytes_put(&b, values->values, values->n * sizeof(*values->values));
+		}
+	}
+	*out = b.data;
+	*n = b.n;
+	if (!b.failed)
+		return 0;
+	free(b.data);
+	return err_report(ERR_SYSTEM, r->path, "out of memory");
+}
+
+static const char *get_text(struct trace_reader *r, struct cursor *c)
+{
+	uint64_t n = cursor_u64(c);
+	const uint8_t *at = n < UINT64_MAX ? cursor_get(c, n + 1) : NULL;
+	char *text = at && at[n] == 0 ? take(r, &r->sigs, (size_t)n + 1) : NULL;
+
+	if (!text) {
+		c->failed = 1;
+		return NULL;
+	}
+	return memcpy(text, at, (size_t)n + 1);
+}
+
+static const char **get_texts(struct trace_reader *r, struct cursor *c, uint32_t *n)
+{
+	uint64_t count = cursor_u64(c);
+	const char **texts = count <= 65536 ? take(r, &r->sigs, (size_t)(count + 1) * sizeof(*texts)) : NULL;
+
+	c->failed |= !texts;
+	for (uint64_t i = 0; i < count && !c->failed; i++)
+		texts[i] = get_text(r, c);
+	*n = (uint32_t)count;
+	return texts;
+}
+
+/* A signature as trace_reader_signatures wrote it, in the reader's memory; NULL: no such thing. */
+static void *get_signature(struct trace_reader *r, struct cursor *c, uint64_t kind, uint64_t id)
+{
+	struct call_sig *call;
+	struct trace_struct_sig *members;
+	struct trace_bitmask_sig *values;
+	const uint8_t *numbers;
+
+	switch (kind) {
+	case SIG_CALL:
+		call = take(r, &r->sigs, sizeof(*call));
+		if (!call)
+			return NULL;
+		call->id = id;
+		call->name = get_text(r, c);
+		call->arg_names = get_texts(r, c, &call->n_args);
+		call->command = c->failed ? -1 : gls_command_find(call->name);
+		return call->n_args <= MAX_ARGS ? call : NULL;
+	case SIG_STRUCT:
+		members = take(r, &r->sigs, sizeof(*members));
+		if (!members)
+			return NULL;
+		members->name = get_text(r, c);
+		members->members = get_texts(r, c, &members->n);
+		return members;
+	case SIG_ENUM:
+	case SIG_BITMASK:
+		values = take(r, &r->sigs, sizeof(*values));
+		if (!values)
+			return NULL;
+		values->names = get_texts(r, c, &values->n);
+		numbers = c->failed ? NULL : cursor_get(c, (uint64_t)values->n * sizeof(*values->values));
+		values->values = numbers ? take(r, &r->sigs, (values->n + 1) * sizeof(*values->values)) : NULL;
+		if (!values->values)
+			return NULL;
+		memcpy(values->values, numbers, values->n * sizeof(*values->values));
+		return values;
+	case SIG_FRAME:
+		return r;
+	default:
+		return NULL;
+	}
+}
+
+/* Know exactly the signatures that are defined before a place. */
+static int learn_signatures(struct trace_reader *r, const uint8_t *signatures, size_t n, uint64_t offset)
+{
+	struct cursor c = { signatures, signatures + n, 0 };
+
+	for (size_t i = 0; i < r->n_definitions; i++)
+		if (r->definitions[i].offset > offset)
+			r->tables[r->definitions[i].kind].items[r->definitions[i].id] = NULL;
+	while (r->n_definitions && r->definitions[r->n_definitions - 1].offset > offset)
+		r->n_definitions--;
+	while (c.p < c.end && !c.failed) {
+		uint64_t kind = cursor_u64(&c), id = cursor_u64(&c), defined = cursor_u64(&c);
+		void **slot, *sig;
+		if (c.failed || kind >= N_SIG_KINDS || defined > offset)
+			break;
+		slot = slot_of(r, (enum sig_kind)kind, id);
+		sig = slot ? get_signature(r, &c, kind, id) : NULL;
+		if (!sig || c.failed || r->status)
+			return err_report(ERR_INPUT, r->path, "its index holds no signatures where they should be");
+		if (*slot)
+			continue;
+		define(r, (enum sig_kind)kind, id, sig);
+		r->definitions[r->n_definitions - 1].offset = defined;
+	}
+	return r->status;
+}
+
+int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, const uint8_t *signatures, size_t n)
+{
+	uint64_t piece = place->piece == UINT64_MAX ? 0 : place->piece;
+	int rc = container_seek(r->container, piece);
+
+	if (rc)
+		return rc;
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (r->pending[i]->in_use)
+			release_pending(r->pending[i]);
+	r->delivered = NULL;
+	r->status = r->ended = r->cut = 0;
+	r->piece = r->p = r->end = NULL;
+	r->piece_start = piece ? place->piece_start : 0;
+	rc = learn_signatures(r, signatures, n, place->offset);
+	if (rc)
+		return rc;
+	do {
+		if (!refill(r))
+			return r->status < 0 ? r->status : err_report(ERR_INPUT, r->path, "is shorter than its index says");
+	} while (r->piece_start + (uint64_t)(r->end - r->piece) < place->offset);
+	if (place->offset < r->piece_start)
+		return err_report(ERR_INPUT, r->path, "its index names a place that is not there");
+	r->p = r->piece + (place->offset - r->piece_start);
+	r->next_number = place->number;
+	return 0;
+}
+
 /* ---- opening ---- */
 
 static int read_header(struct trace_reader *r)
@@ -716,11 +924,9 @@ void trace_reader_close(struct trace_reader **reader)
 		free(r->pending[i]);
 	}
 	free(r->pending);
-	free(r->calls.items);
-	free(r->structs.items);
-	free(r->enums.items);
-	free(r->bitmasks.items);
-	free(r->frames.items);
+	for (unsigned kind = 0; kind < N_SIG_KINDS; kind++)
+		free(r->tables[kind].items);
+	free(r->definitions);
 	arena_free(&r->sigs);
 	free(r->path);
 	free(r);

@@ -44,6 +44,31 @@ void trace_reader_close(struct trace_reader **r);
  */
 int trace_reader_next(struct trace_reader *r, const struct call **call);
 
+/** A place between two calls, to come back to. */
+struct trace_place {
+	uint64_t piece;       /* in the file: begin of the container's piece that holds it; UINT64_MAX: no place to start at */
+	uint64_t piece_start; /* bytes of the unpacked stream before that piece */
+	uint64_t offset;      /* bytes of the unpacked stream before the place */
+	uint64_t number;      /* of the next call */
+};
+
+/** Where the reader is. @return 1; 0 where a call that was entered has not returned yet: one cannot come back here */
+int trace_reader_place(const struct trace_reader *r, struct trace_place *place);
+
+/**
+ * Signatures are defined where they are met first. All that the reader has met so far, as bytes.
+ * @param out, n  receive them; free with free()
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int trace_reader_signatures(const struct trace_reader *r, uint8_t **out, size_t *n);
+
+/**
+ * Go on from a place, forwards or backwards.
+ * @param signatures  of a reader of the same file that had come at least as far
+ * @return 0; ERR_INPUT (reported: the bytes are no signatures, or the file has no such place); ERR_SYSTEM
+ */
+int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, const uint8_t *signatures, size_t n);
+
 /** A property of the header ("process.name"), or NULL. */
 const char *trace_reader_property(const struct trace_reader *r, const char *name);
 

@@ -8,9 +8,11 @@
 
 #include "base/err.h"
 #include "replay/exec.h"
+#include "replay/index.h"
 #include "replay/reader.h"
 
 #define HASHED_BYTES ((size_t)1 << 20)
+#define FEW_FRAMES 8 /* that are rather executed than looked for in the index */
 
 struct replay {
 	char *path;
@@ -23,6 +25,7 @@ struct replay {
 	replay_supply *supply;
 	void *supply_user;
 	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
+	struct index *index; /* once it was needed */
 };
 
 static int hash_file(struct replay *rp)
@@ -77,6 +80,7 @@ void replay_close(struct replay **rp)
 {
 	if (!*rp)
 		return;
+	index_close(&(*rp)->index);
 	gls_exec_destroy(&(*rp)->exec);
 	trace_reader_close(&(*rp)->reader);
 	free((*rp)->counts);
@@ -164,29 +168,111 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 	return rc == 1 ? run_frame(rp, want, scene) : rc;
 }
 
+static int have_index(struct replay *rp, enum index_mode mode)
+{
+	return rp->index ? 0 : index_open(&rp->index, rp->path, rp->hash, mode);
+}
+
+static void use_instead(struct replay *rp, struct gls_exec *x)
+{
+	gls_exec_take_counts(x, rp->exec);
+	x->supply = rp->supply;
+	x->supply_user = rp->supply_user;
+	gls_exec_destroy(&rp->exec);
+	rp->exec = x;
+}
+
+/* Execute nothing more, begin at a checkpoint. What was counted so far goes on being counted. */
+static int restore(struct replay *rp, uint64_t checkpoint)
+{
+	struct gls_exec *x;
+	int rc = gls_exec_create(&x, rp->path);
+
+	if (rc)
+		return rc;
+	rc = index_restore(rp->index, checkpoint, rp->reader, x);
+	if (!rc) {
+		use_instead(rp, x);
+		return 0;
+	}
+	gls_exec_destroy(&x);
+	return rc;
+}
+
+/* From the trace's begin. */
+static int start_again(struct replay *rp)
+{
+	struct gls_exec *x;
+	int rc = gls_exec_create(&x, rp->path);
+
+	if (rc)
+		return rc;
+	table_free(&rp->exec->unknown); /* its keys go with the reader */
+	use_instead(rp, x);
+	trace_reader_close(&rp->reader);
+	return trace_reader_open(&rp->reader, rp->path);
+}
+
+/* Come as near before a frame as a checkpoint does. */
+static int jump(struct replay *rp, uint64_t frame)
+{
+	uint64_t checkpoint;
+	int rc, backwards = frame < rp->exec->frame;
+
+	if (rp->build_all) /* no frame may be left out */
+		return backwards ? start_again(rp) : 0;
+	rc = have_index(rp, INDEX_KEEP);
+	if (rc)
+		return rc;
+	checkpoint = index_checkpoint(rp->index, frame);
+	if (!backwards && checkpoint <= rp->exec->frame)
+		return 0;
+	rc = checkpoint ? restore(rp, checkpoint) : start_again(rp);
+	if (rc != ERR_INPUT)
+		return rc;
+	/* The index is damaged where it was not looked at when it was opened. */
+	index_close(&rp->index);
+	rc = have_index(rp, INDEX_FORCE);
+	checkpoint = rc ? 0 : index_checkpoint(rp->index, frame);
+	if (!rc)
+		rc = checkpoint ? restore(rp, checkpoint) : start_again(rp);
+	return rc;
+}
+
 int replay_seek(struct replay *rp, uint64_t frame)
 {
 	struct scene *none;
-	int rc = 1;
+	int rc = 0;
 
+	if (frame < rp->exec->frame || frame > rp->exec->frame + FEW_FRAMES)
+		rc = jump(rp, frame);
+	rc = rc ? rc : 1;
 	while (rc == 1 && rp->exec->frame < frame)
 		rc = replay_next_frame(rp, 0, &none);
 	return rc;
 }
 
-int replay_frame_count(struct replay *rp, uint64_t *n)
+int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged)
 {
-	struct replay *counter;
-	struct scene *none;
-	int rc = replay_open(&counter, rp->path);
+	struct index_facts facts;
+	int rc = have_index(rp, INDEX_KEEP);
 
 	if (rc)
 		return rc;
-	while ((rc = replay_next_frame(counter, 0, &none)) == 1)
-		;
-	*n = replay_frame(counter);
-	replay_close(&counter);
-	return rc;
+	facts = index_facts(rp->index);
+	*n = facts.frames;
+	*damaged = facts.damaged;
+	return 0;
+}
+
+struct trace_reader *replay_reader(struct replay *rp)
+{
+	return rp->reader;
+}
+
+struct gls_exec *replay_exec(struct replay *rp)
+{
+	return rp->exec;
 }
 
 int replay_one_frame(const char *path, uint64_t frame, struct scene **scene)

@@ -36,13 +36,18 @@ void replay_close(struct replay **rp);
 int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 
 /**
- * Execute up to a frame, so that replay_next_frame finishes that one. Only forward.
+ * Come to a frame, forwards or backwards, so that replay_next_frame finishes that one. Long ways go by the trace's index
+ * (replay/index.h), which is made where there is none.
  * @return 1; 0 the trace has no such frame; ERR_* as replay_next_frame
  */
 int replay_seek(struct replay *rp, uint64_t frame);
 
-/** How many frames the trace has. @return 0 or ERR_* (reported) */
-int replay_frame_count(struct replay *rp, uint64_t *n);
+/**
+ * How many frames the trace has, by its index.
+ * @param damaged  receives 1 where calls behind the last whole frame make no sense, else 0
+ * @return 0 or ERR_* (reported)
+ */
+int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
 
 /**
  * Build the scene of one frame of a trace.

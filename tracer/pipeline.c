@@ -25,6 +25,7 @@ struct run {
 	uint64_t frame_bytes; /* memory that a frame on its way takes, as far as seen; 0: not known yet */
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
+	int begun; /* a scene was handed out */
 };
 
 struct worker {
@@ -111,6 +112,8 @@ static int hand_out(struct run *run, uint64_t frame)
 		return more;
 	wait_for_memory(run);
 	more = replay_next_frame(run->p->replay, 1, &scene);
+	if (more == 1 && !run->begun++)
+		progress_start(run->p->progress, frame, progress_clock_s() - run->p->start_s);
 	if (more == 1 && queue_put(&run->scenes, scene))
 		return 1;
 	scene_release(&scene);
@@ -124,9 +127,8 @@ static int decode(struct run *run)
 	uint64_t frame = 0;
 	int more = 1;
 
-	for (; more == 1 && frame_list_next(frames, frame, &frame) && !watch_is_over(run->p->watch); frame++) {
-		if (run->p->progress->total && !frames->n_ranges && frame >= run->p->progress->total)
-			break;
+	for (; more == 1 && frame_list_next(frames, frame, &frame) && frame < run->p->end && !watch_is_over(run->p->watch);
+	     frame++) {
 		if (is_there(run, frame))
 			note(run, frame, "skipped", 0);
 		else

@@ -24,6 +24,8 @@ struct pipeline {
 	struct device **devices; /* [n_devices] */
 	size_t n_devices;
 	unsigned jobs;           /* workers on each device */
+	uint64_t end;            /* frames of the recording */
+	double start_s;          /* when the run began (progress_clock_s) */
 	struct stamp stamp;
 	struct progress *progress;
 	struct tracer_undrawn undrawn; /* filled in: what was met that is not drawn */

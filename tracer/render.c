@@ -11,22 +11,29 @@
 
 #define MAX_PATH_BYTES 4096
 
-/* How many frames there are is known after this, and the list is cut down to the chunk asked for. @return 1: nothing to do */
-static int settle_frames(struct settings *s, struct replay *replay, uint64_t *total)
+/* What the recording has of what was asked for. */
+struct extent {
+	uint64_t end;   /* frames of the recording */
+	uint64_t total; /* frames to deal with */
+	int short_of;   /* 1: it is damaged, and frames behind that were asked for */
+};
+
+/* Frames asked for that are not there; the list cut down to the chunk asked for. @return 1: the chunk holds no frame */
+static int settle_frames(struct settings *s, struct replay *replay, struct extent *x)
 {
-	uint64_t end;
-	int err = replay_frame_count(replay, &end);
+	int damaged = 0, err = replay_frame_count(replay, &x->end, &damaged);
 
 	if (err)
 		return err;
-	if (s->frames.n_ranges && frame_list_last(&s->frames) >= end)
+	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
+	if (s->frames.n_ranges && frame_list_last(&s->frames) >= x->end && !damaged)
 		return err_report(ERR_USAGE, s->trace, "has %llu frames, numbered from 0; frame %llu is not there",
-		                  (unsigned long long)end, (unsigned long long)frame_list_last(&s->frames));
-	if (end == 0)
+		                  (unsigned long long)x->end, (unsigned long long)frame_list_last(&s->frames));
+	if (x->end == 0)
 		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
 	if (s->n_chunks)
-		err = frame_list_chunk(&s->frames, end, s->chunk, s->n_chunks);
-	*total = frame_list_count(&s->frames, end);
+		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
+	x->total = frame_list_count(&s->frames, x->end);
 	return err;
 }
 
@@ -89,19 +96,23 @@ static int render_frames(struct pipeline *p, uint64_t total)
 
 static int render(struct settings *s)
 {
-	struct pipeline p = { .settings = s };
-	uint64_t total = 0;
+	struct pipeline p = { .settings = s, .start_s = progress_clock_s() };
+	struct extent x = { .total = 0 };
 	int err = watch_start(&p.watch, s->frame_s, s->memory_bytes), number = 0;
 
 	if (err)
 		return err;
 	err = replay_open(&p.replay, s->trace);
 	if (!err)
-		err = settle_frames(s, p.replay, &total);
+		err = settle_frames(s, p.replay, &x);
 	if (!err) {
 		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
-		err = s->dry_run ? rehearse(s, &p.stamp, total) : render_frames(&p, total);
+		p.end = x.end;
+		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total);
 	}
+	if (!err && x.short_of)
+		err = err_report(ERR_INPUT, s->trace, "is damaged after frame %llu; frames up to there are done",
+		                 (unsigned long long)x.end - 1);
 	number = watch_signal(p.watch);
 	if (number)
 		err_report(ERR_SYSTEM, NULL, "stopped by %s; the same command with --skip-existing goes on",

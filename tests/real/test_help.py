@@ -7,7 +7,7 @@ from helpers import check, finish, relume
 overview = relume("help")
 verbs = re.findall(r"^  (\w+) ", overview.stdout, re.M)
 check(overview.returncode == 0 and not overview.stderr, "help goes to standard output and exits with 0")
-check({"record", "info", "dump", "scene", "render", "raster", "diff", "devices", "bench"} <= set(verbs),
+check({"record", "info", "index", "dump", "scene", "render", "raster", "diff", "devices", "bench"} <= set(verbs),
       f"help lists the verbs: {verbs}")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")

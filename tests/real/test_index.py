@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""The index: checkpoints restore what the calls lead to, frames are the same bytes however they are come to, and an index that is
+stale, damaged or cannot be written is noticed.
+
+limit: 200 s
+"""
+import json
+import os
+import shutil
+
+from helpers import ROOT, SCRATCH, check, corpus, finish, must, record, relume
+
+TRACES = ROOT.parent / "shared" / "traces"
+
+
+def facts(trace, *options, env=None):
+    done = must(relume("index", trace, "--json", *options, env=env))
+    return json.loads(done.stdout), done.stderr
+
+
+def index_of(trace):
+    return trace.with_name(trace.name + ".index")
+
+
+# Programs with lists, textures, arrays and stacks of all kinds: every checkpoint against the calls, byte by byte.
+live = SCRATCH / "live.trace"
+record(live, corpus("viewer"), "--frames", "400", options=())
+traces = [live]
+for name in ("glxgears", "iv-SceneViewer", "neverball", "rss-lattice", "xss-queens", "xss-noof", "billard-gl"):
+    if (TRACES / f"{name}.trace").exists():
+        traces.append(SCRATCH / f"{name}.trace")
+        shutil.copy(TRACES / f"{name}.trace", traces[-1])
+for trace in traces:
+    found, _ = facts(trace, "--check")  # exit code 1 where a state differs
+    check(found["frames"] > 0 and index_of(trace).exists(), f"{trace.name}: the index lies beside it: {found}")
+    check(found["checkpoints"] > 0, f"{trace.name}: has checkpoints: {found}")
+    check(found["bytes"] < found["trace_bytes"] + (512 << 10), f"{trace.name}: the index does not outgrow the trace: {found}")
+
+# A frame looks the same whether all before it were executed or a checkpoint was restored.
+trace = traces[-1] if len(traces) > 1 else live
+last = facts(trace)[0]["frames"] - 1
+near = max(last - 28, 0)
+must(relume("render", trace, "-f", f"{near}-{last}x7", "-o", SCRATCH / "near.#.exr"))
+index_of(trace).unlink()
+calls = json.loads(must(relume("scene", "-f", str(last), "--json", trace)).stdout)
+must(relume("render", trace, "-f", str(last), "-o", SCRATCH / "jump.#.exr"))
+check(calls["frame"] == last, "relume scene shows the frame asked for")
+chain = sorted(SCRATCH.glob("near.*.exr"))
+check(len(chain) == len(range(near, last + 1, 7)), f"all frames are there: {chain}")
+if (last - near) % 7 == 0:
+    check((SCRATCH / f"near.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(),
+          "the same bytes by a jump and step by step")
+
+# Another trace under the same name, damage, and what is no index: noticed and made anew.
+good = index_of(live).read_bytes()
+for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(good) // 2 + 64:]),
+                   ("its end", good[:-40]), ("its head", b"RELIDX1\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
+                   ("everything", b"")):
+    index_of(live).write_bytes(data)
+    done = must(relume("render", live, "-f", "399", "-o", SCRATCH / "x.#.exr"))
+    check("anew" in done.stderr or "damaged" in done.stderr or index_of(live).read_bytes() == data,
+          f"damage of {what} is said: {done.stderr}")
+    found, said = facts(live, "--check")
+    check(found["frames"] == 400, f"damage of {what}: the index is right again: {found} {said}")
+shutil.copy(trace, live)
+found, said = facts(live)
+check("another trace" in said and found["frames"] == last + 1, f"another trace under the same name: {said}")
+os.utime(live)
+found, said = facts(live)
+check(not said and found["build_us"] == 0, f"a copy with another time is the same trace: {said}")
+
+# Where no file can be written beside the trace, the cache folder takes it; where neither can, the run goes on without.
+index_of(live).unlink()
+index_of(live).mkdir()
+env = dict(os.environ, XDG_CACHE_HOME=str(SCRATCH / "cache"))
+found, _ = facts(live, env=env)
+check(found["index"].startswith(str(SCRATCH / "cache")), f"the cache folder takes the index: {found}")
+found, _ = facts(live, env=env)
+check(found["build_us"] == 0, "and it is found there")
+done = must(relume("render", live, "-f", str(last), "-o", SCRATCH / "y.#.exr", env=dict(os.environ, XDG_CACHE_HOME="/dev/null")))
+check("cannot be written" in done.stderr, f"an index that cannot be written is said: {done.stderr}")
+check((SCRATCH / f"y.{last}.exr").read_bytes() == (SCRATCH / f"jump.{last}.exr").read_bytes(), "and the frame is the same")
+finish()
