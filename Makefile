@@ -41,7 +41,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
-	check xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
+	check clang xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
 	fonts-dejavu-core xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
@@ -49,7 +49,7 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
-TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c))
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(CORPUS)
 
@@ -179,7 +179,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export
+SHOWS := show-parity show-rays show-export show-oclgrind
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -212,6 +212,11 @@ show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
 # Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
+# Every kernel under tools that watch it.
+DEPS_oclgrind := oclgrind valgrind
+show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
+	@$(PYTHON) tests/show/oclgrind.py $(BUILD)
+
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
@@ -246,7 +251,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo show show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
+.PHONY: all deps pages install uninstall deb check demo show show-oclgrind show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
 	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

@@ -30,6 +30,7 @@ static const struct {
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
 	unsigned threads;     /* of the reference device */
+	int packets;
 	atomic_int interrupted;
 	char name[320];
 };
@@ -123,6 +124,7 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 		free(dev);
 		return err;
 	}
+	dev->packets = !dev->cl || cl_is_cpu(dev->cl);
 	*out = dev;
 	return 0;
 }
@@ -224,7 +226,12 @@ const char *device_name(const struct device *dev)
 
 int device_prefers_packets(const struct device *dev)
 {
-	return !dev->cl || cl_is_cpu(dev->cl);
+	return dev->packets;
+}
+
+void device_choose_packets(struct device *dev, int packets)
+{
+	dev->packets = packets;
 }
 
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)

@@ -120,6 +120,9 @@ const char *device_name(const struct device *dev);
 /** 1 where one work item should hold a packet of rays (CPU families: the *_packet kernels), 0 where one (GPUs). */
 int device_prefers_packets(const struct device *dev);
 
+/** Take one of the families whatever the device is: for tests, which must see both. */
+void device_choose_packets(struct device *dev, int packets);
+
 /**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
  * @return 0 or ERR_SYSTEM (reported with the size)

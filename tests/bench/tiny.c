@@ -1,0 +1,134 @@
+/*
+ * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are slow
+ * (make show-oclgrind). FAMILY: "packets" or "wide", the traversal kernels to take. Prints a line for each picture.
+ */
+#include <stdio.h>
+
+#include "tests/truth/scenes.h"
+
+static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
+
+/* Texels made by the objects' own coordinates. */
+static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
+static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA, .width = 2,
+	                                      .height = 2, .depth = 1, .n_levels = 1, .texels = texels,
+	                                      .n_bytes = sizeof(texels) };
+static const struct scene_texture *const textures[] = { &texture };
+
+static void add_unit(struct truth *t, struct scene_unit *unit)
+{
+	*unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT, .wrap_r = GL_REPEAT, .min_filter = GL_LINEAR,
+		                     .mag_filter = GL_LINEAR, .max_lod = 1000, .min_lod = -1000, .max_anisotropy = 1,
+		                     .env_mode = GL_MODULATE, .scale_rgb = 1, .scale_alpha = 1,
+		                     .gen_mode = { GL_OBJECT_LINEAR, GL_OBJECT_LINEAR } };
+	unit->gen_object_plane[0][0] = unit->gen_object_plane[1][1] = 0.7f;
+	for (int k = 0; k < 4; k++)
+		unit->matrix[5 * k] = 1;
+	t->scene.units = unit;
+	t->scene.n_units = 1;
+	t->scene.textures = (const struct scene_texture **)textures;
+	t->scene.n_textures = 1;
+}
+
+/* A sky, a textured floor, a mirror, glass, a film and a leaf with holes, in wire and points too. */
+static void make_scene(struct truth *t, struct scene_unit *unit, uint32_t size)
+{
+	uint32_t sky, floor, mirror, glass, film, leaf, wire;
+
+	truth_init(t, size, size, 0.6f);
+	add_unit(t, unit);
+	truth_add_light(t, 2, 3, -2, 1);
+	t->lights[0].specular[0] = 1;
+	t->lights[0].radius = 0.3f;
+	truth_add_light(t, -1, 1, 1, 0);
+	t->lights[1].radius = 0.1f;
+	sky = truth_add_material(t, 0.3f);
+	t->materials[sky].lighting = t->materials[sky].depth_write = t->materials[sky].depth_test = 0;
+	floor = truth_add_material(t, 0.7f);
+	t->materials[floor].unit_count = 1;
+	t->materials[floor].fog = 1;
+	t->materials[floor].fog_mode = GL_EXP;
+	t->materials[floor].fog_density = 0.02f;
+	mirror = truth_add_material(t, 0.4f);
+	t->materials[mirror].surface.reflect = 0.6f;
+	t->materials[mirror].surface.roughness = 0.05f;
+	glass = truth_add_material(t, 0.9f);
+	t->materials[glass].surface.transmit = 0.9f;
+	t->materials[glass].surface.ior = 1.5f;
+	t->materials[glass].surface.absorb[1] = 0.2f;
+	film = truth_add_material(t, 0.9f);
+	t->materials[film].blend = 1;
+	t->materials[film].blend_src_rgb = t->materials[film].blend_src_alpha = GL_DST_COLOR;
+	t->materials[film].blend_dst_rgb = t->materials[film].blend_dst_alpha = GL_ONE;
+	leaf = truth_add_material(t, 0.5f);
+	t->materials[leaf].unit_count = 1;
+	t->materials[leaf].alpha_test = 1;
+	t->materials[leaf].alpha_func = GL_GREATER;
+	t->materials[leaf].alpha_ref = 0.5f;
+	wire = truth_add_material(t, 0.5f);
+	t->materials[wire].polygon_mode_front = GL_LINE;
+	t->materials[wire].polygon_mode_back = GL_POINT;
+	truth_add_square(t, sky, (float[3]){ 0, 0, -40 }, right, up, 30, 1);
+	truth_add_square(t, floor, (float[3]){ 0, 0, -12 }, right, up, 6, 2);
+	truth_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ 0.7f, 0, 0.7f }, up, 1.3f, 1);
+	truth_add_square(t, glass, (float[3]){ 1.2f, 0.6f, -7 }, right, (float[3]){ 0, 0.7f, 0.7f }, 0.8f, 1);
+	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, right, up, 0.9f, 1);
+	truth_add_square(t, leaf, (float[3]){ -0.5f, 0.9f, -6 }, right, up, 0.9f, 1);
+	truth_add_square(t, wire, (float[3]){ 0, 0, -4 }, right, up, 0.5f, 1);
+}
+
+static const char *choice, *family;
+
+START_TEST(render_pictures)
+{
+	static const struct { const char *name; enum tracer_mode mode; int relight; } pictures[] = {
+		{ "whitted", TRACER_WHITTED, 0 }, { "relight", TRACER_WHITTED, 1 }, { "ao", TRACER_AO, 0 },
+		{ "diffuse", TRACER_DIFFUSE, 0 }, { "path", TRACER_PATH, 0 }
+	};
+	struct device *dev = NULL;
+	struct tracer *tracer = NULL;
+	struct truth t;
+	struct scene_unit unit;
+
+	make_scene(&t, &unit, 7);
+	ck_assert_int_eq(device_open(choice, 1, &dev), 0);
+	device_choose_packets(dev, strcmp(family, "packets") == 0);
+	ck_assert_int_eq(tracer_create(&tracer, dev), 0);
+	for (size_t i = 0; i < sizeof(pictures) / sizeof(pictures[0]); i++) {
+		struct tracer_options options = { .mode = pictures[i].mode, .relight = pictures[i].relight, .display = 1,
+			                          .depth = 3, .rays = 2 };
+		struct image img = { .width = 0 };
+
+		ck_assert_int_eq(tracer_render(tracer, &t.scene, &options, &img), 0);
+		printf("%s %s: %g\n", family, pictures[i].name, (double)truth_at(&img, "R", 3, 3));
+		fflush(stdout);
+		image_free(&img);
+	}
+	tracer_destroy(&tracer);
+	device_close(&dev);
+	truth_free(&t);
+}
+END_TEST
+
+int main(int argc, char **argv)
+{
+	Suite *suite = suite_create("tiny");
+	TCase *tests = tcase_create("tiny");
+	SRunner *runner;
+	int failed;
+
+	if (argc != 3) {
+		fprintf(stderr, "usage: tiny DEVICE packets|wide\n");
+		return 2;
+	}
+	choice = argv[1];
+	family = argv[2];
+	tcase_add_test(tests, render_pictures);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_set_fork_status(runner, CK_NOFORK); /* device simulators do not outlive a fork */
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}

@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+# limit: 300 s
+"""The kernels' text as other devices take it: OpenCL C 1.2 without a warning, for GPUs, for SPIR, and on PoCL."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
+OPTIONS = ["-x", "cl", "-cl-std=CL1.2", "-D__OPENCL_VERSION__=120", "-Xclang", "-finclude-default-header", "-O1", "-Wall", "-Werror",
+           "-Wno-unused-function", "-Wno-unknown-pragmas", "-Wno-c++20-designator", "-I", str(ROOT), "-I", str(BUILD / "gen")]
+TARGETS = {"nvptx64": ["-emit-llvm", "-c"], "spir64": ["-emit-llvm", "-c"]}
+
+clang = shutil.which("clang")
+if not clang:
+    print("no clang here: kernels are not compiled for other targets")
+    sys.exit(77)
+failed = 0
+files = sorted((ROOT / "kernels").glob("*.cl"))
+with tempfile.TemporaryDirectory() as folder:
+    for target, more in TARGETS.items():
+        for file in files:
+            command = [clang, "-target", target, *OPTIONS, *more, "-o", f"{folder}/out", str(file)]
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            if run.returncode:
+                failed += 1
+                print(f"wrong: {file.name} for {target}:\n{run.stderr[:2000]}")
+# PoCL builds them for its device, with all that it would only warn of made an error.
+for family in ("packets", "wide"):
+    run = subprocess.run([BUILD / "tests/bench/tiny", "0", family], capture_output=True, text=True, check=False,
+                         env=dict(os.environ, POCL_EXTRA_BUILD_FLAGS="-Werror"))
+    if run.returncode:
+        failed += 1
+        print(f"wrong: {family} on PoCL:\n{run.stdout}{run.stderr[:2000]}")
+checks = len(files) * len(TARGETS) + 2
+print(f"{100 * (checks - failed) // checks}%: Checks: {checks}, Failures: {failed}, Errors: 0")
+sys.exit(1 if failed else 0)
