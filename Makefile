@@ -22,7 +22,8 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
 ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenImageIO -lOpenImageIO_Util -lOpenCL -lsnappy -lpng -lbrotlidec -lz -lxxhash -lcyaml -lstdc++ -ldl -lm -pthread
+LIBS_OIIO := -lOpenImageIO -lOpenImageIO_Util -lstdc++
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c writer.c reference.c)
@@ -30,11 +31,12 @@ RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/siz
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
-COMMAND_CXX := $(wildcard diff/*.cpp)
-
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/dispatch.c $(BUILD)/gen/page.c
 
-COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_CXX:%.cpp=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
+COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
+
+# The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
+OIIO_OBJ := $(addprefix $(BUILD)/,diff/oiio.o tracer/image.o base/err.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
@@ -51,7 +53,7 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(CORPUS)
 
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
@@ -63,6 +65,9 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 $(BUILD)/%.o: %.cpp $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(CPPFLAGS) $(ALL_CXXFLAGS) -c -o $@ $<
+
+$(BUILD)/relume-oiio.so: $(OIIO_OBJ)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -o $@ $^ $(LIBS_OIIO) $(LIBS)
 
 # The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
 # C++ inside, no symbol of its own that the program could replace.
@@ -152,13 +157,13 @@ $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lglut -lGLU -lGL -lm
 
-# Tests are linked with everything of the command but its main function.
-$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
+# Tests are linked with everything of the command but its main function, and with the bridge itself.
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/diff/oiio.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS) -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/closer $(BUILD)/tests/bench/static_scene \
@@ -192,7 +197,7 @@ MODELS ?= ../shared/models
 $(BUILD)/tests/bench/embree: tests/bench/embree.c $(BUILD)/parts.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
 
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
@@ -254,4 +259,4 @@ FORCE:
 .PHONY: all deps pages install uninstall deb check demo show show-oclgrind show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
 	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(COMMAND_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
+-include $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/beside.h"
 #include "base/err.h"
 #include "base/verbs.h"
 #include "capture/key.h"
@@ -224,22 +225,14 @@ static int parse(int argc, char **argv, struct options *o)
 	return set_trace(o, output);
 }
 
-/* The recorder lies beside the command, or in ../lib/relume where it is installed. */
 static int find_recorder(char *out, size_t size)
 {
-	static const char *const places[] = { "librelume.so", "../lib/relume/librelume.so" };
-	char command[PATH_MAX];
-	ssize_t n = readlink("/proc/self/exe", command, sizeof(command) - 1);
+	int rc = beside_find("librelume.so", out, size);
 
-	if (n < 0)
-		return err_report(ERR_SYSTEM, NULL, "cannot find this command's own folder: %s", strerror(errno));
-	command[n] = '\0';
-	*strrchr(command, '/') = '\0';
-	for (size_t i = 0; i < sizeof(places) / sizeof(places[0]); i++)
-		if (snprintf(out, size, "%s/%s", command, places[i]) < (int)size && access(out, R_OK) == 0)
-			return !strpbrk(out, " :") ? 0 : err_report(ERR_SYSTEM, out, "a library whose path holds a space or a colon "
-			                                            "cannot be preloaded; install Relume elsewhere");
-	return err_report(ERR_SYSTEM, NULL, "the recorder is not at %s/%s", command, places[0]);
+	if (!rc && strpbrk(out, " :"))
+		rc = err_report(ERR_SYSTEM, out, "a library whose path holds a space or a colon cannot be preloaded; "
+		                "install Relume elsewhere");
+	return rc;
 }
 
 /* The new name of a sidecar or a further process' trace. */
