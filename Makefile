@@ -26,7 +26,7 @@ LIBS_OIIO := -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c writer.c reference.c)
+RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
@@ -166,7 +166,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/closer $(BUILD)/tests/bench/static_scene \
+HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/closer $(BUILD)/tests/bench/static_scene \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
@@ -184,7 +184,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-oclgrind
+SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -212,7 +212,6 @@ DEPS_export := blender python3-numpy
 show-export: all $(BUILD)/deps.export
 	@$(PYTHON) tests/show/export.py $(BUILD)
 
-# Not part of `make show` yet: some of its bars do not hold.
 show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
@@ -225,6 +224,9 @@ show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
+
+show-kill: all $(HELPERS)
+	@$(PYTHON) tests/show/kill.py $(BUILD)
 
 # Not part of `make show`: needs root, and minutes.
 show-fresh:

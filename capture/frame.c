@@ -217,6 +217,7 @@ static void frame_end(uintptr_t drawable, int width, int height)
 	record_marker(text);
 	if (drawable == self.drawable && context_is_current() && reference_wanted(writer_frames()))
 		reference_read(writer_frames(), width, height);
+	writer_frame_ends();
 }
 
 /* Asking costs a trip to the X server: not at each frame, but when the program set a viewport, or after a while. */

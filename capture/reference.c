@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "capture/ref.h"
+#include "capture/sink.h"
 #include "capture/stats.h"
 #include "capture/wrap.h"
 
@@ -163,7 +164,7 @@ static void append(const void *data, size_t bytes)
 		fail("cannot open", errno);
 		return;
 	}
-	error = writer_pwrite(fd, data, bytes, r.bytes);
+	error = sink_pwrite(fd, data, bytes, r.bytes);
 	if (error && ftruncate(fd, (off_t)r.bytes))
 		error = errno;
 	close(fd);

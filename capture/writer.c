@@ -3,15 +3,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/membarrier.h>
 #include <pthread.h>
 #include <sched.h>
-#include <snappy-c.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -19,10 +18,11 @@
 
 #include "commands.h"
 #include "capture/memory.h"
+#include "capture/sink.h"
 #include "capture/stats.h"
 #include "enums.h"
 
-enum { PATH_BYTES = STATS_PATH_BYTES, LOW_FD = 100, FLUSH_AFTER_NS = 20000000, MAX_PROCESSES = 10000 };
+enum { PATH_BYTES = STATS_PATH_BYTES, FLUSH_AFTER_NS = 20000000, NO_MEMBARRIER_US = 20000 };
 enum { /* of values */
 	TAG_FALSE = 1, TAG_TRUE = 2, TAG_SINT = 3, TAG_UINT = 4, TAG_STRING = 7, TAG_BLOB = 8, TAG_ENUM = 9, TAG_BITMASK = 0x0A,
 	TAG_ARRAY = 0x0B, TAG_STRUCT = 0x0C, TAG_OPAQUE = 0x0D
@@ -35,20 +35,15 @@ static _Atomic int lock_word;
 /* All but `state` is read and written under the lock. */
 static struct {
 	_Atomic enum { IDLE, RECORDING, ENDED } state; /* IDLE: nothing called yet, no file yet */
-	uint8_t *chunk, *end, *p; /* the logical bytes not yet in the file lie in [chunk, p) */
-	char *packed;
+	uint8_t *chunk, *end, *p; /* bytes not yet handed over lie in [chunk, p) */
 	uint64_t n_calls;
 	_Atomic uint64_t n_frames;
-	int fd;
-	dev_t device;
-	ino_t inode;
-	uint64_t file_bytes, flushed_ns;
-	char path[PATH_BYTES];     /* of this process' trace; "" before it has one */
+	uint64_t flushed_ns;
 	uint8_t bits_known[N_BITS_ENTRIES];
 	uint8_t visual_known, memcpy_known;
 	_Atomic unsigned epoch;
 	struct stats_process *process; /* never NULL once recording */
-} w = { .fd = -1 };
+} w;
 
 static uint8_t command_known[N_COMMANDS];
 static uint8_t enum_known[N_ENUM_ENTRIES];
@@ -63,20 +58,65 @@ static __thread struct {
 	unsigned depth;  /* > 0: inside the writer or nested, nothing is recorded */
 	unsigned number; /* 1-based */
 	void (*waiting)(void); /* writes calls that wait */
+	int frame_ends;        /* the call it makes next does so */
+	int is_owner;          /* it is in the lock by owning it */
 } self __attribute__((tls_model("initial-exec")));
+
+/*
+ * The lock. As long as one thread only calls GL it owns the lock, and taking it is a plain store and a load: no atomic
+ * operation, no cache line that moves. Another thread that comes takes the ownership away, once and for good, with the kernel's
+ * help: membarrier makes every thread pass a barrier, so that either the owner sees that it owns the lock no more, or the other
+ * sees that the owner is inside.
+ */
+#define NO_OWNER ((uintptr_t)1)
+
+static _Atomic uintptr_t owner; /* address of the owner's `self`; 0: none yet, NO_OWNER: never again */
+static _Atomic int owner_inside;
+
+static int membarrier(int command)
+{
+	return (int)syscall(SYS_membarrier, command, 0, 0);
+}
 
 static void lock(void)
 {
 	unsigned spins = 0;
 
+	self.is_owner = 0;
+	if (atomic_load_explicit(&owner, memory_order_relaxed) == (uintptr_t)&self) {
+		atomic_store_explicit(&owner_inside, 1, memory_order_relaxed);
+		atomic_signal_fence(memory_order_seq_cst);
+		if (atomic_load_explicit(&owner, memory_order_relaxed) == (uintptr_t)&self) {
+			self.is_owner = 1;
+			return;
+		}
+		atomic_store_explicit(&owner_inside, 0, memory_order_release);
+	}
 	while (atomic_exchange_explicit(&lock_word, 1, memory_order_acquire))
 		if (++spins > 64)
 			sched_yield();
+	if (owner > NO_OWNER) {
+		owner = NO_OWNER;
+		if (membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED))
+			usleep(NO_MEMBARRIER_US); /* forbidden since: by then each store has long been seen */
+		while (atomic_load_explicit(&owner_inside, memory_order_acquire))
+			sched_yield();
+	}
 }
 
 static void unlock(void)
 {
-	atomic_store_explicit(&lock_word, 0, memory_order_release);
+	if (self.is_owner)
+		atomic_store_explicit(&owner_inside, 0, memory_order_release);
+	else
+		atomic_store_explicit(&lock_word, 0, memory_order_release);
+}
+
+/* The thread that makes the first call; it is in the lock. */
+static void choose_owner(void)
+{
+	if (!owner && membarrier(MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED) == 0)
+		owner = (uintptr_t)&self;
 }
 
 static uint64_t now_ns(void)
@@ -107,91 +147,31 @@ void writer_say(const char *fmt, ...)
 
 /* The file */
 
-/* Ends the recording early, once, and cuts off what is not whole. */
-static void give_up(int error, const char *what)
+/* Ends the recording early, once, where something went wrong with the file. */
+static void look_for_errors(void)
 {
-	if (w.state == ENDED)
+	struct sink_state sink = sink_state();
+
+	w.process->bytes = sink.bytes;
+	w.process->calls = w.n_calls;
+	if (!sink.error || w.state == ENDED)
 		return;
 	w.state = ENDED;
-	w.process->failed = error;
-	writer_say("%s: %s: %s; recording ends after frame %llu, the program goes on", w.path, what, strerror(error),
+	w.process->failed = sink.error;
+	writer_say("%s: %s: %s; recording ends after frame %llu, the program goes on", sink.path, sink.what, strerror(sink.error),
 	           (unsigned long long)w.n_frames);
-	if (w.fd >= 0 && ftruncate(w.fd, (off_t)w.file_bytes))
-		writer_say("%s: cannot cut off the last part: %s", w.path, strerror(errno));
 }
 
-/* A program may close descriptors that it does not know, and get the number again for a file of its own. 0 or an errno. */
-static int own_file(void)
+/* The chunk is complete up to p. Returns where to go on. `now`: only when it is in the file. */
+static uint8_t *spill(uint8_t *p, int now)
 {
-	struct stat st;
-	int fd;
+	size_t bytes = (size_t)(p - w.chunk);
+	int saved = errno;
 
-	if (w.fd >= 0 && fstat(w.fd, &st) == 0 && st.st_dev == w.device && st.st_ino == w.inode)
-		return 0;
-	w.fd = -1;
-	fd = open(w.path, O_WRONLY | O_CLOEXEC);
-	if (fd < 0)
-		return errno;
-	if (fstat(fd, &st) || st.st_dev != w.device || st.st_ino != w.inode) {
-		close(fd);
-		return ENOENT;
-	}
-	w.fd = fd;
-	return 0;
-}
-
-int writer_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
-{
-	const char *at = data;
-	struct rlimit limit;
-
-	/* Beyond this limit the kernel would send the program SIGXFSZ. */
-	if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && offset + bytes > limit.rlim_cur)
-		return EFBIG;
-	while (bytes) {
-		ssize_t n = pwrite(fd, at, bytes, (off_t)offset);
-
-		if (n < 0 && errno == EINTR)
-			continue;
-		if (n <= 0)
-			return n ? errno : EIO;
-		at += n;
-		bytes -= (size_t)n;
-		offset += (uint64_t)n;
-	}
-	return 0;
-}
-
-/* Appends to the trace. Returns 0 or an errno, with the file's end where it was. */
-static int append(const void *data, size_t bytes)
-{
-	int error = own_file();
-
-	if (!error)
-		error = writer_pwrite(w.fd, data, bytes, w.file_bytes);
-	if (!error)
-		w.file_bytes += bytes;
-	return error;
-}
-
-/* Packs the chunk up to p and writes it. Returns the start of the empty chunk. */
-static uint8_t *spill(uint8_t *p)
-{
-	size_t bytes = (size_t)(p - w.chunk), packed = snappy_max_compressed_length(WRITER_CHUNK);
-	int saved = errno, error;
-
-	if (bytes && w.state == RECORDING) {
-		if (snappy_compress((const char *)w.chunk, bytes, w.packed + 4, &packed) != SNAPPY_OK) {
-			give_up(EINVAL, "cannot pack");
-		} else {
-			for (int i = 0; i < 4; i++)
-				w.packed[i] = (char)(packed >> (8 * i));
-			error = append(w.packed, packed + 4);
-			if (error)
-				give_up(error, "cannot write");
-		}
-		w.process->bytes = w.file_bytes;
-		w.process->calls = w.n_calls;
+	if (w.state == RECORDING) {
+		w.chunk = now ? sink_write(bytes) : sink_hand_over(bytes);
+		w.end = w.chunk + SINK_CHUNK;
+		look_for_errors();
 	}
 	errno = saved;
 	return w.chunk;
@@ -199,7 +179,7 @@ static uint8_t *spill(uint8_t *p)
 
 uint8_t *put_room(uint8_t *p)
 {
-	return w.end - p < WRITER_MARGIN ? spill(p) : p;
+	return w.end - p < WRITER_MARGIN ? spill(p, 0) : p;
 }
 
 /* Scalars */
@@ -303,41 +283,6 @@ uint8_t *put_bool32(uint8_t *p, unsigned v)
 
 /* Opening */
 
-/* NAME.trace, then NAME.1.trace and so on: the first process that calls GL gets the name asked for. */
-static int create_file(void)
-{
-	size_t stem = strlen(wanted_path);
-	int fd = -1;
-
-	if (stem > 6 && strcmp(wanted_path + stem - 6, ".trace") == 0)
-		stem -= 6;
-	for (int i = 0; i < MAX_PROCESSES && fd < 0; i++) {
-		int n = i ? snprintf(w.path, sizeof(w.path), "%.*s.%d%s", (int)stem, wanted_path, i, wanted_path + stem)
-		          : snprintf(w.path, sizeof(w.path), "%s", wanted_path);
-
-		if (n >= (int)sizeof(w.path))
-			return ENAMETOOLONG;
-		fd = open(w.path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-		if (fd < 0 && errno != EEXIST)
-			return errno;
-	}
-	if (fd < 0)
-		return EEXIST;
-	w.fd = fcntl(fd, F_DUPFD_CLOEXEC, LOW_FD);
-	if (w.fd < 0)
-		w.fd = fd;
-	else
-		close(fd);
-	return 0;
-}
-
-static void *map_pages(size_t bytes)
-{
-	void *p = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-
-	return p == MAP_FAILED ? NULL : p;
-}
-
 static void put_head(void)
 {
 	static const char key[] = "process.name";
@@ -367,39 +312,19 @@ static struct stats_process *new_process(void)
 /* First recorded call of this process. */
 static void open_trace(void)
 {
-	struct stat st;
-	int error;
-
-	if (!w.chunk) {
-		w.chunk = map_pages(WRITER_CHUNK);
-		w.packed = map_pages(snappy_max_compressed_length(WRITER_CHUNK) + 4);
-	}
 	w.process = new_process();
-	if (!w.chunk || !w.packed) {
-		give_up(ENOMEM, "no memory");
-		return;
-	}
-	w.end = w.chunk + WRITER_CHUNK;
-	w.p = w.chunk;
-	error = create_file();
-	snprintf(w.process->path, sizeof(w.process->path), "%s", w.path);
-	if (error) {
-		give_up(error, "cannot create");
-		return;
-	}
-	if (fstat(w.fd, &st) == 0) {
-		w.device = st.st_dev;
-		w.inode = st.st_ino;
-	}
+	w.chunk = sink_open(wanted_path);
+	snprintf(w.process->path, sizeof(w.process->path), "%s", sink_state().path);
 	w.state = RECORDING;
-	w.epoch++;
-	error = append("at", 2);
-	if (error) {
-		give_up(error, "cannot write");
+	look_for_errors();
+	if (!w.chunk)
 		return;
-	}
+	w.end = w.chunk + SINK_CHUNK;
+	w.epoch++;
 	put_head();
+	w.p = spill(w.p, 1); /* a trace from here on, whatever happens */
 	w.flushed_ns = now_ns();
+	choose_owner();
 }
 
 /* Calls */
@@ -558,8 +483,25 @@ void writer_leave_end(uint8_t *p)
 	end(p);
 }
 
+void writer_frame_ends(void)
+{
+	self.frame_ends = 1;
+}
+
+/* The call that ends a frame has been written: packing goes on while it is made. */
+static void hand_over_frame(void)
+{
+	uint8_t *p = begin();
+
+	if (p)
+		end(spill(p, 0));
+	self.frame_ends = 0;
+}
+
 void writer_nest(void)
 {
+	if (self.frame_ends)
+		hand_over_frame();
 	self.depth++;
 }
 
@@ -610,7 +552,7 @@ uint64_t writer_frame_ended(void)
 	if (!p)
 		return 0;
 	frames = ++w.n_frames;
-	p = spill(p);
+	p = spill(p, 1);
 	if (w.state == RECORDING)
 		w.process->frames = frames; /* counted once it cannot be lost */
 	w.flushed_ns = now_ns();
@@ -625,7 +567,7 @@ void writer_flush_sometimes(void)
 	if (!p)
 		return;
 	if (now_ns() - w.flushed_ns > FLUSH_AFTER_NS) {
-		p = spill(p);
+		p = spill(p, 1);
 		w.flushed_ns = now_ns();
 	}
 	end(p);
@@ -640,7 +582,7 @@ void writer_end(void)
 	p = begin();
 	if (!p)
 		return;
-	p = spill(p);
+	p = spill(p, 1);
 	w.state = ENDED;
 	end(p);
 }
@@ -653,14 +595,15 @@ void writer_note_quit(void)
 
 int writer_sidecar(char *out, size_t size, const char *suffix)
 {
-	size_t stem = strlen(w.path);
+	const char *path = sink_state().path;
+	size_t stem = strlen(path);
 	int n;
 
 	if (!stem)
 		return -1;
-	if (stem > 6 && strcmp(w.path + stem - 6, ".trace") == 0)
+	if (stem > 6 && strcmp(path + stem - 6, ".trace") == 0)
 		stem -= 6;
-	n = snprintf(out, size, "%.*s%s", (int)stem, w.path, suffix);
+	n = snprintf(out, size, "%.*s%s", (int)stem, path, suffix);
 	return n > 0 && (size_t)n < size ? 0 : -1;
 }
 
@@ -826,6 +769,14 @@ uint8_t *put_visual(uint8_t *p, const void *visual)
 
 /* Beginning and end of the process */
 
+/* A child's copy of the process has no thread: what was handed to it is waited for. */
+static void lock_for_child(void)
+{
+	lock();
+	if (w.state == RECORDING)
+		sink_write(0);
+}
+
 /* A child gets a trace of its own with its first call; what the parent has not written stays the parent's. */
 static void start_child(void)
 {
@@ -839,10 +790,9 @@ static void start_child(void)
 	}
 	if (w.state == IDLE)
 		return;
-	close(w.fd);
-	w.fd = -1;
-	w.path[0] = '\0';
-	w.n_calls = w.file_bytes = 0;
+	sink_leave();
+	owner = 0;
+	w.n_calls = 0;
 	w.n_frames = 0;
 	memset(command_known, 0, sizeof(command_known));
 	memset(enum_known, 0, sizeof(enum_known));
@@ -878,7 +828,7 @@ __attribute__((constructor)) static void writer_start(void)
 		strcpy(wanted_path, path);
 		if (figures)
 			map_stats(figures);
-		pthread_atfork(lock, unlock, start_child);
+		pthread_atfork(lock_for_child, unlock, start_child);
 	}
 	errno = saved;
 }

@@ -1,5 +1,5 @@
 /*
- * Runs inside the traced program. The trace writer: calls go into one chunk in memory, chunks go to the file.
+ * Runs inside the traced program. The trace writer: calls go into a chunk in memory, chunks go to the file (sink.h).
  *
  * A recorded call is written in one piece where nothing comes back from it (writer_enter, arguments, writer_call_end, then
  * the real call), in two where something does (writer_enter, inputs, writer_enter_end, the real call, writer_leave, outputs,
@@ -41,7 +41,7 @@ struct bits_entry {
 extern const struct enum_entry enum_entries[]; /* generated; the index is the signature's number, 0 is unused */
 extern const uint16_t enum_index[0x10000];     /* value -> index in enum_entries, 0 where it has no name */
 
-enum { WRITER_CHUNK = 1 << 20, WRITER_MARGIN = 4096 };
+enum { WRITER_MARGIN = 4096 };
 
 /** Begin a call. Returns the write position, or NULL where the call is not recorded (recording off, or a nested call). */
 uint8_t *writer_enter(unsigned command);
@@ -84,6 +84,9 @@ int writer_active(void);
 /** A command passed through that is not recorded. */
 void writer_count_unknown(unsigned command);
 
+/** The call that this thread makes next ends a frame. */
+void writer_frame_ends(void);
+
 /** A frame is complete: hand everything to the kernel, so that it outlives the process. Returns the frames so far. */
 uint64_t writer_frame_ended(void);
 
@@ -107,12 +110,6 @@ void writer_note_quit(void);
  * @return 0, or -1 where there is no trace or it does not fit
  */
 int writer_sidecar(char *out, size_t size, const char *suffix);
-
-/**
- * Write all of `data` at an offset, without raising SIGXFSZ.
- * @return 0 or an errno; part of the data may be in the file then
- */
-int writer_pwrite(int fd, const void *data, size_t bytes, uint64_t offset);
 
 /** Say something once on standard error: "relume: ...". */
 void writer_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
