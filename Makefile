@@ -76,6 +76,18 @@ $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/exports.map
 	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/exports.map \
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
+# The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
+SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen
+$(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/exports.map $(BUILD)/relume
+	@mkdir -p $(@D)
+	$(Q)cp $(BUILD)/relume $(@D)/relume
+	$(Q)$(CC) $(CPPFLAGS) $(SANITIZED_CFLAGS) -fsanitize=$* -shared -Wl,-Bsymbolic -Wl,--version-script=capture/exports.map -o $@ \
+		$(RECORDER_SRC) capture/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks) -l:libsnappy.a -lstdc++ -ldl -pthread
+
+$(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O1 -g -fsanitize=$* -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -lGL -lX11 -ldl -lm -pthread
+
 $(BUILD)/recorder/gen/stamp: capture/gen.py capture/registry.py capture/overlay.txt | $(BUILD)/deps
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B capture/gen.py capture/overlay.txt $(@D)
@@ -214,6 +226,17 @@ show-export: all $(BUILD)/deps.export
 
 show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
+
+SHOWS += show-sanitize show-faults
+
+# Two threads with a context each, recorded by a recorder that is built with the sanitizers.
+show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
+	@$(PYTHON) tests/show/sanitize.py $(BUILD)
+
+# Two games on which the usual recorder crashes.
+DEPS_faults := extremetuxracer foobillardplus
+show-faults: all $(BUILD)/deps.faults
+	@tests/xvfb.sh $(PYTHON) tests/show/faults.py $(BUILD)
 
 # Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
 # Every kernel under tools that watch it.

@@ -42,7 +42,10 @@ static const struct library {
 };
 enum { N_LIBRARIES = sizeof(libraries) / sizeof(libraries[0]) };
 
-static void find_dlsym(void)
+/* A sanitizer looks up what it replaces by dlsym before it is ready itself: nothing of it may be needed here. */
+#define BEFORE_ALL no_sanitize("thread", "address")
+
+__attribute__((BEFORE_ALL)) static void find_dlsym(void)
 {
 	static const char *const versions[] = { "GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17", "GLIBC_2.27" };
 
@@ -154,9 +157,19 @@ static unsigned command_named(const char *name)
 	return N_COMMANDS;
 }
 
-static int is_gl_name(const char *name)
+/* By hand: the C library's functions are among what a sanitizer replaces. */
+__attribute__((BEFORE_ALL)) static int begins_with(const char *name, const char *prefix)
 {
-	return strncmp(name, "gl", 2) == 0 || strncmp(name, "egl", 3) == 0 || strncmp(name, "OSMesa", 6) == 0;
+	while (*prefix && *name == *prefix) {
+		name++;
+		prefix++;
+	}
+	return !*prefix;
+}
+
+__attribute__((BEFORE_ALL)) static int is_gl_name(const char *name)
+{
+	return begins_with(name, "gl") || begins_with(name, "egl") || begins_with(name, "OSMesa");
 }
 
 void *resolve_substitute(const char *name, void *real)
@@ -213,7 +226,7 @@ static void *look_up_gl(void *handle, const char *name)
  * The real dlsym is left by a jump, so that it sees its caller and not us: with RTLD_NEXT the answer depends on it. The
  * optimizer does so at any level from -O2 on, which is asked for here whatever the rest is built with.
  */
-__attribute__((visibility("default"), optimize("O2"))) void *dlsym(void *restrict handle, const char *restrict name)
+__attribute__((visibility("default"), optimize("O2"), BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
 {
 	if (!real_dlsym)
 		find_dlsym();

@@ -33,6 +33,8 @@ static void open_painter(struct painter *p, float shade)
 static void *paint(void *data)
 {
 	struct painter *p = data;
+	float corners[200] = { 0 };
+	unsigned char pixels[64];
 	void (*color)(float, float, float) = (void (*)(float, float, float))glXGetProcAddress((const GLubyte *)"glColor3f");
 
 	expect(glXMakeCurrent(p->display, p->window, p->context), "current");
@@ -46,6 +48,12 @@ static void *paint(void *data)
 			glVertex2f(0, 1);
 			glEnd();
 		}
+		glEnableClientState(GL_VERTEX_ARRAY);
+		glVertexPointer(2, GL_FLOAT, 0, corners);
+		corners[0] = 0.01f * (float)frame;
+		glDrawArrays(GL_TRIANGLES, 0, 100);
+		glDisableClientState(GL_VERTEX_ARRAY);
+		glReadPixels(0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 		glXSwapBuffers(p->display, p->window);
 	}
 	glXMakeCurrent(p->display, None, NULL);
