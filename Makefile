@@ -196,7 +196,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind
+SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -244,6 +244,11 @@ DEPS_oclgrind := oclgrind valgrind
 show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
 	@$(PYTHON) tests/show/oclgrind.py $(BUILD)
 
+# Frame rates beside a thesis' figures, POV-Ray and Blender Cycles.
+DEPS_thesis := povray blender python3-numpy
+show-thesis: all $(BUILD)/deps.thesis
+	@$(PYTHON) tests/show/thesis.py $(BUILD)
+
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
@@ -281,7 +286,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo show show-oclgrind show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
+.PHONY: all deps pages install uninstall deb check demo show show-oclgrind show-thesis show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
 	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
