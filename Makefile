@@ -196,10 +196,13 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis
+SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
+
+show-farm: all
+	@$(PYTHON) tests/show/farm.py $(BUILD)
 
 show-parity: all
 	@$(PYTHON) tests/show/parity.py $(BUILD)
@@ -286,7 +289,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo show show-oclgrind show-thesis show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
+.PHONY: all deps pages install uninstall deb check demo show show-farm show-oclgrind show-thesis show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
 	show-fresh golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)

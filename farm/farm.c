@@ -191,6 +191,8 @@ static int retry(struct farm_job *job)
 	int err = job->engine == FARM_SLURM ? slurm_read(job, &queue) : 0;
 
 	if (!err)
+		err = slurm_release(&queue);
+	if (!err)
 		err = take_census(job, &census);
 	/* What waits or runs is in good hands. */
 	for (uint64_t i = 1; !err && i <= job->n_tasks; i++)

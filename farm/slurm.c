@@ -51,18 +51,23 @@ static int read_numbers(const struct farm_job *job, uint64_t **out, size_t *n)
 
 int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 {
-	static char *const squeue[] = { "squeue", "--noheader", "--array", "--me", "--format=%F %K %T", NULL };
+	static char *const squeue[] = { "squeue", "--noheader", "--array", "--me", "--format=%F %K %T %r", NULL };
 	uint64_t *numbers, number;
-	char task[32], state[32], *text;
-	size_t n = 0;
+	char task[32], state[32], reason[64], *text = NULL;
+	size_t n = 0, used = 0, room;
 	int err = read_numbers(job, &numbers, &n);
 
 	if (err)
 		return err;
 	out->holds = calloc(job->n_tasks + 1, 1);
 	err = out->holds ? ask(squeue, &text) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	/* A task's name, with its comma, is never longer than its line. */
+	room = text ? strlen(text) + 2 : 1;
+	out->failed_starts = calloc(room, 1);
+	if (!err && !out->failed_starts)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (char *line = err ? NULL : strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
-		if (sscanf(line, "%" SCNu64 " %31s %31s", &number, task, state) != 3)
+		if (sscanf(line, "%" SCNu64 " %31s %31s %63s", &number, task, state, reason) != 4)
 			continue;
 		for (size_t i = 0; i < n; i++) {
 			uint64_t index = strtoull(task, NULL, 10);
@@ -74,12 +79,14 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 			} else if (index <= job->n_tasks) {
 				out->holds[index] = 1;
 				*(strcmp(state, "PENDING") == 0 ? &out->waiting : &out->running) += 1;
+				if (strstr(reason, "requeued_held"))
+					used += (size_t)snprintf(out->failed_starts + used, room - used, "%s%" PRIu64 "_%" PRIu64,
+					                         used ? "," : "", number, index);
 			}
 			break;
 		}
 	}
-	if (!err)
-		free(text);
+	free(text);
 	free(numbers);
 	return err;
 }
@@ -87,7 +94,22 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out)
 void slurm_free(struct slurm_queue *queue)
 {
 	free(queue->holds);
+	free(queue->failed_starts);
 	*queue = (struct slurm_queue){ 0 };
+}
+
+int slurm_release(const struct slurm_queue *queue)
+{
+	char *argv[] = { "scontrol", "release", queue->failed_starts, NULL }, *text;
+	int err;
+
+	if (!queue->failed_starts || !*queue->failed_starts)
+		return 0;
+	err = ask(argv, &text);
+	free(text);
+	if (!err)
+		printf("released %s: Slurm could not start them\n", queue->failed_starts);
+	return err;
 }
 
 int slurm_cancel(const struct farm_job *job)

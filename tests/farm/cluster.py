@@ -83,7 +83,7 @@ class Cluster:
         gres = f" Gres={self.gres}" if self.gres else ""
         lines = [
             "ClusterName=test", f"SlurmctldHost={host}(127.0.0.1)", f"SlurmUser={user}", f"SlurmdUser={user}",
-            f"SlurmctldPort={controller}", f"AuthInfo=socket={self.folder}/munge/socket",
+            f"SlurmctldPort={controller}", f"AuthInfo=socket={self.folder}/munge/socket,cred_expire=10",
             f"StateSaveLocation={self.folder}/state", f"SlurmdSpoolDir={self.folder}/spool.%n",
             f"SlurmctldPidFile={self.folder}/slurmctld.pid", f"SlurmdPidFile={self.folder}/%n.pid",
             "ProctrackType=proctrack/linuxproc", "TaskPlugin=task/none", "MpiDefault=none",

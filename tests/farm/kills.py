@@ -1,7 +1,6 @@
 """Kill tasks, slurmd and slurmctld at random while a farm renders, and count how often each frame lands."""
 import ctypes
 import os
-import pathlib
 import random
 import signal
 import struct
@@ -77,34 +76,28 @@ class Killer:
         self.done[kind] += 1
 
 
-def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0.2, 1.5), min_landed=1):
+def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0.2, 1.5)):
     """
-    Strike until there were n_kills, retrying whenever nothing is left in the queue; then retry until all frames are whole.
-    Returns the number of retries. Kills begin when the first frames have landed.
+    Strike until there were n_kills or nothing is left to do, with `relume farm retry` every few seconds, as a person would
+    type it; then bring everything back and retry until all frames are whole. Returns how many retries started tasks.
+    Kills begin when the first frame has landed.
     """
     retries = 0
     end = time.monotonic() + end_s
-    while sum(landings.read().values()) < min_landed:
+    next_retry = 0
+    while not landings.read():
         assert time.monotonic() < end, "no frame ever landed"
         time.sleep(0.05)
     while True:
-        assert time.monotonic() < end, f"not done after {end_s} s, {killer.done}"
-        killer.revive()
+        assert time.monotonic() < end, f"not done after {end_s} s, {killer.done}\n{cluster.run('squeue', '-r').stdout}"
+        killer.revive(everything=killer.total() >= n_kills)
         if killer.total() < n_kills:
             killer.strike()
-            time.sleep(killer.random.uniform(*pause))
-        else:
-            killer.revive(everything=True)
-            time.sleep(0.3)
-        queue = cluster.queue()
-        if queue:
+        time.sleep(killer.random.uniform(*pause))
+        if time.monotonic() < next_retry or "slurmctld" in killer.down:
             continue
-        if queue is None or killer.down and "slurmctld" in killer.down:
-            continue  # the controller is away
-        status = cluster.run(relume, "farm", "status", folder, cwd=pathlib.Path(folder).parent)
-        if status.returncode == 0 and killer.total() >= n_kills:
-            return retries
-        if status.returncode in (0, 1) and " 0 missing, 0 damaged, 0 made" not in status.stdout:
-            retries += cluster.run(relume, "farm", "retry", folder).returncode == 0
-        elif status.returncode == 0:
-            return retries  # all frames are whole before all kills were made: the caller sees how many there were
+        next_retry = time.monotonic() + 5
+        if cluster.run(relume, "farm", "status", folder).returncode == 0:
+            killer.revive(everything=True)
+            return retries  # the caller sees how many kills there were
+        retries += "\nrender " in cluster.run(relume, "farm", "retry", folder).stdout
