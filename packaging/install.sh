@@ -27,6 +27,7 @@ sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build
 place 755 "$build/relume" bin/relume
 place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
+place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 capture/relume.h include/relume.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
 place 644 README.md share/doc/relume/README.md

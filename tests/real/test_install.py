@@ -28,6 +28,8 @@ found = set(re.findall(r"/\S.*librelume\.so", maps))
 check(found == {str(PREFIX / "lib/relume/librelume.so")}, f"its recorder is the installed one: {found}")
 must(run(relume, "render", SCRATCH / "gears.trace", "-f", "2", "-o", SCRATCH / "gears.####.exr"))
 check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
+done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
+check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(), f"and scores, with pictures: {done.returncode}, {done.stderr}")
 
 # What the dynamic linker cannot preload is said, not passed over.
 spaced = SCRATCH / "a place"
