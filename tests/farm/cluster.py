@@ -132,6 +132,10 @@ class Cluster:
         daemon.kill()
         daemon.wait()
 
+    def ended(self):
+        """Daemons that ended by themselves."""
+        return [name for name, daemon in self.daemons.items() if daemon.poll() is not None]
+
     def run(self, *command, timeout=60, **more):
         return subprocess.run([str(c) for c in command], env=self.env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, errors="replace", timeout=timeout, **more)
@@ -155,7 +159,10 @@ class Cluster:
 
     def queue(self):
         """Lines of squeue: job, task, state; None while the controller does not answer."""
-        done = self.run("squeue", "-h", "-r", "-o", "%A %K %T")
+        try:
+            done = self.run("squeue", "-h", "-r", "-o", "%A %K %T", timeout=15)
+        except subprocess.TimeoutExpired:
+            return None
         return None if done.returncode else [line.split() for line in done.stdout.splitlines()]
 
     def wait_empty(self, seconds):

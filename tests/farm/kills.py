@@ -52,6 +52,9 @@ class Killer:
             if everything or time.monotonic() > when:
                 self.cluster.start(name)
                 del self.down[name]
+        # A controller that comes back before the port of the killed one is free ends at once; an init system tries again.
+        for name in self.cluster.ended():
+            self.cluster.start(name)
 
     def strike(self):
         """Kill one thing. Tasks are most often hit, daemons now and then."""
@@ -94,10 +97,11 @@ def campaign(cluster, killer, landings, folder, relume, n_kills, end_s, pause=(0
         if killer.total() < n_kills:
             killer.strike()
         time.sleep(killer.random.uniform(*pause))
-        if time.monotonic() < next_retry or "slurmctld" in killer.down:
+        # Slurm's commands wait for a controller that does not answer, and it is brought back here.
+        if time.monotonic() < next_retry or "slurmctld" in killer.down or cluster.queue() is None:
             continue
         next_retry = time.monotonic() + 5
-        if cluster.run(relume, "farm", "status", folder).returncode == 0:
+        if cluster.run(relume, "farm", "status", folder, timeout=300).returncode == 0:
             killer.revive(everything=True)
             return retries  # the caller sees how many kills there were
-        retries += "\nrender " in cluster.run(relume, "farm", "retry", folder).stdout
+        retries += "\nrender " in cluster.run(relume, "farm", "retry", folder, timeout=300).stdout
