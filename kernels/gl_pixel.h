@@ -240,6 +240,12 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 	uint32_t mask = m->color_mask;
 	float alpha;
 
+	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: nothing but the mask counts (sec. 4.3.1) */
+		uint32_t write = m->stencil_front.write_mask & pixel_bits_mask(pixel_stencil_bits(bits));
+
+		pixel->stencil = (pixel->stencil & ~write) | ((uint32_t)s->depth & write);
+		return;
+	}
 	if (!(s->flags & SHADED_THERE) || !pixel_tests(m, s, pixel, bits) || !(mask & 15u))
 		return;
 	old_gl = v4_load(pixel->gl);
@@ -282,7 +288,7 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 			pixel->id = 0u;
 			pixel->layers = 0u;
 			pixel->surface.order = SCENE_NONE;
-			pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
+			pixel->unknown &= ~(PIXEL_UNKNOWN_COLOR | PIXEL_BEFORE);
 		}
 	}
 	if (clear->buffers & 2u) {

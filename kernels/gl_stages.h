@@ -198,12 +198,12 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 
 /*
  * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module
- * has it: ramps one pixel wide across the line's sides and ends; a ramp over the point's outermost pixel. 0: nothing.
+ * has it: (22.3): ramps one pixel wide across the line's sides and ends; of a point all pixels whose centres its circle holds.
+ * 0: nothing.
  */
 static inline float stage_coverage(const struct point *p, const struct fragment *f)
 {
 	struct vec4 c, a = v4_load(p->vertex[0]->color[1]);
-	float inside;
 
 	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
 		return 1.0f;
@@ -211,8 +211,29 @@ static inline float stage_coverage(const struct point *p, const struct fragment 
 	                     v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
 	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
 		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
-	inside = c.x * c.x + c.y * c.y;
-	return inside <= c.z ? 1.0f : clamp01((1.0f - inside) / (1.0f - c.z));
+	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
+}
+
+/* What of a bitmap or pixel rectangle lies under a fragment, as its texel's four bytes. */
+static inline uint32_t stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
+                                         uint32_t *kind)
+{
+	struct vec4 a = v4_load(p->vertex[0]->color[1]);
+	struct vec4 c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
+	                                 v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
+	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(a.z + 0.5f)];
+	float column = M_MAX(M_FLOOR(c.x), 0.0f), row = M_MAX(M_FLOOR(c.y), 0.0f);
+
+	*kind = (uint32_t)(a.w + 0.5f);
+	column = M_MIN(column, (float)(image->width - 1u));
+	row = M_MIN(row, (float)(image->height - 1u));
+	return t->texels[image->level_first[0] + (uint32_t)row * image->width + (uint32_t)column];
+}
+
+static inline struct vec4 stage_texel_color(uint32_t texel)
+{
+	return v4((float)(texel & 255u) / 255.0f, (float)(texel >> 8 & 255u) / 255.0f, (float)(texel >> 16 & 255u) / 255.0f,
+	          (float)(texel >> 24) / 255.0f);
 }
 
 /*
@@ -234,6 +255,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	struct lit lit;
 	struct vec4 color;
 	float coverage;
+	uint32_t group = 0u, kind = 0u;
 
 	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
 		return;
@@ -249,8 +271,17 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		out->flags = 0u;
 		return;
 	}
+	if (p.geometry->flags & GEOMETRY_PIXELS) {
+		group = stage_pixel_group(t, &p, &f, &kind);
+		if (kind == SCENE_BITMAP && !group) {
+			out->flags = 0u;
+			return;
+		}
+	}
 	point_coat(t, &p, &views[p.geometry->view], x, y, height, &coat);
 	lit = n_slots && !p.material->surface.relit ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
+	if (kind == SCENE_COLOR_PIXELS)
+		lit.color = stage_texel_color(group);
 	color = point_finish(t, &p, &coat, &lit);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
 	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
@@ -261,6 +292,13 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	color = point_albedo(t, &p, &coat);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = stage_offset_depth(&p, windows, f.depth, bits);
+	if (kind == SCENE_DEPTH_PIXELS)
+		out->depth = clamp01(M_FLOAT(group));
+	if (kind == SCENE_STENCIL_PIXELS) {
+		out->depth = (float)(group & 255u);
+		out->flags = SHADED_THERE | SHADED_STENCIL;
+		return;
+	}
 	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport));
 }
 

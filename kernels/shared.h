@@ -175,10 +175,12 @@ SHARED_SIZE(struct shaded_vertex, 128);
  * Smooth ones: their vertices' color[1], which nothing else uses, holds where they are for the coverage (stage_coverage).
  *   line   pixels across the line, half its width and a half, pixels along it from its middle, half its length and a half;
  *          of lines shorter than a pixel the last two are shrunk so that they fade as they get shorter
- *   point  x and y in its circle of radius 1, square of the radius up to which it is covered wholly
+ *   point  x and y in its circle of radius 1
  */
 #define GEOMETRY_SMOOTH_LINE 2u
 #define GEOMETRY_SMOOTH_POINT 4u
+/* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and SCENE_BITMAP etc. */
+#define GEOMETRY_PIXELS 8u
 
 /* One instance as the vertex and fragment stages see it; the same index as its struct instance. */
 struct geometry {
@@ -221,6 +223,7 @@ SHARED_SIZE(struct shaded, 84);
 
 #define SHADED_THERE 1u
 #define SHADED_FRONT 2u
+#define SHADED_STENCIL 4u /* no fragment but a value for the stencil buffer, in depth */
 #define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
 
 /*
@@ -269,6 +272,7 @@ SHARED_SIZE(struct frame_pixel, 124);
 #define PIXEL_UNKNOWN_DEPTH 2u
 #define PIXEL_UNKNOWN_STENCIL 4u
 #define PIXEL_UNKNOWN_TEST 8u /* a test compared with it */
+#define PIXEL_BEFORE 16u      /* its colour comes from before the scene, and is known; cleared with the colour only */
 
 /* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
 #define SURFACE_PLANES 7u

@@ -154,6 +154,7 @@ struct gls_op {
 		const float *floats;            /* FLOATS, FLOAT_ARRAY */
 		const struct gls_op_mesh *mesh; /* MESH */
 	};
+	const struct gls_pixel_store *unpack; /* how to read pixels among the arguments; NULL: there are none */
 };
 /* Begin..End runs or an array draw, assembled when the list was made. */
 struct gls_op_mesh {
@@ -334,6 +335,13 @@ void gls_image_cache_free(struct gls_exec *x);
  */
 void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
                    uint32_t command, uint64_t call_number);
+/**
+ * Draw a bitmap or pixel rectangle; values: the raster position's attributes, final. r->texture is filled in from the image.
+ * @param corner  window coordinates, z the window depth
+ */
+struct gls_texture_image;
+void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
+                             struct gls_texture_image *image, const float corner[4], const float (*values)[4]);
 void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers);
 /** The scene of all events so far, valid until the next one; begun where there is none. Borrowed; NULL: out of memory. */
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);

@@ -82,9 +82,11 @@ static struct gls_op *new_op(struct gls_list *list)
 	return &list->ops[list->n++];
 }
 
-static int keep_call(struct gls_list *list, const struct call *c, uint32_t command)
+/* unpack: the state that pixels in client memory are read with, which is that of the moment (sec. 5.4). */
+static int keep_call(struct gls_list *list, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
 	struct gls_op *op = new_op(list);
+	struct gls_pixel_store *kept;
 	struct trace_value *args;
 
 	if (!op)
@@ -107,9 +109,16 @@ static int keep_call(struct gls_list *list, const struct call *c, uint32_t comma
 	op->args = args = arena_alloc(&list->arena, (c->n_args + !c->n_args) * sizeof(*args));
 	if (!args)
 		goto fail;
-	for (uint32_t i = 0; i < c->n_args; i++)
+	for (uint32_t i = 0; i < c->n_args; i++) {
 		if (copy_value(&list->arena, &args[i], &c->args[i]))
 			goto fail;
+		if (c->args[i].type != TRACE_BLOB || !unpack)
+			continue;
+		op->unpack = kept = arena_alloc(&list->arena, sizeof(*kept));
+		if (!kept)
+			goto fail;
+		*kept = *unpack;
+	}
 	return 0;
 fail:
 	list->n--;
@@ -118,7 +127,7 @@ fail:
 
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
-	if (keep_call(st->list, c, x->command) == 0)
+	if (keep_call(st->list, c, x->command, &st->client.unpack) == 0)
 		return 0;
 	gls_out_of_memory(x, 0);
 	return ERR_SYSTEM;
@@ -199,6 +208,7 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	struct gls_list *list = table_find(&st->share->lists, name);
 	struct trace_value args[MAX_PACKED + 1];
 	uint32_t command = x->command;
+	const struct gls_pixel_store unpack = st->client.unpack;
 	struct call c;
 
 	if (!list || x->list_depth == MAX_NESTING)
@@ -212,7 +222,10 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 			continue;
 		}
 		unpack_call(x, op, args, &c);
+		if (op->unpack)
+			st->client.unpack = *op->unpack;
 		gls_dispatch(x, &c, op->command);
+		st->client.unpack = unpack;
 		x->command = command;
 	}
 	if (--x->list_depth == 0)
@@ -320,7 +333,7 @@ static int keep_op(struct gls_list *list, const struct gls_op *from, const struc
 
 	if (from->form != GLS_OP_MESH) {
 		unpack_call(x, from, args, &c);
-		return keep_call(list, &c, from->command);
+		return keep_call(list, &c, from->command, from->unpack);
 	}
 	op = new_op(list);
 	if (!op)

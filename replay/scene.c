@@ -10,7 +10,7 @@
 
 struct gls_frame {
 	struct scene *out; /* NULL between frames */
-	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws; } room;
+	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles; } room;
 	struct table materials, units, lights, currents, views, stipples, spaces; /* hash -> index + 1 */
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	const struct gls_state *last;
@@ -481,6 +481,38 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 		f->cleared |= clear.buffers & ((clear.stencil_mask & 255) == 255 ? 6u : 2u);
 }
 
+void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
+                             struct gls_texture_image *image, const float corner[4], const float (*values)[4])
+{
+	struct gls_frame *f = frame_of(x, st);
+	struct gls_geometry *g = &x->compiling;
+	struct gls_mesh *mesh;
+	uint32_t before;
+
+	if (!f || grow(&f->out->rectangles, &f->room.rectangles, f->out->n_rectangles, sizeof(*r)))
+		return;
+	gls_geometry_clear(g);
+	g->kind = SCENE_POINTS;
+	if (gls_geometry_reserve(g, 1, 1))
+		return;
+	memcpy(g->position, corner, 16);
+	g->edge[0] = 1;
+	g->n_vertices = 1;
+	if (gls_geometry_cut(g, GL_POINTS, 0, 1, NULL) || !(g->n_draws = 1) || !(mesh = gls_geometry_mesh(x, g)))
+		return;
+	before = f->out->n_instances;
+	st->dirty |= GLS_DIRTY_ALL;
+	gls_frame_add(x, st, mesh, values, x->command, x->call->number);
+	gls_mesh_release(mesh);
+	gls_geometry_clear(g);
+	if (f->out->n_instances == before)
+		return;
+	f->out->rectangles[f->out->n_rectangles] = *r;
+	f->out->rectangles[f->out->n_rectangles].texture = texture_slot(x, f, image);
+	f->out->instances[before].rectangle = ++f->out->n_rectangles;
+	f->last = NULL;
+}
+
 /* ---- a frame's beginning and end ---- */
 
 static void free_frame(struct gls_frame *f)
@@ -619,6 +651,7 @@ void scene_release(struct scene **scene)
 	free(s->views);
 	free(s->clears);
 	free(s->stipples);
+	free(s->rectangles);
 	free(s->meshes);
 	free(s->textures);
 	free(s->draws);

@@ -178,6 +178,23 @@ struct scene_instance {
 	uint32_t draw;     /* draw number of its first primitive, counted from 1 in each frame */
 	uint32_t first_primitive; /* see "Draw order" above */
 	float modelview[16]; /* object to eye space; may be singular or projective (planar shadows) */
+	/*
+	 * 0, or 1 + the index in scene.rectangles of what each vertex of the mesh (points, in WINDOW coordinates: matrices count
+	 * for nothing) is the first pixel's outer corner of. Then current attributes are final: lit, generated, transformed.
+	 */
+	uint32_t rectangle;
+};
+
+/* A bitmap or pixel rectangle (GL 2.1 sec. 3.6.4, 3.7): pixel (n, m) covers what the corner + zoom * (n..n+1, m..m+1) does. */
+#define SCENE_BITMAP 1u         /* fragments where alpha is not 0, of the current colour */
+#define SCENE_COLOR_PIXELS 2u   /* fragments of the texels' colours */
+#define SCENE_DEPTH_PIXELS 3u   /* fragments of the texels' depth (a float each) and the current colour */
+#define SCENE_STENCIL_PIXELS 4u /* no fragments: values (an integer each) written under the stencil mask */
+struct scene_rectangle {
+	uint32_t kind;
+	uint32_t texture; /* scene.textures: one level, rows from the first (m = 0) on */
+	uint32_t width, height;
+	float zoom[2];    /* pixels of the window a pixel of the rectangle; may be negative */
 };
 
 /* A Clear: an event between draws (GL 2.1 sec. 4.2.3). */
@@ -265,6 +282,8 @@ struct scene {
 	struct scene_view *views;
 	struct scene_clear *clears;
 	uint32_t (*stipples)[32];
+	struct scene_rectangle *rectangles;
+	uint32_t n_rectangles;
 	const struct scene_mesh **meshes;       /* the array is the scene's, the meshes are the cache's */
 	const struct scene_texture **textures;
 	uint32_t n_instances, n_materials, n_units, n_lights, n_currents, n_views, n_clears, n_stipples, n_meshes,

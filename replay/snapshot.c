@@ -150,6 +150,9 @@ static void put_op(struct saver *s, const struct gls_op *op)
 	if (op->form == GLS_OP_CALL) {
 		for (uint32_t i = 0; i < op->n; i++)
 			put_value(s->out, &op->args[i]);
+		bytes_put_u64(s->out, op->unpack != NULL);
+		if (op->unpack)
+			bytes_put(s->out, op->unpack, sizeof(*op->unpack));
 	} else if (op->form == GLS_OP_MESH) {
 		put_values4(s->out, op->mesh->before, op->mesh->before_values);
 		put_values4(s->out, op->mesh->after, op->mesh->after_values);
@@ -595,6 +598,7 @@ static const float (*get_values4(struct loader *l, struct arena *a, uint32_t *ma
 static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 {
 	struct gls_op_mesh *kept;
+	struct gls_pixel_store *unpack;
 	struct trace_value *args;
 	float *floats;
 
@@ -608,6 +612,12 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 		op->args = args = take(l, &list->arena, op->n * sizeof(*args));
 		for (uint32_t i = 0; i < op->n && args && !is_bad(l); i++)
 			get_value(l, &list->arena, &args[i], 0);
+		if (cursor_u64(&l->in)) {
+			op->unpack = unpack = take(l, &list->arena, sizeof(*unpack));
+			if (unpack)
+				cursor_copy(&l->in, unpack, sizeof(*unpack));
+			l->in.failed |= unpack && unpack->alignment < 1; /* divided by */
+		}
 		return;
 	}
 	if (op->form != GLS_OP_MESH) {
@@ -642,7 +652,8 @@ static struct gls_list *get_list(struct loader *l)
 		return NULL;
 	}
 	KNOWN(struct gls_list, 48);
-	KNOWN(struct gls_op, 16);
+	KNOWN(struct gls_op, 24);
+	KNOWN(struct gls_pixel_store, 36);
 	KNOWN(struct gls_op_mesh, 40);
 	l->in = (struct cursor){ data, data + n_bytes, 0 };
 	n = get_count(l, 24);
@@ -771,6 +782,8 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		fits &= depth_fits(&raw->texture[u], &made->texture[u]);
+	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
+		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
 	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&
 	       raw->a.texturing.active < GLS_MAX_UNITS && raw->client.active_texture < GLS_MAX_UNITS && !raw->begin_mode;
 }
@@ -779,7 +792,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 23988,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34268,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));

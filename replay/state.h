@@ -147,6 +147,14 @@ struct gls_pixel {
 	uint32_t read_buffer;
 };
 
+/* Table 6.26: a pixel map; no attribute group holds them. Initially one element, 0 (sec. 3.6.3). */
+#define GLS_MAX_PIXEL_MAP 256
+enum { N_GLS_PIXEL_MAPS = 10 }; /* in the order of their tokens, PIXEL_MAP_I_TO_I first */
+struct gls_pixel_map {
+	uint32_t size; /* 0 stands for the initial one */
+	float values[GLS_MAX_PIXEL_MAP];
+};
+
 struct gls_evaluator {
 	uint32_t map1, map2; /* bits of enabled maps, GL_MAP1_COLOR_4 is bit 0 */
 	uint32_t auto_normal;
@@ -242,6 +250,7 @@ struct gls_state {
 	struct gls_saved_client *client_stack;  /* [GLS_MAX_ATTRIB_DEPTH], owned */
 	unsigned attrib_depth, client_depth;
 
+	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;

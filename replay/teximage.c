@@ -242,10 +242,20 @@ static void store(uint32_t base, const float rgba[4], uint8_t out[4])
 	out[3] = a;
 }
 
-static void transfer(const struct gls_pixel *p, float rgba[4])
+/* Sec. 3.6.5: scale and bias, then the colour maps. */
+static void transfer(const struct gls_state *st, float rgba[4])
 {
-	for (unsigned i = 0; i < 4; i++)
+	const struct gls_pixel *p = &st->a.pixel;
+
+	for (unsigned i = 0; i < 4; i++) {
+		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_R_TO_R - GL_PIXEL_MAP_I_TO_I + i];
+
 		rgba[i] = rgba[i] * p->scale[i] + p->bias[i];
+		if (p->map_color) {
+			float v = rgba[i] > 0 ? rgba[i] < 1 ? rgba[i] : 1 : 0;
+			rgba[i] = m->size ? m->values[(uint32_t)(v * (float)(m->size - 1) + 0.5f)] : 0;
+		}
+	}
 }
 
 static int has_transfer(const struct gls_pixel *p)
@@ -253,12 +263,12 @@ static int has_transfer(const struct gls_pixel *p)
 	for (unsigned i = 0; i < 4; i++)
 		if (p->scale[i] != 1 || p->bias[i] != 0)
 			return 1;
-	return 0;
+	return p->map_color != 0;
 }
 
 void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4])
 {
-	transfer(&st->a.pixel, rgba);
+	transfer(st, rgba);
 	store(base, rgba, out);
 }
 
@@ -278,8 +288,6 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 		gls_unsupported(x, "pixels of this format and type");
 		return -1;
 	}
-	if (st->a.pixel.map_color)
-		gls_unsupported(x, "pixel maps");
 	group = packed ? packed->bytes : f->n * component;
 	row = group * (u->row_length > 0 ? (size_t)u->row_length : width);
 	/* Rows begin at multiples of the alignment (sec. 3.6.4, equation 3.13). */
@@ -320,7 +328,7 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 						rgba[f->to[k]] = v[k];
 				}
 				if (do_transfer)
-					transfer(&st->a.pixel, rgba);
+					transfer(st, rgba);
 				store(base, rgba, out);
 			}
 		}
@@ -388,8 +396,7 @@ GLS_HANDLER(glPixelStoref, CLIENT) { pixel_store(x, st, c); }
 
 /* ---- specifying images ---- */
 
-/* The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. */
-static const uint8_t *pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n)
+const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n)
 {
 	const struct gls_buffer *b = gls_buffer_find(st, st->client.unpack.buffer);
 	uint64_t offset = (uint64_t)arg_i(c, i);
@@ -512,7 +519,7 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 	            n_dims > 2 ? arg_i(c, 5) : 1, arg_i(c, border));
 	if (!l)
 		return;
-	pixels = pixel_source(st, c, border + 3, &n);
+	pixels = gls_pixel_source(st, c, border + 3, &n);
 	if (pixels && gls_unpack_pixels(x, st, arg_u(c, border + 1), arg_u(c, border + 2), l->width, l->height, l->depth, pixels,
 	                                n, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
@@ -547,7 +554,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 			return;
 		}
 	}
-	pixels = pixel_source(st, c, format + 2, &n);
+	pixels = gls_pixel_source(st, c, format + 2, &n);
 	if (!pixels || !extent[0] || !extent[1] || !extent[2])
 		return;
 	texels = gls_scratch(x, (size_t)(extent[0] * extent[1] * extent[2]) * 4);

@@ -485,6 +485,19 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	return image;
 }
 
+struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, const uint8_t *texels)
+{
+	struct gls_texture t = { .target = GLS_TEXTURE_2D };
+	struct gls_texture_image *image;
+
+	t.levels[0][0] = (struct gls_level){ .width = width, .height = height, .depth = 1, .base_format = GL_RGBA,
+		                             .texels = (uint8_t *)(uintptr_t)texels, .bytes = (size_t)width * height * 4 };
+	image = build_image(x, &t, 1);
+	if (image)
+		image->used_frame = x->frame;
+	return image;
+}
+
 struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t)
 {
 	uint32_t n, n_face;

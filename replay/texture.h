@@ -77,6 +77,12 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 /** 1 where pixels of a level were drawn in a frame that was skipped. */
 int gls_texture_is_missing(const struct gls_texture *t);
 
+/** The image of plain RGBA texels (no texture object's), found by content. @return a reference, or NULL: out of memory */
+struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, const uint8_t *texels);
+
+/** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
+const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);
+
 /** Base format of an internal format (table 3.15 ff.), 0: none. */
 uint32_t gls_base_format(uint32_t internal_format);
 

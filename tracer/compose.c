@@ -137,7 +137,7 @@ static void store3(float *const planes[3], const float *values, size_t at)
 static void compose_pixel(const struct planes *p, const struct frame_pixel *pixel, const float *surface,
                           const struct tracer_options *options, size_t at)
 {
-	int drawn = pixel->id != 0;
+	int drawn = pixel->id != 0 || pixel->unknown & PIXEL_BEFORE;
 
 	for (int c = 0; c < 3; c++) {
 		if (options->mode == TRACER_NORMALS)

@@ -314,12 +314,12 @@ static void add_smooth_point(const struct expand_input *in, struct expanded *out
 {
 	const float *fade = in->material->point_attenuation, size = e->v.point_size;
 	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
-	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size, whole = (1 - 1 / radius) * (1 - 1 / radius);
+	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size;
 
 	for (int k = 0; k < 4; k++) {
 		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
 
-		add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, whole, 1 });
+		add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, 0, 0 });
 	}
 	add_triangles(in, out, draw);
 }
@@ -346,6 +346,28 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 		add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
 	}
 	add_triangles(in, out, draw);
+}
+
+/* A bitmap or pixel rectangle whose first corner is a vertex of the mesh, in window coordinates. */
+static int rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw)
+{
+	const struct scene_rectangle *r = &in->rectangles[i];
+	const float *corner = in->mesh->position + 4 * (size_t)i;
+	struct end e = load(in, i, 0);
+
+	if (out->n_vertices / 4 == out->room && grow(in, out))
+		return ERR_SYSTEM;
+	e.w_inv = 1;
+	e.z = fminf(fmaxf(corner[2], 0), 1);
+	for (int k = 0; k < 4; k++) {
+		float column = k == 1 || k == 2 ? (float)r->width : 0, row = k >= 2 ? (float)r->height : 0;
+
+		add_smooth_corner(in, out, &e, corner[0] + column * r->zoom[0],
+		                  (float)in->height - (corner[1] + row * r->zoom[1]),
+		                  (float[4]){ column, row, (float)r->texture, (float)r->kind });
+	}
+	add_triangles(in, out, draw);
+	return 0;
 }
 
 /* --- Primitives ---------------------------------------------------------------------------------------------------- */
@@ -520,7 +542,9 @@ int expand_primitives(const struct expand_input *in, struct expanded *out)
 	for (uint32_t i = 0; i < in->mesh->primitive_count && !err; i++) {
 		uint32_t draw = in->mesh->primitive_draw ? in->mesh->primitive_draw[i] : 0;
 
-		if (in->mesh->kind == SCENE_TRIANGLES)
+		if (in->rectangles)
+			err = rectangle(in, out, in->mesh->index[i], draw);
+		else if (in->mesh->kind == SCENE_TRIANGLES)
 			err = expand_polygon(in, out, i, draw, &stipple);
 		else if (in->mesh->kind == SCENE_LINES)
 			err = expand_line(in, out, i, draw, &stipple);

@@ -17,6 +17,7 @@ struct expand_input {
 	const struct scene_unit *units; /* the material's own */
 	const struct view *view;
 	enum prepared_shape shape;
+	const struct scene_rectangle *rectangles; /* [mesh vertices], or NULL: no pixels drawn as pixels */
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons that are not drawn in this shape */
 	uint32_t height, depth_bits;
 	const struct shaded_vertex *vertices; /* [mesh vertices] */

@@ -132,8 +132,10 @@ static int expand_instance(struct job *job, uint32_t i)
 		                   .shape = p->shapes[i], .cull = p->culls[i], .height = job->height,
 		                   .depth_bits = scene->depth_bits, .vertices = vertices,
 		                   .texcoords = (const float (*)[4])texcoords };
+	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
 	int err = 0;
 
+	in.rectangles = first ? scene->rectangles + first - 1 : NULL;
 	if (!vertices || !texcoords)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err && n)
@@ -165,6 +167,8 @@ static int upload_expanded(struct job *job)
 			continue;
 		job->extra[i] = &e->mesh;
 		g->flags |= GEOMETRY_EXPANDED;
+		if (job->scene->instances[p->instances[i].scene_instance].rectangle)
+			g->flags |= GEOMETRY_PIXELS;
 		if (p->shapes[i] == PREPARED_LINES && job->scene->materials[g->material].line_smooth)
 			g->flags |= GEOMETRY_SMOOTH_LINE;
 		if (p->shapes[i] == PREPARED_POINTS && job->scene->materials[g->material].point_smooth &&
@@ -553,7 +557,7 @@ static int upload_start(struct job *job)
 		struct frame_pixel *p = &pixels[i];
 
 		p->surface.order = SCENE_NONE;
-		p->unknown = start ? 0 : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
+		p->unknown = start ? PIXEL_BEFORE : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 		for (int c = 0; c < 4 && start; c++)
 			p->gl[c] = (float)start->rgba[4 * (size_t)i + (size_t)c] / 255.0f;
 		memcpy(p->shadowed, p->gl, sizeof(p->shadowed));

@@ -15,7 +15,7 @@ static Window window;
 
 static inline void open_window(void)
 {
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, None };
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 	XSetWindowAttributes set = { 0 };
 	XVisualInfo *visual;
 

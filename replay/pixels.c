@@ -1,0 +1,270 @@
+/* Pixels drawn as pixels (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/texture.h"
+
+#define MAX_SIDE 16384
+
+/* ---- reading bits and indices ---- */
+
+/* A bit of a bitmap in client memory (sec. 3.7), rows and the first bit as the unpack state says. */
+static int bit_at(const struct gls_pixel_store *u, const uint8_t *data, size_t n, uint32_t width, uint32_t x, uint32_t y)
+{
+	size_t groups = u->row_length > 0 ? (size_t)u->row_length : width, align = (size_t)u->alignment;
+	size_t row = (((groups + 7) / 8) + align - 1) / align * align;
+	size_t bit = (size_t)u->skip_pixels + x, at = ((size_t)u->skip_rows + y) * row + bit / 8;
+
+	return at < n && data[at] >> (u->lsb_first ? bit & 7 : 7 - (bit & 7)) & 1;
+}
+
+static size_t index_bytes(uint32_t type)
+{
+	switch (type) {
+	case GL_UNSIGNED_BYTE:
+	case GL_BYTE:
+		return 1;
+	case GL_UNSIGNED_SHORT:
+	case GL_SHORT:
+		return 2;
+	case GL_UNSIGNED_INT:
+	case GL_INT:
+	case GL_FLOAT:
+		return 4;
+	default:
+		return 0;
+	}
+}
+
+/* A colour or stencil index, shifted and offset (sec. 3.6.5). */
+static uint32_t index_at(const struct gls_state *st, uint32_t type, const uint8_t *data, size_t n, uint32_t width, uint32_t x,
+                         uint32_t y)
+{
+	const struct gls_pixel_store *u = &st->client.unpack;
+	const struct gls_pixel *p = &st->a.pixel;
+	size_t size = index_bytes(type), align = (size_t)u->alignment, at;
+	size_t row = ((u->row_length > 0 ? (size_t)u->row_length : width) * size + align - 1) / align * align;
+	uint32_t value = 0;
+	float f;
+
+	if (type == GL_BITMAP) {
+		value = (uint32_t)bit_at(u, data, n, width, x, y);
+	} else {
+		at = ((size_t)u->skip_rows + y) * row + ((size_t)u->skip_pixels + x) * size;
+		for (size_t i = 0; i < size && at + size <= n; i++)
+			value |= (uint32_t)data[at + (u->swap_bytes ? size - 1 - i : i)] << (8 * i);
+		if (type == GL_FLOAT) {
+			memcpy(&f, &value, 4);
+			value = f > 0 ? (uint32_t)f : 0;
+		}
+	}
+	value = p->index_shift >= 0 ? value << (p->index_shift & 31) : value >> (-p->index_shift & 31);
+	return value + (uint32_t)p->index_offset;
+}
+
+static uint8_t mapped(const struct gls_pixel_map *m, uint32_t index)
+{
+	float v = m->size ? m->values[index & (m->size - 1)] : 0;
+
+	return (uint8_t)(v <= 0 ? 0 : v >= 1 ? 255 : v * 255 + 0.5f);
+}
+
+/* ---- drawing ---- */
+
+/*
+ * A rectangle of pixels as fragments (sec. 3.6.4): the raster position's colours, texture coordinates and distance; what
+ * else fragments go through is the state's. x, y: window coordinates of its first pixel's outer corner.
+ */
+static void draw(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
+                 uint32_t height, const float zoom[2], const uint8_t *texels)
+{
+	struct gls_attribs saved = st->a;
+	struct gls_texture_image *image;
+	struct scene_rectangle r = { .kind = kind, .width = width, .height = height, .zoom = { zoom[0], zoom[1] } };
+	float values[N_GLS_ATTRIBUTES][4];
+
+	if (!x->want || st->render_mode != GL_RENDER || !width || !height)
+		return;
+	image = gls_texture_image_find(x, width, height, texels);
+	if (!image)
+		return;
+	memcpy(values, st->a.current.attribute, sizeof(values));
+	memcpy(values[GLS_ATTR_COLOR], st->a.current.raster_color, 16);
+	memcpy(values[GLS_ATTR_SECONDARY], st->a.current.raster_secondary, 16);
+	memcpy(values[GLS_ATTR_TEXCOORD], st->a.current.raster_texcoord, sizeof(st->a.current.raster_texcoord));
+	values[GLS_ATTR_FOG_COORD][0] = st->a.current.raster_distance;
+	/* What a vertex would go through has been gone through. */
+	st->a.fog.color_sum |= st->a.lighting.enabled && st->a.lighting.separate_specular;
+	st->a.lighting.enabled = st->a.lighting.color_material = 0;
+	st->a.lighting.shade_model = GL_SMOOTH;
+	st->a.fog.coord_source = GL_FOG_COORD;
+	st->a.transform.clip_plane_mask = 0;
+	st->a.point.smooth = st->a.point.sprite = 0;
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		st->a.texturing.units[u].gen_enabled = 0;
+	gls_frame_add_rectangle(x, st, &r, image, (float[4]){ left, low, st->a.current.raster_position[2], 1 },
+	                        (const float (*)[4])values);
+	st->a = saved;
+	st->dirty |= GLS_DIRTY_ALL;
+	gls_texture_image_release(image);
+}
+
+GLS_HANDLER(glBitmap, STATE)
+{
+	uint32_t width = arg_u(c, 0), height = arg_u(c, 1);
+	float *at = st->a.current.raster_position;
+	size_t n;
+	const uint8_t *data = gls_pixel_source(st, c, 6, &n);
+	uint8_t *texels;
+
+	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (!st->a.current.raster_valid)
+		return;
+	if (data && width && height && width <= MAX_SIDE && height <= MAX_SIDE && x->want) {
+		texels = gls_scratch(x, (size_t)width * height * 4);
+		for (uint32_t i = 0; texels && i < width * height; i++)
+			memset(texels + 4 * (size_t)i, bit_at(&st->client.unpack, data, n, width, i % width, i / width) ? 255 : 0, 4);
+		/* the lower left corner goes to whole pixels, downwards; a little up as Mesa has it against rounding */
+		if (texels)
+			draw(x, st, SCENE_BITMAP, floorf(at[0] + 0.0001f - arg_f(c, 2)), floorf(at[1] + 0.0001f - arg_f(c, 3)), width,
+			     height, (float[2]){ 1, 1 }, texels);
+	}
+	at[0] += arg_f(c, 4);
+	at[1] += arg_f(c, 5);
+}
+
+/* Texels out of indices: colours through the I_TO maps, or stencil values. */
+static void unpack_indices(const struct gls_state *st, uint32_t format, uint32_t type, const uint8_t *data, size_t n,
+                           uint32_t width, uint32_t height, uint8_t *texels)
+{
+	for (uint32_t i = 0; i < width * height; i++, texels += 4) {
+		uint32_t value = index_at(st, type, data, n, width, i % width, i / width);
+		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_S_TO_S - GL_PIXEL_MAP_I_TO_I];
+
+		if (format == GL_STENCIL_INDEX) {
+			if (st->a.pixel.map_stencil && m->size)
+				value = (uint32_t)m->values[value & (m->size - 1)];
+			memcpy(texels, &value, 4);
+			continue;
+		}
+		for (unsigned k = 0; k < 4; k++)
+			texels[k] = mapped(&st->pixel_maps[GL_PIXEL_MAP_I_TO_R - GL_PIXEL_MAP_I_TO_I + k], value);
+	}
+}
+
+static uint32_t kind_of(uint32_t format)
+{
+	return format == GL_STENCIL_INDEX || format == GL_STENCIL ? SCENE_STENCIL_PIXELS :
+	       format == GL_DEPTH_COMPONENT || format == GL_DEPTH ? SCENE_DEPTH_PIXELS : SCENE_COLOR_PIXELS;
+}
+
+GLS_HANDLER(glDrawPixels, STATE)
+{
+	uint32_t width = arg_u(c, 0), height = arg_u(c, 1), format = arg_u(c, 2), type = arg_u(c, 3);
+	const float *at = st->a.current.raster_position;
+	size_t n;
+	const uint8_t *data = gls_pixel_source(st, c, 4, &n);
+	uint8_t *texels;
+	int indices = format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX;
+
+	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (!st->a.current.raster_valid || !data || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
+		return;
+	texels = gls_scratch(x, (size_t)width * height * 4);
+	if (!texels)
+		return;
+	if (indices && (type == GL_BITMAP || index_bytes(type)))
+		unpack_indices(st, format, type, data, n, width, height, texels);
+	else if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n,
+	                           format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels) == -1)
+		return;
+	draw(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+}
+
+/* A place of the screen as a texel of a copy; outside of it nothing is defined: 0. */
+static void copy_texel(const struct gls_state *st, const struct scene_picture *p, uint32_t kind, int64_t x, int64_t y,
+                       uint8_t *texel)
+{
+	uint32_t bits = st->depth_bits > 24 ? 24 : st->depth_bits, value;
+	size_t from = (size_t)(y * p->width + x);
+	float v[4];
+
+	memset(texel, 0, 4);
+	if (x < 0 || y < 0 || x >= p->width || y >= p->height)
+		return;
+	if (kind == SCENE_STENCIL_PIXELS) {
+		value = p->stencil[from];
+		value = st->a.pixel.index_shift >= 0 ? value << (st->a.pixel.index_shift & 31) :
+		                                       value >> (-st->a.pixel.index_shift & 31);
+		value += (uint32_t)st->a.pixel.index_offset;
+		memcpy(texel, &value, 4);
+		return;
+	}
+	if (kind == SCENE_DEPTH_PIXELS) {
+		v[0] = (bits ? (float)p->depth[from] / (float)((1u << bits) - 1) : 0) * st->a.pixel.depth_scale +
+		       st->a.pixel.depth_bias;
+		v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
+		memcpy(texel, v, 4);
+		return;
+	}
+	for (unsigned i = 0; i < 4; i++)
+		v[i] = (float)p->rgba[4 * from + i] / 255;
+	gls_store_pixel(st, GL_RGBA, v, texel);
+}
+
+GLS_HANDLER(glCopyPixels, STATE)
+{
+	int64_t x0 = arg_i(c, 0), y0 = arg_i(c, 1);
+	uint32_t width = arg_u(c, 2), height = arg_u(c, 3), kind = kind_of(arg_u(c, 4));
+	const float *at = st->a.current.raster_position;
+	const struct scene_picture *p;
+	uint8_t *texels;
+
+	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (!st->a.current.raster_valid || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
+		return;
+	p = gls_read_screen(x, st);
+	texels = p ? gls_scratch(x, (size_t)width * height * 4) : NULL;
+	for (uint32_t i = 0; texels && i < width * height; i++)
+		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + 4 * (size_t)i);
+	if (texels)
+		draw(x, st, kind, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+}
+
+/* ---- pixel maps, sec. 3.6.3 ---- */
+
+static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct call *c, float scale)
+{
+	uint32_t which = arg_u(c, 0) - GL_PIXEL_MAP_I_TO_I, size = arg_u(c, 1);
+	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
+	int indices = which < 2; /* I_TO_I and S_TO_S hold indices, the rest colours */
+
+	if (which >= N_GLS_PIXEL_MAPS) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (!size || size > GLS_MAX_PIXEL_MAP || (which < 6 && size & (size - 1))) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	memset(m, 0, sizeof(*m));
+	m->size = size;
+	if (arg_floats(c, 2, m->values, size) < size)
+		gls_unsupported(x, "pixel maps out of buffer objects");
+	for (uint32_t i = 0; i < size && !indices; i++)
+		m->values[i] *= scale;
+}
+
+GLS_HANDLER(glPixelMapfv, STATE) { pixel_map(x, st, c, 1); }
+GLS_HANDLER(glPixelMapuiv, STATE) { pixel_map(x, st, c, 1 / 4294967295.0f); }
+GLS_HANDLER(glPixelMapusv, STATE) { pixel_map(x, st, c, 1 / 65535.0f); }
