@@ -1,6 +1,6 @@
 /*
  * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
- * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror), channel by channel.
+ * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel.
  */
 #include <check.h>
 #include <math.h>
@@ -14,7 +14,7 @@
 static void make_scene(struct truth *t)
 {
 	const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, r = sqrtf(0.5f);
-	uint32_t floor, mirror, film, flat;
+	uint32_t floor, mirror, film, flat, glass;
 
 	truth_init(t, SIZE, SIZE, 0.6f);
 	truth_add_light(t, 2, 3, -2, 1);
@@ -39,7 +39,12 @@ static void make_scene(struct truth *t)
 	t->materials[film].depth_write = 0;
 	flat = truth_add_material(t, 0.5f);
 	t->materials[flat].shade_model = GL_FLAT;
+	glass = truth_add_material(t, 0.8f);
+	t->materials[glass].surface.transmit = 0.8f;
+	t->materials[glass].surface.ior = 1.4f;
+	t->materials[glass].surface.absorb[2] = 0.3f;
 	truth_add_square(t, floor, (float[3]){ 0, 0, -12 }, x, y, 6, 6);
+	truth_add_square(t, glass, (float[3]){ -0.9f, 1.2f, -7 }, (float[3]){ r, 0, r }, y, 0.9f, 2);
 	truth_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ r, 0, r }, y, 1.3f, 2);
 	truth_add_square(t, flat, (float[3]){ 1.2f, 0.6f, -7 }, x, (float[3]){ 0, r, r }, 0.8f, 3);
 	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
@@ -57,6 +62,7 @@ START_TEST(test_device_against_twins)
 	make_scene(&t);
 	setenv("RELUME_TEST_DEVICE", "reference", 1);
 	truth_render(&t, "whitted", &c);
+	truth_check_closure(&c);
 	for (size_t d = 0; d < n; d++) {
 		char number[24];
 
