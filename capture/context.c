@@ -189,6 +189,8 @@ static void made_current(void *handle)
 	record_rectangle(CMD_glViewport, rectangle);
 	real_glGetIntegerv(GL_SCISSOR_BOX, rectangle);
 	record_rectangle(CMD_glScissor, rectangle);
+	if (current->features & HAS_FIXED_FUNCTION)
+		frame_mark_bits();
 }
 
 void context_made_current_glx(int ok, void *display, unsigned long drawable, void *context)

@@ -201,6 +201,15 @@ void relume_build_kd_tree(void)
 	record_marker("relume:kdtree");
 }
 
+void frame_mark_bits(void)
+{
+	char text[64];
+
+	snprintf(text, sizeof(text), "relume:bits %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
+	         context_get(GL_STENCIL_BITS));
+	record_marker(text);
+}
+
 static void frame_end(uintptr_t drawable, int width, int height)
 {
 	char text[64];

@@ -90,6 +90,8 @@ void drawable_may_have_changed(void);
 void frame_end_glx(void *display, unsigned long drawable);
 void frame_end_egl(void *display, void *surface);
 void frame_ended(void);
+/** A context was made current for the first time: mark how many bits a pixel of its drawable has. */
+void frame_mark_bits(void);
 
 void frame_primitive_begins(void);
 void frame_primitive_ended(void);

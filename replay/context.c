@@ -16,7 +16,8 @@ static struct gls_context *find_context(struct gls_exec *x, uint64_t handle)
 	return NULL;
 }
 
-static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, uint64_t share, const char *api)
+static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, uint64_t share, const struct trace_value *config,
+                                          const char *api)
 {
 	struct gls_context *ctx, *other = find_context(x, share), **grown;
 
@@ -38,6 +39,8 @@ static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, u
 	ctx->handle = handle;
 	ctx->share_handle = share;
 	ctx->api = api;
+	if (config)
+		gls_config_apply(x, &ctx->state, config);
 	if (other) {
 		ctx->state.share = other->state.share;
 		ctx->state.share->refs++;
@@ -90,7 +93,7 @@ static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, c
 {
 	struct gls_context *ctx = find_context(x, handle);
 
-	return ctx ? ctx : create_context(x, handle, 0, api);
+	return ctx ? ctx : create_context(x, handle, 0, NULL, api);
 }
 
 static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
@@ -123,15 +126,15 @@ static void swap(struct gls_exec *x, uint64_t drawable)
 
 GLS_HANDLER(glXCreateContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), "GLX");
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXCreateNewContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), "GLX");
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), "GLX");
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
@@ -142,7 +145,7 @@ GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state betw
 
 GLS_HANDLER(eglCreateContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), "EGL");
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "EGL");
 }
 GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
@@ -156,7 +159,7 @@ GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
-GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, (uint64_t)gls_value_int(&c->ret), 0, "WGL"); }
+GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, (uint64_t)gls_value_int(&c->ret), 0, NULL, "WGL"); }
 GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 1, "WGL"); }
 
 /* ---- markers of our recorder (capture/trace.md) and of rtMaterialEXT ---- */
@@ -183,7 +186,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;
 	char text[128];
-	unsigned width, height;
+	unsigned width, height, alpha, depth, stencil;
 	size_t n;
 
 	if (v->type != TRACE_STRING && v->type != TRACE_BLOB)
@@ -193,6 +196,13 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	text[n] = 0;
 	if (strncmp(text, "relume:material ", 16) == 0)
 		set_surface(x, st, text + 16);
+	if (sscanf(text, "relume:bits %u %u %u", &alpha, &depth, &stencil) == 3 && alpha <= 32 && depth <= 32 && stencil <= 8) {
+		gls_flush(x);
+		st->alpha_bits = alpha;
+		st->depth_bits = depth;
+		st->stencil_bits = stencil;
+		st->dirty |= GLS_DIRTY_ALL;
+	}
 	if (sscanf(text, "relume:drawable %u %u", &width, &height) != 2 || width > 65536 || height > 65536)
 		return;
 	drawable = gls_drawable_of(x, st);

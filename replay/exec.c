@@ -343,6 +343,7 @@ void gls_exec_destroy(struct gls_exec **exec)
 			free(x->drawables.entries[i].value);
 		}
 	table_free(&x->drawables);
+	table_free(&x->configs);
 	gls_geometry_free(&x->geometry);
 	gls_geometry_free(&x->compiling);
 	free(x->assembling);

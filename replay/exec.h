@@ -243,6 +243,7 @@ struct gls_exec {
 	size_t n_threads;
 	uint64_t thread;
 	struct table drawables;
+	struct table configs; /* of drawables, see config.c */
 
 	struct gls_geometry geometry; /* pending vertices of st */
 	struct gls_geometry compiling; /* of list assembly and array draws */
@@ -322,6 +323,8 @@ void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t draw
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st);
 void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n);
 struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name);
+/** The bits of drawables that a context made for this visual or configuration draws to, as far as they are known. */
+void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config);
 void gls_share_release(struct gls_share *share);
 struct gls_share *gls_share_create(void);
 

@@ -325,7 +325,7 @@ static int save(struct saver *s)
 	struct table_entry *e;
 	size_t n;
 
-	KNOWN(struct gls_exec, 1176);
+	KNOWN(struct gls_exec, 1200);
 	if (!is_quiet(x))
 		return 1;
 	bytes_put_u64(out, x->frame);
@@ -365,6 +365,14 @@ static int save(struct saver *s)
 		bytes_put_u64(out, d->width);
 		bytes_put_u64(out, d->height);
 		bytes_put_u64(out, (uint64_t)d->fixed);
+	}
+	free(e);
+	section(s, "configurations", x->configs.n);
+	e = sorted(s, &x->configs);
+	n = e ? x->configs.n : 0;
+	for (size_t i = 0; i < n; i++) {
+		bytes_put_u64(out, e[i].key);
+		bytes_put_u64(out, (uintptr_t)e[i].value);
 	}
 	free(e);
 	if (out->failed && !s->err)
@@ -929,6 +937,11 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 		d->fixed = (int)cursor_u64(&l.in);
 		d->surface.skipped = 1; /* as after any frame that was not built: gls_frame_skip */
 		keep(&l, &x->drawables, key, d);
+	}
+	count = get_count(&l, 16);
+	for (uint64_t i = 0; i < count && !is_bad(&l); i++) {
+		uint64_t key = cursor_u64(&l.in);
+		keep(&l, &x->configs, key, (void *)(uintptr_t)cursor_u64(&l.in));
 	}
 	if (l.err)
 		return l.err;

@@ -13,9 +13,8 @@
 static Display *display;
 static Window window;
 
-static inline void open_window(void)
+static inline void open_window_of(int *attributes)
 {
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 	XSetWindowAttributes set = { 0 };
 	XVisualInfo *visual;
 
@@ -28,6 +27,13 @@ static inline void open_window(void)
 	XMapWindow(display, window);
 	if (!glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True)))
 		exit(1);
+}
+
+static inline void open_window(void)
+{
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
+
+	open_window_of(attributes);
 }
 
 static inline void end_frame(void)
