@@ -196,7 +196,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm
+SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm show-replay show-mutants
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -262,6 +262,29 @@ show-kill: all $(HELPERS)
 # Not part of `make show`: needs root, and minutes.
 show-fresh:
 	@tests/fresh.sh $(BUILD)
+
+.PHONY: show-mutants show-replay
+show-mutants: all
+	@$(PYTHON) tests/show/mutants.py $(BUILD)
+
+show-replay: all
+	@tests/xvfb.sh $(PYTHON) tests/show/replay.py $(BUILD)
+
+# libFuzzer on reader and state machine, under sanitizers; what it finds worth keeping goes into tests/fuzz/kept.
+DEPS_fuzz := clang libclang-rt-14-dev
+FUZZ_SECONDS ?= 3600
+FUZZ_SRC := tests/fuzz/fuzz_replay.c $(wildcard base/*.c replay/*.c) capture/sizes.c
+$(BUILD)/fuzz/replay: $(FUZZ_SRC) $(BUILD)/gen/dispatch.c | $(BUILD)/deps.fuzz
+	@mkdir -p $(@D)
+	$(Q)clang $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
+		-o $@ $^ $(LIBS)
+
+.PHONY: fuzz fuzz-keep
+fuzz: $(BUILD)/fuzz/replay
+	@tests/fuzz/campaign.sh $(BUILD) $(FUZZ_SECONDS)
+
+fuzz-keep: $(BUILD)/fuzz/replay
+	@$< -merge=1 -close_fd_mask=3 tests/fuzz/kept $(BUILD)/fuzz/found
 
 # Only in a commit of its own.
 golden-update: all
