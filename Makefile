@@ -178,7 +178,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/real/targets $(BUILD)/tests/bench/static_scene \
+HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/failing_cl.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/bench/static_scene \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
@@ -255,6 +255,13 @@ show-thesis: all $(BUILD)/deps.thesis
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
+
+SHOWS += show-seek show-batch-faults
+show-seek: all
+	@$(PYTHON) tests/show/seek.py $(BUILD)
+
+show-batch-faults: all $(HELPERS)
+	@tests/xvfb.sh $(PYTHON) tests/real/test_batch_faults.py $(BUILD)
 
 show-kill: all $(HELPERS)
 	@$(PYTHON) tests/show/kill.py $(BUILD)
