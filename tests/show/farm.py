@@ -62,10 +62,10 @@ def show_kills(work, relume, trace, local, seed):
         retries = kills.campaign(cluster, killer, landings, folder, relume, KILLS, 1800)
         status = cluster.run(relume, "farm", "status", folder).stdout.splitlines()[0]
         counts, frames = landings.read(), digests(work / "killed")
+        peer = cluster.run("sbatch", "-V").stdout.strip()
     twice = sum(n > 1 for n in counts.values())
     same = sum(local.get(name) == digest for name, digest in frames.items())
     what = ", ".join(f"{n} {kind}" for kind, n in killer.done.items())
-    peer = f"slurm {subprocess.run(['sbatch', '-V'], stdout=subprocess.PIPE, text=True, check=False).stdout.split()[-1]}"
     return [
         {"what": "random kills during the run", "figure": f"{killer.total()} ({what}; {retries} retries; seed {seed})",
          "bar": f"{KILLS} at least", "peer": peer, "passed": killer.total() >= KILLS},
