@@ -54,3 +54,20 @@ size_t memory_read(void *to, const void *from, size_t bytes)
 	errno = saved;
 	return lost;
 }
+
+size_t memory_text_bytes(const char *text)
+{
+	char part[PAGE / 16]; /* pieces end where pages do: one is readable as a whole or not at all */
+	size_t bytes = 0;
+
+	for (;;) {
+		size_t n = sizeof(part) - (((uintptr_t)text + bytes) & (sizeof(part) - 1)), length;
+
+		if (memory_read(part, text + bytes, n))
+			return bytes;
+		length = strnlen(part, n);
+		bytes += length;
+		if (length < n)
+			return bytes;
+	}
+}

@@ -15,4 +15,7 @@
  */
 size_t memory_read(void *to, const void *from, size_t bytes);
 
+/** Bytes of a text before its NUL, or before what cannot be read. */
+size_t memory_text_bytes(const char *text);
+
 #endif

@@ -638,7 +638,7 @@ static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes
 
 uint8_t *put_string(uint8_t *p, const char *s, long bytes)
 {
-	return put_sized(p, TAG_STRING, s, s && bytes < 0 ? (long)strlen(s) : bytes);
+	return put_sized(p, TAG_STRING, s, s && bytes < 0 ? (long)memory_text_bytes(s) : bytes);
 }
 
 uint8_t *put_text(uint8_t *p, const char *s, long size)
@@ -681,8 +681,15 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 	if (!strings)
 		return put_null(p);
 	p = put_array_head(p, count);
-	for (long i = 0; i < count; i++)
-		p = put_string(p, strings[i], lengths ? lengths[i] : -1);
+	for (long i = 0; i < count; i++) { /* a call that GL refuses may have anything here */
+		const char *text;
+		int length = -1;
+
+		memory_read(&text, strings + i, sizeof(text));
+		if (lengths)
+			memory_read(&length, lengths + i, sizeof(length));
+		p = put_string(p, text, length);
+	}
 	return p;
 }
 

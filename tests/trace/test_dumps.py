@@ -65,6 +65,9 @@ class Dumps(unittest.TestCase):
     def test_loaded_by_hand(self):
         self.compare("loaded")
 
+    def test_refused(self):
+        self.compare("refused")
+
     def test_readback(self):
         self.compare("readback", "--frame-end", "readpixels", "--ref", "color,depth")
 
