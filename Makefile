@@ -178,7 +178,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/failing_cl.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/bench/static_scene \
+HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/failing_cl.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/bench/static_scene \ $(BUILD)/tests/real/timer_shim.so
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
@@ -227,7 +227,7 @@ DEPS_export := blender python3-numpy
 show-export: all $(BUILD)/deps.export
 	@$(PYTHON) tests/show/export.py $(BUILD)
 
-show-overhead: all $(BUILD)/tests/bench/static_scene
+show-overhead: all $(HELPERS)
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
 SHOWS += show-sanitize show-faults

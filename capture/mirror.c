@@ -9,7 +9,8 @@
 #include "capture/memory.h"
 #include "capture/wrap.h"
 
-enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 15 };
+enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
+enum { PATIENCE = 16, SAMPLE = 8 };     /* contents in a row that were new before only every eighth is looked up */
 enum { CREDIT = 64 };                   /* mirrors made before their array is drawn again; refunded where it is */
 #define MAX_MIRRORED_BYTES (256l << 20) /* of one context, here and on replay */
 
@@ -17,6 +18,7 @@ struct mirror {
 	const uint8_t *data;
 	unsigned buffer;   /* 0: drawn from once */
 	int unproven;      /* made on credit, not drawn from since */
+	unsigned misses;   /* contents since the last one that had come back */
 	long room;         /* of the buffer */
 	long first, end;   /* what the buffer holds and `copy` with it */
 	uint8_t *copy;     /* `copy_bytes` mapped */
@@ -177,6 +179,7 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 static int update(struct mirror_table *t, struct mirror *m, unsigned target, long first, long end, long changed, int *bound)
 {
 	int fresh = make_room(t, m, end), made = !m->buffer;
+	long whole_end = end;
 
 	if (fresh < 0)
 		return 0;
@@ -187,7 +190,14 @@ static int update(struct mirror_table *t, struct mirror *m, unsigned target, lon
 	for (; end - changed > 4 && end <= m->end; end -= 4)
 		if (memcmp(m->copy + end - 4, t->staging + end - 4 - first, 4) != 0)
 			break;
-	memcpy(m->copy + first, t->staging, (size_t)(end - first));
+	if (first == 0 && fresh == 0 && whole_end >= m->end && t->staging_bytes == m->copy_bytes) {
+		uint8_t *copy = m->copy;
+
+		m->copy = t->staging;
+		t->staging = copy;
+	} else {
+		memcpy(m->copy + first, t->staging, (size_t)(end - first));
+	}
 	if (made)
 		m->buffer = content_new_buffer();
 	if (made || m->first == m->end) {
@@ -245,9 +255,11 @@ unsigned mirror_buffer(struct mirror_table **table, unsigned target, const void 
 		return 0;
 	memory_read(t->staging, (const uint8_t *)data + first, (size_t)(end - first));
 	/* Other contents than before: those that come back are found by content. */
-	if (first == 0 && (held || !wanted)) {
+	if (first == 0 && (held || !wanted) && (m->misses++ < PATIENCE || m->misses % SAMPLE == 0)) {
 		unsigned buffer = content_buffer(context_contents(), target, t->staging, end, bound);
 
+		if (buffer)
+			m->misses = 0;
 		if (buffer)
 			return buffer;
 	}

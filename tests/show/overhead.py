@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """tests/show/overhead.py BUILD (as `make show-overhead`): what recording costs, side by side with `apitrace trace`.
 
-Runs tests/bench/static_scene in its four ways bare, under our recorder and under apitrace, in turn, several times; takes the
-best time of each, so that other work on the machine counts as little as possible.
+Runs tests/bench/static_scene in its four ways and glxgears (unsynchronised) bare, under our recorder and under apitrace, in
+turn, several times; takes the best time of each, so that other work on the machine counts as little as possible. The processor
+time of the program and its threads, which other work disturbs less, is given for information.
 """
 import json
 import os
@@ -12,35 +13,49 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-ROUNDS = 3
-TIME_BARS = {"immediate": 1.5, "arrays": 1.1, "elements": 1.1, "changing": None}
+ROUNDS, PEER_ROUNDS = 9, 3
+GEARS_FRAMES = 1000
+TIME_BARS = {"immediate": 1.5, "arrays": 1.1, "elements": 1.1, "changing": None, "glxgears": 1.1}  # None: the peer's
 STATIC_BYTES_BAR = 50  # apitrace's trace is at least so many times as large
+BYTES_BARS = {"immediate": STATIC_BYTES_BAR, "arrays": STATIC_BYTES_BAR, "elements": STATIC_BYTES_BAR, "changing": 1}
 
 
 def frame_ms(command, environment):
     run = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    return float(run.stdout.split()[-1])
+    clock, used = run.stdout.split()[-2:]
+    return float(clock), float(used)
+
+
+def command_of(build, how):
+    if how != "glxgears":
+        return [str(build / "tests/bench/static_scene"), how]
+    script = 'LD_PRELOAD="$0:$LD_PRELOAD"; export LD_PRELOAD; exec glxgears'
+    return ["sh", "-c", script, str(build / "tests/real/timer_shim.so")]
 
 
 def measure(build, how, folder):
-    program = [str(build / "tests/bench/static_scene"), how]
+    program, environment = command_of(build, how), dict(os.environ, SHIM_FRAMES=str(GEARS_FRAMES))
     ours, theirs = folder / "ours.trace", folder / "theirs.trace"
     times = {"bare": [], "ours": [], "apitrace": []}
-    for _ in range(ROUNDS):
-        theirs.unlink(missing_ok=True)
-        times["bare"].append(frame_ms(program, os.environ))
-        times["ours"].append(frame_ms([str(build / "relume"), "record", "-o", str(ours), "--", *program], os.environ))
-        times["apitrace"].append(frame_ms(["apitrace", "trace", "-o", str(theirs), *program], os.environ))
-    best = {who: min(values) for who, values in times.items()}
+    for n in range(ROUNDS):
+        times["bare"].append(frame_ms(program, environment))
+        times["ours"].append(frame_ms([str(build / "relume"), "record", "-o", str(ours), "--", *program], environment))
+        if n < PEER_ROUNDS:
+            theirs.unlink(missing_ok=True)
+            times["apitrace"].append(frame_ms(["apitrace", "trace", "-o", str(theirs), *program], environment))
+    best = {who: min(clock for clock, _ in values) for who, values in times.items()}
+    used = {who: min(used for _, used in values) for who, values in times.items()}
     ratio, peer = best["ours"] / best["bare"], best["apitrace"] / best["bare"]
-    times_smaller = theirs.stat().st_size / ours.stat().st_size
     bar = TIME_BARS[how] or peer
-    static = how in ("arrays", "elements", "immediate")
-    size_bar = STATIC_BYTES_BAR if static else 1
-    yield {"what": f"10,000 triangles, {how}: frame time over bare", "figure": f"{ratio:.2f}x", "bar": f"{bar:.2f}x",
-           "peer": f"apitrace {peer:.2f}x", "passed": ratio <= bar}
-    yield {"what": f"10,000 triangles, {how}: trace", "figure": f"1/{times_smaller:.1f} of the peer's", "bar": f"1/{size_bar}",
-           "peer": f"apitrace {theirs.stat().st_size} bytes", "passed": times_smaller >= size_bar}
+    what = how if how == "glxgears" else f"10,000 triangles, {how}"
+    yield {"what": f"{what}: frame time over bare", "figure": f"{ratio:.2f}x", "bar": f"{bar:.2f}x", "peer": f"apitrace {peer:.2f}x",
+           "passed": ratio <= bar}
+    yield {"what": f"{what}: processor time over bare", "figure": f"{used['ours'] / used['bare']:.2f}x", "bar": None,
+           "peer": f"apitrace {used['apitrace'] / used['bare']:.2f}x", "passed": None}
+    if how in BYTES_BARS:
+        times_smaller = theirs.stat().st_size / ours.stat().st_size
+        yield {"what": f"{what}: trace", "figure": f"1/{times_smaller:.3f} of the peer's", "bar": f"1/{BYTES_BARS[how]}",
+               "peer": f"apitrace {theirs.stat().st_size} bytes", "passed": times_smaller >= BYTES_BARS[how]}
 
 
 def main(build):
@@ -54,7 +69,7 @@ def main(build):
     (build / "show/overhead.json").write_text(json.dumps({"name": "overhead", "command": "make show-overhead", "rows": rows}, indent=1))
     for row in rows:
         print(f"{row['what']}: {row['figure']} (bar {row['bar']}; {row['peer']})")
-    return 0 if all(row["passed"] for row in rows) else 1
+    return 1 if any(row["passed"] is False for row in rows) else 0
 
 
 if __name__ == "__main__":
