@@ -196,7 +196,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm show-replay show-mutants
+SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm show-replay show-mutants show-faults show-metrics show-page
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -228,18 +228,39 @@ show-export: all $(BUILD)/deps.export
 	@$(PYTHON) tests/show/export.py $(BUILD)
 
 show-overhead: all $(HELPERS)
+# Seeded faults and harmless variations, beside idiff.
+DEPS_faults := python3-numpy openimageio-tools
+show-faults: all $(BUILD)/deps.faults
+	@$(PYTHON) -B tests/show/faults.py $(BUILD)
+
+# Metrics beside other implementations, which come from PyPI into a virtual environment of their own.
+DEPS_metrics := python3-venv openimageio-tools
+$(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 scikit-image==0.26.0
+	@touch $@
+
+show-metrics: all $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
+	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)
+
+# The report's page in a real browser.
+DEPS_page := chromium python3-numpy
+show-page: all $(BUILD)/deps.page
+	@$(PYTHON) -B tests/show/page.py $(BUILD)
+
+# Not part of `make show` yet: some of its bars do not hold.
+show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
-SHOWS += show-sanitize show-faults
+SHOWS += show-sanitize show-crashes
 
 # Two threads with a context each, recorded by a recorder that is built with the sanitizers.
 show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
 	@$(PYTHON) tests/show/sanitize.py $(BUILD)
 
 # Two games on which the usual recorder crashes.
-DEPS_faults := extremetuxracer foobillardplus
-show-faults: all $(BUILD)/deps.faults
-	@tests/xvfb.sh $(PYTHON) tests/show/faults.py $(BUILD)
+DEPS_crashes := extremetuxracer foobillardplus
+show-crashes: all $(BUILD)/deps.crashes
+	@tests/xvfb.sh $(PYTHON) tests/show/crashes.py $(BUILD)
 
 # Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
 # Every kernel under tools that watch it.

@@ -176,9 +176,11 @@ class Diff(unittest.TestCase):
         self.assertEqual(sorted(p.name for p in out.iterdir()), ["index.html", "sheet.png"])
         self.assertIsNone(re.search(r"(src|href)=[\"'](?!data:)|url\(|@import|fetch\(", page), "needs the network")
         for n in range(1, 5):
-            self.assertIn(f"pictures[{n}] = {{", page)
+            self.assertIn(f'<script type="application/json" id="p{n}">{{', page)
+        for block in re.findall(r'<script type="application/json" id="p\d+">(.*?)</script>', page, re.S):
+            self.assertTrue(json.loads(block)["thumbnail"].startswith("data:image/png;base64,"))
         self.assertEqual(page.count('"flip": "data:image/png;base64,'), 4)
-        self.assertLess(page.index("pictures[3] ="), page.index("pictures[1] ="))  # failed first
+        self.assertLess(page.index('id="p3"'), page.index('id="p1"'))  # failed first
         self.assertTrue((out / "sheet.png").read_bytes().startswith(b"\x89PNG"))
 
     def config(self, text):

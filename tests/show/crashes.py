@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""tests/show/crashes.py BUILD (as `make show-crashes`): two games on which the usual recorder crashes are recorded while they are played.
+
+extremetuxracer in the race and foobillardplus, driven by xdotool. Each must end by its own means (SIGTERM), the trace be read to
+its end by apitrace, and its pictures, replayed by apitrace, equal those that the game itself showed, every fiftieth frame (the last
+of them are from the race and the shot). Needs a display: run under tests/xvfb.sh.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "real"))
+from replayed import reference_frames  # noqa: E402
+
+EVERY = 50
+PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
+GAMES = {  # program, variables, [(seconds to wait, key pressed before)]
+    "extremetuxracer": (["etr"], [], [(10, None)] + [(3, "Return")] * 6 + [(15, None)]),
+    "foobillardplus": (["foobillardplus"], ["USER=player"], [(8, None)] + [(3, "Return")] * 6),
+}
+
+
+def play(relume, name, trace):
+    program, variables, script = GAMES[name]
+    command = [relume, "record", "-o", trace, "--ref", "color", "--ref-every", EVERY]
+    for variable in variables:
+        command += ["--env", variable]
+    child = subprocess.Popen([str(c) for c in command + ["--", *program]], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, text=True, errors="replace")
+    for wait, key in script:
+        if key:
+            subprocess.run(["xdotool", "mousemove", "500", "400", "key", key], check=False)
+        time.sleep(wait)
+    alive = child.poll() is None
+    child.terminate()
+    try:
+        out, _ = child.communicate(timeout=60)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        out, _ = child.communicate()
+        alive = False
+    said = re.findall(r"^relume: .*: (\d+) frames, (\d+) calls, .*", out, re.M)
+    return alive and child.returncode in (0, 143), [int(n) for n in said[0]] if said else [0, 0]
+
+
+def compare(trace):
+    """(frames compared, frames that differ), every fiftieth frame but the first, of which apitrace makes garbage."""
+    ends = subprocess.run(["apitrace", "dump", "--color=never", "--calls=frame", trace], capture_output=True, text=True, check=True)
+    calls = [line.split()[0] for line in ends.stdout.splitlines() if "SwapBuffers" in line]
+    shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n and n < len(calls)}
+    chosen = sorted(shown)
+    run = subprocess.run(["apitrace", "replay", "--headless", "-S", ",".join(calls[n] for n in chosen), "-s", "-", trace],
+                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    at, differ = 0, 0
+    for n in chosen:
+        head = PICTURE.search(run.stdout, at)
+        if not head:
+            return len(chosen), len(chosen)
+        width, height = int(head.group(1)), int(head.group(2))
+        at = head.end() + 3 * width * height
+        differ += (width, height, run.stdout[head.end():at]) != shown[n]
+    return len(chosen), differ
+
+
+def main(build):
+    build = pathlib.Path(build).resolve()
+    work = build / "show" / "crashes"
+    work.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for name in GAMES:
+        trace = work / f"{name}.trace"
+        ended, (frames, calls) = play(build / "relume", name, trace)
+        compared, differ = compare(trace) if frames else (0, 0)
+        passed = ended and compared > 2 and not differ
+        rows.append({"what": f"{name}, played", "bar": "records, replays, 0 pictures differ", "peer": "apitrace trace crashes",
+                     "figure": f"{frames} frames, {calls} calls; {differ} of {compared} pictures differ" + ("" if ended else "; it crashed"),
+                     "passed": passed})
+        print(f"{'holds' if passed else 'FAILS'}  {name}: {rows[-1]['figure']}", flush=True)
+    (build / "show" / "crashes.json").write_text(json.dumps({"name": "crashes", "command": "make show-crashes", "rows": rows}, indent=1) + "\n")
+    return 0 if all(row["passed"] for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

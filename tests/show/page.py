@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""tests/show/page.py BUILD (as `make show-page`): the report's page with 1,000 frames, in Chromium.
+
+glxgears is recorded live for 1,000 frames. Its reference frames are scored against copies of themselves, all equal in one
+run, 200 of them damaged in another; each report is opened from disk without a network. A third one, of a few ray traced frames
+with all their channels, is operated: search, keys, views. Screenshots stay in BUILD/show/page for people to look at.
+"""
+import json
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import time
+
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/show"))
+sys.path.insert(0, str(ROOT / "tests/fuzz"))
+from exr_numpy import write_png  # noqa: E402
+from mutate import unpack_block  # noqa: E402
+
+N_FRAMES, N_DAMAGED = 1000, 200
+BAR_OPEN_S, BAR_MB = 3, 80
+
+# Run in the page by a second script; what it finds goes into the title, which --dump-dom shows.
+OPERATE = """<script>
+addEventListener("load", () => setTimeout(() => {
+	const key = k => document.dispatchEvent(new KeyboardEvent("keydown", { key: k }));
+	const found = {}, views = () => document.querySelectorAll("#views img").length;
+	found.frames = document.querySelectorAll("#list li").length;
+	found.side = views();
+	key("4"); found.all = views();
+	key("2"); found.blink = views();
+	key("3"); found.swipe = views();
+	key("1");
+	const before = state.frame.frame; key("j"); found.moved = state.frame.frame !== before; key("k");
+	$("filter").value = "no such thing"; $("filter").oninput(); found.filtered = state.shown.length;
+	$("filter").value = ""; $("filter").oninput(); found.back = state.shown.length;
+	found.layers = [...document.querySelector("select[aria-label='picture a']").options].map(o => o.value);
+	found.gates = document.querySelectorAll("#frame table tr").length;
+	document.title = "FOUND" + JSON.stringify(found) + "DNUOF";
+}, 300));
+</script>"""
+
+
+def run(*command, check=True):
+    done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True, timeout=900)
+    if check and done.returncode:
+        sys.exit(f"{command}: exit code {done.returncode}\n{done.stderr[-2000:]}")
+    return done
+
+
+def chromium(work, page, *options):
+    return run("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
+               f"--user-data-dir={work / 'profile'}", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300",
+               *options, f"file://{page}")
+
+
+def colors(path):
+    data, at = path.read_bytes(), 8
+    while at + 28 <= len(data):
+        kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
+        at += 28
+        if kind == 1:
+            rgba = numpy.frombuffer(bytes(unpack_block(data[at:at + size])), "u1").reshape(height, width, 4)
+            yield frame, rgba[::-1, :, :3].copy()
+        at += size
+
+
+def open_page(work, report, name):
+    """Seconds to a page that can be used, as it measures itself, and by the clock with the browser's start."""
+    begin = time.monotonic()
+    dom = chromium(work, report / "index.html", "--dump-dom").stdout
+    wall = time.monotonic() - begin
+    ready = re.search(r'data-ready="(\d+)"', dom[:2000])
+    chromium(work, report / "index.html", f"--screenshot={work / name}.png")
+    return int(ready.group(1)) / 1000 if ready else None, wall
+
+
+def main(build):
+    build = pathlib.Path(build).resolve()
+    work, relume = build / "show" / "page", build / "relume"
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "gears.trace", "--ref", "color", "--quit-after", N_FRAMES, "--",
+        "glxgears")
+    for name in ("equal", "damaged"):
+        (work / name).mkdir()
+    for frame, codes in colors(work / "gears.ref"):
+        write_png(work / "equal" / f"g.{frame:04}.png", codes)
+        if frame % (N_FRAMES // N_DAMAGED) == 0:
+            codes[40 + frame % 150:80 + frame % 150, 100:150] = (250, 40, 200)
+        write_png(work / "damaged" / f"g.{frame:04}.png", codes)
+    rows = []
+    for name, code in (("equal", 0), ("damaged", 1)):
+        begin = time.monotonic()
+        done = run(relume, "diff", work / "gears.ref", work / name, "--report", work / f"report-{name}", check=False)
+        made = time.monotonic() - begin
+        ready, wall = open_page(work, work / f"report-{name}", name)
+        size = (work / f"report-{name}" / "index.html").stat().st_size / 1e6
+        what = f"{N_FRAMES} frames of glxgears, {'all passed' if not code else f'{N_DAMAGED} failed'}"
+        rows.append({"what": f"{what}: seconds to a page that can be used", "figure": f"{ready} s; browser's start to end {wall:.1f} s",
+                     "bar": f"{BAR_OPEN_S} s", "peer": "Chromium, headless", "passed": ready is not None and ready <= BAR_OPEN_S})
+        rows.append({"what": f"{what}: size of the page (scored and written in {made:.0f} s)", "figure": f"{size:.1f} MB",
+                     "bar": f"{BAR_MB} MB", "peer": None, "passed": size <= BAR_MB and done.returncode == code})
+    run(ROOT / "tests/xvfb.sh", relume, "record", "-o", work / "s.trace", "--ref", "color,depth", "--", build / "corpus/still_life",
+        "--frames", "2", "--animate", "camera")
+    run(relume, "render", work / "s.trace", "-o", work / "traced" / "s.####.exr")
+    for name, frames in (("traced", work / "traced"), ("wrong", work / "wrong")):
+        if name == "wrong":  # frame 0 under both numbers
+            frames.mkdir()
+            shutil.copy(work / "traced" / "s.0000.exr", frames / "s.0000.exr")
+            data = (work / "traced" / "s.0000.exr").read_bytes()
+            at = data.index(b"relume:frame\0string\0") + len(b"relume:frame\0string\0") + 4
+            (frames / "s.0001.exr").write_bytes(data[:at] + b"1" + data[at + 1:])
+        run(relume, "diff", work / "s.trace", frames, "--report", work / f"report-{name}", check=False)
+        chromium(work, work / f"report-{name}" / "index.html", f"--screenshot={work / name}.png")
+    page = work / "report-wrong" / "operated.html"
+    page.write_text((work / "report-wrong" / "index.html").read_text().replace("</body>", OPERATE + "</body>"))
+    dom = chromium(work, page, "--dump-dom", "--virtual-time-budget=4000").stdout
+    found = re.search("FOUND(.*?)DNUOF", dom)
+    found = json.loads(found.group(1).replace("&gt;", ">")) if found else {}
+    good = (found.get("frames") == 2 and found.get("side") == 5 and found.get("all", 0) >= 9 and found.get("blink") == 1 and
+            found.get("swipe") == 2 and found.get("moved") and found.get("filtered") == 0 and found.get("back") == 2 and
+            {"reference", "compared", "beauty", "shadow", "depth", "id", "flip"} <= set(found.get("layers", ())))
+    rows.append({"what": "keys, views, search and channels of a ray traced run", "figure": json.dumps(found), "bar": "all work",
+                 "peer": "Chromium, headless", "passed": bool(good)})
+    (build / "show" / "page.json").write_text(json.dumps({"name": "page", "command": "make show-page", "rows": rows}, indent=1) + "\n")
+    for row in rows:
+        print(f"{'holds' if row['passed'] else 'FAILS'}  {row['what']}: {row['figure']} (bar {row['bar']})")
+    print(f"screenshots: {work}/*.png")
+    for name in ("equal", "damaged", "profile"):
+        shutil.rmtree(work / name, ignore_errors=True)
+    return 0 if all(row["passed"] for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
