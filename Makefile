@@ -44,7 +44,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core xdotool pkg-config zsh fish man-db \
+	fonts-dejavu-core python3-numpy xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
@@ -229,7 +229,7 @@ show-export: all $(BUILD)/deps.export
 
 show-overhead: all $(HELPERS)
 # Seeded faults and harmless variations, beside idiff.
-DEPS_faults := python3-numpy openimageio-tools
+DEPS_faults := openimageio-tools
 show-faults: all $(BUILD)/deps.faults
 	@$(PYTHON) -B tests/show/faults.py $(BUILD)
 
@@ -243,7 +243,7 @@ show-metrics: all $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
 	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)
 
 # The report's page in a real browser.
-DEPS_page := chromium python3-numpy
+DEPS_page := chromium
 show-page: all $(BUILD)/deps.page
 	@$(PYTHON) -B tests/show/page.py $(BUILD)
 

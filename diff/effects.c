@@ -20,6 +20,19 @@ static const struct image_channel *find_channel(const struct image *img, const c
 	return NULL;
 }
 
+/** 1 where all numbers of a channel are halves, however the file stores them: other tools widen what they rewrite. */
+static int holds_halves(const struct image_channel *channel, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		uint32_t bits;
+
+		memcpy(&bits, &channel->values[i], sizeof(bits));
+		if (bits & 0x1fff) /* a half has 10 bits of fraction, a float 23 */
+			return 0;
+	}
+	return 1;
+}
+
 /** The stored value of an effect channel, or what its absence means. */
 static double effect_at(const struct image_channel *channel, size_t i, double absent)
 {
@@ -81,6 +94,14 @@ void gate_effects(const struct score_picture *ref, const struct image *img, cons
 		}
 	}
 
+	int halves = 1;
+
+	for (int c = 0; c < 3 && halves; c++)
+		halves = holds_halves(ch[c][LAYER_BEAUTY], n) && holds_halves(ch[c][LAYER_GL], n);
+	if (halves) {
+		relative = BAR_CLOSURE_HALF;
+		absolute = 0x1p-23;
+	}
 	for (size_t i = 0; i < n; i++) {
 		if (gate_ignores(ref, i))
 			continue;

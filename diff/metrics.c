@@ -4,6 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/** sRGB's transfer function for all codes, in double precision: metrics are compared to a millionth. */
+static void fill_linear(double linear[256])
+{
+	for (int i = 0; i < 256; i++) {
+		double v = i / 255.0;
+
+		linear[i] = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+	}
+}
+
 /** Sum of squared differences of codes. */
 static double squared_error(const uint8_t *a, const uint8_t *b, size_t n)
 {
@@ -33,8 +43,7 @@ double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels)
 {
 	double sum = 0, linear[256];
 
-	for (int i = 0; i < 256; i++)
-		linear[i] = (double)image_linear_from_display((float)i / 255);
+	fill_linear(linear);
 	for (size_t i = 0; i < 3 * n_pixels; i++) {
 		double r = linear[ref[i]], d = linear[test[i]] - r;
 
@@ -176,9 +185,11 @@ double metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32
 
 void metric_lab_from_linear(const double rgb[3], double lab[3])
 {
-	/* IEC 61966-2-1 */
+	/* IEC 61966-2-1's primaries and white point, before rounding */
 	static const double m[3][3] = {
-		{ 0.4124564, 0.3575761, 0.1804375 }, { 0.2126729, 0.7151522, 0.0721750 }, { 0.0193339, 0.1191920, 0.9503041 },
+		{ 10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794 },
+		{ 2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897 },
+		{ 1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382 },
 	};
 	const double delta = 6.0 / 29;
 	double f[3];
@@ -254,22 +265,21 @@ double metric_ciede2000(const double lab1[3], const double lab2[3])
 	return sqrt(dl * dl + dc * dc + dh_chord * dh_chord + rt * dc * dh_chord);
 }
 
-static int compare_floats(const void *a, const void *b)
+static int compare_doubles(const void *a, const void *b)
 {
-	float x = *(const float *)a, y = *(const float *)b;
+	double x = *(const double *)a, y = *(const double *)b;
 
 	return (x > y) - (x < y);
 }
 
 double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels)
 {
-	float *differences = malloc((n_pixels ? n_pixels : 1) * sizeof(*differences));
+	double *differences = malloc((n_pixels ? n_pixels : 1) * sizeof(*differences));
 	double result = NAN, linear[256];
 
 	if (!differences)
 		return NAN;
-	for (int i = 0; i < 256; i++)
-		linear[i] = (double)image_linear_from_display((float)i / 255);
+	fill_linear(linear);
 	for (size_t i = 0; i < n_pixels; i++) {
 		double rgb[2][3], lab[2][3];
 
@@ -282,11 +292,11 @@ double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels)
 		}
 		metric_lab_from_linear(rgb[0], lab[0]);
 		metric_lab_from_linear(rgb[1], lab[1]);
-		differences[i] = (float)metric_ciede2000(lab[0], lab[1]);
+		differences[i] = metric_ciede2000(lab[0], lab[1]);
 	}
-	qsort(differences, n_pixels, sizeof(*differences), compare_floats);
+	qsort(differences, n_pixels, sizeof(*differences), compare_doubles);
 	if (n_pixels)
-		result = (double)differences[(n_pixels - 1) * 95 / 100];
+		result = differences[(n_pixels - 1) * 95 / 100];
 	free(differences);
 	return result;
 }

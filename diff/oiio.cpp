@@ -47,7 +47,8 @@ bool add_channel(struct image *img, const char *name, bool full_float, const std
 int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, const std::vector<float> &pixels,
              const char *path)
 {
-	const bool full_float = spec.format == OIIO::TypeDesc::FLOAT || is_integer(spec.format);
+	const auto full_float_at = [&spec](int c) { return spec.channelformat(c) != OIIO::TypeDesc::HALF; };
+	const bool full_float = full_float_at(0);
 	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
 
 	if (grey) {
@@ -62,7 +63,7 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 
 		if (name.empty() || name.size() >= sizeof(img->channels[0].name))
 			return err_report(ERR_INPUT, path, "channel %d has no usable name", c);
-		if (!image_channel(img, name.c_str()) && !add_channel(img, name.c_str(), full_float, pixels, spec.nchannels, c))
+		if (!image_channel(img, name.c_str()) && !add_channel(img, name.c_str(), full_float_at(c), pixels, spec.nchannels, c))
 			return ERR_SYSTEM;
 	}
 	return 0;

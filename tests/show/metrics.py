@@ -119,7 +119,7 @@ def lab(codes):
 def oracles(a, b, path_a, path_b):
     ra, rb = linear(a), linear(b)
     delta = numpy.sort(skimage.color.deltaE_ciede2000(lab(a), lab(b)).ravel())
-    seen = re.search(r"(\d+) pixels .*failed the perceptual test", run("idiff", "-p", "-fail", 1, path_a, path_b).stdout)
+    seen = re.search(r"(\d+) pixels .*failed the perceptual test", run("idiff", "-p", path_a, path_b).stdout)
     return {
         "FLIP": float(flip_evaluator.evaluate(a.astype("f4") / 255, b.astype("f4") / 255, "LDR")[1]),
         "PSNR": skimage.metrics.peak_signal_noise_ratio(a, b, data_range=255),
