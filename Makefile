@@ -247,7 +247,6 @@ DEPS_page := chromium
 show-page: all $(BUILD)/deps.page
 	@$(PYTHON) -B tests/show/page.py $(BUILD)
 
-# Not part of `make show` yet: some of its bars do not hold.
 show-overhead: all $(BUILD)/tests/bench/static_scene
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
 
