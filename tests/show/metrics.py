@@ -30,7 +30,7 @@ import exr_numpy as exr  # noqa: E402
 from mutate import unpack_block  # noqa: E402
 
 MS_WEIGHTS = (0.0448, 0.2856, 0.3001, 0.2363, 0.1333)
-SPEED_RUNS = 5
+SPEED_RUNS = 3
 
 
 def run(*command, **more):
