@@ -49,6 +49,11 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
+DEPS_parity := xdotool inventor-clients inventor-data inventor-demo billard-gl gltron neverball openarena crrcsim rss-glx \
+	xscreensaver-gl xscreensaver-gl-extra
+DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
+	geomview g3dviewer
+
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
@@ -206,6 +211,13 @@ show-farm: all
 
 show-parity: all
 	@$(PYTHON) tests/show/parity.py $(BUILD)
+show-parity: all $(BUILD)/deps.parity
+	@$(PYTHON) -B tests/show/parity.py $(BUILD) $(ONLY:%=--only %)
+
+SHOWS += show-sweep
+.PHONY: show-sweep
+show-sweep: all $(BUILD)/deps.sweep
+	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
 
 # The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
 MODELS ?= ../shared/models

@@ -1,137 +1,156 @@
 #!/usr/bin/python3
-"""tests/show/parity.py BUILD [PART-OF-A-NAME...] (as `make show-parity`): does `gl` equal what OpenGL rasterized?
+"""tests/show/parity.py BUILD [--only PART]... [--record] (as `make show-parity`): does `gl` equal what OpenGL rasterized?
 
-Records glxgears and the corpus' first scenes live, with reference frames read back in the program, and takes the traces
-of ../shared/traces where they are there, ten frames each, with reference frames made by glretrace (never its first
-frame, which is known to be wrong). Bars: all gates on all frames of what is recorded live; R1 to R4 on glxgears, SceneViewer
-and lament; the other traces are scored for information.
+- The open list of real programs and the corpus' scenes, recorded live with reference frames read back in the program: ten
+  frames each, all gates. Also whether `apitrace dump` reads each trace to its end, and whether glretrace draws its last
+  frame as the program did, bit for bit.
+- Three of these programs recorded by `apitrace trace` too: as many frames pass as of our own recording of them, both against
+  references made by glretrace.
+- The recordings of ../shared/traces where they are there, with references made by glretrace (never its first frame, which
+  is known to be wrong): R1 to R4 demanded of three, the others for information.
+Live recordings stay in BUILD/show/parity and are used again until --record asks for new ones.
 """
+import argparse
+import dataclasses
 import json
+import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-TRACES = ROOT.parent / "shared" / "traces"
-N_FRAMES = 10
-LIVE = {
-    "glxgears": ["glxgears"],
-    "two_triangles": ["two_triangles", "--animate", "camera"],
-    "cornell": ["cornell", "--animate", "camera"],
-    "cornell, moving light": ["cornell", "--animate", "light", "--vbo"],
-}
+import programs
+import recording
+import scoring
+
+TRACES = recording.ROOT.parent / "shared" / "traces"
 RASTER_GATES = ("R1", "R1b", "R2", "R3", "R4")
-LIVE_GATES = ("V", "R1", "R1b", "R2", "R3", "R4", "R5", "E1", "E2", "P")
-DEMANDED = {"glxgears", "iv-SceneViewer", "xss-lament"}
+RASTER_MUST = ("R2", "R3", "R4")
+LIVE_MUST = ("V", "R2", "R3", "R4", "R5", "E1", "E2", "P")
+DEMANDED_TRACES = {"glxgears", "iv-SceneViewer", "xss-lament"}
+BY_APITRACE = ("glxgears", "queens", "lattice")
 
 
-def run(*command, log):
-    with open(log, "a") as out:
-        out.write(f"$ {' '.join(map(str, command))}\n")
-        out.flush()
-        return subprocess.run(list(map(str, command)), cwd=ROOT, stdin=subprocess.DEVNULL, stdout=out,
-                              stderr=subprocess.STDOUT, timeout=1800).returncode
+def corpus(build):
+    """The corpus' first scenes, as programs."""
+    for name, command in (("two_triangles", ("two_triangles", "--animate", "camera")), ("cornell", ("cornell", "--animate", "camera")),
+                          ("cornell, moving light", ("cornell", "--animate", "light", "--vbo"))):
+        yield programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:]))
 
 
-def score(relume, trace, reference, work, frames, log):
-    """Render and score against a reference; return what diff --json printed, or None."""
-    chosen = ["-f", frames] if frames else []
-    if run(relume, "render", trace, "-o", work / "frames" / "x.####.exr", *chosen, log=log) != 0:
-        return None
-    done = subprocess.run([relume, "diff", reference, work / "frames", "--json", "-", "--report", work / "report", *chosen],
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    with open(log, "a") as out:
-        out.write(done.stdout + done.stderr)
-    try:
-        return json.loads(done.stdout)
-    except ValueError:
-        return None
+def folder_of(base, name):
+    return base / re.sub(r"\W+", "_", name)
 
 
-def missed_gates(frame, gates):
-    """The gates that a frame does not pass, each with what became of it: "R3 failed", "R4 not measured".
-
-    R1 and R1b share the interior pixels, plain and blended: a frame may have one kind only, but not neither.
-    """
-    state = {g: frame["gates"][g]["state"] for g in gates}
-    if "passed" in (state["R1"], state["R1b"]):
-        state = {g: s for g, s in state.items() if g not in ("R1", "R1b") or s != "not measured"}
-    return [f"{g} {s}" for g, s in state.items() if s != "passed"]
+def scorer_in(build, folder, name):
+    work = folder / name
+    work.mkdir(parents=True, exist_ok=True)
+    (work / "log").write_text("")
+    return scoring.Scorer(build / "relume", work, work / "log")
 
 
-def summarize(what, scored, n_wanted, gates, demanded, peer):
-    if scored is None:
-        return {"what": what, "figure": "not scored, see the log", "bar": f"{n_wanted} pass" if demanded else None,
-                "peer": peer, "passed": False if demanded else None}
-    good, missed = 0, {}
-    for frame in scored["frames"]:
-        bad = missed_gates(frame, gates)
-        good += not bad
-        for gate in bad:
-            missed[gate] = missed.get(gate, 0) + 1
-    figure = f"{good} of {len(scored['frames'])} pass"
-    if scored["frames"]:
-        figure += f", fidelity {100 * min(f['fidelity'] for f in scored['frames']):.3f} % at least"
-    if missed:
-        figure += "; " + ", ".join(f"{gate} on {n}" for gate, n in sorted(missed.items()))
-    return {"what": what, "figure": figure, "bar": f"{n_wanted} pass" if demanded else None, "peer": peer,
-            "passed": good == n_wanted == len(scored["frames"]) if demanded else None}
+def row(what, line, demanded, peer):
+    figure = f"{line.passed} of {line.frames} frames pass, fidelity {line.fidelity:.3f} %"
+    for key, before in (("missed", ""), ("blame", "most in "), ("unhandled", "unhandled: "), ("note", "")):
+        if getattr(line, key):
+            figure += f"; {before}{getattr(line, key)}"
+    if line.dump and line.dump != "whole":
+        figure += f"; apitrace dump: {line.dump}"
+    if line.replay:
+        figure += f"; glretrace: {line.replay}"
+    return {"what": what, "figure": figure, "bar": "all frames pass" if demanded else None, "peer": peer,
+            "passed": line.good if demanded else None, "line": dataclasses.asdict(line)}
 
 
-def show_live(build, work, name, program):
-    log = work / "log"
-    command = [build / "corpus" / program[0], *program[1:]] if (build / "corpus" / program[0]).exists() else program
-    trace = work / "live.trace"
-    run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--ref", "color,depth", "--quit-after",
-        N_FRAMES, "--", *command, log=log)
-    return summarize(name, score(build / "relume", trace, trace, work, None, log), N_FRAMES, LIVE_GATES,
-                     True,
-                     "Mesa llvmpipe, in the program")
+def show_live(build, folder, program, record_again):
+    line = scoring.Line(program.name)
+    done = recording.record(build / "relume", program, folder, record_again)
+    if done.trace is None:
+        line.note = f"no recording (exit code {done.code}): {done.said[:120]}"
+    else:
+        must = LIVE_MUST if done.depth else tuple(g for g in LIVE_MUST if g not in ("R4", "R5"))
+        scoring.score_recording(scorer_in(build, folder, "scored"), line, done, scoring.N_FRAMES, "whitted", scoring.GATES, must)
+    return row(f"{program.name}, live", line, True, "Mesa llvmpipe, in the program")
 
 
-def show_trace(build, work, trace, last_frame):
-    log = work / "log"
-    first_frame = max(1, last_frame - N_FRAMES + 1)
-    frames = f"{first_frame}-{first_frame + N_FRAMES - 1}"
-    run(ROOT / "tests/xvfb.sh", build / "relume", "raster", trace, "-f", frames, "-o", work / "raster" / "x.####.png",
-        log=log)
-    demanded = trace.stem in DEMANDED
-    return summarize(f"{trace.stem}, frames {frames}", score(build / "relume", trace, work / "raster", work, frames, log), N_FRAMES,
-                     RASTER_GATES, demanded, "Mesa llvmpipe, by glretrace")
+def score_by_glretrace(build, folder, name, trace, frames):
+    """Render frames of a trace and score them against glretrace's pictures."""
+    scorer, line = scorer_in(build, folder, name), scoring.Line(name)
+    info = scorer.info(trace)
+    frames = [f for f in frames if info and f < info["frames"]]
+    if not frames:
+        line.note = "the trace has not enough frames"
+        return line
+    line.unhandled = ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"])
+    chosen = ",".join(map(str, frames))
+    scorer.run(scorer.relume, "raster", trace, "-f", chosen, "-o", scorer.work / "raster" / "x.####.png")
+    rendered, line.frame_s, line.note = scorer.render(trace, frames, "whitted")
+    scored = scorer.json(scorer.relume, "diff", scorer.work / "raster", scorer.work / "frames", "-f",
+                         ",".join(map(str, rendered)) or chosen, "--json", "-", "--report", scorer.work / "report")
+    return scoring.summarize(line, scored, RASTER_GATES, RASTER_MUST) if scored else line
 
 
-def main(build, *parts):
-    build = pathlib.Path(build).resolve()
+def show_trace(build, folder, trace, last_frame):
+    first = max(1, last_frame - scoring.N_FRAMES + 1)
+    line = score_by_glretrace(build, folder, "scored", trace, range(first, first + scoring.N_FRAMES))
+    return row(f"{trace.stem} of the shared traces, frames {first}-{first + scoring.N_FRAMES - 1}", line, trace.stem in DEMANDED_TRACES,
+               "Mesa llvmpipe, by glretrace")
+
+
+def show_by_apitrace(build, folder, program):
+    """Both recorders' traces of one program, scored alike."""
+    ours = recording.record(build / "relume", program, folder)
+    theirs = recording.record_by_apitrace(program, folder)
+    result = {"what": f"{program.name}: our trace and that of apitrace trace score the same", "bar": "the same number, all",
+              "peer": "apitrace trace"}
+    if ours.trace is None or theirs is None:
+        return {**result, "figure": "not recorded, see the logs", "passed": False}
+    frames = range(11, 11 + 10 * scoring.N_FRAMES, 10)
+    lines = [score_by_glretrace(build, folder, name, trace, frames) for name, trace in (("ours", ours.trace), ("theirs", theirs))]
+    figure = " / ".join(f"{line.passed} of {line.frames}, fidelity {line.fidelity:.3f} %{', ' + line.missed if line.missed else ''}"
+                        f"{', ' + line.note if line.note else ''}" for line in lines)
+    return {**result, "figure": f"ours / theirs: {figure}",
+            "passed": lines[0].good and lines[1].good and lines[0].passed == lines[1].passed}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only", action="append", default=[], help="part of a line's name")
+    parser.add_argument("--record", action="store_true", help="record anew")
+    options = parser.parse_args()
+    if "DISPLAY_IS_OURS" not in os.environ:
+        environment = dict(os.environ, DISPLAY_IS_OURS="1")
+        return subprocess.run([recording.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], env=environment, check=False).returncode
+    os.nice(15)
+    build = options.build.resolve()
     base = build / "show" / "parity"
-    shutil.rmtree(base, ignore_errors=True)
     rows = []
 
     def show(name, function, *args):
-        if parts and not any(part in name for part in parts):
+        if options.only and not any(part in name for part in options.only):
             return
-        work = base / re.sub(r"\W+", "_", name)
-        work.mkdir(parents=True)
         begin = time.monotonic()
-        rows.append(function(build, work, *args))
-        row = rows[-1]
-        mark = {True: "holds", False: "FAILS", None: "-    "}[row["passed"]]
-        print(f"{mark}  {row['what']}: {row['figure']} ({time.monotonic() - begin:.0f} s)", flush=True)
+        rows.append(function(build, folder_of(base, name), *args))
+        mark = {True: "holds", False: "FAILS", None: "-    "}[rows[-1]["passed"]]
+        print(f"{mark}  {rows[-1]['what']}: {rows[-1]['figure']} ({time.monotonic() - begin:.0f} s)", flush=True)
 
-    for name, program in LIVE.items():
-        show(f"{name}, live", show_live, f"{name}, live", program)
+    for program in (*programs.OPEN, *corpus(build)):
+        show(program.name, show_live, program, options.record)
+    for program in programs.OPEN:
+        if program.name in BY_APITRACE:
+            show(f"{program.name} by apitrace", show_by_apitrace, program)
     if (TRACES / "frames.tsv").exists():
         for line in (TRACES / "frames.tsv").read_text().splitlines():
             if not line.startswith("#"):
                 name, last_frame = line.split("\t")[:2]
-                show(name, show_trace, TRACES / f"{name}.trace", int(last_frame))
-    result = {"name": "parity", "command": "make show-parity", "rows": rows}
-    (build / "show" / "parity.json").write_text(json.dumps(result, indent=1) + "\n")
+                show(f"shared {name}", show_trace, TRACES / f"{name}.trace", int(last_frame))
+    if not options.only:
+        (build / "show" / "parity.json").write_text(json.dumps({"name": "parity", "command": "make show-parity", "rows": rows}, indent=1) + "\n")
     print(f"details: {base}")
     return 1 if any(row["passed"] is False for row in rows) else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main())
