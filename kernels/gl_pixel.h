@@ -2,30 +2,17 @@
  * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run side by side for GL's own
  * colours and for each step from them to the beauty (struct shaded). All follow the decisions of the first.
  *
- * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; the
- * last one written stays as it is.
+ * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; one that
+ * is written without being read stays as it is.
  */
 #ifndef KERNELS_GL_PIXEL_H
 #define KERNELS_GL_PIXEL_H
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
+#include "kernels/gl_blend.h"
 
-static inline int pixel_compare(uint32_t func, float a, float b)
-{
-	switch (func) {
-	case GL_NEVER: return 0;
-	case GL_LESS: return a < b;
-	case GL_EQUAL: return a == b;
-	case GL_LEQUAL: return a <= b;
-	case GL_GREATER: return a > b;
-	case GL_NOTEQUAL: return a != b;
-	case GL_GEQUAL: return a >= b;
-	default: return 1;
-	}
-}
-
-static inline int pixel_compare_uint(uint32_t func, uint32_t a, uint32_t b)
+static inline int pixel_compare(uint32_t func, uint32_t a, uint32_t b)
 {
 	switch (func) {
 	case GL_NEVER: return 0;
@@ -67,54 +54,6 @@ static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t
 	default: break;
 	}
 	return (value & ~write_mask) | (out & write_mask);
-}
-
-/* --- Blending (sec. 4.1.8) ---------------------------------------------------------------------------------------- */
-
-static inline struct vec4 pixel_blend_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
-{
-	float f;
-
-	switch (factor) {
-	case GL_ZERO: return v4(0.0f, 0.0f, 0.0f, 0.0f);
-	case GL_SRC_COLOR: return s;
-	case GL_ONE_MINUS_SRC_COLOR: return v4(1.0f - s.x, 1.0f - s.y, 1.0f - s.z, 1.0f - s.w);
-	case GL_DST_COLOR: return d;
-	case GL_ONE_MINUS_DST_COLOR: return v4(1.0f - d.x, 1.0f - d.y, 1.0f - d.z, 1.0f - d.w);
-	case GL_SRC_ALPHA: return v4(s.w, s.w, s.w, s.w);
-	case GL_ONE_MINUS_SRC_ALPHA: f = 1.0f - s.w; return v4(f, f, f, f);
-	case GL_DST_ALPHA: return v4(d.w, d.w, d.w, d.w);
-	case GL_ONE_MINUS_DST_ALPHA: f = 1.0f - d.w; return v4(f, f, f, f);
-	case GL_CONSTANT_COLOR: return c;
-	case GL_ONE_MINUS_CONSTANT_COLOR: return v4(1.0f - c.x, 1.0f - c.y, 1.0f - c.z, 1.0f - c.w);
-	case GL_CONSTANT_ALPHA: return v4(c.w, c.w, c.w, c.w);
-	case GL_ONE_MINUS_CONSTANT_ALPHA: f = 1.0f - c.w; return v4(f, f, f, f);
-	case GL_SRC_ALPHA_SATURATE: f = M_MIN(s.w, 1.0f - d.w); return v4(f, f, f, 1.0f);
-	default: return v4(1.0f, 1.0f, 1.0f, 1.0f);
-	}
-}
-
-static inline struct vec4 pixel_blend_equation(uint32_t equation, struct vec4 s, struct vec4 fs, struct vec4 d,
-                                               struct vec4 fd)
-{
-	switch (equation) {
-	case GL_FUNC_SUBTRACT: return v4_sub(v4_mul(s, fs), v4_mul(d, fd));
-	case GL_FUNC_REVERSE_SUBTRACT: return v4_sub(v4_mul(d, fd), v4_mul(s, fs));
-	case GL_MIN: return v4(M_MIN(s.x, d.x), M_MIN(s.y, d.y), M_MIN(s.z, d.z), M_MIN(s.w, d.w));
-	case GL_MAX: return v4(M_MAX(s.x, d.x), M_MAX(s.y, d.y), M_MAX(s.z, d.z), M_MAX(s.w, d.w));
-	default: return v4_add(v4_mul(s, fs), v4_mul(d, fd));
-	}
-}
-
-static inline struct vec4 pixel_blend(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
-{
-	struct vec4 c = v4_load(m->blend_color);
-	struct vec4 rgb = pixel_blend_equation(m->blend_equation_rgb, s, pixel_blend_factor(m->blend_src_rgb, s, d, c), d,
-	                                       pixel_blend_factor(m->blend_dst_rgb, s, d, c));
-	struct vec4 a = pixel_blend_equation(m->blend_equation_alpha, s, pixel_blend_factor(m->blend_src_alpha, s, d, c), d,
-	                                     pixel_blend_factor(m->blend_dst_alpha, s, d, c));
-
-	return v4_clamp01(v4(rgb.x, rgb.y, rgb.z, a.w));
 }
 
 /* --- Logic operation (sec. 4.1.10) -------------------------------------------------------------------------------- */
@@ -160,7 +99,7 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 	if (m->logic_op) /* takes blending's place (sec. 4.1.10) */
 		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
 		          pixel_logic(m->logic_op, s.z, d.z), pixel_logic(m->logic_op, s.w, d.w));
-	return pixel_blend(m, s, d);
+	return blend_colors(m, s, d);
 }
 
 /* Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16. */
@@ -190,15 +129,16 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	if ((use_stencil && stencil->func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_STENCIL) ||
 	    (m->depth_test && m->depth_func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_DEPTH))
 		pixel->unknown |= PIXEL_UNKNOWN_TEST;
-	if (m->alpha_test && !pixel_compare(m->alpha_func, s->gl[3], m->alpha_ref))
+	/* llvmpipe compares alpha in the frame buffer's precision. */
+	if (m->alpha_test && !pixel_compare(m->alpha_func, blend_round(s->gl[3]), blend_round(m->alpha_ref)))
 		return 0;
 	if (use_stencil &&
-	    !pixel_compare_uint(stencil->func, stencil->ref & stencil->compare_mask, pixel->stencil & stencil->compare_mask)) {
+	    !pixel_compare(stencil->func, stencil->ref & stencil->compare_mask, pixel->stencil & stencil->compare_mask)) {
 		pixel->stencil = pixel_stencil_apply(stencil->fail, pixel->stencil, stencil->ref, stencil->write_mask,
 		                                     pixel_stencil_bits(bits));
 		return 0;
 	}
-	pass = !m->depth_test || !pixel_depth_bits(bits) || pixel_compare_uint(m->depth_func, steps, pixel->depth);
+	pass = !m->depth_test || !pixel_depth_bits(bits) || pixel_compare(m->depth_func, steps, pixel->depth);
 	if (use_stencil)
 		pixel->stencil = pixel_stencil_apply(pass ? stencil->zpass : stencil->zfail, pixel->stencil, stencil->ref,
 		                                     stencil->write_mask, pixel_stencil_bits(bits));

@@ -66,8 +66,8 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	int n = (int)size, first;
 	float u, base;
 
-	if (wrap == GL_REPEAT && normalized)
-		s -= M_FLOOR(s); /* keeps u small enough to be exact */
+	if (wrap == GL_REPEAT && normalized && (size & (size - 1u)))
+		s -= M_FLOOR(s); /* as llvmpipe does, which leaves powers of two to the integers' modulo */
 	u = normalized ? s * (float)n : s;
 	if (wrap == GL_MIRROR_CLAMP_EXT || wrap == GL_MIRROR_CLAMP_TO_EDGE_EXT || wrap == GL_MIRROR_CLAMP_TO_BORDER_EXT)
 		u = M_ABS(u);
@@ -85,30 +85,127 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	*i1 = texture_place(wrap, first + 1, n, border);
 }
 
-/* One texel of a level; `layer`: slice of a 3D image or face of a cube. */
-static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const struct texture_image *image,
-                                        GLOBAL const struct scene_unit *unit, uint32_t level, int x, int y, int layer)
+/* One texel of a level as it is stored; no coordinate may be outside. `layer`: slice of a 3D image or face of a cube. */
+static inline uint32_t texture_word(const struct tables *t, GLOBAL const struct texture_image *image, uint32_t level, int x,
+                                    int y, int layer)
 {
 	uint32_t border = image->border;
 	uint32_t width = texture_level_size(image->width, level) + 2u * border;
 	uint32_t height = image->target == GL_TEXTURE_1D ? 1u : texture_level_size(image->height, level) + 2u * border;
-	uint32_t texel;
 
-	if (x == TEXTURE_OUTSIDE || y == TEXTURE_OUTSIDE || layer == TEXTURE_OUTSIDE)
-		return v4_load(unit->border_color);
 	x += (int)border;
 	if (image->target != GL_TEXTURE_1D)
 		y += (int)border;
 	if (image->target == GL_TEXTURE_3D)
 		layer += (int)border;
-	texel = t->texels[image->level_first[level] + ((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x];
+	return t->texels[image->level_first[level] + ((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x];
+}
+
+/* Four bytes, red lowest, as numbers. Multiplied, not divided: products on the verge of the next 8-bit number then fall
+ * to the same side as Mesa's. */
+static inline struct vec4 texture_unpack(uint32_t texel)
+{
+	const float scale = 1.0f / 255.0f;
+
+	return v4((float)(texel & 255u) * scale, (float)(texel >> 8 & 255u) * scale, (float)(texel >> 16 & 255u) * scale,
+	          (float)(texel >> 24) * scale);
+}
+
+/* The texel as a colour; outside of the image the border's. */
+static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const struct texture_image *image,
+                                        GLOBAL const struct scene_unit *unit, uint32_t level, int x, int y, int layer)
+{
+	uint32_t texel;
+
+	if (x == TEXTURE_OUTSIDE || y == TEXTURE_OUTSIDE || layer == TEXTURE_OUTSIDE)
+		return v4_load(unit->border_color);
+	texel = texture_word(t, image, level, x, y, layer);
 	if (image->base_format == GL_DEPTH_COMPONENT) {
 		float d = M_FLOAT(texel);
 
 		return v4(d, d, d, d);
 	}
-	return v4((float)(texel & 255u) / 255.0f, (float)(texel >> 8 & 255u) / 255.0f, (float)(texel >> 16 & 255u) / 255.0f,
-	          (float)(texel >> 24) / 255.0f);
+	return texture_unpack(texel);
+}
+
+/*
+ * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places in 1/256
+ * texel, and each interpolation rounded to 8 bits. The specification leaves the precision open; the difference to exact
+ * filtering is up to 1.5/255, and over a large textured area it is seen by gate P.
+ */
+
+/* Four channels at once. weight: of b, 0 to 255 for [0,1) */
+static inline uint32_t texture_mix_8(uint32_t a, uint32_t b, uint32_t weight)
+{
+	uint32_t even = (a & 0xff00ffu) * (256u - weight) + (b & 0xff00ffu) * weight + 0x800080u;
+	uint32_t odd = (a >> 8 & 0xff00ffu) * (256u - weight) + (b >> 8 & 0xff00ffu) * weight + 0x800080u;
+
+	return (even >> 8 & 0xff00ffu) | (odd & 0xff00ff00u);
+}
+
+static inline int texture_wrap_is_plain(uint32_t wrap)
+{
+	return wrap == GL_REPEAT || wrap == GL_CLAMP_TO_EDGE;
+}
+
+/* texture_wrap's linear case in 1/256 texel, for the two plain wraps. */
+static inline void texture_wrap_8(uint32_t wrap, float s, int normalized, uint32_t size, int *i0, int *i1,
+                                  uint32_t *weight)
+{
+	int n = (int)size, power_of_two = (size & (size - 1u)) == 0u, fixed, place;
+
+	if (wrap == GL_REPEAT && !power_of_two)
+		fixed = texture_int(M_RINT((s - M_FLOOR(s)) * (float)n * 256.0f)) - 128;
+	else
+		fixed = texture_int(M_RINT(normalized ? s * (float)(n * 256) : s * 256.0f)) - 128;
+	place = fixed >= 0 ? fixed / 256 : -((255 - fixed) / 256);
+	*weight = (uint32_t)(fixed - place * 256);
+	if (wrap == GL_REPEAT) {
+		*i0 = texture_modulo(place, n);
+		*i1 = *i0 + 1 < n ? *i0 + 1 : 0;
+	} else {
+		*i0 = place < 0 ? 0 : place < n ? place : n - 1;
+		*i1 = place < 0 ? 0 : place + 1 < n ? place + 1 : n - 1;
+	}
+}
+
+/* 1 where a texture is filtered in 8 bits. */
+static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLOBAL const struct scene_unit *unit)
+{
+	if (image->base_format == GL_DEPTH_COMPONENT || image->border)
+		return 0;
+	if (image->target == GL_TEXTURE_CUBE_MAP)
+		return 1;
+	return texture_wrap_is_plain(unit->wrap_s) && (image->target == GL_TEXTURE_1D || texture_wrap_is_plain(unit->wrap_t)) &&
+	       (image->target != GL_TEXTURE_3D || texture_wrap_is_plain(unit->wrap_r));
+}
+
+/* One level, filtered linearly in 8 bits. c: coordinates, already divided by q; face: of a cube, else 0. */
+static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const struct texture_image *image,
+                                       GLOBAL const struct scene_unit *unit, uint32_t level, struct vec4 c, int face)
+{
+	int normalized = image->target != GL_TEXTURE_RECTANGLE, cube = image->target == GL_TEXTURE_CUBE_MAP;
+	int x[2], y[2] = { 0, 0 }, z[2], n_y = image->target == GL_TEXTURE_1D ? 1 : 2, n_z = image->target == GL_TEXTURE_3D ? 2 : 1;
+	uint32_t wx, wy = 0u, wz = 0u, sum = 0u;
+
+	z[0] = z[1] = face;
+	texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_s, c.x, normalized, texture_level_size(image->width, level), &x[0], &x[1],
+	               &wx);
+	if (n_y == 2)
+		texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_t, c.y, normalized, texture_level_size(image->height, level), &y[0],
+		               &y[1], &wy);
+	if (n_z == 2)
+		texture_wrap_8(unit->wrap_r, c.z, 1, texture_level_size(image->depth, level), &z[0], &z[1], &wz);
+	for (int k = 0; k < n_z; k++) {
+		uint32_t slice = texture_mix_8(texture_word(t, image, level, x[0], y[0], z[k]),
+		                               texture_word(t, image, level, x[1], y[0], z[k]), wx);
+
+		if (n_y == 2)
+			slice = texture_mix_8(slice, texture_mix_8(texture_word(t, image, level, x[0], y[1], z[k]),
+			                                           texture_word(t, image, level, x[1], y[1], z[k]), wx), wy);
+		sum = k == 0 ? slice : texture_mix_8(sum, slice, wz);
+	}
+	return sum;
 }
 
 /* Comparison of sec. 3.8.14, and how a depth becomes a colour. */
@@ -150,6 +247,8 @@ static inline struct vec4 texture_level(const struct tables *t, GLOBAL const str
 	int n_y = 1, n_z = 1;
 	struct vec4 sum = v4(0.0f, 0.0f, 0.0f, 0.0f);
 
+	if (linear && texture_is_plain(image, unit))
+		return texture_unpack(texture_level_8(t, image, unit, level, c, face));
 	z[0] = z[1] = face;
 	texture_wrap(wrap_s, c.x, normalized, texture_level_size(image->width, level), image->border, linear, &x[0], &x[1],
 	             &wx);
@@ -350,6 +449,10 @@ static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const st
 	} else if (filter == GL_NEAREST_MIPMAP_LINEAR || filter == GL_LINEAR_MIPMAP_LINEAR) {
 		float fine = M_MIN(M_MAX(M_FLOOR(lod), 0.0f), last), part = M_MIN(lod, last) - fine;
 
+		if (part > 0.0f && fine < last && linear && texture_is_plain(image, unit))
+			return texture_unpack(texture_mix_8(texture_level_8(t, image, unit, (uint32_t)fine, c, face),
+			                                    texture_level_8(t, image, unit, (uint32_t)fine + 1u, c, face),
+			                                    (uint32_t)(part * 256.0f)));
 		if (part > 0.0f && fine < last)
 			return v4_mix(texture_level(t, image, unit, (uint32_t)fine, linear, c, face),
 			              texture_level(t, image, unit, (uint32_t)fine + 1u, linear, c, face), part);
