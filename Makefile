@@ -180,7 +180,7 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COM
 	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/failing_cl.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/bench/static_scene \ $(BUILD)/tests/real/timer_shim.so

@@ -14,6 +14,7 @@
 #pragma OPENCL FP_CONTRACT OFF
 #define GLOBAL __global
 #define M_SQRT(x) sqrt(x)
+#define M_FMA(x, y, z) fma(x, y, z)
 #define M_POW(x, y) pow(x, y)
 #define M_EXP(x) exp(x)
 #define M_EXP2(x) exp2(x)
@@ -33,6 +34,7 @@
 #include <string.h>
 #define GLOBAL
 #define M_SQRT(x) sqrtf(x)
+#define M_FMA(x, y, z) fmaf(x, y, z)
 #define M_POW(x, y) powf(x, y)
 #define M_EXP(x) expf(x)
 #define M_EXP2(x) exp2f(x)

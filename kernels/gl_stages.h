@@ -88,32 +88,66 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 }
 
 /*
- * Weights of a fragment for its attributes. Coverage and depth go by snapped vertices; llvmpipe takes attributes from
- * the unsnapped ones (nearest filtering shows the difference), so they are found again from clip coordinates.
+ * What is linear over a triangle, at a point, in llvmpipe's order of operations: a plane through the first vertex, with the
+ * vertices turned so that they run counter-clockwise (y from the top).
  */
-static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views, uint32_t x, uint32_t y,
+static inline float stage_plane(const float *px, const float *py, const float *value, float x, float y)
+{
+	int a = 0, b = 1;
+	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], one_over_area, along_x, along_y;
+	float v01, v20;
+
+	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
+		a = 1;
+		b = 0;
+		dx01 = px[1] - px[0];
+		dy01 = py[1] - py[0];
+		dx20 = px[2] - px[1];
+		dy20 = py[2] - py[1];
+	}
+	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
+	v01 = value[a] - value[b];
+	v20 = value[2] - value[a];
+	along_x = v01 * (dy20 * one_over_area) - v20 * (dy01 * one_over_area);
+	along_y = v20 * (dx01 * one_over_area) - v01 * (dx20 * one_over_area);
+	return M_FMA(along_y, y, M_FMA(along_x, x, value[a] - (along_x * px[a] + along_y * py[a])));
+}
+
+/*
+ * Weights of a fragment for its attributes, and its depth. Coverage goes by snapped vertices; llvmpipe takes attributes and
+ * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from
+ * clip coordinates.
+ */
+static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views,
+                                GLOBAL const struct window_vertex *windows, uint32_t x, uint32_t y, uint32_t height,
                                 struct fragment *f)
 {
 	struct point p;
 	GLOBAL const struct view *view;
-	float px[3], py[3], area;
+	float px[3], py[3], z[3], area;
 
 	if (f->primitive & FRAGMENT_PERSPECTIVE)
 		return;
 	point_vertices(t, &p, f->instance, f->primitive);
 	view = &views[p.geometry->view];
 	for (int i = 0; i < 3; i++) {
-		GLOBAL const float *c = p.vertex[i]->clip;
-		float w_inv = 1.0f / c[3], half_w = view->viewport[2] * 0.5f, half_h = view->viewport[3] * 0.5f;
+		float place[2];
 
-		px[i] = half_w * (c[0] * w_inv) + (view->viewport[0] + half_w - ((float)x + 0.5f));
-		py[i] = half_h * (c[1] * w_inv) + (view->viewport[1] + half_h - ((float)y + 0.5f));
+		vertex_place(view, v4_load(p.vertex[i]->clip), (float)height, place);
+		px[i] = place[0] - 0.5f;
+		py[i] = place[1] - 0.5f;
+		z[i] = windows[p.geometry->vertex_first + p.number[i]].z;
 	}
-	area = (px[1] - px[0]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[1] - py[0]);
-	if (!(M_ABS(area) > 1.0e-3f))
+	area = (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
+	if (!(M_ABS(area) > 1.0e-6f))
 		return; /* a sliver: its snapped form is what was covered */
-	f->b1 = (px[2] * py[0] - px[0] * py[2]) / area;
-	f->b2 = (px[0] * py[1] - px[1] * py[0]) / area;
+	f->depth = clamp01(stage_plane(px, py, z, (float)x, (float)(height - 1u - y)));
+	for (int i = 0; i < 3; i++) {
+		px[i] -= (float)x;
+		py[i] -= (float)(height - 1u - y);
+	}
+	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
+	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
 }
 
 /*
@@ -262,7 +296,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	if (n_slots && !(out->flags & SHADED_THERE))
 		return;
 	if (!n_slots) {
-		stage_unsnap(t, views, x, y, &f);
+		stage_unsnap(t, views, windows, x, y, height, &f);
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);

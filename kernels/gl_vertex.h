@@ -39,24 +39,32 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	return lit;
 }
 
+/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
+static inline void vertex_place(GLOBAL const struct view *view, struct vec4 clip, float height, float *place)
+{
+	float w_inv = 1.0f / clip.w;
+
+	place[0] = M_FMA(view->viewport[2] * 0.5f, clip.x * w_inv, view->viewport[0] + view->viewport[2] * 0.5f);
+	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
+}
+
 /*
- * Window coordinates in 1/256 pixel. Mesa draws to a window with y running down (llvmpipe's rows start at the top), so
- * rounding of halves follows that direction: y is turned over, snapped, turned back.
+ * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned over.
  */
 static inline struct window_vertex vertex_window(GLOBAL const struct view *view, struct vec4 clip, float height)
 {
 	struct window_vertex out;
-	float w_inv = 1.0f / clip.w;
-	float x = view->viewport[2] * 0.5f * (clip.x * w_inv) + (view->viewport[0] + view->viewport[2] * 0.5f);
-	float y = -view->viewport[3] * 0.5f * (clip.y * w_inv) +
-	          (height - (view->viewport[1] + view->viewport[3] * 0.5f));
+	float w_inv = 1.0f / clip.w, place[2];
 	float near = view->depth_range[0], far = view->depth_range[1];
-	int inside = clip.w > 0.0f && clip.z >= -clip.w && clip.z <= clip.w && M_ABS(x) < VERTEX_SAFE_PIXELS &&
-	             M_ABS(y) < VERTEX_SAFE_PIXELS;
+	int inside;
 
-	out.x = inside ? (int32_t)M_RINT((x - 0.5f) * 256.0f) + 128 : 0;
-	out.y = inside ? (int32_t)height * 256 - ((int32_t)M_RINT((y - 0.5f) * 256.0f) + 128) : 0;
-	out.z = inside ? (far - near) * 0.5f * (clip.z * w_inv) + (far + near) * 0.5f : 0.0f;
+	vertex_place(view, clip, height, place);
+	inside = clip.w > 0.0f && clip.z >= -clip.w && clip.z <= clip.w && M_ABS(place[0]) < VERTEX_SAFE_PIXELS &&
+	             M_ABS(place[1]) < VERTEX_SAFE_PIXELS;
+
+	out.x = inside ? (int32_t)M_RINT((place[0] - 0.5f) * 256.0f) + 128 : 0;
+	out.y = inside ? (int32_t)height * 256 - ((int32_t)M_RINT((place[1] - 0.5f) * 256.0f) + 128) : 0;
+	out.z = inside ? M_FMA((far - near) * 0.5f, clip.z * w_inv, (far + near) * 0.5f) : 0.0f;
 	out.w_inv = inside ? w_inv : 0.0f;
 	return out;
 }

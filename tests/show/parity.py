@@ -70,7 +70,8 @@ def show_live(build, folder, program, record_again):
         line.note = f"no recording (exit code {done.code}): {done.said[:120]}"
     else:
         must = LIVE_MUST if done.depth else tuple(g for g in LIVE_MUST if g not in ("R4", "R5"))
-        scoring.score_recording(scorer_in(build, folder, "scored"), line, done, scoring.N_FRAMES, "whitted", scoring.GATES, must)
+        scoring.score_recording(scorer_in(build, folder, "scored"), line, done, scoring.N_FRAMES, "whitted", scoring.GATES, must,
+                                report=True)
     return row(f"{program.name}, live", line, True, "Mesa llvmpipe, in the program")
 
 

@@ -107,9 +107,9 @@ class Scorer:
                 return done, last_s, f"render: exit code {code}, {(err.splitlines() or [''])[-1][:100]}"
         return done, last_s, ""
 
-    def diff(self, reference, frames):
-        return self.json(self.relume, "diff", reference, self.work / "frames", "-f", ",".join(map(str, frames)), "--json", "-",
-                         "--report", self.work / "report")
+    def diff(self, reference, frames, report):
+        page = ["--report", self.work / "report"] if report else []
+        return self.json(self.relume, "diff", reference, self.work / "frames", "-f", ",".join(map(str, frames)), "--json", "-", *page)
 
 
 def missed_gates(frame, gates, must=()):
@@ -153,8 +153,16 @@ def summarize(line, scored, gates, must=()):
     return line
 
 
-def score_recording(scorer, line, recording, n_frames, mode, gates, must=(), replay=True):
-    """Everything about one recording, into one line."""
+def check_once(recording, what, check):
+    """What a check of the trace alone says; kept beside the trace, which does not change."""
+    kept = recording.trace.with_name(f"{what}.txt")
+    if not kept.exists():
+        kept.write_text(check())
+    return kept.read_text()
+
+
+def score_recording(scorer, line, recording, n_frames, mode, gates, must=(), report=False):
+    """Everything about one recording, into one line; report: diff's page as well."""
     info = scorer.info(recording.trace)
     if info is None:
         line.note = "relume info cannot read the trace"
@@ -164,16 +172,15 @@ def score_recording(scorer, line, recording, n_frames, mode, gates, must=(), rep
     if not frames:
         line.note = f"{info['frames']} frames, none with a reference; {recording.said[:100]}"
         return line
-    if replay:
-        line.dump = scorer.check_dump(recording.trace)
-        line.replay = scorer.check_replay(recording)
+    line.dump = check_once(recording, "dump", lambda: scorer.check_dump(recording.trace))
+    line.replay = check_once(recording, "replay", lambda: scorer.check_replay(recording))
     frames = frames[-n_frames:]
     rendered, line.frame_s, wrong = scorer.render(recording.trace, frames, mode)
     if wrong:
         line.note = wrong
     if len(rendered) < len(frames):
         line.note = line.note or f"{len(rendered)} frames only: one takes {line.frame_s:.0f} s"
-    scored = scorer.diff(recording.reference, rendered) if rendered else None
+    scored = scorer.diff(recording.reference, rendered, report) if rendered else None
     if scored is None:
         line.note = line.note or "not scored, see the log"
         return line

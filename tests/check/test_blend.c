@@ -1,0 +1,101 @@
+/*
+ * Blending against Mesa's llvmpipe, bit for bit: every source and alpha over every destination (alphas in steps), for the
+ * pairs of factors that programs use.
+ */
+#include <check.h>
+#include <stdlib.h>
+
+#include "kernels/gl_blend.h"
+#include "replay/scene.h"
+
+#define SIDE 256
+
+/* Mesa without a window. Its headers define the tokens that gl_tokens.h has, with other spellings. */
+extern void *OSMesaCreateContextExt(unsigned format, int depth_bits, int stencil_bits, int accum_bits, void *share);
+extern unsigned char OSMesaMakeCurrent(void *context, void *buffer, unsigned type, int width, int height);
+extern void OSMesaDestroyContext(void *context);
+extern void glBegin(unsigned mode), glEnd(void), glFinish(void), glEnable(unsigned what), glDisable(unsigned what);
+extern void glColor4ub(unsigned char r, unsigned char g, unsigned char b, unsigned char a), glVertex2i(int x, int y);
+extern void glOrtho(double l, double r, double b, double t, double n, double f), glBlendFunc(unsigned s, unsigned d);
+
+static const struct {
+	uint32_t source, destination;
+} factors[] = {
+	{ GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA }, { GL_SRC_ALPHA, GL_ONE },           { GL_ONE, GL_ONE_MINUS_SRC_ALPHA },
+	{ GL_DST_COLOR, GL_ZERO },                { GL_DST_COLOR, GL_SRC_COLOR },     { GL_ONE, GL_ONE_MINUS_SRC_COLOR },
+	{ GL_ONE_MINUS_DST_COLOR, GL_ONE },       { GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA },
+};
+
+START_TEST(every_color)
+{
+	const uint32_t sf = factors[_i].source, df = factors[_i].destination;
+	struct scene_material m = { .blend_equation_rgb = GL_FUNC_ADD, .blend_equation_alpha = GL_FUNC_ADD };
+	unsigned char *picture = malloc(4 * SIDE * SIDE);
+	void *context = OSMesaCreateContextExt(GL_RGBA, 0, 0, 0, NULL);
+	unsigned wrong = 0;
+
+	m.blend_src_rgb = m.blend_src_alpha = sf;
+	m.blend_dst_rgb = m.blend_dst_alpha = df;
+	ck_assert(context && OSMesaMakeCurrent(context, picture, GL_UNSIGNED_BYTE, SIDE, SIDE));
+	glDisable(GL_DITHER);
+	glOrtho(0, SIDE, 0, SIDE, -1, 1);
+	glBlendFunc(sf, df);
+	for (int alpha = 0; alpha < SIDE; alpha += 15) {
+		glDisable(GL_BLEND);
+		glBegin(GL_QUADS);
+		for (int d = 0; d < SIDE; d++) {
+			glColor4ub(d, d, d, 255);
+			glVertex2i(d, 0), glVertex2i(d + 1, 0), glVertex2i(d + 1, SIDE), glVertex2i(d, SIDE);
+		}
+		glEnd();
+		glEnable(GL_BLEND);
+		glBegin(GL_QUADS);
+		for (int s = 0; s < SIDE; s++) {
+			glColor4ub(s, s, s, alpha);
+			glVertex2i(0, s), glVertex2i(SIDE, s), glVertex2i(SIDE, s + 1), glVertex2i(0, s + 1);
+		}
+		glEnd();
+		glFinish();
+		for (int s = 0; s < SIDE; s++)
+			for (int d = 0; d < SIDE; d++) {
+				float source = (float)s / 255.0f, destination = (float)d / 255.0f;
+				struct vec4 ours = blend_colors(&m, v4(source, source, source, (float)alpha / 255.0f),
+				                                v4(destination, destination, destination, 1.0f));
+
+				wrong += picture[4 * (s * SIDE + d)] != blend_round(ours.x);
+			}
+	}
+	ck_assert_msg(!wrong, "%u of %u colours differ", wrong, 18u * SIDE * SIDE);
+	OSMesaDestroyContext(context);
+	free(picture);
+}
+END_TEST
+
+/* The kernels' own: what is stored and read back is not changed. */
+START_TEST(factors_one_and_zero)
+{
+	for (uint32_t a = 0; a < 256; a++) {
+		ck_assert_uint_eq(blend_multiply(a, 255), a);
+		ck_assert_uint_eq(blend_multiply(a, 0), 0);
+	}
+}
+END_TEST
+
+int main(void)
+{
+	Suite *s = suite_create("blend");
+	TCase *c = tcase_create("llvmpipe");
+	SRunner *r;
+	int failed;
+
+	setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+	tcase_set_timeout(c, 60);
+	tcase_add_test(c, factors_one_and_zero);
+	tcase_add_loop_test(c, every_color, 0, sizeof(factors) / sizeof(factors[0]));
+	suite_add_tcase(s, c);
+	r = srunner_create(s);
+	srunner_run_all(r, CK_NORMAL);
+	failed = srunner_ntests_failed(r);
+	srunner_free(r);
+	return failed != 0;
+}
