@@ -147,12 +147,48 @@ static inline void ao_ray_item(const struct tables *t, GLOBAL const struct view 
 
 /* --- What lets light through -------------------------------------------------------------------------------------- */
 
+/* Blending as gl_blend.h does it, but of light, which has no 8 bits to be rounded to. */
+static inline struct vec4 veil_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
+{
+	float f;
+
+	switch (factor) {
+	case GL_ZERO: return v4(0.0f, 0.0f, 0.0f, 0.0f);
+	case GL_SRC_COLOR: return s;
+	case GL_ONE_MINUS_SRC_COLOR: return v4(1.0f - s.x, 1.0f - s.y, 1.0f - s.z, 1.0f - s.w);
+	case GL_DST_COLOR: return d;
+	case GL_ONE_MINUS_DST_COLOR: return v4(1.0f - d.x, 1.0f - d.y, 1.0f - d.z, 1.0f - d.w);
+	case GL_SRC_ALPHA: return v4(s.w, s.w, s.w, s.w);
+	case GL_ONE_MINUS_SRC_ALPHA: f = 1.0f - s.w; return v4(f, f, f, f);
+	case GL_DST_ALPHA: return v4(d.w, d.w, d.w, d.w);
+	case GL_ONE_MINUS_DST_ALPHA: f = 1.0f - d.w; return v4(f, f, f, f);
+	case GL_CONSTANT_COLOR: return c;
+	case GL_ONE_MINUS_CONSTANT_COLOR: return v4(1.0f - c.x, 1.0f - c.y, 1.0f - c.z, 1.0f - c.w);
+	case GL_CONSTANT_ALPHA: return v4(c.w, c.w, c.w, c.w);
+	case GL_ONE_MINUS_CONSTANT_ALPHA: f = 1.0f - c.w; return v4(f, f, f, f);
+	case GL_SRC_ALPHA_SATURATE: f = M_MIN(s.w, 1.0f - d.w); return v4(f, f, f, 1.0f);
+	default: return v4(1.0f, 1.0f, 1.0f, 1.0f);
+	}
+}
+
+static inline struct vec4 veil_equation(uint32_t equation, struct vec4 s, struct vec4 fs, struct vec4 d,
+                                        struct vec4 fd)
+{
+	switch (equation) {
+	case GL_FUNC_SUBTRACT: return v4_sub(v4_mul(s, fs), v4_mul(d, fd));
+	case GL_FUNC_REVERSE_SUBTRACT: return v4_sub(v4_mul(d, fd), v4_mul(s, fs));
+	case GL_MIN: return v4(M_MIN(s.x, d.x), M_MIN(s.y, d.y), M_MIN(s.z, d.z), M_MIN(s.w, d.w));
+	case GL_MAX: return v4(M_MAX(s.x, d.x), M_MAX(s.y, d.y), M_MAX(s.z, d.z), M_MAX(s.w, d.w));
+	default: return v4_add(v4_mul(s, fs), v4_mul(d, fd));
+	}
+}
+
 /* What comes of a colour over a destination, without clamping. */
 static inline struct vec3 veil_blend(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	struct vec4 c = v4_load(m->blend_color);
-	struct vec4 rgb = pixel_blend_equation(m->blend_equation_rgb, s, pixel_blend_factor(m->blend_src_rgb, s, d, c), d,
-	                                       pixel_blend_factor(m->blend_dst_rgb, s, d, c));
+	struct vec4 rgb = veil_equation(m->blend_equation_rgb, s, veil_factor(m->blend_src_rgb, s, d, c), d,
+	                                veil_factor(m->blend_dst_rgb, s, d, c));
 
 	return v3(rgb.x, rgb.y, rgb.z);
 }
@@ -173,8 +209,8 @@ static inline struct vec3 veil_pass(GLOBAL const struct scene_material *m, struc
 /* 1 where GL draws nothing of the primitive at this point: clipped, or its alpha test fails. */
 static inline int veil_is_hole(const struct point *p, float alpha)
 {
-	return point_clipped(p) || (p->material->alpha_test && !pixel_compare(p->material->alpha_func, alpha,
-	                                                                      p->material->alpha_ref));
+	return point_clipped(p) || (p->material->alpha_test && !pixel_compare(p->material->alpha_func, blend_round(alpha),
+	                                                                   blend_round(p->material->alpha_ref)));
 }
 
 /* Unpolarised light that a boundary reflects (Fresnel); eta: index on this side over that beyond, cosine on this side. */

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The short form of `make show-sweep`: two hacks of xscreensaver's, recorded live, pass all gates.
 
-flipscreen3d is a large textured area under linear filtering, blinkbox a picture blended from some twenty layers: both agree
+atunnel is a large textured area under linear filtering, blinkbox a picture blended from some twenty layers: both agree
 only where filtering and blending round as Mesa's do.
 """
 import pathlib
@@ -18,7 +18,7 @@ import recording
 import scoring
 import sweep
 
-HACKS = ("flipscreen3d", "blinkbox")
+HACKS = ("atunnel", "blinkbox")
 
 
 def main():

@@ -107,7 +107,7 @@ def show_by_apitrace(build, folder, program):
               "peer": "apitrace trace"}
     if ours.trace is None or theirs is None:
         return {**result, "figure": "not recorded, see the logs", "passed": False}
-    frames = range(11, 11 + 10 * scoring.N_FRAMES, 10)
+    frames = range(9, 9 + 4 * scoring.N_FRAMES, 4)
     lines = [score_by_glretrace(build, folder, name, trace, frames) for name, trace in (("ours", ours.trace), ("theirs", theirs))]
     figure = " / ".join(f"{line.passed} of {line.frames}, fidelity {line.fidelity:.3f} %{', ' + line.missed if line.missed else ''}"
                         f"{', ' + line.note if line.note else ''}" for line in lines)

@@ -19,7 +19,7 @@ class Program:
     command: tuple
     keys: tuple = ()
     seconds: float = 0  # record for so long instead of a number of frames
-    ref_every: int = 10  # a reference frame of so many
+    ref_every: int = 5  # a reference frame of so many
     files: tuple = ()  # (name below the home folder, text) that must be there before the start
     group: str = ""  # what the sweep counts it under
     environment: tuple = ()

@@ -11,7 +11,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PATIENCE_S = 15  # for a program that was told to end
-FRAMES = 110  # of a program that needs no keys: references 0, 10, ... 100
+FRAMES = 55  # of a program that needs no keys: with a reference of five, 0, 5, ... 50
 LONGEST_S = 120  # for so many frames
 PEER_S = 10  # the usual recorder cannot end after a number of frames
 REF_HEADER = struct.Struct("<IIIQQ")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--record] (as `make show-sweep`): every program of the sweep, a line each.
+"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--again] [--record] (as `make show-sweep`): every program of the sweep, a line each.
 
 Each program is recorded once, with reference frames read back in the program; recordings stay in BUILD/show/sweep/NAME and
 are used again until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against what the
@@ -95,6 +95,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", action="append", default=[], help="part of a program's name")
     parser.add_argument("--frames", type=int, default=scoring.N_FRAMES)
+    parser.add_argument("--again", action="store_true", help="score what this relume has scored already, too")
     parser.add_argument("--record", action="store_true", help="record anew")
     options = parser.parse_args()
     if "DISPLAY_IS_OURS" not in os.environ:
@@ -110,7 +111,7 @@ def main():
     chosen = [p for p in programs.sweep() if not options.only or any(part in p.name for part in options.only)]
     for number, program in enumerate(chosen, 1):
         known = lines.get(program.name)
-        if known and known["scored_by"] == this_relume and not options.only:
+        if known and known["scored_by"] == this_relume and not (options.again or options.record):
             continue
         begin = time.monotonic()
         line = score(build, program, base / program.name, options.frames, options.record)
