@@ -183,7 +183,8 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(BUILD)/tests/real/checksum_shim.so $(BUILD)/tests/real/counter_shim.so $(BUILD)/tests/real/failing_cl.so $(BUILD)/tests/real/closer $(BUILD)/tests/real/pixels $(BUILD)/tests/bench/static_scene \ $(BUILD)/tests/real/timer_shim.so
+HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c) \
+	$(patsubst %,$(BUILD)/tests/%,real/closer real/pixels bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
@@ -201,7 +202,8 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-parity show-rays show-export show-overhead show-kill show-oclgrind show-thesis show-farm show-replay show-mutants show-faults show-metrics show-page
+SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-replay show-mutants show-export \
+	show-rays show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -209,13 +211,9 @@ show:
 show-farm: all
 	@$(PYTHON) tests/show/farm.py $(BUILD)
 
-show-parity: all
-	@$(PYTHON) tests/show/parity.py $(BUILD)
 show-parity: all $(BUILD)/deps.parity
 	@$(PYTHON) -B tests/show/parity.py $(BUILD) $(ONLY:%=--only %)
 
-SHOWS += show-sweep
-.PHONY: show-sweep
 show-sweep: all $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
 
@@ -234,12 +232,10 @@ show-rays: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
 
 # Exported frames in another program.
-.PHONY: show-export
 DEPS_export := blender python3-numpy
 show-export: all $(BUILD)/deps.export
 	@$(PYTHON) tests/show/export.py $(BUILD)
 
-show-overhead: all $(HELPERS)
 # Seeded faults and harmless variations, beside idiff.
 DEPS_faults := openimageio-tools
 show-faults: all $(BUILD)/deps.faults
@@ -259,10 +255,8 @@ DEPS_page := chromium
 show-page: all $(BUILD)/deps.page
 	@$(PYTHON) -B tests/show/page.py $(BUILD)
 
-show-overhead: all $(BUILD)/tests/bench/static_scene
+show-overhead: all $(HELPERS)
 	@$(PYTHON) tests/show/overhead.py $(BUILD)
-
-SHOWS += show-sanitize show-crashes
 
 # Two threads with a context each, recorded by a recorder that is built with the sanitizers.
 show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
@@ -273,7 +267,6 @@ DEPS_crashes := extremetuxracer foobillardplus
 show-crashes: all $(BUILD)/deps.crashes
 	@tests/xvfb.sh $(PYTHON) tests/show/crashes.py $(BUILD)
 
-# Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
 # Every kernel under tools that watch it.
 DEPS_oclgrind := oclgrind valgrind
 show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
@@ -284,11 +277,11 @@ DEPS_thesis := povray blender python3-numpy
 show-thesis: all $(BUILD)/deps.thesis
 	@$(PYTHON) tests/show/thesis.py $(BUILD)
 
+# Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
-SHOWS += show-seek show-batch-faults
 show-seek: all
 	@$(PYTHON) tests/show/seek.py $(BUILD)
 
@@ -302,7 +295,6 @@ show-kill: all $(HELPERS)
 show-fresh:
 	@tests/fresh.sh $(BUILD)
 
-.PHONY: show-mutants show-replay
 show-mutants: all
 	@$(PYTHON) tests/show/mutants.py $(BUILD)
 
@@ -351,7 +343,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo show show-farm show-oclgrind show-thesis show-parity bench show-rays show-overhead show-piglit-record show-piglit-parity \
-	show-fresh golden-update clean FORCE
+.PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
+	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
