@@ -33,10 +33,10 @@ def words(pattern, chunk, *options):
     return [trace.name, "-f", f"0-{FRAMES - 1}", "-o", pattern, "--chunk", chunk, *options, "--", "--threads", "1", "--mode", "whitted"]
 
 
-# Without Slurm: a PATH that has none of it.
+# Without Slurm: a PATH that has none of it. (PoCL links kernels by ld.)
 bare = SCRATCH / "bin"
 bare.mkdir()
-for tool in ("sh", "realpath", "mkdir", "flock", "seq"):
+for tool in ("sh", "realpath", "mkdir", "flock", "seq", "ld"):
     (bare / tool).symlink_to(f"/usr/bin/{tool}")
 folder, pattern, job = place("local")
 done = must(run(RELUME, "farm", "submit", *words(pattern, 5), cwd=SCRATCH, env=dict(os.environ, PATH=str(bare))))
