@@ -4,10 +4,10 @@
 #include "replay/texture.h"
 
 /* Rows of a picture into texels of a level, through pixel transfer (sec. 4.3.2, 3.6.5). Places off the screen stay. */
-static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, uint32_t depth_bits, int64_t x0, int64_t y0,
-                        int64_t width, int64_t height, struct gls_level *l, size_t at)
+static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, int64_t x0, int64_t y0, int64_t width,
+                        int64_t height, struct gls_level *l, size_t at)
 {
-	float far = (float)((1u << (depth_bits > 24 ? 24 : depth_bits)) - 1);
+	float far = (float)((1u << p->depth_bits) - 1);
 
 	for (int64_t y = 0; y < height; y++)
 		for (int64_t x = 0; x < width; x++) {
@@ -37,7 +37,7 @@ static void copy(struct gls_exec *x, struct gls_state *st, struct gls_texture *t
 	struct gls_level *l = &t->levels[face][level];
 
 	if (p)
-		copy_pixels(st, p, st->depth_bits, from[0], from[1], size[0], size[1], l,
+		copy_pixels(st, p, from[0], from[1], size[0], size[1], l,
 		            (size_t)((to[2] * l->height + to[1]) * l->width + to[0]));
 	else if (!x->want)
 		l->missing = x->missing = 1;

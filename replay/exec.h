@@ -185,10 +185,25 @@ struct gls_buffer {
 	size_t map_offset, map_bytes;
 };
 
+/* What an attachment point of a framebuffer object names: a renderbuffer, or an image of a texture; neither: nothing. */
+struct gls_attachment {
+	uint32_t texture, renderbuffer; /* names */
+	uint32_t face, level, layer;    /* of the texture */
+};
+enum { GLS_ATTACHMENT_DEPTH = 8, GLS_ATTACHMENT_STENCIL, N_GLS_ATTACHMENTS }; /* below: colours */
+struct gls_framebuffer;
+
+struct gls_renderbuffer {
+	uint32_t internal_format, width, height;
+	uint32_t missing;            /* as of a texture's level */
+	struct gls_picture *content; /* a reference; NULL: black, far and 0 */
+};
+
 struct gls_share {
 	unsigned refs;
 	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
 	struct table programs;                 /* ARB program name -> target + 1 */
+	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
 	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
 };
 
@@ -213,6 +228,15 @@ struct gls_surface {
 	struct gls_picture *picture; /* a reference: what it held before them, */
 	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
 	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
+};
+
+/* A framebuffer object. */
+struct gls_framebuffer {
+	struct gls_attachment attached[N_GLS_ATTACHMENTS];
+	uint32_t draw_buffer, read_buffer; /* GL tokens, while it is not bound */
+	uint32_t drawn_buffer;             /* what the surface's events draw to */
+	struct gls_surface surface;
+	struct gls_picture *read; /* a reference: what was read last */
 };
 
 /* A window or pbuffer as far as the trace tells. */
@@ -309,7 +333,7 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 /* ---- between chapters ---- */
 
 /* Handlers that others call as part of what they do. */
-gls_handler gls_glBegin, gls_glEnd, gls_glBindFramebuffer;
+gls_handler gls_glBegin, gls_glEnd, gls_glBindFramebuffer, gls_glBindRenderbuffer;
 
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);
@@ -374,7 +398,29 @@ struct scene *gls_frame_finish(struct gls_exec *x);
 /** A frame was executed without being built: what it drew is not known. */
 void gls_frame_skip(struct gls_exec *x);
 void gls_surface_free(struct gls_surface *surface);
+/** A black one, far and 0. @return a reference; NULL: out of memory (reported) */
+struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
+                                     uint32_t alpha_bits);
 void gls_picture_release(struct gls_picture *picture);
+
+/* framebuffer.c: framebuffer objects */
+/** What the bound object draws to; NULL: out of memory, or nothing is attached. */
+struct gls_surface *gls_framebuffer_surface(struct gls_exec *x, struct gls_state *st);
+/** As gls_read_screen, of the bound read object. */
+const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st);
+/** The bound object, if it is one, may have been drawn to in a frame that is not built. */
+void gls_framebuffer_touch(struct gls_exec *x, struct gls_state *st);
+/** Bring textures up to date that are drawn to: one that is looked at or changed; all that a draw looks at. */
+struct gls_texture;
+void gls_texture_settle(struct gls_exec *x, const struct gls_state *st, const struct gls_texture *t);
+void gls_units_settle(struct gls_exec *x, struct gls_state *st);
+/** A texture is deleted. */
+void gls_texture_detach(struct gls_exec *x, struct gls_state *st, uint32_t name);
+void gls_framebuffer_free(struct gls_framebuffer *fb);
+void gls_renderbuffer_free(struct gls_renderbuffer *r);
+/** Draw a rectangle of pixels (pixels.c) with the raster position's attributes; left, low: its first pixel's outer corner. */
+void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
+                        uint32_t height, const float zoom[2], const uint8_t *texels);
 
 void gls_mesh_cache_trim(struct gls_exec *x);
 void gls_image_cache_trim(struct gls_exec *x);

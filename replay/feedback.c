@@ -32,17 +32,18 @@ static struct gls_picture *reference(struct gls_picture *p)
 	return p;
 }
 
-/* A black one, far and 0. NULL: out of memory (reported) */
-static struct gls_picture *make_picture(struct gls_exec *x, const struct scene *s)
+struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
+                                     uint32_t alpha_bits)
 {
-	size_t n = (size_t)s->width * s->height, room = n + !n;
+	size_t n = (size_t)width * height, room = n + !n;
 	struct gls_picture *p = calloc(1, sizeof(*p));
-	uint32_t far = (1u << (s->depth_bits > 24 ? 24 : s->depth_bits)) - 1;
+	uint32_t bits = depth_bits > 24 ? 24 : depth_bits, far = (1u << bits) - 1;
 
 	if (p) {
 		atomic_init(&p->refs, 1);
-		p->picture.width = s->width;
-		p->picture.height = s->height;
+		p->picture.width = width;
+		p->picture.height = height;
+		p->picture.depth_bits = bits;
 		p->picture.rgba = calloc(room, 4);
 		p->picture.depth = malloc(room * sizeof(*p->picture.depth));
 		p->picture.stencil = calloc(room, 1);
@@ -54,7 +55,7 @@ static struct gls_picture *make_picture(struct gls_exec *x, const struct scene *
 	}
 	for (size_t i = 0; i < n; i++) {
 		p->picture.depth[i] = far;
-		p->picture.rgba[4 * i + 3] = s->alpha_bits ? 0 : 255;
+		p->picture.rgba[4 * i + 3] = alpha_bits ? 0 : 255;
 	}
 	return p;
 }
@@ -62,7 +63,7 @@ static struct gls_picture *make_picture(struct gls_exec *x, const struct scene *
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
-	struct gls_picture *p = make_picture(x, s);
+	struct gls_picture *p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits);
 
 	if (!p || !s->width || !s->height)
 		return p;
@@ -112,11 +113,7 @@ static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint
 
 struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
 {
-	if (st->draw_framebuffer) {
-		gls_unsupported(x, "drawing into framebuffer objects");
-		return NULL;
-	}
-	return window(x, st, st->drawable);
+	return st->draw_framebuffer ? gls_framebuffer_surface(x, st) : window(x, st, st->drawable);
 }
 
 /* A window of another size has nothing of the old one's. */
@@ -196,11 +193,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st)
 {
 	gls_flush(x);
-	if (st->read_framebuffer) {
-		gls_unsupported(x, "reading framebuffer objects");
-		return NULL;
-	}
-	return gls_surface_read(x, window(x, st, st->read_drawable));
+	return st->read_framebuffer ? gls_framebuffer_read(x, st) : gls_surface_read(x, window(x, st, st->read_drawable));
 }
 
 /* ---- ends of frames ---- */
@@ -226,6 +219,9 @@ struct scene *gls_frame_finish(struct gls_exec *x)
 
 void gls_frame_skip(struct gls_exec *x)
 {
+	for (size_t i = 0; i < x->n_contexts; i++)
+		if (x->contexts[i]->state.draw_framebuffer)
+			gls_framebuffer_touch(x, &x->contexts[i]->state);
 	for (size_t i = 0; i < x->drawables.room; i++) {
 		struct gls_drawable *d = x->drawables.entries[i].value;
 

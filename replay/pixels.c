@@ -76,8 +76,8 @@ static uint8_t mapped(const struct gls_pixel_map *m, uint32_t index)
  * A rectangle of pixels as fragments (sec. 3.6.4): the raster position's colours, texture coordinates and distance; what
  * else fragments go through is the state's. x, y: window coordinates of its first pixel's outer corner.
  */
-static void draw(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
-                 uint32_t height, const float zoom[2], const uint8_t *texels)
+void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
+                        uint32_t height, const float zoom[2], const uint8_t *texels)
 {
 	struct gls_attribs saved = st->a;
 	struct gls_texture_image *image;
@@ -130,7 +130,7 @@ GLS_HANDLER(glBitmap, STATE)
 			memset(texels + 4 * (size_t)i, bit_at(&st->client.unpack, data, n, width, i % width, i / width) ? 255 : 0, 4);
 		/* the lower left corner goes to whole pixels, downwards; a little up as Mesa has it against rounding */
 		if (texels)
-			draw(x, st, SCENE_BITMAP, floorf(at[0] + 0.0001f - arg_f(c, 2)), floorf(at[1] + 0.0001f - arg_f(c, 3)), width,
+			gls_draw_rectangle(x, st, SCENE_BITMAP, floorf(at[0] + 0.0001f - arg_f(c, 2)), floorf(at[1] + 0.0001f - arg_f(c, 3)), width,
 			     height, (float[2]){ 1, 1 }, texels);
 	}
 	at[0] += arg_f(c, 4);
@@ -185,14 +185,14 @@ GLS_HANDLER(glDrawPixels, STATE)
 	else if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n,
 	                           format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels) == -1)
 		return;
-	draw(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+	gls_draw_rectangle(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
 }
 
 /* A place of the screen as a texel of a copy; outside of it nothing is defined: 0. */
 static void copy_texel(const struct gls_state *st, const struct scene_picture *p, uint32_t kind, int64_t x, int64_t y,
                        uint8_t *texel)
 {
-	uint32_t bits = st->depth_bits > 24 ? 24 : st->depth_bits, value;
+	uint32_t bits = p->depth_bits, value;
 	size_t from = (size_t)(y * p->width + x);
 	float v[4];
 
@@ -238,7 +238,7 @@ GLS_HANDLER(glCopyPixels, STATE)
 	for (uint32_t i = 0; texels && i < width * height; i++)
 		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + 4 * (size_t)i);
 	if (texels)
-		draw(x, st, kind, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+		gls_draw_rectangle(x, st, kind, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
 }
 
 /* ---- pixel maps, sec. 3.6.3 ---- */

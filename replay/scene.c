@@ -253,7 +253,7 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 	m->color_material_mode = l->color_material_mode;
 }
 
-static void fill_fragment_state(const struct gls_state *st, struct scene_material *m)
+static void fill_fragment_state(const struct gls_state *st, const struct gls_surface *d, struct scene_material *m)
 {
 	const struct gls_attribs *a = &st->a;
 	const struct gls_color_buffer *b = &a->color;
@@ -261,10 +261,10 @@ static void fill_fragment_state(const struct gls_state *st, struct scene_materia
 	m->alpha_test = a->color.alpha_test;
 	m->alpha_func = b->alpha_func;
 	m->alpha_ref = b->alpha_ref;
-	m->stencil_test = a->stencil.enabled && st->stencil_bits;
+	m->stencil_test = a->stencil.enabled && d && d->stencil_bits;
 	m->stencil_front = a->stencil.side[0];
 	m->stencil_back = a->stencil.side[1];
-	m->depth_test = a->depth.enabled && st->depth_bits;
+	m->depth_test = a->depth.enabled && d && d->depth_bits;
 	m->depth_func = a->depth.func;
 	m->depth_write = a->depth.write;
 	m->blend = b->blend;
@@ -335,7 +335,7 @@ static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gl
 	memcpy(m.fog_color, a->fog.color, 16);
 	fill_raster_state(a, &m);
 	m.polygon_stipple = fill_stipple(f, a);
-	fill_fragment_state(st, &m);
+	fill_fragment_state(st, gls_surface_of(x, st), &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
 	return intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
@@ -400,6 +400,14 @@ static uint32_t looks_at(const struct scene_material *m)
 
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st);
 
+/* 1 where a clear leaves nothing of what a framebuffer object held: nor are the events before it needed any more. */
+static int begins_anew(const struct gls_state *st, const struct gls_surface *d, uint32_t buffers)
+{
+	return st->draw_framebuffer && d && !st->a.scissor.enabled && buffers & 1 && (st->a.color.mask & 7) == 7 &&
+	       (!d->alpha_bits || st->a.color.mask & 8) && (!d->depth_bits || (buffers & 2 && st->a.depth.write)) &&
+	       (!d->stencil_bits || (buffers & 4 && (st->a.stencil.side[0].write_mask & 255) == 255));
+}
+
 void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
                    uint32_t command, uint64_t call_number)
 {
@@ -408,7 +416,10 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	struct scene *s;
 	uint32_t first_draw;
 
-	if (!x->want || st->render_mode != GL_RENDER || !(f = frame_of(x, st)))
+	if (!x->want || st->render_mode != GL_RENDER)
+		return;
+	gls_units_settle(x, st);
+	if (!(f = frame_of(x, st)))
 		return;
 	s = f->out;
 	first_draw = f->next_draw;
@@ -450,10 +461,15 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 	struct gls_frame *f;
 	struct scene_clear clear;
 	struct scene *s;
-	const struct gls_surface *d = gls_surface_of(x, st);
+	struct gls_surface *d;
 	int whole;
 
-	if (!x->want || st->render_mode != GL_RENDER || !buffers || !(f = frame_of(x, st)))
+	if (!x->want || st->render_mode != GL_RENDER || !buffers)
+		return;
+	d = gls_surface_of(x, st);
+	if (begins_anew(st, d, buffers))
+		gls_frame_drop(d);
+	if (!(f = frame_of(x, st)))
 		return;
 	s = f->out;
 	memset(&clear, 0, sizeof(clear));
@@ -484,11 +500,13 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
                              struct gls_texture_image *image, const float corner[4], const float (*values)[4])
 {
-	struct gls_frame *f = frame_of(x, st);
+	struct gls_frame *f;
 	struct gls_geometry *g = &x->compiling;
 	struct gls_mesh *mesh;
 	uint32_t before;
 
+	gls_units_settle(x, st); /* a surface may begin anew */
+	f = frame_of(x, st);
 	if (!f || grow(&f->out->rectangles, &f->room.rectangles, f->out->n_rectangles, sizeof(*r)))
 		return;
 	gls_geometry_clear(g);

@@ -261,6 +261,7 @@ struct scene_texture {
  */
 struct scene_picture {
 	uint32_t width, height;
+	uint32_t depth_bits; /* of the drawable, at most 24 */
 	uint8_t *rgba;    /* 4 bytes each; alpha is 255 where the drawable has none */
 	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
 	uint8_t *stencil;

@@ -239,6 +239,27 @@ static void put_share(struct saver *s, const struct gls_share *share)
 		bytes_put_u64(s->out, (uintptr_t)e[i].value);
 	}
 	free(e);
+	e = sorted(s, &share->framebuffers);
+	n = e ? share->framebuffers.n : 0;
+	for (size_t i = 0; i < n; i++) {
+		struct gls_framebuffer raw = *(const struct gls_framebuffer *)e[i].value;
+		memset(&raw.surface, 0, sizeof(raw.surface)); /* what was drawn is missing: gls_framebuffer_touch */
+		raw.read = NULL;
+		section(s, "framebuffer object", e[i].key);
+		bytes_put_u64(s->out, e[i].key);
+		bytes_put(s->out, &raw, sizeof(raw));
+	}
+	free(e);
+	e = sorted(s, &share->renderbuffers);
+	n = e ? share->renderbuffers.n : 0;
+	for (size_t i = 0; i < n; i++) {
+		struct gls_renderbuffer raw = *(const struct gls_renderbuffer *)e[i].value;
+		raw.content = NULL;
+		section(s, "renderbuffer", e[i].key);
+		bytes_put_u64(s->out, e[i].key);
+		bytes_put(s->out, &raw, sizeof(raw));
+	}
+	free(e);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
 		bytes_put_u64(s->out, share->defaults[i] != NULL);
 		if (share->defaults[i])
@@ -747,11 +768,27 @@ static void keep(struct loader *l, struct table *t, uint64_t key, void *value)
 		l->err = ERR_SYSTEM; /* the value is lost to the end of the process: there is no memory left anyway */
 }
 
+static struct gls_framebuffer *get_framebuffer(struct loader *l)
+{
+	struct gls_framebuffer *fb = allocate(l, sizeof(*fb));
+
+	if (!fb)
+		return NULL;
+	cursor_copy(&l->in, fb, sizeof(*fb));
+	memset(&fb->surface, 0, sizeof(fb->surface));
+	fb->read = NULL;
+	for (unsigned i = 0; i < N_GLS_ATTACHMENTS; i++)
+		if (fb->attached[i].face >= 6 || fb->attached[i].level >= GLS_MAX_LEVELS)
+			l->in.failed = 1;
+	return fb;
+}
+
 static void get_share(struct loader *l, struct gls_share *share)
 {
 	uint64_t n, key;
 
-	KNOWN(struct gls_share, 144);
+	KNOWN(struct gls_share, 192);
+	KNOWN(struct gls_framebuffer, 280);
 	n = get_count(l, 32);
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
@@ -771,6 +808,23 @@ static void get_share(struct loader *l, struct gls_share *share)
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
 		keep(l, &share->programs, key, (void *)(uintptr_t)cursor_u64(&l->in));
+	}
+	n = get_count(l, sizeof(struct gls_framebuffer));
+	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
+		key = cursor_u64(&l->in);
+		keep(l, &share->framebuffers, key, get_framebuffer(l));
+	}
+	n = get_count(l, sizeof(struct gls_renderbuffer));
+	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
+		struct gls_renderbuffer *r = allocate(l, sizeof(*r));
+		key = cursor_u64(&l->in);
+		if (!r)
+			break;
+		cursor_copy(&l->in, r, sizeof(*r));
+		r->content = NULL;
+		if (r->width > 16384 || r->height > 16384)
+			l->in.failed = 1;
+		keep(l, &share->renderbuffers, key, r);
 	}
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS && !is_bad(l); i++)
 		if (cursor_u64(&l->in))

@@ -254,7 +254,7 @@ struct gls_state {
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
-	uint32_t draw_framebuffer, read_framebuffer;
+	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;
 	struct scene_surface surface;  /* what the program said through rtMaterialEXT */
 

@@ -272,6 +272,11 @@ void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], u
 	store(base, rgba, out);
 }
 
+void gls_store_texel(uint32_t base, const uint8_t rgba[4], uint8_t out[4])
+{
+	store(base, (float[4]){ (float)rgba[0] / 255, (float)rgba[1] / 255, (float)rgba[2] / 255, (float)rgba[3] / 255 }, out);
+}
+
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out)
@@ -458,6 +463,7 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
                                            unsigned *face)
 {
 	int target = gls_texture_target_of(token, face);
+	struct gls_texture *t;
 
 	if (token == GL_PROXY_TEXTURE_1D || token == GL_PROXY_TEXTURE_2D || token == GL_PROXY_TEXTURE_3D ||
 	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE)
@@ -470,7 +476,9 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
 		gls_error(x, st, GL_INVALID_VALUE);
 		return NULL;
 	}
-	return gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
+	t = gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
+	gls_texture_settle(x, st, t);
+	return t;
 }
 
 struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,

@@ -150,6 +150,7 @@ GLS_HANDLER(glDeleteTextures, NOW)
 		uint32_t name = (uint32_t)gls_value_int(&names[i]);
 		if (!name)
 			continue;
+		gls_texture_detach(x, st, name);
 		gls_texture_free(table_remove(&st->share->textures, name));
 		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 			for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
@@ -583,6 +584,12 @@ void gls_share_release(struct gls_share *share)
 	table_free(&share->lists);
 	table_free(&share->textures);
 	table_free(&share->buffers);
+	for (size_t i = 0; i < share->framebuffers.room; i++)
+		gls_framebuffer_free(share->framebuffers.entries[i].value);
+	for (size_t i = 0; i < share->renderbuffers.room; i++)
+		gls_renderbuffer_free(share->renderbuffers.entries[i].value);
 	table_free(&share->programs);
+	table_free(&share->framebuffers);
+	table_free(&share->renderbuffers);
 	free(share);
 }

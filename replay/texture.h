@@ -24,6 +24,7 @@ struct gls_texture {
 	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
 	uint32_t base_level, max_level, generate_mipmap;
 	uint32_t compare_mode, compare_func, depth_mode;
+	uint32_t attached;               /* 1: is or was attached to a framebuffer object */
 	uint32_t dirty;                  /* image must be found again */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
 };
@@ -61,6 +62,9 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 
 /** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of a base format. */
 void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4]);
+
+/** A colour, 4 bytes, as a texel of a base format. */
+void gls_store_texel(uint32_t base, const uint8_t rgba[4], uint8_t out[4]);
 
 /** The object whose level a call names, or NULL (error set; proxies: NULL and no error). */
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,

@@ -1,4 +1,4 @@
-/* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3): how many bits it has. */
+/* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): how many bits it has, framebuffer objects. */
 #include "tests/gl/gl.h"
 
 static void triangle(struct gl *gl)
@@ -65,4 +65,197 @@ START_TEST(test_bits_of_marker)
 }
 END_TEST
 
-GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker)
+/* A supplier that paints every picture in one colour, and remembers what it was asked. */
+struct painter {
+	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start;
+	uint8_t start[4];
+};
+
+static int paint(void *user, const struct scene *s, struct scene_picture *picture)
+{
+	struct painter *p = user;
+
+	p->asked++;
+	p->n_instances = s->n_instances;
+	p->width = s->width;
+	p->height = s->height;
+	p->depth_bits = s->depth_bits;
+	p->alpha_bits = s->alpha_bits;
+	p->had_start = s->start != NULL;
+	if (s->start)
+		memcpy(p->start, s->start->rgba, 4);
+	for (size_t i = 0; i < (size_t)s->width * s->height; i++) {
+		memcpy(picture->rgba + 4 * i, (uint8_t[4]){ 10, 20, 30, 40 }, 4);
+		picture->depth[i] = (1u << picture->depth_bits) - 1;
+		picture->stencil[i] = 3;
+	}
+	picture->unknown = 0;
+	return 0;
+}
+
+/* Texture 5, 16 x 8 of a format, bound and attached to object 3, which stays bound. */
+static struct gl open_object(struct painter *p, uint32_t format)
+{
+	struct gl gl = gl_open();
+
+	gl.x->supply = paint;
+	gl.x->supply_user = p;
+	gl_call(&gl, "glBindTexture", "ei", GL_TEXTURE_2D, 5);
+	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, format, 16, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	gl_call(&gl, "glBindFramebufferEXT", "ei", GL_FRAMEBUFFER, 3);
+	gl_call(&gl, "glFramebufferTexture2D", "eeeii", GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 5, 0);
+	return gl;
+}
+
+static void show(struct gl *gl)
+{
+	gl_call(gl, "glBindFramebuffer", "ei", GL_FRAMEBUFFER, 0);
+	gl_call(gl, "glEnable", "e", GL_TEXTURE_2D);
+	triangle(gl);
+	gl_call(gl, "glDisable", "e", GL_TEXTURE_2D);
+}
+
+/* Draws to an object are a scene of its own size; the texture holds them, in its base format, when it is drawn with. */
+START_TEST(test_render_to_texture)
+{
+	struct painter p = { 0 };
+	struct gl gl = open_object(&p, GL_RGB);
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	triangle(&gl);
+	triangle(&gl);
+	ck_assert_uint_eq(p.asked, 0);
+	show(&gl);
+	ck_assert_uint_eq(p.asked, 1);
+	ck_assert_uint_eq(p.width, 16);
+	ck_assert_uint_eq(p.height, 8);
+	ck_assert_uint_eq(p.depth_bits, 0);
+	ck_assert_uint_eq(p.alpha_bits, 0);
+	ck_assert_uint_ge(p.n_instances, 1);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 1);
+	ck_assert_uint_eq(s->width, 64);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[4]){ 10, 20, 30, 255 }), 4);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	scene_release(&s);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	show(&gl); /* nothing new in it: nothing is rendered */
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(p.asked, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* What is drawn without a clear begins from what the texture holds, be it what the program has put there. */
+START_TEST(test_object_keeps)
+{
+	const uint8_t texel[4] = { 1, 2, 3, 4 };
+	struct painter p = { 0 };
+	struct gl gl = open_object(&p, GL_RGBA);
+
+	triangle(&gl);
+	gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texel), texel);
+	ck_assert_uint_eq(p.asked, 1); /* before it changes */
+	triangle(&gl);
+	show(&gl);
+	ck_assert_uint_eq(p.asked, 2);
+	ck_assert_uint_eq(p.alpha_bits, 8);
+	ck_assert_uint_eq(p.had_start, 1);
+	ck_assert_mem_eq(p.start, texel, 4);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Renderbuffers give depth and stencil; an object of which nothing is left draws nowhere; a deleted one is unbound. */
+START_TEST(test_renderbuffers)
+{
+	struct painter p = { 0 };
+	struct gl gl = open_object(&p, GL_RGBA);
+	const uint32_t object = 3, texture = 5;
+	struct scene *s;
+
+	gl_call(&gl, "glRenderbufferStorage", "eeii", GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, 12, 20);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glBindRenderbufferEXT", "ei", GL_RENDERBUFFER, 9);
+	gl_call(&gl, "glRenderbufferStorage", "eeii", GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, 12, 20);
+	gl_call(&gl, "glFramebufferRenderbuffer", "eeei", GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, 9);
+	triangle(&gl);
+	show(&gl);
+	ck_assert_uint_eq(p.depth_bits, 16);
+	ck_assert_uint_eq(p.width, 12); /* the smaller one of each */
+	ck_assert_uint_eq(p.height, 8);
+	gl_call(&gl, "glBindFramebuffer", "ei", GL_FRAMEBUFFER, 3);
+	gl_call(&gl, "glFramebufferRenderbuffer", "eeei", GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, 0);
+	gl_call(&gl, "glDeleteTextures", "iU", 1, 1, &texture);
+	p.asked = 0;
+	triangle(&gl);
+	gl_call(&gl, "glDeleteFramebuffers", "iU", 1, 1, &object);
+	ck_assert_uint_eq(p.asked, 0);
+	ck_assert_uint_eq(gl_state(&gl)->draw_framebuffer, 0);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* BlitFramebuffer: a pixel rectangle that no test and no blending touches, in the draw object or the window. */
+START_TEST(test_blit)
+{
+	struct painter p = { 0 };
+	struct gl gl = open_object(&p, GL_RGBA);
+	struct scene *s;
+
+	triangle(&gl);
+	gl_call(&gl, "glBindFramebuffer", "ei", GL_DRAW_FRAMEBUFFER, 0);
+	gl_call(&gl, "glEnable", "e", GL_BLEND);
+	gl_call(&gl, "glBlitFramebuffer", "iiiiiiiime", 0, 0, 4, 4, 20, 10, 12, 18, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(p.asked, 1);
+	ck_assert_uint_eq(s->n_rectangles, 1);
+	ck_assert_uint_eq(s->rectangles[0].kind, SCENE_COLOR_PIXELS);
+	ck_assert_uint_eq(s->rectangles[0].width, 4);
+	ck_assert_floats(2, s->rectangles[0].zoom, -2, 2);
+	ck_assert_floats(2, s->meshes[s->instances[0].mesh]->position, 20, 10);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].blend, 0);
+	ck_assert_mem_eq(s->textures[s->rectangles[0].texture]->texels, ((uint8_t[4]){ 10, 20, 30, 40 }), 4);
+	ck_assert_uint_eq(gl_state(&gl)->a.color.blend, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* What was drawn to a texture in a skipped frame is missing: the replay must start again where it is looked at. */
+START_TEST(test_object_skipped)
+{
+	struct painter p = { 0 };
+	struct gl gl = open_object(&p, GL_RGBA);
+
+	gl.x->want = 0;
+	triangle(&gl);
+	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+	gls_frame_skip(gl.x);
+	gl.x->want = 1;
+	show(&gl);
+	ck_assert_int_eq(gl.x->rewind, 1);
+	gl_close(&gl);
+	gl = open_object(&p, GL_RGBA);
+	gl.x->want = 0;
+	triangle(&gl);
+	gls_frame_skip(gl.x);
+	gl.x->want = 1;
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT); /* all of it is new */
+	show(&gl);
+	ck_assert_int_eq(gl.x->rewind, 0);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_render_to_texture, test_object_keeps, test_renderbuffers,
+         test_blit, test_object_skipped)

@@ -1,5 +1,6 @@
 /*
- * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at. Recorded by test_targets.py.
+ * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and renderbuffers as
+ * colour, depth and stencil, drawn with, copied, filtered and kept from frame to frame. Recorded by test_targets.py.
  */
 #include "tests/trace/window.h"
 
@@ -38,12 +39,128 @@ static void stored_alpha(void)
 	glDisable(GL_BLEND);
 }
 
+static unsigned objects[2], colors[2], depths[2]; /* the first with a depth renderbuffer, the second with a depth texture */
+
+static void make_objects(void)
+{
+	glGenFramebuffers(2, objects);
+	glGenTextures(2, colors);
+	glGenTextures(1, &depths[1]);
+	glGenRenderbuffers(1, depths);
+	glBindRenderbuffer(GL_RENDERBUFFER, depths[0]);
+	glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, 32, 16);
+	for (int i = 0; i < 2; i++) {
+		glBindTexture(GL_TEXTURE_2D, colors[i]);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+		glTexImage2D(GL_TEXTURE_2D, 0, i ? GL_RGB : GL_RGBA, 32, 16 << i, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+		glBindFramebuffer(GL_FRAMEBUFFER, objects[i]);
+		glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colors[i], 0);
+	}
+	glBindTexture(GL_TEXTURE_2D, depths[1]);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, 32, 32, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, NULL);
+	glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depths[1], 0);
+	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the second object is complete");
+	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
+	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths[0]);
+	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depths[0]);
+	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the first object is complete");
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/* Draw to an object from here on, or to the window again. */
+static void draw_to(unsigned object, int width, int height)
+{
+	glBindFramebuffer(GL_FRAMEBUFFER, object);
+	glViewport(0, 0, width, height);
+}
+
+static void show(unsigned texture, int x, int y, int width, int height)
+{
+	glBindTexture(GL_TEXTURE_2D, texture);
+	glEnable(GL_TEXTURE_2D);
+	glColor4f(1, 1, 1, 1);
+	glBegin(GL_QUADS);
+	glTexCoord2f(0, 0);
+	glVertex2i(x, y);
+	glTexCoord2f(1, 0);
+	glVertex2i(x + width, y);
+	glTexCoord2f(1, 1);
+	glVertex2i(x + width, y + height);
+	glTexCoord2f(0, 1);
+	glVertex2i(x, y + height);
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* Depth, stencil and scissor of the object's own, then its texture on the window; and drawn on without a clear. */
+static void render_to_texture(void)
+{
+	draw_to(objects[0], 32, 16);
+	glClearColor(0, 0, 1, 0.2f);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	glEnable(GL_DEPTH_TEST);
+	glTranslatef(0, 0, 2);
+	panel(4, 6, 20, 1, 0, 0, 1);
+	glTranslatef(0, 0, -1);
+	panel(10, 12, 30, 0, 1, 0, 0.4f); /* behind it */
+	glLoadIdentity();
+	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(20, 8, 30, 30); /* the object ends at 32, 16 */
+	panel(0, 0, 64, 1, 1, 0, 1);
+	glDisable(GL_SCISSOR_TEST);
+	draw_to(0, 64, 48);
+	show(colors[0], 0, 0, 32, 16);
+	draw_to(objects[0], 32, 16);
+	panel(0, 0, 12, 0, 1, 1, 1);
+	draw_to(0, 64, 48);
+	show(colors[0], 32, 24, 32, 16);
+}
+
+/* A depth texture as a picture, and the colours of the last frame still there. */
+static void depth_texture(void)
+{
+	draw_to(objects[1], 32, 32);
+	glClearColor(0.6f, 0.2f, 0, 1);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glEnable(GL_DEPTH_TEST);
+	glTranslatef(0, 0, 6);
+	panel(16, 12, 32, 0.2f, 0.4f, 0.6f, 1);
+	glLoadIdentity();
+	glDisable(GL_DEPTH_TEST);
+	draw_to(0, 64, 48);
+	show(depths[1], 0, 0, 32, 32);
+	show(colors[1], 32, 0, 32, 32);
+	show(colors[0], 0, 32, 32, 16);
+}
+
+/* Copies into and out of objects, between objects and the window, flipped and to another place. */
+static void copies(void)
+{
+	panel(2, 2, 10, 1, 0, 1, 1);
+	glBindFramebuffer(GL_READ_FRAMEBUFFER, objects[1]);
+	glBlitFramebuffer(0, 0, 32, 32, 0, 32, 32, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects[0]);
+	glBlitFramebuffer(0, 0, 16, 16, 0, 0, 16, 16, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
+	glBindTexture(GL_TEXTURE_2D, colors[1]);
+	glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 8, 12, 0, 0, 20, 10);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	show(colors[0], 0, 32, 32, 16);
+	show(colors[1], 32, 16, 32, 32);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { stored_alpha };
+	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
 
 	open_window_of(attributes);
+	make_objects();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
 		reset();
 		frames[i]();
