@@ -244,6 +244,9 @@ struct gls_drawable {
 	uint32_t width, height;
 	int fixed; /* size said by the recorder (relume:drawable) and not guessed from viewports */
 	struct gls_surface surface;
+	int16_t *accum; /* owned: the accumulation buffer, [height][width][4], see accum.c; NULL: all 0 */
+	uint32_t accum_width, accum_height;
+	uint32_t accum_missing; /* 1: it was changed in a frame that was skipped */
 };
 
 /* ---- the scene under construction ---- */
@@ -421,6 +424,12 @@ void gls_renderbuffer_free(struct gls_renderbuffer *r);
 /** Draw a rectangle of pixels (pixels.c) with the raster position's attributes; left, low: its first pixel's outer corner. */
 void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
                         uint32_t height, const float zoom[2], const uint8_t *texels);
+/** The same, but that nothing touches the fragments but scissor, colour mask and masks of the kind of pixels. */
+void gls_draw_rectangle_plainly(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
+                                uint32_t height, const float zoom[2], const uint8_t *texels);
+
+/** Clear the accumulation buffer (accum.c). */
+void gls_accum_clear(struct gls_exec *x, struct gls_state *st);
 
 void gls_mesh_cache_trim(struct gls_exec *x);
 void gls_image_cache_trim(struct gls_exec *x);

@@ -232,6 +232,8 @@ GLS_HANDLER(glClear, STATE)
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
 	}
+	if (mask & GL_ACCUM_BUFFER_BIT)
+		gls_accum_clear(x, st);
 	gls_frame_clear(x, st, (mask & GL_COLOR_BUFFER_BIT ? 1u : 0) | (mask & GL_DEPTH_BUFFER_BIT ? 2u : 0) |
 	                           (mask & GL_STENCIL_BUFFER_BIT ? 4u : 0));
 }

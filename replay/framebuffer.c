@@ -604,10 +604,8 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		memcpy(texels + 4 * (size_t)i, kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) :
 		                               kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, 4);
 	}
-	st->a.depth.enabled = st->a.depth.write = kind == SCENE_DEPTH_PIXELS;
-	st->a.color.mask = kind == SCENE_COLOR_PIXELS ? 15 : 0;
 	if (texels)
-		gls_draw_rectangle(x, st, kind, b->left, b->low, width, height, b->zoom, texels);
+		gls_draw_rectangle_plainly(x, st, kind, b->left, b->low, width, height, b->zoom, texels);
 }
 
 /* One direction: the source's lower end, the place of it, and how much larger it gets. @return 0 where nothing is left */
@@ -622,9 +620,8 @@ static int span(int64_t s0, int64_t s1, int64_t d0, int64_t d1, int64_t *from, i
 
 GLS_HANDLER(glBlitFramebuffer, NOW)
 {
-	struct gls_attribs saved;
 	struct blit b;
-	uint32_t mask = arg_u(c, 8);
+	uint32_t mask = arg_u(c, 8), color_mask = st->a.color.mask;
 	const struct scene_picture *p;
 
 	changes(x, st);
@@ -638,18 +635,12 @@ GLS_HANDLER(glBlitFramebuffer, NOW)
 	p = gls_read_screen(x, st);
 	if (!p)
 		return;
-	saved = st->a;
-	st->a.color.alpha_test = st->a.color.blend = st->a.color.logic_op_enabled = st->a.stencil.enabled = st->a.fog.enabled = 0;
-	st->a.depth.func = GL_ALWAYS;
-	st->a.stencil.side[0].write_mask = 255;
-	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
-		st->a.texturing.units[u].enabled = 0;
+	st->a.color.mask = 15;
 	if (mask & GL_COLOR_BUFFER_BIT)
 		blit_one(x, st, &b, SCENE_COLOR_PIXELS, p);
 	if (mask & GL_DEPTH_BUFFER_BIT)
 		blit_one(x, st, &b, SCENE_DEPTH_PIXELS, p);
 	if (mask & GL_STENCIL_BUFFER_BIT)
 		blit_one(x, st, &b, SCENE_STENCIL_PIXELS, p);
-	st->a = saved;
-	st->dirty = GLS_DIRTY_ALL;
+	st->a.color.mask = color_mask;
 }

@@ -110,6 +110,24 @@ void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind,
 	gls_texture_image_release(image);
 }
 
+void gls_draw_rectangle_plainly(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
+                                uint32_t height, const float zoom[2], const uint8_t *texels)
+{
+	struct gls_attribs saved = st->a;
+
+	st->a.color.alpha_test = st->a.color.blend = st->a.color.logic_op_enabled = st->a.stencil.enabled = st->a.fog.enabled = 0;
+	st->a.depth.enabled = st->a.depth.write = kind == SCENE_DEPTH_PIXELS;
+	st->a.depth.func = GL_ALWAYS;
+	st->a.stencil.side[0].write_mask = 255;
+	if (kind != SCENE_COLOR_PIXELS)
+		st->a.color.mask = 0;
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		st->a.texturing.units[u].enabled = 0;
+	gls_draw_rectangle(x, st, kind, left, low, width, height, zoom, texels);
+	st->a = saved;
+	st->dirty = GLS_DIRTY_ALL;
+}
+
 GLS_HANDLER(glBitmap, STATE)
 {
 	uint32_t width = arg_u(c, 0), height = arg_u(c, 1);

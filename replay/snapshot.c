@@ -381,11 +381,12 @@ static int save(struct saver *s)
 	n = e ? x->drawables.n : 0;
 	for (size_t i = 0; i < n; i++) {
 		const struct gls_drawable *d = e[i].value;
-		KNOWN(struct gls_drawable, 72);
+		KNOWN(struct gls_drawable, 96);
 		bytes_put_u64(out, e[i].key);
 		bytes_put_u64(out, d->width);
 		bytes_put_u64(out, d->height);
 		bytes_put_u64(out, (uint64_t)d->fixed);
+		bytes_put_u64(out, d->accum_missing || d->accum);
 	}
 	free(e);
 	section(s, "configurations", x->configs.n);
@@ -980,7 +981,7 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 		get_context(&l);
 	if (!is_bad(&l))
 		get_threads(&l);
-	count = get_count(&l, 32);
+	count = get_count(&l, 40);
 	for (uint64_t i = 0; i < count && !is_bad(&l); i++) {
 		struct gls_drawable *d = allocate(&l, sizeof(*d));
 		uint64_t key = cursor_u64(&l.in);
@@ -989,6 +990,7 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 		d->width = (uint32_t)cursor_u64(&l.in);
 		d->height = (uint32_t)cursor_u64(&l.in);
 		d->fixed = (int)cursor_u64(&l.in);
+		d->accum_missing = cursor_u64(&l.in) != 0;
 		d->surface.skipped = 1; /* as after any frame that was not built: gls_frame_skip */
 		keep(&l, &x->drawables, key, d);
 	}

@@ -266,6 +266,7 @@ struct gls_state {
 	uint64_t drawable, read_drawable;
 	uint32_t ever_current;
 	uint32_t alpha_bits, depth_bits, stencil_bits, double_buffered;
+	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
 };
 
 /** A context as GL hands it out (all initial values of chapter 6); width and height of the first drawable may be 0. */

@@ -257,5 +257,56 @@ START_TEST(test_object_skipped)
 }
 END_TEST
 
+/* Accum (sec. 4.2.4): sums of what the screen shows, given back as pixels under scissor and mask. */
+START_TEST(test_accum)
+{
+	struct painter p = { 0 };
+	struct gl gl = gl_open();
+	const struct scene_rectangle *r;
+	struct scene *s;
+
+	gl.x->supply = paint; /* 10 20 30 40 everywhere */
+	gl.x->supply_user = &p;
+	gl_call(&gl, "glAccum", "ef", GL_NONE, 1.0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glClearAccum", "ffff", 0.0, 0.0, 0.0, 0.5);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
+	gl_call(&gl, "glAccum", "ef", GL_ACCUM, 2.0);
+	gl_call(&gl, "glAccum", "ef", GL_ADD, 0.2);
+	gl_call(&gl, "glAccum", "ef", GL_MULT, 0.5);
+	gl_call(&gl, "glEnable", "e", GL_SCISSOR_TEST);
+	gl_call(&gl, "glScissor", "iiii", 10, 60, 20, 20);
+	gl_call(&gl, "glColorMask", "iiii", 1, 0, 1, 1);
+	gl_call(&gl, "glAccum", "ef", GL_RETURN, 1.0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_rectangles, 1);
+	r = &s->rectangles[0];
+	ck_assert_uint_eq(r->width, 20);
+	ck_assert_uint_eq(r->height, 4);
+	ck_assert_floats(2, s->meshes[s->instances[0].mesh]->position, 10, 60);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].color_mask, 13);
+	for (int i = 0; i < 4; i++) /* ((0 0 0 .5) + 2 (10 20 30 40) / 255 + .2) / 2, alpha cut off at 1 before it is halved */
+		ck_assert_int_le(abs(s->textures[r->texture]->texels[i] - ((int[4]){ 35, 45, 55, 128 })[i]), 1);
+	scene_release(&s);
+
+	gl.x->want = 0; /* what is summed up unseen is missing, until all of it is loaded */
+	gl_call(&gl, "glAccum", "ef", GL_ACCUM, 1.0);
+	gls_frame_skip(gl.x);
+	gl.x->want = 1;
+	gl_call(&gl, "glDisable", "e", GL_SCISSOR_TEST);
+	gl_call(&gl, "glColorMask", "iiii", 1, 1, 1, 1);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+	gl_call(&gl, "glAccum", "ef", GL_LOAD, 1.0);
+	gl_call(&gl, "glAccum", "ef", GL_RETURN, 1.0);
+	ck_assert_int_eq(gl.x->rewind, 0);
+	gl.x->want = 0;
+	gl_call(&gl, "glAccum", "ef", GL_MULT, 0.5);
+	gl.x->want = 1;
+	gl_call(&gl, "glAccum", "ef", GL_RETURN, 1.0);
+	ck_assert_int_eq(gl.x->rewind, 1);
+	gl_close(&gl);
+}
+END_TEST
+
 GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_render_to_texture, test_object_keeps, test_renderbuffers,
-         test_blit, test_object_skipped)
+         test_blit, test_object_skipped, test_accum)

@@ -1,6 +1,7 @@
 /*
  * What is drawn to, one thing a frame: a window with alpha, whose stored alpha blends look at; textures and renderbuffers as
- * colour, depth and stencil, drawn with, copied, filtered and kept from frame to frame. Recorded by test_targets.py.
+ * colour, depth and stencil, drawn with, copied and kept from frame to frame; sums in the accumulation buffer. Recorded by
+ * test_targets.py.
  */
 #include "tests/trace/window.h"
 
@@ -154,10 +155,39 @@ static void copies(void)
 	show(colors[1], 32, 16, 32, 32);
 }
 
+/* Loaded, scaled, added to, and given back through a scissor and a mask; sums are kept for the next frame. */
+static void sums(void)
+{
+	panel(4, 4, 30, 1, 0, 0.2f, 1);
+	glAccum(GL_LOAD, 0.4f);
+	glClear(GL_COLOR_BUFFER_BIT);
+	panel(14, 14, 30, 0, 1, 0.6f, 1);
+	glAccum(GL_ACCUM, 0.6f);
+	glEnable(GL_BLEND); /* which RETURN does not look at */
+	glBlendFunc(GL_ONE, GL_ONE);
+	glAccum(GL_RETURN, 1);
+	glDisable(GL_BLEND);
+	panel(48, 30, 12, 1, 0.8f, 0.2f, 1); /* over what came back */
+}
+
+static void more_sums(void)
+{
+	glAccum(GL_MULT, 0.5f);
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(10, 10, 30, 100);
+	glAccum(GL_ADD, 0.2f);
+	glScissor(0, 0, 50, 40);
+	glColorMask(GL_TRUE, GL_TRUE, GL_FALSE, GL_TRUE);
+	glAccum(GL_RETURN, 1.5f);
+	glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+	glDisable(GL_SCISSOR_TEST);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies };
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, None };
+	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, sums, more_sums };
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
+		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
 	open_window_of(attributes);
 	make_objects();
