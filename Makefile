@@ -122,8 +122,8 @@ $(BUILD)/gen/layout.h: replay/snapshot.c replay/state.h replay/exec.h replay/tex
 	$(Q)echo "#define SNAPSHOT_LAYOUT \"$$(cat $^ | md5sum | cut -d ' ' -f 1)\"" >$@
 
 # Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
-$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
-	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt $(sort $(wildcard replay/*.c))
+$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/overlay.txt capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt capture/overlay.txt $(sort $(wildcard replay/*.c))
 
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<

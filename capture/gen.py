@@ -71,7 +71,7 @@ class Overlay:
             self.passes.append((number, self.pattern(number, fields[0]), fields[1]))
         elif word == "run":
             self.runs.append((number, self.pattern(number, rest), ""))
-        elif word == "draws":
+        elif word in ("draws", "ends"):
             self.draws.append((number, self.pattern(number, rest), ""))
         elif word == "command":
             self.command(number, rest)

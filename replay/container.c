@@ -23,6 +23,7 @@ struct container {
 	uint64_t piece; /* offset of the chunk last delivered */
 	enum container_kind kind;
 	int cut, ended;
+	int delivered; /* Brotli: some of it is read already */
 	uint8_t *packed, *unpacked;
 	size_t packed_room, unpacked_room;
 	z_stream gzip;
@@ -264,6 +265,8 @@ static int next_gzip(struct container *c, const uint8_t **data, size_t *size)
 			}
 		}
 		rc = inflate(z, Z_NO_FLUSH);
+		if (rc != Z_OK && rc != Z_STREAM_END && z->avail_out < PIECE_BYTES)
+			break; /* what stands before the damage; the next call meets it again */
 		if (rc != Z_OK && rc != Z_STREAM_END)
 			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the gzip stream does not unpack (%s)",
 			                  (unsigned long long)c->offset, z->msg ? z->msg : "no reason given");
@@ -291,6 +294,11 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 			}
 		}
 		rc = BrotliDecoderDecompressStream(c->brotli, &c->brotli_left, &c->brotli_next, &room, &out, NULL);
+		if (rc == BROTLI_DECODER_RESULT_ERROR && room < PIECE_BYTES)
+			break; /* as with gzip */
+		if (rc == BROTLI_DECODER_RESULT_ERROR && c->delivered)
+			return err_report(ERR_INPUT, c->path, "damaged before byte %llu: the Brotli stream does not unpack",
+			                  (unsigned long long)c->offset);
 		if (rc == BROTLI_DECODER_RESULT_ERROR)
 			return err_report(ERR_INPUT, c->path, "not a trace: neither Snappy chunks nor gzip, and no Brotli stream "
 			                  "before byte %llu", (unsigned long long)c->offset);
@@ -298,6 +306,7 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 	c->ended = rc == BROTLI_DECODER_RESULT_SUCCESS || c->cut;
 	*data = c->unpacked;
 	*size = PIECE_BYTES - room;
+	c->delivered |= *size > 0;
 	return *size > 0;
 }
 

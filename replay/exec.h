@@ -37,12 +37,15 @@ enum gls_kind {
 	void gls_##name(struct gls_exec *x __attribute__((unused)), struct gls_state *st __attribute__((unused)), \
 	                const struct call *c __attribute__((unused)))
 
+enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/overlay.txt: does nothing but draw; ends a frame */
+
 struct gls_command {
 	const char *name;
 	gls_handler *handler; /* NULL: excused, or not done yet */
 	uint32_t kind;
 	const char *excuse;   /* why nothing needs to be done */
 	uint32_t core;        /* 1: part of GL 1.0 - 2.1 */
+	uint32_t drawing;     /* enum gls_drawing, or 0 */
 };
 extern const struct gls_command gls_commands[]; /* sorted by name */
 extern const unsigned n_gls_commands;

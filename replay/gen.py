@@ -2,10 +2,11 @@
 """Writes build/gen/gl_tokens.h (every GL enum as a #define) and build/gen/dispatch.c (command name -> handler).
 
 usage: gen.py OUT tokens                               the enums
-       gen.py OUT dispatch OVERLAY HANDLER_SOURCE...   the table
+       gen.py OUT dispatch OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...   the table
 
 A handler is a line of the form GLS_HANDLER(glName, KIND) at the start of a line in replay/*.c. A command without one takes the
 handler of the command that the registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
+Which commands do nothing but draw, or end a frame, is said by the lines "draws" and "ends" of capture/overlay.txt.
 """
 import re
 import sys
@@ -58,12 +59,20 @@ def read_handlers(paths):
     return handlers
 
 
-def dispatch(out, overlay, sources):
+def read_drawing(path):
+    """[(pattern of commands, what they do)]"""
+    with open(path) as source:
+        words = [line.split(None, 1) for line in source]
+    return [(re.compile(line[1].strip()), "GLS_" + line[0].upper()) for line in words if line and line[0] in ("draws", "ends")]
+
+
+def dispatch(out, overlay, capture_overlay, sources):
     commands = {}
     for file_name in ("gl.xml", "glx.xml"):
         commands.update(registry.read(file_name)[0])
     excuses = read_overlay(overlay)
     handlers = read_handlers(sources)
+    drawing = read_drawing(capture_overlay)
     both = sorted(excuses.keys() & handlers.keys())
     if both:
         sys.exit(f"{overlay}: {both[0]} is excused and handled")
@@ -91,7 +100,8 @@ def dispatch(out, overlay, sources):
                   f"gls_{handler}" if handler else "0",
                   f"GLS_KIND_{handlers[handler]}" if handler else "0",
                   '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0",
-                  str(int(core))]
+                  str(int(core)),
+                  next((what for pattern, what in drawing if pattern.fullmatch(name)), "0")]
         lines.append("\t{ " + ", ".join(fields) + " },")
     lines += ["};", "", "const unsigned n_gls_commands = sizeof(gls_commands) / sizeof(gls_commands[0]);"]
     write(out, lines)
@@ -100,7 +110,7 @@ def dispatch(out, overlay, sources):
 if __name__ == "__main__":
     if len(sys.argv) == 3 and sys.argv[2] == "tokens":
         tokens(sys.argv[1])
-    elif len(sys.argv) > 4 and sys.argv[2] == "dispatch":
-        dispatch(sys.argv[1], sys.argv[3], sys.argv[4:])
+    elif len(sys.argv) > 5 and sys.argv[2] == "dispatch":
+        dispatch(sys.argv[1], sys.argv[3], sys.argv[4], sys.argv[5:])
     else:
         sys.exit(__doc__)

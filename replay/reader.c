@@ -941,6 +941,15 @@ const char *trace_reader_property(const struct trace_reader *r, const char *name
 	return NULL;
 }
 
+int trace_reader_property_at(const struct trace_reader *r, size_t i, const char **name, const char **value)
+{
+	if (i >= r->n_properties)
+		return 0;
+	*name = r->properties[i][0];
+	*value = r->properties[i][1];
+	return 1;
+}
+
 int trace_reader_is_cut(const struct trace_reader *r)
 {
 	return r->cut;

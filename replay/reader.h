@@ -72,6 +72,9 @@ int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, c
 /** A property of the header ("process.name"), or NULL. */
 const char *trace_reader_property(const struct trace_reader *r, const char *name);
 
+/** The i-th property. @return 1, or 0 where there are no more */
+int trace_reader_property_at(const struct trace_reader *r, size_t i, const char **name, const char **value);
+
 /** 1 once the end has been met inside an event or chunk. */
 int trace_reader_is_cut(const struct trace_reader *r);
 
