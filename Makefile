@@ -26,7 +26,7 @@ LIBS_OIIO := -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c arrays.c content.c mirror.c runs.c memory.c sink.c writer.c reference.c)
+RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
@@ -43,7 +43,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	libsnappy-dev libbrotli-dev zlib1g-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
-	check clang xvfb mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
+	check clang xvfb xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
 	fonts-dejavu-core python3-numpy xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 

@@ -183,7 +183,7 @@ static int store_initial(unsigned i)
 	return store_names[i] == GL_UNPACK_ALIGNMENT; /* 1: rows lie close; all others 0 */
 }
 
-static void make_neutral(int back)
+void skip_make_neutral(int back)
 {
 	int buffer = context_has(HAS_PIXEL_BUFFERS) ? context_get(GL_PIXEL_UNPACK_BUFFER_BINDING) : 0;
 
@@ -366,7 +366,7 @@ void skip_end(int width, int height)
 	if (!context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
 		return;
 	context_errors_before();
-	make_neutral(0);
+	skip_make_neutral(0);
 	reading_begin(&state);
 	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* put back with all else */
 	pthread_mutex_lock(&lock);
@@ -375,6 +375,6 @@ void skip_end(int width, int height)
 	pthread_mutex_unlock(&lock);
 	restore_window(width, height);
 	reading_end(&state);
-	make_neutral(1);
+	skip_make_neutral(1);
 	context_errors_after();
 }

@@ -127,8 +127,15 @@ void skip_begin(void);
 /** @param width, height  of the window; 0 where there is none */
 void skip_end(int width, int height);
 void skip_list_state(void);
+/** The trace's state that pixels pass through on their way in set to its initial value (rows lie close), or put back. */
+void skip_make_neutral(int back);
 void skip_texture_copied(unsigned target);
 void skip_texture_attached(unsigned target, unsigned name);
+
+/* font.c: text of the X server */
+
+/** glXUseXFont has made lists out of a font's characters: writes them, then the call. */
+void font_used(unsigned long name, int first, int count, int list);
 
 /* arrays.c: vertex arrays in client memory, written when they are drawn */
 

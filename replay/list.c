@@ -571,6 +571,16 @@ GLS_HANDLER(glDeleteLists, NOW)
 }
 
 GLS_HANDLER(glListBase, STATE) { st->a.list_base = arg_u(c, 0); }
+
+/* Its lists are made by the calls that our recorder writes before it; what other recorders write has none. */
+GLS_HANDLER(glXUseXFont, WINDOW)
+{
+	const struct gls_list *list = x->st ? table_find(&x->st->share->lists, (uint32_t)arg_i(c, 3)) : NULL;
+
+	if (!list || !list->n)
+		gls_unsupported(x, "a font of the X server that the trace does not hold");
+}
+
 GLS_HANDLER(glCallList, INSIDE) { gls_call_list(x, st, arg_u(c, 0)); }
 
 /* Bytes of an element of CallLists (table 5.?: sec. 5.4), 0: no type. */

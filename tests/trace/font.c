@@ -1,0 +1,48 @@
+/* Text by glXUseXFont: the X server's characters, made into lists while the unpack state is one that no bitmap of theirs has. */
+#include "window.h"
+
+enum { FRAMES = 5, BASE = 1000, CURSORS = 3000 };
+
+static void use_font(const char *name, int first, int count, int base)
+{
+	Font font = XLoadFont(display, name);
+
+	glXUseXFont(font, first, count, base);
+	XUnloadFont(display, font);
+}
+
+static void write_text(int x, int y, int base, const char *text)
+{
+	glRasterPos2i(x, y);
+	glListBase((unsigned)base);
+	glCallLists((int)strlen(text), GL_UNSIGNED_BYTE, text);
+}
+
+int main(void)
+{
+	float at[4];
+
+	open_window();
+	glMatrixMode(GL_PROJECTION);
+	glOrtho(0, 64, 0, 48, -1, 1);
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
+	glPixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
+	glPixelStorei(GL_UNPACK_LSB_FIRST, 1);
+	use_font("fixed", 0, 256, BASE);
+	use_font("cursor", 0, 256, CURSORS); /* characters of many sizes, left and below of where they stand; the last do not exist */
+	expect(glIsList(BASE) && glIsList(CURSORS + 255) && !glIsList(BASE + 256), "a list for each character");
+	glGetError(); /* Mesa's own, for characters without pixels */
+	for (int frame = 0; frame < FRAMES; frame++) {
+		glClearColor(0, 0, 0.1f * (float)frame, 1);
+		glClear(GL_COLOR_BUFFER_BIT);
+		glColor3f(1, 0.5f, 0);
+		write_text(2 + frame, 34, BASE, "Txt gj \x7Fy");
+		glColor3f(0, 1, 0.25f * (float)frame);
+		write_text(12, 12 + frame, CURSORS, "\x02\x44\xFF\x3A");
+		glGetFloatv(GL_CURRENT_RASTER_POSITION, at);
+		expect(at[0] > 12, "text moves the raster position");
+		end_frame();
+	}
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	return 0;
+}
