@@ -138,6 +138,106 @@ static void depth_texture(void)
 	show(colors[0], 0, 32, 32, 16);
 }
 
+/* Levels made of what was drawn, and drawn to one by one; by the extension's own names. */
+static void levels(void)
+{
+	unsigned tex, fb;
+
+	glGenTextures(1, &tex);
+	glGenFramebuffersEXT(1, &fb);
+	glBindTexture(GL_TEXTURE_2D, tex);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 32, 32, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, fb);
+	glFramebufferTexture2DEXT(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, tex, 0);
+	glViewport(0, 0, 32, 32);
+	glClear(GL_COLOR_BUFFER_BIT);
+	panel(10, 10, 30, 1, 0.5f, 0, 1);
+	panel(3, 3, 17, 0, 0.5f, 1, 1);
+	glGenerateMipmapEXT(GL_TEXTURE_2D);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, 0);
+	glViewport(0, 0, 64, 48);
+	show(tex, 0, 0, 16, 16);
+	show(tex, 20, 0, 8, 8);
+	show(tex, 30, 0, 4, 4);
+	show(tex, 0, 16, 32, 32);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, fb);
+	glViewport(0, 0, 16, 16);
+	glFramebufferTexture2DEXT(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, tex, 1);
+	panel(3, 20, 17, 1, 1, 1, 1);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, 0);
+	glViewport(0, 0, 64, 48);
+	show(tex, 40, 0, 16, 16);
+	glDeleteFramebuffersEXT(1, &fb);
+	glDeleteTextures(1, &tex);
+}
+
+/* Faces of a cube and layers of a volume. */
+static void layers(void)
+{
+	unsigned tex[2], fb;
+
+	glGenTextures(2, tex);
+	glGenFramebuffersEXT(1, &fb);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, fb);
+	glBindTexture(GL_TEXTURE_3D, tex[0]);
+	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, 16, 16, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, tex[1]);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glViewport(0, 0, 16, 16);
+	for (int i = 0; i < 8; i++) {
+		unsigned face = GL_TEXTURE_CUBE_MAP_POSITIVE_X + (unsigned)i;
+
+		if (i < 6) {
+			glTexImage2D(face, 0, GL_RGBA8, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+			glFramebufferTexture2DEXT(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, face, tex[1], 0);
+		} else {
+			glFramebufferTexture3DEXT(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_3D, tex[0], 0, i - 6);
+		}
+		glClearColor((float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2 & 1), 1);
+		glClear(GL_COLOR_BUFFER_BIT);
+		panel(10, 20, 17, 0.2f * (float)(i % 6), 0.4f, 0.6f, 1);
+	}
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, 0);
+	glViewport(0, 0, 64, 48);
+	glColor3f(1, 1, 1);
+	glEnable(GL_TEXTURE_3D);
+	for (int i = 0; i < 2; i++) {
+		glBegin(GL_QUADS);
+		glTexCoord3f(0, 0, 0.25f + 0.5f * (float)i);
+		glVertex2i(32 * i, 0);
+		glTexCoord3f(1, 0, 0.25f + 0.5f * (float)i);
+		glVertex2i(32 * i + 16, 0);
+		glTexCoord3f(1, 1, 0.25f + 0.5f * (float)i);
+		glVertex2i(32 * i + 16, 16);
+		glTexCoord3f(0, 1, 0.25f + 0.5f * (float)i);
+		glVertex2i(32 * i, 16);
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_3D);
+	glEnable(GL_TEXTURE_CUBE_MAP);
+	for (int i = 0; i < 2; i++) {
+		float x = i ? -1.0f : 1.0f;
+
+		glBegin(GL_QUADS);
+		glTexCoord3f(x, -1, -1);
+		glVertex2i(32 * i, 20);
+		glTexCoord3f(x, 1, -1);
+		glVertex2i(32 * i + 16, 20);
+		glTexCoord3f(x, 1, 1);
+		glVertex2i(32 * i + 16, 36);
+		glTexCoord3f(x, -1, 1);
+		glVertex2i(32 * i, 36);
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_CUBE_MAP);
+	glDeleteFramebuffersEXT(1, &fb);
+	glDeleteTextures(2, tex);
+}
+
 /* Copies into and out of objects, between objects and the window, flipped and to another place. */
 static void copies(void)
 {
@@ -185,7 +285,8 @@ static void more_sums(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, sums, more_sums };
+	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
+		                              more_sums };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
