@@ -44,7 +44,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core python3-numpy xdotool pkg-config zsh fish man-db \
+	fonts-dejavu-core python3-numpy python3-jsonschema xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian

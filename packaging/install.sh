@@ -12,7 +12,7 @@ place() {
 		rm -f "$root/$3"
 		# Folders that are ours alone go when they are empty.
 		case $3 in
-		lib/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
+		lib/relume/* | share/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
 		esac
 		return
 	fi
@@ -27,9 +27,9 @@ sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build
 place 755 "$build/relume" bin/relume
 place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
-place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 capture/relume.h include/relume.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
+place 644 diff/score.schema.json share/relume/score.schema.json
 place 644 README.md share/doc/relume/README.md
 for page in "$build"/pages/man/*.1; do
 	place 644 "$page" "share/man/man1/${page##*/}"

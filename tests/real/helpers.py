@@ -5,10 +5,13 @@ import pathlib
 import subprocess
 import sys
 
+import jsonschema
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
 RELUME = os.environ.get("RELUME", str(BUILD / "relume"))
 SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
+SCHEMA = json.loads((ROOT / "diff/score.schema.json").read_text())
 GATES = ("V", "R1", "R2", "R3", "R4", "R5", "E1", "E2", "P")
 
 _results = []
@@ -78,11 +81,14 @@ def diff(trace, folder, *options):
     """Score; return the exit code and what --json says."""
     done = relume("diff", trace, folder, "--json", "-", *options, timeout=300)
     try:
-        return done.returncode, json.loads(done.stdout)
+        score = json.loads(done.stdout)
     except ValueError:
         print(f"relume diff: exit code {done.returncode}\n{done.stdout}{done.stderr}")
         check(False, "relume diff --json - prints JSON")
         finish()
+    errors = [e.message for e in jsonschema.Draft202012Validator(SCHEMA).iter_errors(score)]
+    check(not errors, f"relume diff --json - follows its schema: {errors[:3]}")
+    return done.returncode, score
 
 
 def check_gates(score, n_frames, what, skip=()):

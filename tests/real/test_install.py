@@ -31,6 +31,8 @@ check((SCRATCH / "gears.0002.exr").exists(), "the installed command renders")
 done = run(relume, "diff", "--report", SCRATCH / "report", SCRATCH / "gears.0002.exr", SCRATCH / "gears.0002.exr")
 check(done.returncode == 0 and (SCRATCH / "report/sheet.png").exists(), f"and scores, with pictures: {done.returncode}, {done.stderr}")
 
+check((PREFIX / "share/relume/score.schema.json").read_bytes() == (ROOT / "diff/score.schema.json").read_bytes(), "the schema of scores is there")
+
 # What the dynamic linker cannot preload is said, not passed over.
 spaced = SCRATCH / "a place"
 shutil.copytree(PREFIX, spaced)
@@ -101,5 +103,5 @@ for complete in (by_bash, by_zsh, by_fish):
 must(make("uninstall"))
 left = [str(p) for p in pathlib.Path(PLACE).rglob("*") if not p.is_dir()]
 check(not left, f"uninstall leaves nothing: {left}")
-check(not (PREFIX / "lib/relume").exists(), "nor a folder of ours")
+check(not any((PREFIX / folder).exists() for folder in ("lib/relume", "share/relume")), "nor a folder of ours")
 finish()

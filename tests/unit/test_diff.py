@@ -12,7 +12,10 @@ import unittest
 import xml.etree.ElementTree
 import zlib
 
+import jsonschema
+
 RELUME = os.environ.get("RELUME", "build/relume")
+SCHEMA = json.loads((pathlib.Path(__file__).resolve().parent.parent.parent / "diff/score.schema.json").read_text())
 WIDTH, HEIGHT = 48, 40
 
 
@@ -77,9 +80,27 @@ class Diff(unittest.TestCase):
         self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
         return done
 
-    def outcomes(self, *args, expect):
+    def json(self, *args, expect):
         run = json.loads(self.diff(*args, "--json", "-", expect=expect).stdout)
-        return {f["frame"]: f["outcome"] for f in run["frames"]}
+        jsonschema.validate(run, SCHEMA, jsonschema.Draft202012Validator)
+        return run
+
+    def outcomes(self, *args, expect):
+        return {f["frame"]: f["outcome"] for f in self.json(*args, expect=expect)["frames"]}
+
+    def test_schema(self):
+        jsonschema.Draft202012Validator.check_schema(SCHEMA)
+        write_png(self.traced / "b.3.png", picture(9))
+        run = self.json(self.ref, self.traced, expect=1)
+        for path, value in ((("version",), 2), (("extra",), 1), (("frames", 0, "outcome"), "fine"), (("frames", 0, "fidelity"), 1.5),
+                            (("frames", 0, "gates", "R1", "figures"), []), (("frames", 0, "gates", "R9"), {}), (("counts", "passed"), -1)):
+            changed = json.loads(json.dumps(run))
+            at = changed
+            for key in path[:-1]:
+                at = at[key]
+            at[path[-1]] = value
+            with self.assertRaises(jsonschema.ValidationError, msg=path):
+                jsonschema.validate(changed, SCHEMA, jsonschema.Draft202012Validator)
 
     def test_equal_sets_pass(self):
         done = self.diff(self.ref, self.traced, expect=0)
@@ -205,7 +226,7 @@ class Diff(unittest.TestCase):
     def test_bars(self):
         shifted = [bytes(b + 1 if b < 255 else b for b in row) for row in picture(2)]
         write_png(self.traced / "b.2.png", shifted)
-        frames = lambda *args, expect: json.loads(self.diff(self.ref, self.traced, *args, "--json", "-", expect=expect).stdout)["frames"]
+        frames = lambda *args, expect: self.json(self.ref, self.traced, *args, expect=expect)["frames"]
         self.assertEqual(frames(expect=1)[1]["gates"]["P"]["state"], "failed")
         loose = self.config("rules:\n- bars: [{gate: P, fail: 0.1, warn: 0.01}]\n")
         self.assertEqual(frames(*loose, expect=0)[1]["gates"]["P"]["state"], "warned")
