@@ -116,12 +116,22 @@ def lab(codes):
     return numpy.stack((116 * f[..., 1] - 16, 500 * (f[..., 0] - f[..., 1]), 200 * (f[..., 1] - f[..., 2])), axis=-1)
 
 
+def flip_mean(a, b, kind, parameters=None):
+    """Mean of the map of errors that FLIP's authors' package gives, and the mean that it gives itself.
+
+    The package sums a million errors in single precision: where they are large, its mean is off by some 1e-4 from the mean of
+    its own map. The map is what is compared, its mean taken in double precision.
+    """
+    errors, own, _ = flip_evaluator.evaluate(a, b, kind, applyMagma=False, parameters=parameters or {})
+    return float(numpy.mean(errors, dtype="f8")), float(own)
+
+
 def oracles(a, b, path_a, path_b):
     ra, rb = linear(a), linear(b)
     delta = numpy.sort(skimage.color.deltaE_ciede2000(lab(a), lab(b)).ravel())
     seen = re.search(r"(\d+) pixels .*failed the perceptual test", run("idiff", "-p", path_a, path_b).stdout)
     return {
-        "FLIP": float(flip_evaluator.evaluate(a.astype("f4") / 255, b.astype("f4") / 255, "LDR")[1]),
+        "FLIP": flip_mean(a.astype("f4") / 255, b.astype("f4") / 255, "LDR")[0],
         "PSNR": skimage.metrics.peak_signal_noise_ratio(a, b, data_range=255),
         "SSIM": skimage.metrics.structural_similarity(luma(a), luma(b), gaussian_weights=True, sigma=1.5,
                                                       use_sample_covariance=False, data_range=255),
@@ -157,9 +167,8 @@ def hdr_pair(build, work, trace):
     exr.write(work / "hdr2" / "h.0000.exr", image)
     done = run(relume, "diff", "--baseline", work / "approved", work / "hdr2", "--json", "-")
     found = json.loads(done.stdout)["frames"][0]["gates"]["B"]["figures"][1]["value"]
-    wanted = float(flip_evaluator.evaluate(before, after, "HDR", parameters={"startExposure": 0.083, "stopExposure": 3.557,
-                                                                             "numExposures": 4})[1])
-    return abs(found - wanted), wanted
+    wanted, own = flip_mean(before, after, "HDR", {"startExposure": 0.083, "stopExposure": 3.557, "numExposures": 4})
+    return abs(found - wanted), wanted, own
 
 
 def cpu_seconds(function):
@@ -233,10 +242,10 @@ def main(build):
     for k, off in worst.items():
         bar = 1e-4 if k == "FLIP" else 1e-6
         rows.append({"what": f"{k}, 10 pairs: largest difference", "figure": f"{off:.2g}", "bar": f"{bar:g}",
-                     "peer": peers.get(k, f"scikit-image {skimage.__version__}"), "passed": off <= bar})
-    off, wanted = hdr_pair(build, work, work / "still_life.trace")
-    rows.append({"what": f"HDR-FLIP of gate B, mean {wanted:.4g}: difference", "figure": f"{off:.2g}", "bar": "0.0001",
-                 "peer": "flip-evaluator 1.7", "passed": off <= 1e-4})
+                     "peer": peers.get(k, f"scikit-image {skimage.__version__}"), "passed": bool(off <= bar)})
+    off, wanted, own = hdr_pair(build, work, work / "still_life.trace")
+    rows.append({"what": f"HDR-FLIP of gate B, mean {wanted:.7g} (by its own float sum {own:.7g}): difference", "figure": f"{off:.2g}", "bar": "0.0001",
+                 "peer": "flip-evaluator 1.7", "passed": bool(off <= 1e-4)})
     sharma = run(build / "tests/unit/test_metrics")
     rows.append({"what": "CIEDE2000, Sharma's 34 pairs", "figure": "all within 5e-5" if sharma.returncode == 0 else "off",
                  "bar": "5e-5, as printed", "peer": "Sharma, Wu and Dalal 2005", "passed": sharma.returncode == 0})
