@@ -305,6 +305,30 @@ static void write_list_call(unsigned command, unsigned name, unsigned mode)
 	writer_call_end(p);
 }
 
+/*
+ * Mesa's lists are not quite what they hold: quads are split along the other diagonal, which shows in the last bit of a pixel here
+ * and there, and line loops go astray. Called between Begin and End, a list's calls take the way of immediate mode: so Begin and
+ * End of these stay outside of the list.
+ */
+static int stays_outside(const uint8_t *records)
+{
+	uint32_t mode;
+
+	memcpy(&mode, records + 4, sizeof(mode));
+	return mode == GL_QUADS || mode == GL_LINE_LOOP;
+}
+
+enum { BEGIN_BYTES = 8, END_BYTES = 4 }; /* a run's first and last record */
+
+static void write_call(const struct run *run)
+{
+	if (stays_outside(run->records))
+		write_records(run->records, BEGIN_BYTES);
+	write_list_call(CMD_glCallList, run->list, 0);
+	if (stays_outside(run->records))
+		write_records(run->records + run->bytes - END_BYTES, END_BYTES);
+}
+
 static int make_list(struct runs_table *t, struct run *run, const uint8_t *records)
 {
 	unsigned name;
@@ -318,7 +342,10 @@ static int make_list(struct runs_table *t, struct run *run, const uint8_t *recor
 	t->n_lists++;
 	t->kept_bytes += run->bytes;
 	write_list_call(CMD_glNewList, name, GL_COMPILE);
-	write_records(records, run->bytes);
+	if (stays_outside(records))
+		write_records(records + BEGIN_BYTES, run->bytes - BEGIN_BYTES - END_BYTES);
+	else
+		write_records(records, run->bytes);
 	write_list_call(CMD_glEndList, 0, 0);
 	run->list = name;
 	return 1;
@@ -361,7 +388,7 @@ int runs_end(void)
 	else if (run && !run->list && !skip_draws() && (run->seen || t->credit > 0) && make_list(t, run, self.room) && !run->seen)
 		t->credit--;
 	if (run && run->list)
-		write_list_call(CMD_glCallList, run->list, 0);
+		write_call(run);
 	else
 		write_records(self.room, bytes);
 	if (run) {
