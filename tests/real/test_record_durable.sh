@@ -110,4 +110,18 @@ SHIM_FRAMES=1200 "$RELUME" record --env "LD_PRELOAD=$RELUME_BUILD/tests/real/che
 size=$(stat -c %s "$TMPDIR/size.trace")
 [ "$size" -ge 20480 ] && [ "$size" -lt 30000 ] || fail "largest size 20K: $size bytes"
 [ "$(frames_of "$TMPDIR/size.trace")" -eq "$(said "$TMPDIR/log")" ] || fail "largest size: $(cat "$TMPDIR/log")"
+
+# A program that leaves by _exit or abort: all that it drew is there, its exit code too.
+leaver=$RELUME_BUILD/tests/trace/leaver
+"$RELUME" record -o "$TMPDIR/exit.trace" -- "$leaver" _exit 2>"$TMPDIR/log"
+[ $? -eq 9 ] || fail "_exit: exit code is not passed on"
+[ "$(frames_of "$TMPDIR/exit.trace")" -eq 20 ] && [ "$(said "$TMPDIR/log")" -eq 20 ] || fail "_exit: $(cat "$TMPDIR/log")"
+"$RELUME" record -o "$TMPDIR/abort.trace" -- "$leaver" abort 2>"$TMPDIR/log"
+[ $? -eq 134 ] || fail "abort: exit code is not passed on"
+[ "$(frames_of "$TMPDIR/abort.trace")" -eq 20 ] && [ "$(said "$TMPDIR/log")" -eq 20 ] || fail "abort: $(cat "$TMPDIR/log")"
+
+# Forked: child and parent draw at the same time, a trace each; a copy that only ends takes nothing with it.
+"$RELUME" record -o "$TMPDIR/fork.trace" -- "$leaver" fork 2>"$TMPDIR/log" || fail "fork: exit code $?: $(cat "$TMPDIR/log")"
+both=$(for trace in "$TMPDIR/fork.trace" "$TMPDIR/fork.1.trace"; do frames_of "$trace"; done | sort -n | tr '\n' ' ')
+[ "$both" = "7 40 " ] || fail "fork: $both frames: $(cat "$TMPDIR/log")"
 exit 0
