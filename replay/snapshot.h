@@ -7,8 +7,7 @@
  * lists, meshes) are blobs that are kept once by content.
  *
  * Why not a stream of calls that rebuilds the state: it would have to be executed at every seek, cannot say all that the
- * state holds (errors, versions of buffers, meshes of lists), and what it forgets nobody notices. Such a stream is what a
- * trace for other programs needs; trim.c makes that from the calls of the trace itself.
+ * state holds (errors, versions of buffers, meshes of lists), and what it forgets nobody notices.
  *
  * A snapshot can be read by the build that wrote it alone: see snapshot_layout.
  */
