@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """tests/show/farm.py BUILD (as `make show-farm`): two nodes against one, and a farm that is killed at random.
 
-400 frames of glxgears on a real Slurm on this machine, each node one core. Bars: two nodes are 1.8 times as fast as one;
+400 frames of glxgears, 640x480, on a real Slurm on this machine, each node one core. Bars: two nodes are 1.8 times as fast as one;
 after 50 kills of tasks, slurmd and slurmctld and `relume farm retry`, every frame is there, of the same bytes as a local
 run's, and none was rendered twice.
 """
@@ -59,7 +59,7 @@ def show_kills(work, relume, trace, local, seed):
     with slurm.Cluster(work / "slurm", n_nodes=2) as cluster:
         folder, landings = submit(cluster, relume, trace, work / "killed", CHUNK_KILLED)
         killer = kills.Killer(cluster, seed)
-        retries = kills.campaign(cluster, killer, landings, folder, relume, KILLS, 1800)
+        retries = kills.campaign(cluster, killer, landings, folder, relume, KILLS, 1800, pause=(0.1, 0.8))
         status = cluster.run(relume, "farm", "status", folder).stdout.splitlines()[0]
         counts, frames = landings.read(), digests(work / "killed")
         peer = cluster.run("sbatch", "-V").stdout.strip()
@@ -87,7 +87,7 @@ def main(build):
     with tempfile.TemporaryDirectory(prefix="farm-") as scratch:
         work = pathlib.Path(scratch)
         trace = work / "gears.trace"
-        subprocess.run([ROOT / "tests/xvfb.sh", relume, "record", "-o", trace, "--quit-after", str(FRAMES), "--", "glxgears"],
+        subprocess.run([ROOT / "tests/xvfb.sh", relume, "record", "-o", trace, "--quit-after", str(FRAMES), "--", "glxgears", "-geometry", "640x480"],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         subprocess.run([relume, "render", trace, "-o", work / "local" / "x.####.exr", "--progress", "none"], check=True)
         local = digests(work / "local")
