@@ -292,7 +292,8 @@ show-kill: all $(HELPERS)
 	@$(PYTHON) tests/show/kill.py $(BUILD)
 
 # Not part of `make show`: needs root, and minutes.
-show-fresh:
+DEPS_fresh := debootstrap
+show-fresh: $(BUILD)/deps.fresh
 	@tests/fresh.sh $(BUILD)
 
 show-mutants: all
