@@ -624,7 +624,6 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		for (uint32_t i = 0; i < count; i++)
 			if (add_vertex(x, st, g, s, (uint64_t)first + i))
 				return -1;
-		g->even_quads = (uint32_t)gls_quads_even(x, st);
 		if (gls_geometry_cut(g, mode, 0, count, NULL))
 			goto fail;
 		g->n_draws = 1;
@@ -653,7 +652,6 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		}
 		cut[i] = *slot;
 	}
-	g->even_quads = 0;
 	if (gls_geometry_cut(g, mode, 0, count, cut))
 		goto fail;
 	g->n_draws = 1;
@@ -694,8 +692,7 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 		gls_unsupported(x, "draws beyond the end of an array");
 		return;
 	}
-	key = draw_key(st, &s, mode, elements ? identity : first,
-	               (uint64_t)count << 2 | (uint64_t)gls_quads_even(x, st) << 1 | (elements != NULL));
+	key = draw_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
 	mesh = table_find(&x->draws, key);
 	if (mesh) {
 		put(x, st, mesh);

@@ -153,11 +153,6 @@ static unsigned flags(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k
 	return edges & (edge[vertex_of(c, i)] | edge[vertex_of(c, j)] << 1 | edge[vertex_of(c, k)] << 2);
 }
 
-int gls_quads_even(const struct gls_exec *x, const struct gls_state *st)
-{
-	return st->a.lighting.shade_model != GL_FLAT && !x->list_depth && !st->list && st != x->assembling;
-}
-
 int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements)
 {
 	const struct cutter c = { g, elements, first };
@@ -194,11 +189,7 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 			put_triangle(&c, 0, i - 1, i, 7);
 		break;
 	case GL_QUADS:
-		for (i = 0; i + 3 < count && g->even_quads; i += 4) {
-			put_triangle(&c, i, i + 1, i + 2, flags(&c, i, i + 1, i + 2, 1 | 2));
-			put_triangle(&c, i, i + 2, i + 3, flags(&c, i, i + 2, i + 3, 2 | 4));
-		}
-		for (i = 0; i + 3 < count && !g->even_quads; i += 4) {
+		for (i = 0; i + 3 < count; i += 4) {
 			put_triangle(&c, i, i + 1, i + 3, flags(&c, i, i + 1, i + 3, 1 | 4));
 			put_triangle(&c, i + 1, i + 2, i + 3, flags(&c, i + 1, i + 2, i + 3, 1 | 2));
 		}

@@ -120,7 +120,6 @@ struct gls_geometry {
 	uint32_t n_draws;        /* Begin..End pairs so far */
 	uint32_t begin_vertex;   /* first vertex of the open Begin */
 	uint32_t edges_hidden;   /* any edge flag is off */
-	uint32_t even_quads;     /* quads are cut from their first to their third vertex: gls_quads_even */
 	uint32_t touched;        /* attributes that may differ from `constant` by now: 1 << attribute */
 	float constant[N_GLS_ATTRIBUTES][4]; /* values of attributes that do not vary */
 };
@@ -134,8 +133,6 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
 /** Triangles, lines or points that a primitive mode is cut into: SCENE_*; 0 for no mode of GL's. */
 enum scene_primitive gls_mode_kind(uint32_t mode);
-/** 1 where Mesa cuts quads now being given from first to third vertex: smooth ones without indices, which its lists have. */
-int gls_quads_even(const struct gls_exec *x, const struct gls_state *st);
 /**
  * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1

@@ -118,7 +118,6 @@ GLS_HANDLER(glBegin, INSIDE)
 		x->pending_list = x->drawn_list;
 	}
 	st->begin_mode = mode + 1;
-	x->geometry.even_quads = (uint32_t)gls_quads_even(x, st);
 }
 
 GLS_HANDLER(glEnd, INSIDE)
