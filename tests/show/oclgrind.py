@@ -5,7 +5,8 @@ tests/bench/tiny renders scenes of 7 x 7 pixels in which every shading kernel ha
 kernels. oclgrind interprets the kernels and reports accesses out of bounds and data races; valgrind runs the C twins, whose
 shading is the same text, and reports decisions on values that nobody set.
 
-oclgrind's own search for such values is not used: it takes what clEnqueueWriteBuffer wrote at an offset for not written.
+oclgrind's own search for such values is not used: it names values that the host wrote into the middle of a buffer, although
+pictures agree with the twins'; why it does so was not found out.
 Its build goes without optimisation, which makes calls that it does not know, and without compilers' own functions.
 """
 import json
