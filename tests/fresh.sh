@@ -11,10 +11,10 @@ root=$build/fresh/root
 log=$build/fresh
 
 clean_up() {
-	for mount in proc dev/pts dev; do
-		mountpoint -q "$root/$mount" && umount "$root/$mount"
+	for mount in proc dev/pts dev sys; do
+		mountpoint -q "$root/$mount" && umount -R "$root/$mount"
 	done
-	mountpoint -q "$root/dev" || rm -rf "$root"
+	mountpoint -q "$root/dev" || mountpoint -q "$root/sys" || rm -rf "$root"
 }
 trap clean_up EXIT
 trap 'exit 130' INT TERM
@@ -33,8 +33,8 @@ clean_up
 # shellcheck disable=SC2086 # no mirror: no argument
 debootstrap --variant=minbase --include=make bookworm "$root" ${FRESH_MIRROR:-} >"$log/debootstrap.log" 2>&1 ||
 	fail "debootstrap failed: $log/debootstrap.log"
-mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" ||
-	fail "proc and dev cannot be mounted"
+mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" &&
+	mount --rbind --make-rslave /sys "$root/sys" || fail "proc, dev and sys cannot be mounted"
 cp /etc/resolv.conf "$root/etc/"
 git clone -q . "$root/root/relume" || fail "the project cannot be cloned"
 
