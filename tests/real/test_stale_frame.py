@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""A frame of glxgears shown one frame late is caught, the others pass, and the calls that drew the pixels are named."""
+"""A stale frame of glxgears is caught, the others pass, and the calls that drew the pixels are named."""
 import json
 import os
 import pathlib
@@ -12,6 +12,8 @@ import tempfile
 
 RELUME = os.environ["RELUME"]
 HEADER = struct.Struct("<IIIQQ")  # kind, width, height, frame, packed bytes: capture/ref.h
+FRAMES = 24  # glxgears turns by the clock: on a fast machine neighbouring frames are nearly the same picture
+STALE, SHOWN = FRAMES - 1, 1
 
 
 def relume(*args, display=False):
@@ -35,8 +37,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         trace, ref, out = folder / "g.trace", folder / "g.ref", folder / "out"
-        for done in (relume("record", "-o", trace, "--ref", "color,depth", "--quit-after", 4, "--", "glxgears", display=True),
-                     relume("render", trace, "-o", out / "g.####.exr"), relume("diff", trace, out)):
+        for done in (relume("record", "-o", trace, "--ref", "color,depth", "--quit-after", FRAMES, "--", "glxgears", display=True),
+                     relume("render", trace, "-f", f"0,2,{STALE}", "-o", out / "g.####.exr"), relume("diff", trace, out, "-f", f"0,2,{STALE}")):
             assert done.returncode == 0, done.stdout + done.stderr
 
         records = list(read_records(ref))
@@ -44,13 +46,13 @@ def main():
         with ref.open("wb") as f:
             f.write(b"RELREF1\n")
             for kind, width, height, frame, packed in records:
-                packed = pixels[kind, 1 if frame == 2 else frame]
+                packed = pixels[kind, SHOWN if frame == STALE else frame]
                 f.write(HEADER.pack(kind, width, height, frame, len(packed)) + packed)
 
-        done = relume("diff", trace, out, "--json", "-")
+        done = relume("diff", trace, out, "-f", f"0,2,{STALE}", "--json", "-")
         assert done.returncode == 1, done.stdout + done.stderr
         frames = json.loads(done.stdout)["frames"]
-        assert [f["outcome"] for f in frames] == ["passed", "passed", "failed", "passed"]
+        assert [f["outcome"] for f in frames] == ["passed", "passed", "failed"]
         gates = {name for name, gate in frames[2]["gates"].items() if gate["state"] == "failed"}
         assert {"R4", "R5", "P"} <= gates, gates
         assert not {"V", "E1", "E2"} & gates, gates
