@@ -7,13 +7,16 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
+#include "tracer/bench_frame.h"
+#include "tracer/settings.h"
 
 #define MAX_REPEATS 99
 
 static const char help[] =
-	"usage: relume bench [OPTIONS]\n"
+	"usage: relume bench [OPTIONS] [TRACE]\n"
 	"\n"
-	"Trace a scene of about 250,000 triangles and print millions of rays a second, the median of\n"
+	"With a recording: render one of its frames several times and print what each kernel took, the\n"
+	"means of all runs but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median of\n"
 	"several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to\n"
 	"one point light, and short incoherent rays.\n"
 	"\n"
@@ -22,10 +25,14 @@ static const char help[] =
 	"  --models DIR     folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj\n"
 	"                   (default: ../shared/models; bumpy spheres stand in where they are missing)\n"
 	"  --repeat N       runs of each (default 5)\n"
+	"  -f, --frame N    which frame of the recording (default 0)\n"
+	"  --mode MODE      as for relume render (default whitted)\n"
 	"  --json           as JSON\n";
 
 struct options {
-	const char *device, *models;
+	const char *device, *models, *trace;
+	uint64_t frame;
+	enum tracer_mode mode;
 	unsigned threads;
 	size_t repeats;
 	int json;
@@ -44,11 +51,12 @@ static int parse(int argc, char **argv, struct options *o)
 		{ "device", required_argument, NULL, 'd' }, { "threads", required_argument, NULL, 't' },
 		{ "models", required_argument, NULL, 'm' }, { "repeat", required_argument, NULL, 'r' },
 		{ "json", no_argument, NULL, 'j' },         { "help", no_argument, NULL, 'h' },
+		{ "frame", required_argument, NULL, 'f' },  { "mode", required_argument, NULL, 'M' },
 		{ NULL, 0, NULL, 0 }
 	};
-	int option;
+	int option, err = 0;
 
-	while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1) {
+	while (!err && (option = getopt_long(argc, argv, "f:h", options, NULL)) != -1) {
 		switch (option) {
 		case 'd':
 			o->device = optarg;
@@ -67,6 +75,12 @@ static int parse(int argc, char **argv, struct options *o)
 		case 'j':
 			o->json = 1;
 			break;
+		case 'f':
+			o->frame = strtoull(optarg, NULL, 10);
+			break;
+		case 'M':
+			err = settings_parse_mode(optarg, &o->mode);
+			break;
 		case 'h':
 			fputs(help, stdout);
 			exit(0);
@@ -74,8 +88,12 @@ static int parse(int argc, char **argv, struct options *o)
 			return ERR_USAGE;
 		}
 	}
+	if (err)
+		return err;
 	if (optind < argc)
-		return err_report(ERR_USAGE, NULL, "bench takes no argument '%s'", argv[optind]);
+		o->trace = argv[optind++];
+	if (optind < argc)
+		return err_report(ERR_USAGE, NULL, "bench takes one recording; what is '%s'?", argv[optind]);
 	return 0;
 }
 
@@ -110,7 +128,7 @@ int bench_main(int argc, char **argv)
 		{ "incoherent, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_AMBIENT, 0 },
 	};
 	const size_t n = sizeof(figures) / sizeof(figures[0]);
-	struct options o = { NULL, "../shared/models", 0, 5, 0 };
+	struct options o = { .models = "../shared/models", .repeats = 5 };
 	struct device *dev = NULL;
 	struct bench *b = NULL;
 	int err = parse(argc, argv, &o);
@@ -118,6 +136,10 @@ int bench_main(int argc, char **argv)
 	if (err)
 		return -err;
 	err = device_open(o.device, o.threads, &dev);
+	if (!err && o.trace) {
+		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
+		goto done;
+	}
 	if (!err)
 		err = bench_create(dev, o.models, 1600, 1200, &b);
 	for (size_t i = 0; i < n && !err; i++)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/err.h"
@@ -32,6 +33,7 @@ struct device {
 	unsigned threads;     /* of the reference device */
 	int packets;
 	atomic_int interrupted;
+	struct device_profile *profile; /* or NULL */
 	char name[320];
 };
 
@@ -193,6 +195,7 @@ int device_share(struct device *dev, struct device **out)
 	if (!other)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	other->threads = dev->threads;
+	other->packets = dev->packets;
 	memcpy(other->name, dev->name, sizeof(other->name));
 	if (dev->cl)
 		err = cl_share(dev->cl, &other->cl);
@@ -267,26 +270,76 @@ void device_release(struct device *dev, struct device_buffer **buffer)
 	*buffer = NULL;
 }
 
+/* --- Where the time goes ------------------------------------------------------------------------------------------- */
+
+static double clock_of(clockid_t clock)
+{
+	struct timespec t;
+
+	clock_gettime(clock, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* When something begins, as what had been spent by then; nothing where nobody asks. */
+static struct device_spent begin(const struct device *dev)
+{
+	struct device_spent s = { 0, 0, 0, 0 };
+
+	if (dev->profile)
+		s = (struct device_spent){ clock_of(CLOCK_MONOTONIC), clock_of(CLOCK_PROCESS_CPUTIME_ID), 0, 0 };
+	return s;
+}
+
+static void end(struct device_spent *sum, const struct device_spent *begun, uint64_t amount)
+{
+	sum->wall_s += clock_of(CLOCK_MONOTONIC) - begun->wall_s;
+	sum->cpu_s += clock_of(CLOCK_PROCESS_CPUTIME_ID) - begun->cpu_s;
+	sum->count++;
+	sum->amount += amount;
+}
+
+void device_set_profile(struct device *dev, struct device_profile *profile)
+{
+	dev->profile = profile;
+}
+
+const char *device_kernel_name(enum device_kernel kernel)
+{
+	return kernels[kernel].name;
+}
+
+/* --- Copies and launches ------------------------------------------------------------------------------------------- */
+
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
 {
+	struct device_spent begun = begin(dev);
+	int err = 0;
+
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		return cl_write(dev->cl, buffer->cl, offset, data, bytes);
-	if (bytes)
+		err = cl_write(dev->cl, buffer->cl, offset, data, bytes);
+	else if (bytes)
 		memcpy((char *)buffer->memory + offset, data, bytes);
-	return 0;
+	if (dev->profile)
+		end(&dev->profile->writes, &begun, bytes);
+	return err;
 }
 
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes)
 {
+	struct device_spent begun = begin(dev);
+	int err = 0;
+
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
 	if (dev->cl)
-		return cl_read(dev->cl, buffer->cl, offset, data, bytes);
-	if (bytes)
+		err = cl_read(dev->cl, buffer->cl, offset, data, bytes);
+	else if (bytes)
 		memcpy(data, (const char *)buffer->memory + offset, bytes);
-	return 0;
+	if (dev->profile)
+		end(&dev->profile->reads, &begun, bytes);
+	return err;
 }
 
 /* A share of a launch on the reference device. Work items do not depend on each other. */
@@ -328,10 +381,21 @@ static int run_reference(struct device *dev, enum device_kernel kernel, size_t n
 	return 0;
 }
 
+static int run_cl(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+                  size_t n_args)
+{
+	struct cl_arg cl_args[MAX_ARGS];
+
+	for (size_t i = 0; i < n_args; i++)
+		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
+	return cl_run(dev->cl, kernel, kernels[kernel].name, n_items, cl_args, n_args);
+}
+
 int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
                size_t n_args)
 {
-	struct cl_arg cl_args[MAX_ARGS];
+	struct device_spent begun;
+	int err;
 
 	if (device_is_interrupted(dev))
 		return ERR_SYSTEM;
@@ -339,11 +403,13 @@ int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, co
 		return 0;
 	if (n_args > MAX_ARGS)
 		return err_report(ERR_SYSTEM, kernels[kernel].name, "too many arguments");
-	if (!dev->cl)
-		return run_reference(dev, kernel, n_items, args, n_args);
-	for (size_t i = 0; i < n_args; i++)
-		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
-	return cl_run(dev->cl, kernel, kernels[kernel].name, n_items, cl_args, n_args);
+	begun = begin(dev);
+	err = dev->cl ? run_cl(dev, kernel, n_items, args, n_args) : run_reference(dev, kernel, n_items, args, n_args);
+	if (!err && dev->profile)
+		err = device_finish(dev);
+	if (dev->profile)
+		end(&dev->profile->kernels[kernel], &begun, n_items);
+	return err;
 }
 
 int device_finish(struct device *dev)

@@ -145,4 +145,21 @@ int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, co
 /** Wait until everything queued is done. @return 0 or ERR_SYSTEM (reported) */
 int device_finish(struct device *dev);
 
+/* What a device did, kernel by kernel, and what copying took. */
+struct device_spent {
+	double wall_s, cpu_s; /* cpu_s: of all threads of this process; says nothing where the device is no CPU */
+	uint64_t count, amount; /* launches and work items, or copies and bytes */
+};
+
+struct device_profile {
+	struct device_spent kernels[N_DEVICE_KERNELS], writes, reads;
+};
+
+/**
+ * Add what is done from now on to a profile; each kernel is waited for, so that everything takes longer.
+ * @param profile  kept and written until the next call; NULL: no longer
+ */
+void device_set_profile(struct device *dev, struct device_profile *profile);
+const char *device_kernel_name(enum device_kernel kernel);
+
 #endif

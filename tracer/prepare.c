@@ -393,7 +393,7 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 		return CAMERA_COLUMN;
 	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
 	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE ||
-	    (m->polygon_offset & 4) || scene->depth_bits != 24)
+	    (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;

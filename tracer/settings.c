@@ -155,9 +155,17 @@ static int parse_length(const char *text, const char *option, float *out)
 	return 0;
 }
 
-static int parse_option(struct settings *s, enum key key, const char *value)
+int settings_parse_mode(const char *word, enum tracer_mode *out)
 {
 	static const char *const modes[] = { "whitted", "gl", "normals", "ao", "ao-phong", "diffuse", "path", NULL };
+	int mode = 0, err = parse_word(word, rows[MODE].name, modes, &mode);
+
+	*out = (enum tracer_mode)mode;
+	return err;
+}
+
+static int parse_option(struct settings *s, enum key key, const char *value)
+{
 	static const char *const encodings[] = { "linear", "display", NULL };
 	const char *name = rows[key].name;
 	int err = 0, word = 0;
@@ -171,10 +179,7 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 	case SKIP: s->skip_existing = 1; return 0;
 	case FORCE: s->skip_existing = 0; return 0;
 	case DRY: s->dry_run = 1; return 0;
-	case MODE:
-		err = parse_word(value, name, modes, &word);
-		s->tracer.mode = (enum tracer_mode)word;
-		return err;
+	case MODE: return settings_parse_mode(value, &s->tracer.mode);
 	case ENCODING: return parse_word(value, name, encodings, &s->tracer.display);
 	case AOV: s->tracer.aov = value; return tracer_check_aov(value);
 	case DEPTH: return parse_number(value, name, 64, &s->tracer.depth);

@@ -33,4 +33,7 @@ struct settings {
 int settings_parse(struct settings *s, int argc, char **argv);
 void settings_free(struct settings *s);
 
+/** What --mode takes. @return 0 or ERR_USAGE (reported) */
+int settings_parse_mode(const char *word, enum tracer_mode *out);
+
 #endif
