@@ -1,9 +1,9 @@
 /*
  * Sixteen rays as rows of a lane each against binary trees. OpenCL C only; included by the packet kernels.
  *
- * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. The product o * i is kept in two roundings, one below
- * and one above, so that no box is missed by rounding; camera rays put the widening of boxes in there as well. Which of
- * a box's planes is met first depends on the signs of d alone: a packet whose rays differ in signs is walked once for
+ * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. Both products are kept in two roundings, so that no box is
+ * missed by rounding (far planes with p * i < 0 come nearer by what i is made larger; o * i gives that back). Which of a
+ * box's planes is met first depends on the signs of d alone: a packet whose rays differ in signs is walked once for
  * each octant, the other lanes asleep (t_max below t_min).
  */
 #ifndef KERNELS_PACKET_H
@@ -18,6 +18,7 @@
 struct packet {
 	packf ox, oy, oz, dx, dy, dz;
 	packf ix, iy, iz;                      /* 1/d, finite */
+	packf far_ix, far_iy, far_iz;          /* the same rounded away from 0 */
 	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
 	packf far_x, far_y, far_z;             /* and up, to far planes */
 	packf t_min, t_max;
@@ -28,17 +29,16 @@ inline packf invert(packf d)
 	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
-/* Fill in what follows from o and d. pad: by how much boxes are widened. */
-inline void packet_prepare(struct packet *p, float pad)
+/* Fill in what follows from o and d. */
+inline void packet_prepare(struct packet *p)
 {
 	const packf ix = invert(p->dx), iy = invert(p->dy), iz = invert(p->dz);
 	const packf bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
-	const packf ex = fabs(bx) * 3e-7f + pad * fabs(ix), ey = fabs(by) * 3e-7f + pad * fabs(iy);
-	const packf ez = fabs(bz) * 3e-7f + pad * fabs(iz);
 
 	p->ix = ix, p->iy = iy, p->iz = iz;
-	p->near_x = bx - ex, p->near_y = by - ey, p->near_z = bz - ez;
-	p->far_x = bx + ex, p->far_y = by + ey, p->far_z = bz + ez;
+	p->far_ix = ix * (1 + 6e-7f), p->far_iy = iy * (1 + 6e-7f), p->far_iz = iz * (1 + 6e-7f);
+	p->near_x = bx - fabs(bx) * 3e-7f, p->near_y = by - fabs(by) * 3e-7f, p->near_z = bz - fabs(bz) * 3e-7f;
+	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
 }
 
 /* o and d moved from eye to object space. */
@@ -82,8 +82,8 @@ inline packf packet_enter(const struct packet *p, __global const float *node, st
 
 inline packf packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
 {
-	return pack_min(pack_min(fma(node[s.far_x + 3 * side], p->ix, p->far_x), fma(node[s.far_y + 3 * side], p->iy, p->far_y)),
-	            pack_min(fma(node[s.far_z + 3 * side], p->iz, p->far_z), p->t_max));
+	return pack_min(pack_min(fma(node[s.far_x + 3 * side], p->far_ix, p->far_x), fma(node[s.far_y + 3 * side], p->far_iy, p->far_y)),
+	            pack_min(fma(node[s.far_z + 3 * side], p->far_iz, p->far_z), p->t_max));
 }
 
 /* Lanes that meet the box of one side, whatever their octants: for top levels, which are small. */

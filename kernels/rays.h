@@ -6,6 +6,12 @@
  * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
  * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing.
  *
+ * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
+ * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth
+ * of it. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|, where shift max|d| >
+ * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest hit
+ * of several instances is the one whose t + shift, rounded, is least.
+ *
  * Arguments of all four, in this order
  *    0  uint n_rays
  *    1  const struct ray rays[]
@@ -32,6 +38,9 @@
 
 /* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
 #define RAYS_EDGE_SLACK 1e-6f
+
+/* From how many radii on a ray is moved. */
+#define RAYS_FAR 64.0f
 
 /* Entries of a stack over an eight-wide tree: seven siblings a level. */
 #define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)

@@ -71,26 +71,52 @@ inline void walk_blas(struct packet *packet, struct packet_hits *hits, int octan
 	}
 }
 
+/* How far along each ray its walk through an instance starts. */
+inline packf far_shift(__global const struct instance *instance, const struct packet *p)
+{
+	const packf cx = instance->centre[0] - p->ox, cy = instance->centre[1] - p->oy, cz = instance->centre[2] - p->oz;
+	const packf length = pack_max(pack_max(fabs(p->dx), fabs(p->dy)), fabs(p->dz));
+	const packf shift = fma(cz, p->dz, fma(cy, p->dy, cx * p->dx)) / fma(p->dz, p->dz, fma(p->dy, p->dy, p->dx * p->dx)) -
+	                    instance->radius / length;
+
+	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
+}
+
 inline void walk_instance(struct packet *eye, struct packet_hits *hits, int any, uint index,
                           __global const struct instance *instances, __global const struct node2 *nodes,
                           __global const struct triangle *triangles)
 {
 	__global const struct instance *instance = &instances[index];
-	packi awake = eye->t_min <= eye->t_max, octants;
+	packi awake = eye->t_min <= eye->t_max, octants, better;
 	struct packet p;
+	struct packet_hits found;
+	packf shift, t_max;
 
 	packet_transform(&p, eye, instance->obj_from_eye);
-	packet_prepare(&p, 0);
-	p.t_min = eye->t_min;
+	shift = far_shift(instance, &p);
+	p.ox = fma(shift, p.dx, p.ox), p.oy = fma(shift, p.dy, p.oy), p.oz = fma(shift, p.dz, p.oz);
+	packet_prepare(&p);
+	p.t_min = eye->t_min - shift;
+	t_max = eye->t_max - shift;
+	t_max = select(t_max, t_max + 3e-7f * eye->t_max, (shift > 0) & (hits->instance != SCENE_NONE)); /* t + shift decides */
 	octants = packet_octants(&p);
+	found.b1 = found.b2 = 0;
+	found.instance = found.primitive = SCENE_NONE;
 	while (any_pack(awake)) {
 		int octant;
 		const packi lanes = packet_next_octant(octants, &awake, &octant);
 
-		p.t_max = select((packf)(-INFINITY), eye->t_max, lanes);
-		walk_blas(&p, hits, octant, any, index, nodes + instance->node2_first, triangles + instance->triangle_first);
-		eye->t_max = select(eye->t_max, p.t_max, lanes);
+		p.t_max = select((packf)(-INFINITY), t_max, lanes);
+		walk_blas(&p, &found, octant, any, index, nodes + instance->node2_first, triangles + instance->triangle_first);
+		t_max = select(t_max, p.t_max, lanes);
 	}
+	t_max += shift;
+	better = (found.instance != SCENE_NONE) & ((hits->instance == SCENE_NONE) | (t_max < eye->t_max));
+	eye->t_max = select(eye->t_max, t_max, better);
+	hits->b1 = select(hits->b1, found.b1, better);
+	hits->b2 = select(hits->b2, found.b2, better);
+	hits->instance = select(hits->instance, found.instance, better);
+	hits->primitive = select(hits->primitive, found.primitive, better);
 }
 
 inline void walk_top(struct packet *eye, struct packet_hits *hits, int any, __global const struct node2 *top,
@@ -132,7 +158,7 @@ inline void load_rays(struct packet *p, __global const struct ray *rays, uint fi
 	p->dx = select((packf)(1), dx, finite), p->dy = select((packf)(1), dy, finite), p->dz = select((packf)(1), dz, finite);
 	p->t_min = select((packf)(1), t_min, finite);
 	p->t_max = select((packf)(-INFINITY), t_max, finite);
-	packet_prepare(p, 0);
+	packet_prepare(p);
 }
 
 __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint top_first,
@@ -147,7 +173,8 @@ __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint 
 	if (first >= n_rays)
 		return;
 	load_rays(&p, rays, first, n_rays);
-	hits.instance = SCENE_NONE;
+	hits.b1 = hits.b2 = 0;
+	hits.instance = hits.primitive = SCENE_NONE;
 	walk_top(&p, &hits, 1, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n_rays; i++)
 		occluded[first + i] = ((const uint *)&hits.instance)[i] != SCENE_NONE;

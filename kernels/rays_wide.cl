@@ -7,7 +7,7 @@
 /* A ray in the space of the tree it walks; boxes as in kernels/packet.h. */
 struct walk {
 	float ox, oy, oz, dx, dy, dz;
-	float ix, iy, iz, near_x, near_y, near_z, far_x, far_y, far_z;
+	float ix, iy, iz, far_ix, far_iy, far_iz, near_x, near_y, near_z, far_x, far_y, far_z;
 	uint row_x, row_y, row_z; /* the float of a node8 where the planes met first begin */
 	float t_min;
 	struct hit hit; /* hit.t: the ray's end so far */
@@ -29,9 +29,10 @@ inline void prepare(struct walk *w)
 	float b;
 
 	w->ix = invert(w->dx), w->iy = invert(w->dy), w->iz = invert(w->dz);
-	b = -w->ox * w->ix, w->near_x = b - fabs(b) * 3e-7f, w->far_x = b + fabs(b) * 3e-7f;
-	b = -w->oy * w->iy, w->near_y = b - fabs(b) * 3e-7f, w->far_y = b + fabs(b) * 3e-7f;
-	b = -w->oz * w->iz, w->near_z = b - fabs(b) * 3e-7f, w->far_z = b + fabs(b) * 3e-7f;
+	b = -w->ox * w->ix, w->near_x = b - fabs(b) * 3e-7f, w->far_x = b + fabs(b) * 1.5e-6f;
+	b = -w->oy * w->iy, w->near_y = b - fabs(b) * 3e-7f, w->far_y = b + fabs(b) * 1.5e-6f;
+	b = -w->oz * w->iz, w->near_z = b - fabs(b) * 3e-7f, w->far_z = b + fabs(b) * 1.5e-6f;
+	w->far_ix = w->ix * (1 + 6e-7f), w->far_iy = w->iy * (1 + 6e-7f), w->far_iz = w->iz * (1 + 6e-7f);
 	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
 }
 
@@ -42,9 +43,9 @@ inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, 
 	const float8 near_x = fma(vload8(0, rows + w->row_x), w->ix, w->near_x);
 	const float8 near_y = fma(vload8(0, rows + w->row_y), w->iy, w->near_y);
 	const float8 near_z = fma(vload8(0, rows + w->row_z), w->iz, w->near_z);
-	const float8 far_x = fma(vload8(0, rows + (24 - w->row_x)), w->ix, w->far_x);
-	const float8 far_y = fma(vload8(0, rows + (40 - w->row_y)), w->iy, w->far_y);
-	const float8 far_z = fma(vload8(0, rows + (56 - w->row_z)), w->iz, w->far_z);
+	const float8 far_x = fma(vload8(0, rows + (24 - w->row_x)), w->far_ix, w->far_x);
+	const float8 far_y = fma(vload8(0, rows + (40 - w->row_y)), w->far_iy, w->far_y);
+	const float8 far_z = fma(vload8(0, rows + (56 - w->row_z)), w->far_iz, w->far_z);
 	const float8 first = lanes_max(lanes_max(near_x, near_y), lanes_max(near_z, w->t_min));
 
 	*enter = first;
@@ -140,12 +141,24 @@ inline void walk_blas(struct walk *w, uint instance, int any, __global const str
 	}
 }
 
+/* How far along the ray its walk through an instance starts. */
+inline float far_shift(__global const struct instance *instance, const struct walk *w)
+{
+	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
+	const float length = fmax(fmax(fabs(w->dx), fabs(w->dy)), fabs(w->dz));
+	const float shift = fma(cz, w->dz, fma(cy, w->dy, cx * w->dx)) / fma(w->dz, w->dz, fma(w->dy, w->dy, w->dx * w->dx)) -
+	                    instance->radius / length;
+
+	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
+}
+
 inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	__global const float *m = instance->obj_from_eye;
 	struct walk w;
+	float shift;
 
 	w.ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
 	w.oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
@@ -153,11 +166,19 @@ inline void walk_instance(struct walk *eye, uint index, int any, __global const 
 	w.dx = fma(m[2], eye->dz, fma(m[1], eye->dy, m[0] * eye->dx));
 	w.dy = fma(m[6], eye->dz, fma(m[5], eye->dy, m[4] * eye->dx));
 	w.dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
-	w.t_min = eye->t_min;
-	w.hit = eye->hit;
+	shift = far_shift(instance, &w);
+	w.ox = fma(shift, w.dx, w.ox), w.oy = fma(shift, w.dy, w.oy), w.oz = fma(shift, w.dz, w.oz);
+	w.t_min = eye->t_min - shift;
+	w.hit.t = eye->hit.t - shift;
+	if (shift > 0 && eye->hit.instance != SCENE_NONE)
+		w.hit.t += 3e-7f * eye->hit.t; /* t + shift decides */
+	w.hit.b1 = w.hit.b2 = 0;
+	w.hit.instance = w.hit.primitive = SCENE_NONE;
 	prepare(&w);
 	walk_blas(&w, index, any, nodes + instance->node8_first, triangles + instance->triangle8_first);
-	eye->hit = w.hit;
+	w.hit.t += shift;
+	if (w.hit.instance != SCENE_NONE && (eye->hit.instance == SCENE_NONE || w.hit.t < eye->hit.t))
+		eye->hit = w.hit;
 }
 
 inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,

@@ -117,8 +117,9 @@ struct instance {
 	uint32_t material, view;  /* in scene.h's arrays */
 	uint32_t draw;
 	uint32_t scene_instance;  /* index in scene.instances (screen geometry may split one up) */
+	float centre[3], radius;  /* of its BLAS, object space: half the box's width, height and depth together */
 };
-SHARED_SIZE(struct instance, 144);
+SHARED_SIZE(struct instance, 160);
 
 /* One view as the camera kernels see it. */
 struct view {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "kernels/rays.h"
 #include "tracer/bvh.h"
 
 /* Most triangles in a leaf of the binary tree, most instances in a leaf of a top level. */
@@ -239,6 +240,14 @@ static int set_triangle(const float (*positions)[4], const uint32_t vertex[3], u
 		box->lo[a] = fminf(p[0][a], fminf(p[1][a], p[2][a]));
 		box->hi[a] = fmaxf(p[0][a], fmaxf(p[1][a], p[2][a]));
 	}
+	for (int a = 0; a < 3 && bounded; a++) {
+		/* What counts as a hit may lie this far outside (kernels/rays.h): rounding must not hide it. */
+		const float pad = RAYS_EDGE_SLACK * (fabsf(triangle->e1[a]) + fabsf(triangle->e2[a])) +
+		                  2.5e-7f * fmaxf(fabsf(box->lo[a]), fabsf(box->hi[a]));
+
+		box->lo[a] -= pad;
+		box->hi[a] += pad;
+	}
 	return 1;
 }
 
@@ -378,6 +387,11 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	instance->triangle_first = (uint32_t)blas->triangle_first;
 	instance->triangle8_first = (uint32_t)blas->triangle8_first;
 	*box = blas->box;
+	instance->radius = 0;
+	for (int a = 0; a < 3; a++) {
+		instance->centre[a] = 0.5f * (box->lo[a] + box->hi[a]);
+		instance->radius += 0.5f * (box->hi[a] - box->lo[a]);
+	}
 	return 0;
 }
 

@@ -166,22 +166,44 @@ static void walk_blas8(struct walk *w, uint32_t instance_index)
 	}
 }
 
+/* How far along the ray its walk through an instance starts. */
+static float far_shift(const struct instance *instance, const float o[3], const float d[3])
+{
+	const float c[3] = { instance->centre[0] - o[0], instance->centre[1] - o[1], instance->centre[2] - o[2] };
+	const float length = fmaxf(fmaxf(fabsf(d[0]), fabsf(d[1])), fabsf(d[2]));
+	const float shift = dot(c, d) / dot(d, d) - instance->radius / length;
+
+	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
+}
+
 /* Into an instance's object space, through its tree, and back. */
 static void walk_instance(struct walk *w, uint32_t instance_index)
 {
 	const struct walk eye = *w;
-	const float *m = w->args->instances[instance_index].obj_from_eye;
-	float d[3];
+	const struct instance *instance = &w->args->instances[instance_index];
+	const float *m = instance->obj_from_eye;
+	float d[3], shift;
 
 	for (int row = 0; row < 3; row++, m += 4) {
 		w->o[row] = fmaf(m[2], eye.o[2], fmaf(m[1], eye.o[1], fmaf(m[0], eye.o[0], m[3])));
 		d[row] = fmaf(m[2], eye.d[2], fmaf(m[1], eye.d[1], m[0] * eye.d[0]));
 	}
+	shift = far_shift(instance, w->o, d);
+	for (int a = 0; a < 3; a++)
+		w->o[a] = fmaf(shift, d[a], w->o[a]);
 	set_direction(w, d);
+	w->t_min = eye.t_min - shift;
+	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
+	if (shift > 0 && eye.hit.instance != SCENE_NONE)
+		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
 	if (w->args->nodes2)
 		walk_blas2(w, instance_index);
 	else
 		walk_blas8(w, instance_index);
+	w->hit.t += shift;
+	if (w->hit.instance == SCENE_NONE || (eye.hit.instance != SCENE_NONE && !(w->hit.t < eye.hit.t)))
+		w->hit = eye.hit;
+	w->t_min = eye.t_min;
 	for (int a = 0; a < 3; a++) {
 		w->o[a] = eye.o[a];
 		w->d[a] = eye.d[a];

@@ -46,14 +46,17 @@ static inline float between(struct random_scene *s, float lo, float hi)
 	return lo + (hi - lo) * next_random(s);
 }
 
-/* The seed of this run: RELUME_SEED, or the clock; printed. */
-static inline uint32_t choose_seed(void)
+/* The seed of this run: RELUME_SEED, or the clock; printed. Called by main: the tests are children of that process, and a
+ * clock read by each would be another seed than the one printed last. */
+static uint32_t seed_of_run;
+
+static inline void choose_seed(void)
 {
 	const char *text = getenv("RELUME_SEED");
-	const uint32_t seed = text ? (uint32_t)strtoul(text, NULL, 10) : (uint32_t)time(NULL);
 
-	printf("seed %u\n", seed);
-	return seed;
+	seed_of_run = text ? (uint32_t)strtoul(text, NULL, 10) : (uint32_t)time(NULL);
+	printf("seed %u\n", seed_of_run);
+	fflush(stdout);
 }
 
 static inline void fill_mesh(struct random_scene *s, int m, uint32_t n)

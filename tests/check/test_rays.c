@@ -165,7 +165,7 @@ static int is_usable(const struct ray *r)
 
 START_TEST(twins_find_what_all_triangles_give)
 {
-	struct random_scene *s = random_scene_create(choose_seed());
+	struct random_scene *s = random_scene_create(seed_of_run);
 	struct ray *rays = make_rays(s);
 	struct result *got = malloc(sizeof(*got));
 	struct device *dev;
@@ -218,9 +218,12 @@ static void compare(const struct result *want, const struct result *got, const c
 	}
 }
 
+/* Besides the run's own seed, one whose rays from far away once decided otherwise in the kernel. */
+static const uint32_t hard_seeds[] = { 1036 };
+
 START_TEST(kernels_agree_with_twins)
 {
-	struct random_scene *s = random_scene_create(choose_seed());
+	struct random_scene *s = random_scene_create(_i ? hard_seeds[_i - 1] : seed_of_run);
 	struct ray *rays = make_rays(s);
 	struct result *want = malloc(sizeof(*want)), *got = malloc(sizeof(*got)), *again = malloc(sizeof(*again));
 	struct device_description *list = NULL;
@@ -260,9 +263,10 @@ int main(void)
 	SRunner *runner;
 	int failed;
 
+	choose_seed();
 	tcase_set_timeout(tests, 120);
 	tcase_add_test(tests, twins_find_what_all_triangles_give);
-	tcase_add_test(tests, kernels_agree_with_twins);
+	tcase_add_loop_test(tests, kernels_agree_with_twins, 0, 1 + (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);

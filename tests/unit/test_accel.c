@@ -79,7 +79,7 @@ static void set_box(uint32_t i, float x, float y, float z, float size)
 
 START_TEST(all_items_in_one_leaf)
 {
-	struct random_scene r = { .random = choose_seed() };
+	struct random_scene r = { .random = seed_of_run };
 	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, N };
 
 	for (uint32_t i = 0; i < N; i++)
@@ -142,6 +142,7 @@ int main(void)
 	SRunner *runner;
 	int failed;
 
+	choose_seed();
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, all_items_in_one_leaf);
 	tcase_add_test(tests, strange_boxes_keep_the_depth);
