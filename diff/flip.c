@@ -10,7 +10,8 @@
 
 #include "base/err.h"
 
-enum { MAX_RADIUS = 16 };
+/* Pictures are compared in bands of rows, so that all planes of one stay in the cache; filters reach HALO rows further. */
+enum { MAX_RADIUS = 16, HALO = MAX_RADIUS, BAND = 128 };
 
 /* Weights of one axis, index radius is the centre. */
 struct kernel {
@@ -308,7 +309,13 @@ static void find_features(const float *y, float *edges, float *points, float *sc
 	}
 }
 
-/* What both forms need: twelve planes and a padded row. */
+/* Rows of both pictures that are compared at a time. */
+struct band {
+	int top, height;   /* rows of the picture that the planes hold */
+	int first, n_rows; /* of them those whose errors are wanted; all others are there for the filters */
+};
+
+/* Twelve planes of a band, and a padded row. */
 struct workspace {
 	float *memory, *padded;
 	struct planes pics[2];
@@ -318,8 +325,8 @@ struct workspace {
 static int make_workspace(struct workspace *w, uint32_t width, uint32_t height)
 {
 	enum { PLANES = 12 };
-	const size_t n = (size_t)width * height;
-	float *at = w->memory = calloc(n * PLANES + width + 2 * MAX_RADIUS + LANES, sizeof(*at));
+	const size_t n = (size_t)width * (height < BAND + 2 * HALO ? height : BAND + 2 * HALO);
+	float *at = w->memory = malloc((n * PLANES + width + 2 * MAX_RADIUS + LANES) * sizeof(*at));
 
 	if (!at)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
@@ -333,21 +340,35 @@ static int make_workspace(struct workspace *w, uint32_t width, uint32_t height)
 	return 0;
 }
 
-/** From filled pictures to errors. `error` keeps what is larger in it where `is_maximum`. */
-static void compare_pictures(const struct workspace *w, uint32_t width, uint32_t height, int is_maximum, float *error)
+static struct band band_at(int y, int height)
 {
-	const size_t n = (size_t)width * height;
+	struct band b = { .top = y > HALO ? y - HALO : 0, .n_rows = height - y < BAND ? height - y : BAND };
+	int end = height - y - b.n_rows > HALO ? y + b.n_rows + HALO : height;
+
+	b.first = y - b.top;
+	b.height = end - b.top;
+	return b;
+}
+
+/** From filled planes to errors of the band's rows. `error` keeps what is larger in it where `is_maximum`. */
+static void compare_band(const struct workspace *w, uint32_t width, const struct band *b, int is_maximum, float *error)
+{
+	const size_t skipped = (size_t)b->first * width, n = (size_t)b->n_rows * width;
 	const float max_error = largest_color_error();
+	struct planes pics[2];
 
 	for (int i = 0; i < 2; i++) {
-		find_features(w->pics[i].p[0], w->edges[i], w->points[i], w->scratch, w->part, w->padded, (int)width, (int)height);
-		filter_contrast(&w->pics[i], (int)width, (int)height, w->scratch, w->part, w->padded);
-		lab_from_ycxcz(&w->pics[i], n);
+		find_features(w->pics[i].p[0], w->edges[i], w->points[i], w->scratch, w->part, w->padded, (int)width, b->height);
+		filter_contrast(&w->pics[i], (int)width, b->height, w->scratch, w->part, w->padded);
+		for (int c = 0; c < 3; c++)
+			pics[i].p[c] = w->pics[i].p[c] + skipped;
+		lab_from_ycxcz(&pics[i], n);
 	}
 	for (size_t i = 0; i < n; i++) {
-		const float lab_a[3] = { w->pics[0].p[0][i], w->pics[0].p[1][i], w->pics[0].p[2][i] };
-		const float lab_b[3] = { w->pics[1].p[0][i], w->pics[1].p[1][i], w->pics[1].p[2][i] };
-		float edge = fabsf(w->edges[0][i] - w->edges[1][i]), point = fabsf(w->points[0][i] - w->points[1][i]);
+		const float lab_a[3] = { pics[0].p[0][i], pics[0].p[1][i], pics[0].p[2][i] };
+		const float lab_b[3] = { pics[1].p[0][i], pics[1].p[1][i], pics[1].p[2][i] };
+		float edge = fabsf(w->edges[0][skipped + i] - w->edges[1][skipped + i]);
+		float point = fabsf(w->points[0][skipped + i] - w->points[1][skipped + i]);
 		float feature = sqrtf((edge > point ? edge : point) / sqrtf(2));
 		float e = powf(color_error(lab_a, lab_b, max_error), 1 - feature);
 
@@ -355,36 +376,42 @@ static void compare_pictures(const struct workspace *w, uint32_t width, uint32_t
 	}
 }
 
-static double mean_of(const float *error, size_t n)
+static double sum_of(const float *error, size_t n)
 {
 	double sum = 0;
 
 	for (size_t i = 0; i < n; i++)
 		sum += (double)error[i];
-	return sum / (double)n;
+	return sum;
 }
 
 int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, float *error, double *mean)
 {
 	const size_t n = (size_t)width * height;
 	struct workspace w = { 0 };
+	double sum = 0;
 	int err;
 
+	*mean = 0;
 	if (memcmp(a, b, 3 * n) == 0) {
 		if (error)
 			memset(error, 0, n * sizeof(*error));
-		*mean = 0;
 		return 0;
 	}
 	err = make_workspace(&w, width, height);
 	if (err)
 		return err;
-	fill_from_codes(a, &w.pics[0], n);
-	fill_from_codes(b, &w.pics[1], n);
-	if (!error)
-		error = w.part; /* no filter needs it any more when errors are written */
-	compare_pictures(&w, width, height, 0, error);
-	*mean = mean_of(error, n);
+	for (int y = 0; y < (int)height; y += BAND) {
+		const struct band band = band_at(y, (int)height);
+		const size_t at = 3 * (size_t)band.top * width, n_filled = (size_t)band.height * width;
+		float *to = error ? error + (size_t)y * width : w.part; /* no filter needs it any more when errors are written */
+
+		fill_from_codes(a + at, &w.pics[0], n_filled);
+		fill_from_codes(b + at, &w.pics[1], n_filled);
+		compare_band(&w, width, &band, 0, to);
+		sum += sum_of(to, (size_t)band.n_rows * width);
+	}
+	*mean = sum / (double)n;
 	free(w.memory);
 	return 0;
 }
@@ -394,32 +421,40 @@ int flip_compare_hdr(const float *const a[3], const float *const b[3], uint32_t 
 {
 	enum { EXPOSURES = 4 };
 	const float start = 0.083f, stop = 3.557f;
-	const size_t n = (size_t)width * height;
+	const size_t n = (size_t)width * height, n_bytes = n * sizeof(float);
 	struct workspace w = { 0 };
 	float *own = NULL;
-	int err = 0;
+	double sum = 0;
+	int err;
 
-	if (!error)
-		error = own = malloc((n ? n : 1) * sizeof(*own));
-	if (!error)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
-	if (memcmp(a[0], b[0], n * sizeof(float)) == 0 && memcmp(a[1], b[1], n * sizeof(float)) == 0 &&
-	    memcmp(a[2], b[2], n * sizeof(float)) == 0) {
-		memset(error, 0, n * sizeof(*error));
-		*mean = 0;
-		goto done;
+	*mean = 0;
+	if (memcmp(a[0], b[0], n_bytes) == 0 && memcmp(a[1], b[1], n_bytes) == 0 && memcmp(a[2], b[2], n_bytes) == 0) {
+		if (error)
+			memset(error, 0, n_bytes);
+		return 0;
 	}
 	err = make_workspace(&w, width, height);
-	for (int k = 0; !err && k < EXPOSURES; k++) {
-		float exposure = start + (stop - start) * (float)k / (EXPOSURES - 1);
+	if (!err && !error) {
+		error = own = malloc((size_t)BAND * width * sizeof(*own));
+		if (!error)
+			err = err_report(ERR_SYSTEM, NULL, "out of memory for FLIP of %u x %u pixels", width, height);
+	}
+	for (int y = 0; !err && y < (int)height; y += BAND) {
+		const struct band band = band_at(y, (int)height);
+		const size_t at = (size_t)band.top * width, n_filled = (size_t)band.height * width;
+		float *to = own ? own : error + (size_t)y * width;
 
-		fill_from_linear(a, exposure, &w.pics[0], n);
-		fill_from_linear(b, exposure, &w.pics[1], n);
-		compare_pictures(&w, width, height, k > 0, error);
+		for (int k = 0; k < EXPOSURES; k++) {
+			float exposure = start + (stop - start) * (float)k / (EXPOSURES - 1);
+
+			fill_from_linear((const float *const[]){ a[0] + at, a[1] + at, a[2] + at }, exposure, &w.pics[0], n_filled);
+			fill_from_linear((const float *const[]){ b[0] + at, b[1] + at, b[2] + at }, exposure, &w.pics[1], n_filled);
+			compare_band(&w, width, &band, k > 0, to);
+		}
+		sum += sum_of(to, (size_t)band.n_rows * width);
 	}
 	if (!err)
-		*mean = mean_of(error, n);
-done:
+		*mean = sum / (double)n;
 	free(w.memory);
 	free(own);
 	return err;
