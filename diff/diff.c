@@ -398,6 +398,7 @@ static void name_blamed_draws(const char *trace, struct output_run *run)
 			if (draw && draw <= scene->n_draws && scene->draws) {
 				s->blame[b].call = scene->draws[draw].call;
 				s->blame[b].call_number = scene->draws[draw].call_number;
+				s->blame[b].list = scene->draws[draw].list;
 				describe_draw(scene, &s->blame[b]);
 			}
 		}

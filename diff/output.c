@@ -78,13 +78,15 @@ void output_gate_text(const struct score_gate *gate, const struct score_gate_inf
 		snprintf(out + used, size - used, "%s%s", used ? "; " : "", gate->note);
 }
 
-/** "draw 12, glDrawElements (call 345), texture 0123..., in the approved frame". */
+/** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame". */
 static void output_blame_text(const struct score_blame *b, char *out, size_t size)
 {
 	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
 
 	if (b->draw && b->call && n < size)
 		n += (size_t)snprintf(out + n, size - n, ", %s (call %" PRIu64 ")", b->call, b->call_number);
+	if (b->draw && b->list && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", list %u", b->list);
 	if (b->draw && b->has_program && n < size)
 		n += (size_t)snprintf(out + n, size - n, " with a program object");
 	if (b->draw && b->texture && n < size)
@@ -319,6 +321,8 @@ static void json_score(const struct score *s, FILE *out)
 		if (by->call)
 			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->call, by->call_number,
 			        by->has_program ? "true" : "false");
+		if (by->call && by->list)
+			fprintf(out, ", \"list\": %u", by->list);
 		if (by->call && by->texture)
 			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->texture);
 		fputc('}', out);

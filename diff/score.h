@@ -94,6 +94,7 @@ struct score_blame {
 	int is_approved;      /* 1: the draw that the approved frame shows there; the traced frame shows another one */
 	uint32_t x0, y0, x1, y1; /* box around its failing pixels, last ones included */
 	int has_program;      /* 1: it used a program object; valid where call is */
+	uint32_t list;        /* display list that it came from, 0: none; valid where call is */
 	uint64_t texture;     /* XXH64 of the texels of its first texture unit, 0: none; valid where call is */
 };
 
