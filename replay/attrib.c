@@ -257,6 +257,8 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 		return &st->arb_vertex_enabled;
 	case GL_FRAGMENT_PROGRAM_ARB:
 		return &st->arb_fragment_enabled;
+	case GL_RASTERIZER_DISCARD:
+		return &st->rasterizer_discard;
 	default:
 		return NULL;
 	}

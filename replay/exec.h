@@ -361,6 +361,11 @@ struct gls_share *gls_share_create(void);
 void gls_image_cache_free(struct gls_exec *x);
 
 /* scene.c: events of a surface. Without a scene under construction (x->want 0) nothing happens. */
+/** 1 where drawing and clearing reach the surface. */
+static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state *st)
+{
+	return x->want && st->render_mode == GL_RENDER && !st->rasterizer_discard;
+}
 /**
  * Draw a mesh with the state as it is.
  * @param mesh    no reference is taken (the scene takes its own)

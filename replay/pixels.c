@@ -84,7 +84,7 @@ void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind,
 	struct scene_rectangle r = { .kind = kind, .width = width, .height = height, .zoom = { zoom[0], zoom[1] } };
 	float values[N_GLS_ATTRIBUTES][4];
 
-	if (!x->want || st->render_mode != GL_RENDER || !width || !height)
+	if (!gls_is_drawn(x, st) || !width || !height)
 		return;
 	image = gls_texture_image_find(x, width, height, texels);
 	if (!image)

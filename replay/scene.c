@@ -400,12 +400,83 @@ static uint32_t looks_at(const struct scene_material *m)
 
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st);
 
-/* 1 where a clear leaves nothing of what a framebuffer object held: nor are the events before it needed any more. */
-static int begins_anew(const struct gls_state *st, const struct gls_surface *d, uint32_t buffers)
+/* Does what the context draws to include the buffer that is shown (or all of a framebuffer object's colour)? */
+static int draws_to_picture(const struct gls_state *st)
 {
-	return st->draw_framebuffer && d && !st->a.scissor.enabled && buffers & 1 && (st->a.color.mask & 7) == 7 &&
-	       (!d->alpha_bits || st->a.color.mask & 8) && (!d->depth_bits || (buffers & 2 && st->a.depth.write)) &&
-	       (!d->stencil_bits || (buffers & 4 && (st->a.stencil.side[0].write_mask & 255) == 255));
+	switch (st->a.color.draw_buffer) {
+	case GL_NONE:
+	case GL_RIGHT:
+	case GL_FRONT_RIGHT:
+	case GL_BACK_RIGHT:
+		return 0;
+	case GL_FRONT:
+	case GL_FRONT_LEFT:
+		return !st->double_buffered;
+	default:
+		return 1;
+	}
+}
+
+/* 1 where a clear leaves nothing of the colours and depths that a surface held. */
+static int clears_all(const struct gls_state *st, const struct gls_surface *d, const struct scene_clear *clear)
+{
+	return d && draws_to_picture(st) && !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
+	       (uint32_t)clear->scissor[3] >= d->height && clear->buffers & 1 && (clear->color_mask & 7) == 7 &&
+	       (!d->alpha_bits || clear->color_mask & 8) && (!d->depth_bits || clear->buffers & 2);
+}
+
+/* 1 where it leaves nothing of their stencil either. */
+static int clears_stencil(const struct gls_surface *d, const struct scene_clear *clear)
+{
+	return !d->stencil_bits || (clear->buffers & 4 && (clear->stencil_mask & 255) == 255);
+}
+
+static int touches_stencil(const struct scene *s)
+{
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		uint32_t rectangle = s->instances[i].rectangle;
+
+		if (s->materials[s->instances[i].material].stencil_test ||
+		    (rectangle && s->rectangles[rectangle - 1].kind == SCENE_STENCIL_PIXELS))
+			return 1;
+	}
+	return 0;
+}
+
+static struct gls_frame *make_frame(struct gls_exec *x);
+static void free_frame(struct gls_frame *f);
+
+/*
+ * Nothing shows any more of what was drawn: begin with an empty scene, so that it casts no shadows either. Draws keep their
+ * numbers and names, and clears what they did to the stencil buffer.
+ */
+static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
+{
+	struct gls_frame *old = d->frame, *f = make_frame(x);
+
+	if (!f)
+		return;
+	for (uint32_t i = 0; i < old->out->n_clears; i++) {
+		struct scene_clear clear = old->out->clears[i];
+
+		clear.before_instance = 0;
+		clear.buffers &= 4;
+		if (!clear.buffers)
+			continue;
+		if (grow(&f->out->clears, &f->room.clears, f->out->n_clears, sizeof(clear))) {
+			gls_out_of_memory(x, 0);
+			break;
+		}
+		f->out->clears[f->out->n_clears++] = clear;
+	}
+	free(f->out->draws);
+	f->out->draws = old->out->draws;
+	f->room.draws = old->room.draws;
+	old->out->draws = NULL;
+	f->next_draw = old->next_draw;
+	f->cleared = old->cleared;
+	d->frame = f;
+	free_frame(old);
 }
 
 void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
@@ -416,7 +487,7 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	struct scene *s;
 	uint32_t first_draw;
 
-	if (!x->want || st->render_mode != GL_RENDER)
+	if (!gls_is_drawn(x, st))
 		return;
 	gls_units_settle(x, st);
 	if (!(f = frame_of(x, st)))
@@ -464,17 +535,10 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 	struct gls_surface *d;
 	int whole;
 
-	if (!x->want || st->render_mode != GL_RENDER || !buffers)
+	if (!gls_is_drawn(x, st) || !buffers)
 		return;
 	d = gls_surface_of(x, st);
-	if (begins_anew(st, d, buffers))
-		gls_frame_drop(d);
-	if (!(f = frame_of(x, st)))
-		return;
-	s = f->out;
 	memset(&clear, 0, sizeof(clear));
-	clear.before_instance = s->n_instances;
-	clear.draw = f->next_draw;
 	clear.buffers = buffers;
 	clear.color_mask = st->a.color.draw_buffer == GL_NONE ? 0 : st->a.color.mask;
 	fill_scissor(x, st, clear.scissor);
@@ -484,6 +548,17 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 	clear.depth = st->a.depth.clear;
 	clear.stencil = st->a.stencil.clear;
 	clear.stencil_mask = st->a.stencil.side[0].write_mask;
+	if (clears_all(st, d, &clear)) {
+		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody looks at its draw numbers: they need not pile up */
+			gls_frame_drop(d);
+		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !touches_stencil(d->frame->out)))
+			forget_drawn(x, d);
+	}
+	if (!(f = frame_of(x, st)))
+		return;
+	s = f->out;
+	clear.before_instance = s->n_instances;
+	clear.draw = f->next_draw;
 	if (name_draws(x, f, x->command, x->call->number, 1) ||
 	    grow(&s->clears, &f->room.clears, s->n_clears, sizeof(*s->clears))) {
 		gls_out_of_memory(x, 0);

@@ -252,6 +252,7 @@ struct gls_state {
 
 	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
+	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;

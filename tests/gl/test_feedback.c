@@ -201,5 +201,168 @@ START_TEST(test_no_supplier)
 }
 END_TEST
 
-GL_TESTS("feedback", test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
+/* A context whose drawable has depth and stencil bits. */
+static struct gl open_deep(struct painter *p)
+{
+	struct gl gl = open_with(p);
+
+	gl_state(&gl)->depth_bits = 24;
+	gl_state(&gl)->stencil_bits = 8;
+	return gl;
+}
+
+#define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
+
+/* Clear (sec. 4.2.3) of all that a drawable has: what was drawn before is no part of the scene, but keeps its draw numbers. */
+START_TEST(test_clear_drops_what_it_covers)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", ALL); /* draw 1 */
+	triangle(&gl);                     /* 2 */
+	gl_call(&gl, "glTranslatef", "fff", 1.0, 0.0, 0.0);
+	triangle(&gl);             /* 3 */
+	gl_call(&gl, "glClear", "m", ALL); /* 4 */
+	gl_call(&gl, "glTranslatef", "fff", 1.0, 0.0, 0.0);
+	triangle(&gl); /* 5 */
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 1);
+	ck_assert_uint_eq(s->n_meshes, 1);
+	ck_assert_uint_eq(s->n_primitives, 1);
+	ck_assert_uint_eq(s->instances[0].draw, 5);
+	ck_assert_uint_eq(s->instances[0].first_primitive, 0);
+	ck_assert_float_eq(s->instances[0].modelview[12], 2);
+	ck_assert_uint_eq(s->n_draws, 5);
+	ck_assert_str_eq(s->draws[2].call, "glBegin");
+	ck_assert_str_eq(s->draws[4].call, "glClear");
+	ck_assert_uint_eq(s->clears[s->n_clears - 1].before_instance, 0);
+	ck_assert_uint_eq(s->clears[s->n_clears - 1].draw, 4);
+	ck_assert_uint_eq(s->needs_previous, 0);
+	scene_release(&s);
+
+	/* It need not be the first thing of the frame: what showed the frame before is gone with it. */
+	triangle(&gl);
+	gl_call(&gl, "glClear", "m", ALL);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 0);
+	ck_assert_uint_eq(s->needs_previous, 0);
+	ck_assert_ptr_null(s->start);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Clears that leave something of what was drawn leave all of it in the scene. */
+START_TEST(test_clear_that_leaves_something)
+{
+	static const struct { const char *name, *letters; unsigned value, buffers; } cases[] = {
+		{ "glEnable", "e", GL_SCISSOR_TEST, ALL },     { "glDepthMask", "e", 0, ALL },
+		{ "glDrawBuffer", "e", GL_NONE, ALL },         { NULL, NULL, 0, GL_COLOR_BUFFER_BIT },
+		{ NULL, NULL, 0, GL_DEPTH_BUFFER_BIT },        { "glStencilMask", "u", 1, ALL },
+		{ NULL, NULL, 0, ALL & ~GL_STENCIL_BUFFER_BIT }
+	};
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+		struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+		struct gl gl = open_deep(&p);
+		struct scene *s;
+
+		gl_call(&gl, "glScissor", "iiii", 1, 0, 63, 64);
+		gl_call(&gl, "glClear", "m", ALL);
+		gl_call(&gl, "glEnable", "e", GL_STENCIL_TEST);
+		triangle(&gl);
+		gl_call(&gl, "glDisable", "e", GL_STENCIL_TEST);
+		if (cases[i].name)
+			gl_call(&gl, cases[i].name, cases[i].letters, cases[i].value);
+		gl_call(&gl, "glClear", "m", cases[i].buffers);
+		s = gl_swap(&gl);
+		ck_assert_msg(s->n_instances == 1, "case %zu: %u instances", i, s->n_instances);
+		ck_assert_uint_eq(s->clears[1].before_instance, 1);
+		scene_release(&s);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+/* The stencil buffer goes on as it was where nothing drawn changed it, and so do the clears that made it. */
+START_TEST(test_clear_keeps_stencil)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClearStencil", "i", 3);
+	gl_call(&gl, "glClear", "m", GL_STENCIL_BUFFER_BIT);
+	triangle(&gl);
+	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 0);
+	ck_assert_uint_eq(s->n_clears, 2);
+	ck_assert_uint_eq(s->clears[0].buffers, 4);
+	ck_assert_uint_eq(s->clears[0].stencil, 3);
+	ck_assert_uint_eq(s->clears[1].buffers, 3);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* What was read before the clear was rendered with what was drawn before it, and what is read after it without. */
+START_TEST(test_clear_after_reading)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glClear", "m", ALL);
+	triangle(&gl);
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 16, 8, 0);
+	ck_assert_uint_eq(p.n_instances, 1);
+	gl_call(&gl, "glClear", "m", ALL);
+	triangle(&gl);
+	triangle(&gl);
+	textured_triangle(&gl);
+	gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 16, 8, 0);
+	ck_assert_uint_eq(p.asked, 2);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(p.n_instances, s->n_instances);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_mem_eq(s->textures[0]->texels, p.color, 3);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* RASTERIZER_DISCARD (GL 3.0 sec. 3.1): nothing is drawn or cleared, nor counted; state changes as ever. */
+START_TEST(test_rasterizer_discard)
+{
+	struct painter p = { { 10, 20, 30, 255 }, 0, 0, 0, 0 };
+	struct gl gl = open_deep(&p);
+	struct scene *s;
+
+	gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
+	gl_call(&gl, "glTranslatef", "fff", 3.0, 0.0, 0.0);
+	triangle(&gl);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glClear", "m", ALL);
+	triangle(&gl);
+	gl_call(&gl, "glEnable", "e", GL_RASTERIZER_DISCARD);
+	gl_call(&gl, "glCallList", "u", 1u);
+	gl_call(&gl, "glClear", "m", ALL);
+	gl_call(&gl, "glDisable", "e", GL_RASTERIZER_DISCARD);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_draws, 3);
+	ck_assert_uint_eq(s->n_clears, 1);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_float_eq(s->instances[1].modelview[12], 3);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
+         test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
          test_no_supplier)
