@@ -305,7 +305,7 @@ show-replay: all
 # libFuzzer on reader and state machine, under sanitizers; what it finds worth keeping goes into tests/fuzz/kept.
 DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
-FUZZ_SRC := tests/fuzz/fuzz_replay.c $(wildcard base/*.c replay/*.c) capture/sizes.c
+FUZZ_SRC := tests/fuzz/fuzz_replay.c $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c
 $(BUILD)/fuzz/replay: $(FUZZ_SRC) $(BUILD)/gen/dispatch.c | $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
 	$(Q)clang $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \

@@ -14,6 +14,7 @@ static const struct verb {
 	{ "info", info_main, "what a trace holds: frames, calls, what is not handled" },
 	{ "index", index_main, "index a trace, so that rendering begins at any frame at once" },
 	{ "dump", dump_main, "print a trace's calls as text" },
+	{ "trim", trim_main, "cut a recording down to some frames" },
 	{ "repair", repair_main, "save what is whole of a recording that was cut or damaged" },
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "a frame as glTF, for other programs" },

@@ -13,6 +13,7 @@ int info_main(int argc, char **argv);    /* replay/info.c */
 int index_main(int argc, char **argv);   /* replay/index_main.c */
 int dump_main(int argc, char **argv);    /* replay/dump.c */
 int scene_main(int argc, char **argv);   /* replay/scene_json.c */
+int trim_main(int argc, char **argv);    /* replay/trim.c */
 int repair_main(int argc, char **argv);  /* replay/repair.c */
 int export_main(int argc, char **argv);  /* replay/export.c */
 int render_main(int argc, char **argv);  /* tracer/render.c */

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/part.h"
 
 enum { MAGIC_BYTES = 8, HEADER_BYTES = 28, MAX_SIDE = 65536 };
 
@@ -163,4 +164,57 @@ fail:
 	free(packed);
 	free(pixels);
 	return rc;
+}
+
+static void put_le(uint8_t *p, uint64_t v, unsigned n)
+{
+	for (unsigned i = 0; i < n; i++)
+		p[i] = (uint8_t)(v >> (8 * i));
+}
+
+static int copy_record(struct ref_file *ref, const struct ref_entry *entry, uint64_t frame, FILE *out, const char *path)
+{
+	uint8_t bytes[1 << 16];
+	uint64_t left = entry->packed_bytes;
+
+	put_le(bytes, entry->kind, 4);
+	put_le(bytes + 4, entry->width, 4);
+	put_le(bytes + 8, entry->height, 4);
+	put_le(bytes + 12, frame, 8);
+	put_le(bytes + 20, left, 8);
+	if (fwrite(bytes, HEADER_BYTES, 1, out) != 1)
+		return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+	if (fseeko(ref->stream, (off_t)entry->offset, SEEK_SET))
+		return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
+	while (left) {
+		size_t n = left < sizeof(bytes) ? (size_t)left : sizeof(bytes);
+
+		if (fread(bytes, 1, n, ref->stream) != n)
+			return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
+		if (fwrite(bytes, 1, n, out) != n)
+			return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+		left -= n;
+	}
+	return 0;
+}
+
+int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path)
+{
+	char part[PATH_MAX];
+	FILE *out;
+	int rc = part_begin(path, part, sizeof(part));
+
+	if (rc)
+		return rc;
+	out = fopen(part, "wb");
+	if (!out || fwrite(REF_MAGIC, MAGIC_BYTES, 1, out) != 1)
+		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+	for (size_t i = 0; i < ref->n_entries && !rc; i++)
+		if (ref->entries[i].frame >= first && ref->entries[i].frame <= last)
+			rc = copy_record(ref, &ref->entries[i], ref->entries[i].frame - first, out, path);
+	if (out && fclose(out) && !rc)
+		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+	if (rc)
+		part_drop(part);
+	return rc ? rc : part_finish(part, path);
 }

@@ -2,7 +2,6 @@
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <sys/stat.h>
 
 #include "base/err.h"
 #include "base/verbs.h"
@@ -27,13 +26,6 @@ struct saved {
 	uint64_t calls, frames;
 	uint64_t bytes; /* of the unpacked stream, to the end of the last call that is kept */
 };
-
-static int same_file(const char *a, const char *b)
-{
-	struct stat x, y;
-
-	return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
 
 /* @return 0 at the end of what can be read, or ERR_SYSTEM */
 static int save_calls(struct trace_reader *r, struct trace_out *out, struct saved *saved)
@@ -66,13 +58,13 @@ static int repair(const char *path, const char *new)
 	int rc = trace_reader_open(&r, path);
 
 	if (!rc)
-		rc = trace_out_open(&out, new, r);
+		rc = trace_out_open(&out, new, path, r);
 	if (!rc)
 		rc = save_calls(r, out, &saved);
 	if (!rc && saved.calls == 0)
 		rc = err_report(ERR_INPUT, path, "no call of it is whole; there is nothing to save");
 	if (!rc)
-		rc = trace_out_finish(&out);
+		rc = trace_out_finish(&out, NULL);
 	if (!rc) {
 		trace_reader_place(r, &end);
 		unread = trace_reader_size(r) - trace_reader_offset(r);
@@ -104,7 +96,5 @@ int repair_main(int argc, char **argv)
 	}
 	if (argc - optind != 1 || !new)
 		return -err_report(ERR_USAGE, NULL, "repair takes one trace and -o with the file to write; 'relume help repair' says more");
-	if (same_file(argv[optind], new))
-		return -err_report(ERR_USAGE, new, "is the recording itself; give the repaired one another name");
 	return -repair(argv[optind], new);
 }

@@ -252,6 +252,34 @@ int replay_seek(struct replay *rp, uint64_t frame)
 	return rc;
 }
 
+/* A supplier that renders nothing: whatever was there may show. */
+static int know_nothing(void *user, const struct scene *scene, struct scene_picture *picture)
+{
+	size_t n = (size_t)scene->width * scene->height;
+
+	(void)user;
+	memset(picture->rgba, 0, n * 4);
+	memset(picture->depth, 0, n * sizeof(*picture->depth));
+	memset(picture->stencil, 0, n);
+	picture->unknown = !scene->start;
+	return 0;
+}
+
+int replay_needs_skipped(struct replay *rp, uint64_t last)
+{
+	struct scene *scene = NULL;
+	int rc = 1;
+
+	rp->exec->supply = know_nothing;
+	while (rc == 1 && rp->exec->frame <= last) {
+		rc = run_frame(rp, 1, &scene);
+		if (rc == 1 && rp->exec->rewind)
+			return 1;
+		scene_release(&scene);
+	}
+	return rc < 0 ? rc : 0;
+}
+
 int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged)
 {
 	struct index_facts facts;

@@ -71,6 +71,14 @@ typedef int replay_supply(void *user, const struct scene *scene, struct scene_pi
  */
 void replay_set_supplier(struct replay *rp, replay_supply *supply, void *user);
 
+/**
+ * Build the frames up to and with `last`: do they need pixels of frames that were skipped? Told without rendering: a frame that
+ * may show what was there before it, as it does not clear the screen, counts as one that does. Afterwards the replay is of no
+ * more use but to be closed.
+ * @return 1 they do; 0 they do not; ERR_* (reported)
+ */
+int replay_needs_skipped(struct replay *rp, uint64_t last);
+
 /** Give a scene back; NULL is allowed. Sets *scene to NULL. May run in any thread. */
 void scene_release(struct scene **scene);
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/err.h"
 #include "base/part.h"
@@ -259,11 +260,6 @@ int trace_out_call(struct trace_out *o, const struct call *call)
 	return o->rc;
 }
 
-uint64_t trace_out_bytes(const struct trace_out *o)
-{
-	return o->bytes;
-}
-
 /* ---- opening and closing ---- */
 
 static void release(struct trace_out **out)
@@ -274,12 +270,22 @@ static void release(struct trace_out **out)
 	*out = NULL;
 }
 
-int trace_out_open(struct trace_out **out, const char *path, const struct trace_reader *from)
+static int same_file(const char *a, const char *b)
 {
-	struct trace_out *o = calloc(1, sizeof(*o) + snappy_max_compressed_length(CHUNK_BYTES));
+	struct stat x, y;
+
+	return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+int trace_out_open(struct trace_out **out, const char *path, const char *from_path, const struct trace_reader *from)
+{
+	struct trace_out *o;
 	const char *name, *value;
 
-	*out = o;
+	*out = NULL;
+	if (same_file(path, from_path))
+		return err_report(ERR_USAGE, path, "is the recording itself; give the new one another name");
+	*out = o = calloc(1, sizeof(*o) + snappy_max_compressed_length(CHUNK_BYTES));
 	if (!o || !(o->path = strdup(path))) {
 		free(o);
 		*out = NULL;
@@ -304,7 +310,7 @@ int trace_out_open(struct trace_out **out, const char *path, const struct trace_
 	return 0;
 }
 
-int trace_out_finish(struct trace_out **out)
+int trace_out_finish(struct trace_out **out, uint64_t *bytes)
 {
 	struct trace_out *o = *out;
 	int rc;
@@ -314,6 +320,8 @@ int trace_out_finish(struct trace_out **out)
 		o->rc = err_report(ERR_SYSTEM, o->path, "cannot be written: %s", strerror(errno));
 	o->file = NULL;
 	rc = o->rc;
+	if (bytes)
+		*bytes = o->bytes;
 	if (rc) {
 		trace_out_drop(out);
 		return rc;

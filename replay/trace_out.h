@@ -18,9 +18,9 @@ struct trace_out;
 
 /**
  * Begin a trace, with the properties of the one that is read.
- * @return 0 or ERR_SYSTEM (reported)
+ * @return 0, ERR_USAGE (reported: both are one file) or ERR_SYSTEM (reported)
  */
-int trace_out_open(struct trace_out **out, const char *path, const struct trace_reader *from);
+int trace_out_open(struct trace_out **out, const char *path, const char *from_path, const struct trace_reader *from);
 
 /**
  * Write a call. Signatures are known by their address: those of one reader, which must live as long as the writer.
@@ -28,11 +28,12 @@ int trace_out_open(struct trace_out **out, const char *path, const struct trace_
  */
 int trace_out_call(struct trace_out *o, const struct call *call);
 
-/** Bytes of the file so far, without what waits in the last chunk. */
-uint64_t trace_out_bytes(const struct trace_out *o);
-
-/** Finish the file and give it its name. Closes the writer in any case. @return 0 or ERR_SYSTEM (reported; no file is left) */
-int trace_out_finish(struct trace_out **out);
+/**
+ * Finish the file and give it its name. Closes the writer in any case.
+ * @param bytes  receives the size of the file; may be NULL
+ * @return 0 or ERR_SYSTEM (reported; no file is left)
+ */
+int trace_out_finish(struct trace_out **out, uint64_t *bytes);
 
 /** Give up: no file is left. */
 void trace_out_drop(struct trace_out **out);
