@@ -39,8 +39,10 @@ static void copy(struct gls_exec *x, struct gls_state *st, struct gls_texture *t
 	if (p)
 		copy_pixels(st, p, from[0], from[1], size[0], size[1], l,
 		            (size_t)((to[2] * l->height + to[1]) * l->width + to[0]));
-	else if (!x->want)
-		l->missing = x->missing = 1;
+	else if (!x->want || !x->supply) {
+		l->missing = (uint32_t)x->frame + 1;
+		x->missing = 1;
+	}
 	t->dirty = 1;
 	if (p && to[0] == 0 && to[1] == 0 && size[0] == l->width && size[1] == l->height && l->depth == 1)
 		l->missing = 0;

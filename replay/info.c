@@ -2,6 +2,7 @@
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
@@ -11,12 +12,51 @@
 
 #define TOP_CALLS 20
 
+/* Frames that may show what was there before them, in ranges. */
+struct frame_ranges {
+	uint64_t (*ranges)[2];
+	size_t n, room;
+	uint64_t frames;
+};
+
+static int add_frame(struct frame_ranges *r, uint64_t frame)
+{
+	r->frames++;
+	if (r->n && r->ranges[r->n - 1][1] + 1 == frame) {
+		r->ranges[r->n - 1][1] = frame;
+		return 0;
+	}
+	if (r->n == r->room) {
+		void *grown = realloc(r->ranges, (2 * r->room + 16) * sizeof(*r->ranges));
+
+		if (!grown)
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		r->ranges = grown;
+		r->room = 2 * r->room + 16;
+	}
+	r->ranges[r->n][0] = r->ranges[r->n][1] = frame;
+	r->n++;
+	return 0;
+}
+
+static void print_ranges(const struct frame_ranges *r)
+{
+	printf("feedback    %" PRIu64 " frames may show what earlier ones drew:", r->frames);
+	for (size_t i = 0; i < r->n && i < TOP_CALLS; i++) {
+		printf("%s %" PRIu64, i ? "," : "", r->ranges[i][0]);
+		if (r->ranges[i][1] > r->ranges[i][0])
+			printf("-%" PRIu64, r->ranges[i][1]);
+	}
+	puts(r->n > TOP_CALLS ? ", ..." : "");
+}
+
 static void print_help(void)
 {
 	puts("usage: relume info [OPTIONS] TRACE\n"
 	     "\n"
-	     "Say what a trace holds: frames, calls, contexts, drawable size, what Relume does not execute yet,\n"
-	     "and the GL errors that the program itself made.\n"
+	     "Say what a trace holds: frames, calls, contexts, drawable size, frames that may show what earlier ones\n"
+	     "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
+	     "program itself made.\n"
 	     "\n"
 	     "  -a, --all    every command that was called, not only the most frequent\n"
 	     "  -j, --json   as JSON\n"
@@ -35,7 +75,7 @@ static void print_counts(const char *title, const struct replay_count *counts, s
 		printf("              and %zu more (--all lists them)\n", n - limit);
 }
 
-static void print_text(struct replay *rp, const char *path, size_t limit)
+static void print_text(struct replay *rp, const char *path, size_t limit, const struct frame_ranges *earlier)
 {
 	const struct replay_count *counts;
 	const struct replay_context *contexts;
@@ -51,6 +91,8 @@ static void print_text(struct replay *rp, const char *path, size_t limit)
 	for (size_t i = 0; i < n; i++)
 		printf("context     0x%" PRIx64 ": %s, drawable %ux%u, %" PRIu64 " calls%s\n", contexts[i].handle, contexts[i].api,
 		       contexts[i].width, contexts[i].height, contexts[i].calls, contexts[i].shares ? ", shares objects" : "");
+	if (earlier->n)
+		print_ranges(earlier);
 	n = replay_calls(rp, &counts);
 	print_counts("calls by name", counts, n, limit);
 	n = replay_unsupported(rp, &counts);
@@ -76,7 +118,7 @@ static void json_counts(struct json *j, const char *name, const struct replay_co
 	json_end(j, ']');
 }
 
-static void print_json(struct replay *rp, const char *path)
+static void print_json(struct replay *rp, const char *path, const struct frame_ranges *earlier)
 {
 	struct json j = { .out = stdout };
 	const struct replay_count *counts;
@@ -89,6 +131,15 @@ static void print_json(struct replay *rp, const char *path)
 	json_key_string(&j, "program", replay_program(rp));
 	json_key_uint(&j, "frames", replay_frame(rp));
 	json_key_uint(&j, "calls", replay_call_count(rp));
+	json_key(&j, "show_earlier");
+	json_begin(&j, '[');
+	for (size_t i = 0; i < earlier->n; i++) {
+		json_begin(&j, '[');
+		json_uint(&j, earlier->ranges[i][0]);
+		json_uint(&j, earlier->ranges[i][1]);
+		json_end(&j, ']');
+	}
+	json_end(&j, ']');
 	json_key(&j, "contexts");
 	json_begin(&j, '[');
 	n = replay_contexts(rp, &contexts);
@@ -118,6 +169,7 @@ int info_main(int argc, char **argv)
 	static const struct option options[] = {
 		{ "all", no_argument, NULL, 'a' }, { "json", no_argument, NULL, 'j' }, { "help", no_argument, NULL, 'h' }, { 0 },
 	};
+	struct frame_ranges earlier = { 0 };
 	size_t limit = TOP_CALLS;
 	struct replay *rp = NULL;
 	struct scene *scene = NULL;
@@ -144,14 +196,20 @@ int info_main(int argc, char **argv)
 	if (rc)
 		return -rc;
 	/* Frames are built, so that what drawing does not do yet is found as well. */
-	while ((rc = replay_next_frame(rp, 1, &scene)) == 1)
+	while ((rc = replay_next_frame(rp, 1, &scene)) == 1) {
+		/* The first frame begins with an empty window. */
+		rc = scene->frame && (scene->needs_previous || scene->shows_earlier) ? add_frame(&earlier, scene->frame) : 0;
 		scene_release(&scene);
+		if (rc)
+			break;
+	}
 	if (rc == 0 || replay_frame(rp)) {
 		if (json)
-			print_json(rp, argv[optind]);
+			print_json(rp, argv[optind], &earlier);
 		else
-			print_text(rp, argv[optind], limit);
+			print_text(rp, argv[optind], limit, &earlier);
 	}
 	replay_close(&rp);
+	free(earlier.ranges);
 	return -rc;
 }

@@ -165,11 +165,14 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	int target = enabled_target(unit);
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
 	struct gls_texture_image *image = t ? gls_texture_image_of(x, t) : NULL;
+	uint32_t missing;
 
 	if (!image)
 		return 0;
-	if (x->missing && x->supply && gls_texture_is_missing(t))
+	missing = x->missing ? gls_texture_missing(t) : 0;
+	if (missing && x->supply)
 		x->rewind = 1;
+	f->out->shows_earlier |= missing && missing <= x->frame;
 	*out = unit->value;
 	out->texture = texture_slot(x, f, image);
 	if (out->texture == SCENE_NONE)

@@ -293,6 +293,7 @@ struct scene {
 	uint32_t n_draws;
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
+	uint32_t shows_earlier; /* 1: a texture should hold what an earlier frame drew, and does not: nobody renders for this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: black, far and 0, or not known */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */

@@ -522,12 +522,12 @@ struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_te
 	return t->image;
 }
 
-int gls_texture_is_missing(const struct gls_texture *t)
+uint32_t gls_texture_missing(const struct gls_texture *t)
 {
 	for (unsigned face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
 		for (unsigned level = 0; level < GLS_MAX_LEVELS; level++)
 			if (t->levels[face][level].missing)
-				return 1;
+				return t->levels[face][level].missing;
 	return 0;
 }
 

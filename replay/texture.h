@@ -14,7 +14,7 @@ struct gls_level {
 	uint32_t border, internal_format, base_format;
 	uint8_t *texels;
 	size_t bytes;
-	uint32_t missing; /* 1: what it holds was drawn in a frame that was skipped */
+	uint32_t missing; /* frame + 1 in which what it holds was drawn, and not rendered; 0: it is all there */
 };
 
 struct gls_texture {
@@ -78,8 +78,8 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 /** Levels above the base level out of it (sec. 3.8.8). */
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face);
 
-/** 1 where pixels of a level were drawn in a frame that was skipped. */
-int gls_texture_is_missing(const struct gls_texture *t);
+/** `missing` of the first level that misses pixels; 0: there is none. */
+uint32_t gls_texture_missing(const struct gls_texture *t);
 
 /** The image of plain RGBA texels (no texture object's), found by content. @return a reference, or NULL: out of memory */
 struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, const uint8_t *texels);

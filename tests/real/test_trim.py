@@ -94,6 +94,8 @@ for name, first, begins in (("xss-queens", 70, 70), ("xss-noof", 1, 0)):
         (SCRATCH / f"{trace.stem}-cut.ref").write_bytes(b"of an older recording")
         new = trimmed(trace, first, first + 1, begins)
         same_renders(trace, new, begins, first + 1, "--mode", "gl")
+        facts = json.loads(relume("info", "--json", new).stdout)
+        check(facts["show_earlier"] == ([] if begins == first else [[1, first + 1]]), f"{name}: info says which frames show others: {facts['show_earlier']}")
         check(not new.with_suffix(".ref").exists(), f"{name}: no references, and none of an older recording")
 
 # Frames that are not there, and wrong usage: the code, one line, and no file.
