@@ -8,9 +8,7 @@
  *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
  *     centre on an edge belongs to the triangle on its right, or above where the edge is level (as Mesa's llvmpipe has
  *     it for windows and for framebuffer objects), so that pixels on a shared edge are covered once.
- *   - else: homogeneous edge functions on clip coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
- *     homogeneous coordinates") and -w <= z <= w at the pixel; an edge between two placed vertices still uses the
- *     integers, so that neighbours meet.
+ *   - else: the same on the parts that the view volume leaves of the triangle (kernels/gl_clip.h).
  * Screen instances (view.screen_first ..) are asked at the pixel centre as a point, whatever the projection.
  *
  * Arguments of both, in this order

@@ -31,7 +31,7 @@ struct tile {
 	__global const float *clip;
 	__global const uint *after;
 	__global struct fragment *fragments;
-	uint width, mode;
+	uint width, height, mode;
 	int x, y;      /* the first pixel */
 	int changed;   /* a nearest fragment was replaced since z_far was set */
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
@@ -48,7 +48,7 @@ struct candidate {
 inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
 	struct row *row = &t->rows[y];
-	const uint8 steps = convert_uint8(depth * 16777215.0f + 0.5f);
+	const uint8 steps = convert_uint8(rint(depth * 16777215.0f));
 	const int8 before = t->mode == CAMERA_NEAREST_LESS ? (uint8)(c.order) < row->order : (uint8)(c.order) > row->order;
 	const int8 better = covered & ((steps < row->steps) | ((steps == row->steps) & before));
 
@@ -162,9 +162,12 @@ inline float8 edge_values(struct tile_edge e, int y, int small)
 	return convert_float8((long8)(e.value + (long)y * e.step_y * 256) + convert_long8(LANES * e.step_x) * 256);
 }
 
-/* All vertices have a place in the window. */
+/*
+ * All vertices have a place in the window. corner: NULL, or the three corners where the triangle is part of one that leaves the
+ * view volume; the fragments' weights are those of the whole then.
+ */
 inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
-                       struct window_vertex v2, struct candidate c)
+                       struct window_vertex v2, const struct clip_corner *const *corner, struct candidate c)
 {
 	/* Rows and columns of centres that the triangle's box holds. */
 	const int x_first = (min(min(v0.x, v1.x), v2.x) + 127) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - 128) >> 8;
@@ -195,66 +198,27 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 		depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
 		depth = select(depth, (float8)(1), depth > 1.0f);
 		depth = select(depth, (float8)(0), depth < 0.0f);
+		if (corner) {
+			const float8 p0 = (1.0f - b1 - b2) * v0.w_inv, p1 = b1 * v1.w_inv, p2 = b2 * v2.w_inv, sum = p0 + p1 + p2;
+
+			b1 = (p0 * corner[0]->b1 + p1 * corner[1]->b1 + p2 * corner[2]->b1) / sum;
+			b2 = (p0 * corner[0]->b2 + p1 * corner[1]->b2 + p2 * corner[2]->b2) / sum;
+		}
 		keep(t, row, covered, b1, b2, depth, c);
 	}
 }
 
-/* A homogeneous edge a -> b at the centres of a row, each the origin of its own lane: X and Y are window coordinates
- * times w. Lanes inside, and *weight. */
-inline int8 clipped_edge(const struct tile *t, int y, struct window_vertex va, struct window_vertex vb, float8 Xa, float Ya,
-                         float wa, float8 Xb, float Yb, float wb, float sign, float8 *weight)
-{
-	const float8 e = sign * (Xa * Yb - Xb * Ya), along_y = sign * (wa * Xb - wb * Xa);
-	const float along_x = sign * (Ya * wb - Yb * wa);
-
-	*weight = select((float8)(0), e, e > 0);
-	if (va.w_inv > 0 && vb.w_inv > 0) {
-		if (sign > 0)
-			return edge_inside(tile_edge(va, vb, t->x, t->y + y), 0) >= 0;
-		return edge_inside(tile_edge(vb, va, t->x, t->y + y), 0) >= 0;
-	}
-	return (e > 0) | ((e == 0) & ((int8)(along_x > 0 ? -1 : 0) | ((int8)(along_x == 0 ? -1 : 0) & (along_y > 0))));
-}
-
-/* A vertex has none. i0, i1, i2: places in window and clip. coverage_clipped is the same for one pixel. */
+/* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
 inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, struct candidate c)
 {
-	const float4 c0 = vload4(i0, t->clip), c1 = vload4(i1, t->clip), c2 = vload4(i2, t->clip);
-	const struct window_vertex v0 = t->window[i0], v1 = t->window[i1], v2 = t->window[i2];
-	__global const struct view *view = t->view;
-	const float half_w = 0.5f * view->viewport[2], half_h = 0.5f * view->viewport[3];
-	const float8 origin_x = view->viewport[0] + half_w - (convert_float8(t->x + LANES) + 0.5f);
-	const float det = c0.w * (c1.x * c2.y - c2.x * c1.y) + c1.w * (c2.x * c0.y - c0.x * c2.y) +
-	                  c2.w * (c0.x * c1.y - c1.x * c0.y);
-	const float sign = det > 0 ? 1.0f : -1.0f;
-	const float8 X0 = c0.x * half_w + c0.w * origin_x, X1 = c1.x * half_w + c1.w * origin_x;
-	const float8 X2 = c2.x * half_w + c2.w * origin_x;
+	struct clip_polygon polygon;
 
-	if (!(det != 0) || coverage_culled(flags, det > 0))
-		return;
-	for (int y = 0; y < CAMERA_TILE; y++) {
-		const float origin_y = view->viewport[1] + half_h - ((float)(t->y + y) + 0.5f);
-		const float Y0 = c0.y * half_h + c0.w * origin_y, Y1 = c1.y * half_h + c1.w * origin_y;
-		const float Y2 = c2.y * half_h + c2.w * origin_y;
-		float8 weight0, weight1, weight2, sum, b0, b1, b2, z, w, depth;
-		int8 covered = t->rows[y].on & clipped_edge(t, y, v1, v2, X1, Y1, c1.w, X2, Y2, c2.w, sign, &weight0) &
-		               clipped_edge(t, y, v2, v0, X2, Y2, c2.w, X0, Y0, c0.w, sign, &weight1) &
-		               clipped_edge(t, y, v0, v1, X0, Y0, c0.w, X1, Y1, c1.w, sign, &weight2);
+	clip_triangle(t->view, (float)t->height, v4_load(t->clip + 4 * i0), v4_load(t->clip + 4 * i1), v4_load(t->clip + 4 * i2),
+	              &polygon);
+	for (uint k = 2; k < polygon.n; k++) {
+		const struct clip_corner *corner[3] = { &polygon.corner[k - 1], &polygon.corner[k], &polygon.corner[0] };
 
-		if (!any_lane(covered))
-			continue;
-		sum = weight0 + weight1 + weight2;
-		b1 = weight1 / sum;
-		b2 = weight2 / sum;
-		b0 = 1.0f - b1 - b2;
-		z = b0 * c0.z + b1 * c1.z + b2 * c2.z;
-		w = b0 * c0.w + b1 * c1.w + b2 * c2.w;
-		covered &= (sum > 0) & (z >= -w) & (z <= w) & (w > 0);
-		if (!any_lane(covered))
-			continue;
-		depth = view->depth_range[0] + (view->depth_range[1] - view->depth_range[0]) * (0.5f * (z / w) + 0.5f);
-		depth = fmax(fmin(depth, 1.0f), 0.0f);
-		keep(t, y, covered, b1, b2, depth, c);
+		try_placed(t, flags, corner[0]->window, corner[1]->window, corner[2]->window, corner, c);
 	}
 }
 
@@ -270,7 +234,7 @@ inline void try_triangle(struct tile *t, uint index, __global const struct insta
 	c.instance = index;
 	c.primitive = primitive;
 	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
-		try_placed(t, instance->flags, v0, v1, v2, c);
+		try_placed(t, instance->flags, v0, v1, v2, 0, c);
 	} else {
 		c.primitive |= FRAGMENT_PERSPECTIVE;
 		try_clipped(t, instance->flags, i0, i1, i2, c);
@@ -461,6 +425,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.after = after;
 	t.fragments = fragments;
 	t.width = width;
+	t.height = height;
 	t.mode = mode;
 	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
 	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;

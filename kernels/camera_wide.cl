@@ -13,7 +13,7 @@ struct pixel {
 	__global const struct window_vertex *window;
 	__global const float *clip;
 	__global struct fragment *out; /* the pixel's column, or its nearest */
-	uint mode, after;
+	uint mode, height, after;
 	int x, y;
 	float3 o, d;
 	float d_scale, near_w, far_w, t_max;
@@ -34,7 +34,7 @@ inline void shorten(struct pixel *p, float depth)
 
 inline void keep_nearest(struct pixel *p, const struct fragment *f)
 {
-	const uint steps = convert_uint(f->depth * 16777215.0f + 0.5f);
+	const uint steps = convert_uint(rint(f->depth * 16777215.0f));
 
 	if (p->count && (steps > p->steps || (steps == p->steps && (p->mode == CAMERA_NEAREST_LESS
 	                                                                   ? f->order > p->nearest.order
@@ -78,7 +78,7 @@ inline void try_triangle(struct pixel *p, uint index, __global const struct inst
 	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
 		covered = coverage_placed(v0, v1, v2, instance->flags, p->x, p->y, &f.b1, &f.b2, &f.depth);
 	} else {
-		covered = coverage_clipped(p->view, p->window, p->clip, i0, i1, i2, instance->flags, p->x, p->y, &f.b1, &f.b2,
+		covered = coverage_clipped(p->view, p->clip, p->height, i0, i1, i2, instance->flags, p->x, p->y, &f.b1, &f.b2,
 		                           &f.depth);
 		f.primitive |= FRAGMENT_PERSPECTIVE;
 	}
@@ -238,6 +238,7 @@ __kernel void camera_wide(uint view_index, __global const struct view *views, ui
 	p.window = window;
 	p.clip = clip;
 	p.mode = mode;
+	p.height = height;
 	p.x = r.x0 + (int)(item % columns);
 	p.y = r.y0 + (int)(item / columns);
 	pixel = (uint)p.y * width + (uint)p.x;

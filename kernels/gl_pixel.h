@@ -31,10 +31,16 @@ static inline uint32_t pixel_bits_mask(uint32_t bits)
 	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
 }
 
-/* Depth as a buffer of so many bits (at most 24 count) holds it. */
+/*
+ * Depth as a buffer of so many bits holds it, rounded to even as Mesa has it; more than 24 bits are those of the number itself
+ * (the last one is always 0, and all of them for 1).
+ */
 static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
 {
-	return (uint32_t)(clamp01(depth) * (float)pixel_bits_mask(bits > 24u ? 24u : bits) + 0.5f);
+	depth = clamp01(depth);
+	if (bits > 24u)
+		return depth < 1.0f ? (uint32_t)(depth * 2147483648.0f) << 1 : 0xffffffffu;
+	return (uint32_t)M_RINT(depth * (float)pixel_bits_mask(bits));
 }
 
 /* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */

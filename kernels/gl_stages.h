@@ -34,31 +34,6 @@ static inline void gather_item(GLOBAL const struct fragment *sparse, GLOBAL cons
 	after[pixel] = n == slots ? sparse[pixel * slots + n - 1u].order + 1u : SCENE_NONE;
 }
 
-/* Depth with polygon offset (sec. 3.5.5): slope in window units per pixel, r the least step of the depth buffer. */
-static inline float stage_offset_depth(const struct point *p, GLOBAL const struct window_vertex *windows, float depth,
-                                       uint32_t bits)
-{
-	GLOBAL const struct scene_material *m = p->material;
-	GLOBAL const struct window_vertex *w = windows + p->geometry->vertex_first;
-	GLOBAL const struct window_vertex *a = w + p->number[0], *b = w + p->number[1], *c = w + p->number[2];
-	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
-	float slope = 0.0f;
-
-	if (!(m->polygon_offset & 4u) || p->geometry->flags & GEOMETRY_EXPANDED)
-		return depth;
-	if (a->w_inv > 0.0f && b->w_inv > 0.0f && c->w_inv > 0.0f) {
-		float x1 = (float)(b->x - a->x) / 256.0f, y1 = (float)(b->y - a->y) / 256.0f, z1 = b->z - a->z;
-		float x2 = (float)(c->x - a->x) / 256.0f, y2 = (float)(c->y - a->y) / 256.0f, z2 = c->z - a->z;
-		float area = x1 * y2 - x2 * y1;
-
-		if (area != 0.0f)
-			slope = M_MAX(M_ABS((z1 * y2 - z2 * y1) / area), M_ABS((z2 * x1 - z1 * x2) / area));
-	}
-	depth += slope * m->polygon_offset_factor +
-	         m->polygon_offset_units / (float)pixel_bits_mask(depth_bits > 24u ? 24u : depth_bits);
-	return clamp01(depth);
-}
-
 /* Shares of the material's lights that arrive at the item. @return 1 where any is dimmed */
 static inline int stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item,
                              struct vec3 *seen)
@@ -114,40 +89,92 @@ static inline float stage_plane(const float *px, const float *py, const float *v
 }
 
 /*
- * Weights of a fragment for its attributes, and its depth. Coverage goes by snapped vertices; llvmpipe takes attributes and
- * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from
- * clip coordinates.
+ * Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations; the vertices as for stage_plane. The least step r is
+ * two steps of the depth buffer.
+ */
+static inline float stage_offset(GLOBAL const struct scene_material *m, const float *px, const float *py, const float *z,
+                                 uint32_t bits)
+{
+	int a = 0, b = 1;
+	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], dz01, dz20, one_over_area, slope;
+	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
+	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
+
+	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
+		a = 1;
+		b = 0;
+		dx01 = px[1] - px[0];
+		dy01 = py[1] - py[0];
+		dx20 = px[2] - px[1];
+		dy20 = py[2] - py[1];
+	}
+	dz01 = z[a] - z[b];
+	dz20 = z[2] - z[a];
+	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
+	slope = M_MAX(M_ABS((dz20 * dy01 - dy20 * dz01) * one_over_area), M_ABS((dx20 * dz01 - dz20 * dx01) * one_over_area));
+	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
+}
+
+/*
+ * Weights of a fragment for its attributes, and its depth with polygon offset. Coverage goes by snapped vertices; llvmpipe takes
+ * attributes and depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found
+ * again from clip coordinates; of what leaves the view volume, from the part that covers the pixel.
  */
 static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views,
                                 GLOBAL const struct window_vertex *windows, uint32_t x, uint32_t y, uint32_t height,
-                                struct fragment *f)
+                                uint32_t bits, struct fragment *f)
 {
 	struct point p;
 	GLOBAL const struct view *view;
-	float px[3], py[3], z[3], area;
+	struct clip_polygon polygon;
+	uint32_t part = 2u;
+	int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
+	float px[3], py[3], z[3], area, b1, b2;
 
-	if (f->primitive & FRAGMENT_PERSPECTIVE)
-		return;
-	point_vertices(t, &p, f->instance, f->primitive);
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	view = &views[p.geometry->view];
-	for (int i = 0; i < 3; i++) {
+	if (cut) {
+		clip_triangle(view, (float)height, v4_load(p.vertex[0]->clip), v4_load(p.vertex[1]->clip), v4_load(p.vertex[2]->clip),
+		              &polygon);
+		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
+		                                        polygon.corner[0].window, (int32_t)x, (int32_t)y))
+			part++;
+		if (part >= polygon.n)
+			return;
+	}
+	for (uint32_t i = 0u; i < 3u; i++) {
 		float place[2];
 
-		vertex_place(view, v4_load(p.vertex[i]->clip), (float)height, place);
+		if (cut) {
+			const struct clip_corner *c = &polygon.corner[i == 2u ? 0u : part - 1u + i];
+
+			place[0] = c->place[0];
+			place[1] = c->place[1];
+			z[i] = c->window.z;
+		} else {
+			clip_place(view, v4_load(p.vertex[i]->clip), (float)height, place);
+			z[i] = windows[p.geometry->vertex_first + p.number[i]].z;
+		}
 		px[i] = place[0] - 0.5f;
 		py[i] = place[1] - 0.5f;
-		z[i] = windows[p.geometry->vertex_first + p.number[i]].z;
 	}
 	area = (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
 	if (!(M_ABS(area) > 1.0e-6f))
 		return; /* a sliver: its snapped form is what was covered */
-	f->depth = clamp01(stage_plane(px, py, z, (float)x, (float)(height - 1u - y)));
-	for (int i = 0; i < 3; i++) {
+	f->depth = stage_plane(px, py, z, (float)x, (float)(height - 1u - y));
+	if (p.material->polygon_offset & 4u && !(p.geometry->flags & GEOMETRY_EXPANDED))
+		f->depth += stage_offset(p.material, px, py, z, bits);
+	f->depth = clamp01(f->depth);
+	for (uint32_t i = 0u; i < 3u; i++) {
 		px[i] -= (float)x;
 		py[i] -= (float)(height - 1u - y);
 	}
-	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
-	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
+	b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
+	b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
+	if (cut)
+		clip_weights(&polygon.corner[part - 1u], &polygon.corner[part], &polygon.corner[0], b1, b2, &b1, &b2);
+	f->b1 = b1;
+	f->b2 = b2;
 }
 
 /*
@@ -296,7 +323,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	if (n_slots && !(out->flags & SHADED_THERE))
 		return;
 	if (!n_slots) {
-		stage_unsnap(t, views, windows, x, y, height, &f);
+		stage_unsnap(t, views, windows, x, y, height, bits, &f);
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
@@ -325,7 +352,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	v4_store(out->gl, color);
 	color = point_albedo(t, &p, &coat);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
-	out->depth = stage_offset_depth(&p, windows, f.depth, bits);
+	out->depth = f.depth;
 	if (kind == SCENE_DEPTH_PIXELS)
 		out->depth = clamp01(M_FLOAT(group));
 	if (kind == SCENE_STENCIL_PIXELS) {

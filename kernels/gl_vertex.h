@@ -5,11 +5,9 @@
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
+#include "kernels/gl_clip.h"
 #include "kernels/gl_light.h"
 #include "kernels/gl_tables.h"
-
-/* Beyond this many pixels a window coordinate is not kept in 1/256 pixel: such triangles are drawn from clip space. */
-#define VERTEX_SAFE_PIXELS 16384.0f
 
 static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
                                             struct vec3 n)
@@ -37,36 +35,6 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	lit.secondary = v4_clamp01(tables_secondary(t, g, v));
 	lit.lights = 0u;
 	return lit;
-}
-
-/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
-static inline void vertex_place(GLOBAL const struct view *view, struct vec4 clip, float height, float *place)
-{
-	float w_inv = 1.0f / clip.w;
-
-	place[0] = M_FMA(view->viewport[2] * 0.5f, clip.x * w_inv, view->viewport[0] + view->viewport[2] * 0.5f);
-	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
-}
-
-/*
- * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned over.
- */
-static inline struct window_vertex vertex_window(GLOBAL const struct view *view, struct vec4 clip, float height)
-{
-	struct window_vertex out;
-	float w_inv = 1.0f / clip.w, place[2];
-	float near = view->depth_range[0], far = view->depth_range[1];
-	int inside;
-
-	vertex_place(view, clip, height, place);
-	inside = clip.w > 0.0f && clip.z >= -clip.w && clip.z <= clip.w && M_ABS(place[0]) < VERTEX_SAFE_PIXELS &&
-	             M_ABS(place[1]) < VERTEX_SAFE_PIXELS;
-
-	out.x = inside ? (int32_t)M_RINT((place[0] - 0.5f) * 256.0f) + 128 : 0;
-	out.y = inside ? (int32_t)height * 256 - ((int32_t)M_RINT((place[1] - 0.5f) * 256.0f) + 128) : 0;
-	out.z = inside ? M_FMA((far - near) * 0.5f, clip.z * w_inv, (far + near) * 0.5f) : 0.0f;
-	out.w_inv = inside ? w_inv : 0.0f;
-	return out;
 }
 
 /* Texture coordinate generation, sec. 2.11.4; `u` the unit vector from the eye to the vertex, `n` the eye normal. */
@@ -139,7 +107,7 @@ static inline void vertex_item(const struct tables *t, GLOBAL const struct view 
 	v4_store(out->clip, clip);
 	v4_store(clips + item * 4u, clip);
 	v3_store(out->normal, normal);
-	windows[item] = vertex_window(view, clip, (float)height);
+	windows[item] = clip_window(view, clip, (float)height);
 
 	front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
 	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;

@@ -55,7 +55,7 @@ SHARED_SIZE(struct fragment, 24);
 struct window_vertex {
 	int32_t x, y; /* 1/256 pixel, origin lower left, relative to the pixel corner (0,0) of the drawable */
 	float z;      /* window depth, after depth range */
-	float w_inv;  /* 1 / clip w; 0 where the vertex lies outside of the clip volume's near/far planes or the safe range */
+	float w_inv;  /* 1 / clip w; 0 where the vertex lies outside of the view volume or the safe range */
 };
 SHARED_SIZE(struct window_vertex, 16);
 

@@ -23,45 +23,55 @@ void mat4_rotation(float out[16], float angle_deg, float x, float y, float z)
 	const float angle = (float)(angle_deg * M_PI / 180.0);
 	const float s = sinf(angle), c = cosf(angle), one_c = 1.0f - c;
 	const float length = sqrtf(x * x + y * y + z * z);
+	const int turned = (x != 0) + (y != 0) + (z != 0);
 
 	memcpy(out, mat4_identity, 16 * sizeof(float));
+	if (turned == 1) { /* about an axis: the other entries are 0 and 1 to the last bit, however short the vector */
+		const int axis = x != 0 ? 0 : y != 0 ? 1 : 2, i = (axis + 1) % 3, j = (axis + 2) % 3;
+		const float sine = x + y + z < 0 ? -s : s;
+
+		out[5 * i] = out[5 * j] = c;
+		out[4 * i + j] = sine;
+		out[4 * j + i] = -sine;
+		return;
+	}
 	if (length <= 1.0e-4f)
 		return;
 	x /= length;
 	y /= length;
 	z /= length;
-	out[0] = one_c * x * x + c;
-	out[4] = one_c * x * y - z * s;
-	out[8] = one_c * z * x + y * s;
-	out[1] = one_c * x * y + z * s;
-	out[5] = one_c * y * y + c;
-	out[9] = one_c * y * z - x * s;
-	out[2] = one_c * z * x - y * s;
-	out[6] = one_c * y * z + x * s;
-	out[10] = one_c * z * z + c;
+	out[0] = one_c * (x * x) + c;
+	out[4] = one_c * (x * y) - z * s;
+	out[8] = one_c * (z * x) + y * s;
+	out[1] = one_c * (x * y) + z * s;
+	out[5] = one_c * (y * y) + c;
+	out[9] = one_c * (y * z) - x * s;
+	out[2] = one_c * (z * x) - y * s;
+	out[6] = one_c * (y * z) + x * s;
+	out[10] = one_c * (z * z) + c;
 }
 
-void mat4_frustum(float out[16], double left, double right, double bottom, double top, double near, double far)
+void mat4_frustum(float out[16], float left, float right, float bottom, float top, float near, float far)
 {
 	memset(out, 0, 16 * sizeof(float));
-	out[0] = (float)(2 * near / (right - left));
-	out[5] = (float)(2 * near / (top - bottom));
-	out[8] = (float)((right + left) / (right - left));
-	out[9] = (float)((top + bottom) / (top - bottom));
-	out[10] = (float)(-(far + near) / (far - near));
+	out[0] = 2 * near / (right - left);
+	out[5] = 2 * near / (top - bottom);
+	out[8] = (right + left) / (right - left);
+	out[9] = (top + bottom) / (top - bottom);
+	out[10] = -(far + near) / (far - near);
 	out[11] = -1;
-	out[14] = (float)(-(2 * far * near) / (far - near));
+	out[14] = -(2 * far * near) / (far - near);
 }
 
-void mat4_ortho(float out[16], double left, double right, double bottom, double top, double near, double far)
+void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far)
 {
 	memset(out, 0, 16 * sizeof(float));
-	out[0] = (float)(2 / (right - left));
-	out[5] = (float)(2 / (top - bottom));
-	out[10] = (float)(-2 / (far - near));
-	out[12] = (float)(-(right + left) / (right - left));
-	out[13] = (float)(-(top + bottom) / (top - bottom));
-	out[14] = (float)(-(far + near) / (far - near));
+	out[0] = 2 / (right - left);
+	out[5] = 2 / (top - bottom);
+	out[10] = -2 / (far - near);
+	out[12] = -(right + left) / (right - left);
+	out[13] = -(top + bottom) / (top - bottom);
+	out[14] = -(far + near) / (far - near);
 	out[15] = 1;
 }
 

@@ -10,10 +10,10 @@ extern const float mat4_identity[16];
 /** out = a b; out may be a or b. */
 void mat4_mul(float out[16], const float a[16], const float b[16]);
 
-/** Angle in degrees, axis not normalised (GL 2.1 sec. 2.11.2). An axis of no length gives the identity. */
+/** Angle in degrees, axis not normalised (GL 2.1 sec. 2.11.2). An axis of no length gives the identity; about x, y or z all other entries are exact. */
 void mat4_rotation(float out[16], float angle_deg, float x, float y, float z);
-void mat4_frustum(float out[16], double left, double right, double bottom, double top, double near, double far);
-void mat4_ortho(float out[16], double left, double right, double bottom, double top, double near, double far);
+void mat4_frustum(float out[16], float left, float right, float bottom, float top, float near, float far);
+void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far);
 void mat4_transpose(float out[16], const float m[16]);
 
 /** @return 1, or 0 and the identity where m has no inverse */

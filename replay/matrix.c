@@ -189,7 +189,7 @@ GLS_HANDLER(glFrustum, MATRIX)
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
 	}
-	mat4_frustum(m, l, r, b, t, n, f);
+	mat4_frustum(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
 	multiply(st, m);
 }
 
@@ -202,7 +202,7 @@ GLS_HANDLER(glOrtho, MATRIX)
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
 	}
-	mat4_ortho(m, l, r, b, t, n, f);
+	mat4_ortho(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
 	multiply(st, m);
 }
 

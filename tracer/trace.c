@@ -548,7 +548,7 @@ static int upload_start(struct job *job)
 {
 	const struct scene_picture *start = job->scene->start;
 	struct frame_pixel *pixels = calloc(job->n_pixels, sizeof(*pixels));
-	uint32_t far = pixel_bits_mask(pixel_depth_bits(job->bits) > 24 ? 24 : pixel_depth_bits(job->bits));
+	uint32_t depth_bits = pixel_depth_bits(job->bits), far = pixel_bits_mask(depth_bits);
 	int err;
 
 	if (!pixels)
@@ -564,7 +564,7 @@ static int upload_start(struct job *job)
 		memcpy(p->direct, p->gl, sizeof(p->direct));
 		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
 		memcpy(p->beauty, p->gl, sizeof(p->beauty));
-		p->depth = start ? start->depth[i] : far;
+		p->depth = !start ? far : depth_bits > 24 ? start->depth[i] << 8 | start->depth[i] >> 16 : start->depth[i];
 		p->depth_exact = far ? (float)p->depth / (float)far : 1;
 		p->stencil = start ? start->stencil[i] : 0;
 	}
@@ -705,7 +705,7 @@ static int read_picture(struct tracer *tr, const struct scene *scene, struct sce
 			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(pixels[i].gl[c]) * 255.0f);
 		if (!scene->alpha_bits)
 			picture->rgba[4 * i + 3] = 255;
-		picture->depth[i] = pixels[i].depth;
+		picture->depth[i] = scene->depth_bits > 24 ? pixels[i].depth >> 8 : pixels[i].depth; /* pictures have 24 at most */
 		picture->stencil[i] = (uint8_t)pixels[i].stencil;
 		picture->unknown += (pixels[i].unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 	}

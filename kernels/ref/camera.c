@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "kernels/gl_clip.h"
 #include "kernels/shared.h"
 #include "tracer/device.h"
 
@@ -50,7 +51,7 @@ static struct args unpack(const void *const *args)
 
 static uint32_t quantise_depth(float depth)
 {
-	return (uint32_t)(depth * 16777215.0f + 0.5f);
+	return (uint32_t)rintf(depth * 16777215.0f);
 }
 
 /*
@@ -154,11 +155,6 @@ static int in_viewport(const struct pixel *p)
 	return x >= v[0] && x < v[0] + v[2] && y >= v[1] && y < v[1] + v[3];
 }
 
-static float clamp01(float x)
-{
-	return x > 0 ? (x < 1 ? x : 1) : 0;
-}
-
 /* All vertices have a place in the window. */
 static int cover_placed(const struct pixel *p, uint32_t flags, const struct window_vertex v[3], struct fragment *f)
 {
@@ -179,57 +175,22 @@ static int cover_placed(const struct pixel *p, uint32_t flags, const struct wind
 	return 1;
 }
 
-/*
- * A vertex has no place in the window. c: clip coordinates. X, Y are window coordinates times w with the pixel centre
- * at the origin: the edge functions at the centre are 2 x 2 determinants, and exchange of two vertices changes their
- * sign exactly.
- */
-static int cover_clipped(const struct pixel *p, uint32_t flags, const struct window_vertex v[3],
-                         const float *const c[3], struct fragment *f)
+/* A vertex lies outside of the view volume: what is left of the triangle is asked. c: clip coordinates. */
+static int cover_clipped(const struct pixel *p, uint32_t flags, const float *const c[3], struct fragment *f)
 {
-	const struct view *view = p->args->view;
-	const float half_w = 0.5f * view->viewport[2], half_h = 0.5f * view->viewport[3];
-	const float origin_x = view->viewport[0] + half_w - ((float)p->x + 0.5f);
-	const float origin_y = view->viewport[1] + half_h - ((float)p->y + 0.5f);
-	const float det = c[0][3] * (c[1][0] * c[2][1] - c[2][0] * c[1][1]) +
-	                  c[1][3] * (c[2][0] * c[0][1] - c[0][0] * c[2][1]) +
-	                  c[2][3] * (c[0][0] * c[1][1] - c[1][0] * c[0][1]);
-	const float sign = det > 0 ? 1.0f : -1.0f;
-	float X[3], Y[3], weight[3], sum, z, w;
+	struct clip_polygon polygon;
 
-	if (!(det != 0) || culled(flags, det > 0))
-		return 0;
-	for (int i = 0; i < 3; i++) {
-		X[i] = c[i][0] * half_w + c[i][3] * origin_x;
-		Y[i] = c[i][1] * half_h + c[i][3] * origin_y;
-	}
-	for (int i = 0; i < 3; i++) {
-		const int a = (i + 1) % 3, b = (i + 2) % 3; /* the edge across from vertex i */
-		const float e = sign * (X[a] * Y[b] - X[b] * Y[a]);
-		const float along_x = sign * (Y[a] * c[b][3] - Y[b] * c[a][3]);
-		const float along_y = sign * (c[a][3] * X[b] - c[b][3] * X[a]);
+	clip_triangle(p->args->view, (float)p->args->height, v4_load(c[0]), v4_load(c[1]), v4_load(c[2]), &polygon);
+	for (uint32_t k = 2; k < polygon.n; k++) {
+		const struct clip_corner *v0 = &polygon.corner[k - 1], *v1 = &polygon.corner[k], *v2 = &polygon.corner[0];
 
-		if (v[a].w_inv > 0 && v[b].w_inv > 0) {
-			if (!inside_edge(v[a], v[b], sign > 0 ? 1 : -1, p))
-				return 0;
-		} else if (!(e > 0 || (e == 0 && (along_x > 0 || (along_x == 0 && along_y > 0))))) {
-			return 0;
-		}
-		weight[i] = e > 0 ? e : 0;
+		if (!cover_placed(p, flags, (const struct window_vertex[]){ v0->window, v1->window, v2->window }, f))
+			continue;
+		clip_weights(v0, v1, v2, f->b1, f->b2, &f->b1, &f->b2);
+		f->primitive |= FRAGMENT_PERSPECTIVE;
+		return 1;
 	}
-	sum = weight[0] + weight[1] + weight[2];
-	if (!(sum > 0))
-		return 0;
-	f->b1 = weight[1] / sum;
-	f->b2 = weight[2] / sum;
-	z = (1.0f - f->b1 - f->b2) * c[0][2] + f->b1 * c[1][2] + f->b2 * c[2][2];
-	w = (1.0f - f->b1 - f->b2) * c[0][3] + f->b1 * c[1][3] + f->b2 * c[2][3];
-	if (!(z >= -w && z <= w && w > 0))
-		return 0;
-	f->depth = clamp01(view->depth_range[0] +
-	                   (view->depth_range[1] - view->depth_range[0]) * (0.5f * (z / w) + 0.5f));
-	f->primitive |= FRAGMENT_PERSPECTIVE;
-	return 1;
+	return 0;
 }
 
 static void try_triangle(struct pixel *p, uint32_t instance_index, const struct triangle *triangle)
@@ -246,7 +207,7 @@ static void try_triangle(struct pixel *p, uint32_t instance_index, const struct 
 		c[i] = a->clip[instance->vertex_first + triangle->vertex[i]];
 		placed &= v[i].w_inv > 0;
 	}
-	if (placed ? cover_placed(p, instance->flags, v, &f) : cover_clipped(p, instance->flags, v, c, &f))
+	if (placed ? cover_placed(p, instance->flags, v, &f) : cover_clipped(p, instance->flags, c, &f))
 		keep(p, &f);
 }
 

@@ -4,37 +4,49 @@
 Compares every colour frame of NAME.ref from frame FIRST on (2: apitrace's first pictures are known to be unreliable, it
 resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. Exits with 1 where one differs or none is there.
 """
+import array
 import ctypes
 import struct
 import subprocess
 import sys
 
-REF_COLOR = 1
+REF_COLOR, REF_DEPTH = 1, 2
 
 
-def reference_frames(path):
-    """{frame: (width, height, RGB rows from the top)} of a .ref file."""
+def records(path, wanted):
+    """(frame, width, height, bytes with the bottom row first) of a .ref file's records of one kind."""
     snappy = ctypes.CDLL("libsnappy.so.1")
-    frames = {}
     with open(path, "rb") as stream:
         data = stream.read()
     at = 8
     while at + 28 <= len(data):
         kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
         at += 28
-        if kind == REF_COLOR and at + size <= len(data):
-            rgba = ctypes.create_string_buffer(width * height * 4)
-            got = ctypes.c_size_t(len(rgba))
-            if snappy.snappy_uncompress(data[at:at + size], size, rgba, ctypes.byref(got)):
+        if kind == wanted and at + size <= len(data):
+            pixels = ctypes.create_string_buffer(width * height * 4)
+            got = ctypes.c_size_t(len(pixels))
+            if snappy.snappy_uncompress(data[at:at + size], ctypes.c_size_t(size), pixels, ctypes.byref(got)):
                 sys.exit(f"frame {frame} of {path} does not unpack")
-            rows = [rgba.raw[y * width * 4:(y + 1) * width * 4] for y in reversed(range(height))]
-            rgb = bytearray(width * height * 3)
-            flat = b"".join(rows)
-            for channel in range(3):
-                rgb[channel::3] = flat[channel::4]
-            frames[frame] = (width, height, bytes(rgb))
+            yield frame, width, height, pixels.raw
         at += size
+
+
+def reference_frames(path):
+    """{frame: (width, height, RGB rows from the top)} of a .ref file."""
+    frames = {}
+    for frame, width, height, raw in records(path, REF_COLOR):
+        rows = [raw[y * width * 4:(y + 1) * width * 4] for y in reversed(range(height))]
+        rgb = bytearray(width * height * 3)
+        flat = b"".join(rows)
+        for channel in range(3):
+            rgb[channel::3] = flat[channel::4]
+        frames[frame] = (width, height, bytes(rgb))
     return frames
+
+
+def reference_depths(path):
+    """{frame: (width, height, window depths from the bottom)} of a .ref file."""
+    return {frame: (width, height, array.array("f", raw)) for frame, width, height, raw in records(path, REF_DEPTH)}
 
 
 def replayed_frames(path):

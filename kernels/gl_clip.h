@@ -1,0 +1,230 @@
+/*
+ * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view volume.
+ *
+ * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out from its
+ * first corner. New corners are snapped to 1/256 pixel like all others, so that edges and depth of what leaves the window are
+ * those of its parts: over a wall that reaches from the horizon to behind the viewer the difference can be seen.
+ */
+#ifndef KERNELS_GL_CLIP_H
+#define KERNELS_GL_CLIP_H
+
+#include "kernels/common.h"
+
+/* Beyond this many pixels a window coordinate is not kept in 1/256 pixel. */
+#define CLIP_SAFE_PIXELS 16384.0f
+#define CLIP_PLANES 6
+#define CLIP_MAX_CORNERS 9 /* a triangle's, and one for each plane */
+
+#ifdef __OPENCL_VERSION__
+typedef long clip_area;
+#else
+typedef int64_t clip_area;
+#endif
+
+/* A corner of what is left of a triangle. */
+struct clip_corner {
+	struct vec4 clip;
+	float b1, b2;                /* weights of the triangle's vertices 1 and 2, in the volume */
+	float place[2];              /* in pixels, not snapped, y from the top */
+	struct window_vertex window;
+};
+
+struct clip_polygon {
+	uint32_t n; /* corners; 0: nothing is left */
+	struct clip_corner corner[CLIP_MAX_CORNERS];
+};
+
+/* --- The window -------------------------------------------------------------------------------------------------- */
+
+/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
+static inline void clip_place(GLOBAL const struct view *view, struct vec4 clip, float height, float *place)
+{
+	float w_inv = 1.0f / clip.w;
+
+	place[0] = M_FMA(view->viewport[2] * 0.5f, clip.x * w_inv, view->viewport[0] + view->viewport[2] * 0.5f);
+	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
+}
+
+/* The planes that a point lies beyond, a bit each in the order in which they cut. */
+static inline uint32_t clip_outside(struct vec4 c)
+{
+	return (!(c.x <= c.w) ? 1u : 0u) | (!(c.x + c.w >= 0.0f) ? 2u : 0u) | (!(c.y <= c.w) ? 4u : 0u) |
+	       (!(c.y + c.w >= 0.0f) ? 8u : 0u) | (!(c.z + c.w >= 0.0f) ? 16u : 0u) | (!(c.z <= c.w) ? 32u : 0u);
+}
+
+static inline int clip_is_safe(const float *place)
+{
+	return M_ABS(place[0]) < CLIP_SAFE_PIXELS && M_ABS(place[1]) < CLIP_SAFE_PIXELS;
+}
+
+/*
+ * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned over.
+ */
+static inline struct window_vertex clip_snap(const float *place, float z, float w_inv, float height)
+{
+	struct window_vertex out;
+
+	out.x = (int32_t)M_RINT((place[0] - 0.5f) * 256.0f) + 128;
+	out.y = (int32_t)height * 256 - ((int32_t)M_RINT((place[1] - 0.5f) * 256.0f) + 128);
+	out.z = z;
+	out.w_inv = w_inv;
+	return out;
+}
+
+/* A vertex of the program's in the window; all 0 where it lies outside of the view volume. */
+static inline struct window_vertex clip_window(GLOBAL const struct view *view, struct vec4 clip, float height)
+{
+	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / clip.w, place[2];
+	struct window_vertex none;
+
+	none.x = none.y = 0;
+	none.z = none.w_inv = 0.0f;
+	clip_place(view, clip, height, place);
+	if (!(clip.w > 0.0f) || clip_outside(clip) || !clip_is_safe(place))
+		return none;
+	return clip_snap(place, M_FMA((far - near) * 0.5f, clip.z * w_inv, (far + near) * 0.5f), w_inv, height);
+}
+
+/* --- Cutting ----------------------------------------------------------------------------------------------------- */
+
+static inline float clip_distance(struct vec4 c, uint32_t plane)
+{
+	switch (plane) {
+	case 0: return c.w - c.x;
+	case 1: return c.x + c.w;
+	case 2: return c.w - c.y;
+	case 3: return c.y + c.w;
+	case 4: return c.z + c.w;
+	default: return c.w - c.z;
+	}
+}
+
+static inline float clip_between(float from, float to, float t)
+{
+	return from + t * (to - from);
+}
+
+/* The point at t between two corners, from the nearer one. */
+static inline struct clip_corner clip_cut(const struct clip_corner *from, const struct clip_corner *to, float t)
+{
+	struct clip_corner out;
+
+	out.clip = v4(clip_between(from->clip.x, to->clip.x, t), clip_between(from->clip.y, to->clip.y, t),
+	              clip_between(from->clip.z, to->clip.z, t), clip_between(from->clip.w, to->clip.w, t));
+	out.b1 = clip_between(from->b1, to->b1, t);
+	out.b2 = clip_between(from->b2, to->b2, t);
+	return out;
+}
+
+/* A new corner in the window; unlike vertices it is not placed with fused multiplications. @return 0: it has no place */
+static inline int clip_place_new(GLOBAL const struct view *view, float height, struct clip_corner *c)
+{
+	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / c->clip.w;
+
+	c->place[0] = c->clip.x * w_inv * (view->viewport[2] * 0.5f) + (view->viewport[0] + view->viewport[2] * 0.5f);
+	c->place[1] = c->clip.y * w_inv * (-view->viewport[3] * 0.5f) + (height - (view->viewport[1] + view->viewport[3] * 0.5f));
+	if (!(c->clip.w > 0.0f) || !clip_is_safe(c->place))
+		return 0;
+	c->window = clip_snap(c->place, c->clip.z * w_inv * ((far - near) * 0.5f) + (far + near) * 0.5f, w_inv, height);
+	return 1;
+}
+
+/* What the view volume leaves of a triangle. Its parts are corners k - 1, k and 0 for k from 2 on. */
+static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1, struct vec4 c2,
+                                 struct clip_polygon *out)
+{
+	struct clip_corner pool[3 + 2 * CLIP_PLANES];
+	uint32_t lists[2][CLIP_MAX_CORNERS + 1], n = 3u, made = 3u, now = 0u;
+	uint32_t outside0 = clip_outside(c0), outside1 = clip_outside(c1), outside2 = clip_outside(c2);
+
+	out->n = 0u;
+	if (outside0 & outside1 & outside2)
+		return;
+	for (uint32_t i = 0u; i < 3u; i++) {
+		pool[i].clip = i == 0u ? c0 : i == 1u ? c1 : c2;
+		pool[i].b1 = i == 1u ? 1.0f : 0.0f;
+		pool[i].b2 = i == 2u ? 1.0f : 0.0f;
+		lists[0][i] = i;
+	}
+	for (uint32_t plane = 0u; plane < CLIP_PLANES; plane++) {
+		uint32_t n_left = 0u, last = lists[now][0];
+		float d_last = clip_distance(pool[last].clip, plane);
+
+		if (!((outside0 | outside1 | outside2) >> plane & 1u))
+			continue;
+		lists[now][n] = last;
+		for (uint32_t i = 1u; i <= n; i++) {
+			uint32_t next = lists[now][i];
+			float d = clip_distance(pool[next].clip, plane);
+			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
+
+			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || made == 3u + 2u * CLIP_PLANES || !(M_ABS(d) < 1.0e30f))
+				return; /* no numbers, or rounding has made it cross a plane again and again */
+			if (d_last >= 0.0f)
+				lists[!now][n_left++] = last;
+			if (crosses) {
+				/* from the corner that is nearer to the plane */
+				int from_next = d < 0.0f ? -d < d_last : !(-d_last < d);
+
+				pool[made] = from_next ? clip_cut(&pool[next], &pool[last], d / (d - d_last)) :
+				                         clip_cut(&pool[last], &pool[next], -d_last / (d - d_last));
+				lists[!now][n_left++] = made++;
+			}
+			last = next;
+			d_last = d;
+		}
+		n = n_left;
+		now = !now;
+		if (n < 3u || n > CLIP_MAX_CORNERS)
+			return;
+	}
+	for (uint32_t i = 0u; i < n; i++) {
+		struct clip_corner *c = &out->corner[i];
+
+		*c = pool[lists[now][i]];
+		if (lists[now][i] < 3u) {
+			clip_place(view, c->clip, height, c->place);
+			c->window = clip_window(view, c->clip, height);
+			if (!(c->window.w_inv > 0.0f))
+				return;
+		} else if (!clip_place_new(view, height, c)) {
+			return;
+		}
+	}
+	out->n = n;
+}
+
+/* --- Its parts --------------------------------------------------------------------------------------------------- */
+
+/*
+ * Weights of the triangle's vertices 1 and 2 in the volume, from weights on the screen in a part of it.
+ * b1, b2: of the part's corners 1 and 2
+ */
+static inline void clip_weights(const struct clip_corner *v0, const struct clip_corner *v1, const struct clip_corner *v2, float b1,
+                                float b2, float *out1, float *out2)
+{
+	float p0 = (1.0f - b1 - b2) * v0->window.w_inv, p1 = b1 * v1->window.w_inv, p2 = b2 * v2->window.w_inv;
+	float sum = p0 + p1 + p2;
+
+	*out1 = (p0 * v0->b1 + p1 * v1->b1 + p2 * v2->b1) / sum;
+	*out2 = (p0 * v0->b2 + p1 * v1->b2 + p2 * v2->b2) / sum;
+}
+
+static inline int clip_inside(struct window_vertex a, struct window_vertex b, int sign, int32_t x, int32_t y)
+{
+	clip_area dx = (clip_area)sign * (b.x - a.x), dy = (clip_area)sign * (b.y - a.y);
+	clip_area e = dx * ((clip_area)y * 256 + 128 - a.y) - dy * ((clip_area)x * 256 + 128 - a.x);
+
+	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+}
+
+/* 1 where a part covers a pixel (kernels/camera.h); y from the bottom. */
+static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, int32_t x, int32_t y)
+{
+	clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
+	int sign = area > 0 ? 1 : -1;
+
+	return area != 0 && clip_inside(v0, v1, sign, x, y) && clip_inside(v1, v2, sign, x, y) && clip_inside(v2, v0, sign, x, y);
+}
+
+#endif
