@@ -26,7 +26,7 @@ LIBS_OIIO := -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c runs.c memory.c sink.c writer.c reference.c)
+RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c watch.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
@@ -202,7 +202,7 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-replay show-mutants show-export \
+SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
 	show-rays show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
 
 show:
@@ -216,6 +216,10 @@ show-parity: all $(BUILD)/deps.parity
 
 show-sweep: all $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
+
+# The recorder alone on the same programs.
+show-sweep-record: all $(BUILD)/deps.sweep
+	@$(PYTHON) -B tests/show/sweep_record.py $(BUILD) $(ONLY:%=--only %)
 
 # The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
 MODELS ?= ../shared/models

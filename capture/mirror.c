@@ -7,11 +7,14 @@
 
 #include "capture/content.h"
 #include "capture/memory.h"
+#include "capture/watch.h"
 #include "capture/wrap.h"
 
 enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
 enum { PATIENCE = 16, SAMPLE = 8 };     /* contents in a row that were new before only every eighth is looked up */
 enum { CREDIT = 64 };                   /* mirrors made before their array is drawn again; refunded where it is */
+enum { WATCH_AFTER = 64, WATCH_NEVER = 1 << 30 }; /* draws in a row that found the same bytes */
+enum { REWRITTEN = 8 };                 /* times that most of what was watched was written, the same bytes again */
 #define MAX_MIRRORED_BYTES (256l << 20) /* of one context, here and on replay */
 
 struct mirror {
@@ -24,6 +27,10 @@ struct mirror {
 	uint8_t *copy;     /* `copy_bytes` mapped */
 	size_t copy_bytes;
 	struct mirror_indices indices;
+	struct watch watch; /* within what is held: pages that are only looked at once they are written */
+	int equal;          /* draws since the last difference */
+	int patience;       /* draws before the array is watched */
+	int rewritten;
 };
 
 struct mirror_table {
@@ -64,6 +71,7 @@ static void drop(struct mirror_table *t, struct mirror *m, int told)
 	}
 	if (m->copy)
 		munmap(m->copy, m->copy_bytes);
+	watch_end(&m->watch);
 	t->bytes -= m->room;
 	memset(m, 0, sizeof(*m));
 }
@@ -146,6 +154,53 @@ static long difference(struct mirror_table *t, const struct mirror *m, long firs
 		at += bytes;
 	}
 	return end;
+}
+
+/* Arrays that stay the same are watched, so that their pages need not be read. */
+
+static void begin_watch(struct mirror_table *t, struct mirror *m)
+{
+	long end;
+
+	m->equal = 0;
+	if (!watch_begin(&m->watch, m->data + m->first, m->data + m->end)) {
+		m->patience = m->patience < WATCH_NEVER / 4 ? 4 * m->patience : WATCH_NEVER;
+		return;
+	}
+	end = (long)(m->watch.end - (uintptr_t)m->data);
+	if (difference(t, m, (long)(m->watch.first - (uintptr_t)m->data), end) < end)
+		watch_end(&m->watch);
+}
+
+/* 1 where what a watched array holds in [first, end) is what the mirror holds. */
+static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, long end)
+{
+	long from = (long)(m->watch.first - (uintptr_t)m->data), to = (long)(m->watch.end - (uintptr_t)m->data), bytes = 0;
+	struct watch written[8];
+	int n;
+
+	if (first < from && difference(t, m, first, end < from ? end : from) < (end < from ? end : from))
+		return 0;
+	if (end > to && difference(t, m, first > to ? first : to, end) < end)
+		return 0;
+	if (first >= to || end <= from)
+		return 1;
+	/* Pages as a whole, as each is told only once. */
+	from = first <= from ? from : from + ((first - from) & -4096l);
+	to = end >= to ? to : from + ((end - from + 4095) & -4096l);
+	n = watch_take_written(&m->watch, (uintptr_t)m->data + (uintptr_t)from, (uintptr_t)m->data + (uintptr_t)to, written, 8);
+	for (int i = 0; i < n; i++) {
+		long at = (long)(written[i].first - (uintptr_t)m->data), piece_end = (long)(written[i].end - (uintptr_t)m->data);
+
+		bytes += piece_end - at;
+		if (difference(t, m, at, piece_end) < piece_end)
+			return 0;
+	}
+	if (2 * bytes > to - from && ++m->rewritten > REWRITTEN) { /* a fault a page costs more than reading it */
+		m->patience = WATCH_NEVER;
+		watch_end(&m->watch);
+	}
+	return n >= 0;
 }
 
 static void write_data(unsigned target, const uint8_t *data, long offset, long bytes)
@@ -236,12 +291,21 @@ unsigned mirror_buffer(struct mirror_table **table, unsigned target, const void 
 		return 0;
 	new = !m->data;
 	m->data = data;
+	m->patience = m->patience ? m->patience : WATCH_AFTER;
 	/* What is held stays one piece. */
 	if (m->buffer && first > m->end)
 		first = m->end;
 	if (m->buffer && end < m->first)
 		end = m->first;
-	changed = m->buffer ? difference(t, m, first, end) : first;
+	if (m->watch.end && is_unchanged(t, m, first, end)) {
+		changed = end;
+	} else {
+		watch_end(&m->watch);
+		changed = m->buffer ? difference(t, m, first, end) : first;
+		m->equal = changed == end ? m->equal + 1 : 0;
+		if (m->equal > 0 && m->equal == m->patience)
+			begin_watch(t, m);
+	}
 	if (changed == end) {
 		t->credit += m->unproven;
 		m->unproven = 0;

@@ -1,0 +1,122 @@
+/*
+ * Client arrays that stay the same for long and then change in every way that memory can change: by a store, from another
+ * thread, by the kernel, by being given back, by being mapped anew, and in a child, whose memory is its own. Recorded and
+ * replayed, the pictures must be the program's. Run by tests/real/test_record_arrays.sh.
+ */
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "window.h"
+
+enum { CELLS = 400, CORNERS = 6 * CELLS, DRAWS = 10, STILL = 9 /* frames between changes: long enough to be trusted */ };
+enum { CHANGES = 12, PAGE = 4096 };
+
+static struct corner {
+	float position[2], color[3], unused[3];
+} *corners;
+
+static size_t bytes_of(void)
+{
+	return CORNERS * sizeof(struct corner) / PAGE * PAGE + PAGE;
+}
+
+static void place(int i)
+{
+	static const float at[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 0, 1 } };
+	int cell = i / 6;
+
+	corners[i].position[0] = ((float)(cell % 20) + at[i % 6][0]) / 10 - 1;
+	corners[i].position[1] = ((float)(cell / 20) + at[i % 6][1]) / 10 - 1;
+}
+
+static void shade(int i, int seed)
+{
+	for (int k = 0; k < 3; k++)
+		corners[i].color[k] = (float)((i / 6 * 37 + seed * 101 + k * 59) % 256) / 255;
+}
+
+static void map_anew(int seed)
+{
+	corners = mmap(corners, bytes_of(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | (corners ? MAP_FIXED : 0), -1, 0);
+	expect(corners != MAP_FAILED, "pages");
+	for (int i = 0; i < CORNERS; i++) {
+		place(i);
+		shade(i, seed);
+	}
+}
+
+static void *store(void *cell)
+{
+	for (int i = 0; i < 6; i++)
+		shade(*(int *)cell * 6 + i, 77);
+	return NULL;
+}
+
+/* 60 corners, from the middle of a page to the middle of another. */
+static void read_from_kernel(int seed)
+{
+	struct corner some[60];
+	int ends[2];
+
+	memcpy(some, &corners[900], sizeof(some));
+	for (int i = 0; i < 60; i++)
+		some[i].color[seed % 3] = (float)(i / 6) / 10;
+	expect(pipe(ends) == 0 && write(ends[1], some, sizeof(some)) == sizeof(some), "pipe");
+	expect(read(ends[0], &corners[900], sizeof(some)) == sizeof(some), "read");
+	close(ends[0]);
+	close(ends[1]);
+}
+
+static void change(int what)
+{
+	int cell = 30 * what + 7, nothing = 0;
+	pthread_t thread;
+
+	switch (what % 6) {
+	case 0: /* one number */
+		corners[6 * cell + 1].color[0] = 1 - corners[6 * cell + 1].color[0];
+		break;
+	case 1:
+		expect(pthread_create(&thread, NULL, store, &cell) == 0 && pthread_join(thread, NULL) == 0, "thread");
+		break;
+	case 2:
+		read_from_kernel(what);
+		break;
+	case 3: /* a page of zeros */
+		expect(madvise((char *)corners + 5 * PAGE, PAGE, MADV_DONTNEED) == 0, "given back");
+		break;
+	case 4:
+		map_anew(what);
+		break;
+	default:
+		if (fork() == 0) { /* changes nothing here */
+			shade(3, 99);
+			_exit(0);
+		}
+		wait(&nothing);
+	}
+}
+
+int main(void)
+{
+	open_window();
+	map_anew(0);
+	glEnableClientState(GL_VERTEX_ARRAY);
+	glEnableClientState(GL_COLOR_ARRAY);
+	glVertexPointer(2, GL_FLOAT, sizeof(corners[0]), corners->position);
+	glColorPointer(3, GL_FLOAT, sizeof(corners[0]), corners->color);
+	for (int frame = 0; frame < CHANGES * STILL; frame++) {
+		glClear(GL_COLOR_BUFFER_BIT);
+		for (int i = 0; i < DRAWS; i++) {
+			if (frame % STILL == STILL - 1 && i == frame / STILL % DRAWS)
+				change(frame / STILL);
+			glDrawArrays(GL_TRIANGLES, i * CORNERS / DRAWS, CORNERS / DRAWS);
+		}
+		expect(glGetError() == GL_NO_ERROR, "no error");
+		end_frame();
+	}
+	return 0;
+}
