@@ -171,6 +171,40 @@ static void record_rectangle(unsigned command, const int rectangle[4])
 	writer_call_end(p);
 }
 
+static void record_value(unsigned command, uint8_t *(*put)(uint8_t *, uint32_t), uint32_t value)
+{
+	uint8_t *p = writer_enter_fake(command);
+
+	if (!p)
+		return;
+	p = put(put_argument(p, 0), value);
+	writer_call_end(p);
+}
+
+static uint8_t *put_clear_bits(uint8_t *p, uint32_t v)
+{
+	return put_bits(p, v, &bits_ClearBufferMask);
+}
+
+/*
+ * glretrace makes a small window and resizes it at the first viewport, of which Mesa's software rasterizer learns when something
+ * is drawn to the front buffer or at the first swap: all of the first frame but a corner would be lost (Mesa 22.3.6). So
+ * nothing is drawn there: a clear of no buffers.
+ */
+static void make_size_known(void)
+{
+	uint8_t *p;
+
+	if (!context_has(HAS_DESKTOP) || context_get(GL_DRAW_BUFFER) != GL_BACK)
+		return;
+	record_value(CMD_glDrawBuffer, put_enum, GL_FRONT);
+	record_value(CMD_glClear, put_clear_bits, 0);
+	p = writer_enter_fake(CMD_glFlush);
+	if (p)
+		writer_call_end(p);
+	record_value(CMD_glDrawBuffer, put_enum, GL_BACK);
+}
+
 /* GL sets viewport and scissor to the drawable when a context is first made current: that is how a reader learns its size. */
 static void made_current(void *handle)
 {
@@ -189,6 +223,7 @@ static void made_current(void *handle)
 	record_rectangle(CMD_glViewport, rectangle);
 	real_glGetIntegerv(GL_SCISSOR_BOX, rectangle);
 	record_rectangle(CMD_glScissor, rectangle);
+	make_size_known();
 	if (current->features & HAS_FIXED_FUNCTION)
 		frame_mark_bits();
 }

@@ -206,8 +206,8 @@ void frame_mark_bits(void)
 	char text[64];
 
 	context_errors_before();
-	snprintf(text, sizeof(text), "relume:bits %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
-	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT));
+	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
+	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT), context_get(GL_SAMPLES));
 	context_errors_after();
 	record_marker(text);
 }

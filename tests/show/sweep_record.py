@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""tests/show/sweep_record.py BUILD [--only PART]... (as `make show-sweep-record`): the recorder alone, on every program of the sweep.
+
+Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its end, and
+glretrace must draw the last frame as the program did, bit for bit; it is told how many samples a pixel has, which it does not take
+from the trace, and where its window is larger than the program's (a viewport reached beyond it) the program's part is compared.
+Programs that do not start here are told and not counted.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import programs
+import recording
+import scoring
+
+sys.path.insert(0, str(recording.ROOT / "tests" / "real"))
+from replayed import reference_frames  # noqa: E402
+
+PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
+
+
+def look_up(trace):
+    """The calls that end frames, and the samples of a pixel."""
+    dump = subprocess.run(["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
+                          capture_output=True, text=True, errors="replace", check=False).stdout
+    samples = re.search(r"relume:bits \d+ \d+ \d+ \d+ (\d+)", dump)
+    calls = re.findall(r"^(\d+) (?:\w+SwapBuffers\w*|glFrameTerminator\w*)\(", dump, re.M)
+    return calls, int(samples.group(1)) if samples else 0
+
+
+def check_replay(trace):
+    """Is glretrace's picture of the last frame that has a reference the program's own?"""
+    calls, samples = look_up(trace)
+    shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n < len(calls)}
+    if not shown:
+        return "no frame to compare"
+    last = max(shown)
+    run = subprocess.run(["glretrace", "--headless", f"--samples={max(samples, 1)}", "-S", calls[last], "-s", "-", trace],
+                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=scoring.LIMIT_S, check=False)
+    head = PICTURE.search(run.stdout)
+    if not head:
+        return f"glretrace gives no picture (exit code {run.returncode})"
+    (wide, high), (width, height, want) = map(int, head.groups()), shown[last]
+    if wide < width or high < height:
+        return f"glretrace's picture is {wide} x {high}, the program's {width} x {height}"
+    got = b"".join(run.stdout[head.end() + (y * wide) * 3:head.end() + (y * wide + width) * 3] for y in range(high - height, high))
+    differ = sum(got[i:i + 3] != want[i:i + 3] for i in range(0, len(want), 3))
+    return f"differs in {differ} of {width * height} pixels of frame {last}" if differ else "same"
+
+
+def check(build, program, folder):
+    """(what apitrace dump says, what glretrace's picture is), or (None, why there is no recording)."""
+    done = recording.record(build / "relume", program, folder, True)
+    if done.trace is None or not done.references:
+        return None, f"no recording (exit code {done.code}): {done.said[:120]}"
+    scorer = scoring.Scorer(build / "relume", folder, folder / "log")
+    return scorer.check_dump(done.trace), check_replay(done.trace)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only", action="append", default=[], help="part of a program's name")
+    parser.add_argument("--keep", type=pathlib.Path, help="keep the recordings in this folder")
+    options = parser.parse_args()
+    if "DISPLAY_IS_OURS" not in os.environ:
+        environment = dict(os.environ, DISPLAY_IS_OURS="1")
+        return subprocess.run([recording.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], env=environment, check=False).returncode
+    os.nice(10)
+    build = options.build.resolve()
+    lines = []
+    with tempfile.TemporaryDirectory() as scratch:
+        base = (options.keep or pathlib.Path(scratch)).resolve()
+        for program in programs.sweep():
+            if options.only and not any(part in program.name for part in options.only):
+                continue
+            dump, replay = check(build, program, base / program.name)
+            lines.append({"name": program.name, "dump": dump, "replay": replay})
+            good = (dump, replay) == ("whole", "same")
+            print(f"{'holds' if good else 'no   ' if dump is None else 'FAILS'} {program.name}: {dump or ''} {replay}", flush=True)
+            if not options.keep:
+                shutil.rmtree(base / program.name, ignore_errors=True)
+    recorded = [line for line in lines if line["dump"] is not None]
+    rows = []
+    for what, key, value, peer in (("traces that apitrace dump reads to the end", "dump", "whole", "apitrace"),
+                                   ("traces whose last frame glretrace draws as the program did", "replay", "same", "glretrace")):
+        good = sum(line[key] == value for line in recorded)
+        rows.append({"what": what, "figure": f"{good} of {len(recorded)}", "bar": "all", "peer": peer, "passed": good == len(recorded)})
+        print(f"{what}: {good} of {len(recorded)} (bar: all)")
+    if not options.only:
+        (build / "show").mkdir(exist_ok=True)
+        (build / "show/sweep_record.json").write_text(json.dumps({"name": "sweep_record", "command": "make show-sweep-record",
+                                                                  "rows": rows, "programs": lines}, indent=1) + "\n")
+    return 0 if recorded and all(row["passed"] for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
