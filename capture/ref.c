@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/err.h"
 #include "base/part.h"
@@ -128,7 +129,24 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 	return NULL;
 }
 
-int ref_read(struct ref_file *ref, const struct ref_entry *entry, void **out)
+/** pread, whole. @return 1, or 0 where the file has less or cannot be read */
+static int read_at(int fd, uint64_t offset, char *out, size_t n)
+{
+	while (n) {
+		ssize_t got = pread(fd, out, n, (off_t)offset);
+
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got <= 0)
+			return 0;
+		out += got;
+		offset += (uint64_t)got;
+		n -= (size_t)got;
+	}
+	return 1;
+}
+
+int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out)
 {
 	size_t bytes = (size_t)entry->width * entry->height * 4, unpacked = 0;
 	char *packed = NULL, *pixels = NULL;
@@ -139,8 +157,7 @@ int ref_read(struct ref_file *ref, const struct ref_entry *entry, void **out)
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
 		goto fail;
 	}
-	if (fseeko(ref->stream, (off_t)entry->offset, SEEK_SET) ||
-	    fread(packed, 1, entry->packed_bytes, ref->stream) != entry->packed_bytes ||
+	if (!read_at(fileno(ref->stream), entry->offset, packed, entry->packed_bytes) ||
 	    snappy_uncompressed_length(packed, entry->packed_bytes, &unpacked) != SNAPPY_OK || unpacked != bytes) {
 		rc = err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged",
 		                (unsigned long long)entry->frame);

@@ -44,11 +44,11 @@ void ref_close(struct ref_file *ref);
 const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind, uint64_t frame);
 
 /**
- * Read one record's pixels.
+ * Read one record's pixels. Several threads may do so at once.
  * @param out  receives a buffer of width * height * 4 bytes (RGBA8, or float), bottom row first; caller frees with free()
  * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported)
  */
-int ref_read(struct ref_file *ref, const struct ref_entry *entry, void **out);
+int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out);
 
 /**
  * Write the records of some frames as a file of their own, whose frames count from 0. The file appears when it is whole.

@@ -204,23 +204,11 @@ struct work {
 	const uint64_t *frames;
 	struct output_run *run;
 
-	pthread_mutex_t lock; /* over all below, and over reading from a .ref file */
+	pthread_mutex_t lock; /* over all below */
 	struct progress progress;
 	size_t next;
 	int err;
 };
-
-static int read_locked(struct work *w, struct set *set, const struct set_entry *entry, struct image *img)
-{
-	int err;
-
-	if (entry->path)
-		return set_read(set, entry, img);
-	pthread_mutex_lock(&w->lock);
-	err = set_read(set, entry, img);
-	pthread_mutex_unlock(&w->lock);
-	return err;
-}
 
 /** What an image says of its size and what is ignored in it, without a reference. */
 static struct score_picture picture_of_size(const struct image *img)
@@ -280,13 +268,13 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	if (!t || (!r && needs_reference))
 		return 0;
 	if (r)
-		err = read_locked(w, w->ref, r, &ref_image);
+		err = set_read(w->ref, r, &ref_image);
 	if (!err && r)
 		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
 	if (err == ERR_INPUT && ref_image.n_channels)
 		err_report(ERR_INPUT, r->path ? r->path : w->ref->name, "the reference has no colour channels");
 	if (!err)
-		err = read_locked(w, w->traced, t, &image);
+		err = set_read(w->traced, t, &image);
 	if (!err && !r)
 		picture = picture_of_size(&image);
 	if (!err)

@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "diff/oiio.h"
+#include "diff/ordered.h"
 #include "diff/pictures.h"
 
 /* Where the data goes in the page. */
@@ -116,32 +117,31 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 }
 
 /**
- * One frame's pictures as a block of JSON that the page reads when the frame is looked at, and only then; *total grows by
- * what they take. Without `whole`, only the thumbnail.
+ * One frame's pictures as a block of JSON that the page reads when the frame is looked at, and only then. Without
+ * `whole`, only the thumbnail. *used: what they take.
  */
 static int write_pictures(struct set *ref, struct set *traced, const struct score *s, const struct output_run *run,
-                          int whole, FILE *out, size_t *total)
+                          int whole, FILE *out, size_t *used)
 {
 	struct picture_frame frame = { 0 };
-	size_t used = 0;
 	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
 
+	*used = 0;
 	if (err)
 		goto fail;
 	fprintf(out, "<script type=\"application/json\" id=\"p%" PRIu64 "\">{", s->frame);
-	err = write_thumbnail(&frame, out, &used);
+	err = write_thumbnail(&frame, out, used);
 	for (int kind = 0; whole && !err && kind < N_PICTURES; kind++) {
 		uint8_t *rgb;
 		uint32_t width, height;
 
 		err = picture_make(&frame, (enum picture_kind)kind, &rgb, &width, &height);
 		if (!err && rgb)
-			err = write_picture(picture_names[kind], rgb, width, height, out, &used);
+			err = write_picture(picture_names[kind], rgb, width, height, out, used);
 	}
 	for (unsigned b = 0; whole && !err && frame.maps.failing && b < s->n_blame && b < BLAMED; b++)
-		err = write_blame(&frame, &s->blame[b], b, out, &used);
+		err = write_blame(&frame, &s->blame[b], b, out, used);
 	fputs("}</script>\n", out);
-	*total += used;
 fail:
 	picture_frame_free(&frame);
 	/* a frame that cannot be read has been scored as such: the page goes on without its pictures */
@@ -154,34 +154,51 @@ static int was_compared(const struct score *s)
 		s->outcome == SCORE_FRAME_NEW;
 }
 
-/**
- * Pictures of frames that did not pass until the budget is spent, then of frames that passed, evenly spread. All others
- * have a thumbnail.
- */
+/* Whose pictures come in which order: frames that did not pass first. */
+struct pictures {
+	const struct output_run *run;
+	struct set *ref, *traced;
+	const struct score **scores;
+	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
+	size_t n;
+};
+
+/** All others than samples, and what is beyond the budget, have a thumbnail. */
+static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
+{
+	const struct pictures *p = context;
+
+	return write_pictures(p->ref, p->traced, p->scores[i], p->run, p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
+}
+
 static int write_all_pictures(const struct output_run *run, struct set *ref, struct set *traced, FILE *out)
 {
-	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0, taken = 0;
-	size_t used = 0;
-	int err = 0;
+	struct pictures p = { .run = run, .ref = ref, .traced = traced };
+	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0;
+	int err;
 
-	for (size_t i = 0; !err && i < run->n_scores; i++) {
-		const struct score *s = &run->scores[i];
-
-		if (was_compared(s) && s->outcome != SCORE_FRAME_PASSED)
-			err = write_pictures(ref, traced, s, run, used < PICTURE_BUDGET, out, &used);
+	p.scores = calloc(run->n_scores + 1, sizeof(*p.scores));
+	p.is_sample = calloc(run->n_scores + 1, sizeof(*p.is_sample));
+	if (!p.scores || !p.is_sample) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto fail;
 	}
-	for (size_t i = 0; !err && i < run->n_scores; i++) {
-		const struct score *s = &run->scores[i];
-		int whole;
-
-		if (s->outcome != SCORE_FRAME_PASSED)
-			continue;
-		/* the k-th sample is taken at place k * n / SAMPLE */
-		whole = used < PICTURE_BUDGET && (n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE >= taken * n_passed);
-		err = write_pictures(ref, traced, s, run, whole, out, &used);
-		taken += (uint64_t)whole;
-		seen++;
-	}
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (was_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED) {
+			p.is_sample[p.n] = 1;
+			p.scores[p.n++] = &run->scores[i];
+		}
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (run->scores[i].outcome == SCORE_FRAME_PASSED) {
+			/* the k-th sample is taken at place k * n / SAMPLE */
+			p.is_sample[p.n] = n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE % n_passed < PASSED_SAMPLE;
+			p.scores[p.n++] = &run->scores[i];
+			seen++;
+		}
+	err = ordered_write(p.n, make_pictures, &p, out);
+fail:
+	free(p.scores);
+	free(p.is_sample);
 	return err;
 }
 

@@ -247,7 +247,7 @@ const struct set_entry *set_find(const struct set *set, uint64_t frame)
 }
 
 /** Put one record's pixels into the image, turned upside down: top row first. */
-static int add_record(struct set *set, enum ref_kind kind, uint64_t frame, struct image *img)
+static int add_record(const struct set *set, enum ref_kind kind, uint64_t frame, struct image *img)
 {
 	const struct ref_entry *entry = ref_find(&set->ref, kind, frame);
 	float *planes[3] = { NULL };
@@ -298,7 +298,7 @@ static int is_foreign_exr(const char *path)
 	return n == sizeof(head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
 }
 
-int set_read(struct set *set, const struct set_entry *entry, struct image *img)
+int set_read(const struct set *set, const struct set_entry *entry, struct image *img)
 {
 	int err;
 

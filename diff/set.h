@@ -41,10 +41,10 @@ void set_free(struct set *set);
 const struct set_entry *set_find(const struct set *set, uint64_t frame);
 
 /**
- * Read a frame. What comes from a .ref file has channels R G B (display) and gl.depth where it was recorded.
+ * Read a frame; several threads may do so at once. What comes from a .ref file has channels R G B (display) and gl.depth where it was recorded.
  * @param img  empty; filled on success
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
-int set_read(struct set *set, const struct set_entry *entry, struct image *img);
+int set_read(const struct set *set, const struct set_entry *entry, struct image *img);
 
 #endif
