@@ -258,18 +258,17 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 }
 
 /*
- * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module
- * has it: (22.3): ramps one pixel wide across the line's sides and ends; of a point all pixels whose centres its circle holds.
- * 0: nothing.
+ * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module has it
+ * (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any attribute; of a
+ * point all pixels whose centres its circle holds. 0: nothing.
  */
-static inline float stage_coverage(const struct point *p, const struct fragment *f)
+static inline float stage_coverage(const struct point *p)
 {
-	struct vec4 c, a = v4_load(p->vertex[0]->color[1]);
+	struct vec4 c;
 
 	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
 		return 1.0f;
-	c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
-	                     v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
+	c = point_mix(p, v4_load(p->vertex[0]->color[1]), v4_load(p->vertex[1]->color[1]), v4_load(p->vertex[2]->color[1]));
 	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
 		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
 	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
@@ -327,7 +326,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
-	coverage = stage_coverage(&p, &f);
+	coverage = stage_coverage(&p);
 	if (!n_slots && (point_clipped(&p) || stage_stippled_away(t, &p, x, y) || !(coverage > 0.0f))) {
 		out->flags = 0u;
 		return;

@@ -300,9 +300,10 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 		return;
 	dx /= length;
 	dy /= length;
+	/* From the corner on whose diagonal Mesa cuts the quad: where w differs along the line the two parts bend apart. */
 	for (int k = 0; k < 4; k++) {
-		const struct end *e = k == 1 || k == 2 ? b : a;
-		float along = e == b ? 0.5f : -0.5f, across = k < 2 ? half : -half;
+		const struct end *e = k >= 2 ? b : a;
+		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;
 
 		add_smooth_corner(in, out, e, e->x + along * dx - across * dy, e->y + along * dy + across * dx,
 		                  (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });

@@ -1,6 +1,6 @@
 /*
  * leaving [DEPTH_BITS]: triangles that leave the view volume on all sides, behind the viewer too, under matrices made by every
- * call that makes one, some of them drawn twice with polygon offset. Recorded by test_leaving.py.
+ * call that makes one, some of them drawn twice with polygon offset, and smooth lines. Recorded by test_leaving.py.
  */
 #include "tests/trace/window.h"
 
@@ -42,6 +42,26 @@ static void hall(int offset)
 	glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
+/* Smooth lines above the walls, from far away to behind the viewer. */
+static void rails(void)
+{
+	glEnable(GL_LINE_SMOOTH);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	glDepthMask(GL_FALSE);
+	glBegin(GL_LINES);
+	glColor3f(1, 1, 1);
+	glVertex3f(-19, 6, 150);
+	glVertex3f(-19, 6, -300);
+	glColor3f(1, 1, 0.2f);
+	glVertex3f(24, 8, 40);
+	glVertex3f(-15, 3, -120);
+	glEnd();
+	glDepthMask(GL_TRUE);
+	glDisable(GL_BLEND);
+	glDisable(GL_LINE_SMOOTH);
+}
+
 static void frame(int n)
 {
 	const float angle = 31.0f * (float)n, transposed[16] = { 1, 0, 0, 0, 0, 0.8f, -0.6f, 0, 0, 0.6f, 0.8f, 0, 0, 0, 0, 1 };
@@ -64,6 +84,7 @@ static void frame(int n)
 	glScalef(1, 1.1f, 0.9f);
 	glTranslatef(0.1f * (float)n, -5.9f, 33.3f);
 	hall(n % 3 - 1);
+	rails();
 }
 
 int main(int argc, char **argv)
