@@ -203,7 +203,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
+	show-rays show-build show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -234,6 +234,14 @@ bench: $(BUILD)/tests/bench/embree
 show-rays: $(BUILD)/tests/bench/embree
 	@mkdir -p $(BUILD)/show
 	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
+
+# The builders of acceleration structures against Embree's.
+$(BUILD)/tests/bench/build: $(BUILD)/tests/bench/build.o $(BUILD)/tests/bench/embree_build.o $(BUILD)/parts.a
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ -lembree3 $(LIBS_OIIO) $(LIBS)
+
+show-build: $(BUILD)/tests/bench/build
+	@mkdir -p $(BUILD)/show
+	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/build.json --command "make show-build"
 
 # Exported frames in another program.
 DEPS_export := blender python3-numpy
@@ -351,4 +359,4 @@ FORCE:
 .PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d)
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d)

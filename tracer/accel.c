@@ -298,7 +298,7 @@ static int append_trees(struct accel *accel, const struct soup *soup, struct bla
 	if (err)
 		goto done;
 	nodes2 = accel->nodes2 + accel->n_nodes2;
-	err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, nodes2, &n_nodes2, order);
+	err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, nodes2, &n_nodes2, order);
 	if (err)
 		goto done;
 	for (uint32_t i = 0; i < soup->n; i++)
@@ -454,7 +454,7 @@ static int build_top(struct accel *accel, struct top *top, int wide)
 	if (err)
 		return err;
 	nodes2 = accel->top2 + accel->n_top2;
-	err = bvh_build_sah(top->boxes, top->n, LEAF_INSTANCES, nodes2, &n_nodes2, top->order);
+	err = bvh_build_sah(top->boxes, top->n, LEAF_INSTANCES, 0, nodes2, &n_nodes2, top->order);
 	if (err)
 		return err;
 	for (uint32_t i = 0; i < n_nodes2; i++)

@@ -11,6 +11,9 @@
 
 #include "kernels/shared.h"
 
+/* What a node's box tests cost, in triangle tests. */
+#define BVH_COST_NODE 1.0f
+
 struct bvh_box {
 	float lo[3], hi[3];
 };
@@ -25,13 +28,20 @@ void bvh_box_join(struct bvh_box *box, const struct bvh_box *other);
  *
  * @param boxes     [n], finite, lo <= hi
  * @param leaf_max  most items in a leaf, >= 1
+ * @param threads   at most so many; 0: as many as there are processors
  * @param nodes     receives at most max(n, 1) nodes
  * @param n_nodes   how many they are, at least 1
  * @param order     [n], receives the items in leaf order: a leaf's first and count are places in it
  * @return 0 or ERR_SYSTEM (reported)
  */
-int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, struct node2 *nodes, uint32_t *n_nodes,
-                  uint32_t *order);
+int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
+                  uint32_t *n_nodes, uint32_t *order);
+
+/**
+ * What a ray that meets the root is expected to pay (MacDonald and Booth 1990, "Heuristics for ray tracing using space
+ * subdivision"): the sum over nodes of their area over the root's, times BVH_COST_NODE for an inner node and 1 for each item of a leaf.
+ */
+double bvh_cost(const struct node2 *nodes, uint32_t n_nodes);
 
 /* What the leaves of an eight-wide tree count: items as they are, or blocks of up to eight of them. */
 enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };

@@ -3,7 +3,7 @@
 
 #include "tracer/bvh.h"
 
-#define N 3000
+#define N 20000
 
 static struct bvh_box boxes[N];
 static struct node2 nodes[N];
@@ -55,11 +55,27 @@ static void check_node8(uint32_t index, uint32_t depth)
 	}
 }
 
+/* The builder's text is compiled more than once; all make the same tree, by one thread or more. */
+int sah_build_plain(const struct bvh_box *, uint32_t, uint32_t, unsigned, struct node2 *, uint32_t *, uint32_t *);
+
+static void check_same_tree(uint32_t n, uint32_t n_nodes)
+{
+	static struct node2 plain[N];
+	static uint32_t plain_order[N];
+	uint32_t n_plain;
+
+	ck_assert_int_eq(sah_build_plain(boxes, n, 4, 1, plain, &n_plain, plain_order), 0);
+	ck_assert_uint_eq(n_plain, n_nodes);
+	ck_assert_mem_eq(plain, nodes, n_nodes * sizeof(*nodes));
+	ck_assert_mem_eq(plain_order, order, n * sizeof(*order));
+}
+
 static void check_trees(uint32_t n)
 {
 	uint32_t n_nodes, n_nodes8, n_blocks;
 
-	ck_assert_int_eq(bvh_build_sah(boxes, n, 4, nodes, &n_nodes, order), 0);
+	ck_assert_int_eq(bvh_build_sah(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
+	check_same_tree(n, n_nodes);
 	memset(seen, 0, sizeof(seen));
 	check_node2(0, 0);
 	for (uint32_t i = 0; i < n; i++)
@@ -80,7 +96,7 @@ static void set_box(uint32_t i, float x, float y, float z, float size)
 START_TEST(all_items_in_one_leaf)
 {
 	struct random_scene r = { .random = seed_of_run };
-	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, N };
+	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, 8191, 8192, N };
 
 	for (uint32_t i = 0; i < N; i++)
 		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
