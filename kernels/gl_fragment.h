@@ -258,11 +258,12 @@ static inline struct lit point_lit_here(const struct tables *t, const struct poi
 		return point_lit_from_vertices(p);
 	if (!p->material->lighting)
 		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
-		                    point_given_color(t, p), side, seen);
+		                    tables_face(t, p->geometry, p->number[2], side), point_given_color(t, p), side, seen);
 	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
-	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f), side ? v3_scale(n, -1.0f) : n,
+	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f),
+	                    side ? v3_scale(n, -1.0f) : n, tables_face(t, p->geometry, p->number[2], side),
 	                    point_given_color(t, p), side, seen);
 }
 
@@ -385,7 +386,9 @@ static inline struct vec4 point_albedo(const struct tables *t, const struct poin
 		lit.color = tracks ? v4_clamp01(point_mix(p, tables_color(t, p->geometry, p->number[0]),
 		                                          tables_color(t, p->geometry, p->number[1]),
 		                                          tables_color(t, p->geometry, p->number[2]))) :
-		                     v4_clamp01(v4_load(side ? m->back.diffuse : m->front.diffuse));
+		                     v4_clamp01(point_mix(p, v4_load(tables_face(t, p->geometry, p->number[0], side)->diffuse),
+		                                          v4_load(tables_face(t, p->geometry, p->number[1], side)->diffuse),
+		                                          v4_load(tables_face(t, p->geometry, p->number[2], side)->diffuse)));
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
 	clear.fog_factor = 1.0f;
 	return point_finish(t, p, &clear, &lit);

@@ -69,16 +69,17 @@ static inline float light_strength(GLOBAL const struct scene_light *light, struc
  *
  * eye     the vertex in eye space, homogeneous
  * normal  of the side to be lit
+ * face    the side's material
  * vertex_color  the current colour at the vertex, for color material
  * list    lights[list.first .. +list.count) light it, whatever the material says
  * matte_only  1: nothing but the vertex colour counts of the material
  * seen    NULL, or for each light of the list the share of its diffuse and specular light that arrives
  */
 static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
-                                      struct light_list list, int matte_only, struct vec4 eye, struct vec3 normal, struct vec4 vertex_color, int back,
+                                      struct light_list list, int matte_only, struct vec4 eye, struct vec3 normal,
+                                      GLOBAL const struct scene_face *face, struct vec4 vertex_color, int back,
                                       const struct vec3 *seen)
 {
-	GLOBAL const struct scene_face *face = back ? &m->back : &m->front;
 	uint32_t tracks = m->color_material == GL_FRONT_AND_BACK || m->color_material == (back ? GL_BACK : GL_FRONT);
 	uint32_t mode = tracks ? m->color_material_mode : 0u;
 	struct vec4 ambient = light_material_color(face->ambient, mode == GL_AMBIENT || mode == GL_AMBIENT_AND_DIFFUSE,

@@ -116,6 +116,47 @@ static inline float stage_offset(GLOBAL const struct scene_material *m, const fl
 }
 
 /*
+ * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
+ * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners.
+ */
+static inline void stage_line(const struct point *p, float x, float y, struct fragment *f)
+{
+	struct vec4 a = v4_load(p->vertex[0]->color[1]), b = a, c;
+	int second[3];
+	float dx, dy, one_over_area, along_x, along_y, share;
+
+	for (int i = 0; i < 3; i++) {
+		c = v4_load(p->vertex[i]->color[1]);
+		second[i] = c.w > 0.5f;
+		if (second[i])
+			b = c;
+		else
+			a = c;
+	}
+	dx = a.x - b.x;
+	dy = a.y - b.y;
+	one_over_area = 1.0f / (dx * dx + dy * dy);
+	if (M_ABS(dx) >= M_ABS(dy)) {
+		dx *= 1.0f + (dy / dx) * (dy / dx);
+		dy = 0.0f;
+	} else {
+		dy *= 1.0f + (dx / dy) * (dx / dy);
+		dx = 0.0f;
+	}
+	along_x = (a.z - b.z) * dx * one_over_area;
+	along_y = (a.z - b.z) * dy * one_over_area;
+	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, a.z - (along_x * (a.x - 0.5f) + along_y * (a.y - 0.5f)))));
+	share = -(dx * one_over_area * (x - (a.x - 0.5f)) + dy * one_over_area * (y - (a.y - 0.5f)));
+	f->b1 = f->b2 = 0.0f;
+	if (second[0])
+		share = 1.0f - share;
+	if (second[1] == second[0])
+		f->b2 = share;
+	else
+		f->b1 = share;
+}
+
+/*
  * Weights of a fragment for its attributes, and its depth with polygon offset. Coverage goes by snapped vertices; llvmpipe takes
  * attributes and depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found
  * again from clip coordinates; of what leaves the view volume, from the part that covers the pixel.
@@ -132,6 +173,10 @@ static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view
 	float px[3], py[3], z[3], area, b1, b2;
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	if (p.geometry->flags & GEOMETRY_LINE) {
+		stage_line(&p, (float)x, (float)(height - 1u - y), f);
+		return;
+	}
 	view = &views[p.geometry->view];
 	if (cut) {
 		clip_triangle(view, (float)height, v4_load(p.vertex[0]->clip), v4_load(p.vertex[1]->clip), v4_load(p.vertex[2]->clip),
@@ -205,7 +250,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 	}
 	c = point_albedo(t, p, coat);
 	sum = v3_add(v3_mul(sum, v3(c.x, c.y, c.z)), v3_load(m->surface.emission));
-	return m->lighting ? v3_add(v3_load(point_side(p) ? m->back.emission : m->front.emission), sum) : sum;
+	return m->lighting ? v3_add(v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission), sum) : sum;
 }
 
 /* Lights of the list that stage_radiance can be lit by. */

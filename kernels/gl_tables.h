@@ -54,6 +54,16 @@ static inline struct vec3 tables_normal(const struct tables *t, GLOBAL const str
 	                            v3_load(t->currents[g->current].normal);
 }
 
+/* A side's material at a vertex: the mesh's own where it changes from vertex to vertex (sec. 2.6.3 lets it), or the draw's. */
+static inline GLOBAL const struct scene_face *tables_face(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, int back)
+{
+	GLOBAL const struct scene_material *m = &t->materials[g->material];
+
+	if (g->attributes & 0x1000u)
+		return (GLOBAL const struct scene_face *)(t->attributes + g->face) + 2u * v + (back ? 1u : 0u);
+	return back ? &m->back : &m->front;
+}
+
 static inline float tables_fog_coord(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
 	return g->attributes & 8u ? t->attributes[g->fog_coord + v] : t->currents[g->current].fog_coord;

@@ -29,8 +29,9 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	struct lit lit;
 
 	if (m->lighting)
-		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye), back ? v3_scale(normal, -1.0f) : normal,
-		                    tables_color(t, g, v), back, seen);
+		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye),
+		                    back ? v3_scale(normal, -1.0f) : normal, tables_face(t, g, v, back), tables_color(t, g, v),
+		                    back, seen);
 	lit.color = v4_clamp01(tables_color(t, g, v));
 	lit.secondary = v4_clamp01(tables_secondary(t, g, v));
 	lit.lights = 0u;

@@ -182,6 +182,8 @@ SHARED_SIZE(struct shaded_vertex, 128);
 #define GEOMETRY_SMOOTH_POINT 4u
 /* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and SCENE_BITMAP etc. */
 #define GEOMETRY_PIXELS 8u
+/* Lines: color[1] of each corner holds where its end is in the window (x, y from the top, depth) and 0 at the first, 1 at the second. */
+#define GEOMETRY_LINE 16u
 
 /* One instance as the vertex and fragment stages see it; the same index as its struct instance. */
 struct geometry {
@@ -189,7 +191,7 @@ struct geometry {
 	float normal_matrix[12]; /* 3 rows of 4: inverse transpose of the modelview, rescaled where GL does */
 	uint32_t attributes;     /* as scene_mesh.attributes */
 	uint32_t position, normal, color, secondary, fog_coord; /* where its arrays start in the pool of floats */
-	uint32_t texcoord[SCENE_MAX_UNITS];
+	uint32_t texcoord[SCENE_MAX_UNITS], face;
 	uint32_t index;          /* where its indices start in the pool of indices, 3 a primitive, relative to vertex_first */
 	uint32_t primitive_draw; /* where its draw numbers start in the pool of indices, or SCENE_NONE: all of one draw */
 	uint32_t vertex_first;   /* its first vertex in the frame's vertex buffers */
@@ -197,7 +199,7 @@ struct geometry {
 	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them each vertex */
 	uint32_t material, view, current, draw, flags;
 };
-SHARED_SIZE(struct geometry, 272);
+SHARED_SIZE(struct geometry, 276);
 
 #define TEXTURE_MAX_LEVELS 16
 

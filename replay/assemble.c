@@ -21,6 +21,7 @@ void gls_geometry_free(struct gls_geometry *g)
 	free(g->position);
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		free(g->attribute[a]);
+	free(g->face);
 	free(g->edge);
 	free(g->index);
 	free(g->primitive_draw);
@@ -51,11 +52,15 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 		for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 			if (g->attribute[a] && resize(&g->attribute[a], room, 16))
 				return ERR_SYSTEM;
+		if (g->face && resize(&g->face, room, sizeof(*g->face)))
+			return ERR_SYSTEM;
 		g->room_vertices = room;
 	}
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		if (g->given >> a & 1 && !g->attribute[a] && resize(&g->attribute[a], g->room_vertices, 16))
 			return ERR_SYSTEM;
+	if (g->given & SCENE_HAS_FACE && !g->face && resize(&g->face, g->room_vertices, sizeof(*g->face)))
+		return ERR_SYSTEM;
 	if (g->n_primitives + n_primitives > g->room_primitives) {
 		uint32_t room = g->room_primitives ? g->room_primitives : 256;
 		while (room < g->n_primitives + n_primitives)
@@ -74,6 +79,16 @@ int gls_geometry_vary(struct gls_geometry *g, unsigned attribute)
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < g->n_vertices; i++)
 		memcpy(g->attribute[attribute] + 4 * (size_t)i, g->constant[attribute], 16);
+	return 0;
+}
+
+int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2])
+{
+	g->given |= SCENE_HAS_FACE;
+	if (gls_geometry_reserve(g, 0, 0))
+		return ERR_SYSTEM;
+	for (uint32_t i = 0; i < g->n_vertices; i++)
+		memcpy(g->face[i], face, sizeof(*g->face));
 	return 0;
 }
 
@@ -244,6 +259,8 @@ static XXH128_hash_t hash_of(const struct gls_geometry *g)
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		if (g->given >> a & 1)
 			hash_attribute(&hash, g->attribute[a], g->n_vertices, attribute_width(a));
+	if (g->given & SCENE_HAS_FACE)
+		XXH3_128bits_update(&hash, g->face, g->n_vertices * sizeof(*g->face));
 	XXH3_128bits_update(&hash, g->index, (size_t)g->n_primitives * g->kind * 4);
 	if (g->n_draws > 1)
 		XXH3_128bits_update(&hash, g->primitive_draw, (size_t)g->n_primitives * 4);
@@ -262,6 +279,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		bytes += g->given >> a & 1 ? n * attribute_width(a) * sizeof(float) : 0;
+	bytes += g->given & SCENE_HAS_FACE ? n * sizeof(*g->face) : 0;
 	bytes += (g->n_draws > 1 ? p * 4 : 0) + (g->edges_hidden ? p : 0);
 	bytes = (bytes + 63) & ~(size_t)63;
 	m = aligned_alloc(64, bytes);
@@ -296,6 +314,10 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 		*arrays[a] = (const float *)at;
 		for (size_t i = 0; i < n; i++, at += width * sizeof(float))
 			memcpy(at, g->attribute[a] + 4 * i, width * sizeof(float));
+	}
+	if (g->given & SCENE_HAS_FACE) {
+		mesh->face = memcpy(at, g->face, n * sizeof(*g->face));
+		at += n * sizeof(*g->face);
 	}
 	mesh->index = memcpy(at, g->index, p * g->kind * 4);
 	at += p * g->kind * 4;

@@ -113,6 +113,7 @@ struct gls_geometry {
 	uint32_t n_vertices, room_vertices;
 	uint32_t given; /* attributes that vary, as scene_mesh.attributes */
 	float *position, *attribute[N_GLS_ATTRIBUTES]; /* 4 floats each, whatever the attribute */
+	struct scene_face (*face)[2]; /* where `given` has SCENE_HAS_FACE */
 	uint8_t *edge;  /* edge flag of each vertex */
 	uint32_t *index, *primitive_draw;
 	uint8_t *edge_flags;
@@ -131,6 +132,8 @@ void gls_geometry_free(struct gls_geometry *g);
 int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
 /** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM */
 int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
+/** Make the material vary: vertices so far get `face`, front and back. @return 0 or ERR_SYSTEM */
+int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2]);
 /** Triangles, lines or points that a primitive mode is cut into: SCENE_*; 0 for no mode of GL's. */
 enum scene_primitive gls_mode_kind(uint32_t mode);
 /**

@@ -35,7 +35,7 @@ static void set_colors(struct gls_state *st, struct vec4 eye, struct vec3 normal
 		if (l->lights[i].enabled)
 			lights[list.count++] = l->lights[i].value;
 	m.light_count = list.count;
-	lit = light_vertex(&m, lights, list, 0, eye, normal, v4_load(c->attribute[GLS_ATTR_COLOR]), 0, NULL);
+	lit = light_vertex(&m, lights, list, 0, eye, normal, &m.front, v4_load(c->attribute[GLS_ATTR_COLOR]), 0, NULL);
 	clamp_color(c->raster_color, lit.color);
 	clamp_color(c->raster_secondary, lit.secondary);
 }

@@ -311,6 +311,17 @@ static void write_mesh(struct json *j, const struct scene_mesh *m, int vertices)
 			if (m->texcoord[u])
 				json_key_floats(j, name, m->texcoord[u], 4 * n);
 		}
+		if (m->face) {
+			json_key(j, "face");
+			json_begin(j, '[');
+			for (size_t v = 0; v < n; v++) {
+				json_begin(j, '{');
+				write_face(j, "front", &m->face[v][0]);
+				write_face(j, "back", &m->face[v][1]);
+				json_end(j, '}');
+			}
+			json_end(j, ']');
+		}
 		json_key_uints(j, "index", m->index, (size_t)m->primitive_count * m->kind);
 		if (m->primitive_draw)
 			json_key_uints(j, "primitive_draw", m->primitive_draw, m->primitive_count);

@@ -75,7 +75,7 @@ static struct table_entry *sorted(struct saver *s, const struct table *t)
 	return entries;
 }
 
-#define N_MESH_POINTERS (5 + SCENE_MAX_UNITS + 3)
+#define N_MESH_POINTERS (6 + SCENE_MAX_UNITS + 3)
 
 /* Meshes: one block of memory, its pointers as distances from its begin, 0 for NULL. */
 static void mesh_pointers(struct scene_mesh *m, const void **out[N_MESH_POINTERS])
@@ -87,6 +87,7 @@ static void mesh_pointers(struct scene_mesh *m, const void **out[N_MESH_POINTERS
 	out[n++] = (const void **)&m->color;
 	out[n++] = (const void **)&m->secondary;
 	out[n++] = (const void **)&m->fog_coord;
+	out[n++] = (const void **)&m->face;
 	for (unsigned u = 0; u < SCENE_MAX_UNITS; u++)
 		out[n++] = (const void **)&m->texcoord[u];
 	out[n++] = (const void **)&m->index;
@@ -99,7 +100,7 @@ static void put_mesh(struct saver *s, const struct gls_mesh *mesh)
 	struct gls_mesh *copy = malloc(mesh->bytes);
 	const void **pointers[N_MESH_POINTERS];
 
-	KNOWN(struct gls_mesh, 208);
+	KNOWN(struct gls_mesh, 216);
 	if (!copy) {
 		s->err = err_report(ERR_SYSTEM, s->x->path, "out of memory");
 		return;
@@ -346,7 +347,7 @@ static int save(struct saver *s)
 	struct table_entry *e;
 	size_t n;
 
-	KNOWN(struct gls_exec, 1200);
+	KNOWN(struct gls_exec, 1216);
 	if (!is_quiet(x))
 		return 1;
 	bytes_put_u64(out, x->frame);
@@ -482,13 +483,13 @@ static uint8_t *get_blob(struct loader *l, size_t *n)
 /* The bytes that each array of a mesh needs at least; order as mesh_pointers. */
 static void mesh_needs(const struct scene_mesh *m, size_t out[N_MESH_POINTERS])
 {
-	static const unsigned floats[] = { 4, 3, 4, 4, 1 };
+	static const unsigned floats[] = { 4, 3, 4, 4, 1, sizeof(*m->face) / 4 };
 	size_t n = m->vertex_count, p = m->primitive_count;
 	unsigned i = 0;
 
-	for (; i < 5; i++)
+	for (; i < 6; i++)
 		out[i] = n * floats[i] * sizeof(float);
-	for (; i < 5 + SCENE_MAX_UNITS; i++)
+	for (; i < 6 + SCENE_MAX_UNITS; i++)
 		out[i] = n * 4 * sizeof(float);
 	out[i++] = p * m->kind * sizeof(uint32_t);
 	out[i++] = p * sizeof(uint32_t);
@@ -708,7 +709,7 @@ static struct gls_texture *get_texture(struct loader *l)
 {
 	struct gls_texture *t = allocate(l, sizeof(*t));
 
-	KNOWN(struct gls_texture, 4448);
+	KNOWN(struct gls_texture, 4424);
 	KNOWN(struct gls_level, 48);
 	if (!t)
 		return NULL;

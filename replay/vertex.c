@@ -77,7 +77,9 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 		return;
 	}
 	memcpy(g->position + 4 * (size_t)at, position, 16);
-	for (uint32_t given = g->given; given; given &= given - 1) {
+	if (g->given & SCENE_HAS_FACE)
+		memcpy(g->face[at], st->a.lighting.face, sizeof(*g->face));
+	for (uint32_t given = g->given & ((1u << N_GLS_ATTRIBUTES) - 1); given; given &= given - 1) {
 		unsigned a = (unsigned)__builtin_ctz(given);
 		memcpy(g->attribute[a] + 4 * (size_t)at, st->a.current.attribute[a], 16);
 	}
@@ -137,73 +139,17 @@ GLS_HANDLER(glEnd, INSIDE)
 }
 
 /*
- * Draw what an open Begin has completed so far, because a material changes within it; the vertices that the rest still
- * needs stay. They take the new material with them, where GL would have lit them with the old one.
+ * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so from there on
+ * it is an attribute of the vertices.
  */
-static void split_open_primitive(struct gls_exec *x, struct gls_state *st)
-{
-	struct gls_geometry *g = &x->geometry;
-	uint32_t mode = st->begin_mode - 1, n = g->n_vertices - g->begin_vertex, keep_first = 0, keep = 0, from;
-	float position[4][4], attribute[4][N_GLS_ATTRIBUTES][4];
-	struct gls_current saved = st->a.current;
-
-	switch (mode) {
-	case GL_LINES:
-		keep = n % 2;
-		break;
-	case GL_TRIANGLES:
-		keep = n % 3;
-		break;
-	case GL_QUADS:
-		keep = n % 4;
-		break;
-	case GL_LINE_STRIP:
-		keep = n ? 1 : 0;
-		break;
-	case GL_TRIANGLE_STRIP:
-	case GL_QUAD_STRIP:
-		keep = n < 2 ? n : 2 + (n & 1);
-		break;
-	case GL_TRIANGLE_FAN:
-	case GL_POLYGON:
-		keep_first = n > 1;
-		keep = n ? 1 : 0;
-		break;
-	case GL_LINE_LOOP:
-		gls_unsupported(x, "a material that changes within a line loop");
-		return;
-	}
-	if (keep && mode != GL_LINES && mode != GL_TRIANGLES && mode != GL_QUADS)
-		gls_unsupported(x, "materials that change within strips and fans: vertices shared by two take the later one");
-	from = g->n_vertices - keep;
-	for (uint32_t i = 0; i < keep + keep_first; i++) {
-		uint32_t v = keep_first && i == 0 ? g->begin_vertex : from + i - keep_first;
-		memcpy(position[i], g->position + 4 * (size_t)v, 16);
-		for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-			memcpy(attribute[i][a], g->given >> a & 1 ? g->attribute[a] + 4 * (size_t)v : g->constant[a], 16);
-	}
-	/* A strip's odd vertex opens the next piece at the right parity: the pieces overlap by no triangle then. */
-	if (gls_geometry_cut(g, mode, g->begin_vertex, n - (mode == GL_TRIANGLE_STRIP && n > 2 ? n & 1 : 0), NULL))
-		gls_out_of_memory(x, 0);
-	g->n_draws++;
-	gls_flush(x);
-	g->begin_vertex = 0;
-	x->pending_call = x->call->number;
-	for (uint32_t i = 0; i < keep + keep_first; i++) {
-		memcpy(st->a.current.attribute, attribute[i], sizeof(attribute[i]));
-		g->touched = ~0u >> (32 - N_GLS_ATTRIBUTES);
-		add_vertex(x, st, position[i]);
-	}
-	st->a.current = saved;
-	g->touched = ~0u >> (32 - N_GLS_ATTRIBUTES);
-}
-
 void gls_before_material(struct gls_exec *x, struct gls_state *st)
 {
-	if (x->geometry.n_vertices && st->begin_mode)
-		split_open_primitive(x, st);
-	else if (x->geometry.n_vertices)
+	struct gls_geometry *g = &x->geometry;
+
+	if (!st->begin_mode && g->n_vertices)
 		gls_flush(x);
+	else if (g->n_vertices && !(g->given & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
+		gls_out_of_memory(x, 0);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 

@@ -13,6 +13,7 @@ struct end {
 	struct shaded_vertex v;
 	float texcoord[SCENE_MAX_UNITS][4];
 	float x, y, z, w_inv;
+	int cut; /* an end that clipping made */
 };
 
 static int grow(const struct expand_input *in, struct expanded *e)
@@ -86,18 +87,25 @@ static struct end mix_ends(const struct end *a, const struct end *b, float wa, f
 	mix_floats(a->v.normal, b->v.normal, wa, wb, e.v.normal, 3);
 	mix_floats(&a->v.fog_coord, &b->v.fog_coord, wa, wb, &e.v.fog_coord, 1);
 	mix_floats(&a->texcoord[0][0], &b->texcoord[0][0], wa, wb, &e.texcoord[0][0], SCENE_MAX_UNITS * 4);
+	e.cut = 1;
 	return e;
 }
 
-/* As the vertex stage does, but not snapped. */
+/* As the vertex stage does, but not snapped. Mesa's clipper projects the ends that it makes without fused operations. */
+static float scale_and_move(float scale, float x, float move, int fused)
+{
+	return fused ? fmaf(scale, x, move) : scale * x + move;
+}
+
 static void project(const struct expand_input *in, struct end *e)
 {
 	const float *v = in->view->viewport, *c = e->v.clip, *range = in->view->depth_range;
+	int fused = !e->cut;
 
 	e->w_inv = 1 / c[3];
-	e->x = v[2] * 0.5f * (c[0] * e->w_inv) + (v[0] + v[2] * 0.5f);
-	e->y = -v[3] * 0.5f * (c[1] * e->w_inv) + ((float)in->height - (v[1] + v[3] * 0.5f));
-	e->z = (range[1] - range[0]) * 0.5f * (c[2] * e->w_inv) + (range[1] + range[0]) * 0.5f;
+	e->x = scale_and_move(v[2] * 0.5f, c[0] * e->w_inv, v[0] + v[2] * 0.5f, fused);
+	e->y = scale_and_move(-v[3] * 0.5f, c[1] * e->w_inv, (float)in->height - (v[1] + v[3] * 0.5f), fused);
+	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
 }
 
 /*
@@ -138,10 +146,12 @@ static int clip_line(struct end *a, struct end *b, float band)
 
 /* --- Quads --------------------------------------------------------------------------------------------------------- */
 
-/* 1/256 pixel from the pixel corner, halves as llvmpipe rounds them: a centre is 0 for it. */
+/* 1/256 pixel from the pixel corner, halves as llvmpipe rounds those of lines and points: a centre is 0 for it. */
 static int32_t snap(float pixels)
 {
-	return (int32_t)rintf((pixels - 0.5f) * 256) + 128;
+	float x = (pixels - 0.5f) * 256;
+
+	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f) + 128;
 }
 
 /* Add a corner of a quad. x, y: in 1/256 pixel, y down. */
@@ -201,64 +211,76 @@ static struct end line_point(const struct end *a, const struct end *b, float s)
 	return e;
 }
 
-/* What a line has at a point of the window, in 1/256 pixel: things change along it only. */
-static struct end on_line(const struct end *a, const struct end *b, int32_t x, int32_t y)
+/* The place of a coordinate in its pixel, from the centre. */
+static float from_centre(float x)
 {
-	float dx = b->x - a->x, dy = b->y - a->y, length2 = dx * dx + dy * dy;
-	float s = (((float)x / 256 - a->x) * dx + ((float)y / 256 - a->y) * dy) / length2;
-
-	return line_point(a, b, fminf(fmaxf(s, -1), 2));
+	return x - floorf(x) - 0.5f;
 }
 
-static int sign(float x)
+/* Do a place and a direction point the same way? 0 counts as positive along x and as negative along y. */
+static int same_way(float place, float d, int is_y)
 {
-	return x > 0 ? 1 : x < 0 ? -1 : 0;
+	return is_y ? (place <= 0) == (d <= 0) : (place >= 0) == (d >= 0);
 }
 
 /*
- * Does a line that runs along its major axis by d_major and across it by d_minor draw the pixel of an end?
- * major, minor: the end's place in its pixel, from the centre.
- * The diamond-exit rule (sec. 3.4.1): the line draws a pixel whose diamond it leaves.
+ * Does a line that runs by d_major and d_minor draw the pixel of an end that lies at (major, minor) in it?
+ * The diamond-exit rule (sec. 3.4.1: the line draws a pixel whose diamond it leaves) as llvmpipe has it. In doubt it looks
+ * where the line passes the pixel's middle, with the slope turned over, and counts the low border in for steep lines' second ends.
+ * edge: the minor coordinate from the pixel's border.
  */
-static int draws_end(float major, float minor, float d_major, float d_minor, int first)
+static int draws_end(float major, float minor, float edge, float d_major, float d_minor, int first, int steep)
 {
-	int beyond = sign(major) == sign(d_major);
 	float crossing;
 
 	if (fabsf(major) + fabsf(minor) < 0.5f)
 		return first;
-	if (beyond == first)
+	if (same_way(major, d_major, steep) == first)
 		return 0;
-	if ((sign(minor) == sign(d_minor)) != first)
+	if (same_way(minor, d_minor, !steep) != first)
 		return 1;
-	crossing = minor - major * (d_minor / d_major); /* where the line passes the pixel's middle */
-	return crossing < 0.5f && crossing > -0.5f;
+	crossing = edge + major * (d_minor / d_major);
+	return crossing < 1 && (crossing > 0 || (crossing == 0 && steep && !first));
+}
+
+/* How far an end moves along the major axis, so that the quad covers the pixel's centre if the end's pixel is drawn. */
+static float end_shift(float x, float y, float d_major, float d_minor, int first, int steep)
+{
+	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
+	float edge = steep ? x - floorf(x) : y - floorf(y);
+	int covers = first ? !same_way(major, d_major, !steep) : same_way(major, d_major, steep) || major == 0;
+
+	if (!first && minor == -0.5f && d_minor > 0)
+		minor = 0.5f;
+	if (covers == draws_end(major, minor, edge, d_major, d_minor, first, steep))
+		return 0;
+	return -major - (d_major > 0 ? 0.5f : -0.5f);
+}
+
+/* Add an end's corner, with the end as it is: see GEOMETRY_LINE. */
+static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct end *e, int second, int32_t x,
+                            int32_t y)
+{
+	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
+
+	add_corner(in, out, e, x, y);
+	memcpy(vertex->color[1], (float[4]){ e->x, e->y, e->z, (float)second }, sizeof(vertex->color[1]));
 }
 
 /* The line a -> b, projected, as a quad. */
 static void add_line(const struct expand_input *in, struct expanded *out, const struct end *a, const struct end *b,
                      uint32_t draw)
 {
-	float dx = b->x - a->x, dy = b->y - a->y, width = fmaxf(rintf(in->material->line_width), 1);
+	float dx = b->x - a->x, dy = b->y - a->y, width = fmaxf(in->material->line_width, 1);
 	int steep = !(fabsf(dx) >= fabsf(dy));
-	float d_major = steep ? dy : dx, d_minor = steep ? dx : dy, shift[2] = { 0, 0 };
+	float d_major = steep ? dy : dx, d_minor = steep ? dx : dy;
 	const struct end *ends[2] = { a, b };
-	int32_t half = (int32_t)(width * 128), x[2], y[2];
+	int32_t half = (int32_t)(width + 0.5f) * 128, x[2], y[2];
 
 	if (d_major == 0)
 		return;
 	for (int i = 0; i < 2; i++) {
-		float px = ends[i]->x - floorf(ends[i]->x) - 0.5f, py = ends[i]->y - floorf(ends[i]->y) - 0.5f;
-		float major = steep ? py : px, minor = steep ? px : py;
-		/* what the quad would cover: centres from the start on, up to the end */
-		int covers = (sign(major) == sign(d_major)) != (i == 0) || major == 0;
-
-		/* then the end moves to its pixel's edge, back along the line */
-		if (covers != draws_end(major, minor, d_major, d_minor, i == 0))
-			shift[i] = -major - 0.5f * (float)sign(d_major);
-	}
-	for (int i = 0; i < 2; i++) {
-		float along = shift[i], across = shift[i] * (d_minor / d_major);
+		float along = end_shift(ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep), across = along * (d_minor / d_major);
 
 		x[i] = snap(ends[i]->x + (steep ? across : along));
 		y[i] = snap(ends[i]->y + (steep ? along : across));
@@ -266,10 +288,8 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	for (int k = 0; k < 4; k++) {
 		int i = k == 1 || k == 2;
 		int32_t side = k < 2 ? -half : half;
-		int32_t cx = x[i] + (steep ? side : 0), cy = y[i] + (steep ? 0 : side);
-		struct end corner = on_line(a, b, cx, cy);
 
-		add_corner(in, out, &corner, cx, cy);
+		add_line_corner(in, out, ends[i], i, x[i] + (steep ? side : 0), y[i] + (steep ? 0 : side));
 	}
 	add_triangles(in, out, draw);
 }

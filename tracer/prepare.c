@@ -129,6 +129,8 @@ static int invert_affine(const float m[16], float rows[12])
 
 /* --- Meshes ------------------------------------------------------------------------------------------------------ */
 
+#define FACE_WORDS (2 * sizeof(struct scene_face) / 4) /* front and back */
+
 void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometry *g)
 {
 	uint32_t n = mesh->vertex_count, at = base;
@@ -148,12 +150,13 @@ void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometr
 		g->texcoord[unit] = at;
 		at += mesh->texcoord[unit] ? 4 * n : 0;
 	}
+	g->face = at;
 }
 
 size_t prepare_attribute_words(const struct scene_mesh *mesh)
 {
 	size_t each = 4 + (mesh->normal ? 3 : 0) + (mesh->color ? 4 : 0) + (mesh->secondary ? 4 : 0) +
-	              (mesh->fog_coord ? 1 : 0);
+	              (mesh->fog_coord ? 1 : 0) + (mesh->face ? FACE_WORDS : 0);
 
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		each += mesh->texcoord[unit] ? 4 : 0;
@@ -180,6 +183,7 @@ void prepare_fill_attributes(const void *object, uint32_t *words)
 	words = append(words, mesh->fog_coord, n);
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		words = append(words, mesh->texcoord[unit], 4 * n);
+	append(words, (const float *)mesh->face, FACE_WORDS * n);
 }
 
 size_t prepare_index_words(const struct scene_mesh *mesh)

@@ -169,8 +169,8 @@ static int upload_expanded(struct job *job)
 		g->flags |= GEOMETRY_EXPANDED;
 		if (job->scene->instances[p->instances[i].scene_instance].rectangle)
 			g->flags |= GEOMETRY_PIXELS;
-		if (p->shapes[i] == PREPARED_LINES && job->scene->materials[g->material].line_smooth)
-			g->flags |= GEOMETRY_SMOOTH_LINE;
+		if (p->shapes[i] == PREPARED_LINES)
+			g->flags |= job->scene->materials[g->material].line_smooth ? GEOMETRY_SMOOTH_LINE : GEOMETRY_LINE;
 		if (p->shapes[i] == PREPARED_POINTS && job->scene->materials[g->material].point_smooth &&
 		    !job->scene->materials[g->material].point_sprite)
 			g->flags |= GEOMETRY_SMOOTH_POINT;

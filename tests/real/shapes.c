@@ -1,0 +1,102 @@
+/*
+ * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines drawn over
+ * themselves under GL_LESS, materials that change between Begin and End. Recorded by test_shapes.py.
+ */
+#include <math.h>
+
+#include "tests/trace/window.h"
+
+enum { SPOKES = 40, STEPS = 24 };
+
+static void reset(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.41, 0.41, -0.307, 0.307, 1, 37.3);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glEnable(GL_DEPTH_TEST);
+	glDepthFunc(GL_LESS);
+}
+
+static void spokes(void)
+{
+	for (int width = 1; width < 4; width++) {
+		glLineWidth((float)width);
+		glBegin(GL_LINES);
+		for (int i = 0; i < SPOKES; i++) {
+			float angle = 6.2831853f * (float)i / SPOKES + 0.013f * (float)width, near = 0.05f, far = 0.3f * (float)width;
+
+			glColor3f((float)i / SPOKES, 1 - (float)i / SPOKES, 0.5f);
+			glVertex3f(near * cosf(angle), near * sinf(angle), -2);
+			glVertex3f(far * cosf(angle), far * sinf(angle), -2 - 0.5f * (float)width);
+		}
+		glEnd();
+	}
+	glLineWidth(1);
+}
+
+/* A net of wide lines, twice: where both times have the same depth the first one stays. */
+static void net(void)
+{
+	glTranslatef(0.1f, 0, -3);
+	glRotatef(33, 1, 0.3f, 0);
+	glLineWidth(2);
+	for (int pass = 0; pass < 2; pass++) {
+		for (int i = 0; i < STEPS; i++) {
+			float low = 3.1415927f * (float)i / STEPS, high = 3.1415927f * (float)(i + 1) / STEPS;
+
+			glColor3f(pass ? 1 : 0.2f, pass ? 0.8f : 0.2f, 0.2f);
+			glBegin(GL_LINE_STRIP);
+			for (int k = 0; k <= STEPS; k++) {
+				float around = 6.2831853f * (float)k / STEPS, a = pass ? high : low, b = pass ? low : high;
+
+				glVertex3f(sinf(a) * cosf(around), cosf(a), sinf(a) * sinf(around));
+				glVertex3f(sinf(b) * cosf(around), cosf(b), sinf(b) * sinf(around));
+			}
+			glEnd();
+		}
+	}
+	glLineWidth(1);
+}
+
+/* Each vertex keeps the material that was current when it was given (GL 2.1 sec. 2.6.3). */
+static void materials(void)
+{
+	static const float where[4] = { 0.3f, 0.2f, 1, 0 };
+	static const GLenum modes[4] = { GL_TRIANGLE_STRIP, GL_TRIANGLES, GL_TRIANGLE_FAN, GL_LINE_LOOP };
+
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	glLightfv(GL_LIGHT0, GL_POSITION, where);
+	glNormal3f(0.1f, 0.2f, 0.97f);
+	for (int m = 0; m < 4; m++) {
+		glBegin(modes[m]);
+		for (int i = 0; i < 8; i++) {
+			float color[4] = { (float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2), 1 }, shine = (float)(i * 10);
+			float x = (float)(i / 2) * 0.3f - 0.5f, y = (float)((i + 1) / 2 & 1) * 0.2f + 0.3f * (float)m - 0.5f;
+
+			glMaterialfv(GL_FRONT_AND_BACK, i % 3 ? GL_DIFFUSE : GL_EMISSION, color);
+			glMaterialfv(GL_FRONT, GL_SPECULAR, color);
+			glMaterialfv(GL_FRONT_AND_BACK, GL_SHININESS, &shine);
+			glVertex3f(x, y, -2);
+		}
+		glEnd();
+	}
+	glDisable(GL_LIGHTING);
+}
+
+int main(void)
+{
+	static void (*const frames[])(void) = { spokes, net, materials };
+
+	open_window();
+	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
+		reset();
+		frames[i]();
+		end_frame();
+	}
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	return 0;
+}
