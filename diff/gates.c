@@ -196,8 +196,10 @@ static void gate_validity(const struct score_picture *ref, const struct image *i
 	uint64_t odd = 0;
 
 	for (size_t c = 0; c < img->n_channels; c++) {
+		const float *values = image_values(img, c);
+
 		for (size_t i = 0; i < n; i++) {
-			if (isfinite(img->channels[c].values[i]))
+			if (values && isfinite(values[i]))
 				continue;
 			odd++;
 			if (!odd_channel)

@@ -2,9 +2,9 @@
 
 usage: embed.py OUT.c OUT.d INCLUDE_DIR... -- FILE.cl...
 
-Every #include "..." is replaced by the file's text (searched beside the including file, then in the given folders;
-include guards do the rest), and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and
-kernel_places (tracer/kernels.h). OUT.d is the list of files read, for make. Same input, same bytes.
+The first #include "..." of a file is replaced by its text (searched beside the including file, then in the given folders),
+and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places (tracer/kernels.h).
+OUT.d is the list of files read, for make. Same input, same bytes.
 """
 import os
 import re
@@ -15,7 +15,7 @@ KERNEL = re.compile(r'^\s*(?:__)?kernel\s+void\s+(\w+)', re.MULTILINE)
 
 
 def expand(path, folders, seen):
-    """The lines of a file with its includes in place; `seen` collects every file read."""
+    """The lines of a file with its includes in place, each file once; `seen` collects every file read."""
     seen.append(path)
     lines = ['#line 1 "%s"' % path]
     with open(path, encoding="utf-8") as source:
@@ -28,6 +28,9 @@ def expand(path, folders, seen):
             inner = next((place for place in places if os.path.isfile(place)), None)
             if inner is None:
                 sys.exit("%s:%d: no file %s" % (path, number, found.group(1)))
+            if os.path.normpath(inner) in seen:
+                lines.append("")  # its include guard would leave nothing
+                continue
             lines += expand(os.path.normpath(inner), folders, seen)
             lines.append('#line %d "%s"' % (number + 1, path))
     return lines
@@ -41,11 +44,13 @@ def main():
     out_c, out_d = sys.argv[1:3]
     split = sys.argv.index("--")
     folders, files = sys.argv[3:split], sorted(sys.argv[split + 1:])
-    seen, places = [], []
+    read, places = set(), []
     text = ["/* Made by kernels/embed.py from %s. */" % (" ".join(files) or "no files"), '#include "tracer/kernels.h"', "",
             "const struct kernel_file kernel_files[] = {"]
     for index, path in enumerate(files):
+        seen = []
         lines = expand(path, folders, seen)
+        read.update(seen)
         places += [(name, index) for name in KERNEL.findall("\n".join(lines))]
         text.append('\t{ "%s",' % path)
         text += [quote(line) for line in lines]
@@ -57,8 +62,8 @@ def main():
     with open(out_c, "w", encoding="utf-8") as out:
         out.write("\n".join(text))
     with open(out_d, "w", encoding="utf-8") as out:
-        out.write("%s: %s\n" % (out_c, " ".join(sorted(set(seen)))))
-        out.write("".join("%s:\n" % path for path in sorted(set(seen))))
+        out.write("%s: %s\n" % (out_c, " ".join(sorted(read))))
+        out.write("".join("%s:\n" % path for path in sorted(read)))
 
 
 main()

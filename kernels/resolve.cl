@@ -1,4 +1,4 @@
-/* clear, resolve, surface: see kernels/gl_stages.h. */
+/* clear, resolve: see kernels/gl_stages.h. */
 #include "kernels/gl_stages.h"
 
 __kernel void clear(struct scene_clear clear, struct camera_rectangle rectangle, uint32_t width, uint32_t bits,
@@ -18,13 +18,4 @@ __kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragment
 	if (get_global_id(0) < n)
 		resolve_item(&t, fragments, shaded, first, counts, bits, frame,
 		             stage_pixel(rectangle, width, (uint32_t)get_global_id(0)));
-}
-
-__kernel void surface(TABLES_ARGUMENTS, __global const struct window_vertex *windows,
-                      __global const struct frame_pixel *frame, uint32_t n, __global float *planes)
-{
-	struct tables t = TABLES_NAMED;
-
-	if (get_global_id(0) < n)
-		surface_item(&t, windows, frame, planes, (uint32_t)get_global_id(0));
 }

@@ -12,6 +12,7 @@
 #define KERNELS_SHARED_H
 
 #ifdef __OPENCL_VERSION__
+typedef ushort uint16_t;
 #define SHARED_SIZE(type, bytes)
 #else
 #include "replay/scene.h"
@@ -277,7 +278,38 @@ SHARED_SIZE(struct frame_pixel, 124);
 #define PIXEL_UNKNOWN_TEST 8u /* a test compared with it */
 #define PIXEL_BEFORE 16u      /* its colour comes from before the scene, and is known; cleared with the colour only */
 
-/* Numbers that the kernel surface leaves for each pixel: N.xyz, P.xyz, Z. */
-#define SURFACE_PLANES 7u
+/*
+ * Planes of a finished picture, as the kernel compose leaves them: the top row first, one kind as halves, the other as floats.
+ * Names in tracer/compose.c.
+ */
+#define COMPOSE_BEAUTY 0u /* R G B A */
+#define COMPOSE_GL 4u     /* R G B A */
+#define COMPOSE_SHADOW 8u /* R G B, as all up to ALBEDO but for the normal's X Y Z */
+#define COMPOSE_RELIGHT 11u
+#define COMPOSE_REFLECT 14u
+#define COMPOSE_REFRACT 17u
+#define COMPOSE_NORMAL 20u
+#define COMPOSE_ALBEDO 23u
+#define N_COMPOSE_HALVES 26u
+#define COMPOSE_DEPTH 0u /* floats: gl.depth */
+#define COMPOSE_Z 1u
+#define COMPOSE_POSITION 2u /* X Y Z */
+#define COMPOSE_ID 5u
+#define COMPOSE_LAYERS 6u
+#define N_COMPOSE_FLOATS 7u
+
+/* What the kernel compose is to make of the frame. */
+struct compose_request {
+	uint32_t half_plane[N_COMPOSE_HALVES];  /* where a plane stands in the buffer of halves, in planes; SCENE_NONE: not wanted */
+	uint32_t float_plane[N_COMPOSE_FLOATS]; /* in the buffer of floats */
+	uint32_t width, height;
+	uint32_t n_passes; /* the parts are means of so many */
+	uint32_t display;  /* 1: GL's own numbers, 0: linear light */
+	uint32_t normals;  /* 1: the beauty shows normals as colours */
+};
+SHARED_SIZE(struct compose_request, 152);
+
+/* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
+#define PASS_PARTS 12u
 
 #endif

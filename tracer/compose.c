@@ -1,12 +1,5 @@
-/*
- * Beauty = gl x shadow + relight + reflect + refract holds for the numbers as they are stored: each part is rounded to
- * half before the next is computed from it, so what rounding leaves ends in relight and reflect.
- */
 #include "tracer/compose.h"
 
-#define IMATH_HALF_NO_LOOKUP_TABLE
-#include <half.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/err.h"
@@ -14,11 +7,39 @@
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
 	                               "layers", NULL };
 
+/* Every channel that there is: its group, where the kernel leaves it, and whether as floats. */
+static const struct channel {
+	const char *group, *name;
+	int full;
+	uint32_t plane;
+} channels[] = {
+	{ "", "R", 0, COMPOSE_BEAUTY }, { "", "G", 0, COMPOSE_BEAUTY + 1 }, { "", "B", 0, COMPOSE_BEAUTY + 2 },
+	{ "", "A", 0, COMPOSE_BEAUTY + 3 },
+	{ "gl", "gl.R", 0, COMPOSE_GL }, { "gl", "gl.G", 0, COMPOSE_GL + 1 }, { "gl", "gl.B", 0, COMPOSE_GL + 2 },
+	{ "gl", "gl.A", 0, COMPOSE_GL + 3 }, { "gl", "gl.depth", 1, COMPOSE_DEPTH },
+	{ "shadow", "shadow.R", 0, COMPOSE_SHADOW }, { "shadow", "shadow.G", 0, COMPOSE_SHADOW + 1 },
+	{ "shadow", "shadow.B", 0, COMPOSE_SHADOW + 2 },
+	{ "relight", "relight.R", 0, COMPOSE_RELIGHT }, { "relight", "relight.G", 0, COMPOSE_RELIGHT + 1 },
+	{ "relight", "relight.B", 0, COMPOSE_RELIGHT + 2 },
+	{ "reflect", "reflect.R", 0, COMPOSE_REFLECT }, { "reflect", "reflect.G", 0, COMPOSE_REFLECT + 1 },
+	{ "reflect", "reflect.B", 0, COMPOSE_REFLECT + 2 },
+	{ "refract", "refract.R", 0, COMPOSE_REFRACT }, { "refract", "refract.G", 0, COMPOSE_REFRACT + 1 },
+	{ "refract", "refract.B", 0, COMPOSE_REFRACT + 2 },
+	{ "Z", "Z", 1, COMPOSE_Z },
+	{ "N", "N.X", 0, COMPOSE_NORMAL }, { "N", "N.Y", 0, COMPOSE_NORMAL + 1 }, { "N", "N.Z", 0, COMPOSE_NORMAL + 2 },
+	{ "P", "P.X", 1, COMPOSE_POSITION }, { "P", "P.Y", 1, COMPOSE_POSITION + 1 }, { "P", "P.Z", 1, COMPOSE_POSITION + 2 },
+	{ "albedo", "albedo.R", 0, COMPOSE_ALBEDO }, { "albedo", "albedo.G", 0, COMPOSE_ALBEDO + 1 },
+	{ "albedo", "albedo.B", 0, COMPOSE_ALBEDO + 2 },
+	{ "id", "id", 1, COMPOSE_ID },
+	{ "layers", "layers", 1, COMPOSE_LAYERS },
+};
+#define N_CHANNELS (sizeof(channels) / sizeof(channels[0]))
+
 int compose_wants(const char *aov, const char *group)
 {
 	size_t n = strlen(group);
 
-	if (!aov)
+	if (!aov || n == 0)
 		return 1;
 	for (const char *at = aov; at; at = strchr(at, ',')) {
 		at += *at == ',';
@@ -28,156 +49,72 @@ int compose_wants(const char *aov, const char *group)
 	return 0;
 }
 
-static float to_half(float x)
+/* Which planes are wanted, one behind the other. @param halves, floats  receive how many */
+static struct compose_request request_of(const struct job *job, uint32_t *halves, uint32_t *floats)
 {
-	return imath_half_to_float(imath_float_to_half(x));
-}
-
-/* The channels of an image that is being composed; NULL where they are not asked for. */
-struct planes {
-	float *beauty[4], *gl[4], *depth, *shadow[3], *relight[3], *reflect[3], *refract[3];
-	float *z, *normal[3], *position[3], *albedo[3], *id, *layers;
-};
-
-static int add_group(struct image *img, const char *group, const char *letters, int full, float **planes)
-{
-	for (size_t i = 0; letters[i]; i++) {
-		char name[32];
-
-		strcpy(name, group);
-		if (*group)
-			strcat(name, ".");
-		strncat(name, &letters[i], 1);
-		planes[i] = image_add_channel(img, name, full);
-		if (!planes[i])
-			return -1;
-	}
-	return 0;
-}
-
-static int add_channels(struct image *img, const char *aov, struct planes *p)
-{
-	int failed = add_group(img, "", "RGBA", 0, p->beauty);
-
-	if (compose_wants(aov, "gl") && !failed) {
-		failed = add_group(img, "gl", "RGBA", 0, p->gl);
-		p->depth = failed ? NULL : image_add_channel(img, "gl.depth", 1);
-		failed |= !p->depth;
-	}
-	if (compose_wants(aov, "shadow") && !failed)
-		failed = add_group(img, "shadow", "RGB", 0, p->shadow);
-	if (compose_wants(aov, "relight") && !failed)
-		failed = add_group(img, "relight", "RGB", 0, p->relight);
-	if (compose_wants(aov, "reflect") && !failed)
-		failed = add_group(img, "reflect", "RGB", 0, p->reflect);
-	if (compose_wants(aov, "refract") && !failed)
-		failed = add_group(img, "refract", "RGB", 0, p->refract);
-	if (compose_wants(aov, "Z") && !failed)
-		failed = !(p->z = image_add_channel(img, "Z", 1));
-	if (compose_wants(aov, "N") && !failed)
-		failed = add_group(img, "N", "XYZ", 0, p->normal);
-	if (compose_wants(aov, "P") && !failed)
-		failed = add_group(img, "P", "XYZ", 1, p->position);
-	if (compose_wants(aov, "albedo") && !failed)
-		failed = add_group(img, "albedo", "RGB", 0, p->albedo);
-	if (compose_wants(aov, "id") && !failed)
-		failed = !(p->id = image_add_channel(img, "id", 1));
-	if (compose_wants(aov, "layers") && !failed)
-		failed = !(p->layers = image_add_channel(img, "layers", 1));
-	return failed ? -1 : 0;
-}
-
-static float encode(float display, int keep)
-{
-	return keep ? display : image_linear_from_display(display);
-}
-
-/* What is left to explain, rounded as it is stored; what rounding alone leaves is no effect. */
-static float effect(float rest, float of)
-{
-	return fabsf(rest) > fabsf(of) * 0x1p-9f ? to_half(rest) : 0;
-}
-
-/* One colour channel of one pixel, taken apart. */
-static void decompose(const struct planes *p, const struct frame_pixel *pixel, int c, int keep, size_t at)
-{
-	float exact = encode(pixel->gl[c], keep), gl = to_half(exact), shadowed = encode(pixel->shadowed[c], keep);
-	float direct = encode(pixel->direct[c], keep), mirrored = encode(pixel->mirrored[c], keep);
-	float shadow = 1, relight, reflect = 0, refract = 0, sum;
-
-	if (gl > 0 && shadowed < exact)
-		shadow = to_half(fmaxf(shadowed / exact, 0));
-	relight = effect(direct - gl * shadow, direct);
-	sum = gl * shadow + relight;
-	if (pixel->mirrored[c] != pixel->direct[c])
-		reflect = to_half(mirrored - sum);
-	sum += reflect;
-	if (pixel->beauty[c] != pixel->mirrored[c])
-		refract = to_half(encode(pixel->beauty[c], keep) - sum);
-	p->beauty[c][at] = to_half(sum + refract);
-	if (p->gl[c])
-		p->gl[c][at] = gl;
-	if (p->shadow[c])
-		p->shadow[c][at] = shadow;
-	if (p->relight[c])
-		p->relight[c][at] = relight;
-	if (p->reflect[c])
-		p->reflect[c][at] = reflect;
-	if (p->refract[c])
-		p->refract[c][at] = refract;
-}
-
-static void store3(float *const planes[3], const float *values, size_t at)
-{
-	for (int i = 0; i < 3; i++)
-		if (planes[i])
-			planes[i][at] = values[i];
-}
-
-static void compose_pixel(const struct planes *p, const struct frame_pixel *pixel, const float *surface,
-                          const struct tracer_options *options, size_t at)
-{
-	int drawn = pixel->id != 0 || pixel->unknown & PIXEL_BEFORE;
-
-	for (int c = 0; c < 3; c++) {
-		if (options->mode == TRACER_NORMALS)
-			p->beauty[c][at] = drawn ? encode(surface[c] * 0.5f + 0.5f, options->display) : 0;
-		else
-			decompose(p, pixel, c, options->display, at);
-	}
-	p->beauty[3][at] = (float)drawn;
-	if (p->gl[3])
-		p->gl[3][at] = pixel->gl[3];
-	if (p->depth)
-		p->depth[at] = pixel->depth_exact;
-	if (p->id)
-		p->id[at] = (float)pixel->id;
-	if (p->layers)
-		p->layers[at] = (float)pixel->layers;
-	store3(p->normal, surface, at);
-	store3(p->position, surface + 3, at);
-	if (drawn)
-		store3(p->albedo, (float[3]){ encode(pixel->albedo[0], options->display),
-		                              encode(pixel->albedo[1], options->display),
-		                              encode(pixel->albedo[2], options->display) }, at);
-	if (p->z)
-		p->z[at] = surface[6];
-}
-
-int compose_image(const struct frame_pixel *pixels, const float *planes, const struct tracer_options *options,
-                  struct image *img)
-{
+	const struct tracer_options *options = job->options;
 	const char *aov = options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov;
-	struct planes p = { .depth = NULL };
+	struct compose_request r = { .width = job->width, .height = job->height, .n_passes = job->n_passes,
+		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS };
 
-	if (add_channels(img, aov, &p) != 0)
-		return ERR_SYSTEM; /* reported by image_add_channel */
-	for (uint32_t row = 0; row < img->height; row++)
-		for (uint32_t x = 0; x < img->width; x++) {
-			size_t from = (size_t)(img->height - 1 - row) * img->width + x;
+	memset(r.half_plane, 0xff, sizeof(r.half_plane));
+	memset(r.float_plane, 0xff, sizeof(r.float_plane));
+	*halves = *floats = 0;
+	for (size_t i = 0; i < N_CHANNELS; i++) {
+		if (!compose_wants(aov, channels[i].group))
+			continue;
+		if (channels[i].full)
+			r.float_plane[channels[i].plane] = (*floats)++;
+		else
+			r.half_plane[channels[i].plane] = (*halves)++;
+	}
+	return r;
+}
 
-			compose_pixel(&p, &pixels[from], planes + from * SURFACE_PLANES, options,
-			              (size_t)row * img->width + x);
-		}
-	return 0;
+static int run_compose(struct job *job, const struct compose_request *r)
+{
+	struct tracer *tr = job->tr;
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAME);
+	add(&l, tr, BUFFER_SUMS);
+	add_bytes(&l, r, sizeof(*r));
+	add_uint(&l, &job->n_pixels);
+	add(&l, tr, BUFFER_HALVES);
+	add(&l, tr, BUFFER_FLOATS);
+	return run(tr, KERNEL_compose, job->n_pixels, &l);
+}
+
+/* One plane from the device into a channel of its own. */
+static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, struct image *img)
+{
+	struct tracer *tr = job->tr;
+	uint32_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane];
+	size_t bytes = job->n_pixels * (c->full ? sizeof(float) : sizeof(uint16_t));
+	void *plane;
+
+	if (place == SCENE_NONE)
+		return 0;
+	plane = c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name);
+	if (!plane)
+		return ERR_SYSTEM;
+	return device_read(tr->dev, tr->buffers[c->full ? BUFFER_FLOATS : BUFFER_HALVES], place * bytes, plane, bytes);
+}
+
+int compose_image(struct job *job, struct image *img)
+{
+	uint32_t halves, floats;
+	struct compose_request r = request_of(job, &halves, &floats);
+	int err = reserve(job->tr, BUFFER_HALVES, (size_t)halves * job->n_pixels, sizeof(uint16_t));
+
+	if (!err)
+		err = reserve(job->tr, BUFFER_FLOATS, (size_t)floats * job->n_pixels, sizeof(float));
+	if (!err)
+		err = reserve(job->tr, BUFFER_SUMS, 1, sizeof(float));
+	if (!err)
+		err = run_compose(job, &r);
+	for (size_t i = 0; i < N_CHANNELS && !err; i++)
+		err = fetch(job, &channels[i], &r, img);
+	return err;
 }

@@ -2,18 +2,15 @@
 #ifndef TRACER_COMPOSE_H
 #define TRACER_COMPOSE_H
 
-#include "kernels/shared.h"
+#include "tracer/frame.h"
 #include "tracer/image.h"
-#include "tracer/trace.h"
 
 /**
- * @param pixels  [height][width], row 0 at the bottom
- * @param planes  [height][width][SURFACE_PLANES], likewise
- * @param img     width and height set; receives the channels
+ * @param job  its frame stands in BUFFER_FRAME, the sums of all passes but this one, where there were several, in BUFFER_SUMS
+ * @param img  width and height set; receives the channels
  * @return 0 or ERR_SYSTEM (reported)
  */
-int compose_image(const struct frame_pixel *pixels, const float *planes, const struct tracer_options *options,
-                  struct image *img);
+int compose_image(struct job *job, struct image *img);
 
 /** 1 where the option's list of channel groups holds this one. */
 int compose_wants(const char *aov, const char *group);

@@ -38,7 +38,8 @@
 	X(ao_shade)         /* one fragment a work item: its openness as its colour */ \
 	X(clear)            /* one pixel a work item: a Clear */ \
 	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
-	X(surface)          /* one pixel a work item: what the visible surface is like */
+	X(add_pass)         /* one pixel a work item: a pass of several to their sum */ \
+	X(compose)          /* one pixel a work item: the planes of the finished picture */
 
 enum device_kernel {
 #define DEVICE_KERNEL_ENUM(name) KERNEL_##name,

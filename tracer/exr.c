@@ -1,5 +1,7 @@
 /* struct image to and from OpenEXR files, by OpenEXRCore (written against 3.1.5; its traps are named where met). */
+#define IMATH_HALF_NO_LOOKUP_TABLE
 #include <errno.h>
+#include <half.h>
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -137,6 +139,37 @@ static exr_result_t define_part(exr_context_t file, const struct image *img)
 	return rc;
 }
 
+/*
+ * The rows of a chunk as the file has them: line by line, channel by channel. The library's own packing asks for each number what
+ * to make of it.
+ */
+static exr_result_t pack_rows(exr_encode_pipeline_t *encode)
+{
+	uint8_t *out = encode->packed_buffer;
+
+	for (int32_t row = 0; row < encode->chunk.height; row++)
+		for (int i = 0; i < encode->channel_count; i++) {
+			const exr_coding_channel_info_t *c = &encode->channels[i];
+			const uint8_t *from = c->encode_from_ptr + (ptrdiff_t)row * c->user_line_stride;
+
+			if (c->user_data_type == c->data_type) {
+				memcpy(out, from, (size_t)c->width * (size_t)c->bytes_per_element);
+				out += (size_t)c->width * (size_t)c->bytes_per_element;
+				continue;
+			}
+			for (int32_t x = 0; x < c->width; x++, out += sizeof(uint16_t)) {
+				uint16_t half;
+				float value;
+
+				memcpy(&value, from + (size_t)x * sizeof(value), sizeof(value));
+				half = imath_float_to_half(value);
+				memcpy(out, &half, sizeof(half));
+			}
+		}
+	encode->packed_bytes = (uint64_t)(out - (uint8_t *)encode->packed_buffer);
+	return EXR_ERR_SUCCESS;
+}
+
 /* One chunk: the rows from `y` on that compress together. */
 static exr_result_t write_chunk(exr_context_t file, const struct image *img, exr_encode_pipeline_t *encode,
                                 struct exr_zip *zip, int32_t y)
@@ -151,18 +184,21 @@ static exr_result_t write_chunk(exr_context_t file, const struct image *img, exr
 		return rc;
 	for (int i = 0; i < encode->channel_count; i++) {
 		exr_coding_channel_info_t *c = &encode->channels[i];
-		const float *values = find_channel(img, c->channel_name)->values;
+		const struct image_channel *from = find_channel(img, c->channel_name);
+		const uint8_t *plane = from->halves ? (const uint8_t *)from->halves : (const uint8_t *)from->values;
+		int32_t bytes = from->halves ? (int32_t)sizeof(uint16_t) : (int32_t)sizeof(float);
 
-		c->user_data_type = EXR_PIXEL_FLOAT;
-		c->user_bytes_per_element = sizeof(float);
-		c->user_pixel_stride = sizeof(float);
-		c->user_line_stride = (int32_t)(img->width * sizeof(float));
-		c->encode_from_ptr = (const uint8_t *)(values + (size_t)y * img->width);
+		c->user_data_type = from->halves ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+		c->user_bytes_per_element = (int16_t)bytes;
+		c->user_pixel_stride = bytes;
+		c->user_line_stride = (int32_t)img->width * bytes;
+		c->encode_from_ptr = plane + (size_t)y * img->width * (size_t)bytes;
 	}
 	if (y == 0) {
 		rc = exr_encoding_choose_default_routines(file, 0, encode);
 		if (rc != EXR_ERR_SUCCESS)
 			return rc;
+		encode->convert_and_pack_fn = pack_rows;
 		exr_zip_encode_with(encode, zip);
 	}
 	return exr_encoding_run(file, 0, encode);

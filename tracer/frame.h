@@ -26,7 +26,7 @@ enum buffer {
 	BUFFER_PATHS, BUFFER_PATH_RAYS, BUFFER_PATH_HITS, BUFFER_NEXT_PATHS, BUFFER_NEXT_RAYS, BUFFER_NEXT_COUNTS,
 	BUFFER_SKY_RAYS, BUFFER_SKY_HITS, BUFFER_GIVEN,
 	BUFFER_WALKERS, BUFFER_WALK_RAYS, BUFFER_WALK_HITS, BUFFER_NEXT_WALKERS, BUFFER_NEXT_WALK_RAYS,
-	BUFFER_FRAME, BUFFER_SURFACE,
+	BUFFER_FRAME, BUFFER_SUMS, BUFFER_HALVES, BUFFER_FLOATS,
 	N_BUFFERS
 };
 
@@ -58,12 +58,6 @@ struct job {
 	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
 	float background[4];
 	uint32_t pass, n_passes; /* the frame is traced so many times, moved within the pixel */
-};
-
-/* A frame's picture while it grows, pass by pass. */
-struct picture {
-	struct frame_pixel *pixels, *later;
-	float *planes;
 };
 
 /* --- upload.c: what of a scene the device needs ------------------------------------------------------------------- */

@@ -1,5 +1,7 @@
 #include "tracer/image.h"
 
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <half.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,43 +10,95 @@
 
 #include "base/err.h"
 
+static void free_planes(struct image_channel *channel)
+{
+	free(channel->values);
+	free(channel->halves);
+}
+
 void image_free(struct image *img)
 {
 	for (size_t i = 0; i < img->n_channels; i++)
-		free(img->channels[i].values);
+		free_planes(&img->channels[i]);
 	free(img->channels);
 	free(img->attributes);
 	memset(img, 0, sizeof(*img));
 }
 
-float *image_add_channel(struct image *img, const char *name, int full_float)
+static void *no_memory(const struct image *img, const char *name)
 {
-	struct image_channel *channels, *channel;
-	size_t n_pixels = (size_t)img->width * img->height;
+	err_report(ERR_SYSTEM, NULL, "out of memory for channel %s of %u x %u pixels", name, img->width, img->height);
+	return NULL;
+}
 
-	channels = realloc(img->channels, (img->n_channels + 1) * sizeof(*channels));
+static size_t pixel_count(const struct image *img)
+{
+	size_t n = (size_t)img->width * img->height;
+
+	return n ? n : 1;
+}
+
+/* Room for one more channel, all zero; it counts once its plane is there. */
+static struct image_channel *next_channel(struct image *img, const char *name, int full_float)
+{
+	struct image_channel *channels = realloc(img->channels, (img->n_channels + 1) * sizeof(*channels)), *channel;
+
 	if (!channels)
-		goto fail;
+		return no_memory(img, name);
 	img->channels = channels;
 	channel = &channels[img->n_channels];
 	memset(channel, 0, sizeof(*channel));
 	snprintf(channel->name, sizeof(channel->name), "%s", name);
 	channel->full_float = full_float;
-	channel->values = calloc(n_pixels ? n_pixels : 1, sizeof(float));
+	return channel;
+}
+
+float *image_add_channel(struct image *img, const char *name, int full_float)
+{
+	struct image_channel *channel = next_channel(img, name, full_float);
+
+	if (!channel)
+		return NULL;
+	channel->values = calloc(pixel_count(img), sizeof(*channel->values));
 	if (!channel->values)
-		goto fail;
+		return no_memory(img, name);
 	img->n_channels++;
 	return channel->values;
-fail:
-	err_report(ERR_SYSTEM, NULL, "out of memory for channel %s of %u x %u pixels", name, img->width, img->height);
-	return NULL;
+}
+
+uint16_t *image_add_halves(struct image *img, const char *name)
+{
+	struct image_channel *channel = next_channel(img, name, 0);
+
+	if (!channel)
+		return NULL;
+	channel->halves = malloc(pixel_count(img) * sizeof(*channel->halves));
+	if (!channel->halves)
+		return no_memory(img, name);
+	img->n_channels++;
+	return channel->halves;
+}
+
+float *image_values(const struct image *img, size_t i)
+{
+	struct image_channel *channel = &img->channels[i];
+	size_t n = pixel_count(img);
+
+	if (channel->values || !channel->halves)
+		return channel->values;
+	channel->values = malloc(n * sizeof(*channel->values));
+	if (!channel->values)
+		return no_memory(img, channel->name);
+	for (size_t k = 0; k < n; k++)
+		channel->values[k] = imath_half_to_float(channel->halves[k]);
+	return channel->values;
 }
 
 float *image_channel(const struct image *img, const char *name)
 {
 	for (size_t i = 0; i < img->n_channels; i++)
 		if (strcmp(img->channels[i].name, name) == 0)
-			return img->channels[i].values;
+			return image_values(img, i);
 	return NULL;
 }
 

@@ -527,8 +527,8 @@ static int reserve_pixels(struct job *job)
 	err = reserve(tr, BUFFER_COUNTS, job->n_pixels, sizeof(uint32_t));
 	if (!err)
 		err = reserve(tr, BUFFER_FRAME, job->n_pixels, sizeof(struct frame_pixel));
-	if (!err)
-		err = reserve(tr, BUFFER_SURFACE, (size_t)job->n_pixels * SURFACE_PLANES, sizeof(float));
+	if (!err && job->n_passes > 1)
+		err = reserve(tr, BUFFER_SUMS, (size_t)job->n_pixels * PASS_PARTS, sizeof(float));
 	if (!err)
 		err = reserve(tr, BUFFER_ARRIVING, 1, 3 * sizeof(float));
 	return err;
@@ -573,68 +573,20 @@ static int upload_start(struct job *job)
 	return err;
 }
 
-static int run_surface(struct job *job)
+/* The pixels of this pass to those of the passes before. */
+static int run_add_pass(struct job *job, uint32_t first)
 {
 	struct tracer *tr = job->tr;
-	struct launch l = launch_with_tables(tr);
+	struct launch l = { .n = 0 };
 
-	add(&l, tr, BUFFER_WINDOWS);
 	add(&l, tr, BUFFER_FRAME);
+	add_uint(&l, &first);
 	add_uint(&l, &job->n_pixels);
-	add(&l, tr, BUFFER_SURFACE);
-	return run(tr, KERNEL_surface, job->n_pixels, &l);
+	add(&l, tr, BUFFER_SUMS);
+	return run(tr, KERNEL_add_pass, job->n_pixels, &l);
 }
 
 /* --- The picture from the device ----------------------------------------------------------------------------------- */
-
-/* Parts of a pixel that are the mean of all passes; the others are the first one's, which looks through pixel centres. */
-static float *pixel_part_of(struct frame_pixel *pixel, int part)
-{
-	float *parts[] = { pixel->shadowed, pixel->direct, pixel->mirrored, pixel->beauty };
-
-	return parts[part];
-}
-
-/* The pixels after a pass: the first pass's as they are, later ones added by their share. */
-static int read_pass(struct job *job, struct picture *picture)
-{
-	struct tracer *tr = job->tr;
-	struct frame_pixel *to = job->pass == 0 ? picture->pixels : picture->later;
-	float share = 1.0f / (float)job->n_passes;
-	int err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, to, job->n_pixels * sizeof(*to));
-
-	if (!err && job->pass == 0)
-		err = device_read(tr->dev, tr->buffers[BUFFER_SURFACE], 0, picture->planes,
-		                  (size_t)job->n_pixels * SURFACE_PLANES * sizeof(*picture->planes));
-	if (err || job->n_passes == 1)
-		return err;
-	for (uint32_t i = 0; i < job->n_pixels; i++)
-		for (int part = 0; part < 4; part++) {
-			float *sum = pixel_part_of(&picture->pixels[i], part), *one = pixel_part_of(&to[i], part);
-
-			for (int c = 0; c < 3; c++)
-				sum[c] = job->pass == 0 ? one[c] * share : sum[c] + one[c] * share;
-		}
-	return 0;
-}
-
-static void picture_free(struct picture *picture)
-{
-	free(picture->pixels);
-	free(picture->later);
-	free(picture->planes);
-}
-
-static int picture_create(const struct job *job, struct picture *picture)
-{
-	picture->pixels = malloc(job->n_pixels * sizeof(*picture->pixels));
-	picture->later = job->n_passes > 1 ? malloc(job->n_pixels * sizeof(*picture->later)) : NULL;
-	picture->planes = malloc((size_t)job->n_pixels * SURFACE_PLANES * sizeof(*picture->planes));
-	if (picture->pixels && picture->planes && (picture->later || job->n_passes == 1))
-		return 0;
-	picture_free(picture);
-	return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
-}
 
 /*
  * Eye space stands for the world: OpenEXR's worldToCamera is left-handed (+z forward), its worldToNDC has x and y in
@@ -713,7 +665,7 @@ static int read_picture(struct tracer *tr, const struct scene *scene, struct sce
 	return err;
 }
 
-/* One look at the frame, into the device's BUFFER_FRAME and BUFFER_SURFACE. */
+/* One look at the frame, into the device's BUFFER_FRAME. */
 static int trace_pass(struct job *job)
 {
 	float shift[2] = { 0, 0 };
@@ -749,8 +701,6 @@ static int trace_pass(struct job *job)
 		err = job->scene->start || job->scene->needs_previous ? upload_start(job) : clear_all(job);
 	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
 		err = run_segment(job, &job->prepared.segments[i]);
-	if (!err)
-		err = run_surface(job);
 	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
 		expanded_free(&job->expanded[i]);
 	free(job->expanded);
@@ -794,8 +744,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	struct scene changed = { .instances = NULL };
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width,
 		           .height = scene->height, .n_passes = options->samples ? options->samples : 1 };
-	struct picture picture = { .pixels = NULL };
-	int err;
+	int err = 0;
 
 	if (check_size(scene) != 0)
 		return ERR_SYSTEM;
@@ -804,25 +753,26 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		known.rays = 16;
 	job.n_pixels = scene->width * scene->height;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	err = picture_create(&job, &picture);
-	if (!err && options->look) {
+	img->width = job.width;
+	img->height = job.height;
+	if (options->look) {
 		err = look_apply(options->look, scene, &changed);
 		job.scene = &changed;
 	}
-	for (; job.pass < job.n_passes && !err; job.pass++) {
+	/* The pass through pixel centres comes last: what is no mean is its own. */
+	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--) {
 		err = trace_pass(&job);
 		if (!err)
-			err = read_pass(&job, &picture);
+			err = run_add_pass(&job, job.pass == job.n_passes - 1);
 	}
-	img->width = job.width;
-	img->height = job.height;
 	if (!err)
-		err = compose_image(picture.pixels, picture.planes, options, img);
+		err = trace_pass(&job);
+	if (!err)
+		err = compose_image(&job, img);
 	if (!err)
 		err = describe_image(&job, img);
 	if (options->look && changed.instances)
 		look_release(&changed);
-	picture_free(&picture);
 	if (err)
 		image_free(img);
 	return err;

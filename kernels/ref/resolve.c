@@ -2,7 +2,7 @@
 #include "kernels/gl_stages.h"
 #include "tracer/device.h"
 
-extern device_twin clear_c, resolve_c, surface_c;
+extern device_twin clear_c, resolve_c;
 
 static uint32_t number(const void *arg)
 {
@@ -26,12 +26,4 @@ void resolve_c(const void *const *args, size_t first, size_t last)
 	for (size_t i = first; i < last && i < number(args[19]); i++)
 		resolve_item(&t, args[12], args[13], args[14], args[15], number(args[18]), (void *)args[20],
 		             stage_pixel(rectangle, number(args[17]), (uint32_t)i));
-}
-
-void surface_c(const void *const *args, size_t first, size_t last)
-{
-	struct tables t = TABLES_NAMED;
-
-	for (size_t i = first; i < last && i < number(args[14]); i++)
-		surface_item(&t, args[12], args[13], (void *)args[15], (uint32_t)i);
 }

@@ -240,7 +240,7 @@ START_TEST(test_samples)
 
 		ck_assert_mem_eq(a, b, SIZE * SIZE * sizeof(float));
 		if (one.channels[i].name[0] == 'g' || one.channels[i].name[0] == 'i')
-			ck_assert_mem_eq(a, one.channels[i].values, SIZE * SIZE * sizeof(float));
+			ck_assert_mem_eq(a, image_values(&one, i), SIZE * SIZE * sizeof(float));
 	}
 	truth_check_closure(&many);
 	image_free(&one);

@@ -1,0 +1,24 @@
+/* C twins of kernels/compose.cl. */
+#include "kernels/gl_compose.h"
+#include "tracer/device.h"
+
+extern device_twin compose_c, add_pass_c;
+
+static uint32_t number(const void *arg)
+{
+	return *(const uint32_t *)arg;
+}
+
+void compose_c(const void *const *args, size_t first, size_t last)
+{
+	struct tables t = TABLES_NAMED;
+
+	for (size_t i = first; i < last && i < number(args[16]); i++)
+		compose_item(&t, args[12], args[13], args[14], args[15], (void *)args[17], (void *)args[18], (uint32_t)i);
+}
+
+void add_pass_c(const void *const *args, size_t first, size_t last)
+{
+	for (size_t i = first; i < last && i < number(args[2]); i++)
+		add_pass_item(args[0], number(args[1]), (void *)args[3], (uint32_t)i);
+}

@@ -1,0 +1,58 @@
+/* The numbers of finished pictures: halves as OpenEXR has them, sRGB's curve as C's library computes it. */
+#include <check.h>
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <half.h>
+#include <math.h>
+
+#include "kernels/gl_compose.h"
+#include "tracer/image.h"
+
+START_TEST(test_halves)
+{
+	for (uint64_t bits = 0; bits < 1ull << 32; bits += 1999) {
+		float x = common_float((uint32_t)bits);
+		uint16_t ours = (uint16_t)compose_half(x), theirs = imath_float_to_half(x);
+
+		if (isnan(x)) {
+			ck_assert(isnan(imath_half_to_float(ours)));
+			continue;
+		}
+		/* from 65520 on to infinity; the two differ in none */
+		ck_assert_msg(ours == theirs, "%a: %04x, not %04x", (double)x, ours, theirs);
+		if (fabsf(x) <= 65504)
+			ck_assert_float_eq(compose_rounded(x), imath_half_to_float(theirs));
+	}
+}
+END_TEST
+
+START_TEST(test_linear)
+{
+	for (uint32_t bits = 0; bits < 0x42000000u; bits += 3011) { /* up to 32 */
+		float x = common_float(bits), want = image_linear_from_display(x), got = compose_linear(x);
+
+		ck_assert_msg(fabsf(got - want) <= 1e-6f * want + 1e-40f, "%a: %a, not %a", (double)x, (double)got, (double)want);
+		ck_assert_float_eq(compose_linear(-x), -got);
+	}
+	ck_assert_float_eq(compose_linear(0), 0);
+	ck_assert_float_eq_tol(compose_linear(1), 1, 1e-6f);
+	ck_assert(compose_half(compose_linear(INFINITY)) == 0x7c00);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("compose");
+	TCase *tests = tcase_create("compose");
+	SRunner *runner;
+	int failed;
+
+	tcase_set_timeout(tests, 60);
+	tcase_add_test(tests, test_halves);
+	tcase_add_test(tests, test_linear);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
