@@ -432,7 +432,7 @@ static int open_source(struct gls_state *st, const struct gls_array *array, stru
 		s->bytes = array->client;
 		s->n = array->client_bytes;
 		s->version = array->version;
-	} else if (b && array->offset <= b->bytes) {
+	} else if (b && b->data && array->offset <= b->bytes) {
 		s->bytes = b->data + array->offset;
 		s->n = b->bytes - array->offset;
 		s->version = b->version;

@@ -43,6 +43,12 @@ struct checkpoint {
 	uint64_t name[2], bytes; /* of the snapshot */
 };
 
+/* A blob that waits for a checkpoint to be worth its bytes. */
+struct staged {
+	struct blob blob;
+	char *packed;
+};
+
 struct frame_end {
 	uint64_t call, offset;
 };
@@ -65,6 +71,9 @@ struct index {
 	size_t n_signatures;
 	double build_s;
 	uint64_t saved, added; /* bytes of the state that was looked at last, and those of them that are new */
+	struct staged *staged; /* its new blobs */
+	size_t n_staged, room_staged;
+	struct table waiting; /* low half of a name -> number of its staged blob + 1 */
 };
 
 static int out_of_memory(const struct index *index)
@@ -120,26 +129,53 @@ static void lose_file(struct index *index)
 	index->n_checkpoints = 0;
 }
 
-static int put_blob(void *user, const uint64_t name[2], const void *data, size_t n)
+/* Pack a blob that is not there yet, and keep it for write_staged. */
+static int stage_blob(void *user, const uint64_t name[2], const void *data, size_t n)
 {
 	struct index *index = user;
-	struct blob blob = { { name[0], name[1] }, index->end, snappy_max_compressed_length(n) };
-	char *packed;
-	int rc = 0;
+	struct staged s = { { { name[0], name[1] }, 0, snappy_max_compressed_length(n) }, NULL };
+	uint64_t key = name[0];
+	uintptr_t number;
 
+	index->saved += n;
 	if (!index->file || find_blob(index, name))
 		return 0;
-	packed = malloc(blob.packed + 1);
-	if (!packed || snappy_compress(data, n, packed, &blob.packed) != SNAPPY_OK) {
-		free(packed);
+	for (; (number = (uintptr_t)table_find(&index->waiting, key)); key++)
+		if (memcmp(index->staged[number - 1].blob.name, name, 16) == 0)
+			return 0;
+	s.packed = malloc(s.blob.packed + 1);
+	if (!s.packed || snappy_compress(data, n, s.packed, &s.blob.packed) != SNAPPY_OK ||
+	    grow(&index->staged, &index->room_staged, index->n_staged, sizeof(s)) ||
+	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1))) {
+		free(s.packed);
 		return out_of_memory(index);
 	}
-	if (fwrite(packed, 1, blob.packed, index->file) != blob.packed)
-		lose_file(index);
-	else
-		rc = add_blob(index, &blob);
-	index->end += blob.packed;
-	free(packed);
+	index->staged[index->n_staged++] = s;
+	index->added += s.blob.packed;
+	return 0;
+}
+
+static void drop_staged(struct index *index)
+{
+	while (index->n_staged)
+		free(index->staged[--index->n_staged].packed);
+	table_free(&index->waiting);
+}
+
+static int write_staged(struct index *index)
+{
+	int rc = 0;
+
+	for (size_t i = 0; i < index->n_staged && index->file && !rc; i++) {
+		struct blob *blob = &index->staged[i].blob;
+
+		blob->offset = index->end;
+		if (fwrite(index->staged[i].packed, 1, blob->packed, index->file) != blob->packed)
+			lose_file(index);
+		else
+			rc = add_blob(index, blob);
+		index->end += blob->packed;
+	}
 	return rc;
 }
 
@@ -170,7 +206,7 @@ fail:
 
 static struct snapshot_blobs blobs_of(struct index *index)
 {
-	return (struct snapshot_blobs){ put_blob, get_blob, index };
+	return (struct snapshot_blobs){ stage_blob, get_blob, index };
 }
 
 /* --- Table of contents --------------------------------------------------------------------------------------------- */
@@ -340,29 +376,38 @@ static int open_file(struct index *index, const char *path)
 
 /* --- Making one ---------------------------------------------------------------------------------------------------- */
 
+/* Add a checkpoint if it is worth its bytes (see the head of index.h). */
 static int add_checkpoint(struct index *index, struct replay *rp)
 {
 	struct snapshot_blobs blobs = blobs_of(index);
 	struct checkpoint c = { .frame = replay_frame(rp) };
+	uint64_t read = trace_reader_offset(replay_reader(rp));
 	struct bytes state = { .n = 0 };
 	XXH128_hash_t hash;
-	int rc = trace_reader_place(replay_reader(rp), &c.place) ? 0 : 1;
+	int rc;
 
-	if (!rc)
-		rc = snapshot_save(replay_exec(rp), &blobs, &state);
+	index->saved = index->added = 0;
+	if (!trace_reader_place(replay_reader(rp), &c.place))
+		return 0;
+	rc = snapshot_save(replay_exec(rp), &blobs, &state);
 	if (rc == 0) {
 		hash = XXH3_128bits(state.data, state.n);
 		c.name[0] = hash.low64;
 		c.name[1] = hash.high64;
 		c.bytes = state.n;
-		rc = put_blob(index, c.name, state.data, state.n);
+		rc = stage_blob(index, c.name, state.data, state.n);
 	}
+	if (rc == 0 && index->end + index->added <= read + ALWAYS_BYTES)
+		rc = write_staged(index);
+	else if (rc == 0)
+		rc = 1;
 	if (rc == 0 && index->file) {
 		if (grow(&index->checkpoints, &index->room_checkpoints, index->n_checkpoints, sizeof(c)))
 			rc = out_of_memory(index);
 		else
 			index->checkpoints[index->n_checkpoints++] = c;
 	}
+	drop_staged(index);
 	free(state.data);
 	return rc < 0 ? rc : 0;
 }
@@ -378,54 +423,51 @@ static int add_frame(struct index *index, struct replay *rp)
 	return 0;
 }
 
-/* Adds up what a checkpoint would add to the index. */
-static int weigh(void *user, const uint64_t name[2], const void *data, size_t n)
+/* How far apart checkpoints stand: looking at a large state takes its time as well. */
+static uint64_t spacing(const struct index *index)
+{
+	return index->saved / 4 > SPACING_BYTES ? index->saved / 4 : SPACING_BYTES;
+}
+
+static int count_bytes(void *user, const uint64_t name[2], const void *data, size_t n)
 {
 	struct index *index = user;
-	size_t packed = snappy_max_compressed_length(n);
-	char *out;
 
+	(void)name, (void)data;
 	index->saved += n;
-	if (find_blob(index, name))
-		return 0;
-	out = malloc(packed);
-	if (!out || snappy_compress(data, n, out, &packed) != SNAPPY_OK)
-		packed = n;
-	free(out);
-	index->added += packed;
 	return 0;
 }
 
-/* Is a checkpoint worth its bytes at this place? (See the head of index.h.) */
-static int is_worth(struct index *index, struct replay *rp)
+/* The first one: how large is the state that it would keep? */
+static int measure(struct index *index, struct replay *rp)
 {
-	const struct snapshot_blobs scale = { .put = weigh, .user = index };
+	const struct snapshot_blobs scale = { .put = count_bytes, .user = index };
 	struct bytes state = { .n = 0 };
-	uint64_t read = trace_reader_offset(replay_reader(rp));
 	int rc;
 
-	index->saved = index->added = 0;
+	index->saved = 0;
 	rc = snapshot_save(replay_exec(rp), &scale, &state);
 	index->saved += state.n;
-	index->added += state.n / 8; /* states are mostly zeros and initial values */
 	free(state.data);
-	return rc == 0 && index->end + index->added <= read + ALWAYS_BYTES;
+	return rc < 0 ? rc : 0;
 }
 
 static int scan(struct index *index, struct replay *rp)
 {
 	uint64_t next = SPACING_BYTES; /* where a checkpoint is due */
+	int measured = 0;
 	struct scene *none;
 	int rc;
 
 	while ((rc = replay_next_frame(rp, 0, &none)) == 1) {
 		rc = add_frame(index, rp);
 		if (!rc && index->file && index->frames[index->n_frames - 1].offset >= next) {
-			if (is_worth(index, rp))
+			uint64_t offset = index->frames[index->n_frames - 1].offset;
+
+			rc = measured++ ? 0 : measure(index, rp);
+			if (!rc && (index->n_checkpoints || offset >= spacing(index)))
 				rc = add_checkpoint(index, rp);
-			/* Looking at a large state takes its time as well. */
-			next = index->frames[index->n_frames - 1].offset +
-			       (index->saved / 4 > SPACING_BYTES ? index->saved / 4 : SPACING_BYTES);
+			next = index->n_checkpoints || offset >= spacing(index) ? offset + spacing(index) : spacing(index);
 		}
 		if (rc)
 			return rc;
@@ -448,7 +490,7 @@ static int write_toc(struct index *index)
 	put_toc(index, &toc);
 	undelta(index->frames, index->n_frames, 1);
 	n = compressBound(toc.n);
-	if (toc.failed || !(packed = malloc(n)) || compress(packed, &n, toc.data, toc.n) != Z_OK) {
+	if (toc.failed || !(packed = malloc(n)) || compress2(packed, &n, toc.data, toc.n, Z_BEST_SPEED) != Z_OK) {
 		rc = out_of_memory(index);
 		goto done;
 	}
@@ -547,11 +589,15 @@ static int make(struct index *index)
 
 static void forget(struct index *index)
 {
+	drop_staged(index);
+	free(index->staged);
 	free(index->blobs);
 	free(index->checkpoints);
 	free(index->frames);
 	free(index->signatures);
 	table_free(&index->known);
+	index->staged = NULL;
+	index->room_staged = 0;
 	index->blobs = NULL;
 	index->checkpoints = NULL;
 	index->frames = NULL;

@@ -243,7 +243,9 @@ struct run {
 
 static int is_command(const struct gls_op *op, const char *name)
 {
-	return op->form != GLS_OP_MESH && strcmp(gls_commands[op->command].name, name) == 0;
+	const char *have = gls_commands[op->command].name;
+
+	return op->form != GLS_OP_MESH && have[2] == name[2] && strcmp(have, name) == 0;
 }
 
 /* May the op be part of a run? */
@@ -254,7 +256,7 @@ static int fits_run(const struct gls_exec *x, const struct gls_op *op)
 	int open = x->assembling->begin_mode != 0;
 	enum scene_primitive kind;
 
-	if (op->form == GLS_OP_MESH || strncmp(k->name, "glEdgeFlag", 10) == 0)
+	if (op->form == GLS_OP_MESH || (k->name[2] == 'E' && strncmp(k->name, "glEdgeFlag", 10) == 0))
 		return 0;
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;

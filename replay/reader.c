@@ -59,6 +59,7 @@ struct trace_reader {
 
 	struct pending **pending; /* owned; a pool */
 	size_t n_pending;
+	struct pending *entered;   /* the last one, most often the next to return; borrowed */
 	struct pending *delivered; /* freed by the next read */
 	struct arena scratch;      /* of calls that are parsed and dropped */
 };
@@ -106,12 +107,12 @@ static int refill(struct trace_reader *r)
 
 static inline unsigned read_byte(struct trace_reader *r)
 {
-	if (r->p == r->end && !refill(r))
+	if (__builtin_expect(r->p == r->end, 0) && !refill(r))
 		return 0;
 	return *r->p++;
 }
 
-static inline uint64_t read_uint(struct trace_reader *r)
+static uint64_t read_long_uint(struct trace_reader *r)
 {
 	uint64_t value = 0;
 	unsigned shift = 0, byte;
@@ -128,10 +129,14 @@ static inline uint64_t read_uint(struct trace_reader *r)
 	return value;
 }
 
-static void read_bytes(struct trace_reader *r, void *out, size_t n)
+/* Nearly all numbers are of one byte. */
+static inline uint64_t read_uint(struct trace_reader *r)
 {
-	uint8_t *to = out;
+	return __builtin_expect(r->p != r->end && *r->p < 0x80, 1) ? *r->p++ : read_long_uint(r);
+}
 
+static void read_bytes_over_pieces(struct trace_reader *r, uint8_t *to, size_t n)
+{
 	while (n) {
 		size_t here = (size_t)(r->end - r->p);
 		if (here == 0) {
@@ -146,6 +151,17 @@ static void read_bytes(struct trace_reader *r, void *out, size_t n)
 		to += here;
 		n -= here;
 	}
+}
+
+/* Inline, so that a number's bytes are moved by an instruction. */
+static inline void read_bytes(struct trace_reader *r, void *out, size_t n)
+{
+	if (__builtin_expect((size_t)(r->end - r->p) < n, 0)) {
+		read_bytes_over_pieces(r, out, n);
+		return;
+	}
+	memcpy(out, r->p, n);
+	r->p += n;
 }
 
 /*
@@ -265,12 +281,23 @@ static int64_t read_tagged_int(struct trace_reader *r)
 	return tag == TRACE_SINT ? (int64_t)-value : (int64_t)value;
 }
 
+/* A signature that was met before, or NULL. */
+static inline void *known_sig(const struct trace_reader *r, enum sig_kind kind, uint64_t id)
+{
+	const struct sig_table *t = &r->tables[kind];
+
+	return __builtin_expect(id < t->n && r->status == 0, 1) ? t->items[id] : NULL;
+}
+
 static const struct call_sig *read_call_sig(struct trace_reader *r)
 {
 	uint64_t id = read_uint(r), n;
-	void **slot = slot_of(r, SIG_CALL, id);
-	struct call_sig *sig;
+	struct call_sig *sig = known_sig(r, SIG_CALL, id);
+	void **slot;
 
+	if (sig)
+		return sig;
+	slot = slot_of(r, SIG_CALL, id);
 	if (!slot || *slot)
 		return slot ? *slot : NULL;
 	sig = take(r, &r->sigs, sizeof(*sig));
@@ -297,10 +324,13 @@ static const struct call_sig *read_call_sig(struct trace_reader *r)
 static const struct trace_enum_sig *read_enum_sig(struct trace_reader *r)
 {
 	uint64_t id = read_uint(r);
-	void **slot = slot_of(r, SIG_ENUM, id);
-	struct trace_enum_sig *sig;
+	struct trace_enum_sig *sig = known_sig(r, SIG_ENUM, id);
+	void **slot;
 	uint64_t n;
 
+	if (sig)
+		return sig;
+	slot = slot_of(r, SIG_ENUM, id);
 	if (!slot || *slot)
 		return slot ? *slot : NULL;
 	n = r->version >= 3 ? read_uint(r) : 1;
@@ -327,10 +357,13 @@ static const struct trace_enum_sig *read_enum_sig(struct trace_reader *r)
 static const struct trace_bitmask_sig *read_bitmask_sig(struct trace_reader *r)
 {
 	uint64_t id = read_uint(r);
-	void **slot = slot_of(r, SIG_BITMASK, id);
-	struct trace_bitmask_sig *sig;
+	struct trace_bitmask_sig *sig = known_sig(r, SIG_BITMASK, id);
+	void **slot;
 	uint64_t n;
 
+	if (sig)
+		return sig;
+	slot = slot_of(r, SIG_BITMASK, id);
 	if (!slot || *slot)
 		return slot ? *slot : NULL;
 	n = read_uint(r);
@@ -387,6 +420,8 @@ static const struct trace_value *read_items(struct trace_reader *r, struct arena
 	size_t room = n < 4096 ? (size_t)n : 4096;
 	struct trace_value *items = take(r, a, (room + !room) * sizeof(*items));
 
+	if (depth > MAX_DEPTH)
+		fail_at(r, "values nested too deep");
 	for (uint64_t i = 0; items && i < n && r->status == 0; i++) {
 		if (i == room) {
 			struct trace_value *grown;
@@ -425,10 +460,6 @@ static void read_value(struct trace_reader *r, struct arena *a, struct trace_val
 	v->sig = NULL;
 	v->count = 0;
 	v->u = 0;
-	if (depth > MAX_DEPTH) {
-		fail_at(r, "values nested too deep");
-		return;
-	}
 	switch (tag) {
 	case TRACE_NULL:
 	case TRACE_FALSE:
@@ -565,7 +596,7 @@ static struct pending *new_pending(struct trace_reader *r)
 
 	for (size_t i = 0; i < r->n_pending; i++)
 		if (!r->pending[i]->in_use)
-			return r->pending[i];
+			return r->entered = r->pending[i];
 	if (r->n_pending == MAX_PENDING) {
 		fail_at(r, "too many calls that never returned");
 		return NULL;
@@ -579,12 +610,13 @@ static struct pending *new_pending(struct trace_reader *r)
 		return NULL;
 	}
 	r->pending[r->n_pending++] = p;
-	return p;
+	return r->entered = p;
 }
 
 static void release_pending(struct pending *p)
 {
-	arena_reset(&p->arena, ARENA_KEEP);
+	if (p->arena.current)
+		arena_reset(&p->arena, ARENA_KEEP);
 	p->in_use = 0;
 }
 
@@ -620,6 +652,8 @@ static struct pending *read_leave(struct trace_reader *r)
 	uint64_t number = read_uint(r);
 	struct pending *p = NULL, unknown;
 
+	if (r->entered && r->entered->in_use && r->entered->call.number == number)
+		p = r->entered;
 	for (size_t i = 0; i < r->n_pending && !p; i++)
 		if (r->pending[i]->in_use && r->pending[i]->call.number == number)
 			p = r->pending[i];

@@ -277,6 +277,83 @@ void gls_store_texel(uint32_t base, const uint8_t rgba[4], uint8_t out[4])
 	store(base, (float[4]){ (float)rgba[0] / 255, (float)rgba[1] / 255, (float)rgba[2] / 255, (float)rgba[3] / 255 }, out);
 }
 
+/*
+ * Bytes and floats that nothing transfers end as bytes in other places: for each of a texel's four the member of the group that
+ * it is, or one of these.
+ */
+enum { ZERO_BYTE = 4, FULL_BYTE };
+
+static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
+{
+	place[0] = place[1] = place[2] = ZERO_BYTE;
+	place[3] = FULL_BYTE;
+	for (unsigned k = 0; k < f->n; k++) {
+		if (f->to[k] == 4)
+			place[0] = place[1] = place[2] = (uint8_t)k;
+		else
+			place[f->to[k]] = (uint8_t)k;
+	}
+	if (base == GL_ALPHA)
+		place[0] = place[1] = place[2] = ZERO_BYTE;
+	if (base == GL_LUMINANCE || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY)
+		place[1] = place[2] = place[0];
+	if (base == GL_LUMINANCE || base == GL_RGB)
+		place[3] = FULL_BYTE;
+	if (base == GL_INTENSITY)
+		place[3] = place[0];
+}
+
+static inline void place_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	uint8_t group[6] = { 0, 0, 0, 0, 0, 255 };
+
+	for (uint32_t i = 0; i < width; i++, from += n, out += 4) {
+		memcpy(group, from, n);
+		for (unsigned k = 0; k < 4; k++)
+			out[k] = group[place[k]];
+	}
+}
+
+static inline void place_floats(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	uint8_t group[6] = { 0, 0, 0, 0, 0, 255 };
+	float values[4];
+
+	for (uint32_t i = 0; i < width; i++, from += 4 * n, out += 4) {
+		memcpy(values, from, 4 * n);
+		for (unsigned k = 0; k < n; k++)
+			group[k] = to_u8(values[k]);
+		for (unsigned k = 0; k < 4; k++)
+			out[k] = group[place[k]];
+	}
+}
+
+static void unpack_floats(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	if (n == 4)
+		place_floats(from, 4, width, place, out);
+	else if (n == 3)
+		place_floats(from, 3, width, place, out);
+	else if (n == 2)
+		place_floats(from, 2, width, place, out);
+	else
+		place_floats(from, n, width, place, out);
+}
+
+static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	static const uint8_t as_they_are[4] = { 0, 1, 2, 3 };
+
+	if (n == 4 && memcmp(place, as_they_are, 4) == 0)
+		memcpy(out, from, 4 * (size_t)width);
+	else if (n == 4)
+		place_bytes(from, 4, width, place, out);
+	else if (n == 3)
+		place_bytes(from, 3, width, place, out);
+	else
+		place_bytes(from, n, width, place, out);
+}
+
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out)
@@ -287,7 +364,8 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	uint32_t base = gls_base_format(internal_format);
 	size_t component = plain_bytes(type), group, row, image, start;
 	int depth_texels = base == GL_DEPTH_COMPONENT, do_transfer = has_transfer(&st->a.pixel), cut = 0;
-	int fast;
+	uint8_t place[4];
+	int plain;
 
 	if (!f || (!component && !packed) || depth_texels != (f->to[0] == 5) || (packed && packed->n != f->n)) {
 		gls_unsupported(x, "pixels of this format and type");
@@ -299,20 +377,22 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	row = (row + (size_t)u->alignment - 1) / (size_t)u->alignment * (size_t)u->alignment;
 	image = row * (u->image_height > 0 ? (size_t)u->image_height : height);
 	start = (size_t)u->skip_images * image + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
-	fast = type == GL_UNSIGNED_BYTE && !do_transfer && f->n == 4 && base == GL_RGBA;
+	plain = (type == GL_UNSIGNED_BYTE || (type == GL_FLOAT && !u->swap_bytes)) && !do_transfer && !depth_texels;
+	if (plain)
+		places_of(f, base, place);
 	for (uint32_t z = 0; z < depth; z++)
 		for (uint32_t y = 0; y < height; y++) {
 			size_t at = start + z * image + y * row;
+			if (plain && at <= n && group * width <= n - at) {
+				(type == GL_FLOAT ? unpack_floats : unpack_bytes)(data + at, f->n, width, place, out);
+				out += 4 * (size_t)width;
+				continue;
+			}
 			for (uint32_t i = 0; i < width; i++, at += group, out += 4) {
 				float rgba[4] = { 0, 0, 0, 1 }, v[4];
 				if (at > n || group > n - at) {
 					cut = 1;
 					memset(out, 0, 4);
-					continue;
-				}
-				if (fast) {
-					for (unsigned k = 0; k < 4; k++)
-						out[f->to[k]] = data[at + k];
 					continue;
 				}
 				if (packed)
@@ -415,6 +495,35 @@ const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsi
 	return b->data + offset;
 }
 
+/* The next level of a plane: each texel the mean of four. */
+static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t *out)
+{
+	for (uint32_t y = 0; y < h; y++) {
+		const uint8_t *low = from->texels + 8 * (size_t)y * from->width, *high = low + 4 * (size_t)from->width;
+
+		for (uint32_t x = 0; x < w; x++, low += 8, high += 8, out += 4)
+			for (unsigned k = 0; k < 4; k++)
+				out[k] = (uint8_t)((low[k] + low[k + 4] + high[k] + high[k + 4] + 2u) / 4);
+	}
+}
+
+/* The same of any shape: of as many as it covers. */
+static void shrink(const struct gls_level *from, uint32_t w, uint32_t h, uint32_t d, uint8_t *texels)
+{
+	for (size_t i = 0; i < (size_t)w * h * d; i++) {
+		uint32_t cx = (uint32_t)(i % w), cy = (uint32_t)(i / w % h), cz = (uint32_t)(i / w / h);
+		for (unsigned k = 0; k < 4; k++) {
+			unsigned sum = 0, n = 0;
+			for (uint32_t dz = 0; dz < (from->depth > 1 ? 2u : 1u); dz++)
+				for (uint32_t dy = 0; dy < (from->height > 1 ? 2u : 1u); dy++)
+					for (uint32_t dx = 0; dx < (from->width > 1 ? 2u : 1u); dx++, n++)
+						sum += from->texels[4 * (((size_t)(2 * cz + dz) * from->height + 2 * cy + dy) * from->width +
+						                         2 * cx + dx) + k];
+			texels[4 * i + k] = (uint8_t)((sum + n / 2) / n);
+		}
+	}
+}
+
 /* Mipmap levels from the base level on: each texel the mean of those it covers (sec. 3.8.8 leaves the filter open). */
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
 {
@@ -436,18 +545,10 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 			gls_out_of_memory(x, (size_t)w * h * d * 4);
 			return;
 		}
-		for (size_t i = 0; i < (size_t)w * h * d; i++) {
-			uint32_t cx = (uint32_t)(i % w), cy = (uint32_t)(i / w % h), cz = (uint32_t)(i / w / h);
-			for (unsigned k = 0; k < 4; k++) {
-				unsigned sum = 0, n = 0;
-				for (uint32_t dz = 0; dz < (from->depth > 1 ? 2u : 1u); dz++)
-					for (uint32_t dy = 0; dy < (from->height > 1 ? 2u : 1u); dy++)
-						for (uint32_t dx = 0; dx < (from->width > 1 ? 2u : 1u); dx++, n++)
-							sum += from->texels[4 * (((size_t)(2 * cz + dz) * from->height + 2 * cy + dy) * from->width +
-							                         2 * cx + dx) + k];
-				texels[4 * i + k] = (uint8_t)((sum + n / 2) / n);
-			}
-		}
+		if (from->width > 1 && from->height > 1 && from->depth == 1)
+			halve(from, w, h, texels);
+		else
+			shrink(from, w, h, d, texels);
 		free(to->texels);
 		*to = *from;
 		to->width = w;
