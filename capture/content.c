@@ -13,10 +13,12 @@
 #include <xxhash.h>
 
 #include "capture/content.h"
+#include "capture/memory.h"
 #include "capture/wrap.h"
 
 enum { N_ENTRIES = 1 << 13, FIRST_NAME = 0x60000000 }; /* names that no program gets from glGenBuffers */
 #define MAX_OWNED_BYTES (512l << 20) /* of one context, on replay */
+#define MAX_COPIED_BYTES (64l << 20)
 
 struct content_entry {
 	XXH128_hash_t hash;
@@ -26,6 +28,8 @@ struct content_entry {
 struct content_table {
 	unsigned epoch; /* of the trace that has the buffers */
 	long owned_bytes;
+	uint8_t *copy; /* the program's memory, read once */
+	long copy_bytes;
 	struct content_entry entries[N_ENTRIES];
 };
 
@@ -73,21 +77,29 @@ void content_data(unsigned target, const void *data, long bytes)
 	writer_call_end(p);
 }
 
-unsigned content_buffer(struct content_table **table, unsigned target, const void *data, long bytes, int *bound)
+/* Made at need; NULL where there is no memory. */
+static struct content_table *make_table(struct content_table **table)
 {
-	struct content_entry *entry;
-	XXH128_hash_t hash;
-
 	if (*table && (*table)->epoch != writer_epoch())
 		content_free(table);
 	if (!*table) {
 		void *pages = mmap(NULL, sizeof(**table), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 
 		if (pages == MAP_FAILED)
-			return 0;
+			return NULL;
 		*table = pages;
 		(*table)->epoch = writer_epoch();
 	}
+	return *table;
+}
+
+unsigned content_buffer(struct content_table **table, unsigned target, const void *data, long bytes, int *bound)
+{
+	struct content_entry *entry;
+	XXH128_hash_t hash;
+
+	if (!make_table(table))
+		return 0;
 	hash = XXH3_128bits(data, (size_t)bytes);
 	entry = &(*table)->entries[hash.low64 % N_ENTRIES];
 	if (entry->bytes != bytes || !XXH128_isEqual(entry->hash, hash)) {
@@ -104,8 +116,30 @@ unsigned content_buffer(struct content_table **table, unsigned target, const voi
 	return entry->buffer;
 }
 
+unsigned content_of_memory(struct content_table **table, unsigned target, const void *data, long bytes, int *bound)
+{
+	struct content_table *t = bytes >= CONTENT_MIN_BYTES && bytes <= MAX_COPIED_BYTES ? make_table(table) : NULL;
+
+	if (!t)
+		return 0;
+	if (t->copy_bytes < bytes) {
+		void *pages = mmap(NULL, (size_t)bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+		if (pages == MAP_FAILED)
+			return 0;
+		if (t->copy)
+			munmap(t->copy, (size_t)t->copy_bytes);
+		t->copy = pages;
+		t->copy_bytes = bytes;
+	}
+	memory_read(t->copy, data, (size_t)bytes);
+	return content_buffer(table, target, t->copy, bytes, bound);
+}
+
 void content_free(struct content_table **table)
 {
+	if (*table && (*table)->copy)
+		munmap((*table)->copy, (size_t)(*table)->copy_bytes);
 	if (*table)
 		munmap(*table, sizeof(**table));
 	*table = NULL;

@@ -19,6 +19,12 @@ enum { CONTENT_MIN_BYTES = 256 }; /* less is not worth two calls */
  */
 unsigned content_buffer(struct content_table **table, unsigned target, const void *data, long bytes, int *bound);
 
+/**
+ * The same of bytes in the program's memory, which are read without faulting.
+ * @param bytes  0 where it is not known how many; then there is no buffer
+ */
+unsigned content_of_memory(struct content_table **table, unsigned target, const void *data, long bytes, int *bound);
+
 /** Write a fake glBindBuffer. */
 void content_bind(unsigned target, unsigned buffer);
 /** Write a fake glGenBuffers; returns the name. */

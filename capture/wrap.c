@@ -4,6 +4,11 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include "capture/content.h"
+
+/* The trace has a buffer of ours bound that holds the pixels of the call to come. */
+static __thread int own_pixels __attribute__((tls_model("initial-exec")));
+
 int pixels_in_buffer(void)
 {
 	return context_has(HAS_PIXEL_BUFFERS) && context_get(GL_PIXEL_UNPACK_BUFFER_BINDING);
@@ -29,12 +34,37 @@ uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, un
 {
 	struct pixel_layout layout;
 
-	if (!pixels)
+	if (!pixels || own_pixels)
 		return put_null(p);
 	if (pixels_in_buffer())
 		return put_opaque(p, pixels);
 	read_layout(&layout);
 	return put_blob(p, pixels, image_bytes(&layout, dims, format, type, width, height, depth));
+}
+
+/* Pixels that come again are stored once (content.h): the call is written with an offset in a buffer that holds them. */
+
+void image_used(const void *pixels, int dims, unsigned format, unsigned type, int width, int height, int depth)
+{
+	struct pixel_layout layout;
+	unsigned buffer;
+	int bound = 0;
+
+	if (!pixels || !writer_active() || !context_has(HAS_PIXEL_BUFFERS) || !context_has(HAS_FIXED_FUNCTION) || pixels_in_buffer())
+		return;
+	read_layout(&layout);
+	buffer = content_of_memory(context_contents(), GL_PIXEL_UNPACK_BUFFER, pixels,
+	                           image_bytes(&layout, dims, format, type, width, height, depth), &bound);
+	if (buffer && !bound)
+		content_bind(GL_PIXEL_UNPACK_BUFFER, buffer);
+	own_pixels = buffer != 0;
+}
+
+void image_written(void)
+{
+	if (own_pixels)
+		content_bind(GL_PIXEL_UNPACK_BUFFER, 0);
+	own_pixels = 0;
 }
 
 long polygon_stipple_count(void)

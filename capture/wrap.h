@@ -169,6 +169,9 @@ int pixels_in_buffer(void);
 /** Pixels in client memory as the unpack state lays them out, or the offset. */
 uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
                    int depth);
+/** Before a call whose pixels may have been seen before, and after it. */
+void image_used(const void *pixels, int dims, unsigned format, unsigned type, int width, int height, int depth);
+void image_written(void);
 uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type);
 uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *counts, unsigned type, int draws);
 uint8_t *put_attribs(uint8_t *p, const int *list, int end);
