@@ -673,6 +673,23 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
 	gls_frame_add(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
 
+/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of memory (reported) */
+static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct sources *s, uint32_t mode, uint32_t first,
+                                  uint32_t count, const uint32_t *elements, int turned, uint64_t key)
+{
+	struct gls_mesh *mesh = table_find(&x->draws, key);
+
+	if (mesh || collect(x, st, s, mode, first, count, elements))
+		return mesh;
+	if (turned)
+		gls_geometry_turn_quads(&x->compiling);
+	mesh = gls_geometry_mesh(x, &x->compiling);
+	if (mesh && table_set(&x->draws, key, mesh))
+		gls_out_of_memory(x, 0);
+	gls_mesh_release(mesh); /* the cache's own reference stays */
+	return mesh;
+}
+
 /*
  * Draw, or keep in the list being made.
  * @param elements  [count], NULL: first ..; `identity` tells different ones apart (a hash, or version and offset)
@@ -693,20 +710,12 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 		return;
 	}
 	key = draw_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
-	mesh = table_find(&x->draws, key);
-	if (mesh) {
+	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
+	if (mesh && mode == GL_QUADS && !elements && !st->list &&
+	    gls_quads_turn(st, mesh->mesh.position, mesh->mesh.vertex_count))
+		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
+	if (mesh)
 		put(x, st, mesh);
-		return;
-	}
-	if (collect(x, st, &s, mode, first, count, elements))
-		return;
-	mesh = gls_geometry_mesh(x, &x->compiling);
-	if (!mesh)
-		return;
-	if (table_set(&x->draws, key, mesh))
-		gls_out_of_memory(x, 0);
-	put(x, st, mesh);
-	gls_mesh_release(mesh);
 }
 
 static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)

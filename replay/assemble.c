@@ -1,4 +1,5 @@
 /* Vertices into meshes: cutting primitives (GL 2.1 sec. 2.6.1), finding meshes by content, keeping them. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
@@ -6,6 +7,7 @@
 
 #include "base/err.h"
 #include "replay/exec.h"
+#include "replay/mat4.h"
 
 #define MESH_KEEP_FRAMES 120             /* frames that an unused mesh is kept */
 #define MESH_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
@@ -13,7 +15,7 @@
 void gls_geometry_clear(struct gls_geometry *g)
 {
 	g->n_vertices = g->n_primitives = g->n_draws = g->begin_vertex = 0;
-	g->given = g->touched = g->edges_hidden = 0;
+	g->given = g->touched = g->edges_hidden = g->quads = 0;
 }
 
 void gls_geometry_free(struct gls_geometry *g)
@@ -223,6 +225,38 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 		break;
 	}
 	return 0;
+}
+
+void gls_geometry_turn_quads(struct gls_geometry *g)
+{
+	for (uint32_t i = 0; i + 1 < g->n_primitives; i += 2) {
+		uint32_t *index = g->index + 3 * (size_t)i, a = index[0], b = index[1], c = index[4], d = index[5];
+		uint8_t first = g->edge_flags[i], second = g->edge_flags[i + 1];
+
+		memcpy(index, (uint32_t[6]){ a, b, c, a, c, d }, 6 * sizeof(*index));
+		/* they were a-b, (b-d), d-a and b-c, c-d, (d-b); they are a-b, b-c, (c-a) and (a-c), c-d, d-a */
+		g->edge_flags[i] = (uint8_t)((first & 1) | (second & 1) << 1);
+		g->edge_flags[i + 1] = (uint8_t)((second & 2) | (first & 4));
+	}
+}
+
+int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n)
+{
+	const struct gls_attribs *a = &st->a;
+	float mvp[16];
+
+	if (a->lighting.shade_model != GL_SMOOTH || a->polygon.mode[0] != GL_FILL || a->polygon.mode[1] != GL_FILL ||
+	    a->transform.clip_plane_mask)
+		return 0;
+	mat4_mul(mvp, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
+	for (uint32_t i = 0; i < n; i++) {
+		float c[4];
+
+		mat4_transform(c, mvp, position + 4 * (size_t)i);
+		if (!(fabsf(c[0]) <= c[3] && fabsf(c[1]) <= c[3] && fabsf(c[2]) <= c[3]))
+			return 0;
+	}
+	return 1;
 }
 
 /* ---- meshes ---- */

@@ -174,6 +174,8 @@ void gls_flush(struct gls_exec *x)
 	uint32_t list = x->drawn_list;
 
 	if (g->n_primitives && x->st) {
+		if (g->quads && !x->pending_list && gls_quads_turn(x->st, g->position, g->n_vertices))
+			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending_list;
 		if (mesh)

@@ -121,6 +121,7 @@ struct gls_geometry {
 	uint32_t n_draws;        /* Begin..End pairs so far */
 	uint32_t begin_vertex;   /* first vertex of the open Begin */
 	uint32_t edges_hidden;   /* any edge flag is off */
+	uint32_t quads;          /* 1: all primitives come from GL_QUADS */
 	uint32_t touched;        /* attributes that may differ from `constant` by now: 1 << attribute */
 	float constant[N_GLS_ATTRIBUTES][4]; /* values of attributes that do not vary */
 };
@@ -142,6 +143,13 @@ enum scene_primitive gls_mode_kind(uint32_t mode);
  * @return 0 or ERR_SYSTEM
  */
 int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements);
+/**
+ * Cut the other way, from the first to the third vertex, the quads of a geometry that holds nothing else: llvmpipe does so with
+ * quads that come without indices (not in lists, then), are shaded smoothly, and of which nothing has to be clipped.
+ */
+void gls_geometry_turn_quads(struct gls_geometry *g);
+/** 1 where quads with these positions ([n][4]) are cut the other way under the current state. */
+int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n);
 /** Find or make the mesh of what is collected. @return a reference, or NULL: nothing to draw, or out of memory (reported) */
 struct gls_mesh *gls_geometry_mesh(struct gls_exec *x, struct gls_geometry *g);
 void gls_mesh_release(struct gls_mesh *mesh);

@@ -110,9 +110,11 @@ GLS_HANDLER(glBegin, INSIDE)
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES))
+	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
+	                      (st == x->st && g->quads != (mode == GL_QUADS))))
 		gls_flush(x);
 	g->kind = kind;
+	g->quads = mode == GL_QUADS;
 	g->begin_vertex = g->n_vertices;
 	if (!g->n_vertices) {
 		x->pending_call = x->call->number;

@@ -135,7 +135,7 @@ START_TEST(test_merged_runs)
 
 	vertices(&gl, GL_TRIANGLES, 3);
 	gl_call(&gl, "glColor3f", "fff", 0.0, 1.0, 0.0);
-	vertices(&gl, GL_QUADS, 4);
+	vertices(&gl, GL_QUAD_STRIP, 4);
 	vertices(&gl, GL_LINES, 2);
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
 	vertices(&gl, GL_LINES, 2);
@@ -213,5 +213,38 @@ START_TEST(test_material_inside)
 }
 END_TEST
 
-GL_TESTS("primitives", test_cut, test_edges, test_varying, test_constant_and_same_mesh, test_merged_runs, test_errors,
+/*
+ * Quads without indices, shaded smoothly and wholly in view are cut from the first to the third vertex (Mesa 22.3.6, llvmpipe);
+ * those of lists, flat ones and those to be clipped are not.
+ */
+START_TEST(test_turned_quads)
+{
+	static const uint32_t turned[6] = { 0, 1, 2, 0, 2, 3 }, not_turned[6] = { 0, 1, 3, 1, 2, 3 };
+
+	for (unsigned how = 0; how < 4; how++) {
+		struct gl gl = gl_open();
+		const struct scene_mesh *mesh;
+		struct scene *s;
+
+		gl_call(&gl, "glScalef", "fff", how == 1 ? 1.0 : 0.25, 1.0, 1.0);
+		gl_call(&gl, "glShadeModel", "e", how == 2 ? GL_FLAT : GL_SMOOTH);
+		if (how == 3)
+			gl_call(&gl, "glNewList", "ue", 1, GL_COMPILE_AND_EXECUTE);
+		vertices(&gl, GL_QUADS, 4);
+		if (how == 3) {
+			gl_call(&gl, "glEndList", "");
+			gl_call(&gl, "glCallList", "u", 1);
+		}
+		s = gl_swap(&gl);
+		mesh = s->meshes[s->instances[s->n_instances - 1].mesh];
+		ck_assert_mem_eq(mesh->index, how == 0 ? turned : not_turned, sizeof(turned));
+		ck_assert_uint_eq(mesh->edge_flags[0], how == 0 ? 3 : 5);
+		ck_assert_uint_eq(mesh->edge_flags[1], how == 0 ? 6 : 3);
+		scene_release(&s);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+GL_TESTS("primitives", test_cut, test_turned_quads, test_edges, test_varying, test_constant_and_same_mesh, test_merged_runs, test_errors,
          test_material_inside)

@@ -65,7 +65,7 @@ static void net(void)
 static void materials(void)
 {
 	static const float where[4] = { 0.3f, 0.2f, 1, 0 };
-	static const GLenum modes[4] = { GL_TRIANGLE_STRIP, GL_TRIANGLES, GL_TRIANGLE_FAN, GL_LINE_LOOP };
+	static const GLenum modes[4] = { GL_TRIANGLE_STRIP, GL_QUADS, GL_TRIANGLE_FAN, GL_LINE_LOOP };
 
 	glEnable(GL_LIGHTING);
 	glEnable(GL_LIGHT0);

@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""Shapes whose pixels hang on the last bits of Mesa's arithmetic: what tests/real/shapes.c draws is traced as it was rasterized."""
+"""Shapes whose pixels hang on the last bits of Mesa's arithmetic: what tests/real/shapes.c draws is traced as it was rasterized.
+
+So are the quads of tests/trace/loops.c, which are not plane: the way they are cut shows.
+"""
 from helpers import BUILD, SCRATCH, check, check_gates, diff, finish, record, render
 
 FRAMES = ("lines", "lines over themselves", "materials that change between Begin and End")
@@ -11,4 +14,8 @@ _, score = diff(trace, SCRATCH / "frames")
 for frame, name in zip(score["frames"], FRAMES):
     check(frame["failing_pixels"] == 0, f"{name}: {frame['failing_pixels']} pixels fail")
 check_gates(score, len(FRAMES), "shapes", skip=("R1",))
+trace = SCRATCH / "loops.trace"
+record(trace, BUILD / "tests/trace/loops")
+render(trace, SCRATCH / "quads", "--mode", "gl")
+check_gates(diff(trace, SCRATCH / "quads")[1], 6, "quads that are not plane", skip=("R1b", "E1", "E2"))
 finish()
