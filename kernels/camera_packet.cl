@@ -164,10 +164,11 @@ inline float8 edge_values(struct tile_edge e, int y, int small)
 
 /*
  * All vertices have a place in the window. corner: NULL, or the three corners where the triangle is part of one that leaves the
- * view volume; the fragments' weights are those of the whole then.
+ * view volume; the fragments' weights are those of the whole then. clip: else, where the vertices are in clip space.
  */
 inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
-                       struct window_vertex v2, const struct clip_corner *const *corner, struct candidate c)
+                       struct window_vertex v2, const struct clip_corner *const *corner, const struct vec4 *clip,
+                       struct candidate c)
 {
 	/* Rows and columns of centres that the triangle's box holds. */
 	const int x_first = (min(min(v0.x, v1.x), v2.x) + 127) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - 128) >> 8;
@@ -175,7 +176,10 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 	const int y_last = min((max(max(v0.y, v1.y), v2.y) - 128) >> 8, t->y + CAMERA_TILE - 1);
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
 	const int clockwise = area < 0, small = area < (1l << 28) && area > -(1l << 28);
+	const float z[3] = { v0.z, v1.z, v2.z };
 	struct tile_edge e0, e1, e2;
+	struct clip_plane plane;
+	int exact = -1; /* not known yet */
 	float inverse;
 
 	if (y_first > y_last || x_first > x_last || x_last < t->x || x_first >= t->x + CAMERA_TILE || area == 0 ||
@@ -195,7 +199,13 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 			continue;
 		b1 = edge_values(e1, y, small) * inverse;
 		b2 = edge_values(e2, y, small) * inverse;
-		depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
+		if (exact < 0)
+			exact = t->mode != CAMERA_COLUMN && clip_depth_plane(t->view, (float)t->height, corner, clip, z, &plane);
+		if (exact)
+			depth = fma((float8)(plane.along_y), (float8)((int)t->height - 1 - (t->y + row)),
+			            fma((float8)(plane.along_x), convert_float8(t->x + LANES), (float8)(plane.origin)));
+		else
+			depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
 		depth = select(depth, (float8)(1), depth > 1.0f);
 		depth = select(depth, (float8)(0), depth < 0.0f);
 		if (corner) {
@@ -218,7 +228,7 @@ inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, s
 	for (uint k = 2; k < polygon.n; k++) {
 		const struct clip_corner *corner[3] = { &polygon.corner[k - 1], &polygon.corner[k], &polygon.corner[0] };
 
-		try_placed(t, flags, corner[0]->window, corner[1]->window, corner[2]->window, corner, c);
+		try_placed(t, flags, corner[0]->window, corner[1]->window, corner[2]->window, corner, 0, c);
 	}
 }
 
@@ -234,7 +244,9 @@ inline void try_triangle(struct tile *t, uint index, __global const struct insta
 	c.instance = index;
 	c.primitive = primitive;
 	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
-		try_placed(t, instance->flags, v0, v1, v2, 0, c);
+		const struct vec4 clip[3] = { v4_load(t->clip + 4 * i0), v4_load(t->clip + 4 * i1), v4_load(t->clip + 4 * i2) };
+
+		try_placed(t, instance->flags, v0, v1, v2, 0, clip, c);
 	} else {
 		c.primitive |= FRAGMENT_PERSPECTIVE;
 		try_clipped(t, instance->flags, i0, i1, i2, c);

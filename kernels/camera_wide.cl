@@ -69,6 +69,7 @@ inline void try_triangle(struct pixel *p, uint index, __global const struct inst
 	const uint first = instance->vertex_first;
 	const uint i0 = first + triangle->vertex[0], i1 = first + triangle->vertex[1], i2 = first + triangle->vertex[2];
 	const struct window_vertex v0 = p->window[i0], v1 = p->window[i1], v2 = p->window[i2];
+	const int exact = p->mode != CAMERA_COLUMN;
 	struct fragment f;
 	int covered;
 
@@ -77,8 +78,14 @@ inline void try_triangle(struct pixel *p, uint index, __global const struct inst
 	f.primitive = triangle->primitive;
 	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
 		covered = coverage_placed(v0, v1, v2, instance->flags, p->x, p->y, &f.b1, &f.b2, &f.depth);
+		if (covered && exact) {
+			const struct vec4 clip[3] = { v4_load(p->clip + 4 * i0), v4_load(p->clip + 4 * i1), v4_load(p->clip + 4 * i2) };
+			const float z[3] = { v0.z, v1.z, v2.z };
+
+			f.depth = coverage_depth(p->view, p->height, 0, clip, z, p->x, p->y, f.depth);
+		}
 	} else {
-		covered = coverage_clipped(p->view, p->clip, p->height, i0, i1, i2, instance->flags, p->x, p->y, &f.b1, &f.b2,
+		covered = coverage_clipped(p->view, p->clip, p->height, i0, i1, i2, instance->flags, exact, p->x, p->y, &f.b1, &f.b2,
 		                           &f.depth);
 		f.primitive |= FRAGMENT_PERSPECTIVE;
 	}

@@ -49,9 +49,20 @@ inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, str
 	return 1;
 }
 
+/* Depth at a pixel as it counts in comparisons: from vertices that are not snapped. corner: as for clip_depth_plane. */
+inline float coverage_depth(__global const struct view *view, uint height, const struct clip_corner *const *corner,
+                            const struct vec4 *clip, const float *z, int x, int y, float otherwise)
+{
+	struct clip_plane plane;
+
+	if (!clip_depth_plane(view, (float)height, corner, clip, z, &plane))
+		return otherwise;
+	return clamp01(clip_plane_at(&plane, (float)x, (float)((int)height - 1 - y)));
+}
+
 /* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
 inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0, uint i1, uint i2,
-                            uint flags, int x, int y, float *b1, float *b2, float *depth)
+                            uint flags, int exact, int x, int y, float *b1, float *b2, float *depth)
 {
 	struct clip_polygon polygon;
 	const struct clip_corner *last = &polygon.corner[0];
@@ -62,6 +73,12 @@ inline int coverage_clipped(__global const struct view *view, __global const flo
 
 		if (!coverage_placed(c[-1].window, c->window, last->window, flags, x, y, b1, b2, depth))
 			continue;
+		if (exact) {
+			const struct clip_corner *const corner[3] = { c - 1, c, last };
+			const float z[3] = { c[-1].window.z, c->window.z, last->window.z };
+
+			*depth = coverage_depth(view, height, corner, 0, z, x, y, *depth);
+		}
 		clip_weights(c - 1, c, last, *b1, *b2, b1, b2);
 		return 1;
 	}

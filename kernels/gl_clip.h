@@ -45,6 +45,56 @@ static inline void clip_place(GLOBAL const struct view *view, struct vec4 clip, 
 	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
 }
 
+/* What is linear over a triangle of the window; x and y count pixels from the first one's centre, y from the top. */
+struct clip_plane {
+	float origin, along_x, along_y;
+};
+
+/* Twice the signed area of three places. */
+static inline float clip_place_area(const float *px, const float *py)
+{
+	return (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
+}
+
+/* So thin that only its snapped form, which is what was covered, says anything. */
+static inline int clip_is_sliver(float area)
+{
+	return !(M_ABS(area) > 1.0e-6f);
+}
+
+/*
+ * The plane through three values at places, which are not snapped and count from the first pixel's centre: in llvmpipe's order
+ * of operations, through the first vertex, with the vertices turned so that they run counter-clockwise (y from the top).
+ */
+static inline struct clip_plane clip_plane_through(const float *px, const float *py, const float *value)
+{
+	int a = 0, b = 1;
+	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], one_over_area;
+	float v01, v20;
+	struct clip_plane out;
+
+	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
+		a = 1;
+		b = 0;
+		dx01 = px[1] - px[0];
+		dy01 = py[1] - py[0];
+		dx20 = px[2] - px[1];
+		dy20 = py[2] - py[1];
+	}
+	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
+	v01 = value[a] - value[b];
+	v20 = value[2] - value[a];
+	out.along_x = v01 * (dy20 * one_over_area) - v20 * (dy01 * one_over_area);
+	out.along_y = v20 * (dx01 * one_over_area) - v01 * (dx20 * one_over_area);
+	out.origin = value[a] - (out.along_x * px[a] + out.along_y * py[a]);
+	return out;
+}
+
+static inline float clip_plane_at(const struct clip_plane *p, float x, float y)
+{
+	return M_FMA(p->along_y, y, M_FMA(p->along_x, x, p->origin));
+}
+
 /* The planes that a point lies beyond, a bit each in the order in which they cut. */
 static inline uint32_t clip_outside(struct vec4 c)
 {
@@ -225,6 +275,31 @@ static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, 
 	int sign = area > 0 ? 1 : -1;
 
 	return area != 0 && clip_inside(v0, v1, sign, x, y) && clip_inside(v1, v2, sign, x, y) && clip_inside(v2, v0, sign, x, y);
+}
+
+/*
+ * The plane of a triangle's depth. corner: NULL, or its three corners where it is part of one that was cut; else clip[] and the
+ * windows' z. @return 0: a sliver
+ */
+static inline int clip_depth_plane(GLOBAL const struct view *view, float height, const struct clip_corner *const *corner,
+                                   const struct vec4 *clip, const float *z, struct clip_plane *plane)
+{
+	float px[3], py[3], place[2];
+
+	for (int i = 0; i < 3; i++) {
+		if (corner) {
+			place[0] = corner[i]->place[0];
+			place[1] = corner[i]->place[1];
+		} else {
+			clip_place(view, clip[i], height, place);
+		}
+		px[i] = place[0] - 0.5f;
+		py[i] = place[1] - 0.5f;
+	}
+	if (clip_is_sliver(clip_place_area(px, py)))
+		return 0;
+	*plane = clip_plane_through(px, py, z);
+	return 1;
 }
 
 #endif

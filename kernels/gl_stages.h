@@ -63,33 +63,7 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 }
 
 /*
- * What is linear over a triangle, at a point, in llvmpipe's order of operations: a plane through the first vertex, with the
- * vertices turned so that they run counter-clockwise (y from the top).
- */
-static inline float stage_plane(const float *px, const float *py, const float *value, float x, float y)
-{
-	int a = 0, b = 1;
-	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], one_over_area, along_x, along_y;
-	float v01, v20;
-
-	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
-		a = 1;
-		b = 0;
-		dx01 = px[1] - px[0];
-		dy01 = py[1] - py[0];
-		dx20 = px[2] - px[1];
-		dy20 = py[2] - py[1];
-	}
-	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
-	v01 = value[a] - value[b];
-	v20 = value[2] - value[a];
-	along_x = v01 * (dy20 * one_over_area) - v20 * (dy01 * one_over_area);
-	along_y = v20 * (dx01 * one_over_area) - v01 * (dx20 * one_over_area);
-	return M_FMA(along_y, y, M_FMA(along_x, x, value[a] - (along_x * px[a] + along_y * py[a])));
-}
-
-/*
- * Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations; the vertices as for stage_plane. The least step r is
+ * Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations; the vertices as for clip_plane_through. The least step r is
  * two steps of the depth buffer.
  */
 static inline float stage_offset(GLOBAL const struct scene_material *m, const float *px, const float *py, const float *z,
@@ -168,6 +142,7 @@ static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view
 	struct point p;
 	GLOBAL const struct view *view;
 	struct clip_polygon polygon;
+	struct clip_plane plane;
 	uint32_t part = 2u;
 	int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
 	float px[3], py[3], z[3], area, b1, b2;
@@ -203,10 +178,11 @@ static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view
 		px[i] = place[0] - 0.5f;
 		py[i] = place[1] - 0.5f;
 	}
-	area = (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
-	if (!(M_ABS(area) > 1.0e-6f))
-		return; /* a sliver: its snapped form is what was covered */
-	f->depth = stage_plane(px, py, z, (float)x, (float)(height - 1u - y));
+	area = clip_place_area(px, py);
+	if (clip_is_sliver(area))
+		return;
+	plane = clip_plane_through(px, py, z);
+	f->depth = clip_plane_at(&plane, (float)x, (float)(height - 1u - y));
 	if (p.material->polygon_offset & 4u && !(p.geometry->flags & GEOMETRY_EXPANDED))
 		f->depth += stage_offset(p.material, px, py, z, bits);
 	f->depth = clamp01(f->depth);
@@ -423,6 +399,26 @@ static inline void resolve_item(const struct tables *t, GLOBAL const struct frag
 			draw += t->indices[g->primitive_draw + FRAGMENT_PRIMITIVE(fragments[i])];
 		pixel_draw(&t->materials[g->material], &shaded[i], &fragments[i], draw, &frame[pixel], bits);
 	}
+}
+
+/* surface: where the visible surface of a pixel lies, for the channels that tell. All 0 where there is none. */
+static inline void surface_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                GLOBAL const struct frame_pixel *frame, GLOBAL float *planes, uint32_t pixel)
+{
+	struct fragment f = frame[pixel].surface;
+	GLOBAL float *out = planes + pixel * SURFACE_PLANES;
+	struct point p;
+	struct vec3 at;
+
+	for (uint32_t i = 0u; i < SURFACE_PLANES; i++)
+		out[i] = 0.0f;
+	if (f.order == SCENE_NONE)
+		return;
+	p = point_from_fragment(t, windows, &f);
+	at = point_position(&p);
+	v3_store(out, point_normal(&p));
+	v3_store(out + 3, at);
+	out[6] = -at.z;
 }
 
 #endif

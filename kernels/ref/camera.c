@@ -155,9 +155,13 @@ static int in_viewport(const struct pixel *p)
 	return x >= v[0] && x < v[0] + v[2] && y >= v[1] && y < v[1] + v[3];
 }
 
-/* All vertices have a place in the window. */
-static int cover_placed(const struct pixel *p, uint32_t flags, const struct window_vertex v[3], struct fragment *f)
+/* All vertices have a place in the window. corner, clip: as for clip_depth_plane; nearest fragments are compared by exact depth. */
+static int cover_placed(const struct pixel *p, uint32_t flags, const struct window_vertex v[3],
+                        const struct clip_corner *const *corner, const struct vec4 *clip, struct fragment *f)
 {
+	const float z[3] = { v[0].z, v[1].z, v[2].z };
+	const uint32_t height = p->args->height;
+	struct clip_plane plane;
 	const int64_t area = ((int64_t)v[1].x - v[0].x) * ((int64_t)v[2].y - v[0].y) -
 	                     ((int64_t)v[2].x - v[0].x) * ((int64_t)v[1].y - v[0].y);
 	const int sign = area > 0 ? 1 : -1;
@@ -171,7 +175,10 @@ static int cover_placed(const struct pixel *p, uint32_t flags, const struct wind
 	inverse = 1.0f / (float)area;
 	f->b1 = (float)edge(v[2], v[0], p) * inverse;
 	f->b2 = (float)edge(v[0], v[1], p) * inverse;
-	f->depth = clamp01(v[0].z + (f->b1 * (v[1].z - v[0].z) + f->b2 * (v[2].z - v[0].z)));
+	if (p->args->mode != CAMERA_COLUMN && clip_depth_plane(p->args->view, (float)height, corner, clip, z, &plane))
+		f->depth = clamp01(clip_plane_at(&plane, (float)p->x, (float)((int32_t)height - 1 - p->y)));
+	else
+		f->depth = clamp01(v[0].z + (f->b1 * (v[1].z - v[0].z) + f->b2 * (v[2].z - v[0].z)));
 	return 1;
 }
 
@@ -184,7 +191,8 @@ static int cover_clipped(const struct pixel *p, uint32_t flags, const float *con
 	for (uint32_t k = 2; k < polygon.n; k++) {
 		const struct clip_corner *v0 = &polygon.corner[k - 1], *v1 = &polygon.corner[k], *v2 = &polygon.corner[0];
 
-		if (!cover_placed(p, flags, (const struct window_vertex[]){ v0->window, v1->window, v2->window }, f))
+		if (!cover_placed(p, flags, (const struct window_vertex[]){ v0->window, v1->window, v2->window },
+		                  (const struct clip_corner *const[]){ v0, v1, v2 }, NULL, f))
 			continue;
 		clip_weights(v0, v1, v2, f->b1, f->b2, &f->b1, &f->b2);
 		f->primitive |= FRAGMENT_PERSPECTIVE;
@@ -199,15 +207,17 @@ static void try_triangle(struct pixel *p, uint32_t instance_index, const struct 
 	const struct instance *instance = &a->instances[instance_index];
 	struct fragment f = { instance->primitive_first + triangle->primitive, instance_index, triangle->primitive, 0, 0, 0 };
 	struct window_vertex v[3];
+	struct vec4 clip[3];
 	const float *c[3];
 	int placed = 1;
 
 	for (int i = 0; i < 3; i++) {
 		v[i] = a->window[instance->vertex_first + triangle->vertex[i]];
 		c[i] = a->clip[instance->vertex_first + triangle->vertex[i]];
+		clip[i] = v4_load(c[i]);
 		placed &= v[i].w_inv > 0;
 	}
-	if (placed ? cover_placed(p, instance->flags, v, &f) : cover_clipped(p, instance->flags, c, &f))
+	if (placed ? cover_placed(p, instance->flags, v, NULL, clip, &f) : cover_clipped(p, instance->flags, c, &f))
 		keep(p, &f);
 }
 

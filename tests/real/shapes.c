@@ -1,6 +1,6 @@
 /*
  * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines drawn over
- * themselves under GL_LESS, materials that change between Begin and End. Recorded by test_shapes.py.
+ * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -61,6 +61,24 @@ static void net(void)
 	glLineWidth(1);
 }
 
+/* Surfaces that lie in each other: which one is seen is decided by the last bit of their depths. */
+static void coplanar(void)
+{
+	glTranslatef(0, 0, -4);
+	glRotatef(-61.7f, 1, 0, 0);
+	glRotatef(23.9f, 0, 0, 1);
+	for (int i = 0; i < STEPS; i++) {
+		float a = 0.41f * (float)i, b = a + 2.1f, c = b + 2.1f;
+
+		glColor3f((float)(i & 1), (float)(i & 2) / 2, (float)(i & 4) / 4);
+		glBegin(GL_TRIANGLES);
+		glVertex3f(cosf(a), sinf(a), 0.25f * cosf(a));
+		glVertex3f(cosf(b), sinf(b), 0.25f * cosf(b));
+		glVertex3f(cosf(c), sinf(c), 0.25f * cosf(c));
+		glEnd();
+	}
+}
+
 /* Each vertex keeps the material that was current when it was given (GL 2.1 sec. 2.6.3). */
 static void materials(void)
 {
@@ -89,7 +107,7 @@ static void materials(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, materials };
+	static void (*const frames[])(void) = { spokes, net, coplanar, materials };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
