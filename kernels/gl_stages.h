@@ -401,24 +401,4 @@ static inline void resolve_item(const struct tables *t, GLOBAL const struct frag
 	}
 }
 
-/* surface: where the visible surface of a pixel lies, for the channels that tell. All 0 where there is none. */
-static inline void surface_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                GLOBAL const struct frame_pixel *frame, GLOBAL float *planes, uint32_t pixel)
-{
-	struct fragment f = frame[pixel].surface;
-	GLOBAL float *out = planes + pixel * SURFACE_PLANES;
-	struct point p;
-	struct vec3 at;
-
-	for (uint32_t i = 0u; i < SURFACE_PLANES; i++)
-		out[i] = 0.0f;
-	if (f.order == SCENE_NONE)
-		return;
-	p = point_from_fragment(t, windows, &f);
-	at = point_position(&p);
-	v3_store(out, point_normal(&p));
-	v3_store(out + 3, at);
-	out[6] = -at.z;
-}
-
 #endif
