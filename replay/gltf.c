@@ -150,12 +150,18 @@ static void write_camera(struct json *j, const struct scene_view *v)
 	json_end(j, '}');
 }
 
+/*
+ * Lumen that a watt makes (at 555 nm): KHR_lights_punctual counts in candela and lux. Programs that render in watts divide by
+ * this number again (Blender's importer, "standard" light units), so that a radiance of 1 stays one.
+ */
+#define LUMEN_PER_WATT 683.0
+
 /* A light as KHR_lights_punctual wants it: a white surface facing it at the middle of its space has its diffuse colour. */
 static void write_light(struct json *j, const struct scene_light *l, const float middle[3])
 {
 	float most = fmaxf(fmaxf(l->diffuse[0], l->diffuse[1]), fmaxf(l->diffuse[2], 1e-6f)), color[3];
 	int positional = l->position_eye[3] != 0, spot = positional && l->spot_cutoff_deg <= 90;
-	double intensity = PI * (double)gltf_linear(most), d2 = 0;
+	double intensity = LUMEN_PER_WATT * PI * (double)gltf_linear(most), d2 = 0;
 
 	for (int i = 0; i < 3 && positional; i++) {
 		double d = (double)(l->position_eye[i] / l->position_eye[3] - middle[i]);

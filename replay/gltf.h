@@ -12,8 +12,9 @@
  *                  rtMaterialEXT's mirrors are metals, its glass KHR_materials_transmission. Colours become linear
  *   textures       the first 2D or rectangle texture of a draw, level 0, as PNG; the texture matrix is applied to
  *                  the coordinates. The image's first row is t = 0, as glTF wants it
- *   lights         KHR_lights_punctual; a light of diffuse colour 1 lights a white surface to radiance 1, a positional
- *                  one at the distance of the middle of what is drawn (glTF has inverse squares only)
+ *   lights         KHR_lights_punctual, in lux and candela; a light of diffuse colour 1 lights a white surface to a radiance
+ *                  of 1 W/(sr m^2), which is a luminance of 683 cd/m^2 (683 lm/W), a positional one at the distance of the
+ *                  middle of what is drawn (glTF has inverse squares only)
  * What glTF has no words for is left out and counted: generated texture coordinates, other texture units, blending
  * other than by alpha, fog, stipples, draws without colour. Drawing order is lost.
  */

@@ -31,6 +31,7 @@ struct run {
 struct worker {
 	struct run *run;
 	struct device *dev;
+	uint64_t done; /* frames that it traced */
 	int seat;
 	pthread_t thread;
 };
@@ -211,6 +212,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene
 		return 0;
 	}
 	scene_release(&scene);
+	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&run->pictures, picture))
 		return 1;
 	if (outcome == LATE) {
@@ -292,11 +294,12 @@ static void *write_all(void *arg)
 
 /* --- All together -------------------------------------------------------------------------------------------------- */
 
+/* Packing a file takes about as long as one core takes to trace it: with one writer for two cores, tracing waits now and then. */
 static unsigned writer_count(void)
 {
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 
-	return cores < 2 ? 1 : cores / 2 < MAX_WRITERS ? (unsigned)cores / 2 : MAX_WRITERS;
+	return cores < 1 ? 1 : cores < MAX_WRITERS ? (unsigned)cores : MAX_WRITERS;
 }
 
 /* Every worker has a queue of its own on its device: the first one the device as it was opened, the others share it. */
@@ -356,7 +359,10 @@ int pipeline_run(struct pipeline *p)
 	size_t n = p->n_devices * p->jobs;
 	struct worker *workers = calloc(n, sizeof(*workers));
 	struct feed feed = { .parent = p->devices[0] };
-	int err = workers ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	int err;
+
+	p->shares = calloc(p->n_devices, sizeof(*p->shares));
+	err = workers && p->shares ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	pthread_mutex_init(&run.lock, NULL);
 	pthread_cond_init(&run.landed, NULL);
@@ -371,6 +377,8 @@ int pipeline_run(struct pipeline *p)
 		err = start_and_join(&run, workers, n);
 	replay_set_supplier(p->replay, NULL, NULL);
 	feed_free(&feed);
+	for (size_t i = 0; workers && i < n; i++)
+		p->shares[i / p->jobs] += workers[i].done;
 	for (size_t i = 0; workers && i < n; i++)
 		if (i % p->jobs && workers[i].dev)
 			device_close(&workers[i].dev);

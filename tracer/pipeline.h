@@ -28,6 +28,7 @@ struct pipeline {
 	double start_s;          /* when the run began (progress_clock_s) */
 	struct stamp stamp;
 	struct progress *progress;
+	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller's, free() */
 	struct tracer_undrawn undrawn; /* filled in: what was met that is not drawn */
 };
 

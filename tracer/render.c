@@ -89,6 +89,9 @@ static int render_frames(struct pipeline *p, uint64_t total)
 	progress_end(&progress);
 	if (!err || progress.failed)
 		progress_summary(&progress);
+	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
+		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
+	free(p->shares);
 	report(p);
 	device_close_list(&p->devices, &p->n_devices);
 	return err;

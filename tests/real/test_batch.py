@@ -4,6 +4,8 @@
 limit: 200 s
 """
 import json
+import os
+import re
 import signal
 import subprocess
 import time
@@ -41,6 +43,16 @@ check(sorted(whole) == [f"x.{i}.exr" for i in range(8)], f"all frames are there 
 for i in (1, 2):
     render("-j", "3", "--chunk", f"{i}/2", to=SCRATCH / "parallel")
 check(files(SCRATCH / "parallel") == whole, "three at once and in two chunks: the same bytes")
+
+# Two devices share the frames, and leave the same bytes. PoCL shows its device as often as it is named.
+both = dict(os.environ, POCL_DEVICES="pthread pthread")
+long = SCRATCH / "long.trace"
+record(long, corpus("two_triangles"), "--frames", "60", options=())
+must(relume("render", long, "-o", SCRATCH / "alone" / "x.{frame}.exr"))
+shared = must(relume("render", long, "-o", SCRATCH / "shared" / "x.{frame}.exr", "--device", "all", "-j", "1", env=both))
+shares = [int(n) for n in re.findall(r"^  device \d+: (\d+) frames", shared.stderr, re.MULTILINE)]
+check(len(shares) == 2 and min(shares) > 0 and sum(shares) == 60, f"two devices share sixty frames: {shared.stderr[-400:]}")
+check(files(SCRATCH / "shared") == files(SCRATCH / "alone"), "two devices leave the bytes of one")
 
 # What is there is left; what is torn, zeroed, of other settings or missing is made.
 done = render("--skip-existing")

@@ -2,6 +2,7 @@
 """relume export: valid glTF 2.0 whose triangles are, in eye space, those of `relume scene`, on recordings of two kinds.
 """
 import json
+import math
 import pathlib
 import sys
 
@@ -53,6 +54,18 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
     lights = glb.json.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
     check(bool(lights) == bool(lit) and len(lights) <= len(lit), f"{trace.stem}: {len(lights)} lights of {len(lit)}")
     check(len(glb.json.get("cameras", [])) >= 1, f"{trace.stem}: a camera")
+    # Candela: a white surface in the middle, facing the light, has the luminance of the light's colour, 683 cd/m^2 for 1.
+    corners = [corner for triangles in exported.values() for corner in triangles]
+    for node in (n for n in glb.json["nodes"] if "KHR_lights_punctual" in n.get("extensions", {})):
+        light = lights[node["extensions"]["KHR_lights_punctual"]["light"]]
+        places = [min(c[k] for c in corners) + max(c[k] for c in corners) for k in range(3)]
+        d2 = sum((node["matrix"][12 + k] - places[k] / 2) ** 2 for k in range(3))
+        told = next(l for l in scene["lights"] if all(abs(l["position_eye"][k] - node["matrix"][12 + k]) < 1e-3 for k in range(3)))
+        most = max(told["diffuse"][:3])
+        want = 683 * (most / 12.92 if most <= 0.04045 else ((most + 0.055) / 1.055) ** 2.4)
+        want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(told["attenuation"]))
+        got = light["intensity"] / d2 / math.pi
+        check(light["type"] == "point" and abs(got - want) < 0.01 * want, f"{trace.stem}: luminance {got} and not {want}")
 
 done = relume("export", ROOT / "tests/golden/cornell.trace", "-f", 99999, "-o", SCRATCH / "none.glb")
 check(done.returncode == 2 and "no frame 99999" in done.stderr, f"a frame that is not there: {done.returncode} {done.stderr}")

@@ -187,6 +187,7 @@ static uint32_t corner_specks(float turn_y, float turn_x, float overlap, uint32_
 	for (int i = 0; i < 3; i++)
 		turn(turn_y, turn_x, axis[i], e[i]);
 	truth_init(&t, SIZE, SIZE, 0.6f);
+	t.view.projection[14] *= scale; /* near and far */
 	truth_add_light(&t, middle[0] + 0.3f * scale * (e[0][0] + e[1][0] + e[2][0]),
 	                middle[1] + 0.3f * scale * (e[0][1] + e[1][1] + e[2][1]),
 	                middle[2] + 0.3f * scale * (e[0][2] + e[1][2] + e[2][2]), 1);
@@ -219,6 +220,48 @@ START_TEST(test_corner_without_specks)
 			ck_assert_msg(specks == 0, "%u dark pixels: turned by %g and %g, overlap %g, case %u", specks,
 			              (double)turn_y, (double)turn_x, (double)overlaps[k & 1], k);
 		}
+}
+END_TEST
+
+/*
+ * A wall that stands on a floor, a light on one side of it: whatever the unit of length, the floor is dark right up to the wall
+ * on the far side and bright right up to it on the near one; and the corner above has no specks.
+ */
+START_TEST(test_shadows_at_any_scale)
+{
+	static const float scales[] = { 1e-3f, 1e-2f, 1, 1e3f, 1e5f };
+
+	for (int i = 0; i < 5; i++) {
+		const float s = scales[i];
+		uint32_t floor, dark = 0, bright = 0;
+		struct truth t;
+		struct image img;
+
+		truth_init(&t, SIZE, SIZE, 0.6f);
+		t.view.projection[14] *= s; /* near and far */
+		truth_add_light(&t, 2 * s, 1 * s, -6 * s, 1);
+		floor = truth_add_material(&t, 0.7f);
+		truth_add_square(&t, floor, (float[3]){ 0, -1 * s, -6 * s }, (float[3]){ 0, 0, s }, (float[3]){ s, 0, 0 }, 3, 5);
+		truth_add_square(&t, floor, (float[3]){ 0, -0.25f * s, -6 * s }, (float[3]){ 0, 0, 12 * s }, (float[3]){ 0, 0.75f * s, 0 }, 1, 1);
+		truth_render(&t, "whitted", &img);
+		for (uint32_t y = 0; y < SIZE; y++)
+			for (uint32_t x = 0; x < SIZE; x++) {
+				float from_wall = at(&img, "P.X", x, y) / s;
+
+				/* 2^-14 of six units is where rays start: closer to the wall than that nothing is promised */
+				if (at(&img, "id", x, y) != 1 || fabsf(from_wall) < 1e-3f)
+					continue;
+				ck_assert_msg(at(&img, "shadow.G", x, y) == (from_wall > 0), "scale %g: shadow %g at %g", (double)s,
+				              (double)at(&img, "shadow.G", x, y), (double)from_wall);
+				dark += from_wall < 0;
+				bright += from_wall > 0;
+			}
+		ck_assert_uint_gt(dark, SIZE);
+		ck_assert_uint_gt(bright, SIZE);
+		image_free(&img);
+		truth_free(&t);
+		ck_assert_uint_eq(corner_specks(-0.67f, 0.49f, 0.25f, 7, s), 0);
+	}
 }
 END_TEST
 
@@ -275,6 +318,7 @@ int main(void)
 	tcase_add_test(tests, test_shadow_shape);
 	tcase_add_test(tests, test_mirror);
 	tcase_add_test(tests, test_corner_without_specks);
+	tcase_add_test(tests, test_shadows_at_any_scale);
 	tcase_add_test(tests, test_smooth_lines_cover_their_width);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
