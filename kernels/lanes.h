@@ -11,6 +11,12 @@
 #endif
 #endif
 
+#if defined(__has_builtin) && defined(__AVX512DQ__)
+#if __has_builtin(__builtin_ia32_cvtd2mask512)
+#define LANES_MASK16 1
+#endif
+#endif
+
 /* LANES_PORTABLE: for interpreters of kernels, which know the language and no compiler's own functions. */
 #if defined(__has_builtin) && !defined(LANES_PORTABLE)
 #if __has_builtin(__builtin_reduce_or)
@@ -52,6 +58,16 @@ inline float8 lanes_max(float8 x, float8 y)
 	return select(y, x, x > y);
 }
 
+/* Sixteen lanes in one register where there is one: the compiler would rather halve them. */
+#if defined(__AVX512F__) && defined(__has_attribute)
+#if __has_attribute(min_vector_width)
+#define WIDE_VECTORS __attribute__((min_vector_width(512)))
+#endif
+#endif
+#ifndef WIDE_VECTORS
+#define WIDE_VECTORS
+#endif
+
 /* Rows of a packet: sixteen rays. Processors with eight lanes do them as two halves, which hides latency as well. */
 typedef float16 packf;
 typedef int16 packi;
@@ -63,6 +79,16 @@ inline int any_pack(packi mask)
 	return __builtin_reduce_or(mask) != 0;
 #else
 	return any_lane(mask.lo | mask.hi);
+#endif
+}
+
+/* One bit a lane. */
+inline uint pack_bits(packi mask)
+{
+#ifdef LANES_MASK16
+	return (ushort)__builtin_ia32_cvtd2mask512(mask);
+#else
+	return lane_bits(mask.lo) | lane_bits(mask.hi) << 8;
 #endif
 }
 

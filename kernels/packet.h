@@ -1,10 +1,11 @@
 /*
- * Sixteen rays as rows of a lane each against binary trees. OpenCL C only; included by the packet kernels.
+ * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
+ * occlude_packet.
  *
  * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. Both products are kept in two roundings, so that no box is
  * missed by rounding (far planes with p * i < 0 come nearer by what i is made larger; o * i gives that back). Which of a
- * box's planes is met first depends on the signs of d alone: a packet whose rays differ in signs is walked once for
- * each octant, the other lanes asleep (t_max below t_min).
+ * box's planes is met first depends on the signs of d alone; a packet whose rays differ in signs tries both orders. A ray
+ * sleeps where t_max is below t_min.
  */
 #ifndef KERNELS_PACKET_H
 #define KERNELS_PACKET_H
@@ -21,10 +22,10 @@ struct packet {
 	packf far_ix, far_iy, far_iz;          /* the same rounded away from 0 */
 	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
 	packf far_x, far_y, far_z;             /* and up, to far planes */
-	packf t_min, t_max;
+	packf t_min, t_max, slack;             /* slack: what rounding may do to any of these */
 };
 
-inline packf invert(packf d)
+inline packf pack_invert(packf d)
 {
 	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
@@ -32,12 +33,13 @@ inline packf invert(packf d)
 /* Fill in what follows from o and d. */
 inline void packet_prepare(struct packet *p)
 {
-	const packf ix = invert(p->dx), iy = invert(p->dy), iz = invert(p->dz);
+	const packf ix = pack_invert(p->dx), iy = pack_invert(p->dy), iz = pack_invert(p->dz);
 	const packf bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
 
 	p->ix = ix, p->iy = iy, p->iz = iz;
 	p->far_ix = ix * (1 + 6e-7f), p->far_iy = iy * (1 + 6e-7f), p->far_iz = iz * (1 + 6e-7f);
 	p->near_x = bx - fabs(bx) * 3e-7f, p->near_y = by - fabs(by) * 3e-7f, p->near_z = bz - fabs(bz) * 3e-7f;
+	p->slack = 2.5e-6f * pack_max(pack_max(fabs(bx), fabs(by)), fabs(bz));
 	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
 }
 
@@ -58,7 +60,7 @@ inline packi packet_octants(const struct packet *p)
 	return (as_int16(p->ix) >> 31 & 1) | (as_int16(p->iy) >> 31 & 2) | (as_int16(p->iz) >> 31 & 4);
 }
 
-/* Where in a node2 the planes lie that an octant meets first and last: number of the float for x y z of side 0. */
+/* Where in a node8 the rows lie of the planes that an octant meets first and last. */
 struct planes {
 	uint near_x, near_y, near_z, far_x, far_y, far_z;
 };
@@ -67,89 +69,65 @@ inline struct planes octant_planes(int octant)
 {
 	struct planes s;
 
-	s.near_x = octant & 1 ? 6 : 0, s.far_x = 6 - s.near_x;
-	s.near_y = octant & 2 ? 7 : 1, s.far_y = 8 - s.near_y;
-	s.near_z = octant & 4 ? 8 : 2, s.far_z = 10 - s.near_z;
+	s.near_x = octant & 1 ? 24 : 0, s.far_x = 24 - s.near_x;
+	s.near_y = octant & 2 ? 32 : 8, s.far_y = 40 - s.near_y;
+	s.near_z = octant & 4 ? 40 : 16, s.far_z = 56 - s.near_z;
 	return s;
 }
 
-/* Where the rays enter and leave the box of one side (0 or 1) of a node: enter <= leave where they meet it. */
-inline packf packet_enter(const struct packet *p, __global const float *node, struct planes s, uint side)
+/* Lanes that meet a node's box, all of one octant. bounds: the node's first float of that box. */
+inline packi packet_meets(const struct packet *p, __global const float *bounds, struct planes s)
 {
-	return pack_max(pack_max(fma(node[s.near_x + 3 * side], p->ix, p->near_x), fma(node[s.near_y + 3 * side], p->iy, p->near_y)),
-	            pack_max(fma(node[s.near_z + 3 * side], p->iz, p->near_z), p->t_min));
+	const packf enter = pack_max(pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
+	                             pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
+	const packf leave = pack_min(pack_min(fma(bounds[s.far_x], p->far_ix, p->far_x), fma(bounds[s.far_y], p->far_iy, p->far_y)),
+	                             pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), p->t_max));
+
+	return enter <= leave;
 }
 
-inline packf packet_leave(const struct packet *p, __global const float *node, struct planes s, uint side)
+/* The same whatever the octants. */
+inline packi packet_meets_any(const struct packet *p, __global const struct node8 *node, uint side)
 {
-	return pack_min(pack_min(fma(node[s.far_x + 3 * side], p->far_ix, p->far_x), fma(node[s.far_y + 3 * side], p->far_iy, p->far_y)),
-	            pack_min(fma(node[s.far_z + 3 * side], p->far_iz, p->far_z), p->t_max));
+	const packf x0 = fma(node->lo[0][side], p->ix, p->near_x), x1 = fma(node->hi[0][side], p->ix, p->near_x);
+	const packf y0 = fma(node->lo[1][side], p->iy, p->near_y), y1 = fma(node->hi[1][side], p->iy, p->near_y);
+	const packf z0 = fma(node->lo[2][side], p->iz, p->near_z), z1 = fma(node->hi[2][side], p->iz, p->near_z);
+	const packf enter = pack_max(pack_max(pack_min(x0, x1), pack_min(y0, y1)), pack_max(pack_min(z0, z1), p->t_min));
+	const packf leave = pack_min(pack_min(pack_max(x0, x1), pack_max(y0, y1)), pack_min(pack_max(z0, z1), p->t_max));
+
+	return enter <= fma(leave, 1 + 6e-7f, p->slack);
 }
 
-/* Lanes that meet the box of one side, whatever their octants: for top levels, which are small. */
-inline packi packet_meets_box(const struct packet *p, __global const struct node2 *node, uint side)
+/* The octant of all lanes that are awake; -1: there are several. */
+inline int packet_octant(const struct packet *p)
 {
-	const packf x0 = node->lo[side][0] * p->ix, x1 = node->hi[side][0] * p->ix;
-	const packf y0 = node->lo[side][1] * p->iy, y1 = node->hi[side][1] * p->iy;
-	const packf z0 = node->lo[side][2] * p->iz, z1 = node->hi[side][2] * p->iz;
-	const packf enter = pack_max(pack_max(pack_min(x0, x1) + p->near_x, pack_min(y0, y1) + p->near_y),
-	                          pack_max(pack_min(z0, z1) + p->near_z, p->t_min));
-	const packf leave = pack_min(pack_min(pack_max(x0, x1) + p->far_x, pack_max(y0, y1) + p->far_y),
-	                          pack_min(pack_max(z0, z1) + p->far_z, p->t_max));
+	const packi awake = p->t_min <= p->t_max;
+	const uint lanes = pack_bits(awake), first = lanes ? popcount((lanes & -lanes) - 1) : 0;
+	const packi octants = packet_octants(p);
+	const int octant = ((const int *)&octants)[first];
 
-	return (enter <= leave) & (packi)(node->lo[side][0] <= node->hi[side][0] ? -1 : 0);
+	return any_pack(awake & (octants != octant)) ? -1 : octant;
 }
 
-/* The lanes of a packet octant by octant: those awake in the first awake lane's octant, and they fall asleep. */
-inline packi packet_next_octant(packi octants, packi *awake, int *octant)
+/* Moeller and Trumbore: lanes hit at t in t_min .. t_max. */
+inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane)
 {
-	packi lanes;
-
-	*octant = 0;
-	for (uint i = 0; i < RAYS_PER_PACKET; i++)
-		if (((const int *)awake)[i]) {
-			*octant = ((const int *)&octants)[i];
-			break;
-		}
-	lanes = *awake & (octants == *octant);
-	*awake &= ~lanes;
-	return lanes;
-}
-
-/* A subtree to be walked, and where the rays enter it. */
-struct packet_entry {
-	packf enter;
-	uint child, count;
-};
-
-/* What a packet found, per lane. */
-struct packet_hits {
-	packf b1, b2;
-	packu instance, primitive;
-};
-
-/* Moeller and Trumbore: lanes hit at t in t_min .. t_max; b1, b2 of all lanes. */
-inline packi packet_triangle(const struct packet *p, __global const struct triangle *tri, packf *t, packf *b1,
-                            packf *b2)
-{
-	const float e1x = tri->e1[0], e1y = tri->e1[1], e1z = tri->e1[2];
-	const float e2x = tri->e2[0], e2y = tri->e2[1], e2z = tri->e2[2];
+	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
+	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];
 	const packf px = fma(p->dy, e2z, -(p->dz * e2y));
 	const packf py = fma(p->dz, e2x, -(p->dx * e2z));
 	const packf pz = fma(p->dx, e2y, -(p->dy * e2x));
 	const packf inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
-	const packf sx = p->ox - tri->v0[0], sy = p->oy - tri->v0[1], sz = p->oz - tri->v0[2];
+	const packf sx = p->ox - block->v0[0][lane], sy = p->oy - block->v0[1][lane], sz = p->oz - block->v0[2][lane];
 	const packf u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
 	const packf qx = fma(sy, e1z, -(sz * e1y));
 	const packf qy = fma(sz, e1x, -(sx * e1z));
 	const packf qz = fma(sx, e1y, -(sy * e1x));
 	const packf v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
+	const packf t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 
-	*t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
-	*b1 = u;
-	*b2 = v;
 	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
-	       (*t >= p->t_min) & (*t <= p->t_max);
+	       (t >= p->t_min) & (t <= p->t_max);
 }
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * occlude_packet, occlude_wide, intersect_packet, intersect_wide: rays in eye space against a top level and the
+ * occlude_packet, occlude_wide, intersect_wide: rays in eye space against a top level and the
  * instances' trees. Included by C and OpenCL C.
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
@@ -12,15 +12,15 @@
  * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest hit
  * of several instances is the one whose t + shift, rounded, is least.
  *
- * Arguments of all four, in this order
+ * Arguments of all three, in this order
  *    0  uint n_rays
  *    1  const struct ray rays[]
- *    2  uint top_first            accel_space.top2_first, or top8_first for *_wide
- *    3  top nodes                 struct node2 accel.top2, or struct node8 accel.top8 for *_wide
+ *    2  uint top_first            accel_space.top8_first
+ *    3  const struct node8 top[]  accel.top8
  *    4  const uint instance_list[]
  *    5  const struct instance instances[]
- *    6  nodes                     struct node2 accel.nodes2, or struct node8 accel.nodes8 for *_wide
- *    7  triangles                 struct triangle accel.triangles, or struct triangle8 accel.triangles8 for *_wide
+ *    6  const struct node8 nodes[]          accel.nodes8
+ *    7  const struct triangle8 triangles[]  accel.triangles8
  *    8  occlude: uint occluded[]  1 where anything is hit, else 0
  *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
  *                                 same t one, the same one each time

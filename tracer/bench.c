@@ -120,11 +120,9 @@ int bench_main(int argc, char **argv)
 		{ "camera", "camera_wide", KERNEL_camera_wide, -1, 0 },
 		{ "shadow", "occlude_packet", KERNEL_occlude_packet, BENCH_SHADOW, 0 },
 		{ "shadow", "occlude_wide", KERNEL_occlude_wide, BENCH_SHADOW, 0 },
-		{ "shadow, nearest hit", "intersect_packet", KERNEL_intersect_packet, BENCH_SHADOW, 0 },
 		{ "shadow, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_SHADOW, 0 },
 		{ "incoherent", "occlude_packet", KERNEL_occlude_packet, BENCH_AMBIENT, 0 },
 		{ "incoherent", "occlude_wide", KERNEL_occlude_wide, BENCH_AMBIENT, 0 },
-		{ "incoherent, nearest hit", "intersect_packet", KERNEL_intersect_packet, BENCH_AMBIENT, 0 },
 		{ "incoherent, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_AMBIENT, 0 },
 	};
 	const size_t n = sizeof(figures) / sizeof(figures[0]);

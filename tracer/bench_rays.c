@@ -170,23 +170,16 @@ int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
 	return err;
 }
 
-static int is_wide(enum device_kernel kernel)
-{
-	return kernel == KERNEL_occlude_wide || kernel == KERNEL_intersect_wide;
-}
-
 int bench_rays(struct bench *b, enum device_kernel kernel, enum bench_ray_kind kind, double *seconds)
 {
 	struct bench_state *s = b->state;
-	const uint32_t n = b->n_rays[kind], wide = (uint32_t)is_wide(kernel);
-	const uint32_t top_first = wide ? s->spaces[0].top8_first : s->spaces[0].top2_first;
+	const uint32_t n = b->n_rays[kind], top_first = s->spaces[0].top8_first;
 	const struct device_arg args[] = {
-		ARG_VALUE(n), ARG_BUFFER(s->rays[kind]), ARG_VALUE(top_first), ARG_BUFFER(wide ? s->top8 : s->top2),
-		ARG_BUFFER(s->list), ARG_BUFFER(s->instances), ARG_BUFFER(wide ? s->nodes8 : s->nodes2),
-		ARG_BUFFER(wide ? s->triangles8 : s->triangles), ARG_BUFFER(s->results),
+		ARG_VALUE(n), ARG_BUFFER(s->rays[kind]), ARG_VALUE(top_first), ARG_BUFFER(s->top8), ARG_BUFFER(s->list),
+		ARG_BUFFER(s->instances), ARG_BUFFER(s->nodes8), ARG_BUFFER(s->triangles8), ARG_BUFFER(s->results),
 	};
 	const double start = progress_clock_s();
-	int err = device_run(b->dev, kernel, wide ? n : (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET, args,
+	int err = device_run(b->dev, kernel, kernel == KERNEL_occlude_packet ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, args,
 	                     sizeof(args) / sizeof(args[0]));
 
 	if (!err)
@@ -285,23 +278,41 @@ static struct ray ambient_ray(const float point[3], const float normal[3], uint3
 	return ray;
 }
 
-/* Pixels in blocks of 4 x 2, as the camera kernel takes them. */
+/* Every other bit of a number: x of a place on a Morton curve, y with the number shifted. */
+static uint32_t even_bits(uint32_t n)
+{
+	uint32_t out = 0;
+
+	for (uint32_t bit = 0; bit < 16; bit++)
+		out |= (n >> bit & 1) << (bit / 2) & (bit % 2 ? 0 : ~0u);
+	return out;
+}
+
+/*
+ * Pixels in tiles of 64 x 64, there in blocks of 4 x 2 along a Morton curve of 4 x 4 blocks first: eight, sixteen, thirty-two
+ * or sixty-four consecutive rays belong to a compact patch, which packets of any kind like.
+ */
 static void make_rays(struct bench *b)
 {
+	const uint32_t tiles_x = (b->width + 63) / 64, tiles_y = (b->height + 63) / 64;
 	uint32_t random = 1;
 
-	for (uint32_t block = 0; block < (b->width / 4) * (b->height / 2); block++)
-		for (uint32_t lane = 0; lane < 8; lane++) {
-			const uint32_t x = block % (b->width / 4) * 4 + lane % 4, y = block / (b->width / 4) * 2 + lane / 4;
-			const struct fragment *f = &b->state->fragments[(size_t)y * b->width + x];
-			float point[3], normal[3];
+	for (uint32_t i = 0; i < tiles_x * tiles_y * 4096; i++) {
+		const uint32_t tile = i / 4096, block = i % 4096 / 8, lane = i % 8;
+		const uint32_t pair = block / 2, bx = even_bits(pair), by = 2 * even_bits(pair >> 1) + block % 2;
+		const uint32_t x = tile % tiles_x * 64 + 4 * bx + lane % 4, y = tile / tiles_x * 64 + 2 * by + lane / 4;
+		const struct fragment *f;
+		float point[3], normal[3];
 
-			if (f->order == SCENE_NONE)
-				continue;
-			hit_point(b, f, point, normal);
-			b->rays[BENCH_SHADOW][b->n_rays[BENCH_SHADOW]++] = shadow_ray(point);
-			b->rays[BENCH_AMBIENT][b->n_rays[BENCH_AMBIENT]++] = ambient_ray(point, normal, &random);
-		}
+		if (x >= b->width || y >= b->height)
+			continue;
+		f = &b->state->fragments[(size_t)y * b->width + x];
+		if (f->order == SCENE_NONE)
+			continue;
+		hit_point(b, f, point, normal);
+		b->rays[BENCH_SHADOW][b->n_rays[BENCH_SHADOW]++] = shadow_ray(point);
+		b->rays[BENCH_AMBIENT][b->n_rays[BENCH_AMBIENT]++] = ambient_ray(point, normal, &random);
+	}
 }
 
 static int derive_rays(struct bench *b)

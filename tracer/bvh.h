@@ -2,7 +2,8 @@
  * Builders of bounding volume hierarchies over boxes, into flat node arrays (kernels/shared.h).
  *
  * The root is node 0. Its sides may be empty (BVH_EMPTY_LO > BVH_EMPTY_HI, count 0, child 0) where there are fewer than
- * two items; no other node has an empty side in node2. In node8 empty lanes may occur in every node.
+ * two items; no other node has an empty side in node2. In node8 empty lanes may occur in every node, behind
+ * those that are used.
  * No path from the root to a leaf is longer than BVH_MAX_DEPTH nodes (kernels/shared.h): the kernels' stacks rely on it.
  * Same boxes, same tree, whatever the number of threads.
  */

@@ -16,10 +16,9 @@
 #define DEVICE_KERNELS(X) \
 	X(camera_packet)    /* camera rays, a tile of 8 x 8 pixels a work item, BVH2; nearest fragment or a column of them */ \
 	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
-	X(occlude_packet)   /* shadow rays, a packet of consecutive rays a work item, BVH2 */ \
-	X(occlude_wide)     /* the same, one ray a work item, 8-wide nodes */ \
-	X(intersect_packet) /* nearest hit, a packet of coherent rays a work item, BVH2 */ \
-	X(intersect_wide)   /* the same, one ray a work item, 8-wide nodes */ \
+	X(occlude_packet)   /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
+	X(occlude_wide)     /* the same, one ray a work item */ \
+	X(intersect_wide)   /* nearest hit, one ray a work item, 8-wide nodes */ \
 	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \

@@ -26,7 +26,7 @@ uint32_t transport_of(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
-/* Trace n rays through a space: packets over binary trees where the device likes them and rays run side by side. */
+/* Trace n rays through a space: in packets where the device likes them and any hit will do. */
 static int trace_rays(struct job *job, const struct accel_space *space, enum buffer rays, enum buffer results, uint32_t n,
                       int occlude)
 {
@@ -34,17 +34,17 @@ static int trace_rays(struct job *job, const struct accel_space *space, enum buf
 	int packets = device_prefers_packets(tr->dev) && occlude;
 	enum device_kernel kernel = occlude ? (packets ? KERNEL_occlude_packet : KERNEL_occlude_wide) :
 	                                      KERNEL_intersect_wide;
-	uint32_t top = packets ? space->top2_first : space->top8_first;
+	uint32_t top = space->top8_first;
 	struct launch l = { .n = 0 };
 
 	add_uint(&l, &n);
 	add(&l, tr, rays);
 	add_uint(&l, &top);
-	add(&l, tr, packets ? BUFFER_TOP2 : BUFFER_TOP8);
+	add(&l, tr, BUFFER_TOP8);
 	add(&l, tr, BUFFER_INSTANCE_LIST);
 	add(&l, tr, BUFFER_INSTANCES);
-	add(&l, tr, packets ? BUFFER_NODES2 : BUFFER_NODES8);
-	add(&l, tr, packets ? BUFFER_TRIANGLES : BUFFER_TRIANGLES8);
+	add(&l, tr, BUFFER_NODES8);
+	add(&l, tr, BUFFER_TRIANGLES8);
 	add(&l, tr, results);
 	return run(tr, kernel, packets ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, &l);
 }

@@ -5,20 +5,17 @@
 
 #include "tracer/device.h"
 
-extern device_twin occlude_packet_c, occlude_wide_c, intersect_packet_c, intersect_wide_c;
+extern device_twin occlude_packet_c, occlude_wide_c, intersect_wide_c;
 
 struct args {
 	uint32_t n_rays;
 	const struct ray *rays;
 	uint32_t top_first;
-	const struct node2 *top2; /* the packet kernels' */
-	const struct node8 *top8; /* the wide kernels' */
+	const struct node8 *top;
 	const uint32_t *instance_list;
 	const struct instance *instances;
-	const struct node2 *nodes2;
-	const struct node8 *nodes8;
-	const struct triangle *triangles;
-	const struct triangle8 *triangles8;
+	const struct node8 *nodes;
+	const struct triangle8 *triangles;
 	void *out;
 };
 
@@ -31,14 +28,10 @@ struct walk {
 	int any;        /* the first hit will do */
 };
 
-static struct args unpack(const void *const *args, int wide)
+static struct args unpack(const void *const *args)
 {
-	return (struct args){
-		*(const uint32_t *)args[0], args[1], *(const uint32_t *)args[2],
-		wide ? NULL : args[3], wide ? args[3] : NULL, args[4], args[5],
-		wide ? NULL : args[6], wide ? args[6] : NULL,
-		wide ? NULL : args[7], wide ? args[7] : NULL, (void *)args[8]
-	};
+	return (struct args){ *(const uint32_t *)args[0], args[1], *(const uint32_t *)args[2], args[3], args[4], args[5],
+		              args[6], args[7], (void *)args[8] };
 }
 
 static int done(const struct walk *w)
@@ -111,29 +104,6 @@ static void set_direction(struct walk *w, const float d[3])
 	}
 }
 
-static void walk_blas2(struct walk *w, uint32_t instance_index)
-{
-	const struct args *a = w->args;
-	const struct instance *instance = &a->instances[instance_index];
-	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
-
-	stack[depth++] = 0;
-	while (depth && !done(w)) {
-		const struct node2 *node = &a->nodes2[instance->node2_first + stack[--depth]];
-
-		for (int side = 0; side < 2; side++) {
-			const struct triangle *leaf = a->triangles + instance->triangle_first + node->child[side];
-
-			if (!hits_box(w, node->lo[side], node->hi[side]))
-				continue;
-			if (!node->count[side])
-				stack[depth++] = node->child[side];
-			for (uint32_t k = 0; k < node->count[side] && !done(w); k++)
-				try_triangle(w, leaf[k].v0, leaf[k].e1, leaf[k].e2, instance_index, leaf[k].primitive);
-		}
-	}
-}
-
 static void try_block(struct walk *w, const struct triangle8 *block, uint32_t instance_index)
 {
 	for (int lane = 0; lane < 8 && block->primitive[lane] != SCENE_NONE && !done(w); lane++) {
@@ -145,7 +115,7 @@ static void try_block(struct walk *w, const struct triangle8 *block, uint32_t in
 	}
 }
 
-static void walk_blas8(struct walk *w, uint32_t instance_index)
+static void walk_blas(struct walk *w, uint32_t instance_index)
 {
 	const struct args *a = w->args;
 	const struct instance *instance = &a->instances[instance_index];
@@ -153,7 +123,7 @@ static void walk_blas8(struct walk *w, uint32_t instance_index)
 
 	stack[depth++] = 0;
 	while (depth && !done(w)) {
-		const struct node8 *node = &a->nodes8[instance->node8_first + stack[--depth]];
+		const struct node8 *node = &a->nodes[instance->node8_first + stack[--depth]];
 
 		for (int lane = 0; lane < 8; lane++) {
 			if (!hits_lane(w, node, lane))
@@ -161,7 +131,7 @@ static void walk_blas8(struct walk *w, uint32_t instance_index)
 			if (!node->count[lane])
 				stack[depth++] = node->child[lane];
 			for (uint32_t k = 0; k < node->count[lane] && !done(w); k++)
-				try_block(w, &a->triangles8[instance->triangle8_first + node->child[lane] + k], instance_index);
+				try_block(w, &a->triangles[instance->triangle8_first + node->child[lane] + k], instance_index);
 		}
 	}
 }
@@ -196,10 +166,7 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (shift > 0 && eye.hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
-	if (w->args->nodes2)
-		walk_blas2(w, instance_index);
-	else
-		walk_blas8(w, instance_index);
+	walk_blas(w, instance_index);
 	w->hit.t += shift;
 	if (w->hit.instance == SCENE_NONE || (eye.hit.instance != SCENE_NONE && !(w->hit.t < eye.hit.t)))
 		w->hit = eye.hit;
@@ -211,34 +178,14 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	}
 }
 
-static void walk_top2(struct walk *w)
-{
-	const struct args *a = w->args;
-	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
-
-	stack[depth++] = 0;
-	while (depth && !done(w)) {
-		const struct node2 *node = &a->top2[a->top_first + stack[--depth]];
-
-		for (int side = 0; side < 2; side++) {
-			if (!hits_box(w, node->lo[side], node->hi[side]))
-				continue;
-			if (!node->count[side])
-				stack[depth++] = node->child[side];
-			for (uint32_t k = 0; k < node->count[side] && !done(w); k++)
-				walk_instance(w, a->instance_list[node->child[side] + k]);
-		}
-	}
-}
-
-static void walk_top8(struct walk *w)
+static void walk_top(struct walk *w)
 {
 	const struct args *a = w->args;
 	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
 
 	stack[depth++] = 0;
 	while (depth && !done(w)) {
-		const struct node8 *node = &a->top8[a->top_first + stack[--depth]];
+		const struct node8 *node = &a->top[a->top_first + stack[--depth]];
 
 		for (int lane = 0; lane < 8; lane++) {
 			if (!hits_lane(w, node, lane))
@@ -265,10 +212,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 		w.o[a] = ray->o[a];
 	}
 	set_direction(&w, ray->d);
-	if (args->top2)
-		walk_top2(&w);
-	else
-		walk_top8(&w);
+	walk_top(&w);
 	return w.hit;
 }
 
@@ -286,28 +230,21 @@ static void intersect(const struct args *args, size_t first, size_t last)
 
 void occlude_packet_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 0);
+	const struct args a = unpack(args);
 
 	occlude(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
 }
 
 void occlude_wide_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 1);
+	const struct args a = unpack(args);
 
 	occlude(&a, first, last);
 }
 
-void intersect_packet_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, 0);
-
-	intersect(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
-}
-
 void intersect_wide_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 1);
+	const struct args a = unpack(args);
 
 	intersect(&a, first, last);
 }

@@ -70,19 +70,17 @@ static struct ray *make_rays(struct random_scene *s)
 static void run(struct random_scene *s, struct device *dev, const struct ray *rays, int wide, struct result *out)
 {
 	const struct accel *a = s->accel;
-	const uint32_t n = N_RAYS, top_first = wide ? s->spaces[0].top8_first : s->spaces[0].top2_first;
+	const uint32_t n = N_RAYS, top_first = s->spaces[0].top8_first;
 	struct device_buffer *b[] = {
 		make_buffer(dev, rays, N_RAYS * sizeof(*rays)),
-		wide ? make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)) : make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)),
+		make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)),
 		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
 		make_buffer(dev, s->instances, sizeof(s->instances)),
-		wide ? make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8))
-		     : make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
-		wide ? make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))
-		     : make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
+		make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)),
+		make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8)),
 		NULL, NULL,
 	};
-	const uint32_t items = wide ? n : (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
+	const uint32_t packets = (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
 
 	memset(out, 0xa5, sizeof(*out));
 	b[6] = make_buffer(dev, out->occluded, sizeof(out->occluded));
@@ -92,10 +90,9 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 			ARG_VALUE(n), ARG_BUFFER(b[0]), ARG_VALUE(top_first), ARG_BUFFER(b[1]), ARG_BUFFER(b[2]),
 			ARG_BUFFER(b[3]), ARG_BUFFER(b[4]), ARG_BUFFER(b[5]), ARG_BUFFER(b[6 + kind]),
 		};
-		const enum device_kernel kernel = kind ? (wide ? KERNEL_intersect_wide : KERNEL_intersect_packet)
-		                                       : (wide ? KERNEL_occlude_wide : KERNEL_occlude_packet);
+		const enum device_kernel kernel = kind ? KERNEL_intersect_wide : wide ? KERNEL_occlude_wide : KERNEL_occlude_packet;
 
-		ck_assert_int_eq(device_run(dev, kernel, items, args, 9), 0);
+		ck_assert_int_eq(device_run(dev, kernel, kernel == KERNEL_occlude_packet ? packets : n, args, 9), 0);
 	}
 	ck_assert_int_eq(device_read(dev, b[6], 0, out->occluded, sizeof(out->occluded)), 0);
 	ck_assert_int_eq(device_read(dev, b[7], 0, out->hits, sizeof(out->hits)), 0);
