@@ -162,13 +162,20 @@ void gls_list_free(struct gls_list *list)
 
 /* ---- running them ---- */
 
-/* An op as the call it was. `args` is room for MAX_PACKED values and one more. */
-static void unpack_call(const struct gls_exec *x, const struct gls_op *op, struct trace_value *args, struct call *c)
+/* What calls out of a list have in common. */
+static struct call call_of_list(const struct gls_exec *x)
 {
-	*c = *x->call;
+	struct call c = *x->call;
+
+	c.ret.type = TRACE_NONE;
+	return c;
+}
+
+/* An op as the call it was. `args` is room for MAX_PACKED values and one more; c as call_of_list makes it. */
+static void unpack_call(const struct gls_op *op, struct trace_value *args, struct call *c)
+{
 	c->args = args;
 	c->n_args = op->n;
-	c->ret.type = TRACE_NONE;
 	if (op->form == GLS_OP_CALL) {
 		c->args = op->args;
 		return;
@@ -203,13 +210,21 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	set_attributes(x, st, op->after, op->after_values);
 }
 
+static void run_with_pixels(struct gls_exec *x, struct gls_state *st, const struct gls_op *op, const struct call *c)
+{
+	const struct gls_pixel_store unpack = st->client.unpack;
+
+	st->client.unpack = *op->unpack;
+	gls_dispatch(x, c, op->command);
+	st->client.unpack = unpack;
+}
+
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_list *list = table_find(&st->share->lists, name);
 	struct trace_value args[MAX_PACKED + 1];
 	uint32_t command = x->command;
-	const struct gls_pixel_store unpack = st->client.unpack;
-	struct call c;
+	struct call c = call_of_list(x);
 
 	if (!list || x->list_depth == MAX_NESTING)
 		return;
@@ -221,11 +236,11 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 			run_mesh(x, st, op->mesh);
 			continue;
 		}
-		unpack_call(x, op, args, &c);
+		unpack_call(op, args, &c);
 		if (op->unpack)
-			st->client.unpack = *op->unpack;
-		gls_dispatch(x, &c, op->command);
-		st->client.unpack = unpack;
+			run_with_pixels(x, st, op, &c);
+		else
+			gls_dispatch(x, &c, op->command);
 		x->command = command;
 	}
 	if (--x->list_depth == 0)
@@ -276,7 +291,7 @@ static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_
 {
 	struct trace_value args[MAX_PACKED + 1];
 	struct gls_geometry *g = &x->geometry;
-	struct call c;
+	struct call c = call_of_list(x);
 
 	gls_geometry_clear(g);
 	x->assembling->begin_mode = 0;
@@ -284,7 +299,7 @@ static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_
 	for (uint32_t i = first; i < last && fits_run(x, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
 		uint32_t n = g->n_vertices, touched = g->touched;
-		unpack_call(x, op, args, &c);
+		unpack_call(op, args, &c);
 		x->command = op->command;
 		gls_commands[op->command].handler(x, x->assembling, &c);
 		if (n == 0 && g->n_vertices)
@@ -330,11 +345,11 @@ static int keep_run(struct gls_exec *x, struct gls_list *list, const struct run 
 static int keep_op(struct gls_list *list, const struct gls_op *from, const struct gls_exec *x)
 {
 	struct trace_value args[MAX_PACKED + 1];
+	struct call c = call_of_list(x);
 	struct gls_op *op;
-	struct call c;
 
 	if (from->form != GLS_OP_MESH) {
-		unpack_call(x, from, args, &c);
+		unpack_call(from, args, &c);
 		return keep_call(list, &c, from->command, from->unpack);
 	}
 	op = new_op(list);
