@@ -206,7 +206,7 @@ fail:
 
 static struct snapshot_blobs blobs_of(struct index *index)
 {
-	return (struct snapshot_blobs){ stage_blob, get_blob, index };
+	return (struct snapshot_blobs){ .put = stage_blob, .get = get_blob, .user = index };
 }
 
 /* --- Table of contents --------------------------------------------------------------------------------------------- */
@@ -429,19 +429,10 @@ static uint64_t spacing(const struct index *index)
 	return index->saved / 4 > SPACING_BYTES ? index->saved / 4 : SPACING_BYTES;
 }
 
-static int count_bytes(void *user, const uint64_t name[2], const void *data, size_t n)
-{
-	struct index *index = user;
-
-	(void)name, (void)data;
-	index->saved += n;
-	return 0;
-}
-
 /* The first one: how large is the state that it would keep? */
 static int measure(struct index *index, struct replay *rp)
 {
-	const struct snapshot_blobs scale = { .put = count_bytes, .user = index };
+	const struct snapshot_blobs scale = { .count = &index->saved };
 	struct bytes state = { .n = 0 };
 	int rc;
 

@@ -117,6 +117,21 @@ static uint64_t read_long_uint(struct trace_reader *r)
 	uint64_t value = 0;
 	unsigned shift = 0, byte;
 
+	if (__builtin_expect(r->end - r->p >= 9, 1)) {
+		const uint8_t *p = r->p;
+
+		for (; shift < 63; shift += 7) {
+			byte = *p++;
+			value |= (uint64_t)(byte & 0x7f) << shift;
+			if (byte < 0x80) {
+				r->p = p;
+				return value;
+			}
+		}
+		value = 0;
+		shift = 0;
+	}
+
 	do {
 		byte = read_byte(r);
 		if (shift == 63 && byte > 1) {

@@ -40,9 +40,16 @@ static void section(struct saver *s, const char *what, uint64_t number)
 
 static void put_blob(struct saver *s, const void *data, size_t n)
 {
-	XXH128_hash_t hash = XXH3_128bits(data, n);
-	uint64_t name[2] = { hash.low64, hash.high64 };
+	XXH128_hash_t hash;
+	uint64_t name[2];
 
+	if (s->blobs->count) {
+		*s->blobs->count += n;
+		return;
+	}
+	hash = XXH3_128bits(data, n);
+	name[0] = hash.low64;
+	name[1] = hash.high64;
 	bytes_put_u64(s->out, n);
 	bytes_put(s->out, name, sizeof(name));
 	if (n && !s->err)

@@ -24,6 +24,7 @@ struct snapshot_blobs {
 	/** The n bytes of a name; free with free(). NULL: they are not there, or not what the name says (reported) */
 	uint8_t *(*get)(void *user, const uint64_t name[2], size_t n);
 	void *user;
+	uint64_t *count; /* not NULL: blobs are neither named nor kept, their bytes are added to this */
 };
 
 /** Changes whenever snapshots of another build could not be read by this one. */
