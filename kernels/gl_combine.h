@@ -25,7 +25,7 @@ static inline struct vec4 combine_plain(uint32_t mode, uint32_t format, struct v
 	if (mode == GL_DECAL) {
 		float a = format == GL_RGBA ? s.w : 1.0f;
 
-		if (format == GL_RGB || format == GL_RGBA)
+		if (format == GL_RGB || format == GL_RGBA || format == GL_RED || format == GL_RG)
 			out = v4(p.x * (1.0f - a) + s.x * a, p.y * (1.0f - a) + s.y * a, p.z * (1.0f - a) + s.z * a, p.w);
 		return out;
 	}

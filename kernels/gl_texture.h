@@ -74,7 +74,7 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	if (wrap == GL_CLAMP || wrap == GL_MIRROR_CLAMP_EXT)
 		u = M_MIN(M_MAX(u, 0.0f), (float)n);
 	/* With nearest filtering, CLAMP reaches no border texel (sec. 3.8.8: the coordinate 1 belongs to the last one). */
-	if (wrap == GL_CLAMP && !linear)
+	if ((wrap == GL_CLAMP || wrap == GL_MIRROR_CLAMP_EXT) && !linear)
 		u = M_MIN(u, (float)n - 0.5f);
 	if (linear)
 		u -= 0.5f;
@@ -421,8 +421,28 @@ static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const s
 	return sum_weight > 0.0f ? v4_scale(sum, 1.0f / sum_weight) : texture_level(t, image, unit, level, 1, c, 0);
 }
 
-/* What a unit's texture gives at coordinates s t r q. slope: NULL where there is none: the finest level. */
-static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
+/* EXT_texture_swizzle. */
+static inline struct vec4 texture_swizzle(uint32_t swizzle, struct vec4 c)
+{
+	float from[6], to[4];
+
+	if (!swizzle)
+		return c;
+	from[0] = c.x;
+	from[1] = c.y;
+	from[2] = c.z;
+	from[3] = c.w;
+	from[4] = 0.0f;
+	from[5] = 1.0f;
+	for (uint32_t i = 0u; i < 4u; i++) {
+		uint32_t which = swizzle >> 3u * i & 7u;
+
+		to[i] = from[which < 6u ? which : 4u];
+	}
+	return v4(to[0], to[1], to[2], to[3]);
+}
+
+static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
                                          const struct texture_slope *slope)
 {
 	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
@@ -459,6 +479,13 @@ static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const st
 		level = fine;
 	}
 	return texture_level(t, image, unit, (uint32_t)level, linear, c, face);
+}
+
+/* What a unit's texture gives at coordinates s t r q. slope: NULL where there is none: the finest level. */
+static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
+                                         const struct texture_slope *slope)
+{
+	return texture_swizzle(unit->swizzle, texture_filtered(t, unit, c, slope));
 }
 
 #endif

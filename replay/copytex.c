@@ -21,11 +21,13 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 				v[0] = (far > 0 ? (float)p->depth[from] / far : 0) * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
 				v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
 				memcpy(texel, v, 4);
+				if (gls_level_stencil(l))
+					gls_level_stencil(l)[(size_t)(texel - l->texels) / 4] = p->stencil[from];
 				continue;
 			}
 			for (unsigned i = 0; i < 4; i++)
 				v[i] = (float)p->rgba[4 * from + i] / 255;
-			gls_store_pixel(st, l->base_format, v, texel);
+			gls_store_pixel(st, l->internal_format, v, texel);
 		}
 }
 

@@ -62,28 +62,6 @@ static void set_missing(struct gls_exec *x, const struct target *t, uint32_t mis
 		x->missing = 1;
 }
 
-static uint32_t depth_bits_of(uint32_t format)
-{
-	switch (format) {
-	case GL_DEPTH_COMPONENT16:
-		return 16;
-	case GL_DEPTH_COMPONENT:
-	case GL_DEPTH_COMPONENT24:
-	case GL_DEPTH_COMPONENT32:
-	case GL_DEPTH_STENCIL:
-	case GL_DEPTH24_STENCIL8:
-		return 24;
-	default:
-		return 0;
-	}
-}
-
-static uint32_t stencil_bits_of(uint32_t format)
-{
-	return format == GL_DEPTH_STENCIL || format == GL_DEPTH24_STENCIL8 || format == GL_STENCIL_INDEX ||
-	       (format >= GL_STENCIL_INDEX1 && format <= GL_STENCIL_INDEX8) ? 8 : 0;
-}
-
 /* ---- pixels between surfaces and attachments ---- */
 
 static int color_of(uint32_t buffer)
@@ -91,6 +69,11 @@ static int color_of(uint32_t buffer)
 	uint32_t i = buffer - GL_COLOR_ATTACHMENT0;
 
 	return i < GLS_ATTACHMENT_DEPTH ? (int)i : -1;
+}
+
+static int has_alpha(uint32_t base)
+{
+	return base == GL_RGBA || base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY;
 }
 
 /* Size and bits of the surface that the attachments make. @return 0: there is nothing to draw to */
@@ -109,11 +92,11 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 		s->width = t.width < s->width ? t.width : s->width;
 		s->height = t.height < s->height ? t.height : s->height;
 		if (i < DEPTH)
-			s->alpha_bits = gls_base_format(t.format) == GL_RGBA ? 8 : 0;
+			s->alpha_bits = has_alpha(gls_base_format(t.format)) ? 8 : 0;
 		else if (i == DEPTH)
-			s->depth_bits = depth_bits_of(t.format);
+			s->depth_bits = gls_format_depth_bits(t.format);
 		else
-			s->stencil_bits = stencil_bits_of(t.format);
+			s->stencil_bits = gls_format_stencil_bits(t.format);
 	}
 	return any;
 }
@@ -145,10 +128,20 @@ static void load_depth(const struct target *t, struct scene_picture *p)
 		}
 }
 
+/* Where an attachment keeps its stencil values, or NULL. */
+static uint8_t *stencil_of(const struct target *t)
+{
+	if (t->renderbuffer)
+		return t->renderbuffer->content ? t->renderbuffer->content->picture.stencil : NULL;
+	return gls_level_stencil(t->level) ? gls_level_stencil(t->level) + t->first : NULL;
+}
+
 static void load_stencil(const struct target *t, struct scene_picture *p)
 {
-	for (uint32_t y = 0; t->renderbuffer && t->renderbuffer->content && y < p->height; y++)
-		memcpy(p->stencil + (size_t)y * p->width, t->renderbuffer->content->picture.stencil + (size_t)y * t->width, p->width);
+	const uint8_t *from = stencil_of(t);
+
+	for (uint32_t y = 0; from && y < p->height; y++)
+		memcpy(p->stencil + (size_t)y * p->width, from + (size_t)y * t->width, p->width);
 }
 
 /* What the attachments hold. @return a reference; NULL: out of memory, or missing */
@@ -185,16 +178,17 @@ static struct scene_picture *content_of(struct gls_exec *x, struct gls_renderbuf
 static void store_color(struct gls_exec *x, const struct target *t, const struct scene_picture *p)
 {
 	struct scene_picture *content = t->renderbuffer ? content_of(x, t->renderbuffer) : NULL;
+	const struct gls_format *format = gls_format_find(t->format);
 
-	for (uint32_t y = 0; y < p->height; y++)
+	for (uint32_t y = 0; format && y < p->height; y++)
 		for (uint32_t i = 0; i < p->width; i++) {
 			const uint8_t *from = p->rgba + 4 * ((size_t)y * p->width + i);
 			size_t to = (size_t)y * t->width + i;
 
-			if (t->level)
-				gls_store_texel(t->level->base_format, from, t->level->texels + 4 * (t->first + to));
-			else if (content)
-				memcpy(content->rgba + 4 * to, from, 4);
+			float v[4] = { (float)from[0] / 255, (float)from[1] / 255, (float)from[2] / 255, (float)from[3] / 255 };
+
+			if (t->level || content)
+				gls_format_store(format, v, t->level ? t->level->texels + 4 * (t->first + to) : content->rgba + 4 * to);
 		}
 }
 
@@ -218,10 +212,13 @@ static void store_depth(struct gls_exec *x, const struct target *t, const struct
 
 static void store_stencil(struct gls_exec *x, const struct target *t, const struct scene_picture *p)
 {
-	struct scene_picture *content = t->renderbuffer ? content_of(x, t->renderbuffer) : NULL;
+	uint8_t *to;
 
-	for (uint32_t y = 0; content && y < p->height; y++)
-		memcpy(content->stencil + (size_t)y * t->width, p->stencil + (size_t)y * p->width, p->width);
+	if (t->renderbuffer)
+		content_of(x, t->renderbuffer);
+	to = stencil_of(t);
+	for (uint32_t y = 0; to && y < p->height; y++)
+		memcpy(to + (size_t)y * t->width, p->stencil + (size_t)y * p->width, p->width);
 }
 
 /* Attachments become what was drawn to them; without pixels (p NULL) they are missing from now on. */

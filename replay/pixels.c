@@ -174,6 +174,28 @@ static void unpack_indices(const struct gls_state *st, uint32_t format, uint32_t
 	}
 }
 
+/* Depth and stencil values at once (EXT_packed_depth_stencil): written under their masks, whatever the tests and colours are. */
+static void draw_depth_stencil(struct gls_exec *x, struct gls_state *st, const float *at, uint32_t width, uint32_t height,
+                               uint8_t *texels, const uint8_t *stencil)
+{
+	struct gls_depth depth = st->a.depth;
+	uint32_t mask = st->a.color.mask, tested = st->a.stencil.enabled, value;
+
+	st->a.color.mask = 0;
+	st->a.stencil.enabled = 0;
+	st->a.depth.enabled = 1;
+	st->a.depth.func = GL_ALWAYS;
+	gls_draw_rectangle(x, st, SCENE_DEPTH_PIXELS, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+	st->a.depth = depth;
+	st->a.color.mask = mask;
+	st->a.stencil.enabled = tested;
+	for (size_t i = 0; i < (size_t)width * height; i++) {
+		value = stencil[i];
+		memcpy(texels + 4 * i, &value, 4);
+	}
+	gls_draw_rectangle(x, st, SCENE_STENCIL_PIXELS, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+}
+
 static uint32_t kind_of(uint32_t format)
 {
 	return format == GL_STENCIL_INDEX || format == GL_STENCIL ? SCENE_STENCIL_PIXELS :
@@ -195,9 +217,18 @@ GLS_HANDLER(glDrawPixels, STATE)
 	}
 	if (!st->a.current.raster_valid || !data || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
 		return;
-	texels = gls_scratch(x, (size_t)width * height * 4);
+	texels = gls_scratch(x, (size_t)width * height * 5);
 	if (!texels)
 		return;
+	if (format == GL_DEPTH_STENCIL) {
+		uint8_t *stencil = texels + 4 * (size_t)width * height;
+
+		if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n, GL_DEPTH_COMPONENT, texels) == -1)
+			return;
+		gls_unpack_stencil(st, type, width, height, data, n, stencil);
+		draw_depth_stencil(x, st, at, width, height, texels, stencil);
+		return;
+	}
 	if (indices && (type == GL_BITMAP || index_bytes(type)))
 		unpack_indices(st, format, type, data, n, width, height, texels);
 	else if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n,
@@ -252,7 +283,18 @@ GLS_HANDLER(glCopyPixels, STATE)
 	if (!st->a.current.raster_valid || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
 		return;
 	p = gls_read_screen(x, st);
-	texels = p ? gls_scratch(x, (size_t)width * height * 4) : NULL;
+	texels = p ? gls_scratch(x, (size_t)width * height * 5) : NULL;
+	if (texels && arg_u(c, 4) == GL_DEPTH_STENCIL) {
+		uint8_t *stencil = texels + 4 * (size_t)width * height, value[4];
+
+		for (uint32_t i = 0; i < width * height; i++) {
+			copy_texel(st, p, SCENE_DEPTH_PIXELS, x0 + i % width, y0 + i / width, texels + 4 * (size_t)i);
+			copy_texel(st, p, SCENE_STENCIL_PIXELS, x0 + i % width, y0 + i / width, value);
+			stencil[i] = value[0];
+		}
+		draw_depth_stencil(x, st, at, width, height, texels, stencil);
+		return;
+	}
 	for (uint32_t i = 0; texels && i < width * height; i++)
 		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + 4 * (size_t)i);
 	if (texels)

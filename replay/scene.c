@@ -158,6 +158,15 @@ static uint32_t texture_slot(struct gls_exec *x, struct gls_frame *f, struct gls
 	return image->slot;
 }
 
+static uint32_t pack_swizzle(const uint32_t token[4])
+{
+	uint32_t packed = 0;
+
+	for (unsigned i = 0; i < 4; i++)
+		packed |= (token[i] == GL_ZERO ? 4u : token[i] == GL_ONE ? 5u : token[i] - GL_RED) << 3 * i;
+	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
+}
+
 /* @return 1 where the unit textures */
 static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, unsigned u, struct scene_unit *out)
 {
@@ -182,7 +191,8 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->wrap_r = t->wrap_r;
 	out->min_filter = t->min_filter;
 	out->mag_filter = t->mag_filter;
-	memcpy(out->border_color, t->border_color, 16);
+	gls_format_border(image->texture.base_format, t->border_color, out->border_color);
+	out->swizzle = pack_swizzle(t->swizzle);
 	out->lod_bias = t->lod_bias + unit->lod_bias;
 	out->min_lod = t->min_lod;
 	out->max_lod = t->max_lod;

@@ -29,8 +29,9 @@ typedef uchar uint8_t;
 
 #define SCENE_MAX_UNITS 8
 #define SCENE_MAX_LIGHTS 8
-#define SCENE_MAX_CLIP_PLANES 6
+#define SCENE_MAX_CLIP_PLANES 8 /* GL 2.1 wants six; Mesa has eight */
 #define SCENE_NONE 0xffffffffu
+#define SCENE_SWIZZLED 0x1000u
 
 /* One enabled light as the draw saw it (GL 2.1 sec. 2.14.1, table 2.10). */
 struct scene_light {
@@ -137,6 +138,8 @@ struct scene_unit {
 	float lod_bias, min_lod, max_lod; /* bias: texture object's plus unit's */
 	float max_anisotropy;
 	uint32_t compare_mode, compare_func, depth_mode; /* GL tokens; depth textures */
+	/* 0, or SCENE_SWIZZLED and 3 bits for each of R G B A, R lowest: which channel of the sample it is; 4: zero, 5: one */
+	uint32_t swizzle;
 	/* environment, sec. 3.8.13 */
 	uint32_t env_mode; /* GL token */
 	float env_color[4];
@@ -248,7 +251,7 @@ struct scene_mesh {
 struct scene_texture {
 	uint64_t hash[2];
 	uint32_t target;      /* GL token: TEXTURE_1D, 2D, 3D, CUBE_MAP, RECTANGLE */
-	uint32_t base_format; /* GL token: ALPHA, LUMINANCE, LUMINANCE_ALPHA, INTENSITY, RGB, RGBA, DEPTH_COMPONENT */
+	uint32_t base_format; /* GL token: ALPHA, LUMINANCE, LUMINANCE_ALPHA, INTENSITY, RED, RG, RGB, RGBA, DEPTH_COMPONENT */
 	uint32_t width, height, depth; /* of level 0, without border; powers of two or not */
 	uint32_t n_levels;             /* complete ones only */
 	uint32_t border;               /* 1: each level has a border of one texel around it, kept in the data */

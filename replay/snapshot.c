@@ -716,7 +716,7 @@ static struct gls_texture *get_texture(struct loader *l)
 {
 	struct gls_texture *t = allocate(l, sizeof(*t));
 
-	KNOWN(struct gls_texture, 4424);
+	KNOWN(struct gls_texture, 4448);
 	KNOWN(struct gls_level, 48);
 	if (!t)
 		return NULL;

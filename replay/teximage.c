@@ -1,4 +1,5 @@
 /* Pixels from the client into textures (GL 2.1 sec. 3.6, 3.8.1, 3.8.2, 3.8.8). */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,87 +7,6 @@
 #include "replay/texture.h"
 
 #define MAX_SIZE 16384
-
-uint32_t gls_base_format(uint32_t f)
-{
-	switch (f) {
-	case 1:
-	case GL_LUMINANCE:
-	case GL_LUMINANCE4:
-	case GL_LUMINANCE8:
-	case GL_LUMINANCE12:
-	case GL_LUMINANCE16:
-	case GL_COMPRESSED_LUMINANCE:
-	case GL_SLUMINANCE:
-	case GL_SLUMINANCE8:
-		return GL_LUMINANCE;
-	case 2:
-	case GL_LUMINANCE_ALPHA:
-	case GL_LUMINANCE4_ALPHA4:
-	case GL_LUMINANCE6_ALPHA2:
-	case GL_LUMINANCE8_ALPHA8:
-	case GL_LUMINANCE12_ALPHA4:
-	case GL_LUMINANCE12_ALPHA12:
-	case GL_LUMINANCE16_ALPHA16:
-	case GL_COMPRESSED_LUMINANCE_ALPHA:
-	case GL_SLUMINANCE_ALPHA:
-	case GL_SLUMINANCE8_ALPHA8:
-		return GL_LUMINANCE_ALPHA;
-	case GL_ALPHA:
-	case GL_ALPHA4:
-	case GL_ALPHA8:
-	case GL_ALPHA12:
-	case GL_ALPHA16:
-	case GL_COMPRESSED_ALPHA:
-		return GL_ALPHA;
-	case GL_INTENSITY:
-	case GL_INTENSITY4:
-	case GL_INTENSITY8:
-	case GL_INTENSITY12:
-	case GL_INTENSITY16:
-	case GL_COMPRESSED_INTENSITY:
-		return GL_INTENSITY;
-	case 3:
-	case GL_RGB:
-	case GL_R3_G3_B2:
-	case GL_RGB4:
-	case GL_RGB5:
-	case GL_RGB565:
-	case GL_RGB8:
-	case GL_RGB10:
-	case GL_RGB12:
-	case GL_RGB16:
-	case GL_COMPRESSED_RGB:
-	case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
-	case GL_SRGB:
-	case GL_SRGB8:
-		return GL_RGB;
-	case 4:
-	case GL_RGBA:
-	case GL_BGRA: /* no internal format by the letter; programs use it and Mesa refuses it */
-	case GL_RGBA2:
-	case GL_RGBA4:
-	case GL_RGB5_A1:
-	case GL_RGBA8:
-	case GL_RGB10_A2:
-	case GL_RGBA12:
-	case GL_RGBA16:
-	case GL_COMPRESSED_RGBA:
-	case GL_COMPRESSED_RGBA_S3TC_DXT1_EXT:
-	case GL_COMPRESSED_RGBA_S3TC_DXT3_EXT:
-	case GL_COMPRESSED_RGBA_S3TC_DXT5_EXT:
-	case GL_SRGB_ALPHA:
-	case GL_SRGB8_ALPHA8:
-		return f == GL_BGRA ? 0 : GL_RGBA;
-	case GL_DEPTH_COMPONENT:
-	case GL_DEPTH_COMPONENT16:
-	case GL_DEPTH_COMPONENT24:
-	case GL_DEPTH_COMPONENT32:
-		return GL_DEPTH_COMPONENT;
-	default:
-		return 0;
-	}
-}
 
 /* ---- client formats, tables 3.5 and 3.6 ---- */
 
@@ -104,6 +24,7 @@ static const struct format *find_format(uint32_t token)
 		{ GL_ALPHA, 1, { 3 } },       { GL_RGB, 3, { 0, 1, 2 } },    { GL_BGR, 3, { 2, 1, 0 } },
 		{ GL_RGBA, 4, { 0, 1, 2, 3 } }, { GL_BGRA, 4, { 2, 1, 0, 3 } }, { GL_ABGR_EXT, 4, { 3, 2, 1, 0 } },
 		{ GL_LUMINANCE, 1, { 4 } },   { GL_LUMINANCE_ALPHA, 2, { 4, 3 } }, { GL_DEPTH_COMPONENT, 1, { 5 } },
+		{ GL_RG, 2, { 0, 1 } },       { GL_DEPTH_STENCIL, 1, { 5 } },
 	};
 
 	for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++)
@@ -149,11 +70,15 @@ static size_t plain_bytes(uint32_t type)
 		return 1;
 	case GL_UNSIGNED_SHORT:
 	case GL_SHORT:
+	case GL_HALF_FLOAT:
 		return 2;
 	case GL_UNSIGNED_INT:
 	case GL_INT:
 	case GL_FLOAT:
+	case GL_UNSIGNED_INT_24_8:
 		return 4;
+	case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+		return 8;
 	default:
 		return 0;
 	}
@@ -168,13 +93,31 @@ static uint32_t load(const uint8_t *p, size_t n, int swap)
 	return value;
 }
 
-/* One component as a float (table 2.9). */
+/* A number of 16 bits: sign, 5 bits of exponent, 10 of mantissa. */
+static float half_float(uint32_t h)
+{
+	int exponent = (int)(h >> 10 & 31);
+	float mantissa = (float)(h & 1023), f;
+
+	if (exponent == 31)
+		f = h & 1023 ? NAN : INFINITY;
+	else
+		f = exponent ? ldexpf(mantissa + 1024, exponent - 25) : ldexpf(mantissa, -24);
+	return h >> 15 ? -f : f;
+}
+
+/* One component as a float (table 2.9); of depths packed with stencil values the depth. */
 static float plain_component(const uint8_t *p, uint32_t type, int swap)
 {
-	uint32_t u = load(p, plain_bytes(type), swap);
+	size_t bytes = plain_bytes(type);
+	uint32_t u = load(p, bytes < 4 ? bytes : 4, swap);
 	float f;
 
 	switch (type) {
+	case GL_HALF_FLOAT:
+		return half_float(u);
+	case GL_UNSIGNED_INT_24_8:
+		return (float)(u >> 8) / 16777215.0f;
 	case GL_UNSIGNED_BYTE:
 		return (float)u / 255.0f;
 	case GL_BYTE:
@@ -208,40 +151,6 @@ static void packed_components(const uint8_t *p, const struct packed *t, int swap
 	}
 }
 
-static uint8_t to_u8(float value)
-{
-	return value <= 0 || value != value ? 0 : value >= 1 ? 255 : (uint8_t)(value * 255.0f + 0.5f);
-}
-
-/* A group as RGBA of the texture's base format (tables 3.15, 3.20). */
-static void store(uint32_t base, const float rgba[4], uint8_t out[4])
-{
-	uint8_t r = to_u8(rgba[0]), g = to_u8(rgba[1]), b = to_u8(rgba[2]), a = to_u8(rgba[3]);
-
-	switch (base) {
-	case GL_ALPHA:
-		r = g = b = 0;
-		break;
-	case GL_LUMINANCE:
-		g = b = r;
-		a = 255;
-		break;
-	case GL_LUMINANCE_ALPHA:
-		g = b = r;
-		break;
-	case GL_INTENSITY:
-		g = b = a = r;
-		break;
-	case GL_RGB:
-		a = 255;
-		break;
-	}
-	out[0] = r;
-	out[1] = g;
-	out[2] = b;
-	out[3] = a;
-}
-
 /* Sec. 3.6.5: scale and bias, then the colour maps. */
 static void transfer(const struct gls_state *st, float rgba[4])
 {
@@ -258,6 +167,22 @@ static void transfer(const struct gls_state *st, float rgba[4])
 	}
 }
 
+void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
+                        uint8_t *out)
+{
+	const struct gls_pixel_store *u = &st->client.unpack;
+	size_t group = plain_bytes(type), align = (size_t)u->alignment;
+	size_t row = (group * (u->row_length > 0 ? (size_t)u->row_length : width) + align - 1) / align * align;
+
+	for (uint32_t y = 0; y < height; y++)
+		for (uint32_t i = 0; i < width; i++) {
+			size_t at = ((size_t)u->skip_rows + y) * row + ((size_t)u->skip_pixels + i) * group;
+
+			/* the lowest byte of the last word */
+			*out++ = at <= n && group <= n - at ? data[at + group - (u->swap_bytes ? 1 : 4)] : 0;
+		}
+}
+
 static int has_transfer(const struct gls_pixel *p)
 {
 	for (unsigned i = 0; i < 4; i++)
@@ -266,15 +191,10 @@ static int has_transfer(const struct gls_pixel *p)
 	return p->map_color != 0;
 }
 
-void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4])
+void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t out[4])
 {
 	transfer(st, rgba);
-	store(base, rgba, out);
-}
-
-void gls_store_texel(uint32_t base, const uint8_t rgba[4], uint8_t out[4])
-{
-	store(base, (float[4]){ (float)rgba[0] / 255, (float)rgba[1] / 255, (float)rgba[2] / 255, (float)rgba[3] / 255 }, out);
+	gls_format_store(gls_format_find(internal_format), rgba, out);
 }
 
 /*
@@ -297,7 +217,11 @@ static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
 		place[0] = place[1] = place[2] = ZERO_BYTE;
 	if (base == GL_LUMINANCE || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY)
 		place[1] = place[2] = place[0];
-	if (base == GL_LUMINANCE || base == GL_RGB)
+	if (base == GL_RED || base == GL_RG)
+		place[2] = ZERO_BYTE;
+	if (base == GL_RED)
+		place[1] = ZERO_BYTE;
+	if (base == GL_LUMINANCE || base == GL_RGB || base == GL_RED || base == GL_RG)
 		place[3] = FULL_BYTE;
 	if (base == GL_INTENSITY)
 		place[3] = place[0];
@@ -322,7 +246,7 @@ static inline void place_floats(const uint8_t *from, unsigned n, uint32_t width,
 	for (uint32_t i = 0; i < width; i++, from += 4 * n, out += 4) {
 		memcpy(values, from, 4 * n);
 		for (unsigned k = 0; k < n; k++)
-			group[k] = to_u8(values[k]);
+			group[k] = gls_byte(values[k]);
 		for (unsigned k = 0; k < 4; k++)
 			out[k] = group[place[k]];
 	}
@@ -361,13 +285,14 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	const struct gls_pixel_store *u = &st->client.unpack;
 	const struct format *f = find_format(format);
 	const struct packed *packed = find_packed(type);
-	uint32_t base = gls_base_format(internal_format);
+	const struct gls_format *to = gls_format_find(internal_format);
 	size_t component = plain_bytes(type), group, row, image, start;
-	int depth_texels = base == GL_DEPTH_COMPONENT, do_transfer = has_transfer(&st->a.pixel), cut = 0;
+	int depth_texels = to->base == GL_DEPTH_COMPONENT, do_transfer = has_transfer(&st->a.pixel), cut = 0;
 	uint8_t place[4];
 	int plain;
 
-	if (!f || (!component && !packed) || depth_texels != (f->to[0] == 5) || (packed && packed->n != f->n)) {
+	if (!f || (!component && !packed) || depth_texels != (f->to[0] == 5) || (packed && packed->n != f->n) ||
+	    (format == GL_DEPTH_STENCIL) != (type == GL_UNSIGNED_INT_24_8 || type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV)) {
 		gls_unsupported(x, "pixels of this format and type");
 		return -1;
 	}
@@ -377,9 +302,10 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	row = (row + (size_t)u->alignment - 1) / (size_t)u->alignment * (size_t)u->alignment;
 	image = row * (u->image_height > 0 ? (size_t)u->image_height : height);
 	start = (size_t)u->skip_images * image + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
-	plain = (type == GL_UNSIGNED_BYTE || (type == GL_FLOAT && !u->swap_bytes)) && !do_transfer && !depth_texels;
+	plain = (type == GL_UNSIGNED_BYTE || (type == GL_FLOAT && !u->swap_bytes)) && !do_transfer && !depth_texels &&
+	        !to->bits[0] && !to->bits[3] && !to->s3tc;
 	if (plain)
-		places_of(f, base, place);
+		places_of(f, to->base, place);
 	for (uint32_t z = 0; z < depth; z++)
 		for (uint32_t y = 0; y < height; y++) {
 			size_t at = start + z * image + y * row;
@@ -414,7 +340,7 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 				}
 				if (do_transfer)
 					transfer(st, rgba);
-				store(base, rgba, out);
+				gls_format_store(to, rgba, out);
 			}
 		}
 	return cut ? -2 : 0;
@@ -600,7 +526,7 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		gls_error(x, st, GL_INVALID_VALUE);
 		return NULL;
 	}
-	bytes = (size_t)(width * height * depth) * 4;
+	bytes = (size_t)(width * height * depth) * (gls_format_stencil_bits(internal_format) ? 5 : 4);
 	free(l->texels);
 	*l = (struct gls_level){ (uint32_t)width, (uint32_t)height, (uint32_t)depth, (uint32_t)border, internal_format, base,
 	                         NULL, bytes, 0 };
@@ -632,8 +558,19 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 	if (pixels && gls_unpack_pixels(x, st, arg_u(c, border + 1), arg_u(c, border + 2), l->width, l->height, l->depth, pixels,
 	                                n, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
+	if (pixels && gls_level_stencil(l) && arg_u(c, border + 1) == GL_DEPTH_STENCIL)
+		gls_unpack_stencil(st, arg_u(c, border + 2), l->width, l->height * l->depth, pixels, n, gls_level_stencil(l));
 	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
 		gls_texture_generate_mipmaps(x, t, face);
+}
+
+/* Copy texels to a place in a level. */
+static void place(struct gls_level *l, const int64_t at[3], const int64_t size[3], const uint8_t *texels)
+{
+	for (int64_t z = 0; z < size[2]; z++)
+		for (int64_t y = 0; y < size[1]; y++)
+			memcpy(l->texels + 4 * (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
+			       texels + 4 * (z * size[1] + y) * size[0], 4 * (size_t)size[0]);
 }
 
 static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
@@ -670,14 +607,92 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 	if (!texels || gls_unpack_pixels(x, st, arg_u(c, format), arg_u(c, format + 1), (uint32_t)extent[0],
 	                                 (uint32_t)extent[1], (uint32_t)extent[2], pixels, n, l->internal_format, texels) == -1)
 		return;
-	for (int64_t z = 0; z < extent[2]; z++)
-		for (int64_t y = 0; y < extent[1]; y++)
-			memcpy(l->texels + 4 * (((at[2] + z) * room[1] + at[1] + y) * room[0] + at[0]),
-			       texels + 4 * (z * extent[1] + y) * extent[0], 4 * (size_t)extent[0]);
+	place(l, at, extent, texels);
+	if (gls_level_stencil(l) && arg_u(c, format) == GL_DEPTH_STENCIL) {
+		gls_unpack_stencil(st, arg_u(c, format + 1), (uint32_t)extent[0], (uint32_t)(extent[1] * extent[2]), pixels, n, texels);
+		for (int64_t y = 0; y < extent[1] * extent[2]; y++)
+			memcpy(gls_level_stencil(l) + ((at[2] + y / extent[1]) * room[1] + at[1] + y % extent[1]) * room[0] + at[0],
+			       texels + y * extent[0], (size_t)extent[0]);
+	}
 	t->dirty = 1;
 	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
+
+/* ---- compressed images, sec. 3.8.3 ---- */
+
+/* Texels of an image of blocks, slices one after the other. @return 0, or -1 (counted) */
+static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const int64_t size[3], const uint8_t *data, size_t n,
+                             uint8_t *texels)
+{
+	for (int64_t z = 0; z < size[2]; z++)
+		if (gls_decompress(internal_format, (uint32_t)size[0], (uint32_t)size[1], data + (size_t)z * (n / (size_t)size[2]),
+		                   n / (size_t)size[2], texels + 4 * (size_t)(z * size[0] * size[1]))) {
+			gls_unsupported(x, "compressed images of this format");
+			return -1;
+		}
+	return 0;
+}
+
+static void compressed_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l;
+	size_t n;
+	const uint8_t *pixels = gls_pixel_source(st, c, n_dims + 5, &n);
+
+	if (!t)
+		return;
+	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1,
+	                        n_dims > 2 ? arg_i(c, 5) : 1, arg_i(c, n_dims + 3));
+	if (l && pixels)
+		unpack_compressed(x, l->internal_format, (int64_t[3]){ l->width, l->height, l->depth }, pixels, n, l->texels);
+	if (l && t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+		gls_texture_generate_mipmaps(x, t, face);
+}
+
+static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
+	int64_t at[3] = { 0 }, size[3] = { 1, 1, 1 };
+	size_t n;
+	const uint8_t *pixels = gls_pixel_source(st, c, 4 + 2 * n_dims, &n);
+	uint8_t *texels;
+
+	if (!l || !pixels)
+		return;
+	for (unsigned i = 0; i < n_dims; i++) {
+		at[i] = arg_i(c, 2 + i);
+		size[i] = arg_i(c, 2 + n_dims + i);
+	}
+	if (!l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims)) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	for (unsigned i = 0; i < 3; i++)
+		if (at[i] < 0 || size[i] < 0 || at[i] + size[i] > (i == 0 ? l->width : i == 1 ? l->height : l->depth)) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+	if (!size[0] || !size[1] || !size[2])
+		return;
+	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * 4);
+	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
+		place(l, at, size, texels);
+	t->dirty = 1;
+	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+		gls_texture_generate_mipmaps(x, t, face);
+}
+
+GLS_HANDLER(glCompressedTexImage1D, STATE) { compressed_image(x, st, c, 1); }
+GLS_HANDLER(glCompressedTexImage2D, STATE) { compressed_image(x, st, c, 2); }
+GLS_HANDLER(glCompressedTexImage3D, STATE) { compressed_image(x, st, c, 3); }
+GLS_HANDLER(glCompressedTexSubImage1D, STATE) { compressed_sub_image(x, st, c, 1); }
+GLS_HANDLER(glCompressedTexSubImage2D, STATE) { compressed_sub_image(x, st, c, 2); }
+GLS_HANDLER(glCompressedTexSubImage3D, STATE) { compressed_sub_image(x, st, c, 3); }
 
 GLS_HANDLER(glTexImage1D, STATE) { tex_image(x, st, c, 1); }
 GLS_HANDLER(glTexImage2D, STATE) { tex_image(x, st, c, 2); }

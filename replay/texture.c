@@ -50,6 +50,8 @@ static struct gls_texture *create(uint32_t name, uint32_t target)
 	t->priority = 1;
 	t->compare_func = GL_LEQUAL;
 	t->depth_mode = GL_LUMINANCE;
+	memcpy(t->swizzle, (uint32_t[]){ GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA }, sizeof(t->swizzle));
+	t->srgb_decode = GL_DECODE_EXT;
 	t->dirty = 1;
 	return t;
 }
@@ -172,6 +174,11 @@ static int is_wrap(const struct gls_texture *t, uint32_t wrap)
 	                wrap == GL_MIRROR_CLAMP_TO_EDGE || wrap == GL_MIRROR_CLAMP_TO_BORDER_EXT));
 }
 
+static int is_swizzle(uint32_t token)
+{
+	return token == GL_ZERO || token == GL_ONE || (token >= GL_RED && token <= GL_ALPHA);
+}
+
 static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
 {
 	struct gls_texture *t = addressed(x, st, arg_u(c, 0));
@@ -247,6 +254,28 @@ static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct
 		break;
 	case GL_DEPTH_TEXTURE_MODE:
 		t->depth_mode = token;
+		break;
+	case GL_TEXTURE_SRGB_DECODE_EXT:
+		t->srgb_decode = token;
+		t->dirty = 1;
+		break;
+	case GL_TEXTURE_SWIZZLE_R:
+	case GL_TEXTURE_SWIZZLE_G:
+	case GL_TEXTURE_SWIZZLE_B:
+	case GL_TEXTURE_SWIZZLE_A:
+		if (!is_swizzle(token))
+			gls_error(x, st, GL_INVALID_ENUM);
+		else
+			t->swizzle[arg_u(c, 1) - GL_TEXTURE_SWIZZLE_R] = token;
+		break;
+	case GL_TEXTURE_SWIZZLE_RGBA:
+		for (unsigned i = 0; i < 4; i++)
+			if (v[i] < 0 || !is_swizzle((uint32_t)v[i])) {
+				gls_error(x, st, GL_INVALID_ENUM);
+				return;
+			}
+		for (unsigned i = 0; i < 4; i++)
+			t->swizzle[i] = (uint32_t)v[i];
 		break;
 	case GL_TEXTURE_MAX_ANISOTROPY_EXT:
 		if (!(v[0] >= 1))
@@ -437,13 +466,25 @@ static int is_cube_complete(const struct gls_texture *t)
 	return 1;
 }
 
+static void decode_srgb(uint8_t *to, const uint8_t *from, size_t n_texels)
+{
+	uint8_t linear[256];
+
+	for (unsigned i = 0; i < 256; i++)
+		linear[i] = (uint8_t)(gls_linear_from_srgb((float)i / 255) * 255 + 0.5f);
+	for (size_t i = 0; i < 4 * n_texels; i++)
+		to[i] = i % 4 == 3 ? from[i] : linear[from[i]];
+}
+
 static struct gls_texture_image *build_image(struct gls_exec *x, const struct gls_texture *t, uint32_t n_levels)
 {
 	const struct gls_level *base = &t->levels[0][t->base_level];
 	unsigned n_faces = t->target == GLS_TEXTURE_CUBE ? 6 : 1;
-	uint32_t head[7] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
+	const struct gls_format *format = gls_format_find(base->internal_format);
+	int srgb = format && format->srgb && t->srgb_decode != GL_SKIP_DECODE_EXT;
+	uint32_t head[8] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
-	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border };
+	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb };
 	struct gls_texture_image *image;
 	XXH3_state_t state;
 	XXH128_hash_t hash;
@@ -456,8 +497,8 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
 			const struct gls_level *level = &t->levels[face][t->base_level + l];
-			XXH3_128bits_update(&state, level->texels, level->bytes);
-			bytes += level->bytes;
+			XXH3_128bits_update(&state, level->texels, 4 * gls_level_count(level));
+			bytes += 4 * gls_level_count(level);
 		}
 	hash = XXH3_128bits_digest(&state);
 	for (key = hash.low64; (image = table_find(&x->images, key)); key++)
@@ -479,8 +520,11 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
 			const struct gls_level *level = &t->levels[face][t->base_level + l];
-			memcpy(at, level->texels, level->bytes);
-			at += level->bytes;
+			if (srgb)
+				decode_srgb(at, level->texels, gls_level_count(level));
+			else
+				memcpy(at, level->texels, 4 * gls_level_count(level));
+			at += 4 * gls_level_count(level);
 		}
 	x->image_bytes += bytes;
 	return image;

@@ -12,10 +12,21 @@
 struct gls_level {
 	uint32_t width, height, depth; /* with border; 0: not specified */
 	uint32_t border, internal_format, base_format;
-	uint8_t *texels;
-	size_t bytes;
+	uint8_t *texels; /* 4 bytes each; where the format has stencil bits, a byte of stencil each after all of them */
+	size_t bytes;    /* of both */
 	uint32_t missing; /* frame + 1 in which what it holds was drawn, and not rendered; 0: it is all there */
 };
+
+static inline size_t gls_level_count(const struct gls_level *l)
+{
+	return (size_t)l->width * l->height * l->depth;
+}
+
+/* Stencil values of a level, NULL where it has none. */
+static inline uint8_t *gls_level_stencil(const struct gls_level *l)
+{
+	return l->texels && l->bytes > 4 * gls_level_count(l) ? l->texels + 4 * gls_level_count(l) : NULL;
+}
 
 struct gls_texture {
 	uint32_t name, target; /* target: enum gls_texture_target; N_GLS_TEXTURE_TARGETS before the first bind */
@@ -24,6 +35,7 @@ struct gls_texture {
 	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
 	uint32_t base_level, max_level, generate_mipmap;
 	uint32_t compare_mode, compare_func, depth_mode;
+	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
 	uint32_t attached;               /* 1: is or was attached to a framebuffer object */
 	uint32_t dirty;                  /* image must be found again */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
@@ -60,11 +72,15 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out);
 
-/** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of a base format. */
-void gls_store_pixel(const struct gls_state *st, uint32_t base, float rgba[4], uint8_t out[4]);
+/** The stencil values of pixels of the format DEPTH_STENCIL, a byte each. What is not there is 0. */
+void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
+                        uint8_t *out);
 
-/** A colour, 4 bytes, as a texel of a base format. */
-void gls_store_texel(uint32_t base, const uint8_t rgba[4], uint8_t out[4]);
+/** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of an internal format. */
+void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t out[4]);
+
+/** Whatever the client's format was, a block-compressed image as texels; texcompress.c. @return 0; -1: too few bytes */
+int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
 
 /** The object whose level a call names, or NULL (error set; proxies: NULL and no error). */
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
@@ -87,7 +103,36 @@ struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t wi
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
 const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);
 
-/** Base format of an internal format (table 3.15 ff.), 0: none. */
+/* ---- internal formats, texformat.c ---- */
+
+/* A number in [0,1] as 8 bits. */
+static inline uint8_t gls_byte(float value)
+{
+	return value <= 0 || value != value ? 0 : value >= 1 ? 255 : (uint8_t)(value * 255.0f + 0.5f);
+}
+
+struct gls_format {
+	uint32_t token, base; /* base: table 3.15; RED and RG beside (ARB_texture_rg) */
+	uint8_t bits[4];      /* of R G B A (L and I: of R) where fewer than 8 are stored; 0: 8 */
+	uint8_t srgb;         /* 1: colours are encoded as sRGB says, and sampled in linear light */
+	uint8_t block_bytes;  /* of 4x4 texels (8x4 of FXT1) in client memory where it is compressed; else 0 */
+	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded;
+	   so does every texel here, which is all that is done of that compression */
+	uint8_t s3tc;
+};
+/** NULL: none that fixed function could sample. */
+const struct gls_format *gls_format_find(uint32_t internal_format);
+/** Base format of an internal format, 0: none. */
 uint32_t gls_base_format(uint32_t internal_format);
+/** Of a surface that such a texture or renderbuffer is attached to. */
+uint32_t gls_format_depth_bits(uint32_t internal_format);
+uint32_t gls_format_stencil_bits(uint32_t internal_format);
+/** A colour as a texel, rounded to the format's bits, expanded as sampling does (table 3.20). */
+void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
+/** A border colour as sampling a base format gives it. */
+void gls_format_border(uint32_t base, const float color[4], float out[4]);
+/** EXT_texture_sRGB, of one channel in [0,1]. */
+float gls_linear_from_srgb(float c);
+float gls_srgb_from_linear(float c);
 
 #endif

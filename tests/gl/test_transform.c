@@ -87,7 +87,7 @@ START_TEST(test_eye_space)
 	ck_assert_floats(4, gl_state(&gl)->a.transform.clip_plane_eye[1], -1, 0, 0, -2);
 	ck_assert_floats(4, gl_state(&gl)->a.lighting.lights[3].value.position_eye, -2, 11, 3, 1);
 	ck_assert_floats(3, gl_state(&gl)->a.lighting.lights[3].value.spot_direction_eye, 0, 0, -1);
-	gl_call(&gl, "glClipPlane", "eD", GL_CLIP_PLANE0 + 6, 4, plane);
+	gl_call(&gl, "glClipPlane", "eD", GL_CLIP_PLANE0 + 8, 4, plane);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
 	gl_close(&gl);
 }

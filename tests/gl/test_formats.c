@@ -1,0 +1,223 @@
+/*
+ * Internal formats beyond 8 bits of red, green, blue and alpha: small ones, red and green alone, sRGB, packed depth and stencil,
+ * compressed blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil, EXT_texture_compression_s3tc,
+ * 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
+ */
+#include "tests/gl/gl.h"
+
+static void draw(struct gl *gl)
+{
+	gl_call(gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+}
+
+static struct gl begin(void)
+{
+	struct gl gl = gl_open();
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_ALIGNMENT, 1);
+	return gl;
+}
+
+/* One texel of a format as the scene shows it. */
+static void check_texel(uint32_t internal, uint32_t format, uint32_t type, size_t n, const void *pixel, uint32_t base,
+                        const uint8_t wanted[4])
+{
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, internal, 1, 1, 0, format, type, n, pixel);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_uint_eq(s->textures[0]->base_format, base);
+	ck_assert_mem_eq(s->textures[0]->texels, wanted, 4);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+
+START_TEST(test_texels)
+{
+	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
+	static const uint16_t halves[4] = { 0x3800, 0x3c00, 0x0000, 0x3400 }; /* 0.5 1 0 0.25 */
+
+	check_texel(GL_RED, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RED, (uint8_t[]){ 100, 0, 0, 255 });
+	check_texel(GL_RG16F, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RG, (uint8_t[]){ 100, 150, 0, 255 });
+	check_texel(GL_RG, GL_RG, GL_UNSIGNED_BYTE, 2, rgba, GL_RG, (uint8_t[]){ 100, 150, 0, 255 });
+	check_texel(GL_RGBA4, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 102, 153, 204, 85 });
+	check_texel(GL_RGB5_A1, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 99, 148, 197, 0 });
+	check_texel(GL_R3_G3_B2, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGB, (uint8_t[]){ 109, 146, 170, 255 });
+	check_texel(GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, halves, GL_RGBA, (uint8_t[]){ 128, 255, 0, 64 });
+	/* 0.2122, 0.3050 and 0.5776 of linear light; alpha is no light */
+	check_texel(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 32, 78, 147, 90 });
+	check_texel(GL_COMPRESSED_RGB, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGB, (uint8_t[]){ 99, 150, 206, 255 });
+}
+END_TEST
+
+START_TEST(test_srgb_as_it_is)
+{
+	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, rgba);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_SRGB_DECODE_EXT, GL_SKIP_DECODE_EXT);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_mem_eq(s->textures[0]->texels, rgba, 4);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* An image of one block as the scene shows it. */
+static struct scene *show_block(struct gl *gl, uint32_t internal, int width, int height, size_t n, const void *block)
+{
+	gl_call(gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, 0, internal, width, height, 0, (int)n, n, block);
+	draw(gl);
+	return gl_swap(gl);
+}
+
+START_TEST(test_s3tc)
+{
+	/* red 31 and blue 31; texels 0..3 of the first row are codes 0 1 2 3, all others code 0 */
+	static const uint8_t four[8] = { 0x00, 0xf8, 0x1f, 0x00, 0xe4, 0, 0, 0 }, three[8] = { 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
+	static const uint8_t dxt3[16] = { 0x10, 0x32, 0, 0, 0, 0, 0, 0, 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
+	static const uint8_t dxt5[16] = { 70, 0, 0x88, 0x0c, 0, 0, 0, 0, 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
+	struct gl gl = begin();
+	struct scene *s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 4, 4, 8, four);
+	const uint8_t *t = s->textures[0]->texels;
+
+	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 255, 255, 170, 0, 85, 255, 85, 0, 170, 255, 255, 0, 0, 255 }), 20);
+	scene_release(&s);
+	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, 4, 4, 8, three);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 255, 0, 0, 255, 127, 0, 127, 255, 0, 0, 0, 0 }), 16);
+	scene_release(&s);
+	s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 3, 2, 8, three); /* cut off: three texels of two rows */
+	ck_assert_uint_eq(s->textures[0]->n_bytes, 24);
+	scene_release(&s);
+	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, 4, 4, 16, dxt3);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 0, 255, 0, 0, 17, 85, 0, 170, 34, 170, 0, 85, 51 }), 16);
+	scene_release(&s);
+	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, 4, 4, 16, dxt5); /* codes 0 1 2 6: 70, 0, 6/7 and 2/7 of 70 */
+	t = s->textures[0]->texels;
+	ck_assert_uint_eq(t[3], 70);
+	ck_assert_uint_eq(t[7], 0x0c88 >> 3 & 1 ? 0 : 255);
+	ck_assert_uint_eq(t[11], 60);
+	ck_assert_uint_eq(t[15], 20);
+	scene_release(&s);
+	gl_call(&gl, "glCompressedTexImage2D", "eieiiiib", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 8, 8, 0, 8, (size_t)8, four);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1); /* too few blocks */
+	gl_close(&gl);
+}
+END_TEST
+
+/* The four kinds of blocks. Bits 64 on: colours of 15 bits, blue lowest. */
+START_TEST(test_fxt1)
+{
+	uint8_t block[16] = { 0 };
+	struct gl gl = begin();
+	struct scene *s;
+	const uint8_t *t;
+
+	/* CC_HI: colours at 96 and 111, three bits a texel: 6 and 7 (nothing) are the first two */
+	block[0] = 6 | 7 << 3;
+	block[12] = 31; /* the first is blue */
+	block[15] = 0x3e; /* the second, red: bits 121 to 125 */
+	s = show_block(&gl, GL_COMPRESSED_RGBA_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
+	scene_release(&s);
+	/* CC_CHROMA: four colours at 64, 79, 94, 109; two bits a texel */
+	memset(block, 0, 16);
+	block[15] = 0x40 | 0x0f; /* mode 010; red of the fourth: bits 119 to 123 */
+	block[14] = 0x80;
+	block[0] = 3;
+	s = show_block(&gl, GL_COMPRESSED_RGB_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 0, 255 }), 8);
+	scene_release(&s);
+	/* CC_ALPHA, not interpolated: three colours and alphas at 109, 114, 119; code 3 is nothing */
+	memset(block, 0, 16);
+	block[15] = 0x60;
+	block[13] = 0xe0; /* alpha of the first: bits 109 to 113 */
+	block[14] = 0x03;
+	block[8] = 31;
+	block[0] = 3 << 2;
+	s = show_block(&gl, GL_COMPRESSED_RGBA_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 0, 0, 0, 0 }), 8);
+	scene_release(&s);
+	/* CC_MIXED with the transparent code: the left half's colours at 64 and 79 */
+	memset(block, 0, 16);
+	block[15] = 0x90;
+	block[8] = 31;
+	block[0] = 1 | 3 << 2;
+	s = show_block(&gl, GL_COMPRESSED_RGBA_FXT1_3DFX, 8, 4, 16, block);
+	t = s->textures[0]->texels;
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 127, 255, 0, 0, 0, 0, 0, 0, 255, 255 }), 12);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Depth and stencil values of one image: the depth is sampled, both are drawn as pixels. */
+START_TEST(test_packed_depth_stencil)
+{
+	static const uint32_t pixels[2] = { 0x80000012, 0xffffff34 };
+	struct gl gl = begin();
+	struct scene *s;
+	float depth[2];
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_DEPTH24_STENCIL8, 2, 1, 0, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8,
+	        sizeof(pixels), pixels);
+	draw(&gl);
+	gl_call(&gl, "glDrawPixels", "iieeb", 2, 1, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, sizeof(pixels), pixels);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->textures[0]->base_format, GL_DEPTH_COMPONENT);
+	ck_assert_uint_eq(s->textures[0]->n_bytes, 8);
+	memcpy(depth, s->textures[0]->texels, 8);
+	ck_assert_float_eq_tol(depth[0], 0.5f, 1e-6f);
+	ck_assert_float_eq(depth[1], 1);
+	ck_assert_uint_eq(s->n_rectangles, 2);
+	ck_assert_uint_eq(s->rectangles[0].kind, SCENE_DEPTH_PIXELS);
+	ck_assert_uint_eq(s->materials[s->instances[1].material].color_mask, 0);
+	ck_assert_uint_eq(s->rectangles[1].kind, SCENE_STENCIL_PIXELS);
+	ck_assert_uint_eq(s->textures[s->rectangles[1].texture]->texels[0], 0x12);
+	ck_assert_uint_eq(s->textures[s->rectangles[1].texture]->texels[4], 0x34);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+START_TEST(test_swizzle_and_border)
+{
+	static const uint32_t gray_from_blue[4] = { GL_BLUE, GL_BLUE, GL_BLUE, GL_ONE };
+	static const float border[4] = { 0.25f, 0.5f, 0.75f, 1 };
+	static const uint8_t texel[4] = { 1, 2, 3, 4 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_LUMINANCE_ALPHA, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, texel);
+	gl_call(&gl, "glTexParameterfv", "eeF", GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, 4, border);
+	draw(&gl);
+	gl_call(&gl, "glTexParameteriv", "eeU", GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, 4, gray_from_blue);
+	draw(&gl);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_TEXTURE_2D);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->units[0].swizzle, 0);
+	ck_assert_float_eq(s->units[0].border_color[2], 0.25f); /* luminance is what red was */
+	ck_assert_float_eq(s->units[0].border_color[3], 1);
+	ck_assert_uint_eq(s->units[1].swizzle, SCENE_SWIZZLED | 2 | 2 << 3 | 2 << 6 | 5 << 9);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("formats", test_texels, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
