@@ -337,11 +337,19 @@ static inline void point_coat(const struct tables *t, const struct point *p, GLO
 			have_quad = 1;
 		}
 		if (have_slope)
-			slope = texture_slope(&t->textures[unit->texture], point_texcoord(t, p, i, quad[0]),
+			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord(t, p, i, quad[0]),
 			                      point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
 		coat->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
 	}
 	coat->fog_factor = m->fog ? point_fog(p) : 1.0f;
+}
+
+/* Base format that environments go by: depths count as what they are sampled as (sec. 3.8.14). */
+static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const struct scene_unit *unit)
+{
+	uint32_t format = t->textures[unit->texture].base_format;
+
+	return format == GL_DEPTH_COMPONENT ? unit->depth_mode : format;
 }
 
 /* Texture environments, colour sum and fog over a lit colour; clamped. */
@@ -357,8 +365,7 @@ static inline struct vec4 point_finish(const struct tables *t, const struct poin
 
 		color = unit->env_mode == GL_COMBINE ?
 		                combine_full(unit, color, sample, lit->color, coat->sample) :
-		                combine_plain(unit->env_mode, t->textures[unit->texture].base_format, color, sample,
-		                              v4_load(unit->env_color));
+		                combine_plain(unit->env_mode, point_unit_format(t, unit), color, sample, v4_load(unit->env_color));
 	}
 	if (m->color_sum || (m->lighting && m->separate_specular))
 		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);

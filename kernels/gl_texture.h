@@ -284,29 +284,41 @@ static inline struct vec4 texture_level(const struct tables *t, GLOBAL const str
 	return sum;
 }
 
-/* Face of a cube and its coordinates in [0,1] (table 3.19). */
+/* Face of a cube that a direction leads to (table 3.19). */
+static inline int texture_cube_face(struct vec4 c)
+{
+	float ax = M_ABS(c.x), ay = M_ABS(c.y), az = M_ABS(c.z);
+
+	if (ax >= ay && ax >= az)
+		return c.x >= 0.0f ? 0 : 1;
+	if (ay >= az)
+		return c.y >= 0.0f ? 2 : 3;
+	return c.z >= 0.0f ? 4 : 5;
+}
+
+/* sc, tc and ma of a direction, or of the difference of two, on a face. */
+static inline struct vec3 texture_cube_axes(struct vec4 c, int face)
+{
+	switch (face) {
+	case 0: return v3(-c.z, -c.y, c.x);
+	case 1: return v3(c.z, -c.y, -c.x);
+	case 2: return v3(c.x, c.z, c.y);
+	case 3: return v3(c.x, -c.z, -c.y);
+	case 4: return v3(c.x, -c.y, c.z);
+	default: return v3(-c.x, -c.y, -c.z);
+	}
+}
+
+/* Face of a cube and its coordinates in [0,1]. */
 static inline struct vec4 texture_cube(struct vec4 c, int *face)
 {
-	float ax = M_ABS(c.x), ay = M_ABS(c.y), az = M_ABS(c.z), sc, tc, ma;
+	struct vec3 axes;
+	float ma;
 
-	if (ax >= ay && ax >= az) {
-		*face = c.x >= 0.0f ? 0 : 1;
-		sc = c.x >= 0.0f ? -c.z : c.z;
-		tc = -c.y;
-		ma = ax;
-	} else if (ay >= az) {
-		*face = c.y >= 0.0f ? 2 : 3;
-		sc = c.x;
-		tc = c.y >= 0.0f ? c.z : -c.z;
-		ma = ay;
-	} else {
-		*face = c.z >= 0.0f ? 4 : 5;
-		sc = c.z >= 0.0f ? c.x : -c.x;
-		tc = -c.y;
-		ma = az;
-	}
-	ma = ma > 0.0f ? 0.5f / ma : 0.0f;
-	return v4(sc * ma + 0.5f, tc * ma + 0.5f, 0.0f, 1.0f);
+	*face = texture_cube_face(c);
+	axes = texture_cube_axes(c, *face);
+	ma = axes.z > 0.0f ? 0.5f / axes.z : 0.0f;
+	return v4(axes.x * ma + 0.5f, axes.y * ma + 0.5f, 0.0f, 1.0f);
 }
 
 /* How fast the coordinates change: texels of level 0 per pixel, to the right and downwards. */
@@ -325,24 +337,29 @@ static inline int texture_needs_slope(const struct tables *t, GLOBAL const struc
 	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
+/* What a step of a direction is on its face, in texels: the quotient rule. */
+static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, float size)
+{
+	int face = texture_cube_face(c);
+	struct vec3 at = texture_cube_axes(c, face), by = texture_cube_axes(step, face);
+	float scale = at.z > 0.0f ? 0.5f * size / at.z : 0.0f, part = at.z > 0.0f ? by.z / at.z : 0.0f;
+
+	return v4((by.x - at.x * part) * scale, (by.y - at.y * part) * scale, 0.0f, 0.0f);
+}
+
 /*
  * Slopes from the coordinates at a quad's upper left pixel and at its neighbours to the right and below, before division
- * by q. llvmpipe takes them once for each 2x2 quad.
+ * by q. llvmpipe takes them once for each 2x2 quad; on a cube each pixel (own) has the slopes of its own face.
  */
-static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at,
+static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 own, struct vec4 at,
                                                  struct vec4 right, struct vec4 below)
 {
 	struct vec4 size = v4((float)image->width, (float)image->height, (float)image->depth, 0.0f);
 	struct texture_slope slope;
 
 	if (image->target == GL_TEXTURE_CUBE_MAP) {
-		/* Distances on the sphere around the cube: near the middle of a face they are half of those on the face. */
-		struct vec3 n = v3_normalize(v3(at.x, at.y, at.z));
-		struct vec3 dx = v3_sub(v3_normalize(v3(right.x, right.y, right.z)), n);
-		struct vec3 dy = v3_sub(v3_normalize(v3(below.x, below.y, below.z)), n);
-
-		slope.right = v4_scale(v4(dx.x, dx.y, dx.z, 0.0f), 0.5f * size.x);
-		slope.down = v4_scale(v4(dy.x, dy.y, dy.z, 0.0f), 0.5f * size.x);
+		slope.right = texture_cube_slope(own, v4_sub(right, at), size.x);
+		slope.down = texture_cube_slope(own, v4_sub(below, at), size.x);
 		return slope;
 	}
 	if (image->target == GL_TEXTURE_RECTANGLE)

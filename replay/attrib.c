@@ -279,28 +279,6 @@ static int is_harmless_cap(uint32_t cap)
 	}
 }
 
-void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on)
-{
-	uint32_t bit, *flag = enable_flag(st, cap, &bit);
-
-	if (!flag) {
-		if (is_harmless_cap(cap))
-			return;
-		if (cap == GL_HISTOGRAM || cap == GL_MINMAX || cap == GL_CONVOLUTION_1D || cap == GL_CONVOLUTION_2D ||
-		    cap == GL_SEPARABLE_2D || cap == GL_COLOR_TABLE)
-			gls_unsupported(x, "the imaging subset");
-		else
-			gls_error(x, st, GL_INVALID_ENUM);
-		return;
-	}
-	if (bit)
-		*flag = on ? *flag | bit : *flag & ~bit;
-	else
-		*flag = on != 0;
-	if (cap == GL_COLOR_MATERIAL && on)
-		gls_color_changed(st);
-}
-
 static int client_array_of(const struct gls_state *st, uint32_t cap)
 {
 	switch (cap) {
@@ -333,6 +311,32 @@ static void enable_client(struct gls_exec *x, struct gls_state *st, uint32_t cap
 		st->client.arrays[array].enabled = on;
 	else
 		gls_error(x, st, GL_INVALID_ENUM);
+}
+
+void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on)
+{
+	uint32_t bit, *flag = enable_flag(st, cap, &bit);
+
+	if (!flag) {
+		if (is_harmless_cap(cap))
+			return;
+		if (client_array_of(st, cap) >= 0) { /* not by the letter, but Mesa and others take it, and old programs use it */
+			enable_client(x, st, cap, (uint32_t)on);
+			return;
+		}
+		if (cap == GL_HISTOGRAM || cap == GL_MINMAX || cap == GL_CONVOLUTION_1D || cap == GL_CONVOLUTION_2D ||
+		    cap == GL_SEPARABLE_2D || cap == GL_COLOR_TABLE)
+			gls_unsupported(x, "the imaging subset");
+		else
+			gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (bit)
+		*flag = on ? *flag | bit : *flag & ~bit;
+	else
+		*flag = on != 0;
+	if (cap == GL_COLOR_MATERIAL && on)
+		gls_color_changed(st);
 }
 
 GLS_HANDLER(glEnable, STATE) { gls_enable(x, st, arg_u(c, 0), 1); }

@@ -241,6 +241,7 @@ struct gls_surface {
 	struct gls_frame *frame;     /* owned: events; NULL: none */
 	struct gls_picture *picture; /* a reference: what it held before them, */
 	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
+	int carried;                 /* 1: some of the events are of earlier frames, which nobody wanted */
 	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
 };
 
@@ -417,6 +418,12 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st);
 /** The frame of the drawable that was swapped: its scene, a reference for the caller; NULL: out of memory or x->rewind. */
 struct scene *gls_frame_finish(struct gls_exec *x);
+/**
+ * A frame ended that was built only for what later ones show of it: its events stay, so that a hundred such frames are one
+ * scene, rendered once if at all. The second call is made before a frame that is wanted.
+ */
+void gls_frame_carry(struct gls_exec *x);
+void gls_frame_stop_carrying(struct gls_exec *x);
 /** A frame was executed without being built: what it drew is not known. */
 void gls_frame_skip(struct gls_exec *x);
 void gls_surface_free(struct gls_surface *surface);

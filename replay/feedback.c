@@ -13,6 +13,8 @@
 #include "base/err.h"
 #include "replay/exec.h"
 
+#define MANY_EVENTS (1u << 14) /* of frames that nobody wants: bundled, so that they do not pile up */
+
 /* ---- pictures ---- */
 
 void gls_picture_release(struct gls_picture *p)
@@ -103,6 +105,10 @@ static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint
 	if (!d)
 		return NULL;
 	s = &d->surface;
+	if (s->carried && (s->width != d->width || s->height != d->height)) {
+		gls_surface_free(s); /* a window of another size has nothing of the old one's */
+		s->carried = 0;
+	}
 	s->width = d->width;
 	s->height = d->height;
 	s->depth_bits = st->depth_bits;
@@ -198,23 +204,64 @@ const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state
 
 /* ---- ends of frames ---- */
 
-struct scene *gls_frame_finish(struct gls_exec *x)
+/* End a surface's scene: what comes next begins from what it shows. @return a reference, or NULL */
+static struct scene *end_scene(struct gls_exec *x, struct gls_surface *surface)
 {
-	struct gls_state none = { .drawable = x->swapped }, *st = x->st ? x->st : &none;
-	struct gls_surface *surface = window(x, st, x->swapped);
 	struct gls_picture *snapshot = NULL;
-	struct scene *s = surface ? gls_frame_scene(x, surface) : NULL;
+	struct scene *s = gls_frame_scene(x, surface);
 
 	if (!s || (x->supply && !find_start(x, surface, s, &snapshot)))
 		return NULL;
 	s = gls_frame_take(x, surface);
 	forget(surface);
-	surface->skipped = 0;
+	surface->skipped = surface->carried = 0;
 	if (snapshot)
 		surface->picture = snapshot;
 	else if (x->supply)
 		surface->before = gls_scene_reference(s);
 	return s;
+}
+
+static struct gls_surface *swapped(struct gls_exec *x)
+{
+	struct gls_state none = { .drawable = x->swapped };
+
+	return window(x, x->st ? x->st : &none, x->swapped);
+}
+
+struct scene *gls_frame_finish(struct gls_exec *x)
+{
+	struct gls_surface *surface = swapped(x);
+
+	return surface ? end_scene(x, surface) : NULL;
+}
+
+static void bundle(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct scene *s = surface->carried ? end_scene(x, surface) : NULL;
+
+	scene_release(&s);
+}
+
+void gls_frame_carry(struct gls_exec *x)
+{
+	struct gls_surface *surface = swapped(x);
+
+	if (!surface || !surface->frame)
+		return;
+	surface->carried = 1;
+	if (gls_frame_events(surface) > MANY_EVENTS)
+		bundle(x, surface);
+}
+
+void gls_frame_stop_carrying(struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->drawables.room; i++) {
+		struct gls_drawable *d = x->drawables.entries[i].value;
+
+		if (d)
+			bundle(x, &d->surface);
+	}
 }
 
 void gls_frame_skip(struct gls_exec *x)

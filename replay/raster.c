@@ -34,8 +34,6 @@ static void set_point_parameter(struct gls_exec *x, struct gls_state *st, const 
 		break;
 	case GL_POINT_SPRITE_COORD_ORIGIN:
 		point->sprite_origin = (uint32_t)v[0];
-		if (v[0] == GL_LOWER_LEFT)
-			gls_unsupported(x, "point sprites with their origin at the lower left");
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);

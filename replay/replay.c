@@ -105,6 +105,8 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 
 	x->want = want || rp->build_all;
 	x->frame_ended = 0;
+	if (want)
+		gls_frame_stop_carrying(x);
 	while (!x->frame_ended) {
 		rc = trace_reader_next(rp->reader, &call);
 		if (rc <= 0)
@@ -115,16 +117,16 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 		if (x->rewind)
 			return 1;
 	}
-	if (x->want)
+	if (want)
 		*scene = gls_frame_finish(x);
+	else if (x->want)
+		gls_frame_carry(x);
 	else
 		gls_frame_skip(x);
 	if (x->rewind)
 		return 1;
-	if (x->want && !*scene)
+	if (x->failed || (want && !*scene))
 		return x->failed ? x->failed : err_report(ERR_SYSTEM, rp->path, "out of memory");
-	if (!want)
-		scene_release(scene);
 	x->frame++;
 	gls_mesh_cache_trim(x);
 	gls_image_cache_trim(x);

@@ -308,7 +308,7 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 	m->point_size = a->point.size;
 	m->point_smooth = a->point.smooth;
 	m->polygon_smooth = a->polygon.smooth;
-	m->point_sprite = a->point.sprite;
+	m->point_sprite = !a->point.sprite ? 0 : a->point.sprite_origin == GL_LOWER_LEFT ? 2 : 1;
 	memcpy(m->point_attenuation, a->point.attenuation, sizeof(m->point_attenuation));
 	m->point_size_min = a->point.size_min;
 	m->point_size_max = a->point.size_max;

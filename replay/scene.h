@@ -104,7 +104,7 @@ struct scene_material {
 	uint32_t line_stipple;    /* factor << 16 | pattern; 0: off */
 	float line_width, point_size;
 	uint32_t line_smooth, point_smooth, polygon_smooth;
-	uint32_t point_sprite;
+	uint32_t point_sprite; /* 0; 1: t = 0 at the top; 2: at the bottom */
 	float point_attenuation[3], point_size_min, point_size_max, point_fade_threshold;
 	uint32_t multisample;
 

@@ -421,7 +421,71 @@ const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsi
 	return b->data + offset;
 }
 
-/* The next level of a plane: each texel the mean of four. */
+/*
+ * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below with linear filtering: a texel
+ * is what lies at its centre, between two neighbours in each direction, in places of 1/256 texel, rounded after each step.
+ */
+struct tap {
+	uint32_t first, second, weight; /* weight: of the second, 0 to 255 for [0,1) */
+};
+
+static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from)
+{
+	int64_t place = (int64_t)rint((i + 0.5) / size * from * 256) - 128;
+	struct tap t = { place < 0 ? 0 : (uint32_t)(place / 256), 0, place < 0 ? 0 : (uint32_t)(place % 256) };
+
+	t.second = t.first + 1 < from ? t.first + 1 : from - 1;
+	return t;
+}
+
+static float mix(float a, float b, uint32_t weight)
+{
+	return a + (b - a) * (float)weight / 256;
+}
+
+/* Texels as numbers: bytes of a colour (in linear light where they are encoded), or one depth. */
+static void load_texel(const uint8_t *texel, int depth, const float *linear, float out[4])
+{
+	if (depth)
+		memcpy(out, texel, 4);
+	for (unsigned k = 0; k < 4 && !depth; k++)
+		out[k] = linear && k < 3 ? linear[texel[k]] : (float)texel[k];
+}
+
+static void mix_texels(float a[4], const float b[4], uint32_t weight, int round)
+{
+	for (unsigned k = 0; k < 4; k++)
+		a[k] = round ? floorf(mix(a[k], b[k], weight) + 0.5f) : mix(a[k], b[k], weight);
+}
+
+static void filter_texel(const struct gls_level *from, int depth, const float *linear, const struct tap t[3], float out[4])
+{
+	int round = !depth && !linear;
+
+	for (unsigned z = 0; z < (from->depth > 1 ? 2u : 1u); z++) {
+		float slice[4] = { 0 };
+
+		for (unsigned y = 0; y < (from->height > 1 ? 2u : 1u); y++) {
+			const uint8_t *row = from->texels + 4 * ((size_t)(z ? t[2].second : t[2].first) * from->height +
+			                                         (y ? t[1].second : t[1].first)) * from->width;
+			float left[4] = { 0 }, right[4] = { 0 };
+
+			load_texel(row + 4 * (size_t)t[0].first, depth, linear, left);
+			load_texel(row + 4 * (size_t)t[0].second, depth, linear, right);
+			mix_texels(left, right, t[0].weight, round);
+			if (y)
+				mix_texels(slice, left, t[1].weight, round);
+			else
+				memcpy(slice, left, sizeof(slice));
+		}
+		if (z)
+			mix_texels(out, slice, t[2].weight, round);
+		else
+			memcpy(out, slice, sizeof(slice));
+	}
+}
+
+/* The same of a plane that is halved both ways, by bytes. */
 static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t *out)
 {
 	for (uint32_t y = 0; y < h; y++) {
@@ -429,41 +493,54 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 
 		for (uint32_t x = 0; x < w; x++, low += 8, high += 8, out += 4)
 			for (unsigned k = 0; k < 4; k++)
-				out[k] = (uint8_t)((low[k] + low[k + 4] + high[k] + high[k + 4] + 2u) / 4);
+				out[k] = (uint8_t)(((low[k] + low[k + 4] + 1u) / 2 + (high[k] + high[k + 4] + 1u) / 2 + 1u) / 2);
 	}
 }
 
-/* The same of any shape: of as many as it covers. */
-static void shrink(const struct gls_level *from, uint32_t w, uint32_t h, uint32_t d, uint8_t *texels)
+static void generate_level(const struct gls_level *from, struct gls_level *to, const float *linear)
 {
-	for (size_t i = 0; i < (size_t)w * h * d; i++) {
-		uint32_t cx = (uint32_t)(i % w), cy = (uint32_t)(i / w % h), cz = (uint32_t)(i / w / h);
-		for (unsigned k = 0; k < 4; k++) {
-			unsigned sum = 0, n = 0;
-			for (uint32_t dz = 0; dz < (from->depth > 1 ? 2u : 1u); dz++)
-				for (uint32_t dy = 0; dy < (from->height > 1 ? 2u : 1u); dy++)
-					for (uint32_t dx = 0; dx < (from->width > 1 ? 2u : 1u); dx++, n++)
-						sum += from->texels[4 * (((size_t)(2 * cz + dz) * from->height + 2 * cy + dy) * from->width +
-						                         2 * cx + dx) + k];
-			texels[4 * i + k] = (uint8_t)((sum + n / 2) / n);
-		}
+	const struct gls_format *format = gls_format_find(to->internal_format);
+	int depth = to->base_format == GL_DEPTH_COMPONENT;
+
+	if (!depth && !linear && !format->bits[0] && !format->bits[3] && !format->s3tc && from->width == 2 * to->width &&
+	    from->height == 2 * to->height && from->depth == 1) {
+		halve(from, to->width, to->height, to->texels);
+		return;
+	}
+	for (size_t i = 0; i < gls_level_count(to); i++) {
+		struct tap t[3] = { tap_at((uint32_t)(i % to->width), to->width, from->width),
+			            tap_at((uint32_t)(i / to->width % to->height), to->height, from->height),
+			            tap_at((uint32_t)(i / to->width / to->height), to->depth, from->depth) };
+		float v[4] = { 0 };
+
+		filter_texel(from, depth, linear, t, v);
+		for (unsigned k = 0; k < 4 && !depth; k++)
+			v[k] = linear && k < 3 ? gls_srgb_from_linear(v[k] / 255) : v[k] / 255;
+		if (depth)
+			memcpy(to->texels + 4 * i, v, 4);
+		else
+			gls_format_store(format, v, to->texels + 4 * i);
 	}
 }
 
-/* Mipmap levels from the base level on: each texel the mean of those it covers (sec. 3.8.8 leaves the filter open). */
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
 {
 	struct gls_level *from = t->base_level < GLS_MAX_LEVELS ? &t->levels[face][t->base_level] : NULL;
+	const struct gls_format *format = from && from->texels ? gls_format_find(from->internal_format) : NULL;
+	float linear[256];
 
-	for (uint32_t l = t->base_level + 1; from && from->texels && l < GLS_MAX_LEVELS && l <= t->max_level; l++) {
+	for (unsigned i = 0; i < 256; i++)
+		linear[i] = gls_linear_from_srgb((float)i / 255) * 255;
+	for (uint32_t l = t->base_level + 1; format && l < GLS_MAX_LEVELS && l <= t->max_level; l++) {
 		struct gls_level *to = &t->levels[face][l];
 		uint32_t w = from->width > 1 ? from->width / 2 : 1, h = from->height > 1 ? from->height / 2 : 1;
 		uint32_t d = from->depth > 1 ? from->depth / 2 : 1;
 		uint8_t *texels;
+
 		if (from->width == 1 && from->height == 1 && from->depth == 1)
 			break;
-		if (from->border || from->base_format == GL_DEPTH_COMPONENT) {
-			gls_unsupported(x, "generated mipmaps of textures with borders or depths");
+		if (from->border) {
+			gls_unsupported(x, "generated mipmaps of textures with borders");
 			break;
 		}
 		texels = malloc((size_t)w * h * d * 4);
@@ -471,10 +548,6 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 			gls_out_of_memory(x, (size_t)w * h * d * 4);
 			return;
 		}
-		if (from->width > 1 && from->height > 1 && from->depth == 1)
-			halve(from, w, h, texels);
-		else
-			shrink(from, w, h, d, texels);
 		free(to->texels);
 		*to = *from;
 		to->width = w;
@@ -482,6 +555,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->depth = d;
 		to->texels = texels;
 		to->bytes = (size_t)w * h * d * 4;
+		generate_level(from, to, format->srgb ? linear : NULL);
 		from = to;
 	}
 }

@@ -351,18 +351,24 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 	float size = e->v.point_size;
 	int32_t width, x, y;
 
-	if (!m->point_sprite && !m->point_smooth)
-		size = fmaxf(rintf(size), 1);
 	width = (int32_t)fmaxf(rintf(size * 256), 256);
 	x = snap(e->x) - width / 2;
 	y = snap(e->y) - width / 2;
+	if (!m->point_sprite && !m->point_smooth) {
+		/* Whole pixels around the centre of the one it lies in, or the corner next to it (sec. 3.3.1; y runs downwards here). */
+		int32_t pixels = (int32_t)fmaxf(rintf(size), 1), odd = pixels & 1;
+
+		width = pixels * 256;
+		x = ((snap(e->x) + (odd ? 0 : 128)) & ~255) - pixels / 2 * 256;
+		y = -((-snap(e->y) + (odd ? 0 : 128)) & ~255) - (pixels + odd) / 2 * 256;
+	}
 	for (int k = 0; k < 4; k++) {
 		int right = k == 1 || k == 2, low = k >= 2;
 		struct end corner = *e;
 
 		for (uint32_t u = 0; u < m->unit_count && m->point_sprite; u++)
 			if (in->units[u].coord_replace)
-				memcpy(corner.texcoord[u], (float[4]){ (float)right, (float)low, 0, 1 },
+				memcpy(corner.texcoord[u], (float[4]){ (float)right, (float)(m->point_sprite == 2 ? !low : low), 0, 1 },
 				       sizeof(corner.texcoord[u]));
 		add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
 	}

@@ -1,10 +1,10 @@
 /*
  * Textures as piglit's tests have them, one matter a frame: internal formats, blocks, swizzles, wraps beyond the image; depth and
- * stencil values as pixels. Recorded by test_textures.py.
+ * stencil values as pixels; levels, points and sprites; frames that are not cleared. Recorded by test_textures.py.
  */
 #include "tests/trace/window.h"
 
-static void reset(void)
+static void reset(int clear)
 {
 	glMatrixMode(GL_PROJECTION);
 	glLoadIdentity();
@@ -12,7 +12,8 @@ static void reset(void)
 	glMatrixMode(GL_MODELVIEW);
 	glLoadIdentity();
 	glClearColor(0.2f, 0.4f, 0.6f, 0.4f);
-	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	if (clear)
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 	glColor4f(1, 1, 1, 1);
 	glEnable(GL_TEXTURE_2D);
 	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
@@ -142,15 +143,143 @@ static void depth_and_stencil(void)
 	glDisable(GL_STENCIL_TEST);
 }
 
+/* Levels that the driver makes, of sizes that are no powers of two, each drawn at its own size. */
+static void generated_levels(void)
+{
+	static const int internal[4] = { GL_RGBA8, GL_SRGB8_ALPHA8, GL_LUMINANCE, GL_RG8 };
+	unsigned char texels[13 * 21 * 4];
+
+	for (int i = 0; i < 13 * 21 * 4; i++)
+		texels[i] = (unsigned char)(i * 2654435761u >> 9);
+	for (int i = 0; i < 4; i++) {
+		texture();
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
+		glTexImage2D(GL_TEXTURE_2D, 0, internal[i], 13, 21, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+		for (int level = 0; level < 4; level++) {
+			glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
+			panel(level * 16, i * 12, 12, 0.01f, 0.98f);
+		}
+	}
+}
+
+/* A cube's levels, faces seen straight on and askew. */
+static void cube_levels(void)
+{
+	static const float corners[6][3][3] = { /* a corner of a face and the ways along its edges */
+		{ { 1, 1, 1 }, { 0, -2, 0 }, { 0, 0, -2 } }, { { -1, 1, -1 }, { 0, -2, 0 }, { 0, 0, 2 } }, { { -1, 1, -1 }, { 2, 0, 0 }, { 0, 0, 2 } },
+		{ { -1, -1, 1 }, { 2, 0, 0 }, { 0, 0, -2 } }, { { -1, 1, 1 }, { 2, 0, 0 }, { 0, -2, 0 } }, { { 1, 1, -1 }, { -2, 0, 0 }, { 0, -2, 0 } } };
+	unsigned name;
+
+	glDisable(GL_TEXTURE_2D);
+	glEnable(GL_TEXTURE_CUBE_MAP);
+	glGenTextures(1, &name);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, name);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	for (unsigned face = 0; face < 6; face++)
+		for (int level = 0; level < 6; level++) { /* one colour a level and face */
+			unsigned char texels[32 * 32][3];
+
+			for (int i = 0; i < 32 * 32; i++) {
+				texels[i][0] = (unsigned char)(level * 50);
+				texels[i][1] = (unsigned char)(face * 50);
+				texels[i][2] = 128;
+			}
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGB, 32 >> level, 32 >> level, 0, GL_RGB, GL_UNSIGNED_BYTE,
+			             texels);
+		}
+	for (int i = 0; i < 12; i++) {
+		const float (*c)[3] = corners[i % 6];
+		float x = (float)(i % 6 * 10) + 2, y = (float)(i / 6 * 20) + 3, width = i < 6 ? 9 : 5, height = i < 6 ? 15 : 7;
+
+		glBegin(GL_QUADS);
+		for (int k = 0; k < 4; k++) {
+			float u = k == 1 || k == 2 ? 0.95f : 0.05f, v = k >= 2 ? 0.95f : 0.05f;
+
+			glTexCoord3f(c[0][0] + u * c[1][0] + v * c[2][0], c[0][1] + u * c[1][1] + v * c[2][1], c[0][2] + u * c[1][2] + v * c[2][2]);
+			glVertex2f(x + u * width, y + v * height);
+		}
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_CUBE_MAP);
+}
+
+/* Points at the corners of pixels, odd and even; sprites both ways up. */
+static void points(void)
+{
+	glDisable(GL_TEXTURE_2D);
+	for (int size = 1; size < 7; size++) {
+		glPointSize((float)size);
+		glBegin(GL_POINTS);
+		glColor3f(1, 0.2f * (float)size, 0);
+		glVertex2i(9 * size, 8);
+		glColor3f(0, 0.2f * (float)size, 1);
+		glVertex2f(9 * (float)size + 0.3f, 18.6f);
+		glEnd();
+	}
+	glColor3f(1, 1, 1);
+	glEnable(GL_TEXTURE_2D);
+	texture();
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, colors);
+	glEnable(GL_POINT_SPRITE);
+	glTexEnvi(GL_POINT_SPRITE, GL_COORD_REPLACE, GL_TRUE);
+	glPointSize(14);
+	for (int i = 0; i < 2; i++) {
+		glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, i ? GL_LOWER_LEFT : GL_UPPER_LEFT);
+		glBegin(GL_POINTS);
+		glVertex2f(16.1f + 30 * (float)i, 36.1f);
+		glEnd();
+	}
+	glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_UPPER_LEFT);
+	glDisable(GL_POINT_SPRITE);
+}
+
+/* What environments make of depths: alpha, luminance and intensity. */
+static void depth_environments(void)
+{
+	static const int modes[3] = { GL_ALPHA, GL_LUMINANCE, GL_INTENSITY }, environments[4] = { GL_REPLACE, GL_MODULATE, GL_ADD, GL_BLEND };
+	static const float depths[4] = { 0.1f, 0.4f, 0.6f, 0.9f };
+
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+	glColor4f(0.8f, 0.6f, 0.2f, 0.6f);
+	texture();
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 2, 2, 0, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
+	for (int i = 0; i < 12; i++) {
+		glTexParameteri(GL_TEXTURE_2D, GL_DEPTH_TEXTURE_MODE, modes[i / 4]);
+		glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, environments[i % 4]);
+		panel(i % 4 * 16, i / 4 * 16, 15, 0.01f, 0.98f);
+	}
+	glDisable(GL_BLEND);
+}
+
+/* Each of these adds to what the one before left. */
+static void trail(void)
+{
+	static int n;
+
+	glDisable(GL_TEXTURE_2D);
+	if (!n)
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	glColor4f(0.2f * (float)n, 1, 0.3f, 0.6f);
+	glRecti(4 + 9 * n, 6, 20 + 9 * n, 40);
+	glDisable(GL_BLEND);
+	n++;
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { formats, blocks, swizzles, wraps, depth_and_stencil };
+	static void (*const frames[])(void) = { formats, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
+		                              depth_environments, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
 		colors[i / 16][i / 4 % 4][i % 4] = (unsigned char)(i % 4 == 3 ? 255 - 12 * (i / 4) : i * 67 + i / 4 * 13);
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
-		reset();
+		reset(frames[i] != trail);
 		frames[i]();
 		end_frame();
 	}
