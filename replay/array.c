@@ -38,6 +38,10 @@ static uint32_t *binding(struct gls_state *st, uint32_t target)
 		return &st->client.array_buffer;
 	case GL_ELEMENT_ARRAY_BUFFER:
 		return &st->client.element_buffer;
+	case GL_COPY_READ_BUFFER:
+		return &st->client.copy_read_buffer;
+	case GL_COPY_WRITE_BUFFER:
+		return &st->client.copy_write_buffer;
 	case GL_PIXEL_UNPACK_BUFFER:
 		return &st->client.unpack.buffer;
 	case GL_PIXEL_PACK_BUFFER:
@@ -94,6 +98,10 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 			st->client.element_buffer = 0;
 		if (st->client.unpack.buffer == name)
 			st->client.unpack.buffer = 0;
+		if (st->client.copy_read_buffer == name)
+			st->client.copy_read_buffer = 0;
+		if (st->client.copy_write_buffer == name)
+			st->client.copy_write_buffer = 0;
 		for (unsigned a = 0; a < N_GLS_ARRAYS; a++)
 			if (st->client.arrays[a].buffer == name)
 				st->client.arrays[a].buffer = 0;
@@ -149,6 +157,23 @@ GLS_HANDLER(glBufferSubData, CLIENT)
 		gls_error(x, st, GL_INVALID_VALUE);
 	else if (b)
 		write_buffer(x, b, (uint64_t)arg_i(c, 1), bytes, n < (size_t)arg_i(c, 2) ? n : (size_t)arg_i(c, 2));
+}
+
+/* ARB_copy_buffer. */
+GLS_HANDLER(glCopyBufferSubData, CLIENT)
+{
+	struct gls_buffer *from = bound_buffer(x, st, arg_u(c, 0)), *to = bound_buffer(x, st, arg_u(c, 1));
+	int64_t read = arg_i(c, 2), write = arg_i(c, 3), n = arg_i(c, 4);
+
+	if (!from || !to)
+		return;
+	if (read < 0 || write < 0 || n < 0 || (uint64_t)read > from->bytes || (uint64_t)write > to->bytes ||
+	    (uint64_t)n > from->bytes - (uint64_t)read || (uint64_t)n > to->bytes - (uint64_t)write ||
+	    (from == to && read < write + n && write < read + n)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
 }
 
 static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)
@@ -750,6 +775,13 @@ GLS_HANDLER(glMultiDrawArrays, ARRAY)
 }
 
 /* Indices as 32-bit numbers in x->elements, from client memory or the bound element buffer. */
+/* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
+static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
+{
+	return (client->restart && index == client->restart_index) ||
+	       (client->restart_fixed && index == 0xffffffffu >> (32 - 8 * bytes));
+}
+
 static void draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
                           const struct trace_value *indices, int32_t base)
 {
@@ -758,6 +790,7 @@ static void draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mod
 	const uint8_t *bytes = NULL;
 	uint64_t identity, offset = 0;
 	uint32_t *elements;
+	int64_t begin = 0;
 
 	if (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT) {
 		gls_error(x, st, GL_INVALID_ENUM);
@@ -802,10 +835,17 @@ static void draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mod
 		} else if (size == 4) {
 			memcpy(&u32, bytes + 4 * i, 4);
 		}
+		if (is_restart(&st->client, u32, size)) {
+			draw(x, st, mode, 0, (uint32_t)(i - begin), elements + begin, identity + (uint64_t)begin);
+			begin = i + 1;
+		}
 		elements[i] = u32 + (uint32_t)base;
 	}
-	draw(x, st, mode, 0, (uint32_t)count, elements, identity);
+	draw(x, st, mode, 0, (uint32_t)(count - begin), elements + begin, identity + (uint64_t)begin);
 }
+
+GLS_HANDLER(glPrimitiveRestartIndex, CLIENT) { st->client.restart_index = arg_u(c, 0); }
+GLS_HANDLER(glPrimitiveRestartIndexNV, CLIENT) { st->client.restart_index = arg_u(c, 0); }
 
 GLS_HANDLER(glDrawElements, ARRAY) { draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), 0); }
 GLS_HANDLER(glDrawRangeElements, ARRAY)

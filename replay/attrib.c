@@ -307,7 +307,9 @@ static void enable_client(struct gls_exec *x, struct gls_state *st, uint32_t cap
 {
 	int array = client_array_of(st, cap);
 
-	if (array >= 0)
+	if (cap == GL_PRIMITIVE_RESTART_NV)
+		st->client.restart = on;
+	else if (array >= 0)
 		st->client.arrays[array].enabled = on;
 	else
 		gls_error(x, st, GL_INVALID_ENUM);
@@ -320,7 +322,11 @@ void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on)
 	if (!flag) {
 		if (is_harmless_cap(cap))
 			return;
-		if (client_array_of(st, cap) >= 0) { /* not by the letter, but Mesa and others take it, and old programs use it */
+		if (cap == GL_PRIMITIVE_RESTART || cap == GL_PRIMITIVE_RESTART_FIXED_INDEX) {
+			*(cap == GL_PRIMITIVE_RESTART ? &st->client.restart : &st->client.restart_fixed) = on != 0;
+			return;
+		}
+		if (client_array_of(st, cap) >= 0 || cap == GL_PRIMITIVE_RESTART_NV) { /* not by the letter, but Mesa and others take it, and old programs use it */
 			enable_client(x, st, cap, (uint32_t)on);
 			return;
 		}

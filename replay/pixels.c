@@ -223,7 +223,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	if (format == GL_DEPTH_STENCIL) {
 		uint8_t *stencil = texels + 4 * (size_t)width * height;
 
-		if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n, GL_DEPTH_COMPONENT, texels) == -1)
+		if (gls_unpack_pixels(x, st, format, type, width, height, 0, data, n, GL_DEPTH_COMPONENT, texels) == -1)
 			return;
 		gls_unpack_stencil(st, type, width, height, data, n, stencil);
 		draw_depth_stencil(x, st, at, width, height, texels, stencil);
@@ -231,7 +231,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	}
 	if (indices && (type == GL_BITMAP || index_bytes(type)))
 		unpack_indices(st, format, type, data, n, width, height, texels);
-	else if (gls_unpack_pixels(x, st, format, type, width, height, 1, data, n,
+	else if (gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
 	                           format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels) == -1)
 		return;
 	gls_draw_rectangle(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);

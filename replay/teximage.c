@@ -301,12 +301,12 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	/* Rows begin at multiples of the alignment (sec. 3.6.4, equation 3.13). */
 	row = (row + (size_t)u->alignment - 1) / (size_t)u->alignment * (size_t)u->alignment;
 	image = row * (u->image_height > 0 ? (size_t)u->image_height : height);
-	start = (size_t)u->skip_images * image + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
+	start = (depth ? (size_t)u->skip_images * image : 0) + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
 	plain = (type == GL_UNSIGNED_BYTE || (type == GL_FLOAT && !u->swap_bytes)) && !do_transfer && !depth_texels &&
 	        !to->bits[0] && !to->bits[3] && !to->s3tc;
 	if (plain)
 		places_of(f, to->base, place);
-	for (uint32_t z = 0; z < depth; z++)
+	for (uint32_t z = 0; z < (depth ? depth : 1); z++)
 		for (uint32_t y = 0; y < height; y++) {
 			size_t at = start + z * image + y * row;
 			if (plain && at <= n && group * width <= n - at) {
@@ -582,6 +582,23 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
 	return t;
 }
 
+/* Textures of one dimension are not compressed. */
+static uint32_t uncompressed(uint32_t internal_format)
+{
+	switch (internal_format) {
+	case GL_COMPRESSED_RGB:
+		return GL_RGB;
+	case GL_COMPRESSED_RGBA:
+		return GL_RGBA;
+	case GL_COMPRESSED_SRGB:
+		return GL_SRGB;
+	case GL_COMPRESSED_SRGB_ALPHA:
+		return GL_SRGB_ALPHA;
+	default:
+		return internal_format;
+	}
+}
+
 struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
                                       int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
                                       int64_t border)
@@ -590,6 +607,8 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 	uint32_t base = gls_base_format(internal_format);
 	size_t bytes;
 
+	if (t->target == GLS_TEXTURE_1D)
+		internal_format = uncompressed(internal_format);
 	if (!base) {
 		/* Mesa takes more formats than GL 2.1 has; those of other kinds hold no colours for fixed function. */
 		gls_unsupported(x, "textures of this internal format");
@@ -629,7 +648,7 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 	if (!l)
 		return;
 	pixels = gls_pixel_source(st, c, border + 3, &n);
-	if (pixels && gls_unpack_pixels(x, st, arg_u(c, border + 1), arg_u(c, border + 2), l->width, l->height, l->depth, pixels,
+	if (pixels && gls_unpack_pixels(x, st, arg_u(c, border + 1), arg_u(c, border + 2), l->width, l->height, n_dims > 2 ? l->depth : 0, pixels,
 	                                n, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
 	if (pixels && gls_level_stencil(l) && arg_u(c, border + 1) == GL_DEPTH_STENCIL)
@@ -679,7 +698,8 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 		return;
 	texels = gls_scratch(x, (size_t)(extent[0] * extent[1] * extent[2]) * 4);
 	if (!texels || gls_unpack_pixels(x, st, arg_u(c, format), arg_u(c, format + 1), (uint32_t)extent[0],
-	                                 (uint32_t)extent[1], (uint32_t)extent[2], pixels, n, l->internal_format, texels) == -1)
+	                                 (uint32_t)extent[1], n_dims > 2 ? (uint32_t)extent[2] : 0, pixels, n, l->internal_format,
+	                                 texels) == -1)
 		return;
 	place(l, at, extent, texels);
 	if (gls_level_stencil(l) && arg_u(c, format) == GL_DEPTH_STENCIL) {

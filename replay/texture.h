@@ -65,6 +65,7 @@ int gls_texture_target_of(uint32_t token, unsigned *face);
 
 /**
  * Client pixels to texels (sec. 3.6.4): unpack state, format, type and pixel transfer.
+ * @param depth  of images of three dimensions; 0: of two, for which no images are skipped
  * @param out  width * height * depth texels of 4 bytes, RGBA or one float where base is DEPTH_COMPONENT
  * @return 0; -1: format or type is not known (error set); -2: too few bytes (what is there was read)
  */

@@ -140,6 +140,20 @@ GLS_HANDLER(glEnd, INSIDE)
 	st->begin_mode = 0;
 }
 
+/* The primitive ends and another of its kind begins (NV_primitive_restart). */
+GLS_HANDLER(glPrimitiveRestartNV, INSIDE)
+{
+	struct gls_geometry *g = &x->geometry;
+
+	if (!st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	if (x->want && gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL))
+		gls_out_of_memory(x, 0);
+	g->begin_vertex = g->n_vertices;
+}
+
 /*
  * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so from there on
  * it is an attribute of the vertices.

@@ -159,5 +159,63 @@ START_TEST(test_errors_and_shortness)
 }
 END_TEST
 
-GL_TESTS("arrays", test_client_arrays, test_buffers, test_into_list, test_array_element, test_interleaved,
+/* NV_primitive_restart and GL 3.1 sec. 2.8.3: an index, the highest of its type, a call between Begin and End. */
+START_TEST(test_restart)
+{
+	static const uint8_t indices[] = { 0, 1, 2, 7, 1, 2, 3 }, highest[] = { 0, 1, 2, 255, 1, 2, 3 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_ARRAY); /* as Mesa takes it */
+	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(square), square);
+	gl_call(&gl, "glEnableClientState", "e", GL_PRIMITIVE_RESTART_NV);
+	gl_call(&gl, "glPrimitiveRestartIndexNV", "u", 7);
+	gl_call(&gl, "glDrawElements", "eieb", GL_TRIANGLE_STRIP, 7, GL_UNSIGNED_BYTE, sizeof(indices), indices);
+	gl_call(&gl, "glDisableClientState", "e", GL_PRIMITIVE_RESTART_NV);
+	gl_call(&gl, "glEnable", "e", GL_PRIMITIVE_RESTART_FIXED_INDEX);
+	gl_call(&gl, "glDrawElements", "eieb", GL_TRIANGLE_STRIP, 7, GL_UNSIGNED_BYTE, sizeof(highest), highest);
+	gl_call(&gl, "glBegin", "e", GL_LINE_STRIP);
+	for (int i = 0; i < 4; i++) {
+		gl_call(&gl, "glVertex2i", "ii", i, 0);
+		if (i == 1)
+			gl_call(&gl, "glPrimitiveRestartNV", "");
+	}
+	gl_call(&gl, "glEnd", "");
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	ck_assert_uint_eq(s->n_instances, 5);
+	for (int i = 0; i < 4; i++)
+		ck_assert_uint_eq(s->meshes[s->instances[i].mesh]->primitive_count, 1);
+	ck_assert_uint_eq(s->meshes[s->instances[4].mesh]->primitive_count, 2);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* ARB_copy_buffer. */
+START_TEST(test_copy_buffer)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glBindBuffer", "eu", GL_COPY_READ_BUFFER, 1);
+	gl_call(&gl, "glBufferData", "eibe", GL_COPY_READ_BUFFER, (int)sizeof(square), sizeof(square), square, GL_STATIC_DRAW);
+	gl_call(&gl, "glBindBuffer", "eu", GL_COPY_WRITE_BUFFER, 2);
+	gl_call(&gl, "glBufferData", "eipe", GL_COPY_WRITE_BUFFER, 24, (uint64_t)0, GL_STATIC_DRAW);
+	gl_call(&gl, "glCopyBufferSubData", "eeiii", GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 8, 0, 24);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	gl_call(&gl, "glCopyBufferSubData", "eeiii", GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 8, 8, 24);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 2);
+	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
+	gl_call(&gl, "glVertexPointer", "ieip", 2, GL_FLOAT, 0, (uint64_t)0);
+	gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3);
+	s = gl_swap(&gl);
+	ck_assert_floats(12, s->meshes[0]->position, 1, 0, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("arrays", test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_into_list, test_array_element, test_interleaved,
          test_errors_and_shortness)

@@ -56,6 +56,28 @@ START_TEST(test_texels)
 }
 END_TEST
 
+/* Sec. 3.6.4: images are skipped in three dimensions only. */
+START_TEST(test_skipped_images)
+{
+	static const uint8_t bytes[2] = { 50, 60 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glPixelStorei", "ei", GL_UNPACK_SKIP_IMAGES, 1);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_ALPHA, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)2, bytes);
+	draw(&gl);
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_3D);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(&gl, "glTexImage3D", "eieiiiieeb", GL_TEXTURE_3D, 0, GL_ALPHA, 1, 1, 1, 0, GL_ALPHA, GL_UNSIGNED_BYTE, (size_t)2, bytes);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->textures[0]->texels[3], 50);
+	ck_assert_uint_eq(s->textures[1]->texels[3], 60);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 START_TEST(test_srgb_as_it_is)
 {
 	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
@@ -220,4 +242,4 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
