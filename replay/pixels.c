@@ -155,12 +155,13 @@ GLS_HANDLER(glBitmap, STATE)
 	at[1] += arg_f(c, 5);
 }
 
-/* Texels out of indices: colours through the I_TO maps, or stencil values. */
-static void unpack_indices(const struct gls_state *st, uint32_t format, uint32_t type, const uint8_t *data, size_t n,
-                           uint32_t width, uint32_t height, uint8_t *texels)
+int gls_unpack_indices(const struct gls_state *st, uint32_t format, uint32_t type, const uint8_t *data, size_t n, uint32_t width,
+                       uint32_t height, uint8_t *texels)
 {
-	for (uint32_t i = 0; i < width * height; i++, texels += 4) {
-		uint32_t value = index_at(st, type, data, n, width, i % width, i / width);
+	if (type != GL_BITMAP && !index_bytes(type))
+		return -1;
+	for (size_t i = 0; i < (size_t)width * height; i++, texels += 4) {
+		uint32_t value = index_at(st, type, data, n, width, (uint32_t)(i % width), (uint32_t)(i / width));
 		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_S_TO_S - GL_PIXEL_MAP_I_TO_I];
 
 		if (format == GL_STENCIL_INDEX) {
@@ -172,6 +173,7 @@ static void unpack_indices(const struct gls_state *st, uint32_t format, uint32_t
 		for (unsigned k = 0; k < 4; k++)
 			texels[k] = mapped(&st->pixel_maps[GL_PIXEL_MAP_I_TO_R - GL_PIXEL_MAP_I_TO_I + k], value);
 	}
+	return 0;
 }
 
 /* Depth and stencil values at once (EXT_packed_depth_stencil): written under their masks, whatever the tests and colours are. */
@@ -229,9 +231,8 @@ GLS_HANDLER(glDrawPixels, STATE)
 		draw_depth_stencil(x, st, at, width, height, texels, stencil);
 		return;
 	}
-	if (indices && (type == GL_BITMAP || index_bytes(type)))
-		unpack_indices(st, format, type, data, n, width, height, texels);
-	else if (gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
+	if ((!indices || gls_unpack_indices(st, format, type, data, n, width, height, texels)) &&
+	    gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
 	                           format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels) == -1)
 		return;
 	gls_draw_rectangle(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);

@@ -278,6 +278,19 @@ static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const 
 		place_bytes(from, n, width, place, out);
 }
 
+/* Colour indices as the colours that maps make of them (sec. 3.6.5). */
+static int unpack_indices(struct gls_exec *x, struct gls_state *st, uint32_t type, uint32_t width, uint32_t height,
+                          const uint8_t *data, size_t n, const struct gls_format *to, uint8_t *out)
+{
+	if (gls_unpack_indices(st, GL_COLOR_INDEX, type, data, n, width, height, out)) {
+		gls_unsupported(x, "pixels of this format and type");
+		return -1;
+	}
+	for (size_t i = 0; i < (size_t)width * height; i++, out += 4)
+		gls_format_store(to, (float[4]){ (float)out[0] / 255, (float)out[1] / 255, (float)out[2] / 255, (float)out[3] / 255 }, out);
+	return 0;
+}
+
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out)
@@ -291,6 +304,8 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	uint8_t place[4];
 	int plain;
 
+	if (format == GL_COLOR_INDEX && !depth_texels)
+		return unpack_indices(x, st, type, width, height * (depth ? depth : 1), data, n, to, out);
 	if (!f || (!component && !packed) || depth_texels != (f->to[0] == 5) || (packed && packed->n != f->n) ||
 	    (format == GL_DEPTH_STENCIL) != (type == GL_UNSIGNED_INT_24_8 || type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV)) {
 		gls_unsupported(x, "pixels of this format and type");
@@ -555,7 +570,8 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->depth = d;
 		to->texels = texels;
 		to->bytes = (size_t)w * h * d * 4;
-		generate_level(from, to, format->srgb ? linear : NULL);
+		/* what Mesa cannot draw to it averages as it is stored */
+		generate_level(from, to, format->srgb && !format->s3tc && (format->base == GL_RGB || format->base == GL_RGBA) ? linear : NULL);
 		from = to;
 	}
 }
@@ -794,6 +810,54 @@ GLS_HANDLER(glTexImage3D, STATE) { tex_image(x, st, c, 3); }
 GLS_HANDLER(glTexSubImage1D, STATE) { tex_sub_image(x, st, c, 1); }
 GLS_HANDLER(glTexSubImage2D, STATE) { tex_sub_image(x, st, c, 2); }
 GLS_HANDLER(glTexSubImage3D, STATE) { tex_sub_image(x, st, c, 3); }
+
+/* ARB_texture_storage: all levels at once, without texels. */
+static void tex_storage(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	int64_t size[3] = { arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1, n_dims > 2 ? arg_i(c, 5) : 1 };
+	unsigned face, n_faces = arg_u(c, 0) == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
+
+	for (int64_t level = 0; t && level < arg_i(c, 1) && level < GLS_MAX_LEVELS; level++)
+		for (face = 0; face < n_faces; face++)
+			gls_texture_specify(x, st, t, face, level, arg_u(c, 2), size[0] >> level ? size[0] >> level : 1,
+			                    size[1] >> level ? size[1] >> level : 1, n_dims > 2 && size[2] >> level ? size[2] >> level : 1, 0);
+}
+
+GLS_HANDLER(glTexStorage1D, STATE) { tex_storage(x, st, c, 1); }
+GLS_HANDLER(glTexStorage2D, STATE) { tex_storage(x, st, c, 2); }
+GLS_HANDLER(glTexStorage3D, STATE) { tex_storage(x, st, c, 3); }
+
+/* ARB_clear_texture: one pixel, as TexImage would take it, all over a level. */
+GLS_HANDLER(glClearTexImage, NOW)
+{
+	struct gls_texture *t = table_find(&st->share->textures, arg_u(c, 0));
+	const struct gls_pixel_store unpack = st->client.unpack;
+	size_t n;
+	const uint8_t *pixel = arg_blob(c, 4, &n);
+	uint8_t texel[4] = { 0 };
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	if (!t || arg_i(c, 1) < 0 || arg_i(c, 1) >= GLS_MAX_LEVELS) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	gls_texture_settle(x, st, t);
+	for (unsigned face = 0; face < 6; face++) {
+		struct gls_level *l = &t->levels[face][arg_i(c, 1)];
+
+		if (!l->texels)
+			continue;
+		st->client.unpack = (struct gls_pixel_store){ .alignment = 1, .swap_bytes = unpack.swap_bytes };
+		if (pixel)
+			gls_unpack_pixels(x, st, arg_u(c, 2), arg_u(c, 3), 1, 1, 0, pixel, n, l->internal_format, texel);
+		st->client.unpack = unpack;
+		for (size_t i = 0; i < gls_level_count(l); i++)
+			memcpy(l->texels + 4 * i, texel, 4);
+		t->dirty = 1;
+	}
+}
 
 GLS_HANDLER(glGenerateMipmap, STATE)
 {

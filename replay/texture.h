@@ -73,6 +73,14 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
                       uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
                       uint8_t *out);
 
+/**
+ * Pixels of COLOR_INDEX or STENCIL_INDEX (sec. 3.6.5): shifted, offset, through the maps; pixels.c.
+ * @param texels  receives colours, or stencil values of 4 bytes
+ * @return 0, or -1: no type of indices
+ */
+int gls_unpack_indices(const struct gls_state *st, uint32_t format, uint32_t type, const uint8_t *data, size_t n, uint32_t width,
+                       uint32_t height, uint8_t *texels);
+
 /** The stencil values of pixels of the format DEPTH_STENCIL, a byte each. What is not there is 0. */
 void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
                         uint8_t *out);

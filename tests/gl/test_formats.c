@@ -78,6 +78,33 @@ START_TEST(test_skipped_images)
 }
 END_TEST
 
+/* Indices through the maps (sec. 3.6.5), levels without texels (ARB_texture_storage), one pixel all over (ARB_clear_texture). */
+START_TEST(test_other_images)
+{
+	static const float zero_one[2] = { 0, 1 };
+	static const uint8_t bits = 0x40, pixel[4] = { 9, 8, 7, 6 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	gl_call(&gl, "glPixelMapfv", "eiF", GL_PIXEL_MAP_I_TO_G, 2, 2, zero_one);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 2, 1, 0, GL_COLOR_INDEX, GL_BITMAP, (size_t)1, &bits);
+	draw(&gl);
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 5);
+	gl_call(&gl, "glTexStorage2D", "eieii", GL_TEXTURE_2D, 3, GL_RGBA8, 4, 2);
+	gl_call(&gl, "glClearTexImage", "uieeb", 5, 1, GL_RGBA, GL_UNSIGNED_BYTE, (size_t)4, pixel);
+	draw(&gl);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	s = gl_swap(&gl);
+	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[]){ 0, 0, 0, 255, 0, 255, 0, 255 }), 8);
+	ck_assert_uint_eq(s->textures[1]->n_levels, 3); /* 4x2, 2x1, 1x1 */
+	ck_assert_uint_eq(s->textures[1]->texels[0], 0);
+	ck_assert_mem_eq(s->textures[1]->texels + 32, ((uint8_t[]){ 9, 8, 7, 6, 9, 8, 7, 6, 0, 0, 0, 0 }), 12);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 START_TEST(test_srgb_as_it_is)
 {
 	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
@@ -242,4 +269,4 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
