@@ -173,7 +173,8 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	const struct gls_unit *unit = &st->a.texturing.units[u];
 	int target = enabled_target(unit);
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
-	struct gls_texture_image *image = t ? gls_texture_image_of(x, t) : NULL;
+	const struct gls_texture *p = t ? gls_texture_sampler(st, u, t) : NULL;
+	struct gls_texture_image *image = t ? gls_texture_image_of(x, t, p->min_filter) : NULL;
 	uint32_t missing;
 
 	if (!image)
@@ -186,19 +187,19 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->texture = texture_slot(x, f, image);
 	if (out->texture == SCENE_NONE)
 		return 0;
-	out->wrap_s = t->wrap_s;
-	out->wrap_t = t->wrap_t;
-	out->wrap_r = t->wrap_r;
-	out->min_filter = t->min_filter;
-	out->mag_filter = t->mag_filter;
-	gls_format_border(image->texture.base_format, t->border_color, out->border_color);
+	out->wrap_s = p->wrap_s;
+	out->wrap_t = p->wrap_t;
+	out->wrap_r = p->wrap_r;
+	out->min_filter = p->min_filter;
+	out->mag_filter = p->mag_filter;
+	gls_format_border(image->texture.base_format, p->border_color, out->border_color);
 	out->swizzle = pack_swizzle(t->swizzle);
-	out->lod_bias = t->lod_bias + unit->lod_bias;
-	out->min_lod = t->min_lod;
-	out->max_lod = t->max_lod;
-	out->max_anisotropy = t->max_anisotropy;
-	out->compare_mode = t->compare_mode;
-	out->compare_func = t->compare_func;
+	out->lod_bias = p->lod_bias + unit->lod_bias;
+	out->min_lod = p->min_lod;
+	out->max_lod = p->max_lod;
+	out->max_anisotropy = p->max_anisotropy;
+	out->compare_mode = p->compare_mode;
+	out->compare_func = p->compare_func;
 	out->depth_mode = t->depth_mode;
 	for (unsigned i = 0; i < 4; i++)
 		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;

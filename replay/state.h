@@ -101,6 +101,7 @@ struct gls_unit {
 	uint32_t enabled;                       /* bits 1 << gls_texture_target */
 	uint32_t bound[N_GLS_TEXTURE_TARGETS];  /* names; 0: the default texture */
 	uint32_t gen_enabled;                   /* bits 1 << (s t r q) */
+	uint32_t sampler;                       /* name of a sampler object; 0: the texture's own parameters */
 	struct scene_unit value;                /* env_*, combine_*, source_*, operand_*, scale_*, gen_*, coord_replace */
 	float lod_bias;
 };

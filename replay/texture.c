@@ -179,9 +179,8 @@ static int is_swizzle(uint32_t token)
 	return token == GL_ZERO || token == GL_ONE || (token >= GL_RED && token <= GL_ALPHA);
 }
 
-static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct call *c, int normalized)
 {
-	struct gls_texture *t = addressed(x, st, arg_u(c, 0));
 	float v[4] = { 0 };
 	uint32_t token;
 
@@ -288,10 +287,77 @@ static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct
 	}
 }
 
+static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	set_parameter_of(x, st, addressed(x, st, arg_u(c, 0)), c, normalized);
+}
+
 GLS_HANDLER(glTexParameterf, STATE) { set_parameter(x, st, c, 0); }
 GLS_HANDLER(glTexParameterfv, STATE) { set_parameter(x, st, c, 0); }
 GLS_HANDLER(glTexParameteri, STATE) { set_parameter(x, st, c, 0); }
 GLS_HANDLER(glTexParameteriv, STATE) { set_parameter(x, st, c, 1); }
+
+/* ---- sampler objects, GL 3.3 sec. 3.8.2 ---- */
+
+/* They have the parameters of textures, and lie in the table of textures beyond all names of textures. */
+#define SAMPLER_KEY(name) ((uint64_t)1 << 32 | (name))
+
+const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t)
+{
+	uint32_t name = st->a.texturing.units[unit].sampler;
+	const struct gls_texture *sampler = name ? table_find(&st->share->textures, SAMPLER_KEY(name)) : NULL;
+
+	return sampler ? sampler : t;
+}
+
+static struct gls_texture *find_sampler(struct gls_exec *x, struct gls_state *st, uint32_t name)
+{
+	struct gls_texture *sampler = name ? table_find(&st->share->textures, SAMPLER_KEY(name)) : NULL;
+
+	if (sampler || !name)
+		return sampler;
+	sampler = create(name, GLS_TEXTURE_2D);
+	if (!sampler || table_set(&st->share->textures, SAMPLER_KEY(name), sampler)) {
+		gls_texture_free(sampler);
+		gls_out_of_memory(x, sizeof(*sampler));
+		return NULL;
+	}
+	return sampler;
+}
+
+GLS_HANDLER(glBindSampler, STATE)
+{
+	if (arg_u(c, 0) >= GLS_MAX_UNITS) {
+		gls_unsupported(x, "texture units beyond the eighth");
+		return;
+	}
+	find_sampler(x, st, arg_u(c, 1));
+	st->a.texturing.units[arg_u(c, 0)].sampler = arg_u(c, 1);
+}
+
+GLS_HANDLER(glDeleteSamplers, NOW)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, 1, &n);
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	for (uint64_t i = 0; i < n; i++) {
+		uint32_t name = (uint32_t)gls_value_int(&names[i]);
+
+		if (!name)
+			continue;
+		gls_texture_free(table_remove(&st->share->textures, SAMPLER_KEY(name)));
+		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+			if (st->a.texturing.units[u].sampler == name)
+				st->a.texturing.units[u].sampler = 0;
+	}
+}
+
+GLS_HANDLER(glSamplerParameterf, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
+GLS_HANDLER(glSamplerParameterfv, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
+GLS_HANDLER(glSamplerParameteri, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
+GLS_HANDLER(glSamplerParameteriv, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 1); }
 
 /* ---- environments, sec. 3.8.13 ---- */
 
@@ -543,12 +609,13 @@ struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t wi
 	return image;
 }
 
-struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t)
+struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t, uint32_t min_filter)
 {
 	uint32_t n, n_face;
 
-	if (!t->dirty)
+	if (!t->dirty && t->mipmapped == (uint32_t)is_mipmapped(min_filter))
 		return t->image;
+	t->mipmapped = (uint32_t)is_mipmapped(min_filter);
 	gls_texture_image_release(t->image);
 	t->image = NULL;
 	t->dirty = 0;
@@ -560,9 +627,9 @@ struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_te
 		if ((n_face & 0x7fffffffu) < (n & 0x7fffffffu))
 			n = n_face | 0x80000000u;
 	}
-	if (is_mipmapped(t->min_filter) && n & 0x80000000u)
+	if (t->mipmapped && n & 0x80000000u)
 		return NULL;
-	t->image = build_image(x, t, is_mipmapped(t->min_filter) ? n & 0x7fffffffu : 1);
+	t->image = build_image(x, t, t->mipmapped ? n & 0x7fffffffu : 1);
 	return t->image;
 }
 

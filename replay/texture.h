@@ -38,6 +38,7 @@ struct gls_texture {
 	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
 	uint32_t attached;               /* 1: is or was attached to a framebuffer object */
 	uint32_t dirty;                  /* image must be found again */
+	uint32_t mipmapped;              /* the image was found for a filter that wants all levels */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
 };
 
@@ -53,8 +54,10 @@ struct gls_texture_image {
 /** The object bound to a target of a unit; never NULL but out of memory (x->failed). */
 struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target);
 
-/** The image that a draw sees, NULL where the texture is incomplete (sec. 3.8.10). Borrowed. */
-struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t);
+/** The image that a draw with this filter sees, NULL where the texture is incomplete (sec. 3.8.10). Borrowed. */
+struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t, uint32_t min_filter);
+/** Whose parameters a unit samples a texture by: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture itself. */
+const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t);
 void gls_texture_image_release(struct gls_texture_image *image);
 void gls_texture_free(struct gls_texture *t);
 

@@ -156,4 +156,31 @@ START_TEST(test_texgen)
 }
 END_TEST
 
-GL_TESTS("textures", test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
+/* Sampler objects (GL 3.3 sec. 3.8.2) stand for the parameters of what is bound to their unit, completeness included. */
+START_TEST(test_samplers)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	draw(&gl); /* its own filter wants levels that it has not */
+	gl_call(&gl, "glSamplerParameteri", "uee", 4, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	gl_call(&gl, "glSamplerParameteri", "uee", 4, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+	gl_call(&gl, "glBindSampler", "uu", 0, 4);
+	draw(&gl);
+	gl_call(&gl, "glDeleteSamplers", "iU", 1, 1, (uint32_t[]){ 4 });
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].unit_count, 0);
+	ck_assert_uint_eq(s->materials[s->instances[1].material].unit_count, 1);
+	ck_assert_uint_eq(s->units[0].wrap_s, GL_CLAMP_TO_EDGE);
+	ck_assert_uint_eq(s->units[0].min_filter, GL_LINEAR);
+	ck_assert_uint_eq(s->materials[s->instances[2].material].unit_count, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("textures", test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
