@@ -211,7 +211,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	size_t n;
 	const uint8_t *data = gls_pixel_source(st, c, 4, &n);
 	uint8_t *texels;
-	int indices = format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX;
+	int indices = format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX, rc;
 
 	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
 		gls_error(x, st, GL_INVALID_VALUE);
@@ -231,10 +231,14 @@ GLS_HANDLER(glDrawPixels, STATE)
 		draw_depth_stencil(x, st, at, width, height, texels, stencil);
 		return;
 	}
-	if ((!indices || gls_unpack_indices(st, format, type, data, n, width, height, texels)) &&
-	    gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
-	                           format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels) == -1)
-		return;
+	if (!indices || gls_unpack_indices(st, format, type, data, n, width, height, texels)) {
+		rc = gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
+		                       format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels);
+		if (rc == -2 && st->client.unpack.buffer) /* nor is anything drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
+			gls_error(x, st, GL_INVALID_OPERATION);
+		if (rc == -1 || (rc == -2 && st->client.unpack.buffer))
+			return;
+	}
 	gls_draw_rectangle(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
 }
 
@@ -304,7 +308,27 @@ GLS_HANDLER(glCopyPixels, STATE)
 
 /* ---- pixel maps, sec. 3.6.3 ---- */
 
-static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct call *c, float scale)
+/* Numbers in the bound unpack buffer. @return 0, or -1: it is too small */
+static int buffered(struct gls_state *st, const struct call *c, uint32_t size, uint32_t type, float *out)
+{
+	size_t n, bytes = index_bytes(type);
+	const uint8_t *data = gls_pixel_source(st, c, 2, &n);
+	uint32_t value;
+
+	if (!data || n < size * bytes)
+		return -1;
+	for (uint32_t i = 0; i < size; i++) {
+		value = 0;
+		memcpy(&value, data + i * bytes, bytes);
+		if (type == GL_FLOAT)
+			memcpy(&out[i], &value, 4);
+		else
+			out[i] = (float)value;
+	}
+	return 0;
+}
+
+static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t type)
 {
 	uint32_t which = arg_u(c, 0) - GL_PIXEL_MAP_I_TO_I, size = arg_u(c, 1);
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
@@ -320,12 +344,12 @@ static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct cal
 	}
 	memset(m, 0, sizeof(*m));
 	m->size = size;
-	if (arg_floats(c, 2, m->values, size) < size)
-		gls_unsupported(x, "pixel maps out of buffer objects");
-	for (uint32_t i = 0; i < size && !indices; i++)
-		m->values[i] *= scale;
+	if (st->client.unpack.buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
+		gls_unsupported(x, "pixel maps beyond what the recording holds");
+	for (uint32_t i = 0; i < size && !indices && type != GL_FLOAT; i++)
+		m->values[i] /= type == GL_UNSIGNED_SHORT ? 65535.0f : 4294967295.0f;
 }
 
-GLS_HANDLER(glPixelMapfv, STATE) { pixel_map(x, st, c, 1); }
-GLS_HANDLER(glPixelMapuiv, STATE) { pixel_map(x, st, c, 1 / 4294967295.0f); }
-GLS_HANDLER(glPixelMapusv, STATE) { pixel_map(x, st, c, 1 / 65535.0f); }
+GLS_HANDLER(glPixelMapfv, STATE) { pixel_map(x, st, c, GL_FLOAT); }
+GLS_HANDLER(glPixelMapuiv, STATE) { pixel_map(x, st, c, GL_UNSIGNED_INT); }
+GLS_HANDLER(glPixelMapusv, STATE) { pixel_map(x, st, c, GL_UNSIGNED_SHORT); }

@@ -1,7 +1,7 @@
 /* Rasterization state: points, lines, polygons (GL 2.1 sec. 3.3 - 3.5). */
 #include <string.h>
 
-#include "replay/exec.h"
+#include "replay/texture.h"
 
 GLS_HANDLER(glPointSize, STATE)
 {
@@ -113,13 +113,13 @@ GLS_HANDLER(glPolygonStipple, STATE)
 {
 	uint32_t bytes[128];
 	size_t n_blob;
-	const uint8_t *blob = arg_blob(c, 0, &n_blob);
+	const uint8_t *blob = gls_pixel_source(st, c, 0, &n_blob);
 	unsigned n = arg_uints(c, 0, bytes, 128);
 
 	for (unsigned i = 0; i < 128 && blob && n_blob >= 128; i++, n = 128)
 		bytes[i] = blob[i];
 	if (n < 128) {
-		gls_unsupported(x, "stipples out of pixel buffer objects");
+		gls_unsupported(x, "stipples beyond what the recording holds");
 		return;
 	}
 	for (unsigned row = 0; row < 32; row++)

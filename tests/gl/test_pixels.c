@@ -142,4 +142,33 @@ START_TEST(test_state_of_rectangles)
 }
 END_TEST
 
-GL_TESTS("pixels", test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+/* ARB_pixel_buffer_object: maps and stipples out of the bound buffer; beyond its end nothing is drawn. */
+START_TEST(test_pixel_buffer)
+{
+	static const uint16_t map[2] = { 0, 0xffff };
+	uint8_t bytes[128];
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < 128; i++)
+		bytes[i] = (uint8_t)i;
+	gl_call(&gl, "glBindBuffer", "eu", GL_PIXEL_UNPACK_BUFFER, 1);
+	gl_call(&gl, "glBufferData", "eibe", GL_PIXEL_UNPACK_BUFFER, 128, sizeof(bytes), bytes, GL_STATIC_DRAW);
+	gl_call(&gl, "glPolygonStipple", "p", (uint64_t)0);
+	ck_assert_uint_eq(gl_state(&gl)->a.polygon_stipple[1], 0x04050607);
+	gl_call(&gl, "glDrawPixels", "iieep", 5, 7, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glDrawPixels", "iieep", 4, 8, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	gl_call(&gl, "glBufferData", "eibe", GL_PIXEL_UNPACK_BUFFER, 4, sizeof(map), map, GL_STATIC_DRAW);
+	gl_call(&gl, "glPixelMapusv", "eip", GL_PIXEL_MAP_I_TO_R, 2, (uint64_t)0);
+	ck_assert_float_eq(gl_state(&gl)->pixel_maps[GL_PIXEL_MAP_I_TO_R - GL_PIXEL_MAP_I_TO_I].values[1], 1);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_rectangles, 1);
+	ck_assert_uint_eq(s->rectangles[0].height, 8);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("pixels", test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
