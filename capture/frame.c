@@ -281,6 +281,7 @@ static void set_current(enum system system, void *display, uintptr_t drawable)
 	self.system = system;
 	self.display = display;
 	self.drawable = drawable;
+	self.width = self.height = 0;
 	self.in_primitive = 0;
 }
 
@@ -306,12 +307,12 @@ static void frame_end_current(void)
 {
 	uint8_t *p;
 
-	if (self.system == SYSTEM_GLX)
+	if (self.system == SYSTEM_GLX && self.drawable)
 		frame_end_glx(self.display, self.drawable);
-	else if (self.system == SYSTEM_EGL)
+	else if (self.system == SYSTEM_EGL && self.drawable)
 		frame_end_egl(self.display, (void *)self.drawable);
 	else
-		frame_end(self.drawable, self.width, self.height);
+		frame_end(self.drawable, self.width, self.height); /* OSMesa's, or none: framebuffer objects are drawn to */
 	p = writer_enter_fake(CMD_glFrameTerminatorGREMEDY);
 	if (p)
 		writer_call_end(p);

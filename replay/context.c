@@ -154,6 +154,22 @@ GLS_HANDLER(eglSwapBuffersWithDamageEXT, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)
 GLS_HANDLER(eglSwapBuffersWithDamageKHR, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 
+/* OSMesa draws into the program's memory: each context is its own drawable. */
+GLS_HANDLER(OSMesaCreateContext, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaCreateContextExt, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 4), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaCreateContextAttribs, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaDestroyContext, WINDOW) { destroy_context(x, c, 0); }
+GLS_HANDLER(OSMesaMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 0, "OSMesa"); }
+
 /* Contexts of other window systems, as apitrace records them. */
 GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
