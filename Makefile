@@ -191,6 +191,13 @@ $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -o $@ $< -ldl
 
+# Stands before libGL, under its name, for glretrace in the proofs that compare its pictures with a program's.
+VISUAL := $(BUILD)/tests/visual/libGL.so.1
+$(VISUAL): tests/real/visual.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
+		-Wl,--no-as-needed -l:libGLX.so.0 -l:libOpenGL.so.0 -ldl
+
 $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
@@ -218,7 +225,7 @@ show-sweep: all $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
 
 # The recorder alone on the same programs.
-show-sweep-record: all $(BUILD)/deps.sweep
+show-sweep-record: all $(VISUAL) $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep_record.py $(BUILD) $(ONLY:%=--only %)
 
 # The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
@@ -276,7 +283,7 @@ show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so
 
 # Two games on which the usual recorder crashes.
 DEPS_crashes := extremetuxracer foobillardplus
-show-crashes: all $(BUILD)/deps.crashes
+show-crashes: all $(VISUAL) $(BUILD)/deps.crashes
 	@tests/xvfb.sh $(PYTHON) tests/show/crashes.py $(BUILD)
 
 # Every kernel under tools that watch it.

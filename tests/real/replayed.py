@@ -6,6 +6,7 @@ resizes its window then) with `apitrace replay` of NAME.trace, pixel by pixel. E
 """
 import array
 import ctypes
+import os
 import struct
 import subprocess
 import sys
@@ -47,6 +48,13 @@ def reference_frames(path):
 def reference_depths(path):
     """{frame: (width, height, window depths from the bottom)} of a .ref file."""
     return {frame: (width, height, array.array("f", raw)) for frame, width, height, raw in records(path, REF_DEPTH)}
+
+
+def with_visual(bits, build):
+    """An environment in which glretrace takes a visual like the program's, whose relume:bits marker says `bits`: see visual.c."""
+    alpha, depth, stencil, _, samples = (bits.split() + ["0"] * 5)[:5]
+    libraries = os.pathsep.join([str(build / "tests" / "visual"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])])
+    return dict(os.environ, LD_LIBRARY_PATH=libraries, RELUME_VISUAL=f"{alpha} {depth} {stencil} {samples}") if bits else dict(os.environ)
 
 
 def replayed_frames(path):

@@ -14,7 +14,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "real"))
-from replayed import reference_frames  # noqa: E402
+from replayed import reference_frames, with_visual  # noqa: E402
 
 EVERY = 50
 PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
@@ -47,14 +47,16 @@ def play(relume, name, trace):
     return alive and child.returncode in (0, 143), [int(n) for n in said[0]] if said else [0, 0]
 
 
-def compare(trace):
-    """(frames compared, frames that differ), every fiftieth frame but the first, of which apitrace makes garbage."""
+def compare(trace, build):
+    """(frames compared, frames that differ), every fiftieth frame but the first; glretrace has a visual like the game's."""
+    said = subprocess.run(["apitrace", "dump", "--color=never", "--grep=StringMarker", trace], capture_output=True, text=True, check=True)
+    bits = re.search(r"relume:bits ([\d ]+)", said.stdout)
     ends = subprocess.run(["apitrace", "dump", "--color=never", "--calls=frame", trace], capture_output=True, text=True, check=True)
     calls = [line.split()[0] for line in ends.stdout.splitlines() if "SwapBuffers" in line]
     shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n and n < len(calls)}
     chosen = sorted(shown)
     run = subprocess.run(["apitrace", "replay", "--headless", "-S", ",".join(calls[n] for n in chosen), "-s", "-", trace],
-                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+                         env=with_visual(bits.group(1) if bits else "", build), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     at, differ = 0, 0
     for n in chosen:
         head = PICTURE.search(run.stdout, at)
@@ -74,7 +76,7 @@ def main(build):
     for name in GAMES:
         trace = work / f"{name}.trace"
         ended, (frames, calls) = play(build / "relume", name, trace)
-        compared, differ = compare(trace) if frames else (0, 0)
+        compared, differ = compare(trace, build) if frames else (0, 0)
         passed = ended and compared > 2 and not differ
         rows.append({"what": f"{name}, played", "bar": "records, replays, 0 pictures differ", "peer": "apitrace trace crashes",
                      "figure": f"{frames} frames, {calls} calls; {differ} of {compared} pictures differ" + ("" if ended else "; it crashed"),

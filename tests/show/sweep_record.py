@@ -2,8 +2,8 @@
 """tests/show/sweep_record.py BUILD [--only PART]... (as `make show-sweep-record`): the recorder alone, on every program of the sweep.
 
 Each program is recorded anew with reference frames read back in the program. `apitrace dump` must read the trace to its end, and
-glretrace must draw the last frame as the program did, bit for bit; it is told how many samples a pixel has, which it does not take
-from the trace, and where its window is larger than the program's (a viewport reached beyond it) the program's part is compared.
+glretrace must draw the last frame as the program did, bit for bit; it is given a visual like the program's (tests/real/visual.c),
+and where its window is larger than the program's (a viewport reached beyond it) the program's part is compared.
 Programs that do not start here are told and not counted.
 """
 import argparse
@@ -21,28 +21,28 @@ import recording
 import scoring
 
 sys.path.insert(0, str(recording.ROOT / "tests" / "real"))
-from replayed import reference_frames  # noqa: E402
+from replayed import reference_frames, with_visual  # noqa: E402
 
 PICTURE = re.compile(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n255\n")
 
 
 def look_up(trace):
-    """The calls that end frames, and the samples of a pixel."""
+    """The calls that end frames, and the bits of a pixel."""
     dump = subprocess.run(["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
                           capture_output=True, text=True, errors="replace", check=False).stdout
-    samples = re.search(r"relume:bits \d+ \d+ \d+ \d+ (\d+)", dump)
+    bits = re.search(r"relume:bits ([\d ]+)", dump)
     calls = re.findall(r"^(\d+) (?:\w+SwapBuffers\w*|glFrameTerminator\w*)\(", dump, re.M)
-    return calls, int(samples.group(1)) if samples else 0
+    return calls, bits.group(1) if bits else ""
 
 
-def check_replay(trace):
+def check_replay(trace, build):
     """Is glretrace's picture of the last frame that has a reference the program's own?"""
-    calls, samples = look_up(trace)
+    calls, bits = look_up(trace)
     shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n < len(calls)}
     if not shown:
         return "no frame to compare"
     last = max(shown)
-    run = subprocess.run(["glretrace", "--headless", f"--samples={max(samples, 1)}", "-S", calls[last], "-s", "-", trace],
+    run = subprocess.run(["glretrace", "--headless", "-S", calls[last], "-s", "-", trace], env=with_visual(bits, build),
                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=scoring.LIMIT_S, check=False)
     head = PICTURE.search(run.stdout)
     if not head:
@@ -61,7 +61,7 @@ def check(build, program, folder):
     if done.trace is None or not done.references:
         return None, f"no recording (exit code {done.code}): {done.said[:120]}"
     scorer = scoring.Scorer(build / "relume", folder, folder / "log")
-    return scorer.check_dump(done.trace), check_replay(done.trace)
+    return scorer.check_dump(done.trace), check_replay(done.trace, build)
 
 
 def main():
