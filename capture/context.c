@@ -191,7 +191,7 @@ static uint8_t *put_clear_bits(uint8_t *p, uint32_t v)
  * is drawn to the front buffer or at the first swap: all of the first frame but a corner would be lost (Mesa 22.3.6). So
  * nothing is drawn there: a clear of no buffers.
  */
-static void make_size_known(void)
+void context_make_size_known(void)
 {
 	uint8_t *p;
 
@@ -223,7 +223,7 @@ static void made_current(void *handle)
 	record_rectangle(CMD_glViewport, rectangle);
 	real_glGetIntegerv(GL_SCISSOR_BOX, rectangle);
 	record_rectangle(CMD_glScissor, rectangle);
-	make_size_known();
+	context_make_size_known();
 	if (current->features & HAS_FIXED_FUNCTION)
 		frame_mark_bits();
 }

@@ -366,6 +366,7 @@ void skip_end(int width, int height)
 	if (!context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
 		return;
 	context_errors_before();
+	context_make_size_known(); /* at its place in what is left out a clear was not written */
 	skip_make_neutral(0);
 	reading_begin(&state);
 	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* put back with all else */

@@ -69,6 +69,8 @@ void context_made_current_glx(int ok, void *display, unsigned long drawable, voi
 void context_made_current_egl(unsigned ok, void *display, void *surface, void *context);
 void context_made_current_osmesa(unsigned ok, void *context, int width, int height);
 void context_destroyed(void *context);
+/** Calls that draw nothing, by which glretrace's window learns of the size that a viewport has given it. */
+void context_make_size_known(void);
 
 /** glGetError's answer: errors that the recorder had to fetch come first. */
 unsigned context_pending_error(unsigned error);
