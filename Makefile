@@ -202,7 +202,7 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
-check: all $(TESTS) $(HELPERS)
+check: all $(TESTS) $(HELPERS) $(BUILD)/tests/bench/hits
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 demo:
@@ -210,7 +210,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-build show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
+	show-rays show-hits show-build show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -240,7 +240,17 @@ bench: $(BUILD)/tests/bench/embree
 
 show-rays: $(BUILD)/tests/bench/embree
 	@mkdir -p $(BUILD)/show
-	@$< --models $(MODELS) --bar 1.5 --json $(BUILD)/show/rays.json --command "make show-rays"
+	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/rays.json --command "make show-rays"
+
+# Hits ray by ray, against Embree's. The test of the same name in tests/check runs it with fewer rays.
+$(BUILD)/tests/bench/hits: tests/bench/hits.c $(BUILD)/parts.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -MF $@.d -c -o $@.o $<
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
+
+show-hits: $(BUILD)/tests/bench/hits
+	@mkdir -p $(BUILD)/show
+	@$< --models $(MODELS) --json $(BUILD)/show/hits.json --command "make show-hits"
 
 # The builders of acceleration structures against Embree's.
 $(BUILD)/tests/bench/build: $(BUILD)/tests/bench/build.o $(BUILD)/tests/bench/embree_build.o $(BUILD)/parts.a

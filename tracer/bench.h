@@ -47,6 +47,8 @@ struct bench {
  * @return 0 or ERR_SYSTEM (reported)
  */
 int bench_create(struct device *dev, const char *models, uint32_t width, uint32_t height, struct bench **out);
+/** The same over a mesh in eye space of the caller's, which belongs to the bench from now on, whatever is returned. */
+int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width, uint32_t height, struct bench **out);
 void bench_destroy(struct bench **bench);
 
 /**

@@ -336,6 +336,14 @@ static int derive_rays(struct bench *b)
 
 int bench_create(struct device *dev, const char *models, uint32_t width, uint32_t height, struct bench **out)
 {
+	struct bench_mesh mesh;
+	int err = bench_mesh_create(models, &mesh);
+
+	return err ? err : bench_create_of(dev, &mesh, width, height, out);
+}
+
+int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width, uint32_t height, struct bench **out)
+{
 	const size_t pixels = (size_t)width * height;
 	struct bench *b = calloc(1, sizeof(*b));
 	struct bench_state *s = b ? b->state = calloc(1, sizeof(*b->state)) : NULL;
@@ -344,14 +352,14 @@ int bench_create(struct device *dev, const char *models, uint32_t width, uint32_
 
 	if (!s) {
 		free(b);
+		bench_mesh_free(mesh);
 		return out_of_memory();
 	}
+	b->mesh = *mesh;
+	*mesh = (struct bench_mesh){ 0 };
 	b->dev = dev;
 	b->width = width;
 	b->height = height;
-	err = bench_mesh_create(models, &b->mesh);
-	if (err)
-		goto fail;
 	s->clip = calloc(b->mesh.n_vertices, sizeof(*s->clip));
 	s->window = calloc(b->mesh.n_vertices, sizeof(*s->window));
 	s->fragments = malloc(pixels * sizeof(*s->fragments));
