@@ -180,7 +180,7 @@ static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 to
 
 static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct vec4 b, struct vec4 c)
 {
-	return v4_add(v4_add(v4_scale(a, p->weight[0]), v4_scale(b, p->weight[1])), v4_scale(c, p->weight[2]));
+	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), p->weight[1]), v4_scale(v4_sub(c, a), p->weight[2]))); /* equals give themselves */
 }
 
 /* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */

@@ -96,6 +96,17 @@ static inline float pixel_stored(float x)
 	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
 }
 
+/*
+ * A number on the verge between two of 8 bits, moved off it to the side that the frame buffer's rounding takes: by at most 0.04 of
+ * their distance, so that the half floats and the encoding of a picture cannot turn it over. 0.3 is 76.5, and 76 for Mesa.
+ */
+static inline float pixel_settle(float x)
+{
+	float codes = clamp01(x) * 255.0f, code = M_RINT(codes), rest = codes - code;
+
+	return M_ABS(rest) > 0.46f ? (code + (rest > 0.0f ? 0.46f : -0.46f)) / 255.0f : x;
+}
+
 /* What of a source colour ends in the frame buffer over a destination; the mask is the caller's. */
 static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
@@ -225,10 +236,9 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 		for (uint32_t c = 0u; c < 4u; c++) {
 			if (!(clear->color_mask >> c & 1u))
 				continue;
-			pixel->gl[c] = clamp01(clear->color[c]);
+			pixel->gl[c] = pixel_settle(clamp01(clear->color[c]));
 			if (c < 3u)
-				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] =
-					clamp01(clear->color[c]);
+				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = pixel->gl[c];
 		}
 		if ((clear->color_mask & 7u) == 7u) {
 			pixel->id = 0u;

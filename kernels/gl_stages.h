@@ -364,6 +364,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	if (kind == SCENE_COLOR_PIXELS)
 		lit.color = stage_texel_color(group);
 	color = point_finish(t, &p, &coat, &lit);
+	color = v4(pixel_settle(color.x), pixel_settle(color.y), pixel_settle(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
 	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
 	if (n_slots)

@@ -15,7 +15,7 @@ static void quad(const float *corners)
 }
 
 /* A ground, two walls along it that pass the viewer, and a far one. */
-static void hall(int offset)
+static void hall(int offset, const float *side)
 {
 	static const float ground[12] = { -100, -0.1f, 1000, 400, -0.1f, 1000, 275, -0.1f, -50, -100, -0.1f, -50 };
 	static const float left[12] = { -20, -0.1f, 150, -20, 7, 150, -20, 7, -300, -20, -0.1f, -300 };
@@ -26,7 +26,7 @@ static void hall(int offset)
 	quad(ground);
 	glColor3f(1, 0.6f, 0);
 	quad(left);
-	glColor3f(0.4f, 0.2f, 1);
+	glColor3fv(side);
 	quad(right);
 	glColor3f(0.6f, 0.6f, 0.8f);
 	quad(far);
@@ -64,6 +64,7 @@ static void rails(void)
 
 static void frame(int n)
 {
+	static const float blue[3] = { 0.4f, 0.2f, 1 }, between[3] = { 0.9f, 0.3f, 0.1f }; /* two numbers of 8 bits each */
 	const float angle = 31.0f * (float)n, transposed[16] = { 1, 0, 0, 0, 0, 0.8f, -0.6f, 0, 0, 0.6f, 0.8f, 0, 0, 0, 0, 1 };
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -83,7 +84,7 @@ static void frame(int n)
 		glMultTransposeMatrixf(transposed);
 	glScalef(1, 1.1f, 0.9f);
 	glTranslatef(0.1f * (float)n, -5.9f, 33.3f);
-	hall(n % 3 - 1);
+	hall(n % 3 - 1, n % 4 == 3 ? between : blue);
 	rails();
 }
 
@@ -94,6 +95,7 @@ int main(int argc, char **argv)
 
 	open_window_of(attributes);
 	glEnable(GL_DEPTH_TEST);
+	glClearColor(0.3f, 0.9f, 0.7f, 0);
 	for (int n = 0; n < FRAMES; n++) {
 		frame(n);
 		end_frame();
