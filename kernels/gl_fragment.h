@@ -119,7 +119,7 @@ static inline struct vec3 point_normal(const struct point *p)
 	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                             v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
-	if (v3_dot(smooth, smooth) == 0.0f)
+	if (!(v3_dot(smooth, smooth) > 0.0f)) /* none, or an infinite one (vertex_eye_normal) */
 		return n;
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }

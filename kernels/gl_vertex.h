@@ -16,6 +16,11 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	struct vec3 eye = v3(r[0] * n.x + r[1] * n.y + r[2] * n.z, r[4] * n.x + r[5] * n.y + r[6] * n.z,
 	                     r[8] * n.x + r[9] * n.y + r[10] * n.z);
 
+	float length2 = v3_dot(eye, eye);
+
+	/* Mesa's vertex programs know no denormal numbers: so short a normal has length 0, and becomes infinite. */
+	if (m->normalize && length2 > 0.0f && length2 < 1.17549435e-38f)
+		return v3(eye.x * M_FLOAT(0x7f800000u), eye.y * M_FLOAT(0x7f800000u), eye.z * M_FLOAT(0x7f800000u));
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 

@@ -62,6 +62,26 @@ static void rails(void)
 	glDisable(GL_LINE_SMOOTH);
 }
 
+/* A lit panel in front whose normals are so short that their squares are nothing. */
+static void faint(void)
+{
+	static const float short_normal[3] = { 1.88677596e-21f, 1e-21f, 2e-21f }, away[3] = { -2e-21f, -1e-21f, -1e-21f };
+
+	glLoadIdentity();
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_NORMALIZE);
+	glBegin(GL_QUADS);
+	glNormal3fv(short_normal);
+	glVertex3f(-15, -9, 320);
+	glVertex3f(-5, -9, 320);
+	glNormal3fv(away);
+	glVertex3f(-5, 2, 320);
+	glVertex3f(-15, 2, 320);
+	glEnd();
+	glDisable(GL_LIGHTING);
+}
+
 static void frame(int n)
 {
 	static const float blue[3] = { 0.4f, 0.2f, 1 }, between[3] = { 0.9f, 0.3f, 0.1f }; /* two numbers of 8 bits each */
@@ -86,6 +106,8 @@ static void frame(int n)
 	glTranslatef(0.1f * (float)n, -5.9f, 33.3f);
 	hall(n % 3 - 1, n % 4 == 3 ? between : blue);
 	rails();
+	if (n % 4 == 3)
+		faint();
 }
 
 int main(int argc, char **argv)
