@@ -83,7 +83,7 @@ def score_by_glretrace(build, folder, name, trace, frames):
     if not frames:
         line.note = "the trace has not enough frames"
         return line
-    line.unhandled = ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"])
+    line.unhandled = scoring.list_unhandled(info)
     chosen = ",".join(map(str, frames))
     scorer.run(scorer.relume, "raster", trace, "-f", chosen, "-o", scorer.work / "raster" / "x.####.png")
     rendered, line.frame_s, line.note = scorer.render(trace, frames, "whitted")

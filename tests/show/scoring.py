@@ -112,6 +112,11 @@ class Scorer:
         return self.json(self.relume, "diff", reference, self.work / "frames", "-f", ",".join(map(str, frames)), "--json", "-", *page)
 
 
+def list_unhandled(info):
+    """The calls that rendering does not execute: what `relume info` lacks pixels for is not among them."""
+    return ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"] if "only a renderer" not in str(u.get("why", "")))
+
+
 def missed_gates(frame, gates, must=()):
     """The gates that a frame does not pass, each with what became of it: "R3 failed", "R4 not measured".
 
@@ -167,7 +172,7 @@ def score_recording(scorer, line, recording, n_frames, mode, gates, must=(), rep
     if info is None:
         line.note = "relume info cannot read the trace"
         return line
-    line.unhandled = ", ".join(f"{u['call']} {u['count']}" for u in info["unsupported"])
+    line.unhandled = list_unhandled(info)
     frames = [f for f in recording.references if 0 < f < info["frames"]]
     if not frames:
         line.note = f"{info['frames']} frames, none with a reference; {recording.said[:100]}"
