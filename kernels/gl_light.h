@@ -57,8 +57,11 @@ static inline float light_strength(GLOBAL const struct scene_light *light, struc
 
 		to = v3_sub(v3_scale(to, 1.0f / light->position_eye[3]), at);
 		distance = M_SQRT(v3_dot(to, to));
-		strength = 1.0f / (light->attenuation[0] +
-		                   distance * (light->attenuation[1] + distance * light->attenuation[2]));
+		/* A light may be farther away than numbers go, when the distance must not be looked at. */
+		strength = light->attenuation[1] == 0.0f && light->attenuation[2] == 0.0f ?
+		                   1.0f / light->attenuation[0] :
+		                   1.0f / (light->attenuation[0] +
+		                           distance * (light->attenuation[1] + distance * light->attenuation[2]));
 	}
 	*to_light = v3_normalize(to);
 	return strength * light_spot(light, *to_light);

@@ -348,19 +348,15 @@ static void add_smooth_point(const struct expand_input *in, struct expanded *out
 static void add_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
 {
 	const struct scene_material *m = in->material;
-	float size = e->v.point_size;
-	int32_t width, x, y;
+	int32_t width = (int32_t)fmaxf(e->v.point_size * 256 + 0.5f, 256), x = snap(e->x) - width / 2, y = snap(e->y) - width / 2;
 
-	width = (int32_t)fmaxf(rintf(size * 256), 256);
-	x = snap(e->x) - width / 2;
-	y = snap(e->y) - width / 2;
+	/* Other than sprites they are whole pixels (sec. 3.3.1), of widths and places rounded as llvmpipe does it. */
 	if (!m->point_sprite && !m->point_smooth) {
-		/* Whole pixels around the centre of the one it lies in, or the corner next to it (sec. 3.3.1; y runs downwards here). */
-		int32_t pixels = (int32_t)fmaxf(rintf(size), 1), odd = pixels & 1;
+		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
+		x = (((snap(e->x) + middle) >> 8) - pixels / 2) * 256;
+		y = (((snap(e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* what is on an edge belongs above it */
 		width = pixels * 256;
-		x = ((snap(e->x) + (odd ? 0 : 128)) & ~255) - pixels / 2 * 256;
-		y = -((-snap(e->y) + (odd ? 0 : 128)) & ~255) - (pixels + odd) / 2 * 256;
 	}
 	for (int k = 0; k < 4; k++) {
 		int right = k == 1 || k == 2, low = k >= 2;

@@ -1,6 +1,6 @@
 /*
  * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines drawn over
- * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End. Recorded by test_shapes.py.
+ * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -105,9 +105,34 @@ static void materials(void)
 	glDisable(GL_LIGHTING);
 }
 
+/* Points of all sizes, and a light that is too far away for numbers to hold the distance. */
+static void points(void)
+{
+	static const float far_away[4] = { 0, 20, -1, -3e-34f }, near[4] = { 0, 0, 1, 0 };
+
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHT1);
+	glLightfv(GL_LIGHT0, GL_POSITION, near);
+	glLightfv(GL_LIGHT1, GL_POSITION, far_away);
+	glLightfv(GL_LIGHT1, GL_DIFFUSE, near);
+	glRotatef(9, 0.3f, 0.5f, 1);
+	for (int size = 0; size < 6; size++) {
+		glPointSize(1 + 0.5f * (float)size);
+		glBegin(GL_POINTS);
+		for (int i = 0; i < SPOKES; i++) {
+			glNormal3f((float)i / SPOKES, 0.2f, 0.7f);
+			glVertex3f(0.03f * (float)i - 0.6f, 0.13f * (float)size - 0.33f + 0.0007f * (float)i, -2);
+		}
+		glEnd();
+	}
+	glDisable(GL_LIGHTING);
+	glDisable(GL_LIGHT1);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, coplanar, materials };
+	static void (*const frames[])(void) = { spokes, net, coplanar, materials, points };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {

@@ -5,7 +5,7 @@ So are the quads of tests/trace/loops.c, which are not plane: the way they are c
 """
 from helpers import BUILD, SCRATCH, check, check_gates, diff, finish, record, render
 
-FRAMES = ("lines", "lines over themselves", "coplanar surfaces", "materials that change between Begin and End")
+FRAMES = ("lines", "lines over themselves", "coplanar surfaces", "materials that change between Begin and End", "points and a distant light")
 trace = SCRATCH / "shapes.trace"
 record(trace, BUILD / "tests/real/shapes")
 files = render(trace, SCRATCH / "frames", "--mode", "gl", "--encoding", "display")
