@@ -76,6 +76,21 @@ static inline float compose_effect(float rest, float of)
 	return M_ABS(rest) > M_ABS(of) * 0.001953125f ? compose_rounded(rest) : 0.0f;
 }
 
+/*
+ * GL's number moved off the borders between two of the frame buffer's 8-bit codes by more than halves and the encoding change
+ * it: whoever rounds it to 8 bits again gets the code that GL's own rounding gives.
+ */
+#define COMPOSE_CODE_REACH 0.43f /* of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code */
+
+static inline float compose_settled(float gl)
+{
+	float steps = gl * 255.0f, code = M_RINT(steps);
+
+	if (!(gl >= 0.0f && gl <= 1.0f) || M_ABS(steps - code) <= COMPOSE_CODE_REACH)
+		return gl;
+	return (code + (steps > code ? COMPOSE_CODE_REACH : -COMPOSE_CODE_REACH)) / 255.0f;
+}
+
 /* A pixel's colours, r g b each. */
 #define COLOR_GL 0
 #define COLOR_SHADOWED 3
@@ -157,6 +172,12 @@ static inline void compose_item(const struct tables *t, GLOBAL const struct wind
 	if (r->n_passes > 1u)
 		for (uint32_t i = 0u; i < PASS_PARTS; i++)
 			display[COLOR_SHADOWED + i] = (sums[item * PASS_PARTS + i] + display[COLOR_SHADOWED + i]) / (float)r->n_passes;
+	for (uint32_t c = 0u; c < 3u; c++) { /* what equals GL's number goes with it: no effect comes of it */
+		float gl = display[COLOR_GL + c], settled = compose_settled(gl);
+
+		for (uint32_t i = COLOR_GL; i < COLOR_ALBEDO; i += 3u)
+			display[i + c] = display[i + c] == gl ? settled : display[i + c];
+	}
 	if (r->normals) {
 		display[COLOR_GL] = drawn ? normal.x * 0.5f + 0.5f : 0.0f;
 		display[COLOR_GL + 1] = drawn ? normal.y * 0.5f + 0.5f : 0.0f;
