@@ -139,6 +139,7 @@ int gls_state_init(struct gls_state *st)
 
 void gls_state_free(struct gls_state *st)
 {
+	gls_maps_free(st->maps);
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
 		free(st->client.arrays[i].client);
 	if (st->list)

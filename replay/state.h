@@ -253,6 +253,7 @@ struct gls_state {
 	unsigned attrib_depth, client_depth;
 
 	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
+	struct gls_maps *maps; /* evaluators' (eval.c), owned; NULL: none was ever defined */
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
@@ -275,6 +276,7 @@ struct gls_state {
 /** A context as GL hands it out (all initial values of chapter 6); width and height of the first drawable may be 0. */
 int gls_state_init(struct gls_state *st);
 void gls_state_free(struct gls_state *st);
+void gls_maps_free(struct gls_maps *maps);
 
 /** Record a GL error of the program (sec. 2.5): the first one sticks. */
 static inline void gls_set_error(struct gls_state *st, uint32_t error)

@@ -1,6 +1,6 @@
 /*
  * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines drawn over
- * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points. Recorded by test_shapes.py.
+ * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -130,9 +130,38 @@ static void points(void)
 	glDisable(GL_LIGHT1);
 }
 
+/* A surface of Bezier's, lit by normals of its own, and its net (GL 2.1 sec. 5.1). */
+static void evaluated(void)
+{
+	static const float where[4] = { 0.4f, 0.5f, 1, 0 };
+	float points[4][5][3];
+
+	for (int i = 0; i < 4; i++)
+		for (int j = 0; j < 5; j++) {
+			points[i][j][0] = 0.4f * (float)i - 0.6f;
+			points[i][j][1] = 0.25f * (float)j - 0.5f;
+			points[i][j][2] = (float)((i * 7 + j * 3) % 5) * 0.3f - 0.6f;
+		}
+	glTranslatef(0, 0, -2.5f);
+	glRotatef(25, 1, 0.4f, 0);
+	glMap2f(GL_MAP2_VERTEX_3, 0, 1, 15, 4, 0, 1, 3, 5, &points[0][0][0]);
+	glMapGrid2f(9, 0, 1, 7, 0, 1);
+	glEnable(GL_MAP2_VERTEX_3);
+	glEnable(GL_AUTO_NORMAL);
+	glEnable(GL_NORMALIZE);
+	glEnable(GL_LIGHTING);
+	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+	glLightfv(GL_LIGHT0, GL_POSITION, where);
+	glEvalMesh2(GL_FILL, 0, 9, 0, 7);
+	glDisable(GL_LIGHTING);
+	glTranslatef(0, 0.3f, 0.2f);
+	glColor3f(0.6f, 0.8f, 0.2f);
+	glEvalMesh2(GL_LINE, 0, 9, 0, 7);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, coplanar, materials, points };
+	static void (*const frames[])(void) = { spokes, net, coplanar, materials, points, evaluated };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {

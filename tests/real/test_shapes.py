@@ -5,7 +5,8 @@ So are the quads of tests/trace/loops.c, which are not plane: the way they are c
 """
 from helpers import BUILD, SCRATCH, check, check_gates, diff, finish, record, render
 
-FRAMES = ("lines", "lines over themselves", "coplanar surfaces", "materials that change between Begin and End", "points and a distant light")
+FRAMES = ("lines", "lines over themselves", "coplanar surfaces", "materials that change between Begin and End", "points and a distant light",
+          "evaluated surfaces")
 trace = SCRATCH / "shapes.trace"
 record(trace, BUILD / "tests/real/shapes")
 files = render(trace, SCRATCH / "frames", "--mode", "gl", "--encoding", "display")
