@@ -87,7 +87,6 @@ static struct end mix_ends(const struct end *a, const struct end *b, float wa, f
 	mix_floats(a->v.normal, b->v.normal, wa, wb, e.v.normal, 3);
 	mix_floats(&a->v.fog_coord, &b->v.fog_coord, wa, wb, &e.v.fog_coord, 1);
 	mix_floats(&a->texcoord[0][0], &b->texcoord[0][0], wa, wb, &e.texcoord[0][0], SCENE_MAX_UNITS * 4);
-	e.cut = 1;
 	return e;
 }
 
@@ -108,39 +107,55 @@ static void project(const struct expand_input *in, struct end *e)
 	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
 }
 
-/*
- * Signed distances to the planes that lines are clipped at: near, far, and four around so many times the view's width: 1 where
- * the new end shows (it fades a smooth line out), else 2.
- */
-static float clip_distance(const float *c, int plane, float band)
+/* Signed distances to the planes of the view volume: near, far, and four around. */
+static float clip_distance(const float *c, int plane)
 {
 	float side = plane & 1 ? -1 : 1;
 
-	return plane < 2 ? c[3] + side * c[2] : band * c[3] + side * c[(plane - 2) / 2];
+	return c[3] + side * c[plane < 2 ? 2 : (plane - 2) / 2];
+}
+
+static void move_floats(float *from, const float *to, float t, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		from[i] += t * (to[i] - from[i]);
+}
+
+/* An end moved towards the other one, in Mesa's order of operations. */
+static void move_end(struct end *e, const struct end *to, float t)
+{
+	move_floats(e->v.clip, to->v.clip, t, 4);
+	move_floats(e->v.eye, to->v.eye, t, 4);
+	move_floats(&e->v.color[0][0], &to->v.color[0][0], t, 8);
+	move_floats(&e->v.secondary[0][0], &to->v.secondary[0][0], t, 8);
+	move_floats(e->v.normal, to->v.normal, t, 3);
+	move_floats(&e->v.fog_coord, &to->v.fog_coord, t, 1);
+	move_floats(&e->texcoord[0][0], &to->texcoord[0][0], t, SCENE_MAX_UNITS * 4);
+	e->cut = 1;
 }
 
 /* Cut a line to what can be seen. @return 0 where nothing is left */
-static int clip_line(struct end *a, struct end *b, float band)
+static int clip_line(struct end *a, struct end *b)
 {
-	float t0 = 0, t1 = 1;
-	struct end from = *a, to = *b;
+	float t_a = 0, t_b = 0; /* shares cut off at either end */
+	struct end from = *a;
 
 	for (int plane = 0; plane < 6; plane++) {
-		float da = clip_distance(a->v.clip, plane, band), db = clip_distance(b->v.clip, plane, band);
+		float da = clip_distance(a->v.clip, plane), db = clip_distance(b->v.clip, plane);
 
 		if (da < 0 && db < 0)
 			return 0;
 		if (da < 0)
-			t0 = fmaxf(t0, da / (da - db));
+			t_a = fmaxf(t_a, da / (da - db));
 		else if (db < 0)
-			t1 = fminf(t1, da / (da - db));
+			t_b = fmaxf(t_b, db / (db - da));
 	}
-	if (!(t0 <= t1))
+	if (t_a + t_b >= 1)
 		return 0;
-	if (t0 > 0)
-		*a = mix_ends(&from, &to, 1 - t0, t0);
-	if (t1 < 1)
-		*b = mix_ends(&from, &to, 1 - t1, t1);
+	if (t_a > 0)
+		move_end(a, b, t_a);
+	if (t_b > 0)
+		move_end(b, &from, t_b);
 	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
 }
 
@@ -420,7 +435,7 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 	uint32_t start = 0, n;
 	int err = 0;
 
-	if (!clip_line(&a, &b, in->material->line_smooth ? 1 : 2))
+	if (!clip_line(&a, &b))
 		return 0;
 	project(in, &a);
 	project(in, &b);
@@ -448,7 +463,7 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 static int point(const struct expand_input *in, struct expanded *out, struct end e, float offset, uint32_t draw)
 {
 	for (int plane = 0; plane < 6; plane++) {
-		if (clip_distance(e.v.clip, plane, 1) < 0) /* their centre must lie in the view (sec. 2.12) */
+		if (clip_distance(e.v.clip, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
 			return 0;
 	}
 	if (!(e.v.clip[3] > 0))

@@ -26,9 +26,9 @@ static void spokes(void)
 		glLineWidth((float)width);
 		glBegin(GL_LINES);
 		for (int i = 0; i < SPOKES; i++) {
-			float angle = 6.2831853f * (float)i / SPOKES + 0.013f * (float)width, near = 0.05f, far = 0.3f * (float)width;
+			float angle = 6.2831853f * (float)i / SPOKES + 0.013f * (float)width, near = 0.05f, far = width < 3 ? 0.3f * (float)width : 4; /* out of view */
 
-			glColor3f((float)i / SPOKES, 1 - (float)i / SPOKES, 0.5f);
+			glColor3f((float)i / SPOKES, 1 - (float)i / SPOKES, 0.6f);
 			glVertex3f(near * cosf(angle), near * sinf(angle), -2);
 			glVertex3f(far * cosf(angle), far * sinf(angle), -2 - 0.5f * (float)width);
 		}

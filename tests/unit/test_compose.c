@@ -39,6 +39,23 @@ START_TEST(test_linear)
 }
 END_TEST
 
+/* GL's numbers come out as the codes that GL rounds them to, in linear light and as they are, however near to a border they lie. */
+START_TEST(test_codes)
+{
+	for (int code = 0; code < 255; code++)
+		for (int i = -40; i <= 40; i++) {
+			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f), settled = compose_settled(gl);
+			float linear = compose_rounded(compose_linear(settled)), plain = compose_rounded(settled);
+
+			ck_assert_float_eq(rintf(image_display_from_linear(linear) * 255.0f), want);
+			ck_assert_float_eq(rintf(plain * 255.0f), want);
+			ck_assert_float_le(fabsf(settled - gl), 0.08f / 255.0f);
+		}
+	ck_assert_float_eq(compose_settled(0.25f), 0.25f);
+	ck_assert_float_eq(compose_settled(1.5f), 1.5f);
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("compose");
@@ -49,6 +66,7 @@ int main(void)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_halves);
 	tcase_add_test(tests, test_linear);
+	tcase_add_test(tests, test_codes);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
