@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--again] [--record] (as `make show-sweep`): every program of the sweep, a line each.
+"""tests/show/sweep.py BUILD [--only PART]... [--frames N] [--minutes M] [--again] [--record] (as `make show-sweep`): the sweep, a line a program.
 
 Each program is recorded once, with reference frames read back in the program; recordings stay in BUILD/show/sweep/NAME and
 are used again until --record asks for new ones. Ten frames of each are rendered in `gl` mode and scored against what the
 program showed. BUILD/show/sweep.tsv holds a line for each program; what the present relume has scored already is not
-scored again, so that a run that was ended goes on where it stood. The bar: 110 of xscreensaver's fixed-function
-hacks pass all gates on all frames.
+scored again, so that a run that was ended, or that ran out of its minutes, goes on where it stood. What fails stands once more
+at the end. The bar: 110 of xscreensaver's fixed-function hacks pass all gates on all frames.
 """
 import argparse
 import dataclasses
@@ -95,6 +95,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", action="append", default=[], help="part of a program's name")
     parser.add_argument("--frames", type=int, default=scoring.N_FRAMES)
+    parser.add_argument("--minutes", type=float, default=120, help="begin no other program after so many")
     parser.add_argument("--again", action="store_true", help="score what this relume has scored already, too")
     parser.add_argument("--record", action="store_true", help="record anew")
     options = parser.parse_args()
@@ -109,7 +110,10 @@ def main():
     this_relume = f"{hashlib.sha256((build / 'relume').read_bytes()).hexdigest()[:12]} {options.frames}"
     lines = read_table(table)
     chosen = [p for p in programs.sweep() if not options.only or any(part in p.name for part in options.only)]
+    end = time.monotonic() + 60 * options.minutes
     for number, program in enumerate(chosen, 1):
+        if time.monotonic() > end:
+            break
         known = lines.get(program.name)
         if known and known["scored_by"] == this_relume and not (options.again or options.record):
             continue
@@ -119,14 +123,19 @@ def main():
                                "scored_by": this_relume}
         write_table(table, lines)
         print(f"{number}/{len(chosen)} {tell(lines[program.name])} ({time.monotonic() - begin:.0f} s)", flush=True)
-    present = [lines[p.name] for p in chosen if p.name in lines]
+    present = [lines[p.name] for p in chosen if p.name in lines and lines[p.name]["scored_by"] == this_relume]
     rows = rows_of(present)
     if not options.only:
         (build / "show" / "sweep.json").write_text(json.dumps({"name": "sweep", "command": "make show-sweep", "rows": rows}, indent=1) + "\n")
     for row in rows:
         print(f"{row['what']}: {row['figure']}" + (f" (bar {row['bar']})" if row["bar"] else ""))
+    for line in present:
+        if line["good"] != "True":
+            print(tell(line) + (f"; {line['blame']}" if line["blame"] else ""))
+    if len(present) < len(chosen):
+        print(f"{len(chosen) - len(present)} programs were not reached: run it again to go on")
     print(f"a line each: {table}")
-    return 1 if any(row["passed"] is False for row in rows) else 0
+    return 1 if any(row["passed"] is False for row in rows) or len(present) < len(chosen) else 0
 
 
 if __name__ == "__main__":
