@@ -50,13 +50,13 @@ def play(relume, name, trace):
 def compare(trace, build):
     """(frames compared, frames that differ), every fiftieth frame but the first; glretrace has a visual like the game's."""
     said = subprocess.run(["apitrace", "dump", "--color=never", "--grep=StringMarker", trace], capture_output=True, text=True, check=True)
-    bits = re.search(r"relume:bits ([\d ]+)", said.stdout)
+    bits = re.findall(r"relume:bits ([\d ]+)", said.stdout)
     ends = subprocess.run(["apitrace", "dump", "--color=never", "--calls=frame", trace], capture_output=True, text=True, check=True)
     calls = [line.split()[0] for line in ends.stdout.splitlines() if "SwapBuffers" in line]
     shown = {n: picture for n, picture in reference_frames(trace.with_suffix(".ref")).items() if n and n < len(calls)}
     chosen = sorted(shown)
     run = subprocess.run(["apitrace", "replay", "--headless", "-S", ",".join(calls[n] for n in chosen), "-s", "-", trace],
-                         env=with_visual(bits.group(1) if bits else "", build), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+                         env=with_visual(bits[-1] if bits else "", build), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     at, differ = 0, 0
     for n in chosen:
         head = PICTURE.search(run.stdout, at)

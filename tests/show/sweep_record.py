@@ -30,9 +30,9 @@ def look_up(trace):
     """The calls that end frames, and the bits of a pixel."""
     dump = subprocess.run(["apitrace", "dump", "--color=never", "--grep=SwapBuffers|FrameTerminator|StringMarker", trace],
                           capture_output=True, text=True, errors="replace", check=False).stdout
-    bits = re.search(r"relume:bits ([\d ]+)", dump)
+    bits = re.findall(r"relume:bits ([\d ]+)", dump)  # of the last context: some make another one first, to ask it things
     calls = re.findall(r"^(\d+) (?:\w+SwapBuffers\w*|glFrameTerminator\w*)\(", dump, re.M)
-    return calls, bits.group(1) if bits else ""
+    return calls, bits[-1] if bits else ""
 
 
 def check_replay(trace, build):
