@@ -202,7 +202,9 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
-check: all $(TESTS) $(HELPERS) $(BUILD)/tests/bench/hits
+# With ONLY, what other tests need is left alone.
+HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny
+check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 demo:
