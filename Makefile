@@ -204,7 +204,7 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny
-check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits
+check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits $(BUILD)/tests/bench/build
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 demo:

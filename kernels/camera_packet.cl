@@ -75,7 +75,8 @@ inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, floa
 			continue;
 		while (place > 0 && column[place - 1].order > c.order)
 			place--;
-		if (place == CAMERA_COLUMN_MAX)
+		/* A triangle may lie in several leaves. */
+		if (place == CAMERA_COLUMN_MAX || (place > 0 && column[place - 1].order == c.order))
 			continue;
 		if (*count < CAMERA_COLUMN_MAX)
 			++*count;

@@ -54,7 +54,8 @@ inline void keep_in_column(struct pixel *p, const struct fragment *f)
 		return;
 	while (place > 0 && p->out[place - 1].order > f->order)
 		place--;
-	if (place == CAMERA_COLUMN_MAX)
+	/* A triangle may lie in several leaves. */
+	if (place == CAMERA_COLUMN_MAX || (place > 0 && p->out[place - 1].order == f->order))
 		return;
 	if (p->count < CAMERA_COLUMN_MAX)
 		p->count++;

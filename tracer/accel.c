@@ -11,6 +11,8 @@
 /* Most triangles in a leaf of the binary tree, most instances in a leaf of a top level. */
 #define LEAF_TRIANGLES 4
 #define LEAF_INSTANCES 1
+/* How many more items than triangles spatial splits may make, as a share of the triangles. */
+#define SPATIAL_SHARE 4
 /* Frames that a BLAS nobody used stays in the pools. */
 #define KEEP_FRAMES 16
 /* Stands for the coordinates of what cannot be bounded; its square is still a float. */
@@ -19,6 +21,7 @@
 /* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
 struct blas {
 	uint64_t hash[2];
+	enum accel_kind kind;
 	int baked; /* of this frame only */
 	uint64_t last_use;
 	size_t node2_first, n_nodes2, node8_first, n_nodes8, triangle_first, n_triangles, triangle8_first, n_triangles8;
@@ -130,7 +133,7 @@ static int table_rebuild(struct accel_cache *cache)
 	return 0;
 }
 
-static struct blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2])
+static struct blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2], enum accel_kind kind)
 {
 	if (!cache->table_size)
 		return NULL;
@@ -139,7 +142,7 @@ static struct blas *find_blas(const struct accel_cache *cache, const uint64_t ha
 
 		if (entry == SCENE_NONE)
 			return NULL;
-		if (memcmp(cache->entries[entry].hash, hash, 2 * sizeof(*hash)) == 0)
+		if (cache->entries[entry].kind == kind && memcmp(cache->entries[entry].hash, hash, 2 * sizeof(*hash)) == 0)
 			return &cache->entries[entry];
 	}
 }
@@ -279,14 +282,24 @@ static void set_triangle8(struct triangle8 *out, const struct triangle *triangle
 	}
 }
 
+/* Space is cut only where all boxes are those of triangles. */
+static int may_cut(const struct soup *soup)
+{
+	for (uint32_t i = 0; i < soup->n; i++)
+		if (soup->boxes[i].hi[0] >= UNBOUNDED)
+			return 0;
+	return 1;
+}
+
 /* Both trees over a soup, appended to the pools at the places that *blas says. */
 static int append_trees(struct accel *accel, const struct soup *soup, struct blas *blas)
 {
-	const uint32_t room = soup->n ? soup->n : 1;
+	const int spatial = blas->kind == ACCEL_SBVH && may_cut(soup);
+	const uint32_t room = 1 + soup->n + (spatial ? soup->n / SPATIAL_SHARE : 0);
 	struct accel_cache *cache = accel->cache;
 	uint32_t *order = malloc(3 * (size_t)room * sizeof(*order));
 	uint32_t *block_first = order + room, *block_count = order + 2 * (size_t)room;
-	uint32_t n_nodes2, n_nodes8, n_blocks;
+	uint32_t n_nodes2, n_nodes8, n_blocks, n_items = soup->n;
 	struct node2 *nodes2;
 	int err;
 
@@ -294,14 +307,17 @@ static int append_trees(struct accel *accel, const struct soup *soup, struct bla
 		return out_of_memory();
 	err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, room);
 	if (!err)
-		err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, soup->n);
+		err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, room);
 	if (err)
 		goto done;
 	nodes2 = accel->nodes2 + accel->n_nodes2;
-	err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, nodes2, &n_nodes2, order);
+	if (spatial)
+		err = bvh_build_sbvh(soup->boxes, soup->triangles, soup->n, LEAF_TRIANGLES, 0, room, nodes2, &n_nodes2, order, &n_items);
+	else
+		err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, nodes2, &n_nodes2, order);
 	if (err)
 		goto done;
-	for (uint32_t i = 0; i < soup->n; i++)
+	for (uint32_t i = 0; i < n_items; i++)
 		accel->triangles[accel->n_triangles + i] = soup->triangles[order[i]];
 	err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, n_nodes2);
 	if (err)
@@ -317,7 +333,7 @@ static int append_trees(struct accel *accel, const struct soup *soup, struct bla
 		              accel->triangles + accel->n_triangles + block_first[i], block_count[i]);
 	blas->n_nodes2 = n_nodes2;
 	blas->n_nodes8 = n_nodes8;
-	blas->n_triangles = soup->n;
+	blas->n_triangles = n_items;
 	blas->n_triangles8 = n_blocks;
 done:
 	free(order);
@@ -325,11 +341,11 @@ done:
 }
 
 static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const float (*positions)[4], int baked,
-                      struct blas **out)
+                      enum accel_kind kind, struct blas **out)
 {
 	struct accel_cache *cache = accel->cache;
 	struct soup soup = { NULL, NULL, 0 };
-	struct blas blas = { .baked = baked };
+	struct blas blas = { .baked = baked, .kind = kind };
 	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
 
 	if (!err)
@@ -365,12 +381,17 @@ done:
 	return err;
 }
 
+static enum accel_kind accel_kind_of(const struct accel *accel, const struct instance *instance)
+{
+	return instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN) ? ACCEL_BVH : accel->kind;
+}
+
 /* The BLAS of one instance; its places go into the instance and its box, in BLAS space, to *box. */
 static int place_instance(struct accel *accel, const struct scene_mesh *mesh, const float (*eye_vertices)[4],
                           struct instance *instance, struct bvh_box *box)
 {
 	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
-	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash);
+	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash, accel_kind_of(accel, instance));
 	int err = 0;
 
 	if (mesh->kind != SCENE_TRIANGLES)
@@ -378,7 +399,7 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	if (!blas)
 		err = build_blas(accel, mesh,
 		                 baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position,
-		                 baked, &blas);
+		                 baked, accel_kind_of(accel, instance), &blas);
 	if (err)
 		return err;
 	blas->last_use = accel->cache->frame;

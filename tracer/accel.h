@@ -16,6 +16,12 @@ struct accel_space {
 	uint32_t n_nodes;    /* 0: nothing to hit */
 };
 
+/* How the trees of meshes are built. What lives for one frame only gets binned ones whatever is asked for. */
+enum accel_kind {
+	ACCEL_BVH, /* binned SAH */
+	ACCEL_SBVH /* the same with spatial splits: a triangle may be in several leaves */
+};
+
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
 struct accel {
 	struct node2 *nodes2;         /* BLASes, one after the other */
@@ -31,6 +37,7 @@ struct accel {
 	uint32_t *instance_list;
 	size_t n_top2, n_top8, n_instance_list;
 
+	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
 	struct accel_space *spaces;
 	size_t n_spaces;
@@ -40,7 +47,7 @@ int accel_create(struct accel **out);
 void accel_destroy(struct accel **accel);
 
 /**
- * Find or build the BLASes of a frame's instances (binned SAH), then its top levels.
+ * Find or build the BLASes of a frame's instances (accel->kind), then its top levels.
  *
  * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. Those of
  * INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out; those with a

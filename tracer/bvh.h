@@ -39,6 +39,19 @@ int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, un
                   uint32_t *n_nodes, uint32_t *order);
 
 /**
+ * The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): a triangle
+ * may be in several leaves, each time with the box of a piece of it.
+ *
+ * @param triangles  [n], in the boxes; the boxes may be larger by what counts as a hit (kernels/rays.h)
+ * @param room       most items that the leaves may hold in all; at least n
+ * @param nodes      [room]
+ * @param order      [room], receives the items in leaf order
+ * @param n_order    how many they are
+ */
+int bvh_build_sbvh(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, unsigned threads,
+                   uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
+
+/**
  * What a ray that meets the root is expected to pay (MacDonald and Booth 1990, "Heuristics for ray tracing using space
  * subdivision"): the sum over nodes of their area over the root's, times BVH_COST_NODE for an inner node and 1 for each item of a leaf.
  */

@@ -28,11 +28,13 @@ static inline uint32_t item_of(box8 ref)
 	return (uint32_t)((ivec4)box8_negative_lo(ref))[3] & ~ITEM_IS_FLOAT;
 }
 
-/* What is known of a subtree before it is built. */
+/* What is known of a subtree before it is built: `count` references at `first`, and room for `room` of them. */
 struct part {
-	uint32_t first, count, depth;
+	uint32_t first, count, room, depth;
 	box8 box, centres; /* twice the centres: only comparisons matter */
 };
+
+#include "tracer/sbvh_split.h"
 
 /* Nodes that one thread filled one after the other, from `first` on; `used` of them. */
 struct run {
@@ -42,10 +44,12 @@ struct run {
 
 struct build {
 	const struct bvh_box *boxes;
+	const struct triangle *triangles; /* in the boxes: space may be cut; NULL: not */
+	float least_overlap;              /* half area of what sides share from which on space is cut */
 	uint32_t *order;
 	box8 *refs;
-	struct node2 *nodes; /* [n]: a subtree over refs first .. first+count-1 uses nodes in a range of count-1 only */
-	uint32_t leaf_max;
+	struct node2 *nodes; /* [n]: a subtree with room for `room` references uses nodes in a range of room-1 only */
+	uint32_t leaf_max, most_bins;
 	struct forks forks;
 	struct part *chunks; /* bounds of each CHUNK boxes, for a start */
 	struct run *runs;
@@ -83,11 +87,11 @@ static void measure(const box8 *refs, uint32_t n, struct part *part)
 }
 
 /* Few items get few bins: their cost is then that of the bins. */
-static uint32_t bins_for(uint32_t n)
+static uint32_t bins_for(uint32_t n, uint32_t most)
 {
 	const uint32_t bins = 4 + n / 8;
 
-	return bins < MAX_BINS ? bins : MAX_BINS;
+	return bins < most ? bins : most;
 }
 
 /* Scale from centre to bin on each axis; 0 where all centres are the same. */
@@ -232,16 +236,6 @@ static void partition(box8 *refs, uint32_t n, const struct split *split, vec4 lo
 	}
 }
 
-/* Halves by number, where the heuristic has nothing to say. */
-static void halve(const struct build *build, const struct part *part, struct part *left, struct part *right)
-{
-	left->count = part->count / 2;
-	right->count = part->count - left->count;
-	right->first = left->first + left->count;
-	measure(build->refs + left->first, left->count, left);
-	measure(build->refs + right->first, right->count, right);
-}
-
 static uint32_t log2_ceil(uint32_t n)
 {
 	return n < 2 ? 0 : 32 - (uint32_t)__builtin_clz(n - 1);
@@ -321,22 +315,71 @@ static float divide_small(box8 *refs, uint32_t n, struct part *left, struct part
 	return pair_cost[k];
 }
 
-/* Divide a part in two. 0: it should stay one leaf. */
-static int divide(const struct build *build, const struct part *part, int must, struct part *left, struct part *right)
+/* Where two parts come to lie: the room that is left is shared, the references of the right one that are in the way move. */
+static void lay_out(const struct build *build, const struct part *part, struct part *left, struct part *right)
 {
-	const uint32_t n = part->count;
+	const uint32_t n = left->count + right->count, spare = part->room - n;
+	const uint32_t gap = (uint32_t)((uint64_t)spare * left->count / n), moved = gap < right->count ? gap : right->count;
+	box8 *refs = build->refs + part->first;
+
+	left->first = part->first;
+	left->room = left->count + gap;
+	right->first = left->first + left->room;
+	right->room = part->room - left->room;
+	left->depth = right->depth = part->depth + 1;
+	for (uint32_t i = 0; i < moved; i++)
+		refs[left->room + right->count - moved + i] = refs[left->count + i];
+}
+
+/* Halves by number, where the heuristic has nothing to say. */
+static void halve(const struct build *build, const struct part *part, struct part *left, struct part *right)
+{
+	left->count = part->count / 2;
+	right->count = part->count - left->count;
+	measure(build->refs + part->first, left->count, left);
+	measure(build->refs + part->first + left->count, right->count, right);
+}
+
+/* The boxes of both sides of a split between bins. */
+static void split_boxes(const struct bin *bins, uint32_t n_bins, const struct split *split, struct part *left, struct part *right)
+{
+	left->box = right->box = box8_empty();
+	for (uint32_t i = 0; i < n_bins; i++) {
+		struct part *side = i < split->bin ? left : right;
+
+		side->box = box8_join(bins[i].box[split->axis], side->box);
+	}
+}
+
+/* Cut space where that is cheaper than the split that there is, whose sides' boxes are in the parts. 0: it is not. */
+static int divide_space(const struct build *build, const struct part *part, float cost, struct part *left, struct part *right)
+{
+	const box8 both = box8_meet(left->box, right->box);
+	box8 *refs = build->refs + part->first;
+	struct plane plane;
+
+	if (cost < FLT_MAX && !(box8_is_box(both) && box8_half_area(both) > build->least_overlap))
+		return 0;
+	plane = find_plane(build->triangles, refs, part->count, part->box);
+	if (!(plane.cost < cost) ||
+	    !partition_space(build->triangles, refs, part->count, part->room, &plane, left, right))
+		return 0;
+	measure(refs, left->count, left);
+	measure(refs + left->count, right->count, right);
+	return 1;
+}
+
+/* Sort the references into two parts, which get their counts, boxes and bounds of centres. 0: they should stay one leaf. */
+static int divide_refs(const struct build *build, const struct part *part, int must, struct part *left, struct part *right)
+{
+	const uint32_t n = part->count, n_bins = bins_for(n, build->most_bins);
 	const int may = n <= build->leaf_max && !must;
 	const float area = box8_half_area(part->box);
 	box8 *refs = build->refs + part->first;
 	struct bin bins[MAX_BINS];
 	struct split split;
-	uint32_t n_bins;
 	vec4 scale, lo;
 
-	if (n < 2)
-		return 0;
-	left->first = part->first;
-	left->depth = right->depth = part->depth + 1;
 	/* Halves by number are all that the depth left allows. */
 	if (part->depth + log2_ceil(n) + 1 >= BVH_MAX_DEPTH) {
 		if (may)
@@ -347,32 +390,35 @@ static int divide(const struct build *build, const struct part *part, int must, 
 	if (n <= SMALL) {
 		const float cost = divide_small(refs, n, left, right);
 
-		right->first = left->first + left->count;
 		return !may || cost + BVH_COST_NODE * area < area * (float)n;
 	}
-	n_bins = bins_for(n);
 	lo = -box8_negative_lo(part->centres);
 	scale = bin_scale(part->centres, n_bins);
 	fill_bins(bins, n_bins, refs, n, lo, scale);
 	split = sweep(bins, n_bins, scale);
 	if (may && split.cost + BVH_COST_NODE * area >= area * (float)n)
 		return 0;
+	split_boxes(bins, n_bins, &split, left, right);
+	if (build->triangles && part->room > n && divide_space(build, part, split.cost, left, right))
+		return 1;
 	if (split.cost == FLT_MAX) {
 		halve(build, part, left, right);
 		return 1;
 	}
 	partition(refs, n, &split, lo, scale, left, right);
-	if (left->count == 0 || right->count == 0) {
+	if (left->count == 0 || right->count == 0)
 		halve(build, part, left, right);
-		return 1;
-	}
-	right->first = left->first + left->count;
-	left->box = right->box = box8_empty();
-	for (uint32_t i = 0; i < n_bins; i++) {
-		struct part *side = i < split.bin ? left : right;
+	else
+		split_boxes(bins, n_bins, &split, left, right);
+	return 1;
+}
 
-		side->box = box8_join(bins[i].box[split.axis], side->box);
-	}
+/* Divide a part in two. 0: it should stay one leaf. */
+static int divide(const struct build *build, const struct part *part, int must, struct part *left, struct part *right)
+{
+	if (part->count < 2 || !divide_refs(build, part, must, left, right))
+		return 0;
+	lay_out(build, part, left, right);
 	return 1;
 }
 
@@ -388,7 +434,7 @@ static void set_box(struct node2 *node, int side, box8 box)
 
 static void build_node(struct build *build, struct run *run, uint32_t slot, const struct part sides[2]);
 
-/* One side of node `at`, by this thread. slot: where its nodes would begin if every item took one. */
+/* One side of node `at`, by this thread. slot: where its nodes would begin if all room were taken. */
 static void build_side(struct build *build, struct run *run, uint32_t at, int side, uint32_t slot, const struct part *part)
 {
 	struct node2 *node = &build->nodes[at];
@@ -408,17 +454,17 @@ static void build_side(struct build *build, struct run *run, uint32_t at, int si
 }
 
 /*
- * The run's next node, over two parts; slot: where it would lie if every item took a node. Of sides that both are large,
+ * The run's next node, over two parts; slot: where it would lie if all room took nodes. Of sides that both are large,
  * the second goes to whoever is free, into a run of its own behind all that the first can take. Else the smaller one is
  * built first: it has no runs of its own, behind which nothing may follow.
  */
 static void build_node(struct build *build, struct run *run, uint32_t slot, const struct part sides[2])
 {
 	const uint32_t at = run->first + run->used++;
-	const int first = sides[0].count > sides[1].count;
+	const int first = sides[0].room > sides[1].room;
 
-	if (sides[0].count >= GRAIN && sides[1].count >= GRAIN) {
-		const struct fork_part fork = { sides[1], slot + sides[0].count };
+	if (sides[0].room >= GRAIN && sides[1].room >= GRAIN) {
+		const struct fork_part fork = { sides[1], slot + sides[0].room };
 		struct node2 *node = &build->nodes[at];
 
 		set_box(node, 1, sides[1].box);
@@ -429,7 +475,7 @@ static void build_node(struct build *build, struct run *run, uint32_t slot, cons
 		return;
 	}
 	build_side(build, run, at, first, slot + 1, &sides[first]);
-	build_side(build, run, at, !first, slot + sides[first].count, &sides[!first]);
+	build_side(build, run, at, !first, slot + sides[first].room, &sides[!first]);
 }
 
 static void build_fork(void *arg, const void *task)
@@ -503,6 +549,27 @@ static uint32_t close_gaps(struct build *build)
 	return n;
 }
 
+/* Close the gaps that unused room left in the order of the leaves, where unused places hold SCENE_NONE. */
+static int close_order(struct build *build, uint32_t room, uint32_t n_nodes, uint32_t *n_order)
+{
+	uint32_t *place = malloc(room * sizeof(*place)), n = 0;
+
+	if (!place)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < room; i++) {
+		place[i] = n;
+		if (build->order[i] != SCENE_NONE)
+			build->order[n++] = build->order[i];
+	}
+	for (uint32_t i = 0; i < n_nodes; i++)
+		for (int side = 0; side < 2; side++)
+			if (build->nodes[i].count[side])
+				build->nodes[i].child[side] = place[build->nodes[i].child[side]];
+	free(place);
+	*n_order = n;
+	return 0;
+}
+
 /* Fewer than two items: a root with an empty side. */
 static void build_tiny(const struct bvh_box *boxes, uint32_t n, struct node2 *root, uint32_t *order)
 {
@@ -518,25 +585,31 @@ static void build_tiny(const struct bvh_box *boxes, uint32_t n, struct node2 *ro
 	}
 }
 
-int SAH_BUILD(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
-              uint32_t *n_nodes, uint32_t *order);
+/**
+ * A binned tree, or one with spatial splits where there are triangles (NULL: there are none, and room is n).
+ * @param most_bins  at most MAX_BINS
+ */
+int SAH_BUILD(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+              unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
 
-int SAH_BUILD(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
-              uint32_t *n_nodes, uint32_t *order)
+int SAH_BUILD(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+              unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order)
 {
-	const uint32_t most_runs = n / GRAIN + 1;
-	struct build build = { .boxes = boxes, .order = order, .nodes = nodes, .leaf_max = leaf_max };
-	struct fork_part all = { .part = { .count = n } };
+	const uint32_t most_runs = room / GRAIN + n / CHUNK + 1;
+	struct build build = { .boxes = boxes, .triangles = triangles, .order = order, .nodes = nodes, .leaf_max = leaf_max,
+	                       .most_bins = most_bins };
+	struct fork_part all = { .part = { .count = n, .room = room } };
 	int err = 0;
 
-	if (n > MOST_ITEMS)
+	if (room > MOST_ITEMS)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of %u triangles is too large", n);
+	*n_order = n;
 	if (n < 2) {
 		build_tiny(boxes, n, nodes, order);
 		*n_nodes = 1;
 		return 0;
 	}
-	build.refs = aligned_alloc(32, n * sizeof(*build.refs));
+	build.refs = aligned_alloc(32, room * sizeof(*build.refs));
 	build.chunks = aligned_alloc(32, (n / CHUNK + 1) * sizeof(*build.chunks));
 	build.runs = malloc(most_runs * sizeof(*build.runs));
 	if (!build.refs || !build.chunks || !build.runs)
@@ -558,9 +631,14 @@ int SAH_BUILD(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsign
 		all.part.box = box8_join(build.chunks[i].box, all.part.box);
 		all.part.centres = box8_join(build.chunks[i].centres, all.part.centres);
 	}
+	build.least_overlap = SPATIAL_OVERLAP * box8_half_area(all.part.box);
+	if (triangles)
+		memset(order, 0xff, room * sizeof(*order));
 	forks_add(&build.forks, &all);
 	forks_run(&build.forks, threads, build_fork, &build);
 	*n_nodes = close_gaps(&build);
+	if (triangles)
+		err = close_order(&build, room, *n_nodes, n_order);
 done:
 	forks_free(&build.forks);
 	free(build.runs);

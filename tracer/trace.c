@@ -287,6 +287,7 @@ static int build_trees(struct job *job)
 
 	if (!err)
 		err = number_primitives(job);
+	tr->accel->kind = job->options->accel;
 	scene.views = p->scene_views;
 	scene.n_views = p->n_views;
 	if (!err)

@@ -9,6 +9,7 @@
 #define TRACER_TRACE_H
 
 #include "replay/scene.h"
+#include "tracer/accel.h"
 #include "tracer/device.h"
 #include "tracer/image.h"
 #include "tracer/look.h"
@@ -31,6 +32,7 @@ struct tracer_options {
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float reach;      /* of openness, eye-space units; 0: without end */
 	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
+	enum accel_kind accel; /* trees of meshes */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };

@@ -99,7 +99,8 @@ static void keep_in_column(struct pixel *p, const struct fragment *f)
 		return;
 	while (place > 0 && p->fragments[place - 1].order > f->order)
 		place--;
-	if (place == CAMERA_COLUMN_MAX)
+	/* A triangle may lie in several leaves. */
+	if (place == CAMERA_COLUMN_MAX || (place > 0 && p->fragments[place - 1].order == f->order))
 		return;
 	if (p->count < CAMERA_COLUMN_MAX)
 		p->count++;

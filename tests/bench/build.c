@@ -32,6 +32,7 @@ static const struct contest {
 	double time_bar, cost_bar; /* most of the peer's */
 } contests[] = {
 	{ "binned SAH", "medium", RTC_BUILD_QUALITY_MEDIUM, 0.5, 1.05 },
+	{ "SBVH", "high", RTC_BUILD_QUALITY_HIGH, 1.0, 1.0 },
 };
 #define N_CONTESTS (int)(sizeof(contests) / sizeof(contests[0]))
 
@@ -51,6 +52,7 @@ struct result {
 struct input {
 	struct bench_mesh mesh;
 	struct bvh_box *boxes;
+	struct triangle *triangles;
 	struct node2 *nodes;
 	uint32_t *order, n_nodes;
 };
@@ -70,9 +72,10 @@ static int make_input(int scene, const char *models, struct input *in)
 	if (err)
 		return err;
 	in->boxes = malloc(in->mesh.n_triangles * sizeof(*in->boxes));
-	in->nodes = malloc(in->mesh.n_triangles * sizeof(*in->nodes));
-	in->order = malloc(in->mesh.n_triangles * sizeof(*in->order));
-	if (!in->boxes || !in->nodes || !in->order)
+	in->triangles = malloc(in->mesh.n_triangles * sizeof(*in->triangles));
+	in->nodes = malloc(2 * in->mesh.n_triangles * sizeof(*in->nodes));
+	in->order = malloc(2 * in->mesh.n_triangles * sizeof(*in->order));
+	if (!in->boxes || !in->triangles || !in->nodes || !in->order)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < in->mesh.n_triangles; i++) {
 		bvh_box_clear(&in->boxes[i]);
@@ -83,6 +86,13 @@ static int make_input(int scene, const char *models, struct input *in)
 			memcpy(corner.hi, corner.lo, sizeof(corner.hi));
 			bvh_box_join(&in->boxes[i], &corner);
 		}
+		for (int a = 0; a < 3; a++) {
+			const float v0 = in->mesh.position[in->mesh.index[i][0]][a];
+
+			in->triangles[i].v0[a] = v0;
+			in->triangles[i].e1[a] = in->mesh.position[in->mesh.index[i][1]][a] - v0;
+			in->triangles[i].e2[a] = in->mesh.position[in->mesh.index[i][2]][a] - v0;
+		}
 	}
 	return 0;
 }
@@ -91,14 +101,19 @@ static void free_input(struct input *in)
 {
 	bench_mesh_free(&in->mesh);
 	free(in->boxes);
+	free(in->triangles);
 	free(in->nodes);
 	free(in->order);
 }
 
-static int run_ours(struct input *in, struct side *side, size_t slot)
+static int run_ours(struct input *in, const struct contest *c, struct side *side, size_t slot)
 {
 	const double wall = progress_clock_s(), cpu = processor_s();
-	int err = bvh_build_sah(in->boxes, in->mesh.n_triangles, LEAF_MAX, 0, in->nodes, &in->n_nodes, in->order);
+	const uint32_t n = in->mesh.n_triangles;
+	uint32_t n_order;
+	int err = c->quality == RTC_BUILD_QUALITY_HIGH
+		? bvh_build_sbvh(in->boxes, in->triangles, n, LEAF_MAX, 0, n + n / 4, in->nodes, &in->n_nodes, in->order, &n_order)
+		: bvh_build_sah(in->boxes, n, LEAF_MAX, 0, in->nodes, &in->n_nodes, in->order);
 
 	side->wall_s[slot] = progress_clock_s() - wall;
 	side->cpu_s[slot] = processor_s() - cpu;
@@ -138,7 +153,7 @@ static int compare(struct input *in, struct embree_build *peer, const struct con
 	for (size_t i = 0; i <= repeats && !err; i++) {
 		const size_t slot = i ? i - 1 : 0; /* the first round warms up */
 
-		err = run_ours(in, &r->ours, slot);
+		err = run_ours(in, c, &r->ours, slot);
 		if (!err)
 			err = run_peer(peer, c, 0, &r->peer, slot);
 		if (!err)

@@ -271,6 +271,32 @@ START_TEST(boxes_lose_nothing)
 }
 END_TEST
 
+/* Triangles that lie in several leaves count once, and their pieces' boxes lose nothing. */
+START_TEST(spatial_splits_change_nothing)
+{
+	static struct result want, got;
+	struct device *dev;
+
+	ck_assert_int_eq(device_open("reference", 2, &dev), 0);
+	for (int i = 0; i < 2; i++) {
+		struct frame f = make_frame(seed_of_run + (uint32_t)i, i);
+
+		for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
+			for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_wide; kernel++) {
+				f.s->accel->kind = ACCEL_BVH;
+				ck_assert_int_eq(accel_build_frame(f.s->accel, &f.s->scene, NULL, NULL, f.s->instances, INSTANCES,
+				                                   &f.s->view, &f.s->spaces, &f.s->n_spaces), 0);
+				run(&f, dev, kernel, mode, &want);
+				random_scene_rebuild(f.s, ACCEL_SBVH);
+				run(&f, dev, kernel, mode, &got);
+				compare(&want, &got, mode, "with spatial splits");
+			}
+		free_frame(&f);
+	}
+	device_close(&dev);
+}
+END_TEST
+
 /* A fan of triangles over the whole window, centres on many edges: each pixel belongs to exactly one. */
 START_TEST(shared_edges_belong_to_one)
 {
@@ -324,6 +350,7 @@ int main(void)
 	tcase_set_timeout(tests, 120);
 	tcase_add_test(tests, kernels_agree_with_twins);
 	tcase_add_test(tests, boxes_lose_nothing);
+	tcase_add_test(tests, spatial_splits_change_nothing);
 	tcase_add_test(tests, shared_edges_belong_to_one);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);

@@ -56,15 +56,17 @@ static void check_node8(uint32_t index, uint32_t depth)
 }
 
 /* The builder's text is compiled more than once; all make the same tree, by one thread or more. */
-int sah_build_plain(const struct bvh_box *, uint32_t, uint32_t, unsigned, struct node2 *, uint32_t *, uint32_t *);
+int sah_build_plain(const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, uint32_t, unsigned, uint32_t,
+                    struct node2 *, uint32_t *, uint32_t *, uint32_t *);
 
 static void check_same_tree(uint32_t n, uint32_t n_nodes)
 {
 	static struct node2 plain[N];
 	static uint32_t plain_order[N];
-	uint32_t n_plain;
+	uint32_t n_plain, n_order;
 
-	ck_assert_int_eq(sah_build_plain(boxes, n, 4, 1, plain, &n_plain, plain_order), 0);
+	ck_assert_int_eq(sah_build_plain(boxes, NULL, n, 4, 32, 1, n, plain, &n_plain, plain_order, &n_order), 0);
+	ck_assert_uint_eq(n_order, n);
 	ck_assert_uint_eq(n_plain, n_nodes);
 	ck_assert_mem_eq(plain, nodes, n_nodes * sizeof(*nodes));
 	ck_assert_mem_eq(plain_order, order, n * sizeof(*order));
