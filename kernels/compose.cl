@@ -11,8 +11,9 @@ __kernel void compose(TABLES_ARGUMENTS, __global const struct window_vertex *win
 		compose_item(&t, windows, frame, sums, &request, halves, floats, (uint32_t)get_global_id(0));
 }
 
-__kernel void add_pass(__global const struct frame_pixel *frame, uint32_t first, uint32_t n, __global float *sums)
+__kernel void add_pass(__global const struct frame_pixel *frame, uint32_t turn, uint32_t first, uint32_t n,
+                       __global float *sums)
 {
 	if (get_global_id(0) < n)
-		add_pass_item(frame, first, sums, (uint32_t)get_global_id(0));
+		add_pass_item(frame, turn, first, sums, (uint32_t)get_global_id(0));
 }

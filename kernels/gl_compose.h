@@ -8,6 +8,7 @@
 #define KERNELS_GL_COMPOSE_H
 
 #include "kernels/gl_fragment.h"
+#include "kernels/sample.h"
 
 /* --- Numbers, written without branches, so that compilers do many at once ------------------------------------------ */
 
@@ -210,12 +211,15 @@ static inline void compose_item(const struct tables *t, GLOBAL const struct wind
 	compose_store_float(floats, r, COMPOSE_LAYERS, at, (float)pixel->layers);
 }
 
-/* add_pass: a pixel's parts of one pass to the sums of all. first: there are none yet. */
-static inline void add_pass_item(GLOBAL const struct frame_pixel *frame, uint32_t first, GLOBAL float *sums, uint32_t item)
+/* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */
+static inline void add_pass_item(GLOBAL const struct frame_pixel *frame, uint32_t turn, uint32_t first, GLOBAL float *sums,
+                                 uint32_t item)
 {
 	GLOBAL const struct frame_pixel *pixel = &frame[item];
 	GLOBAL float *sum = sums + item * PASS_PARTS;
 
+	if (sample_turn(item) != turn)
+		return;
 	for (uint32_t c = 0u; c < 3u; c++) {
 		sum[c] = pixel->shadowed[c] + (first ? 0.0f : sum[c]);
 		sum[3u + c] = pixel->direct[c] + (first ? 0.0f : sum[3u + c]);

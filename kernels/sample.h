@@ -40,6 +40,36 @@ static inline void sample_square(uint32_t seed, uint32_t index, float *u, float 
 	*v = sample_unit(index * 2447445414u + sample_hash(seed ^ 0x9e3779b9u));
 }
 
+/*
+ * Where samples fall within a pixel: a (0,2)-sequence, of which any 2^k in a row from a multiple of 2^k on hold one in each of 2^k
+ * columns, rows and other even cuts of the pixel, its digits exchanged by a hash (Kollig and Keller 2002, "Efficient
+ * multidimensional sampling", sec. 3.1). There are so many exchanges, and a hash of the pixel's number picks one: neighbours have
+ * different samples, so that edges and fine patterns leave noise and no bands. Few, because a picture is traced for each: camera
+ * rays keep to the pixel grid, moved as a whole.
+ */
+#define SAMPLE_TURNS 4u
+
+static inline uint32_t sample_turn(uint32_t pixel)
+{
+	return sample_hash(pixel + SAMPLE_JITTER) % SAMPLE_TURNS;
+}
+
+/*
+ * Sample `index` (1 and up; 0 is the pixel's centre) of the pixels of a turn: by how much it is off the centre, pixels. A step of
+ * 1/256 pixel, to which vertices are snapped, is left at the sides: there the picture's own border may be cut away.
+ */
+static inline void sample_shift(uint32_t turn, uint32_t index, float shift[2])
+{
+	uint32_t reversed = 0u, sobol = 0u, digit = 0x80000000u;
+
+	for (uint32_t bit = 0u; bit < 32u; bit++, digit ^= digit >> 1) {
+		reversed |= (index >> bit & 1u) << (31u - bit);
+		sobol ^= index >> bit & 1u ? digit : 0u;
+	}
+	shift[0] = (sample_unit(reversed ^ sample_hash(SAMPLE_JITTER + turn)) - 0.5f) * 0.9921875f;
+	shift[1] = (sample_unit(sobol ^ sample_hash(SAMPLE_JITTER + 0x100u + turn)) - 0.5f) * 0.9921875f;
+}
+
 /* Two unit vectors that are at right angles to a unit vector and to each other. */
 static inline void sample_basis(struct vec3 n, struct vec3 *a, struct vec3 *b)
 {

@@ -57,7 +57,8 @@ struct job {
 	uint32_t width, height, n_pixels;
 	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
 	float background[4];
-	uint32_t pass, n_passes; /* the frame is traced so many times, moved within the pixel */
+	uint32_t pass, n_passes; /* samples of a pixel; 0 is its centre, and the last to be traced */
+	uint32_t turn;           /* of other passes: which pixels take part (sample_turn) */
 };
 
 /* --- upload.c: what of a scene the device needs ------------------------------------------------------------------- */

@@ -381,11 +381,15 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 		for (int32_t x = r.x0; x < r.x1; x++) {
 			size_t pixel = (size_t)y * job->width + (size_t)x;
 
+			if (job->pass && sample_turn((uint32_t)pixel) != job->turn)
+				tr->counts[pixel] = 0;
 			tr->first[pixel] = next;
 			next += tr->counts[pixel];
 			*more |= slots > 1 && tr->counts[pixel] == slots;
 		}
 	*n_list = next;
+	if (!err && job->pass)
+		err = upload(tr, BUFFER_COUNTS, tr->counts, job->n_pixels, sizeof(*tr->counts));
 	return err ? err : upload(tr, BUFFER_FIRST, tr->first, job->n_pixels, sizeof(*tr->first));
 }
 
@@ -581,6 +585,7 @@ static int run_add_pass(struct job *job, uint32_t first)
 	struct launch l = { .n = 0 };
 
 	add(&l, tr, BUFFER_FRAME);
+	add_uint(&l, &job->turn);
 	add_uint(&l, &first);
 	add_uint(&l, &job->n_pixels);
 	add(&l, tr, BUFFER_SUMS);
@@ -672,11 +677,8 @@ static int trace_pass(struct job *job)
 	float shift[2] = { 0, 0 };
 	int err;
 
-	if (job->pass > 0) {
-		sample_square(SAMPLE_JITTER, job->pass, &shift[0], &shift[1]);
-		shift[0] -= 0.5f;
-		shift[1] -= 0.5f;
-	}
+	if (job->pass > 0)
+		sample_shift(job->turn, job->pass, shift);
 	err = prepare_frame(job->scene, shift, &job->prepared);
 	if (err)
 		return err;
@@ -761,11 +763,12 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		job.scene = &changed;
 	}
 	/* The pass through pixel centres comes last: what is no mean is its own. */
-	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--) {
-		err = trace_pass(&job);
-		if (!err)
-			err = run_add_pass(&job, job.pass == job.n_passes - 1);
-	}
+	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--)
+		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++) {
+			err = trace_pass(&job);
+			if (!err)
+				err = run_add_pass(&job, job.pass == job.n_passes - 1);
+		}
 	if (!err)
 		err = trace_pass(&job);
 	if (!err)

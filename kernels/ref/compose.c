@@ -19,6 +19,6 @@ void compose_c(const void *const *args, size_t first, size_t last)
 
 void add_pass_c(const void *const *args, size_t first, size_t last)
 {
-	for (size_t i = first; i < last && i < number(args[2]); i++)
-		add_pass_item(args[0], number(args[1]), (void *)args[3], (uint32_t)i);
+	for (size_t i = first; i < last && i < number(args[3]); i++)
+		add_pass_item(args[0], number(args[1]), number(args[2]), (void *)args[4], (uint32_t)i);
 }

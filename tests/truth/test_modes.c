@@ -250,6 +250,41 @@ START_TEST(test_samples)
 }
 END_TEST
 
+/*
+ * The same edge with four samples: pixels along it have different ones, so that a column shows all quarters about as often as
+ * evenly strewn samples would, and its mean comes out; moved all alike, all pixels would be the same.
+ */
+START_TEST(test_samples_differ_from_pixel_to_pixel)
+{
+	struct tracer_options options = options_of(TRACER_WHITTED);
+	const float edge = 2 * (SIZE / 2 + 0.4f) / SIZE - 1;
+	uint32_t bright, seen[5] = { 0 }, kinds = 0;
+	struct truth t;
+	struct image img;
+	float mean = 0;
+
+	truth_init(&t, SIZE, SIZE, 0);
+	bright = truth_add_material(&t, 0);
+	glow(&t, bright, 1);
+	truth_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
+	options.samples = 4;
+	truth_render_with(&t, &options, &img);
+	for (uint32_t y = 0; y < SIZE; y++) {
+		float share = truth_at(&img, "R", SIZE / 2, y);
+
+		seen[(int)lrintf(4 * share)]++;
+		ck_assert_float_eq_tol(share * 4, rintf(share * 4), 1e-3f);
+		mean += share / SIZE;
+	}
+	for (int i = 0; i < 5; i++)
+		kinds += seen[i] > 0;
+	ck_assert_uint_ge(kinds, 2);
+	ck_assert_float_eq_tol(mean, 0.4f * 0.75f, 0.15f); /* the sample at the centre sees nothing of it */
+	image_free(&img);
+	truth_free(&t);
+}
+END_TEST
+
 /* One square with a light close above: between its corners OpenGL sees nothing of it, Phong's way does. */
 START_TEST(test_relight)
 {
@@ -293,6 +328,7 @@ int main(void)
 	tcase_add_test(tests, test_white_furnace);
 	tcase_add_test(tests, test_glowing_ball);
 	tcase_add_test(tests, test_samples);
+	tcase_add_test(tests, test_samples_differ_from_pixel_to_pixel);
 	tcase_add_test(tests, test_relight);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
