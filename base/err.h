@@ -7,6 +7,7 @@
 #ifndef BASE_ERR_H
 #define BASE_ERR_H
 
+
 enum {
 	ERR_FAILED   = -1, /* compared, and the comparison failed */
 	ERR_USAGE    = -2, /* wrong usage: options, ranges, names */
@@ -25,6 +26,12 @@ enum {
  * @return code
  */
 int err_report(int code, const char *where, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+
+/**
+ * From now on this thread shares `said` (0 to begin with) with others that do the same work: of all their reports only the
+ * first is printed, as a disk that is full for one is full for all. NULL ends it. Warnings are not concerned.
+ */
+void err_share(int *said);
 
 /** The same line, prefixed "warning: "; for what the user should know and that stops nothing. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));

@@ -20,6 +20,7 @@ struct run {
 	struct queue scenes, pictures;
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
+	int writer_said;        /* a writer has reported its failure */
 	unsigned workers;     /* still at work */
 	unsigned in_flight;   /* scenes handed out and not yet on disk */
 	uint64_t frame_bytes; /* memory that a frame on its way takes, as far as seen; 0: not known yet */
@@ -277,6 +278,7 @@ static void *write_all(void *arg)
 	struct run *run = arg;
 	struct picture *picture;
 
+	err_share(&run->writer_said);
 	while ((picture = queue_take(&run->pictures))) {
 		/* After a signal, what is traced is still written; after a failure it would only fail again. */
 		int err = run->err ? run->err : write_picture(run, picture);
