@@ -62,31 +62,39 @@ static inline int clip_is_sliver(float area)
 	return !(M_ABS(area) > 1.0e-6f);
 }
 
+/* Two edges of a triangle, its vertices turned so that they run counter-clockwise (y from the top), as llvmpipe sets it up. */
+struct clip_edges {
+	int a, b; /* which vertices are its first two */
+	float dx01, dy01, dx20, dy20, one_over_area;
+};
+
+static inline struct clip_edges clip_edges_of(const float *px, const float *py)
+{
+	struct clip_edges e;
+
+	e.a = clip_place_area(px, py) < 0.0f;
+	e.b = 1 - e.a;
+	e.dx01 = px[e.a] - px[e.b];
+	e.dy01 = py[e.a] - py[e.b];
+	e.dx20 = px[2] - px[e.a];
+	e.dy20 = py[2] - py[e.a];
+	e.one_over_area = 1.0f / (e.dx01 * e.dy20 - e.dx20 * e.dy01);
+	return e;
+}
+
 /*
  * The plane through three values at places, which are not snapped and count from the first pixel's centre: in llvmpipe's order
- * of operations, through the first vertex, with the vertices turned so that they run counter-clockwise (y from the top).
+ * of operations, through the first vertex.
  */
 static inline struct clip_plane clip_plane_through(const float *px, const float *py, const float *value)
 {
-	int a = 0, b = 1;
-	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], one_over_area;
-	float v01, v20;
+	const struct clip_edges e = clip_edges_of(px, py);
+	const float v01 = value[e.a] - value[e.b], v20 = value[2] - value[e.a];
 	struct clip_plane out;
 
-	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
-		a = 1;
-		b = 0;
-		dx01 = px[1] - px[0];
-		dy01 = py[1] - py[0];
-		dx20 = px[2] - px[1];
-		dy20 = py[2] - py[1];
-	}
-	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
-	v01 = value[a] - value[b];
-	v20 = value[2] - value[a];
-	out.along_x = v01 * (dy20 * one_over_area) - v20 * (dy01 * one_over_area);
-	out.along_y = v20 * (dx01 * one_over_area) - v01 * (dx20 * one_over_area);
-	out.origin = value[a] - (out.along_x * px[a] + out.along_y * py[a]);
+	out.along_x = v01 * (e.dy20 * e.one_over_area) - v20 * (e.dy01 * e.one_over_area);
+	out.along_y = v20 * (e.dx01 * e.one_over_area) - v01 * (e.dx20 * e.one_over_area);
+	out.origin = value[e.a] - (out.along_x * px[e.a] + out.along_y * py[e.a]);
 	return out;
 }
 

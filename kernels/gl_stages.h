@@ -69,23 +69,13 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 static inline float stage_offset(GLOBAL const struct scene_material *m, const float *px, const float *py, const float *z,
                                  uint32_t bits)
 {
-	int a = 0, b = 1;
-	float dx01 = px[0] - px[1], dy01 = py[0] - py[1], dx20 = px[2] - px[0], dy20 = py[2] - py[0], dz01, dz20, one_over_area, slope;
+	const struct clip_edges e = clip_edges_of(px, py);
+	const float dz01 = z[e.a] - z[e.b], dz20 = z[2] - z[e.a];
 	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
 	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
+	const float slope = M_MAX(M_ABS((dz20 * e.dy01 - e.dy20 * dz01) * e.one_over_area),
+	                          M_ABS((e.dx20 * dz01 - dz20 * e.dx01) * e.one_over_area));
 
-	if (dx01 * dy20 - dx20 * dy01 < 0.0f) {
-		a = 1;
-		b = 0;
-		dx01 = px[1] - px[0];
-		dy01 = py[1] - py[0];
-		dx20 = px[2] - px[1];
-		dy20 = py[2] - py[1];
-	}
-	dz01 = z[a] - z[b];
-	dz20 = z[2] - z[a];
-	one_over_area = 1.0f / (dx01 * dy20 - dx20 * dy01);
-	slope = M_MAX(M_ABS((dz20 * dy01 - dy20 * dz01) * one_over_area), M_ABS((dx20 * dz01 - dz20 * dx01) * one_over_area));
 	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
 }
 

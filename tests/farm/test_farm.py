@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 import cluster as slurm  # noqa: E402
 import kills  # noqa: E402
-from helpers import RELUME, ROOT, SCRATCH, check, finish, must, record, run  # noqa: E402
+from helpers import RELUME, SCRATCH, check, finish, must, record, run  # noqa: E402
 
 FRAMES = 24
 trace = SCRATCH / "it's gears.trace"

@@ -12,6 +12,7 @@ BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
 RELUME = os.environ.get("RELUME", str(BUILD / "relume"))
 SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
 SCHEMA = json.loads((ROOT / "diff/score.schema.json").read_text())
+AS_SHOWN = ("--mode", "gl", "--encoding", "display")
 GATES = ("V", "R1", "R2", "R3", "R4", "R5", "E1", "E2", "P")
 
 _results = []
@@ -99,3 +100,28 @@ def check_gates(score, n_frames, what, skip=()):
             if gate not in skip:
                 found = frame["gates"].get(gate)
                 check(found and found["state"] == "passed", f"{what}: frame {frame['frame']}: gate {gate}: {found}")
+
+
+def check_same_pictures(name, frames):
+    """
+    Record tests/real/NAME, trace it in mode gl, and check frame by frame that no pixel fails; `frames` says what each shows.
+    Returns the trace and what `diff` says.
+    """
+    trace = SCRATCH / f"{name}.trace"
+    record(trace, BUILD / "tests/real" / name)
+    files = render(trace, SCRATCH / "frames", *AS_SHOWN)
+    check(len(files) == len(frames), f"{len(files)} frames of {len(frames)}")
+    _, score = diff(trace, SCRATCH / "frames")
+    for frame, what in zip(score["frames"], frames):
+        check(frame["failing_pixels"] == 0, f"{what}: {frame['failing_pixels']} pixels fail")
+    return trace, score
+
+
+def check_alone(trace, *numbers):
+    """Frames that show what earlier ones left are the same where only they are asked for. After check_same_pictures."""
+    folder = SCRATCH / f"alone{numbers[0]}"
+    render(trace, folder, *AS_SHOWN, "-f", ",".join(map(str, numbers)))
+    for number in numbers:
+        name = f"{trace.stem}.{number:04}.exr"
+        check((folder / name).read_bytes() == (SCRATCH / "frames" / name).read_bytes(),
+              f"frame {number} is the same whether earlier ones were asked for or not")

@@ -8,7 +8,6 @@ import os
 import re
 import signal
 import subprocess
-import time
 
 from helpers import RELUME, SCRATCH, check, corpus, finish, must, record, relume
 

@@ -533,8 +533,6 @@ def main(build, *parts):
         pairs.append((colors(s, pathlib.Path(path), folder / "colors.exr"), False))
     setting, answers = best_idiff(s, pairs)
     faults, quiet = sum(answers[:counts["faults"]]), sum(answers[counts["faults"]:])
-    version = s.run("idiff", "--version", check=False).stdout.strip() or "2.4.7"
-    peer = f"idiff {version} {setting}: {faults} and {quiet}"
     print(f"idiff at its best setting here ({setting}): {faults} of {counts['faults']} faults, {quiet} of {counts['harmless']} "
           "harmless variations right")
     result = {"name": "faults", "command": "make show-faults", "table": rows, "rows": [

@@ -18,6 +18,8 @@ import sys
 import tempfile
 import time
 
+from display import need_display
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MAX_WAIT_S = 0.5  # from the start of the program to its death
 PATIENCE_S = 60   # for it to start
@@ -70,9 +72,7 @@ def kill_once(build, program, delay, both, folder):
 
 
 def main(build, runs, seed):
-    if "DISPLAY_IS_OURS" not in os.environ:
-        os.environ["DISPLAY_IS_OURS"] = "1"
-        return subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, *sys.argv], check=False).returncode
+    need_display()
     build, rng = pathlib.Path(build).resolve(), random.Random(seed)
     frames = lost = unreadable = 0
     with tempfile.TemporaryDirectory() as folder:

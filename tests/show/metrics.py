@@ -15,7 +15,6 @@ import statistics
 import struct
 import subprocess
 import sys
-import time
 
 import numpy
 import scipy.ndimage

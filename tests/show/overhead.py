@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+from display import need_display
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ROUNDS, PEER_ROUNDS = 9, 3
 GEARS_FRAMES = 1000
@@ -59,9 +61,7 @@ def measure(build, how, folder):
 
 
 def main(build):
-    if "DISPLAY_IS_OURS" not in os.environ:
-        os.environ["DISPLAY_IS_OURS"] = "1"
-        return subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, __file__, build], check=False).returncode
+    need_display()
     build = pathlib.Path(build).resolve()
     with tempfile.TemporaryDirectory() as folder:
         rows = [row for how in TIME_BARS for row in measure(build, how, pathlib.Path(folder))]

@@ -16,13 +16,13 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import time
 
 import programs
 import recording
 import scoring
+from display import need_display
 
 TRACES = recording.ROOT.parent / "shared" / "traces"
 RASTER_GATES = ("R1", "R1b", "R2", "R3", "R4")
@@ -121,9 +121,7 @@ def main():
     parser.add_argument("--only", action="append", default=[], help="part of a line's name")
     parser.add_argument("--record", action="store_true", help="record anew")
     options = parser.parse_args()
-    if "DISPLAY_IS_OURS" not in os.environ:
-        environment = dict(os.environ, DISPLAY_IS_OURS="1")
-        return subprocess.run([recording.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], env=environment, check=False).returncode
+    need_display()
     os.nice(15)
     build = options.build.resolve()
     base = build / "show" / "parity"

@@ -19,6 +19,8 @@ import tempfile
 import threading
 import time
 
+from display import need_display
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 ROUNDS = 9
 FRAMES = 10000
@@ -91,9 +93,7 @@ def busy(build, trace, frames, folder, options=()):
 
 
 def main(build, long_frames):
-    if "DISPLAY_IS_OURS" not in os.environ:
-        os.environ["DISPLAY_IS_OURS"] = "1"
-        return subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, *sys.argv], check=False).returncode
+    need_display()
     build = pathlib.Path(build).resolve()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -14,13 +14,13 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import time
 
 import programs
 import recording
 import scoring
+from display import need_display
 
 HACKS_BAR = 110
 GATES = ("V", "R1", "R1b", "R2", "R3", "R4", "R5", "P")
@@ -99,9 +99,7 @@ def main():
     parser.add_argument("--again", action="store_true", help="score what this relume has scored already, too")
     parser.add_argument("--record", action="store_true", help="record anew")
     options = parser.parse_args()
-    if "DISPLAY_IS_OURS" not in os.environ:
-        environment = dict(os.environ, DISPLAY_IS_OURS="1")
-        return subprocess.run([recording.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], env=environment, check=False).returncode
+    need_display()
     os.nice(15)
     build = options.build.resolve()
     base = build / "show" / "sweep"

@@ -19,6 +19,7 @@ import tempfile
 import programs
 import recording
 import scoring
+from display import need_display
 
 sys.path.insert(0, str(recording.ROOT / "tests" / "real"))
 from replayed import reference_frames, with_visual  # noqa: E402
@@ -70,9 +71,7 @@ def main():
     parser.add_argument("--only", action="append", default=[], help="part of a program's name")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the recordings in this folder")
     options = parser.parse_args()
-    if "DISPLAY_IS_OURS" not in os.environ:
-        environment = dict(os.environ, DISPLAY_IS_OURS="1")
-        return subprocess.run([recording.ROOT / "tests/xvfb.sh", sys.executable, "-B", *sys.argv], env=environment, check=False).returncode
+    need_display()
     os.nice(10)
     build = options.build.resolve()
     lines = []

@@ -12,13 +12,14 @@ POV-Ray its own "Trace Time". Cycles does not tell them apart: both are its rend
 """
 import json
 import math
-import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import time
+
+from display import need_display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/real"))
@@ -131,9 +132,7 @@ def blender(file, folder):
 
 
 def main(build):
-    if "DISPLAY_IS_OURS" not in os.environ:
-        os.environ["DISPLAY_IS_OURS"] = "1"
-        return subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, __file__, build], check=False).returncode
+    need_display()
     build = build.resolve()
     rows = []
     print(f"{'frames/s at 800 x 600':24}{'whole':>8}{'traced':>8}   {'GTX 970':>8}{'Iris':>8}   {'POV whole':>10}{'traced':>8}"
