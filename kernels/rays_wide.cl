@@ -4,44 +4,15 @@
 #include "kernels/rays.h"
 #include "kernels/wide.h"
 
-/* How far along the ray its walk through an instance starts. */
-inline float far_shift(__global const struct instance *instance, const struct walk *w)
-{
-	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
-	const float length = fmax(fmax(fabs(w->dx), fabs(w->dy)), fabs(w->dz));
-	const float shift = fma(cz, w->dz, fma(cy, w->dy, cx * w->dx)) / fma(w->dz, w->dz, fma(w->dy, w->dy, w->dx * w->dx)) -
-	                    instance->radius / length;
-
-	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
-}
-
 inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
-	__global const float *m = instance->obj_from_eye;
 	struct walk w;
-	float shift;
+	const float shift = walk_enter(&w, eye, instance);
 
-	w.ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
-	w.oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
-	w.oz = fma(m[10], eye->oz, fma(m[9], eye->oy, fma(m[8], eye->ox, m[11])));
-	w.dx = fma(m[2], eye->dz, fma(m[1], eye->dy, m[0] * eye->dx));
-	w.dy = fma(m[6], eye->dz, fma(m[5], eye->dy, m[4] * eye->dx));
-	w.dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
-	shift = far_shift(instance, &w);
-	w.ox = fma(shift, w.dx, w.ox), w.oy = fma(shift, w.dy, w.oy), w.oz = fma(shift, w.dz, w.oz);
-	w.t_min = eye->t_min - shift;
-	w.hit.t = eye->hit.t - shift;
-	if (shift > 0 && eye->hit.instance != SCENE_NONE)
-		w.hit.t += 3e-7f * eye->hit.t; /* t + shift decides */
-	w.hit.b1 = w.hit.b2 = 0;
-	w.hit.instance = w.hit.primitive = SCENE_NONE;
-	prepare(&w);
 	walk_subtree(&w, (uint2)(0, 0), index, any, nodes + instance->node8_first, triangles + instance->triangle8_first);
-	w.hit.t += shift;
-	if (w.hit.instance != SCENE_NONE && (eye->hit.instance == SCENE_NONE || w.hit.t < eye->hit.t))
-		eye->hit = w.hit;
+	walk_leave(eye, &w, shift);
 }
 
 inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,
@@ -52,16 +23,8 @@ inline struct hit walk_ray(__global const struct ray *ray, int any, __global con
 	uint depth = 0;
 	struct walk w;
 
-	w.ox = ray->o[0], w.oy = ray->o[1], w.oz = ray->o[2];
-	w.dx = ray->d[0], w.dy = ray->d[1], w.dz = ray->d[2];
-	w.t_min = ray->t_min;
-	w.hit.t = ray->t_max;
-	w.hit.b1 = w.hit.b2 = 0;
-	w.hit.instance = w.hit.primitive = SCENE_NONE;
-	if (!(w.t_min <= w.hit.t) || !isfinite(w.ox) || !isfinite(w.oy) || !isfinite(w.oz) || !isfinite(w.dx) ||
-	    !isfinite(w.dy) || !isfinite(w.dz))
+	if (!walk_start(&w, ray))
 		return w.hit;
-	prepare(&w);
 	stack[depth].enter = w.t_min;
 	stack[depth].child = stack[depth].count = 0;
 	depth++;

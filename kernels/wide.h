@@ -8,38 +8,7 @@
 #include "kernels/shared.h"
 #include "kernels/rays.h"
 #include "kernels/lanes.h"
-
-/* A ray in the space of the tree it walks; boxes as in kernels/packet.h. */
-struct walk {
-	float ox, oy, oz, dx, dy, dz;
-	float ix, iy, iz, far_ix, far_iy, far_iz, near_x, near_y, near_z, far_x, far_y, far_z;
-	uint row_x, row_y, row_z; /* the float of a node8 where the planes met first begin */
-	float t_min;
-	struct hit hit; /* hit.t: the ray's end so far */
-};
-
-/* A subtree to be walked. */
-struct entry {
-	float enter;
-	uint child, count;
-};
-
-inline float invert(float d)
-{
-	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
-}
-
-inline void prepare(struct walk *w)
-{
-	float b;
-
-	w->ix = invert(w->dx), w->iy = invert(w->dy), w->iz = invert(w->dz);
-	b = -w->ox * w->ix, w->near_x = b - fabs(b) * 3e-7f, w->far_x = b + fabs(b) * 1.5e-6f;
-	b = -w->oy * w->iy, w->near_y = b - fabs(b) * 3e-7f, w->far_y = b + fabs(b) * 1.5e-6f;
-	b = -w->oz * w->iz, w->near_z = b - fabs(b) * 3e-7f, w->far_z = b + fabs(b) * 1.5e-6f;
-	w->far_ix = w->ix * (1 + 6e-7f), w->far_iy = w->iy * (1 + 6e-7f), w->far_iz = w->iz * (1 + 6e-7f);
-	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
-}
+#include "kernels/walk.h"
 
 /* Where the ray enters the eight boxes, and which it meets. */
 inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, float8 *enter)
