@@ -72,6 +72,10 @@ void reading_begin(struct reading_state *s)
 		                                                               GL_FRAMEBUFFER_BINDING);
 		if (s->framebuffer)
 			real_glBindFramebuffer(read_target(), 0);
+		/* What is drawn to says what there are: buffers, bits, samples. */
+		s->draw_framebuffer = context_has(HAS_READ_FRAMEBUFFER) ? context_get(GL_DRAW_FRAMEBUFFER_BINDING) : 0;
+		if (s->draw_framebuffer)
+			real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
 	}
 	s->read_buffer = context_get(GL_READ_BUFFER);
 	real_glReadBuffer(context_get(GL_DOUBLEBUFFER) ? GL_BACK : GL_FRONT);
@@ -120,6 +124,49 @@ void reading_end(const struct reading_state *s)
 	real_glReadBuffer((unsigned)s->read_buffer);
 	if (s->framebuffer)
 		real_glBindFramebuffer(read_target(), (unsigned)s->framebuffer);
+	if (s->draw_framebuffer)
+		real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (unsigned)s->draw_framebuffer);
+}
+
+/*
+ * A window with several samples a pixel shows their mean, and glReadPixels need not: Mesa's software rasterizers give one sample
+ * (22.3.6). So what the window will show is made as the driver makes it at the swap, by a blit, in a renderbuffer that lives while it
+ * is read.
+ */
+static void read_resolved(int width, int height, void *pixels)
+{
+	int renderbuffer = context_get(GL_RENDERBUFFER_BINDING);
+	unsigned framebuffer = 0, colors = 0, scissor = real_glIsEnabled(GL_SCISSOR_TEST), srgb = real_glIsEnabled(GL_FRAMEBUFFER_SRGB);
+
+	real_glGenFramebuffers(1, &framebuffer);
+	real_glGenRenderbuffers(1, &colors);
+	real_glBindRenderbuffer(GL_RENDERBUFFER, colors);
+	real_glRenderbufferStorage(GL_RENDERBUFFER, context_get(GL_ALPHA_BITS) > 0 ? GL_RGBA8 : GL_RGB8, width, height);
+	real_glBindRenderbuffer(GL_RENDERBUFFER, (unsigned)renderbuffer);
+	real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+	real_glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colors);
+	if (scissor)
+		real_glDisable(GL_SCISSOR_TEST);
+	if (srgb)
+		real_glDisable(GL_FRAMEBUFFER_SRGB);
+	real_glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	if (scissor)
+		real_glEnable(GL_SCISSOR_TEST);
+	if (srgb)
+		real_glEnable(GL_FRAMEBUFFER_SRGB);
+	real_glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+	real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+	real_glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	real_glDeleteFramebuffers(1, &framebuffer);
+	real_glDeleteRenderbuffers(1, &colors);
+}
+
+void reading_colors(int width, int height, void *pixels)
+{
+	if (context_has(HAS_DESKTOP) && context_has(HAS_FRAMEBUFFERS) && context_has(HAS_READ_FRAMEBUFFER) && context_get(GL_SAMPLES) > 1)
+		read_resolved(width, height, pixels);
+	else
+		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
 /* The file */
@@ -221,7 +268,7 @@ void reference_read(uint64_t frame, int width, int height)
 	context_errors_before();
 	reading_begin(&state);
 	if (r.color && !r.failed) {
-		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, r.pixels);
+		reading_colors(width, height, r.pixels);
 		write_record(REF_COLOR, frame, width, height);
 	}
 	if (r.depth && !r.failed && context_get(GL_DEPTH_BITS) > 0) {

@@ -320,16 +320,19 @@ static void draw_pixels(int width, int height, unsigned format, unsigned type)
 
 	if (!pixels)
 		return;
-	real_glReadPixels(0, 0, width, height, format, type, pixels);
+	if (format == GL_RGBA)
+		reading_colors(width, height, pixels);
+	else
+		real_glReadPixels(0, 0, width, height, format, type, pixels);
 	make_image(pixels, bytes, CMD_glDrawPixels, "iiee", width, height, format, type);
 	munmap(pixels, (size_t)bytes);
 }
 
-static void restore_window(int width, int height)
+/* `framebuffer`: what the program draws to, which is not the window where it is not 0. */
+static void restore_window(int width, int height, unsigned framebuffer)
 {
 	unsigned draw_target = context_has(HAS_READ_FRAMEBUFFER) ? GL_DRAW_FRAMEBUFFER : GL_FRAMEBUFFER;
 	int program = context_has(HAS_BUFFERS) && context_has(HAS_ATTRIBUTES) ? context_get(GL_CURRENT_PROGRAM) : 0;
-	int framebuffer = context_has(HAS_FRAMEBUFFERS) ? context_get(GL_DRAW_FRAMEBUFFER_BINDING) : 0;
 
 	if (width <= 0 || height <= 0 || !context_has(HAS_WINDOW_POS) || context_get(GL_RENDER_MODE) != GL_RENDER ||
 	    context_get(GL_ATTRIB_STACK_DEPTH) >= context_get(GL_MAX_ATTRIB_STACK_DEPTH))
@@ -354,7 +357,7 @@ static void restore_window(int width, int height)
 		make(CMD_glUseProgram, "u", (unsigned)program);
 	make(CMD_glPopAttrib, "");
 	if (framebuffer)
-		make(CMD_glBindFramebuffer, "eu", draw_target, (unsigned)framebuffer);
+		make(CMD_glBindFramebuffer, "eu", draw_target, framebuffer);
 }
 
 void skip_end(int width, int height)
@@ -374,7 +377,7 @@ void skip_end(int width, int height)
 	for (int i = 0; i < n_textures; i++)
 		restore_texture(&textures[i]);
 	pthread_mutex_unlock(&lock);
-	restore_window(width, height);
+	restore_window(width, height, (unsigned)(context_has(HAS_READ_FRAMEBUFFER) ? state.draw_framebuffer : state.framebuffer));
 	reading_end(&state);
 	skip_make_neutral(1);
 	context_errors_after();

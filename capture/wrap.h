@@ -112,11 +112,13 @@ void reference_read(uint64_t frame, int width, int height);
 /** All state that reading pixels depends on set to its initial value, the window's framebuffer bound; then put back. */
 enum { READING_PACK = 6, READING_TRANSFER = 10 };
 struct reading_state {
-	int pack[READING_PACK], map_color, pack_buffer, pack_invert, framebuffer, read_buffer;
+	int pack[READING_PACK], map_color, pack_buffer, pack_invert, framebuffer, draw_framebuffer, read_buffer;
 	float transfer[READING_TRANSFER];
 };
 void reading_begin(struct reading_state *s);
 void reading_end(const struct reading_state *s);
+/** In between: what the window shows, RGBA with 8 bits each, rows from the bottom up; of several samples a pixel their mean. */
+void reading_colors(int width, int height, void *pixels);
 
 /* skip.c: frames that are not recorded */
 
