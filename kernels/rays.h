@@ -23,7 +23,8 @@
  *    7  const struct triangle8 triangles[]  accel.triangles8
  *    8  occlude: uint occluded[]  1 where anything is hit, else 0
  *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
- *                                 same t one, the same one each time
+ *                                 same t that of the lowest instance, there of the lowest primitive: it depends on
+ *                                 no tree
  *
  * Work items: as many as hold n_rays in packets of RAYS_PER_PACKET for *_packet, n_rays for *_wide. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.

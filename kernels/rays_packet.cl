@@ -24,7 +24,7 @@ inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __global const
 		w.dx = ((const float *)&p->dx)[lane], w.dy = ((const float *)&p->dy)[lane], w.dz = ((const float *)&p->dz)[lane];
 		w.t_min = ((const float *)&p->t_min)[lane];
 		w.hit.t = ((const float *)&p->t_max)[lane];
-		w.hit.instance = SCENE_NONE;
+		w.hit.instance = w.hit.primitive = SCENE_NONE;
 		prepare(&w);
 		walk_subtree(&w, start, 0, 1, nodes, triangles);
 		if (w.hit.instance != SCENE_NONE) {

@@ -92,11 +92,12 @@ inline float walk_enter(struct walk *w, const struct walk *eye, __global const s
 	return shift;
 }
 
-/* Back in eye space with what was hit in an instance, where that is nearer. */
+/* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
 inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
 	w->hit.t += shift;
-	if (w->hit.instance != SCENE_NONE && (eye->hit.instance == SCENE_NONE || w->hit.t < eye->hit.t))
+	if (w->hit.instance != SCENE_NONE &&
+	    (w->hit.t < eye->hit.t || (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))
 		eye->hit = w->hit;
 }
 

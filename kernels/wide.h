@@ -49,7 +49,7 @@ inline uint push_boxes(struct entry *stack, uint depth, uint bits, const float8 
 	return depth;
 }
 
-/* Moeller and Trumbore on eight triangles; the nearest hit, the first lane of equals, goes into w->hit. */
+/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. */
 inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
@@ -74,7 +74,7 @@ inline void try_block(struct walk *w, __global const struct triangle8 *block, ui
 		const float at = ((const float *)&t)[lane];
 
 		bits &= bits - 1;
-		if (at < w->hit.t || w->hit.instance == SCENE_NONE) {
+		if (at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) {
 			w->hit.t = at;
 			w->hit.b1 = ((const float *)&u)[lane];
 			w->hit.b2 = ((const float *)&v)[lane];

@@ -19,7 +19,8 @@ struct accel_space {
 /* How the trees of meshes are built. What lives for one frame only gets binned ones whatever is asked for. */
 enum accel_kind {
 	ACCEL_BVH, /* binned SAH */
-	ACCEL_SBVH /* the same with spatial splits: a triangle may be in several leaves */
+	ACCEL_SBVH, /* the same with spatial splits: a triangle may be in several leaves */
+	N_ACCEL_KINDS
 };
 
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */

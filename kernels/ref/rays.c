@@ -67,7 +67,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && w->hit.instance == SCENE_NONE)))
+	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
 
@@ -168,7 +168,8 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
 	walk_blas(w, instance_index);
 	w->hit.t += shift;
-	if (w->hit.instance == SCENE_NONE || (eye.hit.instance != SCENE_NONE && !(w->hit.t < eye.hit.t)))
+	if (w->hit.instance == SCENE_NONE || (eye.hit.instance != SCENE_NONE && !(w->hit.t < eye.hit.t) &&
+	                                      !(w->hit.t == eye.hit.t && instance_index < eye.hit.instance)))
 		w->hit = eye.hit;
 	w->t_min = eye.t_min;
 	for (int a = 0; a < 3; a++) {
