@@ -14,6 +14,7 @@
 #define CLIP_SAFE_PIXELS 16384.0f
 #define CLIP_PLANES 6
 #define CLIP_MAX_CORNERS 9 /* a triangle's, and one for each plane */
+#define CLIP_MAX_CUTS (2 * CLIP_PLANES)
 
 #ifdef __OPENCL_VERSION__
 typedef long clip_area;
@@ -21,9 +22,19 @@ typedef long clip_area;
 typedef int64_t clip_area;
 #endif
 
+/*
+ * How new corners came about, in this order: corner 3 + i lies at t[i] between corners from[i] and to[i]; 0 to 2 are the
+ * triangle's. What is interpolated as Mesa does it goes the same way.
+ */
+struct clip_cuts {
+	uint32_t n, from[CLIP_MAX_CUTS], to[CLIP_MAX_CUTS];
+	float t[CLIP_MAX_CUTS];
+};
+
 /* A corner of what is left of a triangle. */
 struct clip_corner {
 	struct vec4 clip;
+	uint32_t number;             /* 0 to 2: the triangle's, else see struct clip_cuts */
 	float b1, b2;                /* weights of the triangle's vertices 1 and 2, in the volume */
 	float place[2];              /* in pixels, not snapped, y from the top */
 	struct window_vertex window;
@@ -32,6 +43,7 @@ struct clip_corner {
 struct clip_polygon {
 	uint32_t n; /* corners; 0: nothing is left */
 	struct clip_corner corner[CLIP_MAX_CORNERS];
+	struct clip_cuts cuts;
 };
 
 /* --- The window -------------------------------------------------------------------------------------------------- */
@@ -62,10 +74,13 @@ static inline int clip_is_sliver(float area)
 	return !(M_ABS(area) > 1.0e-6f);
 }
 
-/* Two edges of a triangle, its vertices turned so that they run counter-clockwise (y from the top), as llvmpipe sets it up. */
+/*
+ * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two edges. Places
+ * are not snapped and count from the first pixel's centre.
+ */
 struct clip_edges {
 	int a, b; /* which vertices are its first two */
-	float dx01, dy01, dx20, dy20, one_over_area;
+	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: the first one's place */
 };
 
 static inline struct clip_edges clip_edges_of(const float *px, const float *py)
@@ -74,6 +89,8 @@ static inline struct clip_edges clip_edges_of(const float *px, const float *py)
 
 	e.a = clip_place_area(px, py) < 0.0f;
 	e.b = 1 - e.a;
+	e.x = px[e.a];
+	e.y = py[e.a];
 	e.dx01 = px[e.a] - px[e.b];
 	e.dy01 = py[e.a] - py[e.b];
 	e.dx20 = px[2] - px[e.a];
@@ -82,19 +99,15 @@ static inline struct clip_edges clip_edges_of(const float *px, const float *py)
 	return e;
 }
 
-/*
- * The plane through three values at places, which are not snapped and count from the first pixel's centre: in llvmpipe's order
- * of operations, through the first vertex.
- */
-static inline struct clip_plane clip_plane_through(const float *px, const float *py, const float *value)
+/* The plane through a value at each vertex: in llvmpipe's order of operations, through the first one. */
+static inline struct clip_plane clip_plane_through(const struct clip_edges *e, const float *value)
 {
-	const struct clip_edges e = clip_edges_of(px, py);
-	const float v01 = value[e.a] - value[e.b], v20 = value[2] - value[e.a];
+	const float v01 = value[e->a] - value[e->b], v20 = value[2] - value[e->a];
 	struct clip_plane out;
 
-	out.along_x = v01 * (e.dy20 * e.one_over_area) - v20 * (e.dy01 * e.one_over_area);
-	out.along_y = v20 * (e.dx01 * e.one_over_area) - v01 * (e.dx20 * e.one_over_area);
-	out.origin = value[e.a] - (out.along_x * px[e.a] + out.along_y * py[e.a]);
+	out.along_x = v01 * (e->dy20 * e->one_over_area) - v20 * (e->dy01 * e->one_over_area);
+	out.along_y = v20 * (e->dx01 * e->one_over_area) - v01 * (e->dx20 * e->one_over_area);
+	out.origin = value[e->a] - (out.along_x * e->x + out.along_y * e->y);
 	return out;
 }
 
@@ -162,13 +175,16 @@ static inline float clip_between(float from, float to, float t)
 	return from + t * (to - from);
 }
 
-/* The point at t between two corners, from the nearer one. */
-static inline struct clip_corner clip_cut(const struct clip_corner *from, const struct clip_corner *to, float t)
+/* The new corner of a cut. */
+static inline struct clip_corner clip_cut(const struct clip_corner *pool, const struct clip_cuts *cuts, uint32_t cut)
 {
+	const struct clip_corner *from = &pool[cuts->from[cut]], *to = &pool[cuts->to[cut]];
+	const float t = cuts->t[cut];
 	struct clip_corner out;
 
 	out.clip = v4(clip_between(from->clip.x, to->clip.x, t), clip_between(from->clip.y, to->clip.y, t),
 	              clip_between(from->clip.z, to->clip.z, t), clip_between(from->clip.w, to->clip.w, t));
+	out.number = 3u + cut;
 	out.b1 = clip_between(from->b1, to->b1, t);
 	out.b2 = clip_between(from->b2, to->b2, t);
 	return out;
@@ -191,15 +207,17 @@ static inline int clip_place_new(GLOBAL const struct view *view, float height, s
 static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1, struct vec4 c2,
                                  struct clip_polygon *out)
 {
-	struct clip_corner pool[3 + 2 * CLIP_PLANES];
-	uint32_t lists[2][CLIP_MAX_CORNERS + 1], n = 3u, made = 3u, now = 0u;
+	struct clip_corner pool[3 + CLIP_MAX_CUTS];
+	struct clip_cuts *cuts = &out->cuts;
+	uint32_t lists[2][CLIP_MAX_CORNERS + 1], n = 3u, now = 0u;
 	uint32_t outside0 = clip_outside(c0), outside1 = clip_outside(c1), outside2 = clip_outside(c2);
 
-	out->n = 0u;
+	out->n = cuts->n = 0u;
 	if (outside0 & outside1 & outside2)
 		return;
 	for (uint32_t i = 0u; i < 3u; i++) {
 		pool[i].clip = i == 0u ? c0 : i == 1u ? c1 : c2;
+		pool[i].number = i;
 		pool[i].b1 = i == 1u ? 1.0f : 0.0f;
 		pool[i].b2 = i == 2u ? 1.0f : 0.0f;
 		lists[0][i] = i;
@@ -216,7 +234,7 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 			float d = clip_distance(pool[next].clip, plane);
 			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
 
-			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || made == 3u + 2u * CLIP_PLANES || !(M_ABS(d) < 1.0e30f))
+			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) < 1.0e30f))
 				return; /* no numbers, or rounding has made it cross a plane again and again */
 			if (d_last >= 0.0f)
 				lists[!now][n_left++] = last;
@@ -224,9 +242,11 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 				/* from the corner that is nearer to the plane */
 				int from_next = d < 0.0f ? -d < d_last : !(-d_last < d);
 
-				pool[made] = from_next ? clip_cut(&pool[next], &pool[last], d / (d - d_last)) :
-				                         clip_cut(&pool[last], &pool[next], -d_last / (d - d_last));
-				lists[!now][n_left++] = made++;
+				cuts->from[cuts->n] = from_next ? next : last;
+				cuts->to[cuts->n] = from_next ? last : next;
+				cuts->t[cuts->n] = from_next ? d / (d - d_last) : -d_last / (d - d_last);
+				pool[3u + cuts->n] = clip_cut(pool, cuts, cuts->n);
+				lists[!now][n_left++] = 3u + cuts->n++;
 			}
 			last = next;
 			d_last = d;
@@ -253,6 +273,15 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 }
 
 /* --- Its parts --------------------------------------------------------------------------------------------------- */
+
+/* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated from. */
+struct clip_setup {
+	struct clip_corner corner[3];
+	float px[3], py[3]; /* their places, from the first pixel's centre */
+	struct clip_edges edges;
+	struct clip_plane w_inv;
+	struct clip_cuts cuts;
+};
 
 /*
  * Weights of the triangle's vertices 1 and 2 in the volume, from weights on the screen in a part of it.
@@ -293,6 +322,7 @@ static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
                                    const struct vec4 *clip, const float *z, struct clip_plane *plane)
 {
 	float px[3], py[3], place[2];
+	struct clip_edges edges;
 
 	for (int i = 0; i < 3; i++) {
 		if (corner) {
@@ -306,7 +336,8 @@ static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
 	}
 	if (clip_is_sliver(clip_place_area(px, py)))
 		return 0;
-	*plane = clip_plane_through(px, py, z);
+	edges = clip_edges_of(px, py);
+	*plane = clip_plane_through(&edges, z);
 	return 1;
 }
 

@@ -7,6 +7,7 @@
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
+#include "kernels/gl_clip.h"
 #include "kernels/gl_combine.h"
 #include "kernels/gl_tables.h"
 #include "kernels/gl_texture.h"
@@ -278,6 +279,47 @@ static inline struct vec4 point_texcoord(const struct tables *t, const struct po
 	return c;
 }
 
+/* Texture coordinates of a fragment's triangle, divided by w: linear in the window. */
+struct point_planes {
+	struct clip_plane s, t, r, q, w_inv;
+};
+
+/* As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel centres. */
+static inline void point_texcoord_planes(const struct tables *t, const struct point *p, uint32_t i, const struct clip_setup *setup,
+                                         struct point_planes *planes)
+{
+	uint32_t count = p->material->unit_count, first = p->geometry->texcoord_first;
+	struct vec4 pool[3 + CLIP_MAX_CUTS];
+	float over_w[4][3];
+
+	for (uint32_t k = 0u; k < 3u; k++)
+		pool[k] = v4_load(t->texcoords + (first + p->number[k] * count + i) * 4u);
+	for (uint32_t k = 0u; k < setup->cuts.n; k++)
+		pool[3u + k] = v4_mix(pool[setup->cuts.from[k]], pool[setup->cuts.to[k]], setup->cuts.t[k]);
+	for (int k = 0; k < 3; k++) {
+		struct vec4 c = v4_scale(pool[setup->corner[k].number], setup->corner[k].window.w_inv);
+
+		over_w[0][k] = c.x;
+		over_w[1][k] = c.y;
+		over_w[2][k] = c.z;
+		over_w[3][k] = c.w;
+	}
+	planes->s = clip_plane_through(&setup->edges, over_w[0]);
+	planes->t = clip_plane_through(&setup->edges, over_w[1]);
+	planes->r = clip_plane_through(&setup->edges, over_w[2]);
+	planes->q = clip_plane_through(&setup->edges, over_w[3]);
+	planes->w_inv = setup->w_inv;
+}
+
+/* Texture coordinates at any pixel. x, y: from the first one, y from the top */
+static inline struct vec4 point_texcoord_at(const struct point_planes *planes, float x, float y)
+{
+	float w = 1.0f / clip_plane_at(&planes->w_inv, x, y);
+
+	return v4(clip_plane_at(&planes->s, x, y) * w, clip_plane_at(&planes->t, x, y) * w, clip_plane_at(&planes->r, x, y) * w,
+	          clip_plane_at(&planes->q, x, y) * w);
+}
+
 /* Object-space weights of the triangle's plane at any window position (clip-space edge functions: nothing to clip). */
 static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x_win, float y_win,
                                     float *weight)
@@ -311,34 +353,46 @@ static inline float point_fog(const struct point *p)
 
 /*
  * Sample a point's textures. view: NULL for secondary hits, which have no neighbours: their finest level is taken.
- * x, row: the pixel, row 0 at the bottom; height: of the window.
+ * setup: NULL where the point is no fragment of a triangle. x, row: the pixel, row 0 at the bottom; height: of the window.
  */
 static inline void point_coat(const struct tables *t, const struct point *p, GLOBAL const struct view *view,
-                              uint32_t x, uint32_t row, uint32_t height, struct coat *coat)
+                              const struct clip_setup *setup, uint32_t x, uint32_t row, uint32_t height, struct coat *coat)
 {
 	GLOBAL const struct scene_material *m = p->material;
+	/* llvmpipe's quads: even columns, even rows counted from the top. */
+	const float y = (float)(height - 1u - row), quad_x = (float)(x & ~1u), quad_y = (float)((height - 1u - row) & ~1u);
 	float quad[3][3];
 	int have_quad = 0;
 
 	for (uint32_t i = 0u; i < m->unit_count; i++) {
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
-		struct vec4 c = point_texcoord(t, p, i, p->weight);
+		struct point_planes planes;
+		struct vec4 c;
 		struct texture_slope slope;
 		int have_slope = view && texture_needs_slope(t, unit);
 
-		if (have_slope && !have_quad) {
-			/* llvmpipe's quads: even columns, even rows counted from the top. */
-			float qx = (float)(x & ~1u) + 0.5f;
-			float qy = (float)height - ((float)((height - 1u - row) & ~1u) + 0.5f);
-
-			point_weights_at(p, view, qx, qy, quad[0]);
-			point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
-			point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
-			have_quad = 1;
+		if (setup) {
+			point_texcoord_planes(t, p, i, setup, &planes);
+			c = point_texcoord_at(&planes, (float)x, y);
+		} else {
+			c = point_texcoord(t, p, i, p->weight);
 		}
-		if (have_slope)
+		if (have_slope && setup) {
+			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord_at(&planes, quad_x, quad_y),
+			                      point_texcoord_at(&planes, quad_x + 1.0f, quad_y),
+			                      point_texcoord_at(&planes, quad_x, quad_y + 1.0f));
+		} else if (have_slope) {
+			if (!have_quad) {
+				float qx = quad_x + 0.5f, qy = (float)height - (quad_y + 0.5f);
+
+				point_weights_at(p, view, qx, qy, quad[0]);
+				point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
+				point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
+				have_quad = 1;
+			}
 			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord(t, p, i, quad[0]),
 			                      point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
+		}
 		coat->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
 	}
 	coat->fog_factor = m->fog ? point_fog(p) : 1.0f;

@@ -62,35 +62,36 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 	return !(t->stipples[stipple * 32u + (y & 31u)] >> (31u - (x & 31u)) & 1u);
 }
 
-/*
- * Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations; the vertices as for clip_plane_through. The least step r is
- * two steps of the depth buffer.
- */
-static inline float stage_offset(GLOBAL const struct scene_material *m, const float *px, const float *py, const float *z,
-                                 uint32_t bits)
+/* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
+static inline float stage_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
 {
-	const struct clip_edges e = clip_edges_of(px, py);
-	const float dz01 = z[e.a] - z[e.b], dz20 = z[2] - z[e.a];
+	const float dz01 = z[e->a] - z[e->b], dz20 = z[2] - z[e->a];
 	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
 	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
-	const float slope = M_MAX(M_ABS((dz20 * e.dy01 - e.dy20 * dz01) * e.one_over_area),
-	                          M_ABS((e.dx20 * dz01 - dz20 * e.dx01) * e.one_over_area));
+	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
+	                          M_ABS((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
 
 	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
 }
 
 /*
  * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
- * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners.
+ * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners. What is no
+ * line stays as it is.
  */
-static inline void stage_line(const struct point *p, float x, float y, struct fragment *f)
+static inline void stage_line(const struct tables *t, float x, float y, struct fragment *f)
 {
-	struct vec4 a = v4_load(p->vertex[0]->color[1]), b = a, c;
+	struct point p;
+	struct vec4 a, b, c;
 	int second[3];
 	float dx, dy, one_over_area, along_x, along_y, share;
 
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	if (!(p.geometry->flags & GEOMETRY_LINE))
+		return;
+	a = b = v4_load(p.vertex[0]->color[1]);
 	for (int i = 0; i < 3; i++) {
-		c = v4_load(p->vertex[i]->color[1]);
+		c = v4_load(p.vertex[i]->color[1]);
 		second[i] = c.w > 0.5f;
 		if (second[i])
 			b = c;
@@ -121,27 +122,24 @@ static inline void stage_line(const struct point *p, float x, float y, struct fr
 }
 
 /*
- * Weights of a fragment for its attributes, and its depth with polygon offset. Coverage goes by snapped vertices; llvmpipe takes
- * attributes and depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found
- * again from clip coordinates; of what leaves the view volume, from the part that covers the pixel.
+ * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices; llvmpipe takes attributes and
+ * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from clip
+ * coordinates; of what leaves the view volume, from the part that covers the pixel. @return 0: a line, a sliver
  */
-static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views,
-                                GLOBAL const struct window_vertex *windows, uint32_t x, uint32_t y, uint32_t height,
-                                uint32_t bits, struct fragment *f)
+static inline int stage_setup(const struct tables *t, GLOBAL const struct view *views,
+                              GLOBAL const struct window_vertex *windows, uint32_t x, uint32_t y, uint32_t height,
+                              const struct fragment *f, struct clip_setup *setup)
 {
 	struct point p;
 	GLOBAL const struct view *view;
 	struct clip_polygon polygon;
-	struct clip_plane plane;
 	uint32_t part = 2u;
 	int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
-	float px[3], py[3], z[3], area, b1, b2;
+	float w_inv[3];
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
-	if (p.geometry->flags & GEOMETRY_LINE) {
-		stage_line(&p, (float)x, (float)(height - 1u - y), f);
-		return;
-	}
+	if (p.geometry->flags & GEOMETRY_LINE)
+		return 0;
 	view = &views[p.geometry->view];
 	if (cut) {
 		clip_triangle(view, (float)height, v4_load(p.vertex[0]->clip), v4_load(p.vertex[1]->clip), v4_load(p.vertex[2]->clip),
@@ -150,42 +148,57 @@ static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view
 		                                        polygon.corner[0].window, (int32_t)x, (int32_t)y))
 			part++;
 		if (part >= polygon.n)
-			return;
+			return 0;
+		setup->cuts = polygon.cuts;
+	} else {
+		setup->cuts.n = 0u;
 	}
 	for (uint32_t i = 0u; i < 3u; i++) {
-		float place[2];
+		struct clip_corner *c = &setup->corner[i];
 
 		if (cut) {
-			const struct clip_corner *c = &polygon.corner[i == 2u ? 0u : part - 1u + i];
-
-			place[0] = c->place[0];
-			place[1] = c->place[1];
-			z[i] = c->window.z;
+			*c = polygon.corner[i == 2u ? 0u : part - 1u + i];
 		} else {
-			clip_place(view, v4_load(p.vertex[i]->clip), (float)height, place);
-			z[i] = windows[p.geometry->vertex_first + p.number[i]].z;
+			c->clip = v4_load(p.vertex[i]->clip);
+			c->number = i;
+			c->b1 = i == 1u ? 1.0f : 0.0f;
+			c->b2 = i == 2u ? 1.0f : 0.0f;
+			clip_place(view, c->clip, (float)height, c->place);
+			c->window = windows[p.geometry->vertex_first + p.number[i]];
 		}
-		px[i] = place[0] - 0.5f;
-		py[i] = place[1] - 0.5f;
+		w_inv[i] = c->window.w_inv;
+		setup->px[i] = c->place[0] - 0.5f;
+		setup->py[i] = c->place[1] - 0.5f;
 	}
-	area = clip_place_area(px, py);
-	if (clip_is_sliver(area))
-		return;
-	plane = clip_plane_through(px, py, z);
+	if (clip_is_sliver(clip_place_area(setup->px, setup->py)))
+		return 0;
+	setup->edges = clip_edges_of(setup->px, setup->py);
+	setup->w_inv = clip_plane_through(&setup->edges, w_inv);
+	return 1;
+}
+
+/* Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. */
+static inline void stage_unsnap(const struct tables *t, const struct clip_setup *setup, uint32_t x, uint32_t y, uint32_t height,
+                                uint32_t bits, struct fragment *f)
+{
+	const float z[3] = { setup->corner[0].window.z, setup->corner[1].window.z, setup->corner[2].window.z };
+	struct clip_plane plane = clip_plane_through(&setup->edges, z);
+	struct point p;
+	float px[3], py[3], area = clip_place_area(setup->px, setup->py);
+
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	f->depth = clip_plane_at(&plane, (float)x, (float)(height - 1u - y));
 	if (p.material->polygon_offset & 4u && !(p.geometry->flags & GEOMETRY_EXPANDED))
-		f->depth += stage_offset(p.material, px, py, z, bits);
+		f->depth += stage_offset(p.material, &setup->edges, z, bits);
 	f->depth = clamp01(f->depth);
 	for (uint32_t i = 0u; i < 3u; i++) {
-		px[i] -= (float)x;
-		py[i] -= (float)(height - 1u - y);
+		px[i] = setup->px[i] - (float)x;
+		py[i] = setup->py[i] - (float)(height - 1u - y);
 	}
-	b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
-	b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
-	if (cut)
-		clip_weights(&polygon.corner[part - 1u], &polygon.corner[part], &polygon.corner[0], b1, b2, &b1, &b2);
-	f->b1 = b1;
-	f->b2 = b2;
+	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
+	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
+	if (f->primitive & FRAGMENT_PERSPECTIVE)
+		clip_weights(&setup->corner[0], &setup->corner[1], &setup->corner[2], f->b1, f->b2, &f->b1, &f->b2);
 }
 
 /*
@@ -322,18 +335,24 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	uint32_t x = pixels[item] % width, y = pixels[item] / width;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct point p;
+	struct clip_setup setup;
 	struct coat coat;
 	struct lit lit;
 	struct vec4 color;
 	float coverage;
+	int have_setup;
 	uint32_t group = 0u, kind = 0u;
 
 	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
 		return;
 	if (n_slots && !(out->flags & SHADED_THERE))
 		return;
+	have_setup = stage_setup(t, views, windows, x, y, height, &f, &setup);
 	if (!n_slots) {
-		stage_unsnap(t, views, windows, x, y, height, bits, &f);
+		if (have_setup)
+			stage_unsnap(t, &setup, x, y, height, bits, &f);
+		else
+			stage_line(t, (float)x, (float)(height - 1u - y), &f);
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
@@ -349,7 +368,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 			return;
 		}
 	}
-	point_coat(t, &p, &views[p.geometry->view], x, y, height, &coat);
+	point_coat(t, &p, &views[p.geometry->view], have_setup ? &setup : (const struct clip_setup *)0, x, y, height, &coat);
 	lit = n_slots && !p.material->surface.relit ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
 	if (kind == SCENE_COLOR_PIXELS)
 		lit.color = stage_texel_color(group);

@@ -254,6 +254,35 @@ static void depth_environments(void)
 	glDisable(GL_BLEND);
 }
 
+/* Walls that lead out of the view on all sides, with texels much smaller than pixels: the last bits of coordinates choose one. */
+static void walls(void)
+{
+	static const unsigned char board[2][2] = { { 255, 0 }, { 0, 255 } };
+
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.4, 0.4, -0.3, 0.3, 0.5, 40);
+	glMatrixMode(GL_MODELVIEW);
+	texture();
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE, 2, 2, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE, board);
+	for (int i = 0; i < 4; i++) {
+		glLoadIdentity();
+		glRotatef(90 * (float)i + 7, 0, 0, 1);
+		glTranslatef(-0.3f, -1, -0.2f);
+		glRotatef(-80 - 2 * (float)i, 1, 0, 0);
+		glScalef(3, 5, 1);
+		glTranslatef(-0.5f, -0.1f, 0);
+		glBegin(GL_QUADS);
+		for (int k = 0; k < 4; k++) {
+			float u = k == 1 || k == 2, v = k >= 2;
+
+			glTexCoord2f(3e5f * u - 1e5f, 2e5f * v);
+			glVertex2f(u, v);
+		}
+		glEnd();
+	}
+}
+
 /* Each of these adds to what the one before left. */
 static void trail(void)
 {
@@ -273,7 +302,7 @@ static void trail(void)
 int main(void)
 {
 	static void (*const frames[])(void) = { formats, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
-		                              depth_environments, trail, trail, trail, trail, trail };
+		                              depth_environments, walls, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
 		colors[i / 16][i / 4 % 4][i % 4] = (unsigned char)(i % 4 == 3 ? 255 - 12 * (i / 4) : i * 67 + i / 4 * 13);
