@@ -3,12 +3,13 @@
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/err.h"
 
-/* `path` is changed meanwhile, and whole again afterwards. */
+/* `path` is changed meanwhile, and whole again afterwards. @return 0 or errno */
 static int make_all(char *path)
 {
 	struct stat st;
@@ -24,16 +25,23 @@ static int make_all(char *path)
 		return 0;
 	if (errno == EEXIST && stat(path, &st) == 0 && !S_ISDIR(st.st_mode))
 		errno = ENOTDIR;
-	return errno == EEXIST ? 0 : err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+	return errno == EEXIST ? 0 : errno;
 }
 
-int folder_make(const char *path)
+int folder_try(const char *path)
 {
 	char copy[PATH_MAX];
 
 	if (snprintf(copy, sizeof(copy), "%s", path) >= (int)sizeof(copy))
-		return err_report(ERR_SYSTEM, path, "the name is too long");
+		return ENAMETOOLONG;
 	return *copy ? make_all(copy) : 0;
+}
+
+int folder_make(const char *path)
+{
+	int failed = folder_try(path);
+
+	return failed ? err_report(ERR_SYSTEM, path, "%s", strerror(failed)) : 0;
 }
 
 int folder_make_for(const char *file)
@@ -45,5 +53,17 @@ int folder_make_for(const char *file)
 		return 0;
 	if (snprintf(copy, sizeof(copy), "%.*s", (int)(slash - file), file) >= (int)sizeof(copy))
 		return err_report(ERR_SYSTEM, file, "the name is too long");
-	return make_all(copy);
+	return folder_make(copy);
+}
+
+int folder_cached(const char *name, char *out, size_t size)
+{
+	const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+	int n = -1;
+
+	if (cache && *cache)
+		n = snprintf(out, size, "%s/relume/%s", cache, name);
+	else if (home && *home)
+		n = snprintf(out, size, "%s/.cache/relume/%s", home, name);
+	return n > 0 && (size_t)n < size;
 }

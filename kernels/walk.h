@@ -97,7 +97,8 @@ inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
 	w->hit.t += shift;
 	if (w->hit.instance != SCENE_NONE &&
-	    (w->hit.t < eye->hit.t || (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))
+	    (eye->hit.instance == SCENE_NONE || w->hit.t < eye->hit.t ||
+	     (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))
 		eye->hit = w->hit;
 }
 

@@ -505,17 +505,14 @@ done:
 /* Where an index may lie: beside the trace, or in the cache folder. @return 0 where there is no such place */
 static int place_of(const struct index *index, int cached, char out[PATH_MAX])
 {
-	const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+	char name[64];
 	int n;
 
-	if (!cached)
-		n = snprintf(out, PATH_MAX, "%s.index", index->trace);
-	else if (cache && *cache)
-		n = snprintf(out, PATH_MAX, "%s/relume/%.32s.index", cache, index->header.trace_hash);
-	else if (home && *home)
-		n = snprintf(out, PATH_MAX, "%s/.cache/relume/%.32s.index", home, index->header.trace_hash);
-	else
-		return 0;
+	if (cached) {
+		snprintf(name, sizeof(name), "%.32s.index", index->header.trace_hash);
+		return folder_cached(name, out, PATH_MAX);
+	}
+	n = snprintf(out, PATH_MAX, "%s.index", index->trace);
 	return n > 0 && n < PATH_MAX;
 }
 

@@ -5,18 +5,13 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "kernels/rays.h"
 #include "tracer/bvh.h"
+#include "tracer/soup.h"
 
-/* Most triangles in a leaf of the binary tree, most instances in a leaf of a top level. */
-#define LEAF_TRIANGLES 4
+/* Most instances in a leaf of a top level. */
 #define LEAF_INSTANCES 1
-/* How many more items than triangles spatial splits may make, as a share of the triangles. */
-#define SPATIAL_SHARE 4
 /* Frames that a BLAS nobody used stays in the pools. */
 #define KEEP_FRAMES 16
-/* Stands for the coordinates of what cannot be bounded; its square is still a float. */
-#define UNBOUNDED 1e18f
 
 /* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
 struct blas {
@@ -187,85 +182,6 @@ static int drop_unused(struct accel *accel)
 
 /* --- building BLASes --- */
 
-/* The triangles of one mesh, as they go into a tree. */
-struct soup {
-	struct triangle *triangles; /* [n], in the mesh's order */
-	struct bvh_box *boxes;
-	uint32_t n;
-};
-
-static void soup_free(struct soup *soup)
-{
-	free(soup->triangles);
-	free(soup->boxes);
-}
-
-/* A position as a point; 0 where it has no finite place. Sets *bounded to 0 where w <= 0. */
-static int point_of(const float p[4], float out[3], int *bounded)
-{
-	if (p[3] == 1.0f) {
-		memcpy(out, p, 3 * sizeof(*out));
-	} else if (p[3] > 0) {
-		for (int a = 0; a < 3; a++)
-			out[a] = p[a] / p[3];
-	} else {
-		*bounded = 0;
-		return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && isfinite(p[3]);
-	}
-	for (int a = 0; a < 3; a++)
-		if (!(fabsf(out[a]) < UNBOUNDED))
-			return 0;
-	return 1;
-}
-
-/* Fill in one triangle and its box; 0: leave it out. */
-static int set_triangle(const float (*positions)[4], const uint32_t vertex[3], uint32_t primitive,
-                        struct triangle *triangle, struct bvh_box *box)
-{
-	float p[3][3];
-	int bounded = 1;
-
-	for (int i = 0; i < 3; i++)
-		if (!point_of(positions[vertex[i]], p[i], &bounded))
-			return 0;
-	memset(triangle, 0, sizeof(*triangle));
-	triangle->primitive = primitive;
-	memcpy(triangle->vertex, vertex, sizeof(triangle->vertex));
-	for (int a = 0; a < 3; a++) {
-		if (!bounded) {
-			box->lo[a] = -UNBOUNDED;
-			box->hi[a] = UNBOUNDED;
-			continue;
-		}
-		triangle->v0[a] = p[0][a];
-		triangle->e1[a] = p[1][a] - p[0][a];
-		triangle->e2[a] = p[2][a] - p[0][a];
-		box->lo[a] = fminf(p[0][a], fminf(p[1][a], p[2][a]));
-		box->hi[a] = fmaxf(p[0][a], fmaxf(p[1][a], p[2][a]));
-	}
-	for (int a = 0; a < 3 && bounded; a++) {
-		/* What counts as a hit may lie this far outside (kernels/rays.h): rounding must not hide it. */
-		const float pad = RAYS_EDGE_SLACK * (fabsf(triangle->e1[a]) + fabsf(triangle->e2[a])) +
-		                  2.5e-7f * fmaxf(fabsf(box->lo[a]), fabsf(box->hi[a]));
-
-		box->lo[a] -= pad;
-		box->hi[a] += pad;
-	}
-	return 1;
-}
-
-static int make_soup(const struct scene_mesh *mesh, const float (*positions)[4], struct soup *soup)
-{
-	soup->triangles = malloc((mesh->primitive_count + 1) * sizeof(*soup->triangles));
-	soup->boxes = malloc((mesh->primitive_count + 1) * sizeof(*soup->boxes));
-	if (!soup->triangles || !soup->boxes)
-		return out_of_memory();
-	for (uint32_t i = 0; i < mesh->primitive_count; i++)
-		soup->n += (uint32_t)set_triangle(positions, mesh->index + 3 * (size_t)i, i, &soup->triangles[soup->n],
-		                                  &soup->boxes[soup->n]);
-	return 0;
-}
-
 static void set_triangle8(struct triangle8 *out, const struct triangle *triangles, uint32_t n)
 {
 	memset(out, 0, sizeof(*out));
@@ -282,47 +198,24 @@ static void set_triangle8(struct triangle8 *out, const struct triangle *triangle
 	}
 }
 
-/* Space is cut only where all boxes are those of triangles. */
-static int may_cut(const struct soup *soup)
-{
-	for (uint32_t i = 0; i < soup->n; i++)
-		if (soup->boxes[i].hi[0] >= UNBOUNDED)
-			return 0;
-	return 1;
-}
-
 /* Both trees over a soup, appended to the pools at the places that *blas says. */
-static int append_trees(struct accel *accel, const struct soup *soup, struct blas *blas)
+static int append_trees(struct accel *accel, const struct soup *soup, const struct tree *tree, struct blas *blas)
 {
-	const int spatial = blas->kind == ACCEL_SBVH && may_cut(soup);
-	const uint32_t room = 1 + soup->n + (spatial ? soup->n / SPATIAL_SHARE : 0);
 	struct accel_cache *cache = accel->cache;
-	uint32_t *order = malloc(3 * (size_t)room * sizeof(*order));
-	uint32_t *block_first = order + room, *block_count = order + 2 * (size_t)room;
-	uint32_t n_nodes2, n_nodes8, n_blocks, n_items = soup->n;
-	struct node2 *nodes2;
+	uint32_t *block_first = malloc(2 * (size_t)(tree->n_order + 1) * sizeof(*block_first));
+	uint32_t *block_count = block_first + tree->n_order + 1, n_nodes8, n_blocks;
 	int err;
 
-	if (!order)
+	if (!block_first)
 		return out_of_memory();
-	err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, room);
-	if (!err)
-		err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, room);
-	if (err)
+	if ((err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, tree->n_nodes)) ||
+	    (err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, tree->n_order)) ||
+	    (err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, tree->n_nodes)))
 		goto done;
-	nodes2 = accel->nodes2 + accel->n_nodes2;
-	if (spatial)
-		err = bvh_build_sbvh(soup->boxes, soup->triangles, soup->n, LEAF_TRIANGLES, 0, room, nodes2, &n_nodes2, order, &n_items);
-	else
-		err = bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, nodes2, &n_nodes2, order);
-	if (err)
-		goto done;
-	for (uint32_t i = 0; i < n_items; i++)
-		accel->triangles[accel->n_triangles + i] = soup->triangles[order[i]];
-	err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, n_nodes2);
-	if (err)
-		goto done;
-	err = bvh_collapse8(nodes2, n_nodes2, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
+	memcpy(accel->nodes2 + accel->n_nodes2, tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
+	for (uint32_t i = 0; i < tree->n_order; i++)
+		accel->triangles[accel->n_triangles + i] = soup->triangles[tree->order[i]];
+	err = bvh_collapse8(tree->nodes, tree->n_nodes, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
 	                    block_count, &n_blocks);
 	if (!err)
 		err = GROW(accel->triangles8, cache->capacity_triangles8, accel->n_triangles8, n_blocks);
@@ -331,25 +224,27 @@ static int append_trees(struct accel *accel, const struct soup *soup, struct bla
 	for (uint32_t i = 0; i < n_blocks; i++)
 		set_triangle8(&accel->triangles8[accel->n_triangles8 + i],
 		              accel->triangles + accel->n_triangles + block_first[i], block_count[i]);
-	blas->n_nodes2 = n_nodes2;
+	blas->n_nodes2 = tree->n_nodes;
 	blas->n_nodes8 = n_nodes8;
-	blas->n_triangles = n_items;
+	blas->n_triangles = tree->n_order;
 	blas->n_triangles8 = n_blocks;
 done:
-	free(order);
+	free(block_first);
 	return err;
 }
 
+/* store: where its tree may be kept beyond this run, or NULL. */
 static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const float (*positions)[4], int baked,
-                      enum accel_kind kind, struct blas **out)
+                      enum accel_kind kind, struct store *store, struct blas **out)
 {
 	struct accel_cache *cache = accel->cache;
-	struct soup soup = { NULL, NULL, 0 };
+	struct soup soup = { NULL };
+	struct tree tree = { NULL };
 	struct blas blas = { .baked = baked, .kind = kind };
 	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
 
 	if (!err)
-		err = make_soup(mesh, positions, &soup);
+		err = soup_make(mesh, positions, &soup);
 	if (err)
 		goto done;
 	memcpy(blas.hash, mesh->hash, sizeof(blas.hash));
@@ -357,10 +252,10 @@ static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const 
 	blas.node8_first = accel->n_nodes8;
 	blas.triangle_first = accel->n_triangles;
 	blas.triangle8_first = accel->n_triangles8;
-	bvh_box_clear(&blas.box);
-	for (uint32_t i = 0; i < soup.n; i++)
-		bvh_box_join(&blas.box, &soup.boxes[i]);
-	err = append_trees(accel, &soup, &blas);
+	blas.box = soup.box;
+	err = tree_make(&soup, kind, blas.hash, store, &tree);
+	if (!err)
+		err = append_trees(accel, &soup, &tree, &blas);
 	if (err)
 		goto done;
 	accel->n_nodes2 += blas.n_nodes2;
@@ -377,13 +272,20 @@ static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const 
 	else
 		table_insert(cache, (uint32_t)(cache->n - 1));
 done:
+	tree_free(&tree);
 	soup_free(&soup);
 	return err;
 }
 
+/* Does its mesh live for one frame only? */
+static int is_of_frame(const struct instance *instance)
+{
+	return (instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)) != 0;
+}
+
 static enum accel_kind accel_kind_of(const struct accel *accel, const struct instance *instance)
 {
-	return instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN) ? ACCEL_BVH : accel->kind;
+	return is_of_frame(instance) ? ACCEL_BVH : accel->kind;
 }
 
 /* The BLAS of one instance; its places go into the instance and its box, in BLAS space, to *box. */
@@ -399,7 +301,7 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	if (!blas)
 		err = build_blas(accel, mesh,
 		                 baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position,
-		                 baked, accel_kind_of(accel, instance), &blas);
+		                 baked, accel_kind_of(accel, instance), is_of_frame(instance) ? NULL : accel->store, &blas);
 	if (err)
 		return err;
 	blas->last_use = accel->cache->frame;
@@ -434,8 +336,8 @@ static void eye_box(const struct instance *instance, const struct bvh_box *obj, 
 		/* Room for what rounding does to a ray on its way into object space. */
 		lo -= 1e-6 * (fabs(lo) + (hi - lo));
 		hi += 1e-6 * (fabs(hi) + (hi - lo));
-		out->lo[row] = (float)(lo > -UNBOUNDED ? lo : -UNBOUNDED);
-		out->hi[row] = (float)(hi < UNBOUNDED ? hi : UNBOUNDED);
+		out->lo[row] = (float)(lo > -SOUP_UNBOUNDED ? lo : -SOUP_UNBOUNDED);
+		out->hi[row] = (float)(hi < SOUP_UNBOUNDED ? hi : SOUP_UNBOUNDED);
 	}
 }
 

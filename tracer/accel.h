@@ -6,6 +6,7 @@
 
 #include "kernels/shared.h"
 #include "replay/scene.h"
+#include "tracer/tree.h"
 
 /* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY, or its skies (INSTANCE_SKY). */
 struct accel_space {
@@ -14,13 +15,6 @@ struct accel_space {
 	uint32_t top2_first; /* in accel.top2 */
 	uint32_t top8_first; /* in accel.top8 */
 	uint32_t n_nodes;    /* 0: nothing to hit */
-};
-
-/* How the trees of meshes are built. What lives for one frame only gets binned ones whatever is asked for. */
-enum accel_kind {
-	ACCEL_BVH, /* binned SAH */
-	ACCEL_SBVH, /* the same with spatial splits: a triangle may be in several leaves */
-	N_ACCEL_KINDS
 };
 
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
@@ -39,6 +33,7 @@ struct accel {
 	size_t n_top2, n_top8, n_instance_list;
 
 	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
+	struct store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
 	struct accel_space *spaces;
 	size_t n_spaces;

@@ -46,6 +46,10 @@ static const char help[] =
 	"  -j, --jobs N         frames on their way at once on each device (default: by the number of cores)\n"
 	"      --limit-memory M memory to keep to, as 800M or 4G: fewer frames on their way at once; a frame that needs\n"
 	"                       more by itself ends the run\n"
+	"      --cache DIR      where trees of large meshes are kept for other runs; processes and machines may share it\n"
+	"                       (default: relume/trees in $XDG_CACHE_HOME, or in ~/.cache)\n"
+	"      --cache-size M   what that folder may hold: unused trees go first (default 2G)\n"
+	"      --no-cache       keep nothing, and look for nothing\n"
 	"      --timeout-per-frame S  give up a frame after so many seconds, and go on with the next\n"
 	"      --progress WORD  bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)\n"
 	"  -h, --help           this text\n"
@@ -63,7 +67,7 @@ enum effect {
 };
 
 enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, SAMPLES, RAYS, REACH, LOOK, ACCEL, RELIGHT,
-	   DEVICE, THREADS, JOBS, MEMORY, TIMEOUT, PROGRESS, HELP, N_KEYS };
+	   DEVICE, THREADS, JOBS, MEMORY, CACHE, CACHE_SIZE, NO_CACHE, TIMEOUT, PROGRESS, HELP, N_KEYS };
 
 #define FIRST_KEY 256 /* what getopt_long returns for the first row */
 
@@ -87,12 +91,15 @@ static const struct row {
 	[RAYS] = { "rays", required_argument, PICTURE, 0 },
 	[REACH] = { "reach", required_argument, PICTURE, 0 },
 	[LOOK] = { "look", required_argument, PICTURE_FILE, 0 },
-	[ACCEL] = { "accel", required_argument, PICTURE, 0 }, /* of equally near hits another may win */
+	[ACCEL] = { "accel", required_argument, PICTURE, 0 }, /* what rounding decides, at the very edge of a box, may differ */
 	[RELIGHT] = { "relight", no_argument, PICTURE, 0 },
 	[DEVICE] = { "device", required_argument, RUN, 0 },
 	[THREADS] = { "threads", required_argument, RUN, 0 },
 	[JOBS] = { "jobs", required_argument, RUN, 'j' },
 	[MEMORY] = { "limit-memory", required_argument, RUN, 0 },
+	[CACHE] = { "cache", required_argument, RUN, 0 },
+	[CACHE_SIZE] = { "cache-size", required_argument, RUN, 0 },
+	[NO_CACHE] = { "no-cache", no_argument, RUN, 0 },
 	[TIMEOUT] = { "timeout-per-frame", required_argument, RUN, 0 },
 	[PROGRESS] = { "progress", required_argument, RUN, 0 },
 	[HELP] = { "help", no_argument, RUN, 'h' },
@@ -123,7 +130,7 @@ static int parse_word(const char *text, const char *option, const char *const *w
 	return err_report(ERR_USAGE, NULL, "--%s does not know '%s'; see 'relume help render'", option, text);
 }
 
-static int parse_bytes(const char *text, uint64_t *out)
+static int parse_bytes(const char *text, const char *option, uint64_t *out)
 {
 	static const char units[] = "KMGT";
 	char *end;
@@ -131,7 +138,7 @@ static int parse_bytes(const char *text, uint64_t *out)
 	const char *unit = *end ? strchr(units, *end & ~0x20) : NULL;
 
 	if (end == text || !(value > 0) || (*end && (!unit || end[1])) || value > 1e15)
-		return err_report(ERR_USAGE, NULL, "--limit-memory takes a size as 800M or 4G, not '%s'", text);
+		return err_report(ERR_USAGE, NULL, "--%s takes a size as 800M or 4G, not '%s'", option, text);
 	for (const char *u = units; unit && u <= unit; u++)
 		value *= 1024;
 	*out = (uint64_t)value;
@@ -202,7 +209,12 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 	case DEVICE: s->device = value; return 0;
 	case THREADS: return parse_number(value, name, 1024, &s->threads);
 	case JOBS: return parse_number(value, name, 64, &s->jobs);
-	case MEMORY: return parse_bytes(value, &s->memory_bytes);
+	case MEMORY: return parse_bytes(value, name, &s->memory_bytes);
+	case CACHE:
+		s->cache = value;
+		return *value ? 0 : err_report(ERR_USAGE, NULL, "--cache takes a folder, not an empty name");
+	case CACHE_SIZE: return parse_bytes(value, name, &s->cache_bytes);
+	case NO_CACHE: s->no_cache = 1; return 0;
 	case TIMEOUT: return parse_seconds(value, &s->frame_s);
 	case PROGRESS:
 		word = progress_style_of(value);

@@ -288,6 +288,7 @@ static int build_trees(struct job *job)
 	if (!err)
 		err = number_primitives(job);
 	tr->accel->kind = job->options->accel;
+	tr->accel->store = job->options->store;
 	scene.views = p->scene_views;
 	scene.n_views = p->n_views;
 	if (!err)

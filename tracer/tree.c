@@ -1,0 +1,79 @@
+#include "tracer/tree.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+/* Most triangles in a leaf. */
+#define LEAF_TRIANGLES 4
+/* How many more items than triangles spatial splits may make, as a share of the triangles. */
+#define SPATIAL_SHARE 4
+
+/* From how many triangles on a tree is kept: below, building it takes no longer than reading a file from a disk. */
+static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024 };
+
+static int build_sah(const struct soup *soup, enum accel_kind kind, struct tree *tree)
+{
+	const int spatial = kind == ACCEL_SBVH && soup->bounded;
+	const uint32_t room = 1 + soup->n + (spatial ? soup->n / SPATIAL_SHARE : 0);
+
+	tree->nodes = malloc(room * sizeof(*tree->nodes));
+	tree->order = malloc(room * sizeof(*tree->order));
+	if (!tree->nodes || !tree->order)
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+	tree->n_order = soup->n;
+	return spatial ? bvh_build_sbvh(soup->boxes, soup->triangles, soup->n, LEAF_TRIANGLES, 0, room, tree->nodes,
+	                                &tree->n_nodes, tree->order, &tree->n_order)
+	               : bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes, tree->order);
+}
+
+int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out)
+{
+	const struct store_key key = { { hash[0], hash[1] }, TREE_VERSION, kind, soup->n };
+	const int keep = store && soup->n >= keep_from[kind];
+	int err;
+
+	*out = (struct tree){ NULL };
+	if (keep && store_load(store, &key, out))
+		return 0;
+	err = build_sah(soup, kind, out);
+	if (!err && keep)
+		store_save(store, &key, out);
+	return err;
+}
+
+void tree_free(struct tree *tree)
+{
+	free(tree->nodes);
+	free(tree->order);
+	*tree = (struct tree){ NULL };
+}
+
+/* One side of a node of a depth; notes how deep its child is. */
+static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t *depth)
+{
+	const uint32_t child = tree->nodes[at].child[side], count = tree->nodes[at].count[side];
+
+	if (count)
+		return child <= tree->n_order && count <= tree->n_order - child;
+	if (!child)
+		return at == 0 && tree->nodes[at].lo[side][0] > tree->nodes[at].hi[side][0]; /* an empty side */
+	if (child <= at || child >= tree->n_nodes || depth[at] + 1 >= BVH_MAX_DEPTH)
+		return 0;
+	depth[child] = (uint8_t)(depth[at] + 1 > depth[child] ? depth[at] + 1 : depth[child]);
+	return 1;
+}
+
+int tree_is_sound(const struct tree *tree, uint32_t n_triangles)
+{
+	uint8_t *depth = calloc(tree->n_nodes + 1, sizeof(*depth));
+	int sound = depth && tree->n_nodes > 0;
+
+	for (uint32_t i = 0; i < tree->n_nodes && sound; i++)
+		sound = side_is_sound(tree, i, 0, depth) && side_is_sound(tree, i, 1, depth);
+	for (uint32_t i = 0; i < tree->n_order && sound; i++)
+		sound = tree->order[i] < n_triangles;
+	free(depth);
+	return sound;
+}
