@@ -366,8 +366,19 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 	           packets ? camera_packet_items(r) : camera_wide_items(r), &l);
 }
 
+/* Pixels across of the blocks that the list goes by: one is a packet of rays (RAYS_PER_PACKET), which should stay together. */
+#define LIST_BLOCK 4
+
+/* Up to `limit`, a step of blocks from `at` on; the first ends at a multiple. */
+static int32_t block_end(int32_t at, int32_t limit)
+{
+	const int32_t end = at - at % LIST_BLOCK + LIST_BLOCK;
+
+	return end < limit ? end : limit;
+}
+
 /*
- * Where each pixel's fragments go in the dense list, in BUFFER_FIRST.
+ * Where each pixel's fragments go in the dense list, in BUFFER_FIRST: block by block of pixels.
  * @param n_list  receives how many there are
  * @param more    receives 1 where a pixel's slots were all filled: its column may go on
  */
@@ -378,16 +389,18 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 	int err = device_read(tr->dev, tr->buffers[BUFFER_COUNTS], 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
 
 	*more = 0;
-	for (int32_t y = r.y0; y < r.y1 && !err; y++)
-		for (int32_t x = r.x0; x < r.x1; x++) {
-			size_t pixel = (size_t)y * job->width + (size_t)x;
+	for (int32_t y0 = r.y0; y0 < r.y1 && !err; y0 = block_end(y0, r.y1))
+		for (int32_t x0 = r.x0; x0 < r.x1; x0 = block_end(x0, r.x1))
+			for (int32_t y = y0; y < block_end(y0, r.y1); y++)
+				for (int32_t x = x0; x < block_end(x0, r.x1); x++) {
+					size_t pixel = (size_t)y * job->width + (size_t)x;
 
-			if (job->pass && sample_turn((uint32_t)pixel) != job->turn)
-				tr->counts[pixel] = 0;
-			tr->first[pixel] = next;
-			next += tr->counts[pixel];
-			*more |= slots > 1 && tr->counts[pixel] == slots;
-		}
+					if (job->pass && sample_turn((uint32_t)pixel) != job->turn)
+						tr->counts[pixel] = 0;
+					tr->first[pixel] = next;
+					next += tr->counts[pixel];
+					*more |= slots > 1 && tr->counts[pixel] == slots;
+				}
 	*n_list = next;
 	if (!err && job->pass)
 		err = upload(tr, BUFFER_COUNTS, tr->counts, job->n_pixels, sizeof(*tr->counts));
