@@ -8,7 +8,7 @@ __kernel void compose(TABLES_ARGUMENTS, __global const struct window_vertex *win
 	struct tables t = TABLES_NAMED;
 
 	if (get_global_id(0) < n)
-		compose_item(&t, windows, frame, sums, &request, halves, floats, (uint32_t)get_global_id(0));
+		compose_item(&t, windows, frame, sums, &request, n, halves, floats, (uint32_t)get_global_id(0));
 }
 
 __kernel void add_pass(__global const struct frame_pixel *frame, uint32_t turn, uint32_t first, uint32_t n,

@@ -1,5 +1,6 @@
 /*
- * A finished frame as the planes of its picture: one work item a pixel.
+ * A finished frame as the planes of its picture, COMPOSE_LANES consecutive pixels a work item: one, unless who includes this says
+ * otherwise. Loops over lanes have no branches, so that compilers do many at once.
  *
  * Beauty = gl x shadow + relight + reflect + refract holds for the numbers as they are stored: each part is rounded to
  * half before the next is computed from it, so what rounding leaves ends in relight and reflect.
@@ -10,7 +11,11 @@
 #include "kernels/gl_fragment.h"
 #include "kernels/sample.h"
 
-/* --- Numbers, written without branches, so that compilers do many at once ------------------------------------------ */
+#ifndef COMPOSE_LANES
+#define COMPOSE_LANES 1u
+#endif
+
+/* --- Numbers ------------------------------------------------------------------------------------------------------ */
 
 /*
  * x^2.4 for 1e-30 < x < 1e15, to 5e-7 of itself, by nothing but what is the same on every device: log2 of the mantissa by its
@@ -64,13 +69,6 @@ static inline float compose_rounded(float x)
 
 /* --- Planes ------------------------------------------------------------------------------------------------------- */
 
-static inline void compose_store_float(GLOBAL float *floats, const struct compose_request *r, uint32_t plane, uint32_t at,
-                                       float x)
-{
-	if (r->float_plane[plane] != SCENE_NONE)
-		floats[r->float_plane[plane] * r->width * r->height + at] = x;
-}
-
 /* What is left to explain, rounded as it is stored; what rounding alone leaves is no effect. */
 static inline float compose_effect(float rest, float of)
 {
@@ -87,43 +85,64 @@ static inline float compose_settled(float gl)
 {
 	float steps = gl * 255.0f, code = M_RINT(steps);
 
-	if (!(gl >= 0.0f && gl <= 1.0f) || M_ABS(steps - code) <= COMPOSE_CODE_REACH)
-		return gl;
-	return (code + (steps > code ? COMPOSE_CODE_REACH : -COMPOSE_CODE_REACH)) / 255.0f;
+	float moved = (code + (steps > code ? COMPOSE_CODE_REACH : -COMPOSE_CODE_REACH)) / 255.0f;
+
+	return gl >= 0.0f && gl <= 1.0f && M_ABS(steps - code) > COMPOSE_CODE_REACH ? moved : gl;
 }
 
 /* A pixel's colours, r g b each. */
-#define COLOR_GL 0
-#define COLOR_SHADOWED 3
-#define COLOR_DIRECT 6
-#define COLOR_MIRRORED 9
-#define COLOR_BEAUTY 12
-#define COLOR_ALBEDO 15
-#define N_COLORS 24 /* with room up to whole vectors */
+#define COLOR_GL 0u
+#define COLOR_SHADOWED 3u
+#define COLOR_DIRECT 6u
+#define COLOR_MIRRORED 9u
+#define COLOR_BEAUTY 12u
+#define COLOR_ALBEDO 15u
+#define N_COLORS 18u
 
-#define COMPOSE_ROOM 32u /* N_COMPOSE_HALVES, likewise */
+/* A work item's pixels, a number's lanes beside each other. */
+struct compose_lanes {
+	float display[N_COLORS][COMPOSE_LANES], color[N_COLORS][COMPOSE_LANES]; /* before and after encoding */
+	float halves[N_COMPOSE_HALVES][COMPOSE_LANES], floats[N_COMPOSE_FLOATS][COMPOSE_LANES];
+	uint32_t at[COMPOSE_LANES]; /* places in the planes */
+};
 
-/* One colour channel of one pixel, taken apart. display, color: its colours before and after encoding. */
-static inline void compose_channel(const float *display, const float *color, uint32_t c, float *out)
+/* One colour channel, taken apart. */
+static inline void compose_channel(struct compose_lanes *l, uint32_t c)
 {
-	float exact = color[COLOR_GL + c], gl = compose_rounded(exact), shadowed = color[COLOR_SHADOWED + c];
-	float direct = color[COLOR_DIRECT + c], shadow = 1.0f, relight, reflect = 0.0f, refract = 0.0f, sum;
+	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
+		float exact = l->color[COLOR_GL + c][k], gl = compose_rounded(exact), shadowed = l->color[COLOR_SHADOWED + c][k];
+		float direct = l->color[COLOR_DIRECT + c][k], share = shadowed / exact, shadow, relight, reflect, refract, sum;
 
-	if (gl > 0.0f && shadowed < exact)
-		shadow = compose_rounded(M_MAX(shadowed / exact, 0.0f));
-	relight = compose_effect(direct - gl * shadow, direct);
-	sum = gl * shadow + relight;
-	if (display[COLOR_MIRRORED + c] != display[COLOR_DIRECT + c])
-		reflect = compose_rounded(color[COLOR_MIRRORED + c] - sum);
-	sum += reflect;
-	if (display[COLOR_BEAUTY + c] != display[COLOR_MIRRORED + c])
-		refract = compose_rounded(color[COLOR_BEAUTY + c] - sum);
-	out[COMPOSE_BEAUTY + c] = sum + refract;
-	out[COMPOSE_GL + c] = gl;
-	out[COMPOSE_SHADOW + c] = shadow;
-	out[COMPOSE_RELIGHT + c] = relight;
-	out[COMPOSE_REFLECT + c] = reflect;
-	out[COMPOSE_REFRACT + c] = refract;
+		share = compose_rounded(share > 0.0f ? share : 0.0f);
+		shadow = gl > 0.0f && shadowed < exact ? share : 1.0f;
+		relight = compose_effect(direct - gl * shadow, direct);
+		sum = gl * shadow + relight;
+		reflect = compose_rounded(l->color[COLOR_MIRRORED + c][k] - sum);
+		reflect = l->display[COLOR_MIRRORED + c][k] != l->display[COLOR_DIRECT + c][k] ? reflect : 0.0f;
+		sum += reflect;
+		refract = compose_rounded(l->color[COLOR_BEAUTY + c][k] - sum);
+		refract = l->display[COLOR_BEAUTY + c][k] != l->display[COLOR_MIRRORED + c][k] ? refract : 0.0f;
+		l->halves[COMPOSE_BEAUTY + c][k] = sum + refract;
+		l->halves[COMPOSE_GL + c][k] = gl;
+		l->halves[COMPOSE_SHADOW + c][k] = shadow;
+		l->halves[COMPOSE_RELIGHT + c][k] = relight;
+		l->halves[COMPOSE_REFLECT + c][k] = reflect;
+		l->halves[COMPOSE_REFRACT + c][k] = refract;
+		l->halves[COMPOSE_ALBEDO + c][k] = l->color[COLOR_ALBEDO + c][k];
+	}
+}
+
+/* One number's lanes encoded. Those that stand for what the number before them stands for, as most do, are known already. */
+static inline void compose_encode(struct compose_lanes *l, uint32_t i, uint32_t is_display)
+{
+	uint32_t differ = 0u;
+
+	for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
+		differ |= i < 3u ? 1u : M_BITS(l->display[i][k]) ^ M_BITS(l->display[i - 3u][k]);
+	for (uint32_t k = 0u; k < COMPOSE_LANES && (is_display || !differ); k++)
+		l->color[i][k] = is_display ? l->display[i][k] : l->color[i - 3u][k];
+	for (uint32_t k = 0u; k < COMPOSE_LANES && !is_display && differ; k++)
+		l->color[i][k] = compose_linear(l->display[i][k]);
 }
 
 /* Where the visible surface of a pixel lies; all 0 where there is none. */
@@ -140,75 +159,121 @@ static inline void compose_surface(const struct tables *t, GLOBAL const struct w
 	*position = point_position(&p);
 }
 
-/*
- * compose: pixel `item`, counted from the bottom row, into its planes. sums: what add_pass left of the parts of all passes but
- * this one; not looked at where there is but one.
- */
-static inline void compose_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                GLOBAL const struct frame_pixel *frame, GLOBAL const float *sums,
-                                const struct compose_request *r, GLOBAL uint16_t *halves, GLOBAL float *floats,
-                                uint32_t item)
+/* What a lane takes from its pixel: all but the colours' encoding and what follows from it. */
+static inline void compose_load(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                GLOBAL const struct frame_pixel *pixel, GLOBAL const float *sums,
+                                const struct compose_request *r, uint32_t k, struct compose_lanes *l)
 {
-	GLOBAL const struct frame_pixel *pixel = &frame[item];
-	uint32_t at = (r->height - 1u - item / r->width) * r->width + item % r->width;
 	uint32_t drawn = pixel->id != 0u || pixel->unknown & PIXEL_BEFORE;
 	struct fragment surface = pixel->surface;
-	float display[N_COLORS], color[N_COLORS], out[COMPOSE_ROOM];
-	uint32_t bits[COMPOSE_ROOM];
 	struct vec3 normal, position;
 
-	for (uint32_t i = COLOR_ALBEDO; i < N_COLORS; i++)
-		display[i] = 0.0f;
-	for (uint32_t i = N_COMPOSE_HALVES; i < COMPOSE_ROOM; i++)
-		out[i] = 0.0f;
 	compose_surface(t, windows, &surface, &normal, &position);
 	for (uint32_t c = 0u; c < 3u; c++) {
-		display[COLOR_GL + c] = pixel->gl[c];
-		display[COLOR_SHADOWED + c] = pixel->shadowed[c];
-		display[COLOR_DIRECT + c] = pixel->direct[c];
-		display[COLOR_MIRRORED + c] = pixel->mirrored[c];
-		display[COLOR_BEAUTY + c] = pixel->beauty[c];
-		display[COLOR_ALBEDO + c] = drawn ? pixel->albedo[c] : 0.0f;
+		l->display[COLOR_GL + c][k] = pixel->gl[c];
+		l->display[COLOR_SHADOWED + c][k] = pixel->shadowed[c];
+		l->display[COLOR_DIRECT + c][k] = pixel->direct[c];
+		l->display[COLOR_MIRRORED + c][k] = pixel->mirrored[c];
+		l->display[COLOR_BEAUTY + c][k] = pixel->beauty[c];
+		l->display[COLOR_ALBEDO + c][k] = drawn ? pixel->albedo[c] : 0.0f;
 	}
 	if (r->n_passes > 1u)
 		for (uint32_t i = 0u; i < PASS_PARTS; i++)
-			display[COLOR_SHADOWED + i] = (sums[item * PASS_PARTS + i] + display[COLOR_SHADOWED + i]) / (float)r->n_passes;
-	for (uint32_t c = 0u; c < 3u; c++) { /* what equals GL's number goes with it: no effect comes of it */
-		float gl = display[COLOR_GL + c], settled = compose_settled(gl);
+			l->display[COLOR_SHADOWED + i][k] = (sums[i] + l->display[COLOR_SHADOWED + i][k]) / (float)r->n_passes;
+	l->halves[COMPOSE_BEAUTY + 3u][k] = drawn ? 1.0f : 0.0f;
+	l->halves[COMPOSE_GL + 3u][k] = pixel->gl[3];
+	l->halves[COMPOSE_NORMAL][k] = normal.x;
+	l->halves[COMPOSE_NORMAL + 1u][k] = normal.y;
+	l->halves[COMPOSE_NORMAL + 2u][k] = normal.z;
+	l->floats[COMPOSE_DEPTH][k] = pixel->depth_exact;
+	l->floats[COMPOSE_Z][k] = -position.z;
+	l->floats[COMPOSE_POSITION][k] = position.x;
+	l->floats[COMPOSE_POSITION + 1u][k] = position.y;
+	l->floats[COMPOSE_POSITION + 2u][k] = position.z;
+	l->floats[COMPOSE_ID][k] = (float)pixel->id;
+	l->floats[COMPOSE_LAYERS][k] = (float)pixel->layers;
+}
 
-		for (uint32_t i = COLOR_GL; i < COLOR_ALBEDO; i += 3u)
-			display[i + c] = display[i + c] == gl ? settled : display[i + c];
+/* GL's number goes off the borders between codes, and what equals it with it: no effect comes of it. */
+static inline void compose_settle(struct compose_lanes *l, uint32_t c)
+{
+	float gl[COMPOSE_LANES], settled[COMPOSE_LANES];
+
+	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
+		gl[k] = l->display[COLOR_GL + c][k];
+		settled[k] = compose_settled(gl[k]);
 	}
-	if (r->normals) {
-		display[COLOR_GL] = drawn ? normal.x * 0.5f + 0.5f : 0.0f;
-		display[COLOR_GL + 1] = drawn ? normal.y * 0.5f + 0.5f : 0.0f;
-		display[COLOR_GL + 2] = drawn ? normal.z * 0.5f + 0.5f : 0.0f;
+	for (uint32_t i = COLOR_GL + c; i < COLOR_ALBEDO; i += 3u)
+		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
+			l->display[i][k] = l->display[i][k] == gl[k] ? settled[k] : l->display[i][k];
+}
+
+/* The normal as a colour, in place of GL's. */
+static inline void compose_normals(struct compose_lanes *l)
+{
+	for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
+		for (uint32_t c = 0u; c < 3u; c++)
+			l->display[COLOR_GL + c][k] =
+				l->halves[COMPOSE_BEAUTY + 3u][k] > 0.0f ? l->halves[COMPOSE_NORMAL + c][k] * 0.5f + 0.5f : 0.0f;
+}
+
+/* Lanes to their planes: the first n of them. */
+static inline void compose_store(const struct compose_lanes *l, const struct compose_request *r, uint32_t n, GLOBAL uint16_t *halves,
+                                 GLOBAL float *floats)
+{
+	const uint32_t whole = n == COMPOSE_LANES && l->at[COMPOSE_LANES - 1u] == l->at[0] + COMPOSE_LANES - 1u; /* of one row */
+
+	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++) {
+		GLOBAL uint16_t *plane = halves + r->half_plane[i] * r->width * r->height;
+
+		if (r->half_plane[i] == SCENE_NONE)
+			continue;
+		for (uint32_t k = 0u; k < COMPOSE_LANES && whole; k++)
+			plane[l->at[0] + k] = (uint16_t)compose_half(l->halves[i][k]);
+		for (uint32_t k = 0u; k < n && !whole; k++)
+			plane[l->at[k]] = (uint16_t)compose_half(l->halves[i][k]);
 	}
+	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++) {
+		GLOBAL float *plane = floats + r->float_plane[i] * r->width * r->height;
+
+		if (r->float_plane[i] == SCENE_NONE)
+			continue;
+		for (uint32_t k = 0u; k < COMPOSE_LANES && whole; k++)
+			plane[l->at[0] + k] = l->floats[i][k];
+		for (uint32_t k = 0u; k < n && !whole; k++)
+			plane[l->at[k]] = l->floats[i][k];
+	}
+}
+
+/*
+ * compose: pixels first .. first + COMPOSE_LANES - 1 of n, counted from the bottom row, into their planes. sums: what add_pass left
+ * of the parts of all passes but this one; not looked at where there is but one.
+ */
+static inline void compose_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                GLOBAL const struct frame_pixel *frame, GLOBAL const float *sums,
+                                const struct compose_request *r, uint32_t n, GLOBAL uint16_t *halves, GLOBAL float *floats,
+                                uint32_t first)
+{
+	struct compose_lanes l;
+
+	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
+		uint32_t pixel = first + k < n ? first + k : n - 1u;
+
+		l.at[k] = (r->height - 1u - pixel / r->width) * r->width + pixel % r->width;
+		compose_load(t, windows, &frame[pixel], sums + (r->n_passes > 1u ? pixel * PASS_PARTS : 0u), r, k, &l);
+	}
+	for (uint32_t c = 0u; c < 3u; c++)
+		compose_settle(&l, c);
+	if (r->normals)
+		compose_normals(&l);
 	for (uint32_t i = 0u; i < N_COLORS; i++)
-		color[i] = r->display ? display[i] : compose_linear(display[i]);
-	for (uint32_t c = 0u; c < 3u; c++) {
-		compose_channel(display, color, c, out);
-		if (r->normals)
-			out[COMPOSE_BEAUTY + c] = color[COLOR_GL + c];
-		out[COMPOSE_ALBEDO + c] = color[COLOR_ALBEDO + c];
-	}
-	out[COMPOSE_BEAUTY + 3u] = drawn ? 1.0f : 0.0f;
-	out[COMPOSE_GL + 3u] = pixel->gl[3];
-	out[COMPOSE_NORMAL] = normal.x;
-	out[COMPOSE_NORMAL + 1u] = normal.y;
-	out[COMPOSE_NORMAL + 2u] = normal.z;
-	for (uint32_t i = 0u; i < COMPOSE_ROOM; i++)
-		bits[i] = compose_half(out[i]);
-	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
-		if (r->half_plane[i] != SCENE_NONE)
-			halves[r->half_plane[i] * r->width * r->height + at] = (uint16_t)bits[i];
-	compose_store_float(floats, r, COMPOSE_DEPTH, at, pixel->depth_exact);
-	compose_store_float(floats, r, COMPOSE_Z, at, -position.z);
-	compose_store_float(floats, r, COMPOSE_POSITION, at, position.x);
-	compose_store_float(floats, r, COMPOSE_POSITION + 1u, at, position.y);
-	compose_store_float(floats, r, COMPOSE_POSITION + 2u, at, position.z);
-	compose_store_float(floats, r, COMPOSE_ID, at, (float)pixel->id);
-	compose_store_float(floats, r, COMPOSE_LAYERS, at, (float)pixel->layers);
+		compose_encode(&l, i, r->display);
+	for (uint32_t c = 0u; c < 3u; c++)
+		compose_channel(&l, c);
+	for (uint32_t c = 0u; c < 3u && r->normals; c++)
+		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
+			l.halves[COMPOSE_BEAUTY + c][k] = l.color[COLOR_GL + c][k];
+	compose_store(&l, r, n - first < COMPOSE_LANES ? n - first : COMPOSE_LANES, halves, floats);
 }
 
 /* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */

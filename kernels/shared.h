@@ -309,6 +309,9 @@ struct compose_request {
 };
 SHARED_SIZE(struct compose_request, 152);
 
+/* Pixels of a work item of compose_packet. */
+#define COMPOSE_PACKET 8u
+
 /* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
 #define PASS_PARTS 12u
 

@@ -74,6 +74,7 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 static int run_compose(struct job *job, const struct compose_request *r)
 {
 	struct tracer *tr = job->tr;
+	int packets = device_prefers_packets(tr->dev);
 	struct launch l = launch_with_tables(tr);
 
 	add(&l, tr, BUFFER_WINDOWS);
@@ -83,7 +84,8 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	add_uint(&l, &job->n_pixels);
 	add(&l, tr, BUFFER_HALVES);
 	add(&l, tr, BUFFER_FLOATS);
-	return run(tr, KERNEL_compose, job->n_pixels, &l);
+	return run(tr, packets ? KERNEL_compose_packet : KERNEL_compose,
+	           packets ? (job->n_pixels + COMPOSE_PACKET - 1) / COMPOSE_PACKET : job->n_pixels, &l);
 }
 
 /* One plane from the device into a channel of its own. */

@@ -38,7 +38,8 @@
 	X(clear)            /* one pixel a work item: a Clear */ \
 	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
 	X(add_pass)         /* one pixel a work item: a pass of several to their sum */ \
-	X(compose)          /* one pixel a work item: the planes of the finished picture */
+	X(compose)          /* one pixel a work item: the planes of the finished picture */ \
+	X(compose_packet)   /* the same, several pixels a work item (CPUs) */
 
 enum device_kernel {
 #define DEVICE_KERNEL_ENUM(name) KERNEL_##name,
