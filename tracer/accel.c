@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xxhash.h>
 
 #include "base/err.h"
 #include "tracer/bvh.h"
@@ -10,6 +11,12 @@
 
 /* Most instances in a leaf of a top level. */
 #define LEAF_INSTANCES 1
+/*
+ * Trees are fitted to a mesh that moves from so many triangles on (below, building is as quick), as long as they cost at most so
+ * much more than when they were built.
+ */
+#define REFIT_TRIANGLES 256
+#define REFIT_COST 1.25
 /* Frames that a BLAS nobody used stays in the pools. */
 #define KEEP_FRAMES 16
 
@@ -19,6 +26,9 @@ struct blas {
 	enum accel_kind kind;
 	int baked; /* of this frame only */
 	uint64_t last_use;
+	uint64_t topology[2]; /* hash of the mesh's indices where the tree may be fitted to other vertices; 0 0: it may not */
+	uint64_t fitted;      /* frame in which it was fitted to another mesh */
+	double built_cost;    /* bvh_cost when the tree was built, not fitted; with a topology only */
 	size_t node2_first, n_nodes2, node8_first, n_nodes8, triangle_first, n_triangles, triangle8_first, n_triangles8;
 	struct bvh_box box;
 };
@@ -233,9 +243,84 @@ done:
 	return err;
 }
 
-/* store: where its tree may be kept beyond this run, or NULL. */
+/* By what a mesh of the same triangles with other vertices is known; 0 0 where no tree is to be fitted to it. */
+static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
+{
+	XXH128_hash_t hash;
+
+	out[0] = out[1] = 0;
+	if (soup->n < REFIT_TRIANGLES || soup->n != mesh->primitive_count || !soup->bounded)
+		return;
+	hash = XXH3_128bits(mesh->index, 3 * (size_t)mesh->primitive_count * sizeof(*mesh->index));
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+}
+
+/*
+ * The tree to fit to a mesh that nobody has seen: one of the same triangles, not used in this frame, used last before. Where there are
+ * several, meshes find theirs in the order in which they were first drawn, each its own. NULL: there is none.
+ */
+static struct blas *find_moved(struct accel_cache *cache, const struct blas *blas)
+{
+	struct blas *best = NULL;
+
+	if (!(blas->topology[0] | blas->topology[1]))
+		return NULL;
+	for (size_t i = 0; i < cache->n; i++) {
+		struct blas *b = &cache->entries[i];
+
+		if (b->kind == blas->kind && b->topology[0] == blas->topology[0] && b->topology[1] == blas->topology[1] &&
+		    b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
+			best = b;
+	}
+	if (best)
+		best->fitted = cache->frame;
+	return best;
+}
+
+/* The tree of a mesh whose vertices have moved. *out is empty where it is better built. */
+static int refit(const struct accel *accel, const struct blas *moved, const struct soup *soup, struct tree *out)
+{
+	const struct triangle *triangles = accel->triangles + moved->triangle_first;
+	struct tree old = { accel->nodes2 + moved->node2_first, malloc(moved->n_triangles * sizeof(*old.order)),
+		            (uint32_t)moved->n_nodes2, (uint32_t)moved->n_triangles };
+	int err;
+
+	if (!old.order)
+		return out_of_memory();
+	for (uint32_t i = 0; i < old.n_order; i++)
+		old.order[i] = triangles[i].primitive; /* none was left out */
+	err = tree_refit(&old, soup, REFIT_COST * moved->built_cost, out);
+	free(old.order);
+	return err;
+}
+
+/*
+ * A tree for a soup: fitted, found or built. What moves is not kept on disk.
+ * store: where it may be kept beyond this run, or NULL.
+ */
+static int find_tree(struct accel *accel, const struct soup *soup, struct store *store, struct blas *blas, struct tree *out)
+{
+	struct blas *moved = find_moved(accel->cache, blas);
+	int err = moved ? refit(accel, moved, soup, out) : 0;
+
+	if (err)
+		return err;
+	if (out->nodes) {
+		blas->built_cost = moved->built_cost;
+		accel->n_fitted++;
+		return 0;
+	}
+	accel->n_made++;
+	err = tree_make(soup, blas->kind, blas->hash, moved ? NULL : store, out);
+	if (!err && (blas->topology[0] | blas->topology[1]))
+		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
+	return err;
+}
+
+/* of_frame: the mesh lives for this frame only. */
 static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const float (*positions)[4], int baked,
-                      enum accel_kind kind, struct store *store, struct blas **out)
+                      int of_frame, enum accel_kind kind, struct blas **out)
 {
 	struct accel_cache *cache = accel->cache;
 	struct soup soup = { NULL };
@@ -253,7 +338,9 @@ static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const 
 	blas.triangle_first = accel->n_triangles;
 	blas.triangle8_first = accel->n_triangles8;
 	blas.box = soup.box;
-	err = tree_make(&soup, kind, blas.hash, store, &tree);
+	if (!of_frame)
+		find_topology(mesh, &soup, blas.topology);
+	err = find_tree(accel, &soup, of_frame ? NULL : accel->store, &blas, &tree);
 	if (!err)
 		err = append_trees(accel, &soup, &tree, &blas);
 	if (err)
@@ -301,7 +388,7 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	if (!blas)
 		err = build_blas(accel, mesh,
 		                 baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position,
-		                 baked, accel_kind_of(accel, instance), is_of_frame(instance) ? NULL : accel->store, &blas);
+		                 baked, is_of_frame(instance), accel_kind_of(accel, instance), &blas);
 	if (err)
 		return err;
 	blas->last_use = accel->cache->frame;

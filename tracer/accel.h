@@ -34,6 +34,7 @@ struct accel {
 
 	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
 	struct store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
+	uint64_t n_made, n_fitted; /* trees of meshes so far: built or read, and fitted to vertices that have moved */
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
 	struct accel_space *spaces;
 	size_t n_spaces;
@@ -45,8 +46,9 @@ void accel_destroy(struct accel **accel);
 /**
  * Find or build the BLASes of a frame's instances (accel->kind), then its top levels.
  *
- * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. Those of
- * INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out; those with a
+ * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. A mesh of the same
+ * triangles as one of these but with other vertices gets its tree with other boxes, as long as that does not cost much more than
+ * a new one. Those of INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out; those with a
  * vertex at w <= 0 cannot be bounded and stay as candidates for camera rays only. A mesh of another kind than triangles
  * is an error of the caller: lines and points come as `extra` meshes.
  *

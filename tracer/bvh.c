@@ -49,6 +49,31 @@ double bvh_cost(const struct node2 *nodes, uint32_t n_nodes)
 	return root > 0 ? BVH_COST_NODE + sum / root : BVH_COST_NODE;
 }
 
+/* The box of one side, whose child's boxes are right already. */
+static struct bvh_box fit_side(const struct node2 *nodes, const struct node2 *node, int side, const struct bvh_box *boxes,
+                               const uint32_t *order)
+{
+	struct bvh_box box;
+
+	bvh_box_clear(&box);
+	for (uint32_t i = 0; i < node->count[side]; i++)
+		bvh_box_join(&box, &boxes[order[node->child[side] + i]]);
+	for (int s = 0; s < 2 && !node->count[side] && node->child[side]; s++)
+		grow(&box, nodes[node->child[side]].lo[s], nodes[node->child[side]].hi[s]);
+	return box;
+}
+
+void bvh_refit(struct node2 *nodes, uint32_t n_nodes, const struct bvh_box *boxes, const uint32_t *order)
+{
+	for (uint32_t i = n_nodes; i-- > 0;)
+		for (int side = 0; side < 2; side++) {
+			const struct bvh_box box = fit_side(nodes, &nodes[i], side, boxes, order);
+
+			memcpy(nodes[i].lo[side], box.lo, sizeof(box.lo));
+			memcpy(nodes[i].hi[side], box.hi, sizeof(box.hi));
+		}
+}
+
 /* A subtree to be collapsed: one side of a binary node. */
 struct branch {
 	const struct node2 *node;

@@ -57,6 +57,15 @@ int bvh_build_sbvh(const struct bvh_box *boxes, const struct triangle *triangles
  */
 double bvh_cost(const struct node2 *nodes, uint32_t n_nodes);
 
+/**
+ * Fit the boxes of a tree to items that have moved; what is below what stays. After spatial splits, items in several leaves count
+ * whole in each.
+ *
+ * @param nodes  children behind their parents, as all builders give them
+ * @param boxes  of the items that `order` names
+ */
+void bvh_refit(struct node2 *nodes, uint32_t n_nodes, const struct bvh_box *boxes, const uint32_t *order);
+
 /* What the leaves of an eight-wide tree count: items as they are, or blocks of up to eight of them. */
 enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };
 

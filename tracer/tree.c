@@ -43,6 +43,20 @@ int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash
 	return err;
 }
 
+int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out)
+{
+	*out = (struct tree){ malloc(old->n_nodes * sizeof(*out->nodes)), malloc(old->n_order * sizeof(*out->order) + 1), old->n_nodes,
+		              old->n_order };
+	if (!out->nodes || !out->order)
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+	memcpy(out->nodes, old->nodes, old->n_nodes * sizeof(*out->nodes));
+	memcpy(out->order, old->order, old->n_order * sizeof(*out->order));
+	bvh_refit(out->nodes, out->n_nodes, soup->boxes, out->order);
+	if (!(bvh_cost(out->nodes, out->n_nodes) <= most))
+		tree_free(out);
+	return 0;
+}
+
 void tree_free(struct tree *tree)
 {
 	free(tree->nodes);

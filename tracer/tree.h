@@ -37,6 +37,16 @@ struct tree {
  * @return 0 or ERR_SYSTEM (reported). That a tree cannot be kept is no error
  */
 int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out);
+
+/**
+ * Fit a tree to the same triangles, some of which have moved.
+ *
+ * @param old   of as many triangles as there are now
+ * @param most  SAH cost (bvh_cost) up to which the tree is worth keeping
+ * @param out   receives the tree, to be freed with tree_free, also after an error; empty where it costs more
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out);
 void tree_free(struct tree *tree);
 
 /** Can the kernels walk it? Every index in range, children behind their parents, no path longer than BVH_MAX_DEPTH. */

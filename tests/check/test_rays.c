@@ -284,6 +284,50 @@ START_TEST(hits_depend_on_no_tree)
 }
 END_TEST
 
+/* A mesh whose vertices move keeps its tree, and what is hit is what a new tree would give. */
+START_TEST(hits_depend_on_no_fitting)
+{
+	struct random_scene *s = random_scene_create(seed_of_run);
+	struct ray *rays = make_rays(s);
+	struct result *want = malloc(sizeof(*want)), *got = malloc(sizeof(*got));
+	struct scene_mesh *mesh = &s->meshes[0];
+	struct accel *moving = s->accel;
+	struct device *dev;
+
+	ck_assert_int_eq(device_open(_i ? "0" : "reference", 0, &dev), 0);
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int a = 0; a < 3; a++)
+			if (!isfinite(s->position[0][v][a]))
+				s->position[0][v][a] = 0;
+	for (uint64_t frame = 0; frame < 8; frame++) {
+		const uint64_t made = moving->n_made, fitted = moving->n_fitted;
+
+		/* A wave runs through it, as high at last as the mesh is; in frame 6 everything is somewhere else. */
+		for (uint32_t v = 0; v < mesh->vertex_count && frame; v++)
+			for (int a = 0; a < 3; a++)
+				s->position[0][v][a] += frame == 6 ? between(s, -2, 2) : 0.02f * (float)frame * sinf((float)frame + 3 * s->position[0][v][(a + 1) % 3]);
+		mesh->hash[1] = 1000 + frame;
+		s->accel = moving;
+		random_scene_rebuild(s, ACCEL_BVH);
+		ck_assert_msg(moving->n_fitted == fitted + (frame && frame != 6), "frame %d: fitted", (int)frame);
+		ck_assert_msg(moving->n_made == made + !(frame && frame != 6), "frame %d: made", (int)frame);
+		run(s, dev, rays, 1, got);
+		ck_assert_int_eq(accel_create(&s->accel), 0);
+		random_scene_rebuild(s, ACCEL_BVH);
+		run(s, dev, rays, 1, want);
+		ck_assert_msg(memcmp(want->hits, got->hits, sizeof(got->hits)) == 0, "frame %d: other hits", (int)frame);
+		ck_assert_msg(memcmp(want->occluded, got->occluded, sizeof(got->occluded)) == 0, "frame %d: occluded", (int)frame);
+		accel_destroy(&s->accel);
+	}
+	s->accel = moving;
+	device_close(&dev);
+	free(rays);
+	free(want);
+	free(got);
+	random_scene_free(s);
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("rays");
@@ -296,6 +340,7 @@ int main(void)
 	tcase_add_loop_test(tests, twins_find_what_all_triangles_give, ACCEL_BVH, N_ACCEL_KINDS);
 	tcase_add_loop_test(tests, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, 2);
+	tcase_add_loop_test(tests, hits_depend_on_no_fitting, 0, 2);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
