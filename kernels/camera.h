@@ -1,5 +1,5 @@
 /*
- * camera_packet, camera_wide: which primitives cover which pixels of one view. Included by C and OpenCL C.
+ * camera_packet, camera_wide, camera_compressed: which primitives cover which pixels of one view. Included by C and OpenCL C.
  *
  * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, through the view's top
  * level and the instances' binary trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a
@@ -11,7 +11,7 @@
  *   - else: the same on the parts that the view volume leaves of the triangle (kernels/gl_clip.h).
  * Screen instances (view.screen_first ..) are asked at the pixel centre as a point, whatever the projection.
  *
- * Arguments of both, in this order
+ * Arguments of all, in this order
  *    0  uint view_index
  *    1  const struct view views[]
  *    2  uint width            of the drawable
@@ -20,8 +20,8 @@
  *    5  const struct instance instances[]
  *    6  const struct node2 top[]            accel.top2
  *    7  const uint instance_list[]
- *    8  const struct node2 nodes[]          accel.nodes2
- *    9  const struct triangle triangles[]
+ *    8  const struct node2 nodes[]          accel.nodes2; _compressed: accel.nodes8c, struct node8c
+ *    9  const struct triangle triangles[]   accel.triangles; _compressed: accel.triangles8c
  *   10  const struct window_vertex window[] at instance.vertex_first
  *   11  const float clip[][4]               the same vertices in clip space
  *   12  const uint after[]                  per pixel; CAMERA_COLUMN only, any buffer otherwise
@@ -38,7 +38,8 @@
  *
  * Window vertices with a place lie within +-2^26 (262144 pixels).
  *
- * Work items: camera_packet_items() tiles of 8 x 8 pixels, or camera_wide_items() pixels, of the view's rectangle.
+ * Work items: camera_packet_items() tiles of 8 x 8 pixels, or for the others camera_wide_items() pixels, of the view's
+ * rectangle.
  */
 #ifndef KERNELS_CAMERA_H
 #define KERNELS_CAMERA_H

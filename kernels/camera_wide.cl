@@ -1,7 +1,8 @@
 /*
- * camera_wide: one pixel a work item, for devices that run many work items in step. See kernels/camera.h.
+ * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See kernels/camera.h.
  */
 #include "kernels/camera.h"
+#include "kernels/compressed.h"
 #include "kernels/coverage.h"
 
 /* A pixel on its way. */
@@ -9,6 +10,7 @@ struct pixel {
 	__global const struct view *view;
 	__global const struct instance *instances;
 	__global const struct node2 *nodes;
+	__global const struct node8c *compressed; /* instead of nodes, or null */
 	__global const struct triangle *triangles;
 	__global const struct window_vertex *window;
 	__global const float *clip;
@@ -103,12 +105,9 @@ inline float3 invert(float3 d)
 	return 1.0f / select(copysign((float3)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
-/* Whether the ray meets the box of one side, widened by pad, and where. */
-inline int meets_box(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
-                     float *enter)
+/* Whether the ray meets a box, widened by pad, and where. */
+inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, float t_max, float *enter)
 {
-	const float3 lo = (float3)(node->lo[side][0], node->lo[side][1], node->lo[side][2]);
-	const float3 hi = (float3)(node->hi[side][0], node->hi[side][1], node->hi[side][2]);
 	const float3 t0 = (lo - pad - o) * inverse, t1 = (hi + pad - o) * inverse;
 	const float3 first = fmin(t0, t1), last = fmax(t0, t1);
 
@@ -117,21 +116,25 @@ inline int meets_box(__global const struct node2 *node, uint side, float3 o, flo
 	return lo.x <= hi.x && *enter <= fmin(fmin(last.x, last.y), fmin(last.z, t_max)) * 1.00001f;
 }
 
-inline void walk_blas(struct pixel *p, uint index)
+/* The same for one side of a binary node. */
+inline int meets_side(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
+                      float *enter)
+{
+	return meets_box((float3)(node->lo[side][0], node->lo[side][1], node->lo[side][2]),
+	                 (float3)(node->hi[side][0], node->hi[side][1], node->hi[side][2]), o, inverse, pad, t_max, enter);
+}
+
+inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
-	__global const float *m = instance->obj_from_eye;
-	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
-	const float3 o = (float3)(dot(r0, p->o) + m[3], dot(r1, p->o) + m[7], dot(r2, p->o) + m[11]);
-	const float3 inverse = invert((float3)(dot(r0, p->d), dot(r1, p->d), dot(r2, p->d)));
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0, child = 0;
 
 	for (;;) {
 		__global const struct node2 *node = &nodes[child];
 		float enter0, enter1;
-		int hit0 = meets_box(node, 0, o, inverse, instance->pad, p->t_max, &enter0);
-		int hit1 = meets_box(node, 1, o, inverse, instance->pad, p->t_max, &enter1);
+		int hit0 = meets_side(node, 0, o, inverse, instance->pad, p->t_max, &enter0);
+		int hit1 = meets_side(node, 1, o, inverse, instance->pad, p->t_max, &enter1);
 		const uint first = hit0 && hit1 && enter1 < enter0;
 
 		for (uint i = 0; i < 2; i++) {
@@ -157,6 +160,58 @@ inline void walk_blas(struct pixel *p, uint index)
 	}
 }
 
+/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays_single.cl. */
+inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse)
+{
+	__global const struct instance *instance = &p->instances[index];
+	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
+	uint2 stack[NODE8C_MAX_DEPTH], group = (uint2)(0, 0); /* a node, and which of its nodes are still to be walked */
+	uint depth = 0;
+
+	for (;;) {
+		__global const struct node8c *node = &p->compressed[instance->node8c_first + group.x];
+		uint near, first;
+
+		for (uint i = 8; i-- > 0;) {
+			const uint slot = i ^ octant;
+			float lo[3], hi[3], enter;
+			uint count;
+
+			if (!node8c_box(node, slot, lo, hi) || !meets_box((float3)(lo[0], lo[1], lo[2]), (float3)(hi[0], hi[1], hi[2]), o,
+			                                                  inverse, instance->pad, p->t_max, &enter))
+				continue;
+			count = node8c_child(node, slot, &first);
+			group.y |= count ? 0u : 1u << i;
+			for (uint k = 0; k < count; k++)
+				try_triangle(p, index, instance, &p->triangles[instance->triangle8c_first + first + k]);
+		}
+		if (!group.y) {
+			if (depth == 0)
+				return;
+			group = stack[--depth];
+		}
+		near = 31 - clz(group.y);
+		group.y &= ~(1u << near);
+		if (group.y)
+			stack[depth++] = group;
+		node8c_child(&p->compressed[instance->node8c_first + group.x], near ^ octant, &first);
+		group = (uint2)(first, 0);
+	}
+}
+
+inline void walk_blas(struct pixel *p, uint index)
+{
+	__global const float *m = p->instances[index].obj_from_eye;
+	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
+	const float3 o = (float3)(dot(r0, p->o) + m[3], dot(r1, p->o) + m[7], dot(r2, p->o) + m[11]);
+	const float3 inverse = invert((float3)(dot(r0, p->d), dot(r1, p->d), dot(r2, p->d)));
+
+	if (p->compressed)
+		walk_compressed(p, index, o, inverse);
+	else
+		walk_binary(p, index, o, inverse);
+}
+
 inline void walk_top(struct pixel *p, __global const struct node2 *top, __global const uint *instance_list)
 {
 	const float3 inverse = invert(p->d);
@@ -168,7 +223,7 @@ inline void walk_top(struct pixel *p, __global const struct node2 *top, __global
 		__global const struct node2 *node = &top[stack[--depth]];
 
 		for (uint side = 0; side < 2; side++) {
-			if (!meets_box(node, side, p->o, inverse, 0, p->t_max, &enter))
+			if (!meets_side(node, side, p->o, inverse, 0, p->t_max, &enter))
 				continue;
 			if (node->count[side] == 0)
 				stack[depth++] = node->child[side];
@@ -178,12 +233,16 @@ inline void walk_top(struct pixel *p, __global const struct node2 *top, __global
 	}
 }
 
-/* Geometry in window space: the pixel centre is a point. */
-inline void walk_screen(struct pixel *p, uint index)
+/* Whether a box, widened by pad, is over or under a place of the window. */
+inline int is_below(float2 lo, float2 hi, float2 at, float pad)
+{
+	return all(at >= lo - pad) && all(at <= hi + pad);
+}
+
+inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
-	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f, pad = instance->pad;
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
 	stack[depth++] = 0;
@@ -191,8 +250,7 @@ inline void walk_screen(struct pixel *p, uint index)
 		__global const struct node2 *node = &nodes[stack[--depth]];
 
 		for (uint side = 0; side < 2; side++) {
-			if (!(x >= node->lo[side][0] - pad && x <= node->hi[side][0] + pad && y >= node->lo[side][1] - pad &&
-			      y <= node->hi[side][1] + pad))
+			if (!is_below(vload2(0, node->lo[side]), vload2(0, node->hi[side]), at, instance->pad))
 				continue;
 			if (node->count[side] == 0)
 				stack[depth++] = node->child[side];
@@ -200,6 +258,43 @@ inline void walk_screen(struct pixel *p, uint index)
 				try_triangle(p, index, instance, &p->triangles[instance->triangle_first + node->child[side] + i]);
 		}
 	}
+}
+
+inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
+{
+	__global const struct instance *instance = &p->instances[index];
+	__global const struct node8c *nodes = p->compressed + instance->node8c_first;
+	uint stack[7 * NODE8C_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		__global const struct node8c *node = &nodes[stack[--depth]];
+
+		for (uint slot = 0; slot < 8; slot++) {
+			float lo[3], hi[3];
+			uint first, count;
+
+			if (!node8c_box(node, slot, lo, hi) ||
+			    !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), at, instance->pad))
+				continue;
+			count = node8c_child(node, slot, &first);
+			if (count == 0)
+				stack[depth++] = first;
+			for (uint i = 0; i < count; i++)
+				try_triangle(p, index, instance, &p->triangles[instance->triangle8c_first + first + i]);
+		}
+	}
+}
+
+/* Geometry in window space: the pixel centre is a point. */
+inline void walk_screen(struct pixel *p, uint index)
+{
+	const float2 at = (float2)((float)p->x + 0.5f, (float)p->y + 0.5f);
+
+	if (p->compressed)
+		walk_screen_compressed(p, index, at);
+	else
+		walk_screen_binary(p, index, at);
 }
 
 /* 0 where the pixel has no ray: outside of the viewport, or the projection has no inverse. */
@@ -223,12 +318,12 @@ inline int make_ray(struct pixel *p)
 	       isfinite(p->o.x + p->o.y + p->o.z) && isfinite(p->d.x + p->d.y + p->d.z);
 }
 
-__kernel void camera_wide(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                          __global const struct instance *instances, __global const struct node2 *top,
-                          __global const uint *instance_list, __global const struct node2 *nodes,
-                          __global const struct triangle *triangles, __global const struct window_vertex *window,
-                          __global const float *clip, __global const uint *after, __global struct fragment *fragments,
-                          __global uint *counts)
+inline void do_pixel(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                     __global const struct instance *instances, __global const struct node2 *top,
+                     __global const uint *instance_list, __global const struct node2 *nodes,
+                     __global const struct node8c *compressed, __global const struct triangle *triangles,
+                     __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
+                     __global struct fragment *fragments, __global uint *counts)
 {
 	__global const struct view *view = &views[view_index];
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
@@ -242,6 +337,7 @@ __kernel void camera_wide(uint view_index, __global const struct view *views, ui
 	p.view = view;
 	p.instances = instances;
 	p.nodes = nodes;
+	p.compressed = compressed;
 	p.triangles = triangles;
 	p.window = window;
 	p.clip = clip;
@@ -263,4 +359,26 @@ __kernel void camera_wide(uint view_index, __global const struct view *views, ui
 	if (mode != CAMERA_COLUMN)
 		*p.out = p.nearest;
 	counts[pixel] = p.count;
+}
+
+__kernel void camera_wide(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                          __global const struct instance *instances, __global const struct node2 *top,
+                          __global const uint *instance_list, __global const struct node2 *nodes,
+                          __global const struct triangle *triangles, __global const struct window_vertex *window,
+                          __global const float *clip, __global const uint *after, __global struct fragment *fragments,
+                          __global uint *counts)
+{
+	do_pixel(view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
+	         fragments, counts);
+}
+
+__kernel void camera_compressed(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                                __global const struct instance *instances, __global const struct node2 *top,
+                                __global const uint *instance_list, __global const struct node8c *nodes,
+                                __global const struct triangle *triangles, __global const struct window_vertex *window,
+                                __global const float *clip, __global const uint *after, __global struct fragment *fragments,
+                                __global uint *counts)
+{
+	do_pixel(view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
+	         fragments, counts);
 }

@@ -80,6 +80,26 @@ struct node8 {
 };
 SHARED_SIZE(struct node8, 256);
 
+/*
+ * An eight-wide node in 80 bytes, five loads of a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs
+ * through compressed wide BVHs"): the children's boxes on a grid of 8 bits an axis over the node's own, each at least as large as
+ * the one it stands for. Slot s holds the child that lies farthest along the diagonal whose bits are s (bit a set: along +a), so
+ * that a ray meets slots about in the order of s ^ its octant, with nothing to sort. kernels/compressed.h reads it.
+ */
+struct node8c {
+	float origin[3];    /* lower corner of the grid */
+	uint32_t exponents; /* bytes: of the grid's steps along x, y, z, as in a float; the last: a bit for each slot that is a node */
+	uint32_t child_first;    /* nodes among the children stand one after the other, in the order of their slots */
+	uint32_t triangle_first; /* in triangles8c */
+	uint32_t meta[2];        /* a byte a slot, little end first: 0 for a node or nothing; else NODE8C_LEAF, 32 times (its triangles - 1)
+	                            and the first of them, counted from triangle_first */
+	uint32_t lo[3][2], hi[3][2]; /* a byte a slot; nothing: lo 255, hi 0 */
+};
+SHARED_SIZE(struct node8c, 80);
+#define NODE8C_LEAF 128u
+#define NODE8C_LEAF_MAX 4u /* triangles; those of a node fit a mask of 32 bits */
+#define NODE8C_MAX_DEPTH (BVH_MAX_DEPTH + 4) /* as BVH_MAX_DEPTH; a few more, for leaves that are too large */
+
 /* One triangle of a BLAS in leaf order, object space, for geometric tests (Moeller and Trumbore 1997). */
 struct triangle {
 	float v0[3], e1[3], e2[3];
@@ -111,6 +131,7 @@ struct instance {
 	float eye_from_obj[12]; /* 3 rows of 4 */
 	float obj_from_eye[12];
 	uint32_t node2_first, node8_first, triangle_first, triangle8_first; /* where its BLAS lies in the pools */
+	uint32_t node8c_first, triangle8c_first;
 	uint32_t vertex_first;    /* its first vertex in the frame's vertex buffers */
 	uint32_t primitive_first; /* order number of its first primitive */
 	uint32_t flags;
@@ -120,7 +141,7 @@ struct instance {
 	uint32_t scene_instance;  /* index in scene.instances (screen geometry may split one up) */
 	float centre[3], radius;  /* of its BLAS, object space: half the box's width, height and depth together */
 };
-SHARED_SIZE(struct instance, 160);
+SHARED_SIZE(struct instance, 168);
 
 /* One view as the camera kernels see it. */
 struct view {

@@ -30,13 +30,14 @@ struct blas {
 	uint64_t fitted;      /* frame in which it was fitted to another mesh */
 	double built_cost;    /* bvh_cost when the tree was built, not fitted; with a topology only */
 	size_t node2_first, n_nodes2, node8_first, n_nodes8, triangle_first, n_triangles, triangle8_first, n_triangles8;
+	size_t node8c_first, n_nodes8c, triangle8c_first, n_triangles8c;
 	struct bvh_box box;
 };
 
 struct accel_cache {
 	struct blas *entries;
 	size_t n, capacity;
-	size_t capacity_nodes2, capacity_nodes8, capacity_triangles, capacity_triangles8;
+	size_t capacity_nodes2, capacity_nodes8, capacity_triangles, capacity_triangles8, capacity_nodes8c, capacity_triangles8c;
 	size_t capacity_top2, capacity_top8, capacity_list;
 	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
 	size_t table_size;
@@ -76,6 +77,7 @@ int accel_create(struct accel **out)
 		free(accel);
 		return out_of_memory();
 	}
+	accel->wide = ACCEL_ROWS;
 	*out = accel;
 	return 0;
 }
@@ -91,6 +93,8 @@ void accel_destroy(struct accel **accel)
 	free(a->nodes8);
 	free(a->triangles);
 	free(a->triangles8);
+	free(a->nodes8c);
+	free(a->triangles8c);
 	free(a->top2);
 	free(a->top8);
 	free(a->instance_list);
@@ -156,7 +160,7 @@ static struct blas *find_blas(const struct accel_cache *cache, const uint64_t ha
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
-	size_t n = 0, nodes2 = 0, nodes8 = 0, triangles = 0, triangles8 = 0;
+	size_t n = 0, nodes2 = 0, nodes8 = 0, triangles = 0, triangles8 = 0, nodes8c = 0, triangles8c = 0;
 
 	for (size_t i = 0; i < cache->n; i++) {
 		struct blas b = cache->entries[i];
@@ -164,11 +168,22 @@ static int drop_unused(struct accel *accel)
 		if (b.baked || b.last_use + KEEP_FRAMES < cache->frame)
 			continue;
 		memmove(accel->nodes2 + nodes2, accel->nodes2 + b.node2_first, b.n_nodes2 * sizeof(*accel->nodes2));
-		memmove(accel->nodes8 + nodes8, accel->nodes8 + b.node8_first, b.n_nodes8 * sizeof(*accel->nodes8));
+		if (b.n_nodes8) {
+			memmove(accel->nodes8 + nodes8, accel->nodes8 + b.node8_first, b.n_nodes8 * sizeof(*accel->nodes8));
+			memmove(accel->triangles8 + triangles8, accel->triangles8 + b.triangle8_first,
+			        b.n_triangles8 * sizeof(*accel->triangles8));
+		}
 		memmove(accel->triangles + triangles, accel->triangles + b.triangle_first,
 		        b.n_triangles * sizeof(*accel->triangles));
-		memmove(accel->triangles8 + triangles8, accel->triangles8 + b.triangle8_first,
-		        b.n_triangles8 * sizeof(*accel->triangles8));
+		if (b.n_nodes8c) {
+			memmove(accel->nodes8c + nodes8c, accel->nodes8c + b.node8c_first, b.n_nodes8c * sizeof(*accel->nodes8c));
+			memmove(accel->triangles8c + triangles8c, accel->triangles8c + b.triangle8c_first,
+			        b.n_triangles8c * sizeof(*accel->triangles8c));
+		}
+		b.node8c_first = nodes8c;
+		b.triangle8c_first = triangles8c;
+		nodes8c += b.n_nodes8c;
+		triangles8c += b.n_triangles8c;
 		b.node2_first = nodes2;
 		b.node8_first = nodes8;
 		b.triangle_first = triangles;
@@ -186,6 +201,8 @@ static int drop_unused(struct accel *accel)
 	accel->n_nodes8 = nodes8;
 	accel->n_triangles = triangles;
 	accel->n_triangles8 = triangles8;
+	accel->n_nodes8c = nodes8c;
+	accel->n_triangles8c = triangles8c;
 	accel->generation++;
 	return table_rebuild(cache);
 }
@@ -208,36 +225,70 @@ static void set_triangle8(struct triangle8 *out, const struct triangle *triangle
 	}
 }
 
-/* Both trees over a soup, appended to the pools at the places that *blas says. */
+/* The eight-wide tree in rows, out of the binary one. block_first, block_count: room for all triangles */
+static int append_rows(struct accel *accel, struct blas *blas, uint32_t *block_first, uint32_t *block_count)
+{
+	const struct node2 *nodes2 = accel->nodes2 + blas->node2_first;
+	const struct triangle *triangles = accel->triangles + blas->triangle_first;
+	struct accel_cache *cache = accel->cache;
+	uint32_t n_nodes8, n_blocks;
+	int err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, blas->n_nodes2);
+
+	if (!err)
+		err = bvh_collapse8(nodes2, (uint32_t)blas->n_nodes2, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
+		                    block_count, &n_blocks);
+	if (!err)
+		err = GROW(accel->triangles8, cache->capacity_triangles8, accel->n_triangles8, n_blocks);
+	if (err)
+		return err;
+	for (uint32_t i = 0; i < n_blocks; i++)
+		set_triangle8(&accel->triangles8[accel->n_triangles8 + i], triangles + block_first[i], block_count[i]);
+	blas->n_nodes8 = n_nodes8;
+	blas->n_triangles8 = n_blocks;
+	return 0;
+}
+
+/* The compressed one. */
+static int append_compressed(struct accel *accel, struct blas *blas)
+{
+	struct accel_cache *cache = accel->cache;
+	uint32_t n_nodes = 0;
+	int err = GROW(accel->nodes8c, cache->capacity_nodes8c, accel->n_nodes8c,
+	               BVH_COMPRESSED_NODES(blas->n_nodes2, blas->n_triangles));
+
+	if (!err)
+		err = GROW(accel->triangles8c, cache->capacity_triangles8c, accel->n_triangles8c, blas->n_triangles);
+	if (!err)
+		err = bvh_compress8(accel->nodes2 + blas->node2_first, (uint32_t)blas->n_nodes2, accel->triangles + blas->triangle_first,
+		                    (uint32_t)blas->n_triangles, accel->nodes8c + accel->n_nodes8c, &n_nodes,
+		                    accel->triangles8c + accel->n_triangles8c);
+	blas->n_nodes8c = n_nodes;
+	blas->n_triangles8c = blas->n_triangles;
+	return err;
+}
+
+/* All trees over a soup, appended to the pools at the places that *blas says. */
 static int append_trees(struct accel *accel, const struct soup *soup, const struct tree *tree, struct blas *blas)
 {
 	struct accel_cache *cache = accel->cache;
 	uint32_t *block_first = malloc(2 * (size_t)(tree->n_order + 1) * sizeof(*block_first));
-	uint32_t *block_count = block_first + tree->n_order + 1, n_nodes8, n_blocks;
+	uint32_t *block_count = block_first + tree->n_order + 1;
 	int err;
 
 	if (!block_first)
 		return out_of_memory();
 	if ((err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, tree->n_nodes)) ||
-	    (err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, tree->n_order)) ||
-	    (err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, tree->n_nodes)))
+	    (err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, tree->n_order)))
 		goto done;
 	memcpy(accel->nodes2 + accel->n_nodes2, tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
 	for (uint32_t i = 0; i < tree->n_order; i++)
 		accel->triangles[accel->n_triangles + i] = soup->triangles[tree->order[i]];
-	err = bvh_collapse8(tree->nodes, tree->n_nodes, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
-	                    block_count, &n_blocks);
-	if (!err)
-		err = GROW(accel->triangles8, cache->capacity_triangles8, accel->n_triangles8, n_blocks);
-	if (err)
-		goto done;
-	for (uint32_t i = 0; i < n_blocks; i++)
-		set_triangle8(&accel->triangles8[accel->n_triangles8 + i],
-		              accel->triangles + accel->n_triangles + block_first[i], block_count[i]);
 	blas->n_nodes2 = tree->n_nodes;
-	blas->n_nodes8 = n_nodes8;
 	blas->n_triangles = tree->n_order;
-	blas->n_triangles8 = n_blocks;
+	if (accel->wide & ACCEL_ROWS)
+		err = append_rows(accel, blas, block_first, block_count);
+	if (!err && accel->wide & ACCEL_COMPRESSED)
+		err = append_compressed(accel, blas);
 done:
 	free(block_first);
 	return err;
@@ -337,6 +388,8 @@ static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const 
 	blas.node8_first = accel->n_nodes8;
 	blas.triangle_first = accel->n_triangles;
 	blas.triangle8_first = accel->n_triangles8;
+	blas.node8c_first = accel->n_nodes8c;
+	blas.triangle8c_first = accel->n_triangles8c;
 	blas.box = soup.box;
 	if (!of_frame)
 		find_topology(mesh, &soup, blas.topology);
@@ -349,6 +402,8 @@ static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const 
 	accel->n_nodes8 += blas.n_nodes8;
 	accel->n_triangles += blas.n_triangles;
 	accel->n_triangles8 += blas.n_triangles8;
+	accel->n_nodes8c += blas.n_nodes8c;
+	accel->n_triangles8c += blas.n_triangles8c;
 	accel->generation++;
 	*out = &cache->entries[cache->n];
 	cache->entries[cache->n++] = blas;
@@ -396,6 +451,8 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	instance->node8_first = (uint32_t)blas->node8_first;
 	instance->triangle_first = (uint32_t)blas->triangle_first;
 	instance->triangle8_first = (uint32_t)blas->triangle8_first;
+	instance->node8c_first = (uint32_t)blas->node8c_first;
+	instance->triangle8c_first = (uint32_t)blas->triangle8c_first;
 	*box = blas->box;
 	instance->radius = 0;
 	for (int a = 0; a < 3; a++) {

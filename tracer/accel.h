@@ -17,13 +17,19 @@ struct accel_space {
 	uint32_t n_nodes;    /* 0: nothing to hit */
 };
 
+/* Which eight-wide trees there are beside the binary ones. */
+#define ACCEL_ROWS 1u       /* nodes8, triangles8 */
+#define ACCEL_COMPRESSED 2u /* nodes8c, triangles8c */
+
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
 struct accel {
 	struct node2 *nodes2;         /* BLASes, one after the other */
 	struct node8 *nodes8;
 	struct triangle *triangles;   /* leaf order of nodes2 */
 	struct triangle8 *triangles8; /* leaf order of nodes8 */
-	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8;
+	struct node8c *nodes8c;
+	struct triangle *triangles8c; /* leaf order of nodes8c */
+	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8, n_nodes8c, n_triangles8c;
 	uint64_t generation; /* grows whenever the pools above changed: upload again */
 
 	/* Of the current frame: leaves of both hold indices into instance_list. */
@@ -32,6 +38,7 @@ struct accel {
 	uint32_t *instance_list;
 	size_t n_top2, n_top8, n_instance_list;
 
+	unsigned wide;        /* of ACCEL_ROWS and ACCEL_COMPRESSED, those wanted; ACCEL_ROWS at first; settled before the first frame */
 	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
 	struct store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
 	uint64_t n_made, n_fitted; /* trees of meshes so far: built or read, and fitted to vertices that have moved */
@@ -59,7 +66,8 @@ void accel_destroy(struct accel **accel);
  * @param eye_vertices  eye-space positions [4] of the vertices of INSTANCE_BAKED instances, at instance.vertex_first of
  *                   each; NULL where there is none of these
  * @param instances  [n]; matrices, flags, pad, view, vertex_first and scene_instance are filled in by the caller;
- *                   node2_first, node8_first, triangle_first and triangle8_first are filled in here. The matrices of
+ *                   node2_first, node8_first, triangle_first, triangle8_first, node8c_first and triangle8c_first are filled
+ *                   in here. The matrices of
  *                   BAKED and SCREEN instances are the identity
  * @param views      [scene->n_views]; tlas_first and tlas_count are filled in here
  * @param spaces     receives an array owned by accel, valid until the next call

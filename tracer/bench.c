@@ -21,6 +21,7 @@ static const char help[] =
 	"one point light, and short incoherent rays.\n"
 	"\n"
 	"  --device NAME    number or part of the name of an OpenCL device, or 'reference'\n"
+	"  --kernels FAMILY with a recording: packets, binary or compressed, as for relume render\n"
 	"  --threads N      compute threads on a CPU\n"
 	"  --models DIR     folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj\n"
 	"                   (default: ../shared/models; bumpy spheres stand in where they are missing)\n"
@@ -35,7 +36,8 @@ struct options {
 	enum tracer_mode mode;
 	unsigned threads;
 	size_t repeats;
-	int json;
+	int json, has_family;
+	enum device_family family;
 };
 
 struct figure {
@@ -52,6 +54,7 @@ static int parse(int argc, char **argv, struct options *o)
 		{ "models", required_argument, NULL, 'm' }, { "repeat", required_argument, NULL, 'r' },
 		{ "json", no_argument, NULL, 'j' },         { "help", no_argument, NULL, 'h' },
 		{ "frame", required_argument, NULL, 'f' },  { "mode", required_argument, NULL, 'M' },
+		{ "kernels", required_argument, NULL, 'k' },
 		{ NULL, 0, NULL, 0 }
 	};
 	int option, err = 0;
@@ -80,6 +83,10 @@ static int parse(int argc, char **argv, struct options *o)
 			break;
 		case 'M':
 			err = settings_parse_mode(optarg, &o->mode);
+			break;
+		case 'k':
+			o->has_family = 1;
+			err = device_parse_family(optarg, &o->family);
 			break;
 		case 'h':
 			fputs(help, stdout);
@@ -118,12 +125,21 @@ int bench_main(int argc, char **argv)
 	struct figure figures[] = {
 		{ "camera", "camera_packet", KERNEL_camera_packet, -1, 0 },
 		{ "camera", "camera_wide", KERNEL_camera_wide, -1, 0 },
+		{ "camera", "camera_compressed", KERNEL_camera_compressed, -1, 0 },
 		{ "shadow", "occlude_packet", KERNEL_occlude_packet, BENCH_SHADOW, 0 },
 		{ "shadow", "occlude_wide", KERNEL_occlude_wide, BENCH_SHADOW, 0 },
+		{ "shadow", "occlude_binary", KERNEL_occlude_binary, BENCH_SHADOW, 0 },
+		{ "shadow", "occlude_compressed", KERNEL_occlude_compressed, BENCH_SHADOW, 0 },
 		{ "shadow, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_SHADOW, 0 },
+		{ "shadow, nearest hit", "intersect_binary", KERNEL_intersect_binary, BENCH_SHADOW, 0 },
+		{ "shadow, nearest hit", "intersect_compressed", KERNEL_intersect_compressed, BENCH_SHADOW, 0 },
 		{ "incoherent", "occlude_packet", KERNEL_occlude_packet, BENCH_AMBIENT, 0 },
 		{ "incoherent", "occlude_wide", KERNEL_occlude_wide, BENCH_AMBIENT, 0 },
+		{ "incoherent", "occlude_binary", KERNEL_occlude_binary, BENCH_AMBIENT, 0 },
+		{ "incoherent", "occlude_compressed", KERNEL_occlude_compressed, BENCH_AMBIENT, 0 },
 		{ "incoherent, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_AMBIENT, 0 },
+		{ "incoherent, nearest hit", "intersect_binary", KERNEL_intersect_binary, BENCH_AMBIENT, 0 },
+		{ "incoherent, nearest hit", "intersect_compressed", KERNEL_intersect_compressed, BENCH_AMBIENT, 0 },
 	};
 	const size_t n = sizeof(figures) / sizeof(figures[0]);
 	struct options o = { .models = "../shared/models", .repeats = 5 };
@@ -134,6 +150,8 @@ int bench_main(int argc, char **argv)
 	if (err)
 		return -err;
 	err = device_open(o.device, o.threads, &dev);
+	if (!err && o.has_family)
+		device_choose_family(dev, o.family);
 	if (!err && o.trace) {
 		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
 		goto done;
@@ -155,7 +173,7 @@ int bench_main(int argc, char **argv)
 			printf("  {\"rays\": \"%s\", \"kernel\": \"%s\", \"mrays_per_s\": %.2f}%s\n", figures[i].rays,
 			       figures[i].kernel_name, figures[i].mrays, i + 1 < n ? "," : "");
 		else
-			printf("%-24s %-17s %8.2f Mrays/s\n", figures[i].rays, figures[i].kernel_name, figures[i].mrays);
+			printf("%-24s %-20s %8.2f Mrays/s\n", figures[i].rays, figures[i].kernel_name, figures[i].mrays);
 	if (o.json)
 		puts("]}");
 done:

@@ -53,7 +53,7 @@ void bench_destroy(struct bench **bench);
 
 /**
  * One picture's camera rays: everything a frame with a new camera costs (vertices, top level, upload, kernel).
- * @param kernel   KERNEL_camera_packet or KERNEL_camera_wide
+ * @param kernel   KERNEL_camera_packet, KERNEL_camera_wide or KERNEL_camera_compressed
  * @param seconds  how long it took
  * @return 0 or ERR_SYSTEM (reported)
  */

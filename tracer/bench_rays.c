@@ -32,7 +32,7 @@ struct bench_state {
 	struct window_vertex *window;
 	struct fragment *fragments; /* [pixel], of the picture that the other rays start from */
 
-	struct device_buffer *views, *instances, *top2, *top8, *list, *nodes2, *nodes8, *triangles, *triangles8;
+	struct device_buffer *views, *instances, *top2, *top8, *list, *nodes2, *nodes8, *nodes8c, *triangles, *triangles8, *triangles8c;
 	struct device_buffer *window_buffer, *clip_buffer, *fragment_buffer, *count_buffer;
 	struct device_buffer *rays[N_BENCH_RAY_KINDS], *results;
 };
@@ -140,7 +140,9 @@ static int prepare_frame(struct bench *b)
 	if ((err = upload(b->dev, &s->nodes2, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2))) ||
 	    (err = upload(b->dev, &s->nodes8, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8))) ||
 	    (err = upload(b->dev, &s->triangles, a->triangles, a->n_triangles * sizeof(*a->triangles))) ||
-	    (err = upload(b->dev, &s->triangles8, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))))
+	    (err = upload(b->dev, &s->triangles8, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))) ||
+	    (err = upload(b->dev, &s->nodes8c, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c))) ||
+	    (err = upload(b->dev, &s->triangles8c, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c))))
 		return err;
 	return 0;
 }
@@ -151,14 +153,15 @@ int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
 	const uint32_t view = 0, mode = CAMERA_NEAREST_LESS;
 	const struct camera_rectangle r = camera_rectangle(0, 0, (int32_t)b->width, (int32_t)b->height, b->width, b->height);
 	const uint32_t n = kernel == KERNEL_camera_packet ? camera_packet_items(r) : camera_wide_items(r);
+	const int compressed = kernel == KERNEL_camera_compressed;
 	const double start = progress_clock_s();
 	int err = prepare_frame(b);
 
 	if (!err) {
 		const struct device_arg args[] = {
 			ARG_VALUE(view), ARG_BUFFER(s->views), ARG_VALUE(b->width), ARG_VALUE(b->height), ARG_VALUE(mode),
-			ARG_BUFFER(s->instances), ARG_BUFFER(s->top2), ARG_BUFFER(s->list), ARG_BUFFER(s->nodes2),
-			ARG_BUFFER(s->triangles), ARG_BUFFER(s->window_buffer), ARG_BUFFER(s->clip_buffer),
+			ARG_BUFFER(s->instances), ARG_BUFFER(s->top2), ARG_BUFFER(s->list),
+			ARG_BUFFER(compressed ? s->nodes8c : s->nodes2), ARG_BUFFER(compressed ? s->triangles8c : s->triangles), ARG_BUFFER(s->window_buffer), ARG_BUFFER(s->clip_buffer),
 			ARG_BUFFER(s->count_buffer), ARG_BUFFER(s->fragment_buffer), ARG_BUFFER(s->count_buffer),
 		};
 
@@ -173,10 +176,15 @@ int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
 int bench_rays(struct bench *b, enum device_kernel kernel, enum bench_ray_kind kind, double *seconds)
 {
 	struct bench_state *s = b->state;
-	const uint32_t n = b->n_rays[kind], top_first = s->spaces[0].top8_first;
+	const int binary = kernel == KERNEL_occlude_binary || kernel == KERNEL_intersect_binary;
+	const int compressed = kernel == KERNEL_occlude_compressed || kernel == KERNEL_intersect_compressed;
+	const uint32_t n = b->n_rays[kind];
+	const uint32_t top_first = binary || compressed ? s->spaces[0].top2_first : s->spaces[0].top8_first;
 	const struct device_arg args[] = {
-		ARG_VALUE(n), ARG_BUFFER(s->rays[kind]), ARG_VALUE(top_first), ARG_BUFFER(s->top8), ARG_BUFFER(s->list),
-		ARG_BUFFER(s->instances), ARG_BUFFER(s->nodes8), ARG_BUFFER(s->triangles8), ARG_BUFFER(s->results),
+		ARG_VALUE(n), ARG_BUFFER(s->rays[kind]), ARG_VALUE(top_first), ARG_BUFFER(binary || compressed ? s->top2 : s->top8),
+		ARG_BUFFER(s->list), ARG_BUFFER(s->instances),
+		ARG_BUFFER(binary ? s->nodes2 : compressed ? s->nodes8c : s->nodes8),
+		ARG_BUFFER(binary ? s->triangles : compressed ? s->triangles8c : s->triangles8), ARG_BUFFER(s->results),
 	};
 	const double start = progress_clock_s();
 	int err = device_run(b->dev, kernel, kernel == KERNEL_occlude_packet ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, args,
@@ -203,7 +211,8 @@ int bench_count_camera_hits(struct bench *b, uint32_t *n)
 
 int bench_count_ray_hits(struct bench *b, enum device_kernel kernel, enum bench_ray_kind kind, uint32_t *n)
 {
-	const int occlude = kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide;
+	const int occlude = kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide ||
+	                    kernel == KERNEL_occlude_binary || kernel == KERNEL_occlude_compressed;
 	const size_t bytes = b->n_rays[kind] * (occlude ? sizeof(uint32_t) : sizeof(struct hit));
 	void *results = malloc(bytes + 1);
 	int err = results ? device_read(b->dev, b->state->results, 0, results, bytes) : out_of_memory();
@@ -373,11 +382,12 @@ int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width,
 	    (err = device_reserve(dev, &s->fragment_buffer, pixels * sizeof(struct fragment))) ||
 	    (err = device_reserve(dev, &s->count_buffer, pixels * sizeof(uint32_t))))
 		goto fail;
+	s->accel->wide = ACCEL_ROWS | ACCEL_COMPRESSED;
 	b->build_s = progress_clock_s();
 	err = accel_build_frame(s->accel, &s->scene, NULL, NULL, &s->instance, 1, &b->view, &s->spaces, &s->n_spaces);
 	b->build_s = progress_clock_s() - b->build_s;
 	if (!err)
-		err = bench_camera(b, device_prefers_packets(dev) ? KERNEL_camera_packet : KERNEL_camera_wide, &seconds);
+		err = bench_camera(b, device_family(dev) == FAMILY_PACKETS ? KERNEL_camera_packet : KERNEL_camera_wide, &seconds);
 	if (!err)
 		err = derive_rays(b);
 	if (err)
@@ -392,8 +402,8 @@ fail:
 static void release_buffers(struct device *dev, struct bench_state *s)
 {
 	struct device_buffer **buffers[] = {
-		&s->views, &s->instances, &s->top2, &s->top8, &s->list, &s->nodes2, &s->nodes8, &s->triangles,
-		&s->triangles8, &s->window_buffer, &s->clip_buffer, &s->fragment_buffer, &s->count_buffer,
+		&s->views, &s->instances, &s->top2, &s->top8, &s->list, &s->nodes2, &s->nodes8, &s->nodes8c,
+		&s->triangles, &s->triangles8, &s->triangles8c, &s->window_buffer, &s->clip_buffer, &s->fragment_buffer, &s->count_buffer,
 		&s->rays[BENCH_SHADOW], &s->rays[BENCH_AMBIENT], &s->results,
 	};
 

@@ -82,4 +82,19 @@ enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };
 int bvh_collapse8(const struct node2 *nodes2, uint32_t n_nodes2, enum bvh_leaves leaves, struct node8 *nodes,
                   uint32_t *n_nodes, uint32_t *block_first, uint32_t *block_count, uint32_t *n_blocks);
 
+/**
+ * The same with all items as they are, into nodes of 80 bytes (kernels/shared.h: struct node8c). A leaf of more than
+ * NODE8C_LEAF_MAX items becomes nodes.
+ *
+ * @param nodes2     as built above, of leaves of at most BVH_COMPRESSED_LEAF items
+ * @param triangles  [n_items], in leaf order
+ * @param nodes      receives at most BVH_COMPRESSED_NODES(n_nodes2, n_items) nodes; children come after their parents
+ * @param out        [n_items], receives the triangles in the new nodes' order
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int bvh_compress8(const struct node2 *nodes2, uint32_t n_nodes2, const struct triangle *triangles, uint32_t n_items,
+                  struct node8c *nodes, uint32_t *n_nodes, struct triangle *out);
+#define BVH_COMPRESSED_NODES(n_nodes2, n_items) ((size_t)(n_nodes2) + (n_items) / NODE8C_LEAF_MAX)
+#define BVH_COMPRESSED_LEAF (NODE8C_LEAF_MAX << 3 * (NODE8C_MAX_DEPTH - BVH_MAX_DEPTH))
+
 #endif

@@ -74,7 +74,7 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 static int run_compose(struct job *job, const struct compose_request *r)
 {
 	struct tracer *tr = job->tr;
-	int packets = device_prefers_packets(tr->dev);
+	int packets = device_family(tr->dev) == FAMILY_PACKETS;
 	struct launch l = launch_with_tables(tr);
 
 	add(&l, tr, BUFFER_WINDOWS);

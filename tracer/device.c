@@ -31,7 +31,7 @@ static const struct {
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
 	unsigned threads;     /* of the reference device */
-	int packets;
+	enum device_family family;
 	atomic_int interrupted;
 	struct device_profile *profile; /* or NULL */
 	char name[320];
@@ -126,7 +126,7 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 		free(dev);
 		return err;
 	}
-	dev->packets = !dev->cl || cl_is_cpu(dev->cl);
+	dev->family = !dev->cl || cl_is_cpu(dev->cl) ? FAMILY_PACKETS : FAMILY_COMPRESSED;
 	*out = dev;
 	return 0;
 }
@@ -195,7 +195,7 @@ int device_share(struct device *dev, struct device **out)
 	if (!other)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	other->threads = dev->threads;
-	other->packets = dev->packets;
+	other->family = dev->family;
 	memcpy(other->name, dev->name, sizeof(other->name));
 	if (dev->cl)
 		err = cl_share(dev->cl, &other->cl);
@@ -227,14 +227,34 @@ const char *device_name(const struct device *dev)
 	return dev->name;
 }
 
-int device_prefers_packets(const struct device *dev)
+enum device_family device_family(const struct device *dev)
 {
-	return dev->packets;
+	return dev->family;
 }
 
-void device_choose_packets(struct device *dev, int packets)
+void device_choose_family(struct device *dev, enum device_family family)
 {
-	dev->packets = packets;
+	dev->family = family;
+}
+
+static const char *const family_names[N_DEVICE_FAMILIES] = {
+#define FAMILY_NAME(name, word) #word,
+	DEVICE_FAMILIES(FAMILY_NAME)
+};
+
+const char *device_family_name(enum device_family family)
+{
+	return family_names[family];
+}
+
+int device_parse_family(const char *text, enum device_family *out)
+{
+	for (int i = 0; i < N_DEVICE_FAMILIES; i++)
+		if (strcmp(text, family_names[i]) == 0) {
+			*out = (enum device_family)i;
+			return 0;
+		}
+	return err_report(ERR_USAGE, NULL, "there is no family of kernels '%s'; there are packets, binary and compressed", text);
 }
 
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)

@@ -16,9 +16,14 @@
 #define DEVICE_KERNELS(X) \
 	X(camera_packet)    /* camera rays, a tile of 8 x 8 pixels a work item, BVH2; nearest fragment or a column of them */ \
 	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
+	X(camera_compressed) /* the same, compressed nodes */ \
 	X(occlude_packet)   /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
 	X(occlude_wide)     /* the same, one ray a work item */ \
 	X(intersect_wide)   /* nearest hit, one ray a work item, 8-wide nodes */ \
+	X(occlude_binary)   /* one ray a work item, in numbers alone (GPUs): BVH2 */ \
+	X(intersect_binary) \
+	X(occlude_compressed) /* the same, compressed nodes */ \
+	X(intersect_compressed) \
 	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
@@ -45,6 +50,21 @@ enum device_kernel {
 #define DEVICE_KERNEL_ENUM(name) KERNEL_##name,
 	DEVICE_KERNELS(DEVICE_KERNEL_ENUM)
 	N_DEVICE_KERNELS
+};
+
+/*
+ * Families of traversal kernels: what runs fast differs by kind of device. All find the same.
+ *   X(NAME, word)
+ */
+#define DEVICE_FAMILIES(X) \
+	X(PACKETS, packets)       /* many rays a work item in vectors, eight-wide nodes in rows: CPUs */ \
+	X(BINARY, binary)         /* one ray a work item, binary trees */ \
+	X(COMPRESSED, compressed) /* one ray a work item, eight-wide nodes of 80 bytes: GPUs */
+
+enum device_family {
+#define DEVICE_FAMILY_ENUM(name, word) FAMILY_##name,
+	DEVICE_FAMILIES(DEVICE_FAMILY_ENUM)
+	N_DEVICE_FAMILIES
 };
 
 /* One kernel argument. */
@@ -118,11 +138,15 @@ int device_is_interrupted(const struct device *dev);
 /** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
 const char *device_name(const struct device *dev);
 
-/** 1 where one work item should hold a packet of rays (CPU families: the *_packet kernels), 0 where one (GPUs). */
-int device_prefers_packets(const struct device *dev);
+/** The family of traversal kernels that it runs: by its kind, until device_choose_family. */
+enum device_family device_family(const struct device *dev);
 
-/** Take one of the families whatever the device is: for tests, which must see both. */
-void device_choose_packets(struct device *dev, int packets);
+/** Take one of the families whatever the device is; before its first tracer. */
+void device_choose_family(struct device *dev, enum device_family family);
+
+const char *device_family_name(enum device_family family);
+/** @return 0, or ERR_USAGE (reported: there is no such family) */
+int device_parse_family(const char *text, enum device_family *out);
 
 /**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.

@@ -19,7 +19,7 @@ enum buffer {
 	BUFFER_GEOMETRIES, BUFFER_MATERIALS, BUFFER_LIGHTS, BUFFER_UNITS, BUFFER_CURRENTS, BUFFER_STIPPLES,
 	BUFFER_TEXTURES, BUFFER_VIEWS, BUFFER_INSTANCES,
 	BUFFER_OWNER, BUFFER_VERTICES, BUFFER_TEXCOORDS, BUFFER_WINDOWS, BUFFER_CLIPS,
-	BUFFER_NODES2, BUFFER_NODES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
+	BUFFER_NODES2, BUFFER_NODES8, BUFFER_NODES8C, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TRIANGLES8C, BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
 	BUFFER_AFTER, BUFFER_SPARSE, BUFFER_COUNTS, BUFFER_FIRST,
 	BUFFER_FRAGMENTS, BUFFER_PIXELS, BUFFER_SHADED,
 	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_ARRIVING, BUFFER_WANTED, BUFFER_BACKGROUND, BUFFER_PLACES,
@@ -70,7 +70,7 @@ int place_indices(struct job *job);
 /** Materials, lights, texture units and textures, current values, stipples. */
 int upload_state(struct job *job);
 
-/** What accel_build_frame made; the trees of meshes only where they changed. */
+/** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */
 int upload_trees(struct job *job);
 
 /* --- secondary.c: rays from the fragments in the list -------------------------------------------------------------- */

@@ -81,6 +81,8 @@ static int render_frames(struct pipeline *p, uint64_t total)
 
 	if (err)
 		return err;
+	for (size_t i = 0; i < p->n_devices && s->has_family; i++)
+		device_choose_family(p->devices[i], s->family);
 	p->progress = &progress;
 	p->jobs = s->jobs ? s->jobs : default_jobs();
 	part_sweep(s->output);

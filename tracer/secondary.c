@@ -26,27 +26,40 @@ uint32_t transport_of(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
-/* Trace n rays through a space: in packets where the device likes them and any hit will do. */
+/* Kernels for any hit and for the nearest, and what they walk. */
+static const struct {
+	enum device_kernel occlude, intersect;
+	uint32_t rays_per_item; /* of occlude */
+	enum buffer top, nodes, triangles;
+} ray_kernels[N_DEVICE_FAMILIES] = {
+	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_wide, RAYS_PER_PACKET, BUFFER_TOP8, BUFFER_NODES8,
+		             BUFFER_TRIANGLES8 },
+	[FAMILY_BINARY] = { KERNEL_occlude_binary, KERNEL_intersect_binary, 1, BUFFER_TOP2, BUFFER_NODES2, BUFFER_TRIANGLES },
+	[FAMILY_COMPRESSED] = { KERNEL_occlude_compressed, KERNEL_intersect_compressed, 1, BUFFER_TOP2, BUFFER_NODES8C,
+		                BUFFER_TRIANGLES8C },
+};
+
+/* Trace n rays through a space, for any hit or for the nearest. */
 static int trace_rays(struct job *job, const struct accel_space *space, enum buffer rays, enum buffer results, uint32_t n,
                       int occlude)
 {
 	struct tracer *tr = job->tr;
-	int packets = device_prefers_packets(tr->dev) && occlude;
-	enum device_kernel kernel = occlude ? (packets ? KERNEL_occlude_packet : KERNEL_occlude_wide) :
-	                                      KERNEL_intersect_wide;
-	uint32_t top = space->top8_first;
+	enum device_family family = device_family(tr->dev);
+	uint32_t top = family == FAMILY_PACKETS ? space->top8_first : space->top2_first;
+	uint32_t rays_per_item = occlude ? ray_kernels[family].rays_per_item : 1;
 	struct launch l = { .n = 0 };
 
 	add_uint(&l, &n);
 	add(&l, tr, rays);
 	add_uint(&l, &top);
-	add(&l, tr, BUFFER_TOP8);
+	add(&l, tr, ray_kernels[family].top);
 	add(&l, tr, BUFFER_INSTANCE_LIST);
 	add(&l, tr, BUFFER_INSTANCES);
-	add(&l, tr, BUFFER_NODES8);
-	add(&l, tr, BUFFER_TRIANGLES8);
+	add(&l, tr, ray_kernels[family].nodes);
+	add(&l, tr, ray_kernels[family].triangles);
 	add(&l, tr, results);
-	return run(tr, kernel, packets ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, &l);
+	return run(tr, occlude ? ray_kernels[family].occlude : ray_kernels[family].intersect,
+	           (n + rays_per_item - 1) / rays_per_item, &l);
 }
 
 /* --- Lists -------------------------------------------------------------------------------------------------------- */

@@ -42,6 +42,8 @@ static const char help[] =
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number or part of the name as 'relume devices' lists\n"
 	"                       them, with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)\n"
+	"      --kernels FAMILY traversal kernels: packets (default on a CPU), binary, compressed (default on a GPU);\n"
+	"                       the pictures are the same\n"
 	"      --threads N      compute threads of a CPU device (default: all cores)\n"
 	"  -j, --jobs N         frames on their way at once on each device (default: by the number of cores)\n"
 	"      --limit-memory M memory to keep to, as 800M or 4G: fewer frames on their way at once; a frame that needs\n"
@@ -67,7 +69,7 @@ enum effect {
 };
 
 enum key { FRAMES, CHUNK, OUTPUT, SKIP, FORCE, DRY, MODE, ENCODING, AOV, DEPTH, SAMPLES, RAYS, REACH, LOOK, ACCEL, RELIGHT,
-	   DEVICE, THREADS, JOBS, MEMORY, CACHE, CACHE_SIZE, NO_CACHE, TIMEOUT, PROGRESS, HELP, N_KEYS };
+	   DEVICE, KERNELS, THREADS, JOBS, MEMORY, CACHE, CACHE_SIZE, NO_CACHE, TIMEOUT, PROGRESS, HELP, N_KEYS };
 
 #define FIRST_KEY 256 /* what getopt_long returns for the first row */
 
@@ -94,6 +96,7 @@ static const struct row {
 	[ACCEL] = { "accel", required_argument, PICTURE, 0 }, /* what rounding decides, at the very edge of a box, may differ */
 	[RELIGHT] = { "relight", no_argument, PICTURE, 0 },
 	[DEVICE] = { "device", required_argument, RUN, 0 },
+	[KERNELS] = { "kernels", required_argument, RUN, 0 },
 	[THREADS] = { "threads", required_argument, RUN, 0 },
 	[JOBS] = { "jobs", required_argument, RUN, 'j' },
 	[MEMORY] = { "limit-memory", required_argument, RUN, 0 },
@@ -207,6 +210,7 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 		return err;
 	case RELIGHT: s->tracer.relight = 1; return 0;
 	case DEVICE: s->device = value; return 0;
+	case KERNELS: s->has_family = 1; return device_parse_family(value, &s->family);
 	case THREADS: return parse_number(value, name, 1024, &s->threads);
 	case JOBS: return parse_number(value, name, 64, &s->jobs);
 	case MEMORY: return parse_bytes(value, name, &s->memory_bytes);

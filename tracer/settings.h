@@ -14,6 +14,8 @@
 struct settings {
 	const char *trace, *output, *device;
 	unsigned threads, jobs; /* 0: as the machine has */
+	int has_family; /* 0: each device takes the kernels that suit its kind */
+	enum device_family family;
 	struct frame_list frames;
 	uint64_t chunk, n_chunks; /* n_chunks 0: all */
 	int skip_existing, dry_run;

@@ -11,6 +11,9 @@
 #include "tracer/compose.h"
 #include "tracer/frame.h"
 
+/* The trees that a family of kernels walks beside the binary ones. */
+static const unsigned wide_trees[N_DEVICE_FAMILIES] = { [FAMILY_PACKETS] = ACCEL_ROWS, [FAMILY_COMPRESSED] = ACCEL_COMPRESSED };
+
 int tracer_create(struct tracer **out, struct device *dev)
 {
 	struct tracer *tr = calloc(1, sizeof(*tr));
@@ -22,6 +25,7 @@ int tracer_create(struct tracer **out, struct device *dev)
 		free(tr);
 		return ERR_SYSTEM;
 	}
+	tr->accel->wide = wide_trees[device_family(dev)];
 	*out = tr;
 	return 0;
 }
@@ -343,8 +347,10 @@ static int run_clear(struct job *job, const struct scene_clear *clear)
 
 static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
 {
+	static const enum device_kernel kernels[N_DEVICE_FAMILIES] = { KERNEL_camera_packet, KERNEL_camera_wide,
+		                                                       KERNEL_camera_compressed };
 	struct tracer *tr = job->tr;
-	int packets = device_prefers_packets(tr->dev);
+	enum device_family family = device_family(tr->dev);
 	struct launch l = { .n = 0 };
 
 	add_uint(&l, &segment->view);
@@ -355,15 +361,14 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 	add(&l, tr, BUFFER_INSTANCES);
 	add(&l, tr, BUFFER_TOP2);
 	add(&l, tr, BUFFER_INSTANCE_LIST);
-	add(&l, tr, BUFFER_NODES2);
-	add(&l, tr, BUFFER_TRIANGLES);
+	add(&l, tr, family == FAMILY_COMPRESSED ? BUFFER_NODES8C : BUFFER_NODES2);
+	add(&l, tr, family == FAMILY_COMPRESSED ? BUFFER_TRIANGLES8C : BUFFER_TRIANGLES);
 	add(&l, tr, BUFFER_WINDOWS);
 	add(&l, tr, BUFFER_CLIPS);
 	add(&l, tr, BUFFER_AFTER);
 	add(&l, tr, BUFFER_SPARSE);
 	add(&l, tr, BUFFER_COUNTS);
-	return run(tr, packets ? KERNEL_camera_packet : KERNEL_camera_wide,
-	           packets ? camera_packet_items(r) : camera_wide_items(r), &l);
+	return run(tr, kernels[family], family == FAMILY_PACKETS ? camera_packet_items(r) : camera_wide_items(r), &l);
 }
 
 /* Pixels across of the blocks that the list goes by: one is a packet of rays (RAYS_PER_PACKET), which should stay together. */

@@ -140,20 +140,34 @@ int upload_state(struct job *job)
 	return err;
 }
 
+/* Those of meshes. */
+static int upload_mesh_trees(struct tracer *tr, const struct accel *a)
+{
+	enum device_family family = device_family(tr->dev);
+	int err = 0;
+
+	if (family == FAMILY_COMPRESSED) {
+		err = upload(tr, BUFFER_NODES8C, a->nodes8c, a->n_nodes8c, sizeof(*a->nodes8c));
+		return err ? err : upload(tr, BUFFER_TRIANGLES8C, a->triangles8c, a->n_triangles8c, sizeof(*a->triangles8c));
+	}
+	err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
+	if (!err)
+		err = upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
+	if (!err && family == FAMILY_PACKETS)
+		err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
+	if (!err && family == FAMILY_PACKETS)
+		err = upload(tr, BUFFER_TRIANGLES8, a->triangles8, a->n_triangles8, sizeof(*a->triangles8));
+	return err;
+}
+
 int upload_trees(struct job *job)
 {
 	struct tracer *tr = job->tr;
 	const struct accel *a = tr->accel;
 	int err = 0;
 
-	if (a->generation != tr->uploaded || !tr->buffers[BUFFER_NODES2]) {
-		err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
-		if (!err)
-			err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
-		if (!err)
-			err = upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
-		if (!err)
-			err = upload(tr, BUFFER_TRIANGLES8, a->triangles8, a->n_triangles8, sizeof(*a->triangles8));
+	if (a->generation != tr->uploaded || !tr->buffers[BUFFER_TOP2]) {
+		err = upload_mesh_trees(tr, a);
 		tr->uploaded = a->generation;
 	}
 	if (!err)

@@ -1,13 +1,14 @@
-/* C twins of camera_packet and camera_wide: one pixel at a time, as kernels/camera.h says. */
+/* C twins of camera_packet, camera_wide and camera_compressed: one pixel at a time, as kernels/camera.h says. */
 #include "kernels/camera.h"
 
 #include <math.h>
 
+#include "kernels/compressed.h"
 #include "kernels/gl_clip.h"
 #include "kernels/shared.h"
 #include "tracer/device.h"
 
-extern device_twin camera_packet_c, camera_wide_c;
+extern device_twin camera_packet_c, camera_wide_c, camera_compressed_c;
 
 struct args {
 	const struct view *view;
@@ -16,6 +17,7 @@ struct args {
 	const struct node2 *top;
 	const uint32_t *instance_list;
 	const struct node2 *nodes;
+	const struct node8c *compressed; /* instead of nodes, or NULL */
 	const struct triangle *triangles;
 	const struct window_vertex *window;
 	const float (*clip)[4];
@@ -37,12 +39,12 @@ struct pixel {
 	uint32_t count;
 };
 
-static struct args unpack(const void *const *args)
+static struct args unpack(const void *const *args, int compressed)
 {
 	return (struct args){
 		(const struct view *)args[1] + *(const uint32_t *)args[0],
 		*(const uint32_t *)args[2], *(const uint32_t *)args[3], *(const uint32_t *)args[4],
-		args[5], args[6], args[7], args[8], args[9], args[10], args[11], args[12],
+		args[5], args[6], args[7], compressed ? NULL : args[8], compressed ? args[8] : NULL, args[9], args[10], args[11], args[12],
 		(struct fragment *)args[13], (uint32_t *)args[14]
 	};
 }
@@ -250,19 +252,12 @@ static void invert(const float d[3], float inverse[3])
 		inverse[a] = 1.0f / (fabsf(d[a]) > 1e-20f ? d[a] : copysignf(1e-20f, d[a]));
 }
 
-static void walk_blas(struct pixel *p, uint32_t instance_index)
+static void walk_binary(struct pixel *p, uint32_t instance_index, const float o[3], const float inverse[3])
 {
 	const struct args *a = p->args;
 	const struct instance *instance = &a->instances[instance_index];
-	const float *m = instance->obj_from_eye;
 	uint32_t stack[BVH_MAX_DEPTH], depth = 0, node_index = 0;
-	float o[3], d[3], inverse[3];
 
-	for (int row = 0; row < 3; row++, m += 4) {
-		o[row] = m[0] * p->o[0] + m[1] * p->o[1] + m[2] * p->o[2] + m[3];
-		d[row] = m[0] * p->d[0] + m[1] * p->d[1] + m[2] * p->d[2];
-	}
-	invert(d, inverse);
 	for (;;) {
 		const struct node2 *node = &a->nodes[instance->node2_first + node_index];
 		float t[2];
@@ -288,6 +283,51 @@ static void walk_blas(struct pixel *p, uint32_t instance_index)
 		else
 			return;
 	}
+}
+
+/* inverse NULL: the pixel centre is a point, under which boxes are looked for in x and y. */
+static void walk_compressed(struct pixel *p, uint32_t instance_index, const float o[3], const float *inverse)
+{
+	const struct instance *instance = &p->args->instances[instance_index];
+	const float pad = instance->pad;
+	uint32_t stack[7 * NODE8C_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		const struct node8c *node = &p->args->compressed[instance->node8c_first + stack[--depth]];
+
+		for (uint32_t slot = 0; slot < 8; slot++) {
+			uint32_t first, count;
+			float lo[3], hi[3], t;
+
+			if (!node8c_box(node, slot, lo, hi))
+				continue;
+			if (inverse ? !hits_box(o, inverse, lo, hi, pad, p->t_max, &t) :
+			              !(o[0] >= lo[0] - pad && o[0] <= hi[0] + pad && o[1] >= lo[1] - pad && o[1] <= hi[1] + pad))
+				continue;
+			count = node8c_child(node, slot, &first);
+			if (!count)
+				stack[depth++] = first;
+			for (uint32_t k = 0; k < count; k++)
+				try_triangle(p, instance_index, &p->args->triangles[instance->triangle8c_first + first + k]);
+		}
+	}
+}
+
+static void walk_blas(struct pixel *p, uint32_t instance_index)
+{
+	const float *m = p->args->instances[instance_index].obj_from_eye;
+	float o[3], d[3], inverse[3];
+
+	for (int row = 0; row < 3; row++, m += 4) {
+		o[row] = m[0] * p->o[0] + m[1] * p->o[1] + m[2] * p->o[2] + m[3];
+		d[row] = m[0] * p->d[0] + m[1] * p->d[1] + m[2] * p->d[2];
+	}
+	invert(d, inverse);
+	if (p->args->compressed)
+		walk_compressed(p, instance_index, o, inverse);
+	else
+		walk_binary(p, instance_index, o, inverse);
 }
 
 static void walk_top(struct pixel *p)
@@ -322,6 +362,10 @@ static void walk_screen(struct pixel *p, uint32_t instance_index)
 	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f, pad = instance->pad;
 	uint32_t stack[BVH_MAX_DEPTH], depth = 0;
 
+	if (a->compressed) {
+		walk_compressed(p, instance_index, (const float[]){ x, y, 0 }, NULL);
+		return;
+	}
 	stack[depth++] = 0;
 	while (depth) {
 		const struct node2 *node = &a->nodes[instance->node2_first + stack[--depth]];
@@ -390,7 +434,7 @@ static struct camera_rectangle rectangle_of(const struct args *args)
 
 void camera_packet_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args);
+	const struct args a = unpack(args, 0);
 	const struct camera_rectangle r = rectangle_of(&a);
 	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
 
@@ -404,12 +448,25 @@ void camera_packet_c(const void *const *args, size_t first, size_t last)
 	}
 }
 
-void camera_wide_c(const void *const *args, size_t first, size_t last)
+static void do_pixels(const struct args *a, size_t first, size_t last)
 {
-	const struct args a = unpack(args);
-	const struct camera_rectangle r = rectangle_of(&a);
+	const struct camera_rectangle r = rectangle_of(a);
 	const size_t columns = (size_t)(r.x1 - r.x0);
 
 	for (size_t item = first; item < last && item < camera_wide_items(r); item++)
-		do_pixel(&a, r.x0 + (int32_t)(item % columns), r.y0 + (int32_t)(item / columns));
+		do_pixel(a, r.x0 + (int32_t)(item % columns), r.y0 + (int32_t)(item / columns));
+}
+
+void camera_wide_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 0);
+
+	do_pixels(&a, first, last);
+}
+
+void camera_compressed_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, 1);
+
+	do_pixels(&a, first, last);
 }

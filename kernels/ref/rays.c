@@ -3,20 +3,25 @@
 
 #include <math.h>
 
+#include "kernels/compressed.h"
 #include "tracer/device.h"
 
 extern device_twin occlude_packet_c, occlude_wide_c, intersect_wide_c;
+extern device_twin occlude_binary_c, intersect_binary_c, occlude_compressed_c, intersect_compressed_c;
+
+/* What trees are made of. */
+enum tree { TREE_ROWS, TREE_BINARY, TREE_COMPRESSED };
 
 struct args {
 	uint32_t n_rays;
 	const struct ray *rays;
 	uint32_t top_first;
-	const struct node8 *top;
+	const void *top;
 	const uint32_t *instance_list;
 	const struct instance *instances;
-	const struct node8 *nodes;
-	const struct triangle8 *triangles;
+	const void *nodes, *triangles;
 	void *out;
+	enum tree tree;
 };
 
 /* One ray on its way. */
@@ -28,10 +33,10 @@ struct walk {
 	int any;        /* the first hit will do */
 };
 
-static struct args unpack(const void *const *args)
+static struct args unpack(const void *const *args, enum tree tree)
 {
 	return (struct args){ *(const uint32_t *)args[0], args[1], *(const uint32_t *)args[2], args[3], args[4], args[5],
-		              args[6], args[7], (void *)args[8] };
+		              args[6], args[7], (void *)args[8], tree };
 }
 
 static int done(const struct walk *w)
@@ -115,15 +120,17 @@ static void try_block(struct walk *w, const struct triangle8 *block, uint32_t in
 	}
 }
 
-static void walk_blas(struct walk *w, uint32_t instance_index)
+static void walk_rows(struct walk *w, uint32_t instance_index)
 {
 	const struct args *a = w->args;
 	const struct instance *instance = &a->instances[instance_index];
+	const struct node8 *nodes = (const struct node8 *)a->nodes + instance->node8_first;
+	const struct triangle8 *triangles = (const struct triangle8 *)a->triangles + instance->triangle8_first;
 	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
 
 	stack[depth++] = 0;
 	while (depth && !done(w)) {
-		const struct node8 *node = &a->nodes[instance->node8_first + stack[--depth]];
+		const struct node8 *node = &nodes[stack[--depth]];
 
 		for (int lane = 0; lane < 8; lane++) {
 			if (!hits_lane(w, node, lane))
@@ -131,9 +138,74 @@ static void walk_blas(struct walk *w, uint32_t instance_index)
 			if (!node->count[lane])
 				stack[depth++] = node->child[lane];
 			for (uint32_t k = 0; k < node->count[lane] && !done(w); k++)
-				try_block(w, &a->triangles[instance->triangle8_first + node->child[lane] + k], instance_index);
+				try_block(w, &triangles[node->child[lane] + k], instance_index);
 		}
 	}
+}
+
+static void try_triangles(struct walk *w, const struct triangle *triangles, uint32_t n, uint32_t instance_index)
+{
+	for (uint32_t i = 0; i < n && !done(w); i++)
+		try_triangle(w, triangles[i].v0, triangles[i].e1, triangles[i].e2, instance_index, triangles[i].primitive);
+}
+
+static void walk_binary(struct walk *w, uint32_t instance_index)
+{
+	const struct args *a = w->args;
+	const struct instance *instance = &a->instances[instance_index];
+	const struct node2 *nodes = (const struct node2 *)a->nodes + instance->node2_first;
+	const struct triangle *triangles = (const struct triangle *)a->triangles + instance->triangle_first;
+	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node2 *node = &nodes[stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			if (!hits_box(w, node->lo[side], node->hi[side]))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			try_triangles(w, triangles + node->child[side], node->count[side], instance_index);
+		}
+	}
+}
+
+static void walk_compressed(struct walk *w, uint32_t instance_index)
+{
+	const struct args *a = w->args;
+	const struct instance *instance = &a->instances[instance_index];
+	const struct node8c *nodes = (const struct node8c *)a->nodes + instance->node8c_first;
+	const struct triangle *triangles = (const struct triangle *)a->triangles + instance->triangle8c_first;
+	uint32_t stack[7 * NODE8C_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node8c *node = &nodes[stack[--depth]];
+
+		for (uint32_t slot = 0; slot < 8; slot++) {
+			float lo[3], hi[3];
+			uint32_t first, count;
+
+			if (!node8c_box(node, slot, lo, hi) || !hits_box(w, lo, hi))
+				continue;
+			count = node8c_child(node, slot, &first);
+			if (!count)
+				stack[depth++] = first;
+			else
+				try_triangles(w, triangles + first, count, instance_index);
+		}
+	}
+}
+
+static void walk_blas(struct walk *w, uint32_t instance_index)
+{
+	if (w->args->tree == TREE_ROWS)
+		walk_rows(w, instance_index);
+	else if (w->args->tree == TREE_BINARY)
+		walk_binary(w, instance_index);
+	else
+		walk_compressed(w, instance_index);
 }
 
 /* How far along the ray its walk through an instance starts. */
@@ -179,22 +251,46 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	}
 }
 
-static void walk_top(struct walk *w)
+static void walk_instances(struct walk *w, uint32_t first, uint32_t n)
 {
-	const struct args *a = w->args;
+	for (uint32_t i = 0; i < n && !done(w); i++)
+		walk_instance(w, w->args->instance_list[first + i]);
+}
+
+static void walk_top_rows(struct walk *w)
+{
+	const struct node8 *top = (const struct node8 *)w->args->top + w->args->top_first;
 	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
 
 	stack[depth++] = 0;
 	while (depth && !done(w)) {
-		const struct node8 *node = &a->top[a->top_first + stack[--depth]];
+		const struct node8 *node = &top[stack[--depth]];
 
 		for (int lane = 0; lane < 8; lane++) {
 			if (!hits_lane(w, node, lane))
 				continue;
 			if (!node->count[lane])
 				stack[depth++] = node->child[lane];
-			for (uint32_t k = 0; k < node->count[lane] && !done(w); k++)
-				walk_instance(w, a->instance_list[node->child[lane] + k]);
+			walk_instances(w, node->child[lane], node->count[lane]);
+		}
+	}
+}
+
+static void walk_top_binary(struct walk *w)
+{
+	const struct node2 *top = (const struct node2 *)w->args->top + w->args->top_first;
+	uint32_t stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth && !done(w)) {
+		const struct node2 *node = &top[stack[--depth]];
+
+		for (int side = 0; side < 2; side++) {
+			if (!hits_box(w, node->lo[side], node->hi[side]))
+				continue;
+			if (!node->count[side])
+				stack[depth++] = node->child[side];
+			walk_instances(w, node->child[side], node->count[side]);
 		}
 	}
 }
@@ -213,7 +309,10 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 		w.o[a] = ray->o[a];
 	}
 	set_direction(&w, ray->d);
-	walk_top(&w);
+	if (args->tree == TREE_ROWS)
+		walk_top_rows(&w);
+	else
+		walk_top_binary(&w);
 	return w.hit;
 }
 
@@ -231,21 +330,49 @@ static void intersect(const struct args *args, size_t first, size_t last)
 
 void occlude_packet_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args);
+	const struct args a = unpack(args, TREE_ROWS);
 
 	occlude(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
 }
 
 void occlude_wide_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args);
+	const struct args a = unpack(args, TREE_ROWS);
 
 	occlude(&a, first, last);
 }
 
 void intersect_wide_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args);
+	const struct args a = unpack(args, TREE_ROWS);
+
+	intersect(&a, first, last);
+}
+
+void occlude_binary_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, TREE_BINARY);
+
+	occlude(&a, first, last);
+}
+
+void intersect_binary_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, TREE_BINARY);
+
+	intersect(&a, first, last);
+}
+
+void occlude_compressed_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, TREE_COMPRESSED);
+
+	occlude(&a, first, last);
+}
+
+void intersect_compressed_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, TREE_COMPRESSED);
 
 	intersect(&a, first, last);
 }

@@ -1,6 +1,6 @@
 /*
  * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are slow
- * (make show-oclgrind). FAMILY: "packets" or "wide", the traversal kernels to take. Prints a line for each picture.
+ * (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line for each picture.
  */
 #include <stdio.h>
 
@@ -87,12 +87,14 @@ START_TEST(render_pictures)
 	};
 	struct device *dev = NULL;
 	struct tracer *tracer = NULL;
+	enum device_family kernels;
 	struct truth t;
 	struct scene_unit unit;
 
 	make_scene(&t, &unit, 7);
 	ck_assert_int_eq(device_open(choice, 1, &dev), 0);
-	device_choose_packets(dev, strcmp(family, "packets") == 0);
+	ck_assert_int_eq(device_parse_family(family, &kernels), 0);
+	device_choose_family(dev, kernels);
 	ck_assert_int_eq(tracer_create(&tracer, dev), 0);
 	for (size_t i = 0; i < sizeof(pictures) / sizeof(pictures[0]); i++) {
 		struct tracer_options options = { .mode = pictures[i].mode, .relight = pictures[i].relight, .display = 1,
@@ -118,7 +120,7 @@ int main(int argc, char **argv)
 	int failed;
 
 	if (argc != 3) {
-		fprintf(stderr, "usage: tiny DEVICE packets|wide\n");
+		fprintf(stderr, "usage: tiny DEVICE packets|binary|compressed\n");
 		return 2;
 	}
 	choice = argv[1];

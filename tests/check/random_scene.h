@@ -145,6 +145,7 @@ static inline struct random_scene *random_scene_create(uint32_t seed)
 	s->scene.n_instances = INSTANCES;
 	s->scene.n_views = 1;
 	ck_assert_int_eq(accel_create(&s->accel), 0);
+	s->accel->wide = ACCEL_ROWS | ACCEL_COMPRESSED;
 	ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances, INSTANCES, &s->view, &s->spaces,
 	                                   &s->n_spaces), 0);
 	ck_assert_uint_eq(s->n_spaces, 1);

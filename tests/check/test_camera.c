@@ -127,13 +127,16 @@ static void run(const struct frame *f, struct device *dev, enum device_kernel ke
 	const struct accel *a = s->accel;
 	const uint32_t view = 0, width = WIDTH, height = HEIGHT;
 	const int32_t *sc = s->view.scissor;
+	const int compressed = kernel == KERNEL_camera_compressed;
 	const struct camera_rectangle r = camera_rectangle(sc[0], sc[1], sc[2], sc[3], WIDTH, HEIGHT);
 	struct device_buffer *b[] = {
 		make_buffer(dev, &s->view, sizeof(s->view)), make_buffer(dev, s->instances, sizeof(s->instances)),
 		make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)),
 		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
-		make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
-		make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
+		compressed ? make_buffer(dev, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c)) :
+		             make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
+		compressed ? make_buffer(dev, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c)) :
+		             make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
 		make_buffer(dev, f->window, s->n_vertices * sizeof(*f->window)),
 		make_buffer(dev, f->clip, s->n_vertices * sizeof(*f->clip)),
 		make_buffer(dev, f->after, PIXELS * sizeof(*f->after)), NULL, NULL,
@@ -212,9 +215,9 @@ START_TEST(kernels_agree_with_twins)
 			struct frame f = make_frame(seed + (uint32_t)i, i);
 
 			for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
-				for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_wide; kernel++) {
+				for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
 					snprintf(what, sizeof(what), "%s, %s, %s, mode %u", list[k].name,
-					         kernel == KERNEL_camera_packet ? "packet" : "wide", i ? "orthographic" : "perspective",
+					         device_kernel_name(kernel), i ? "orthographic" : "perspective",
 					         mode);
 					run(&f, reference, kernel, mode, &want);
 					run(&f, dev, kernel, mode, &got);
@@ -260,6 +263,8 @@ START_TEST(boxes_lose_nothing)
 			}
 			run(&f, dev, KERNEL_camera_wide, mode, &want);
 			compare(&want, &got, mode, "boxes");
+			run(&f, dev, KERNEL_camera_compressed, mode, &got);
+			compare(&want, &got, mode, "compressed boxes");
 			memcpy(a->nodes2, nodes, a->n_nodes2 * sizeof(*nodes));
 			memcpy(a->top2, top, a->n_top2 * sizeof(*top));
 			free(nodes);
@@ -282,7 +287,7 @@ START_TEST(spatial_splits_change_nothing)
 		struct frame f = make_frame(seed_of_run + (uint32_t)i, i);
 
 		for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
-			for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_wide; kernel++) {
+			for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
 				f.s->accel->kind = ACCEL_BVH;
 				ck_assert_int_eq(accel_build_frame(f.s->accel, &f.s->scene, NULL, NULL, f.s->instances, INSTANCES,
 				                                   &f.s->view, &f.s->spaces, &f.s->n_spaces), 0);

@@ -67,20 +67,39 @@ static struct ray *make_rays(struct random_scene *s)
 	return rays;
 }
 
-static void run(struct random_scene *s, struct device *dev, const struct ray *rays, int wide, struct result *out)
+/* The ways to trace rays: kernels for any hit and for the nearest. */
+enum way { PACKET, WIDE, BINARY, COMPRESSED, N_WAYS };
+
+static const struct {
+	const char *name;
+	enum device_kernel kernels[2];
+} ways[N_WAYS] = {
+	[PACKET] = { "packet", { KERNEL_occlude_packet, KERNEL_intersect_wide } },
+	[WIDE] = { "wide", { KERNEL_occlude_wide, KERNEL_intersect_wide } },
+	[BINARY] = { "binary", { KERNEL_occlude_binary, KERNEL_intersect_binary } },
+	[COMPRESSED] = { "compressed", { KERNEL_occlude_compressed, KERNEL_intersect_compressed } },
+};
+
+static void run(struct random_scene *s, struct device *dev, const struct ray *rays, enum way way, struct result *out)
 {
 	const struct accel *a = s->accel;
-	const uint32_t n = N_RAYS, top_first = s->spaces[0].top8_first;
+	const int single = way == BINARY || way == COMPRESSED;
+	const uint32_t n = N_RAYS, top_first = single ? s->spaces[0].top2_first : s->spaces[0].top8_first;
+	const uint32_t packets = (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
 	struct device_buffer *b[] = {
 		make_buffer(dev, rays, N_RAYS * sizeof(*rays)),
-		make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)),
+		single ? make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)) :
+		         make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)),
 		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
 		make_buffer(dev, s->instances, sizeof(s->instances)),
-		make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)),
-		make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8)),
+		way == BINARY     ? make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)) :
+		way == COMPRESSED ? make_buffer(dev, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c)) :
+		                    make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)),
+		way == BINARY     ? make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)) :
+		way == COMPRESSED ? make_buffer(dev, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c)) :
+		                    make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8)),
 		NULL, NULL,
 	};
-	const uint32_t packets = (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
 
 	memset(out, 0xa5, sizeof(*out));
 	b[6] = make_buffer(dev, out->occluded, sizeof(out->occluded));
@@ -90,7 +109,7 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 			ARG_VALUE(n), ARG_BUFFER(b[0]), ARG_VALUE(top_first), ARG_BUFFER(b[1]), ARG_BUFFER(b[2]),
 			ARG_BUFFER(b[3]), ARG_BUFFER(b[4]), ARG_BUFFER(b[5]), ARG_BUFFER(b[6 + kind]),
 		};
-		const enum device_kernel kernel = kind ? KERNEL_intersect_wide : wide ? KERNEL_occlude_wide : KERNEL_occlude_packet;
+		const enum device_kernel kernel = ways[way].kernels[kind];
 
 		ck_assert_int_eq(device_run(dev, kernel, kernel == KERNEL_occlude_packet ? packets : n, args, 9), 0);
 	}
@@ -171,8 +190,8 @@ START_TEST(twins_find_what_all_triangles_give)
 	if (_i != ACCEL_BVH)
 		random_scene_rebuild(s, (enum accel_kind)_i);
 	ck_assert_int_eq(device_open("reference", 1, &dev), 0);
-	for (int wide = 0; wide < 2; wide++) {
-		run(s, dev, rays, wide, got);
+	for (enum way way = 0; way < N_WAYS; way++) {
+		run(s, dev, rays, way, got);
 		for (uint32_t i = 0; i < N_RAYS; i++) {
 			double margin = 1;
 			struct hit want = { 0, 0, 0, SCENE_NONE, SCENE_NONE };
@@ -183,10 +202,10 @@ START_TEST(twins_find_what_all_triangles_give)
 				continue;
 			compared++;
 			ck_assert_msg(got->hits[i].instance == want.instance && got->hits[i].primitive == want.primitive,
-			              "ray %u (wide %d): instance %d primitive %d t %g, all triangles give %d %d %g", i, wide,
+			              "ray %u (%s): instance %d primitive %d t %g, all triangles give %d %d %g", i, ways[way].name,
 			              (int)got->hits[i].instance, (int)got->hits[i].primitive, got->hits[i].t, (int)want.instance,
 			              (int)want.primitive, want.t);
-			ck_assert_msg(got->occluded[i] == (want.instance != SCENE_NONE), "ray %u (wide %d): occluded %u", i, wide,
+			ck_assert_msg(got->occluded[i] == (want.instance != SCENE_NONE), "ray %u (%s): occluded %u", i, ways[way].name,
 			              got->occluded[i]);
 		}
 	}
@@ -236,12 +255,12 @@ START_TEST(kernels_agree_with_twins)
 	for (size_t k = 0; k < n_devices; k++) {
 		snprintf(number, sizeof(number), "%zu", k);
 		ck_assert_int_eq(device_open(number, 0, &dev), 0);
-		for (int wide = 0; wide < 2; wide++) {
-			snprintf(what, sizeof(what), "%s, %s", list[k].name, wide ? "wide" : "packet");
-			run(s, reference, rays, wide, want);
-			run(s, dev, rays, wide, got);
+		for (enum way way = 0; way < N_WAYS; way++) {
+			snprintf(what, sizeof(what), "%s, %s", list[k].name, ways[way].name);
+			run(s, reference, rays, way, want);
+			run(s, dev, rays, way, got);
 			compare(want, got, what);
-			run(s, dev, rays, wide, again);
+			run(s, dev, rays, way, again);
 			ck_assert_msg(memcmp(got, again, sizeof(*got)) == 0, "%s: two runs differ", what);
 		}
 		device_close(&dev);
@@ -266,12 +285,12 @@ START_TEST(hits_depend_on_no_tree)
 	char what[64];
 
 	ck_assert_int_eq(device_open(_i ? "0" : "reference", 0, &dev), 0);
-	run(s, dev, rays, 1, want);
-	for (int kind = ACCEL_BVH + 1; kind < N_ACCEL_KINDS; kind++) {
+	run(s, dev, rays, WIDE, want);
+	for (int kind = ACCEL_BVH; kind < N_ACCEL_KINDS; kind++) {
 		random_scene_rebuild(s, (enum accel_kind)kind);
-		for (int wide = 0; wide < 2; wide++) {
-			run(s, dev, rays, wide, got);
-			snprintf(what, sizeof(what), "kind %d, %s", kind, wide ? "wide" : "packet");
+		for (enum way way = 0; way < N_WAYS; way++) {
+			run(s, dev, rays, way, got);
+			snprintf(what, sizeof(what), "kind %d, %s", kind, ways[way].name);
 			compare(want, got, what);
 			ck_assert_msg(memcmp(want->hits, got->hits, sizeof(got->hits)) == 0, "%s: other bits", what);
 		}

@@ -38,7 +38,7 @@ def oclgrind(build, family):
 def main(build):
     version = subprocess.run(["oclgrind", "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
     rows = []
-    for family in ("packets", "wide"):
+    for family in ("packets", "binary", "compressed"):
         pictures, problems = oclgrind(build, family)
         rows.append({"what": f"{family}: {PICTURES} pictures, accesses out of bounds and races",
                      "figure": f"{problems} in {pictures} pictures", "bar": f"0 in {PICTURES} pictures",

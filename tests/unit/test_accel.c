@@ -1,6 +1,7 @@
 /* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by content. */
 #include "tests/check/random_scene.h"
 
+#include "kernels/compressed.h"
 #include "tracer/bvh.h"
 
 #define N 20000
@@ -8,6 +9,8 @@
 static struct bvh_box boxes[N];
 static struct node2 nodes[N];
 static struct node8 nodes8[N];
+static struct node8c nodes8c[BVH_COMPRESSED_NODES(N, N)];
+static struct triangle triangles[N], triangles8c[N]; /* only their numbers count here */
 static uint32_t order[N], block_first[N], block_count[N];
 static uint8_t seen[N];
 
@@ -55,6 +58,38 @@ static void check_node8(uint32_t index, uint32_t depth)
 	}
 }
 
+/* Boxes hold what is below them, and are no more than two steps of their grid larger. @param below  receives the node's own box */
+static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
+{
+	const struct node8c *node = &nodes8c[index];
+
+	ck_assert_uint_lt(depth, NODE8C_MAX_DEPTH);
+	bvh_box_clear(below);
+	for (uint32_t slot = 0; slot < 8; slot++) {
+		struct bvh_box box, content;
+		uint32_t first, count;
+
+		if (!node8c_box(node, slot, box.lo, box.hi))
+			continue;
+		count = node8c_child(node, slot, &first);
+		ck_assert_uint_le(count, NODE8C_LEAF_MAX);
+		bvh_box_clear(&content);
+		if (count == 0)
+			check_node8c(first, depth + 1, &content);
+		for (uint32_t k = 0; k < count; k++) {
+			check_item(triangles8c[first + k].primitive, box.lo, box.hi);
+			bvh_box_join(&content, &boxes[triangles8c[first + k].primitive]);
+		}
+		for (uint32_t a = 0; a < 3; a++) {
+			const float slack = 2 * node8c_step(node->exponents, a) + 1e-6f * fabsf(node->origin[a]);
+
+			ck_assert(box.lo[a] <= content.lo[a] && box.hi[a] >= content.hi[a]);
+			ck_assert(box.lo[a] >= content.lo[a] - slack && box.hi[a] <= content.hi[a] + slack);
+		}
+		bvh_box_join(below, &content);
+	}
+}
+
 /* The builder's text is compiled more than once; all make the same tree, by one thread or more. */
 int sah_build_plain(const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, uint32_t, unsigned, uint32_t,
                     struct node2 *, uint32_t *, uint32_t *, uint32_t *);
@@ -75,6 +110,7 @@ static void check_same_tree(uint32_t n, uint32_t n_nodes)
 static void check_trees(uint32_t n)
 {
 	uint32_t n_nodes, n_nodes8, n_blocks;
+	struct bvh_box whole;
 
 	ck_assert_int_eq(bvh_build_sah(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
 	check_same_tree(n, n_nodes);
@@ -88,6 +124,31 @@ static void check_trees(uint32_t n)
 	check_node8(0, 0);
 	for (uint32_t i = 0; i < n; i++)
 		ck_assert_msg(seen[i], "item %u of %u is in no block", i, n);
+	for (uint32_t i = 0; i < n; i++)
+		triangles[i].primitive = order[i];
+	ck_assert_int_eq(bvh_compress8(nodes, n_nodes, triangles, n, nodes8c, &n_nodes8, triangles8c), 0);
+	ck_assert_uint_le(n_nodes8, BVH_COMPRESSED_NODES(n_nodes, n));
+	memset(seen, 0, sizeof(seen));
+	check_node8c(0, 0, &whole);
+	for (uint32_t i = 0; i < n; i++)
+		ck_assert_msg(seen[i], "item %u of %u is in no compressed node", i, n);
+}
+
+/* Leaves that no compressed node has room for become nodes. */
+static void check_large_leaves(uint32_t n, uint32_t leaf)
+{
+	uint32_t n_nodes, n_nodes8;
+	struct bvh_box whole;
+
+	ck_assert_int_eq(bvh_build_sah(boxes, n, leaf, 3, nodes, &n_nodes, order), 0);
+	for (uint32_t i = 0; i < n; i++)
+		triangles[i].primitive = order[i];
+	ck_assert_int_eq(bvh_compress8(nodes, n_nodes, triangles, n, nodes8c, &n_nodes8, triangles8c), 0);
+	ck_assert_uint_le(n_nodes8, BVH_COMPRESSED_NODES(n_nodes, n));
+	memset(seen, 0, sizeof(seen));
+	check_node8c(0, 0, &whole);
+	for (uint32_t i = 0; i < n; i++)
+		ck_assert_msg(seen[i], "item %u of %u is in no compressed node", i, n);
 }
 
 static void set_box(uint32_t i, float x, float y, float z, float size)
@@ -104,6 +165,10 @@ START_TEST(all_items_in_one_leaf)
 		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
 	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
 		check_trees(counts[k]);
+	for (uint32_t i = 0; i < N; i++) /* not to be divided */
+		set_box(i, 1, 2, 3, 0);
+	for (uint32_t leaf = 5; leaf <= BVH_COMPRESSED_LEAF; leaf = 3 * leaf + 1)
+		check_large_leaves(N, leaf);
 }
 END_TEST
 
@@ -130,7 +195,7 @@ static void build(struct random_scene *s, uint32_t n)
 START_TEST(meshes_are_kept_and_dropped)
 {
 	struct random_scene *s = random_scene_create(1);
-	const size_t triangles = s->accel->n_triangles;
+	const size_t triangles = s->accel->n_triangles, n_nodes8c = s->accel->n_nodes8c;
 	uint64_t generation = s->accel->generation;
 
 	build(s, INSTANCES);
@@ -141,10 +206,13 @@ START_TEST(meshes_are_kept_and_dropped)
 		ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances + 1, 2, &s->view, &s->spaces,
 		                                   &s->n_spaces), 0);
 	ck_assert_uint_lt(s->accel->n_triangles, triangles);
+	ck_assert_uint_eq(s->accel->n_triangles8c, s->accel->n_triangles);
+	ck_assert_uint_eq(s->instances[1].node8c_first, 0);
 	ck_assert_uint_gt(s->accel->generation, generation);
 	ck_assert_uint_eq(s->instances[1].triangle_first, 0);
 	build(s, INSTANCES);
 	ck_assert_uint_eq(s->accel->n_triangles, triangles);
+	ck_assert_uint_eq(s->accel->n_nodes8c, n_nodes8c);
 	/* A frame with nothing in it. */
 	build(s, 0);
 	ck_assert_uint_eq(s->view.tlas_count, 0);

@@ -12,13 +12,13 @@ START_TEST(test_shared_device_takes_the_same_kernels)
 	static const char *const choices[] = { "reference", NULL };
 
 	for (int i = 0; i < 2; i++)
-		for (int packets = 0; packets < 2; packets++) {
+		for (enum device_family family = 0; family < N_DEVICE_FAMILIES; family++) {
 			struct device *dev = NULL, *other = NULL;
 
 			ck_assert_int_eq(device_open(choices[i], 0, &dev), 0);
-			device_choose_packets(dev, packets);
+			device_choose_family(dev, family);
 			ck_assert_int_eq(device_share(dev, &other), 0);
-			ck_assert_int_eq(device_prefers_packets(other), packets);
+			ck_assert_int_eq(device_family(other), family);
 			ck_assert_str_eq(device_name(other), device_name(dev));
 			device_close(&other);
 			device_close(&dev);
