@@ -1,6 +1,5 @@
 #include "tracer/cl.h"
 
-#include <CL/cl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tracer/cl_program.h"
 #include "tracer/kernels.h"
 
 /* Not in the core header: what the ICD loader says when no driver is installed. */
@@ -23,10 +23,6 @@
 #define GROUP_CPU 8
 #define GROUP_GPU 64
 
-/* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
-static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
-static const char options[] = "-cl-std=CL1.2";
-
 /* What all that were shared from one device have in common. */
 struct cl_common {
 	pthread_mutex_t lock;
@@ -34,6 +30,7 @@ struct cl_common {
 	cl_device_id root, id; /* id: root, or a sub-device of it */
 	cl_context context;
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
+	struct cl_keeping keeping;
 };
 
 struct cl_device {
@@ -74,7 +71,7 @@ static const char *error_name(cl_int code)
 	return "an unnamed OpenCL error";
 }
 
-static int report(cl_int code, const char *what)
+int cl_report(cl_int code, const char *what)
 {
 	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
 }
@@ -171,7 +168,7 @@ static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 	if (code == CL_SUCCESS)
 		return 0;
 	dev->id = dev->root;
-	return report(code, "this device cannot be limited to fewer threads");
+	return cl_report(code, "this device cannot be limited to fewer threads");
 }
 
 static void release_common(struct cl_common *c)
@@ -218,7 +215,7 @@ static int open_queue(struct cl_device *dev)
 	cl_int code;
 
 	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, 0, &code);
-	return dev->queue ? 0 : report(code, "clCreateCommandQueue");
+	return dev->queue ? 0 : cl_report(code, "clCreateCommandQueue");
 }
 
 int cl_open(size_t number, unsigned threads, struct cl_device **out)
@@ -251,7 +248,7 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 		goto fail;
 	common->context = clCreateContext(NULL, 1, &common->id, NULL, NULL, &code);
 	if (!common->context) {
-		err = report(code, "clCreateContext");
+		err = cl_report(code, "clCreateContext");
 		goto fail;
 	}
 	err = open_queue(dev);
@@ -324,7 +321,7 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
 	b->mem = clCreateBuffer(dev->common->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
 	if (!b->mem) {
 		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
-		return report(code, what);
+		return cl_report(code, what);
 	}
 	b->bytes = bytes;
 	return 0;
@@ -345,7 +342,7 @@ int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, con
 	if (bytes == 0)
 		return 0;
 	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
-	return code == CL_SUCCESS ? 0 : report(code, "writing a buffer");
+	return code == CL_SUCCESS ? 0 : cl_report(code, "writing a buffer");
 }
 
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes)
@@ -355,51 +352,36 @@ int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset
 	if (bytes == 0)
 		return 0;
 	code = clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
-	return code == CL_SUCCESS ? 0 : report(code, "reading a buffer");
+	return code == CL_SUCCESS ? 0 : cl_report(code, "reading a buffer");
 }
 
 int cl_finish(struct cl_device *dev)
 {
 	cl_int code = clFinish(dev->queue);
 
-	return code == CL_SUCCESS ? 0 : report(code, "clFinish");
+	return code == CL_SUCCESS ? 0 : cl_report(code, "clFinish");
 }
 
-static void report_build_log(struct cl_common *dev, cl_program program, const char *name)
+static int build_program(struct cl_common *c, size_t file)
 {
-	size_t bytes = 0;
-	char *log;
-
-	clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes);
-	log = calloc(1, bytes + 1);
-	if (log && clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) == CL_SUCCESS)
-		fprintf(stderr, "%s\n", log);
-	free(log);
-	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
+	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, &c->keeping, &c->programs[file]);
 }
 
-static int build_program(struct cl_common *dev, size_t file)
+void cl_keep_programs(struct cl_device *dev, const char *folder, int always)
 {
-	const char *texts[] = { prelude, kernel_files[file].text };
-	cl_program program;
-	cl_int code;
+	pthread_mutex_lock(&dev->common->lock);
+	cl_program_keep(dev->common->root, folder, always, &dev->common->keeping);
+	pthread_mutex_unlock(&dev->common->lock);
+}
 
-	if (dev->programs[file])
-		return 0;
-	program = clCreateProgramWithSource(dev->context, 2, texts, NULL, &code);
-	if (!program)
-		return report(code, kernel_files[file].name);
-	code = clBuildProgram(program, 1, &dev->id, options, NULL, NULL);
-	if (code == CL_SUCCESS) {
-		dev->programs[file] = program;
-		return 0;
-	}
-	if (code == CL_BUILD_PROGRAM_FAILURE)
-		report_build_log(dev, program, kernel_files[file].name);
-	else
-		report(code, kernel_files[file].name);
-	clReleaseProgram(program);
-	return ERR_SYSTEM;
+unsigned cl_programs_found(struct cl_device *dev)
+{
+	unsigned n;
+
+	pthread_mutex_lock(&dev->common->lock);
+	n = dev->common->keeping.found;
+	pthread_mutex_unlock(&dev->common->lock);
+	return n;
 }
 
 static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const char *name)
@@ -416,7 +398,7 @@ static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const c
 		if (err)
 			return err;
 		dev->kernels[kernel] = clCreateKernel(dev->common->programs[kernel_places[i].file], name, &code);
-		return dev->kernels[kernel] ? 0 : report(code, name);
+		return dev->kernels[kernel] ? 0 : cl_report(code, name);
 	}
 	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
 }
@@ -444,13 +426,13 @@ int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, s
 			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, args[i].bytes, args[i].value);
 		if (code != CL_SUCCESS) {
 			snprintf(what, sizeof(what), "kernel %s, argument %zu", name, i);
-			return report(code, what);
+			return cl_report(code, what);
 		}
 	}
 	code = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel], 1, NULL, &global, &local, 0, NULL, NULL);
 	if (code != CL_SUCCESS) {
 		snprintf(what, sizeof(what), "kernel %s", name);
-		return report(code, what);
+		return cl_report(code, what);
 	}
 	return 0;
 }

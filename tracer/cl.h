@@ -1,5 +1,5 @@
 /*
- * OpenCL 1.2 behind tracer/device.h: every clXxx call of the project is in cl.c. For device.c alone.
+ * OpenCL 1.2 behind tracer/device.h: every clXxx call of the project is in cl.c and cl_program.c. For device.c alone.
  *
  * Errors are reported with OpenCL's own name for them.
  */
@@ -29,6 +29,10 @@ void cl_close(struct cl_device **dev);
 int cl_share(struct cl_device *dev, struct cl_device **out);
 
 int cl_is_cpu(const struct cl_device *dev);
+
+/* As device_keep_programs and device_programs_found. */
+void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
+unsigned cl_programs_found(struct cl_device *dev);
 
 /* As their namesakes in device.h. */
 int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);

@@ -257,6 +257,17 @@ int device_parse_family(const char *text, enum device_family *out)
 	return err_report(ERR_USAGE, NULL, "there is no family of kernels '%s'; there are packets, binary and compressed", text);
 }
 
+void device_keep_programs(struct device *dev, const char *folder, int always)
+{
+	if (dev->cl)
+		cl_keep_programs(dev->cl, folder, always);
+}
+
+unsigned device_programs_found(const struct device *dev)
+{
+	return dev->cl ? cl_programs_found(dev->cl) : 0;
+}
+
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)
 {
 	struct device_buffer *b = *buffer;

@@ -149,6 +149,16 @@ const char *device_family_name(enum device_family family);
 int device_parse_family(const char *text, enum device_family *out);
 
 /**
+ * Keep what the device's compiler makes of the kernels in a folder, for other runs; processes may share it. Before its first
+ * kernel runs. A driver that is known to keep it itself (PoCL) is left to it unless `always`. Does nothing on the reference device.
+ * @param folder  copied
+ */
+void device_keep_programs(struct device *dev, const char *folder, int always);
+
+/** How many programs came from there, for this device and all that were shared from it. */
+unsigned device_programs_found(const struct device *dev);
+
+/**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
  * @return 0 or ERR_SYSTEM (reported with the size)
  */

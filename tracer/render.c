@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "base/part.h"
 #include "base/verbs.h"
 #include "tracer/pipeline.h"
@@ -73,6 +74,18 @@ static void report(const struct pipeline *p)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
 }
 
+static void prepare_device(const struct settings *s, struct device *dev)
+{
+	char folder[4096];
+
+	if (s->has_family)
+		device_choose_family(dev, s->family);
+	if (!s->no_cache && s->cache)
+		device_keep_programs(dev, s->cache, 0);
+	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
+		device_keep_programs(dev, folder, 0);
+}
+
 static int render_frames(struct pipeline *p, uint64_t total)
 {
 	const struct settings *s = p->settings;
@@ -81,8 +94,8 @@ static int render_frames(struct pipeline *p, uint64_t total)
 
 	if (err)
 		return err;
-	for (size_t i = 0; i < p->n_devices && s->has_family; i++)
-		device_choose_family(p->devices[i], s->family);
+	for (size_t i = 0; i < p->n_devices; i++)
+		prepare_device(s, p->devices[i]);
 	p->progress = &progress;
 	p->jobs = s->jobs ? s->jobs : default_jobs();
 	part_sweep(s->output);

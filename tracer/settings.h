@@ -22,7 +22,7 @@ struct settings {
 	uint64_t memory_bytes;  /* 0: no limit */
 	double frame_s;         /* 0: no limit */
 	enum progress_style progress;
-	const char *cache;      /* folder for trees of meshes; NULL: the user's */
+	const char *cache;      /* folder for trees of meshes and compiled kernels; NULL: the user's */
 	int no_cache;
 	uint64_t cache_bytes;   /* what it may hold; 0: STORE_BYTES */
 	struct look *look;

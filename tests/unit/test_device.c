@@ -1,7 +1,12 @@
-/* Devices: what a shared one has in common with its parent, and what a profile counts. */
+/* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled kernels. */
 #include <check.h>
+#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "kernels/shared.h"
 #include "tracer/device.h"
@@ -64,6 +69,139 @@ START_TEST(test_profile)
 }
 END_TEST
 
+/* Sum two lights' shadows with a device that keeps programs in a folder. @return how many came from there */
+static unsigned run_kept(const char *folder, int always)
+{
+	const uint32_t flags[2] = { 0, 1 }, first = 1, n = 2;
+	struct device_buffer *stopped = NULL, *arriving = NULL;
+	struct device *dev = NULL;
+	float weight = 0.25f, out[6];
+	unsigned found;
+
+	ck_assert_int_eq(device_open("0", 0, &dev), 0);
+	device_keep_programs(dev, folder, always);
+	ck_assert_int_eq(device_reserve(dev, &stopped, sizeof(flags)), 0);
+	ck_assert_int_eq(device_reserve(dev, &arriving, sizeof(out)), 0);
+	ck_assert_int_eq(device_write(dev, stopped, 0, flags, sizeof(flags)), 0);
+	{
+		const struct device_arg args[] = { ARG_BUFFER(stopped), ARG_VALUE(weight), ARG_VALUE(first), ARG_VALUE(n),
+			                           ARG_BUFFER(arriving) };
+
+		ck_assert_int_eq(device_run(dev, KERNEL_shadow_sum, n, args, 5), 0);
+	}
+	ck_assert_int_eq(device_read(dev, arriving, 0, out, sizeof(out)), 0);
+	ck_assert_float_eq(out[0], 0.25f);
+	ck_assert_float_eq(out[3], 0);
+	found = device_programs_found(dev);
+	device_release(dev, &stopped);
+	device_release(dev, &arriving);
+	device_close(&dev);
+	return found;
+}
+
+/* The one file of a folder, its size, or -1 where there is none. No unfinished one is left. */
+static long the_file(const char *folder, char *path, size_t size)
+{
+	DIR *dir = opendir(folder);
+	struct dirent *entry;
+	struct stat info;
+	long found = -1;
+
+	while (dir && (entry = readdir(dir))) {
+		if (entry->d_name[0] == '.')
+			continue;
+		ck_assert_int_eq(found, -1);
+		ck_assert_ptr_nonnull(strstr(entry->d_name, ".program"));
+		ck_assert_ptr_null(strstr(entry->d_name, ".part"));
+		ck_assert_int_lt(snprintf(path, size, "%s/%s", folder, entry->d_name), (int)size);
+		ck_assert_int_eq(stat(path, &info), 0);
+		found = (long)info.st_size;
+	}
+	if (dir)
+		closedir(dir);
+	return found;
+}
+
+static void change_byte(const char *path, long at)
+{
+	FILE *file = fopen(path, "r+b");
+	int byte;
+
+	ck_assert_ptr_nonnull(file);
+	fseek(file, at, SEEK_SET);
+	byte = fgetc(file);
+	fseek(file, at, SEEK_SET);
+	fputc(byte ^ 0x10, file);
+	fclose(file);
+}
+
+static void make_folder(char *folder, size_t size)
+{
+	ck_assert_int_lt(snprintf(folder, size - 8, "%s/programs-XXXXXX", getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp"), (int)size - 8);
+	ck_assert_ptr_nonnull(mkdtemp(folder));
+	strcat(folder, "/kept");
+}
+
+static void remove_folder(char *folder, const char *path)
+{
+	unlink(path);
+	rmdir(folder);
+	*strrchr(folder, '/') = '\0';
+	rmdir(folder);
+}
+
+START_TEST(test_programs_are_kept)
+{
+	char folder[128], path[512];
+	long size;
+
+	make_folder(folder, sizeof(folder));
+	ck_assert_uint_eq(run_kept(folder, 0), 0); /* PoCL keeps its own */
+	ck_assert_int_eq(the_file(folder, path, sizeof(path)), -1);
+	ck_assert_uint_eq(run_kept(folder, 1), 0);
+	size = the_file(folder, path, sizeof(path));
+	ck_assert_int_gt(size, 1000);
+	ck_assert_uint_eq(run_kept(folder, 1), 1);
+	/* Damaged in its content, in its key, and cut: found out each time, and put right. */
+	for (int damage = 0; damage < 3; damage++) {
+		if (damage == 2)
+			ck_assert_int_eq(truncate(path, size / 2), 0);
+		else
+			change_byte(path, damage ? 9 : size / 2);
+		ck_assert_uint_eq(run_kept(folder, 1), 0);
+		ck_assert_int_eq(the_file(folder, path, sizeof(path)), size);
+		ck_assert_uint_eq(run_kept(folder, 1), 1);
+	}
+	/* Nowhere to write: the kernels run all the same. */
+	ck_assert_uint_eq(run_kept("/proc/self/fdinfo", 1), 0);
+	ck_assert_uint_eq(run_kept("/dev/null/folder", 1), 0);
+	remove_folder(folder, path);
+}
+END_TEST
+
+/* Processes at once. Forked before OpenCL is touched, whose threads do not come along. */
+START_TEST(test_programs_are_shared)
+{
+	char folder[128], path[512];
+
+	make_folder(folder, sizeof(folder));
+	for (int i = 0; i < 4; i++)
+		if (fork() == 0) {
+			run_kept(folder, 1);
+			_exit(0);
+		}
+	for (int i = 0; i < 4; i++) {
+		int status;
+
+		ck_assert_int_gt(wait(&status), 0);
+		ck_assert_int_eq(status, 0);
+	}
+	ck_assert_int_gt(the_file(folder, path, sizeof(path)), 1000);
+	ck_assert_uint_eq(run_kept(folder, 1), 1);
+	remove_folder(folder, path);
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("device");
@@ -73,6 +211,8 @@ int main(void)
 
 	tcase_add_test(tests, test_shared_device_takes_the_same_kernels);
 	tcase_add_test(tests, test_profile);
+	tcase_add_test(tests, test_programs_are_kept);
+	tcase_add_test(tests, test_programs_are_shared);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
