@@ -1,10 +1,11 @@
 /*
  * camera_packet, camera_wide, camera_compressed: which primitives cover which pixels of one view. Included by C and OpenCL C.
  *
- * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, through the view's top
- * level and the instances' binary trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a
- * tile's rays instead, a pixel's hundredth wider. What they find are candidates: whether one covers a pixel is decided
- * by GL's own rule on its window vertices (GL 2.1 sec. 3.5.1), so that edges fall where the rasterizer puts them:
+ * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of where else in
+ * its pixels the view looks (view.sample; "centre" stands for either), through the view's top level and the instances'
+ * binary trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a
+ * pixel's hundredth wider. What they find are candidates: whether one covers a pixel is decided by GL's own rule on its
+ * window vertices (GL 2.1 sec. 3.5.1), so that edges fall where the rasterizer puts them:
  *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
  *     centre on an edge belongs to the triangle on its right, or above where the edge is level (as Mesa's llvmpipe has
  *     it for windows and for framebuffer objects), so that pixels on a shared edge are covered once.

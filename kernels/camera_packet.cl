@@ -134,12 +134,12 @@ struct tile_edge {
 	int whole;          /* (value - (1 where the edge itself is outside)) / 256, rounded down and clamped */
 };
 
-inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, int x, int y)
+inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
 {
 	const int dx = b.x - a.x, dy = b.y - a.y;
 	struct tile_edge e;
 
-	e.value = (long)dx * ((long)y * 256 + 128 - a.y) - (long)dy * ((long)x * 256 + 128 - a.x);
+	e.value = (long)dx * (at.y - a.y) - (long)dy * (at.x - a.x);
 	e.step_x = -dy;
 	e.step_y = dx;
 	e.whole = (int)clamp((e.value - !(dy < 0 || (dy == 0 && dx > 0))) >> 8, -(1l << 30), 1l << 30);
@@ -171,10 +171,12 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
                        struct window_vertex v2, const struct clip_corner *const *corner, const struct vec4 *clip,
                        struct candidate c)
 {
-	/* Rows and columns of centres that the triangle's box holds. */
-	const int x_first = (min(min(v0.x, v1.x), v2.x) + 127) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - 128) >> 8;
-	const int y_first = max((min(min(v0.y, v1.y), v2.y) + 127) >> 8, t->y);
-	const int y_last = min((max(max(v0.y, v1.y), v2.y) - 128) >> 8, t->y + CAMERA_TILE - 1);
+	/* Rows and columns of pixels whose places (centres, or samples) the triangle's box holds. */
+	const int in_x = 128 + t->view->sample[0], in_y = 128 + t->view->sample[1];
+	const int x_first = (min(min(v0.x, v1.x), v2.x) + 255 - in_x) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - in_x) >> 8;
+	const int y_first = max((min(min(v0.y, v1.y), v2.y) + 255 - in_y) >> 8, t->y);
+	const int y_last = min((max(max(v0.y, v1.y), v2.y) - in_y) >> 8, t->y + CAMERA_TILE - 1);
+	const struct clip_spot at = clip_spot(t->view, t->x, y_first);
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
 	const int clockwise = area < 0, small = area < (1l << 28) && area > -(1l << 28);
 	const float z[3] = { v0.z, v1.z, v2.z };
@@ -187,9 +189,9 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 	    coverage_culled(flags, !clockwise))
 		return;
 	/* Edge i is the one across from vertex i; turned round where the triangle runs clockwise. */
-	e0 = clockwise ? tile_edge(v2, v1, t->x, y_first) : tile_edge(v1, v2, t->x, y_first);
-	e1 = clockwise ? tile_edge(v0, v2, t->x, y_first) : tile_edge(v2, v0, t->x, y_first);
-	e2 = clockwise ? tile_edge(v1, v0, t->x, y_first) : tile_edge(v0, v1, t->x, y_first);
+	e0 = clockwise ? tile_edge(v2, v1, at) : tile_edge(v1, v2, at);
+	e1 = clockwise ? tile_edge(v0, v2, at) : tile_edge(v2, v0, at);
+	e2 = clockwise ? tile_edge(v1, v0, at) : tile_edge(v0, v1, at);
 	inverse = 1.0f / (float)abs_diff(area, 0l);
 	for (int y = 0; y <= y_last - y_first; y++) {
 		const int row = y_first - t->y + y;
@@ -203,8 +205,11 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 		if (exact < 0)
 			exact = t->mode != CAMERA_COLUMN && clip_depth_plane(t->view, (float)t->height, corner, clip, z, &plane);
 		if (exact)
-			depth = fma((float8)(plane.along_y), (float8)((int)t->height - 1 - (t->y + row)),
-			            fma((float8)(plane.along_x), convert_float8(t->x + LANES), (float8)(plane.origin)));
+			depth = fma((float8)(plane.along_y),
+			            (float8)(clip_from_origin(t->view, (int)t->height - 1 - (t->y + row), -t->view->sample[1])),
+			            fma((float8)(plane.along_x),
+			                convert_float8(LANES) + clip_from_origin(t->view, t->x, t->view->sample[0]),
+			                (float8)(plane.origin)));
 		else
 			depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
 		depth = select(depth, (float8)(1), depth > 1.0f);
@@ -256,6 +261,12 @@ inline void try_triangle(struct tile *t, uint index, __global const struct insta
 
 /* --- traversal --- */
 
+/* Where the view looks, pixels from their centres. */
+inline float tile_sample(const struct tile *t, int axis)
+{
+	return (float)t->view->sample[axis] * 0.00390625f;
+}
+
 /*
  * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
  * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
@@ -265,11 +276,11 @@ inline struct frustum tile_frustum(const struct tile *t, __global const float *m
 	__global const struct view *view = t->view;
 	__global const float *p = view->projection;
 	const float scale_x = 2.0f / view->viewport[2], scale_y = 2.0f / view->viewport[3];
+	const float left = (float)t->x + tile_sample(t, 0) - view->viewport[0];
+	const float low = (float)t->y + tile_sample(t, 1) - view->viewport[1];
 	/* A pixel's hundredth more: snapping moves edges by 1/512. */
-	const float x0 = ((float)t->x + 0.49f - view->viewport[0]) * scale_x - 1.0f;
-	const float x1 = ((float)t->x + CAMERA_TILE - 0.49f - view->viewport[0]) * scale_x - 1.0f;
-	const float y0 = ((float)t->y + 0.49f - view->viewport[1]) * scale_y - 1.0f;
-	const float y1 = ((float)t->y + CAMERA_TILE - 0.49f - view->viewport[1]) * scale_y - 1.0f;
+	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE - 0.49f) * scale_x - 1.0f;
+	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE - 0.49f) * scale_y - 1.0f;
 	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that is always met. */
 	const float8 of_x = (float8)(1, -1, 0, 0, 0, 0, 0, 0), of_y = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
 	const float8 of_z = (float8)(0, 0, 0, 0, 1, -1, 0, 0), of_w = (float8)(-x0, x1, -y0, y1, 1, t->z_far, 1, 0);
@@ -364,13 +375,14 @@ inline void walk_top(struct tile *t, __global const struct node2 *top, __global 
 	}
 }
 
-/* Geometry in window space: pixel centres are points. */
+/* Geometry in window space: where the view looks in pixels are points. */
 inline void walk_screen(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node2 *nodes = t->nodes + instance->node2_first;
-	const float x0 = (float)t->x + 0.5f - instance->pad, x1 = (float)t->x + CAMERA_TILE - 0.5f + instance->pad;
-	const float y0 = (float)t->y + 0.5f - instance->pad, y1 = (float)t->y + CAMERA_TILE - 0.5f + instance->pad;
+	const float left = (float)t->x + tile_sample(t, 0), low = (float)t->y + tile_sample(t, 1), pad = instance->pad;
+	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE - 0.5f + pad;
+	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE - 0.5f + pad;
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
 	stack[depth++] = 0;
@@ -446,8 +458,8 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.z_far = 1;
 	for (int y = 0; y < CAMERA_TILE; y++) {
 		struct row *row = &t.rows[y];
-		const float8 px = convert_float8(t.x + LANES) + 0.5f;
-		const float py = (float)(t.y + y) + 0.5f;
+		const float8 px = convert_float8(t.x + LANES) + 0.5f + tile_sample(&t, 0);
+		const float py = (float)(t.y + y) + 0.5f + tile_sample(&t, 1);
 
 		row->inside = (t.x + LANES < r.x1) & (int8)(t.y + y < r.y1 ? -1 : 0);
 		row->on = row->inside & (px >= viewport[0]) & (px < viewport[0] + viewport[2]) &

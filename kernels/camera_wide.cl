@@ -80,7 +80,7 @@ inline void try_triangle(struct pixel *p, uint index, __global const struct inst
 	f.instance = index;
 	f.primitive = triangle->primitive;
 	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
-		covered = coverage_placed(v0, v1, v2, instance->flags, p->x, p->y, &f.b1, &f.b2, &f.depth);
+		covered = coverage_placed(v0, v1, v2, instance->flags, clip_spot(p->view, p->x, p->y), &f.b1, &f.b2, &f.depth);
 		if (covered && exact) {
 			const struct vec4 clip[3] = { v4_load(p->clip + 4 * i0), v4_load(p->clip + 4 * i1), v4_load(p->clip + 4 * i2) };
 			const float z[3] = { v0.z, v1.z, v2.z };
@@ -233,6 +233,12 @@ inline void walk_top(struct pixel *p, __global const struct node2 *top, __global
 	}
 }
 
+/* Where the view looks in the pixel, pixels. */
+inline float2 pixel_spot(const struct pixel *p)
+{
+	return (float2)((float)p->x, (float)p->y) + 0.5f + (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
+}
+
 /* Whether a box, widened by pad, is over or under a place of the window. */
 inline int is_below(float2 lo, float2 hi, float2 at, float pad)
 {
@@ -286,10 +292,10 @@ inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
 	}
 }
 
-/* Geometry in window space: the pixel centre is a point. */
+/* Geometry in window space: where the view looks is a point. */
 inline void walk_screen(struct pixel *p, uint index)
 {
-	const float2 at = (float2)((float)p->x + 0.5f, (float)p->y + 0.5f);
+	const float2 at = pixel_spot(p);
 
 	if (p->compressed)
 		walk_screen_compressed(p, index, at);
@@ -301,7 +307,7 @@ inline void walk_screen(struct pixel *p, uint index)
 inline int make_ray(struct pixel *p)
 {
 	__global const float *m = p->view->inverse, *viewport = p->view->viewport;
-	const float px = (float)p->x + 0.5f, py = (float)p->y + 0.5f;
+	const float px = pixel_spot(p).x, py = pixel_spot(p).y;
 	const float x = 2.0f * (px - viewport[0]) / viewport[2] - 1.0f;
 	const float y = 2.0f * (py - viewport[1]) / viewport[3] - 1.0f;
 	const float4 near = vload4(0, m) * x + vload4(1, m) * y + (vload4(3, m) - vload4(2, m));

@@ -15,23 +15,23 @@ inline int coverage_culled(uint flags, int counter_clockwise)
 	return (flags & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0;
 }
 
-/* Twice the signed area of a -> b -> the pixel centre, in 1/65536 square pixel. */
-inline long coverage_edge(struct window_vertex a, struct window_vertex b, int x, int y)
+/* Twice the signed area of a -> b -> a place, in 1/65536 square pixel. */
+inline long coverage_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
 {
-	return (long)(b.x - a.x) * ((long)y * 256 + 128 - a.y) - (long)(b.y - a.y) * ((long)x * 256 + 128 - a.x);
+	return (long)(b.x - a.x) * (at.y - a.y) - (long)(b.y - a.y) * (at.x - a.x);
 }
 
-inline int coverage_inside(struct window_vertex a, struct window_vertex b, int sign, int x, int y)
+inline int coverage_inside(struct window_vertex a, struct window_vertex b, int sign, struct clip_spot at)
 {
-	const long e = sign * coverage_edge(a, b, x, y);
+	const long e = sign * coverage_edge(a, b, at);
 	const int dx = sign * (b.x - a.x), dy = sign * (b.y - a.y);
 
 	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
 /* All vertices have a place in the window. */
-inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, uint flags, int x,
-                           int y, float *b1, float *b2, float *depth)
+inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, uint flags,
+                           struct clip_spot at, float *b1, float *b2, float *depth)
 {
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
 	const int sign = area > 0 ? 1 : -1;
@@ -39,12 +39,11 @@ inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, str
 
 	if (area == 0 || coverage_culled(flags, sign > 0))
 		return 0;
-	if (!coverage_inside(v1, v2, sign, x, y) || !coverage_inside(v2, v0, sign, x, y) ||
-	    !coverage_inside(v0, v1, sign, x, y))
+	if (!coverage_inside(v1, v2, sign, at) || !coverage_inside(v2, v0, sign, at) || !coverage_inside(v0, v1, sign, at))
 		return 0;
 	inverse = 1.0f / (float)area;
-	*b1 = (float)coverage_edge(v2, v0, x, y) * inverse;
-	*b2 = (float)coverage_edge(v0, v1, x, y) * inverse;
+	*b1 = (float)coverage_edge(v2, v0, at) * inverse;
+	*b2 = (float)coverage_edge(v0, v1, at) * inverse;
 	*depth = fmax(fmin(v0.z + (*b1 * (v1.z - v0.z) + *b2 * (v2.z - v0.z)), 1.0f), 0.0f);
 	return 1;
 }
@@ -57,7 +56,7 @@ inline float coverage_depth(__global const struct view *view, uint height, const
 
 	if (!clip_depth_plane(view, (float)height, corner, clip, z, &plane))
 		return otherwise;
-	return clamp01(clip_plane_at(&plane, (float)x, (float)((int)height - 1 - y)));
+	return clamp01(clip_plane_in(&plane, view, (float)height, x, y));
 }
 
 /* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
@@ -71,7 +70,7 @@ inline int coverage_clipped(__global const struct view *view, __global const flo
 	for (uint k = 2; k < polygon.n; k++) {
 		const struct clip_corner *c = &polygon.corner[k];
 
-		if (!coverage_placed(c[-1].window, c->window, last->window, flags, x, y, b1, b2, depth))
+		if (!coverage_placed(c[-1].window, c->window, last->window, flags, clip_spot(view, x, y), b1, b2, depth))
 			continue;
 		if (exact) {
 			const struct clip_corner *const corner[3] = { c - 1, c, last };

@@ -57,7 +57,31 @@ static inline void clip_place(GLOBAL const struct view *view, struct vec4 clip, 
 	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
 }
 
-/* What is linear over a triangle of the window; x and y count pixels from the first one's centre, y from the top. */
+/* A place in the window, 1/256 pixel, y from the bottom. */
+struct clip_spot {
+	clip_area x, y;
+};
+
+/* Where a view looks in a pixel. */
+static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t x, int32_t y)
+{
+	struct clip_spot at;
+
+	at.x = (clip_area)x * 256 + 128 + view->sample[0];
+	at.y = (clip_area)y * 256 + 128 + view->sample[1];
+	return at;
+}
+
+/*
+ * Planes count pixels from the first one's centre, as llvmpipe does, but where a pixel has several samples (none of which is its
+ * centre): from the window's corner.
+ */
+static inline float clip_origin(GLOBAL const struct view *view)
+{
+	return view->sample[0] | view->sample[1] ? 0.0f : 0.5f;
+}
+
+/* What is linear over a triangle of the window; x and y count pixels from clip_origin, y from the top. */
 struct clip_plane {
 	float origin, along_x, along_y;
 };
@@ -76,7 +100,7 @@ static inline int clip_is_sliver(float area)
 
 /*
  * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two edges. Places
- * are not snapped and count from the first pixel's centre.
+ * are not snapped and count from clip_origin.
  */
 struct clip_edges {
 	int a, b; /* which vertices are its first two */
@@ -114,6 +138,19 @@ static inline struct clip_plane clip_plane_through(const struct clip_edges *e, c
 static inline float clip_plane_at(const struct clip_plane *p, float x, float y)
 {
 	return M_FMA(p->along_y, y, M_FMA(p->along_x, x, p->origin));
+}
+
+/* From clip_origin to where a view looks in a pixel, along one axis. sample: of the view; negative for y. */
+static inline float clip_from_origin(GLOBAL const struct view *view, int32_t pixel, int32_t sample)
+{
+	return (float)pixel + (0.5f - clip_origin(view)) + (float)sample * 0.00390625f;
+}
+
+/* A plane's value where a view looks in a pixel; y from the bottom. */
+static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struct view *view, float height, int32_t x, int32_t y)
+{
+	return clip_plane_at(p, clip_from_origin(view, x, view->sample[0]),
+	                     clip_from_origin(view, (int32_t)height - 1 - y, -view->sample[1]));
 }
 
 /* The planes that a point lies beyond, a bit each in the order in which they cut. */
@@ -277,7 +314,7 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 /* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated from. */
 struct clip_setup {
 	struct clip_corner corner[3];
-	float px[3], py[3]; /* their places, from the first pixel's centre */
+	float px[3], py[3]; /* their places, from clip_origin */
 	struct clip_edges edges;
 	struct clip_plane w_inv;
 	struct clip_cuts cuts;
@@ -297,21 +334,21 @@ static inline void clip_weights(const struct clip_corner *v0, const struct clip_
 	*out2 = (p0 * v0->b2 + p1 * v1->b2 + p2 * v2->b2) / sum;
 }
 
-static inline int clip_inside(struct window_vertex a, struct window_vertex b, int sign, int32_t x, int32_t y)
+static inline int clip_inside(struct window_vertex a, struct window_vertex b, int sign, struct clip_spot at)
 {
 	clip_area dx = (clip_area)sign * (b.x - a.x), dy = (clip_area)sign * (b.y - a.y);
-	clip_area e = dx * ((clip_area)y * 256 + 128 - a.y) - dy * ((clip_area)x * 256 + 128 - a.x);
+	clip_area e = dx * (at.y - a.y) - dy * (at.x - a.x);
 
 	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
-/* 1 where a part covers a pixel (kernels/camera.h); y from the bottom. */
-static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, int32_t x, int32_t y)
+/* 1 where a part covers a place (kernels/camera.h). */
+static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, struct clip_spot at)
 {
 	clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
 	int sign = area > 0 ? 1 : -1;
 
-	return area != 0 && clip_inside(v0, v1, sign, x, y) && clip_inside(v1, v2, sign, x, y) && clip_inside(v2, v0, sign, x, y);
+	return area != 0 && clip_inside(v0, v1, sign, at) && clip_inside(v1, v2, sign, at) && clip_inside(v2, v0, sign, at);
 }
 
 /*
@@ -331,8 +368,8 @@ static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
 		} else {
 			clip_place(view, clip[i], height, place);
 		}
-		px[i] = place[0] - 0.5f;
-		py[i] = place[1] - 0.5f;
+		px[i] = place[0] - clip_origin(view);
+		py[i] = place[1] - clip_origin(view);
 	}
 	if (clip_is_sliver(clip_place_area(px, py)))
 		return 0;

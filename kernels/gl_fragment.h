@@ -311,7 +311,7 @@ static inline void point_texcoord_planes(const struct tables *t, const struct po
 	planes->w_inv = setup->w_inv;
 }
 
-/* Texture coordinates at any pixel. x, y: from the first one, y from the top */
+/* Texture coordinates at any pixel. x, y: from clip_origin, y from the top */
 static inline struct vec4 point_texcoord_at(const struct point_planes *planes, float x, float y)
 {
 	float w = 1.0f / clip_plane_at(&planes->w_inv, x, y);
@@ -361,6 +361,7 @@ static inline void point_coat(const struct tables *t, const struct point *p, GLO
 	GLOBAL const struct scene_material *m = p->material;
 	/* llvmpipe's quads: even columns, even rows counted from the top. */
 	const float y = (float)(height - 1u - row), quad_x = (float)(x & ~1u), quad_y = (float)((height - 1u - row) & ~1u);
+	const float middle = setup ? 0.5f - clip_origin(view) : 0.0f;
 	float quad[3][3];
 	int have_quad = 0;
 
@@ -373,14 +374,14 @@ static inline void point_coat(const struct tables *t, const struct point *p, GLO
 
 		if (setup) {
 			point_texcoord_planes(t, p, i, setup, &planes);
-			c = point_texcoord_at(&planes, (float)x, y);
+			c = point_texcoord_at(&planes, (float)x + middle, y + middle);
 		} else {
 			c = point_texcoord(t, p, i, p->weight);
 		}
 		if (have_slope && setup) {
-			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord_at(&planes, quad_x, quad_y),
-			                      point_texcoord_at(&planes, quad_x + 1.0f, quad_y),
-			                      point_texcoord_at(&planes, quad_x, quad_y + 1.0f));
+			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord_at(&planes, quad_x + middle, quad_y + middle),
+			                      point_texcoord_at(&planes, quad_x + 1.0f + middle, quad_y + middle),
+			                      point_texcoord_at(&planes, quad_x + middle, quad_y + 1.0f + middle));
 		} else if (have_slope) {
 			if (!have_quad) {
 				float qx = quad_x + 0.5f, qy = (float)height - (quad_y + 0.5f);

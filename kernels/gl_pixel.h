@@ -119,7 +119,24 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 	return blend_colors(m, s, d);
 }
 
-/* Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16. */
+/*
+ * Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16, and of one with several samples a pixel the
+ * number of the one that is drawn, from 1 on, << 24. With PIXEL_FOLLOWS colours go where the first sample's tests let them, and no
+ * test is made: so llvmpipe (22.3.6) draws what is drawn without multisampling to a frame buffer with samples.
+ */
+#define PIXEL_FOLLOWS 0x80000000u
+
+static inline int pixel_is_sampled(uint32_t bits)
+{
+	return (bits >> 24 & 127u) != 0u;
+}
+
+/* Of the sample that is drawn, from 0 on. */
+static inline uint32_t pixel_sample(uint32_t bits)
+{
+	return pixel_is_sampled(bits) ? (bits >> 24 & 127u) - 1u : 0u;
+}
+
 static inline uint32_t pixel_depth_bits(uint32_t bits)
 {
 	return bits & 255u;
@@ -148,6 +165,10 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 		pixel->unknown |= PIXEL_UNKNOWN_TEST;
 	/* llvmpipe compares alpha in the frame buffer's precision. */
 	if (m->alpha_test && !pixel_compare(m->alpha_func, blend_round(s->gl[3]), blend_round(m->alpha_ref)))
+		return 0;
+	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are llvmpipe's, of four. */
+	if (m->samples_off >> pixel_sample(bits) & 1u ||
+	    (m->alpha_to_coverage && !(s->gl[3] > 0.25f * (float)pixel_sample(bits))))
 		return 0;
 	if (use_stencil &&
 	    !pixel_compare(stencil->func, stencil->ref & stencil->compare_mask, pixel->stencil & stencil->compare_mask)) {
@@ -188,32 +209,47 @@ static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL cons
 	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
 }
 
+/* Whether a fragment reaches the colour of a pixel; what the first sample decides is kept for others that follow it. */
+static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
+                               uint32_t bits)
+{
+	if (bits & PIXEL_FOLLOWS)
+		return (s->flags & SHADED_DRAWN) != 0u;
+	if (!pixel_tests(m, s, pixel, bits))
+		return 0;
+	s->flags |= SHADED_DRAWN;
+	return 1;
+}
+
 /* One fragment through all operations. `draw`: its draw number. */
-static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
                               GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
                               uint32_t bits)
 {
 	struct vec4 gl, old_gl;
 	uint32_t mask = m->color_mask;
-	float alpha;
+	float alpha, opacity;
 
+	if (s->flags & SHADED_STENCIL && bits & PIXEL_FOLLOWS)
+		return;
 	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: nothing but the mask counts (sec. 4.3.1) */
 		uint32_t write = m->stencil_front.write_mask & pixel_bits_mask(pixel_stencil_bits(bits));
 
 		pixel->stencil = (pixel->stencil & ~write) | ((uint32_t)s->depth & write);
 		return;
 	}
-	if (!(s->flags & SHADED_THERE) || !pixel_tests(m, s, pixel, bits) || !(mask & 15u))
+	if (!(s->flags & SHADED_THERE) || !pixel_passes(m, s, pixel, bits) || !(mask & 15u))
 		return;
 	old_gl = v4_load(pixel->gl);
 	alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f;
-	gl = pixel_source(m, v4_load(s->gl), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
+	opacity = m->alpha_to_one ? 1.0f : s->gl[3];
+	gl = pixel_source(m, v4(s->gl[0], s->gl[1], s->gl[2], opacity), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
 	pixel_store(pixel->gl, v3(gl.x, gl.y, gl.z), mask);
-	pixel_part(m, s->shadowed, s->gl[3], alpha, pixel->shadowed, 0);
-	pixel_part(m, s->direct, s->gl[3], alpha, pixel->direct, 0);
-	pixel_part(m, s->mirrored, s->gl[3], alpha, pixel->mirrored, 0);
+	pixel_part(m, s->shadowed, opacity, alpha, pixel->shadowed, 0);
+	pixel_part(m, s->direct, opacity, alpha, pixel->direct, 0);
+	pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, 0);
 	/* What is seen through glass is traced; blending would show it once more. */
-	pixel_part(m, s->beauty, s->gl[3], alpha, pixel->beauty, m->surface.transmit > 0.0f);
+	pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, m->surface.transmit > 0.0f);
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
 	pixel->id = draw;
@@ -228,6 +264,83 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL cons
 		pixel->surface = *f;
 		v3_store(pixel->albedo, v3_load(s->albedo));
 	}
+}
+
+/* --- Samples into pixels ------------------------------------------------------------------------------------------ */
+
+/*
+ * A channel of four samples as one number: the mean of what each holds in 8 bits, rounded, in the order of operations in which
+ * Mesa (22.3.6) resolves (util_make_fs_msaa_resolve). Where all hold the same it is the first one's number, as it stands.
+ */
+static inline float pixel_average(const float *samples)
+{
+	float sum = 0.0f, first = M_RINT(clamp01(samples[0]) * 255.0f);
+	int same = 1;
+
+	for (int i = 0; i < 4; i++) {
+		float code = M_RINT(clamp01(samples[i]) * 255.0f);
+
+		same &= code == first;
+		sum += code * (1.0f / 255.0f);
+	}
+	return same ? samples[0] : pixel_stored(sum * 0.25f);
+}
+
+/* A part's mean: as far off the resolved colour as the samples' parts are off their colours, so that equals stay equal. */
+static inline float pixel_average_part(float gl, const float *gls, const float *parts)
+{
+	float off = (parts[0] - gls[0]) + (parts[1] - gls[1]) + (parts[2] - gls[2]) + (parts[3] - gls[3]);
+
+	return M_MAX(gl + 0.25f * off, 0.0f);
+}
+
+/*
+ * Four samples of a pixel into the first: colours and parts their means, albedo that of what was drawn; depth and stencil are the
+ * first sample's. The surface is that of the first sample that has one.
+ */
+static inline void pixel_resolve(GLOBAL struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
+                                 GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth)
+{
+	GLOBAL const struct frame_pixel *from[4];
+	float gls[4], parts[4];
+	struct vec3 albedo = v3(0.0f, 0.0f, 0.0f);
+	uint32_t surface = 4u, drawn = 0u, unknown = 0u;
+
+	from[0] = first;
+	from[1] = second;
+	from[2] = third;
+	from[3] = fourth;
+	for (uint32_t i = 0u; i < 4u; i++) {
+		unknown |= from[i]->unknown;
+		if (from[i]->id == 0u)
+			continue;
+		surface = surface < 4u ? surface : i;
+		albedo = v3_add(albedo, v3_load(from[i]->albedo));
+		drawn++;
+	}
+	for (uint32_t c = 0u; c < 4u; c++) {
+		float gl;
+
+		for (uint32_t i = 0u; i < 4u; i++)
+			gls[i] = from[i]->gl[c];
+		gl = pixel_average(gls);
+		for (uint32_t part = 0u; part < 4u && c < 3u; part++) {
+			for (uint32_t i = 0u; i < 4u; i++)
+				parts[i] = part == 0u ? from[i]->shadowed[c] : part == 1u ? from[i]->direct[c] :
+				           part == 2u ? from[i]->mirrored[c] : from[i]->beauty[c];
+			*(part == 0u ? &first->shadowed[c] : part == 1u ? &first->direct[c] : part == 2u ? &first->mirrored[c] :
+			                                                                                   &first->beauty[c]) =
+				pixel_average_part(gl, gls, parts);
+		}
+		first->gl[c] = gl;
+	}
+	first->unknown = unknown;
+	if (drawn == 0u)
+		return;
+	v3_store(first->albedo, v3_scale(albedo, 1.0f / (float)drawn));
+	first->surface = from[surface]->surface;
+	first->layers = from[surface]->layers;
+	first->id = from[surface]->id;
 }
 
 static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)

@@ -77,10 +77,15 @@ static inline float stage_offset(GLOBAL const struct scene_material *m, const st
 /*
  * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
  * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners. What is no
- * line stays as it is.
+ * line stays as it is. y from the top.
+ * Under multisampling all of its direction counts, and llvmpipe takes the ends half a pixel off where they are, but not the places
+ * that it asks for.
  */
-static inline void stage_line(const struct tables *t, float x, float y, struct fragment *f)
+static inline void stage_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
+                              struct fragment *f)
 {
+	GLOBAL const struct view *view;
+	float x, y, middle_x, middle_y;
 	struct point p;
 	struct vec4 a, b, c;
 	int second[3];
@@ -89,6 +94,11 @@ static inline void stage_line(const struct tables *t, float x, float y, struct f
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	if (!(p.geometry->flags & GEOMETRY_LINE))
 		return;
+	view = &views[p.geometry->view];
+	x = clip_from_origin(view, (int32_t)pixel_x, view->sample[0]);
+	y = clip_from_origin(view, (int32_t)pixel_y, -view->sample[1]);
+	middle_x = clip_from_origin(view, (int32_t)pixel_x, 0);
+	middle_y = clip_from_origin(view, (int32_t)pixel_y, 0);
 	a = b = v4_load(p.vertex[0]->color[1]);
 	for (int i = 0; i < 3; i++) {
 		c = v4_load(p.vertex[i]->color[1]);
@@ -101,7 +111,9 @@ static inline void stage_line(const struct tables *t, float x, float y, struct f
 	dx = a.x - b.x;
 	dy = a.y - b.y;
 	one_over_area = 1.0f / (dx * dx + dy * dy);
-	if (M_ABS(dx) >= M_ABS(dy)) {
+	if (view->sample[0] | view->sample[1]) {
+		/* as it is */
+	} else if (M_ABS(dx) >= M_ABS(dy)) {
 		dx *= 1.0f + (dy / dx) * (dy / dx);
 		dy = 0.0f;
 	} else {
@@ -111,7 +123,7 @@ static inline void stage_line(const struct tables *t, float x, float y, struct f
 	along_x = (a.z - b.z) * dx * one_over_area;
 	along_y = (a.z - b.z) * dy * one_over_area;
 	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, a.z - (along_x * (a.x - 0.5f) + along_y * (a.y - 0.5f)))));
-	share = -(dx * one_over_area * (x - (a.x - 0.5f)) + dy * one_over_area * (y - (a.y - 0.5f)));
+	share = -(dx * one_over_area * (middle_x - (a.x - 0.5f)) + dy * one_over_area * (middle_y - (a.y - 0.5f)));
 	f->b1 = f->b2 = 0.0f;
 	if (second[0])
 		share = 1.0f - share;
@@ -145,7 +157,7 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 		clip_triangle(view, (float)height, v4_load(p.vertex[0]->clip), v4_load(p.vertex[1]->clip), v4_load(p.vertex[2]->clip),
 		              &polygon);
 		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
-		                                        polygon.corner[0].window, (int32_t)x, (int32_t)y))
+		                                        polygon.corner[0].window, clip_spot(view, (int32_t)x, (int32_t)y)))
 			part++;
 		if (part >= polygon.n)
 			return 0;
@@ -167,8 +179,8 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 			c->window = windows[p.geometry->vertex_first + p.number[i]];
 		}
 		w_inv[i] = c->window.w_inv;
-		setup->px[i] = c->place[0] - 0.5f;
-		setup->py[i] = c->place[1] - 0.5f;
+		setup->px[i] = c->place[0] - clip_origin(view);
+		setup->py[i] = c->place[1] - clip_origin(view);
 	}
 	if (clip_is_sliver(clip_place_area(setup->px, setup->py)))
 		return 0;
@@ -177,23 +189,28 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 	return 1;
 }
 
-/* Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. */
-static inline void stage_unsnap(const struct tables *t, const struct clip_setup *setup, uint32_t x, uint32_t y, uint32_t height,
+/*
+ * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place where the
+ * view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
+ */
+static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views, const struct clip_setup *setup, uint32_t x, uint32_t y, uint32_t height,
                                 uint32_t bits, struct fragment *f)
 {
 	const float z[3] = { setup->corner[0].window.z, setup->corner[1].window.z, setup->corner[2].window.z };
 	struct clip_plane plane = clip_plane_through(&setup->edges, z);
+	GLOBAL const struct view *view;
 	struct point p;
 	float px[3], py[3], area = clip_place_area(setup->px, setup->py);
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
-	f->depth = clip_plane_at(&plane, (float)x, (float)(height - 1u - y));
+	view = &views[p.geometry->view];
+	f->depth = clip_plane_in(&plane, view, (float)height, (int32_t)x, (int32_t)y);
 	if (p.material->polygon_offset & 4u && !(p.geometry->flags & GEOMETRY_EXPANDED))
 		f->depth += stage_offset(p.material, &setup->edges, z, bits);
 	f->depth = clamp01(f->depth);
 	for (uint32_t i = 0u; i < 3u; i++) {
-		px[i] = setup->px[i] - (float)x;
-		py[i] = setup->py[i] - (float)(height - 1u - y);
+		px[i] = setup->px[i] - clip_from_origin(view, (int32_t)x, 0);
+		py[i] = setup->py[i] - clip_from_origin(view, (int32_t)(height - 1u - y), 0);
 	}
 	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
 	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
@@ -340,7 +357,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	struct lit lit;
 	struct vec4 color;
 	float coverage;
-	int have_setup;
+	int have_setup, clipped = 0;
 	uint32_t group = 0u, kind = 0u;
 
 	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
@@ -349,15 +366,20 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		return;
 	have_setup = stage_setup(t, views, windows, x, y, height, &f, &setup);
 	if (!n_slots) {
+		if (pixel_is_sampled(bits)) { /* user clip planes cut at the sample's place */
+			p = point_from_fragment(t, windows, &f);
+			clipped = point_clipped(&p);
+		}
 		if (have_setup)
-			stage_unsnap(t, &setup, x, y, height, bits, &f);
+			stage_unsnap(t, views, &setup, x, y, height, bits, &f);
 		else
-			stage_line(t, (float)x, (float)(height - 1u - y), &f);
+			stage_line(t, views, x, height - 1u - y, &f);
 		fragments[item] = f;
 	}
 	p = point_from_fragment(t, windows, &f);
 	coverage = stage_coverage(&p);
-	if (!n_slots && (point_clipped(&p) || stage_stippled_away(t, &p, x, y) || !(coverage > 0.0f))) {
+	clipped |= !n_slots && !pixel_is_sampled(bits) && point_clipped(&p);
+	if (!n_slots && (clipped || stage_stippled_away(t, &p, x, y) || !(coverage > 0.0f))) {
 		out->flags = 0u;
 		return;
 	}
@@ -397,7 +419,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 
 /* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
 static inline void resolve_item(const struct tables *t, GLOBAL const struct fragment *fragments,
-                                GLOBAL const struct shaded *shaded, GLOBAL const uint32_t *first,
+                                GLOBAL struct shaded *shaded, GLOBAL const uint32_t *first,
                                 GLOBAL const uint32_t *counts, uint32_t bits, GLOBAL struct frame_pixel *frame,
                                 uint32_t pixel)
 {

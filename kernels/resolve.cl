@@ -1,4 +1,4 @@
-/* clear, resolve: see kernels/gl_stages.h. */
+/* clear, resolve, merge_samples: see kernels/gl_stages.h, kernels/gl_pixel.h. */
 #include "kernels/gl_stages.h"
 
 __kernel void clear(struct scene_clear clear, struct camera_rectangle rectangle, uint32_t width, uint32_t bits,
@@ -9,7 +9,7 @@ __kernel void clear(struct scene_clear clear, struct camera_rectangle rectangle,
 }
 
 __kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragments,
-                      __global const struct shaded *shaded, __global const uint32_t *first,
+                      __global struct shaded *shaded, __global const uint32_t *first,
                       __global const uint32_t *counts, struct camera_rectangle rectangle, uint32_t width, uint32_t bits,
                       uint32_t n, __global struct frame_pixel *frame)
 {
@@ -18,4 +18,13 @@ __kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragment
 	if (get_global_id(0) < n)
 		resolve_item(&t, fragments, shaded, first, counts, bits, frame,
 		             stage_pixel(rectangle, width, (uint32_t)get_global_id(0)));
+}
+
+__kernel void merge_samples(__global struct frame_pixel *first, __global const struct frame_pixel *second,
+                            __global const struct frame_pixel *third, __global const struct frame_pixel *fourth, uint32_t n)
+{
+	const uint32_t i = (uint32_t)get_global_id(0);
+
+	if (i < n)
+		pixel_resolve(&first[i], &second[i], &third[i], &fourth[i]);
 }

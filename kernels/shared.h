@@ -153,8 +153,9 @@ struct view {
 	uint32_t tlas_count;    /* nodes in it; 0: nothing to hit */
 	uint32_t screen_first;  /* screen instances of the view: instances[screen_first .. +screen_count) */
 	uint32_t screen_count;
+	int32_t sample[2];      /* where in its pixels it looks: 1/256 pixel right of and above their centres */
 };
-SHARED_SIZE(struct view, 184);
+SHARED_SIZE(struct view, 192);
 
 /**
  * Weights of a fragment's three vertices for attributes that are interpolated with perspective (GL 2.1 equation 3.6):
@@ -248,6 +249,7 @@ SHARED_SIZE(struct shaded, 84);
 
 #define SHADED_THERE 1u
 #define SHADED_FRONT 2u
+#define SHADED_DRAWN 8u   /* it passed all tests on the first sample: see PIXEL_FOLLOWS */
 #define SHADED_STENCIL 4u /* no fragment but a value for the stencil buffer, in depth */
 #define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
 

@@ -202,7 +202,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;
 	char text[128];
-	unsigned width, height, alpha, depth, stencil, srgb = 0;
+	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0;
 	size_t n;
 
 	if (v->type != TRACE_STRING && v->type != TRACE_BLOB)
@@ -212,12 +212,14 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	text[n] = 0;
 	if (strncmp(text, "relume:material ", 16) == 0)
 		set_surface(x, st, text + 16);
-	if (sscanf(text, "relume:bits %u %u %u %u", &alpha, &depth, &stencil, &srgb) >= 3 && alpha <= 32 && depth <= 32 && stencil <= 8) {
+	if (sscanf(text, "relume:bits %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples) >= 3 && alpha <= 32 && depth <= 32 &&
+	    stencil <= 8 && samples <= 64) {
 		gls_flush(x);
 		st->alpha_bits = alpha;
 		st->depth_bits = depth;
 		st->stencil_bits = stencil;
 		st->srgb = srgb != 0;
+		st->samples = samples;
 		st->dirty |= GLS_DIRTY_ALL;
 	}
 	if (sscanf(text, "relume:drawable %u %u", &width, &height) != 2 || width > 65536 || height > 65536)

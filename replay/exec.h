@@ -210,6 +210,7 @@ struct gls_framebuffer;
 struct gls_renderbuffer {
 	uint32_t internal_format, width, height;
 	uint32_t missing;            /* as of a texture's level */
+	uint32_t samples;            /* of a pixel; 0: one */
 	struct gls_picture *content; /* a reference; NULL: black, far and 0 */
 };
 
@@ -238,6 +239,7 @@ struct gls_picture {
 /* Something that is drawn to: what it held, and what happened to it since. All zero: black, and nothing happened. */
 struct gls_surface {
 	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
+	uint32_t samples, samples_from_below; /* as in struct scene */
 	struct gls_frame *frame;     /* owned: events; NULL: none */
 	struct gls_picture *picture; /* a reference: what it held before them, */
 	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */

@@ -114,6 +114,7 @@ static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint
 	s->depth_bits = st->depth_bits;
 	s->stencil_bits = st->stencil_bits;
 	s->alpha_bits = st->alpha_bits;
+	s->samples = st->samples;
 	return s;
 }
 

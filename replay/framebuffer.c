@@ -83,7 +83,8 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 	struct target t;
 	int color = color_of(fb->drawn_buffer), any = 0;
 
-	s->depth_bits = s->stencil_bits = s->alpha_bits = 0;
+	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = 0;
+	s->samples_from_below = 1;
 	s->width = s->height = 16384;
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
 		if ((i < DEPTH && i != color) || !find_target(share, &fb->attached[i], &t))
@@ -91,6 +92,8 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 		any = 1;
 		s->width = t.width < s->width ? t.width : s->width;
 		s->height = t.height < s->height ? t.height : s->height;
+		if (t.renderbuffer && t.renderbuffer->samples > s->samples)
+			s->samples = t.renderbuffer->samples;
 		if (i < DEPTH)
 			s->alpha_bits = has_alpha(gls_base_format(t.format)) ? 8 : 0;
 		else if (i == DEPTH)
@@ -553,26 +556,25 @@ GLS_HANDLER(glDeleteRenderbuffers, NOW)
 	}
 }
 
-static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, int64_t width, int64_t height)
+static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, int64_t width, int64_t height, int64_t samples)
 {
 	struct gls_renderbuffer *r = st->renderbuffer ? table_find(&st->share->renderbuffers, st->renderbuffer) : NULL;
 
-	if (!r || width < 0 || height < 0 || width > 16384 || height > 16384) {
+	if (!r || width < 0 || height < 0 || width > 16384 || height > 16384 || samples < 0) {
 		gls_error(x, st, r ? GL_INVALID_VALUE : GL_INVALID_OPERATION);
 		return;
 	}
 	changes(x, st);
 	settle_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
-	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height };
+	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height,
+	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 }; /* no driver gives fewer than are asked for */
 }
 
-GLS_HANDLER(glRenderbufferStorage, NOW) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3)); }
+GLS_HANDLER(glRenderbufferStorage, NOW) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }
 GLS_HANDLER(glRenderbufferStorageMultisample, NOW)
 {
-	if (arg_i(c, 1) > 0)
-		gls_unsupported(x, "several samples a pixel: one is taken");
-	storage(x, st, arg_u(c, 2), arg_i(c, 3), arg_i(c, 4));
+	storage(x, st, arg_u(c, 2), arg_i(c, 3), arg_i(c, 4), arg_i(c, 1));
 }
 
 /* ---- BlitFramebuffer (GL 3.0 sec. 4.3.2): a pixel rectangle that only the scissor touches ---- */

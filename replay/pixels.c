@@ -101,6 +101,7 @@ void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind,
 	st->a.fog.coord_source = GL_FOG_COORD;
 	st->a.transform.clip_plane_mask = 0;
 	st->a.point.smooth = st->a.point.sprite = 0;
+	st->a.multisample.enabled = 0; /* Mesa draws them to whole pixels */
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		st->a.texturing.units[u].gen_enabled = 0;
 	gls_frame_add_rectangle(x, st, &r, image, (float[4]){ left, low, st->a.current.raster_position[2], 1 },

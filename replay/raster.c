@@ -1,4 +1,5 @@
 /* Rasterization state: points, lines, polygons (GL 2.1 sec. 3.3 - 3.5). */
+#include <math.h>
 #include <string.h>
 
 #include "replay/texture.h"
@@ -129,6 +130,6 @@ GLS_HANDLER(glPolygonStipple, STATE)
 
 GLS_HANDLER(glSampleCoverage, STATE)
 {
-	st->a.multisample.coverage_value = arg_f(c, 0);
+	st->a.multisample.coverage_value = fminf(fmaxf(arg_f(c, 0), 0), 1);
 	st->a.multisample.coverage_invert = arg_i(c, 1) != 0;
 }

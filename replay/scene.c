@@ -314,11 +314,29 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 	m->point_size_min = a->point.size_min;
 	m->point_size_max = a->point.size_max;
 	m->point_fade_threshold = a->point.fade_threshold;
-	m->multisample = a->multisample.enabled;
 	m->clip_plane_mask = a->transform.clip_plane_mask;
 	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++)
 		if (m->clip_plane_mask >> i & 1)
 			memcpy(m->clip_plane_eye[i], a->transform.clip_plane_eye[i], 16);
+}
+
+/*
+ * Multisampling (sec. 3.2.1) takes smoothing's place. Which samples a SAMPLE_COVERAGE of so much leaves is open; Mesa takes the first
+ * ones (st_update_sample_state).
+ */
+static void fill_multisample(const struct gls_multisample *a, const struct gls_surface *d, struct scene_material *m)
+{
+	if (!a->enabled || !d || d->samples <= 1)
+		return;
+	m->multisample = 1;
+	m->line_smooth = m->point_smooth = m->polygon_smooth = 0;
+	m->alpha_to_coverage = a->alpha_to_coverage;
+	m->alpha_to_one = a->alpha_to_one;
+	if (a->coverage) {
+		uint32_t kept = (1u << (uint32_t)(a->coverage_value * SCENE_SAMPLES)) - 1;
+
+		m->samples_off = (a->coverage_invert ? kept : ~kept) & ((1u << SCENE_SAMPLES) - 1);
+	}
 }
 
 static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const float color[4])
@@ -350,6 +368,7 @@ static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gl
 	fill_raster_state(a, &m);
 	m.polygon_stipple = fill_stipple(f, a);
 	fill_fragment_state(st, gls_surface_of(x, st), &m);
+	fill_multisample(&a->multisample, gls_surface_of(x, st), &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
 	return intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
@@ -681,6 +700,8 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->depth_bits = surface->depth_bits;
 	s->stencil_bits = surface->stencil_bits;
 	s->alpha_bits = surface->alpha_bits;
+	s->samples = surface->samples;
+	s->samples_from_below = surface->samples_from_below;
 	if (!(f->cleared & 1) && !s->n_instances)
 		s->needs_previous = 1;
 }

@@ -32,6 +32,7 @@ typedef uchar uint8_t;
 #define SCENE_MAX_CLIP_PLANES 8 /* GL 2.1 wants six; Mesa has eight */
 #define SCENE_NONE 0xffffffffu
 #define SCENE_SWIZZLED 0x1000u
+#define SCENE_SAMPLES 4 /* of a pixel, where it has several, whatever their number was */
 
 /* One enabled light as the draw saw it (GL 2.1 sec. 2.14.1, table 2.10). */
 struct scene_light {
@@ -106,7 +107,11 @@ struct scene_material {
 	uint32_t line_smooth, point_smooth, polygon_smooth;
 	uint32_t point_sprite; /* 0; 1: t = 0 at the top; 2: at the bottom */
 	float point_attenuation[3], point_size_min, point_size_max, point_fade_threshold;
-	uint32_t multisample;
+	/*
+	 * Multisampling (sec. 3.2.1, 4.1.3), all 0 where the drawable has one sample a pixel or it is disabled. Then no smoothing
+	 * of lines, points or polygons is asked for. samples_off: samples that SAMPLE_COVERAGE leaves out, a bit each.
+	 */
+	uint32_t multisample, samples_off, alpha_to_coverage, alpha_to_one;
 
 	/* user clip planes in eye space (sec. 2.12): mask of enabled ones */
 	uint32_t clip_plane_mask;
@@ -277,6 +282,8 @@ struct scene {
 	uint64_t serial;        /* different for each scene of a replay; one that grows keeps it */
 	uint32_t width, height; /* of the drawable; the frame's picture */
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
+	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/trace.c */
+	uint32_t samples_from_below; /* 1: their rows count from the bottom, as llvmpipe has it in framebuffer objects */
 
 	/* Flat arrays, owned by the scene. */
 	struct scene_instance *instances;

@@ -142,6 +142,9 @@ static void write_material(struct json *j, const struct scene_material *m)
 	FLOAT(m, point_size_max);
 	FLOAT(m, point_fade_threshold);
 	UINT(m, multisample);
+	UINT(m, samples_off);
+	UINT(m, alpha_to_coverage);
+	UINT(m, alpha_to_one);
 	UINT(m, clip_plane_mask);
 	FLOATS(m, clip_plane_eye);
 	UINT(m, alpha_test);
@@ -367,6 +370,7 @@ static void print_json(const struct scene *s, int vertices)
 	UINT(s, depth_bits);
 	UINT(s, stencil_bits);
 	UINT(s, alpha_bits);
+	UINT(s, samples);
 	UINT(s, n_primitives);
 	UINT(s, n_draws);
 	UINT(s, needs_previous);

@@ -390,7 +390,7 @@ static int save(struct saver *s)
 	n = e ? x->drawables.n : 0;
 	for (size_t i = 0; i < n; i++) {
 		const struct gls_drawable *d = e[i].value;
-		KNOWN(struct gls_drawable, 96);
+		KNOWN(struct gls_drawable, 104);
 		bytes_put_u64(out, e[i].key);
 		bytes_put_u64(out, d->width);
 		bytes_put_u64(out, d->height);
@@ -798,7 +798,7 @@ static void get_share(struct loader *l, struct gls_share *share)
 	uint64_t n, key;
 
 	KNOWN(struct gls_share, 192);
-	KNOWN(struct gls_framebuffer, 280);
+	KNOWN(struct gls_framebuffer, 288);
 	n = get_count(l, 32);
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
@@ -864,7 +864,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34300,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34308,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));

@@ -269,7 +269,7 @@ struct gls_state {
 	/* drawable */
 	uint64_t drawable, read_drawable;
 	uint32_t ever_current;
-	uint32_t alpha_bits, depth_bits, stencil_bits, double_buffered;
+	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
 	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
 };
 

@@ -42,6 +42,7 @@
 	X(ao_shade)         /* one fragment a work item: its openness as its colour */ \
 	X(clear)            /* one pixel a work item: a Clear */ \
 	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
+	X(merge_samples)    /* one pixel a work item: its samples into one */ \
 	X(add_pass)         /* one pixel a work item: a pass of several to their sum */ \
 	X(compose)          /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet)   /* the same, several pixels a work item (CPUs) */

@@ -309,6 +309,51 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	add_triangles(in, out, draw);
 }
 
+/* As snap, where pixels have samples: counted from their corner. */
+static int32_t snap_sampled(float pixels)
+{
+	float x = pixels * 256;
+
+	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
+}
+
+/*
+ * llvmpipe (22.3.6) rounds both sides of such a rectangle's box up to whole pixels, and draws none whose box is empty then. edge: 1
+ * where a side on a border between pixels counts as beyond it.
+ */
+static int is_dropped(const int32_t *v, int edge)
+{
+	int32_t least = v[0], most = v[0];
+
+	for (int k = 1; k < 4; k++) {
+		least = v[k] < least ? v[k] : least;
+		most = v[k] > most ? v[k] : most;
+	}
+	return (most + 255 + edge) >> 8 <= (least + 255 + edge) >> 8;
+}
+
+/* The line a -> b under multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
+static void add_line_rectangle(const struct expand_input *in, struct expanded *out, const struct end *a, const struct end *b,
+                               uint32_t draw)
+{
+	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
+	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area);
+	int32_t side_x = snap_sampled(-dy * scale), side_y = snap_sampled(dx * scale), x[4], y[4];
+
+	for (int k = 0; k < 4; k++) {
+		const struct end *e = k == 1 || k == 2 ? b : a;
+		int32_t side = k < 2 ? -1 : 1;
+
+		x[k] = snap_sampled(e->x) + side * side_x;
+		y[k] = snap_sampled(e->y) + side * side_y;
+	}
+	if (!(area > 0) || is_dropped(x, 0) || is_dropped(y, !in->from_below))
+		return;
+	for (int k = 0; k < 4; k++)
+		add_line_corner(in, out, k == 1 || k == 2 ? b : a, k == 1 || k == 2, x[k], y[k]);
+	add_triangles(in, out, draw);
+}
+
 /* A corner of a smooth quad: its place is not snapped for attributes. coverage: see GEOMETRY_SMOOTH_LINE */
 static void add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct end *e, float x, float y,
                               const float coverage[4])
@@ -364,9 +409,11 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 {
 	const struct scene_material *m = in->material;
 	int32_t width = (int32_t)fmaxf(e->v.point_size * 256 + 0.5f, 256), x = snap(e->x) - width / 2, y = snap(e->y) - width / 2;
+	/* Under multisampling llvmpipe takes a sprite's middle half a pixel off where it is. */
+	float off = m->multisample ? 128 / (float)width : 0;
 
-	/* Other than sprites they are whole pixels (sec. 3.3.1), of widths and places rounded as llvmpipe does it. */
-	if (!m->point_sprite && !m->point_smooth) {
+	/* Other than sprites, and under multisampling, they are whole pixels (sec. 3.3.1), of widths and places rounded as llvmpipe does it. */
+	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
 		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
 		x = (((snap(e->x) + middle) >> 8) - pixels / 2) * 256;
@@ -379,7 +426,7 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 
 		for (uint32_t u = 0; u < m->unit_count && m->point_sprite; u++)
 			if (in->units[u].coord_replace)
-				memcpy(corner.texcoord[u], (float[4]){ (float)right, (float)(m->point_sprite == 2 ? !low : low), 0, 1 },
+				memcpy(corner.texcoord[u], (float[4]){ (float)right + off, m->point_sprite == 2 ? (float)!low - off : (float)low + off, 0, 1 },
 				       sizeof(corner.texcoord[u]));
 		add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
 	}
@@ -422,6 +469,8 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 		return ERR_SYSTEM;
 	if (in->material->line_smooth)
 		add_smooth_line(in, out, a, b, draw);
+	else if (in->material->multisample)
+		add_line_rectangle(in, out, a, b, draw);
 	else
 		add_line(in, out, a, b, draw);
 	return 0;
@@ -443,7 +492,8 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 	b.z = fminf(fmaxf(b.z + offset, 0), 1);
 	if (stipple->pattern == 0xffff)
 		return add_dash(in, out, &a, &b, draw);
-	length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
+	length = in->material->multisample || in->material->line_smooth ?
+	                 sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)) : fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
 	n = (uint32_t)ceilf(length);
 	for (uint32_t i = 0; i <= n && !err; i++) {
 		int on = i < n && stipple->pattern >> (stipple->counter / stipple->factor & 15) & 1;

@@ -1,7 +1,7 @@
 /*
  * Lines and points as triangles in the window, where Mesa's llvmpipe puts them: lines are quads of the line's width,
- * cut at their ends by the diamond-exit rule (GL 2.1 sec. 3.4), points are squares (sec. 3.3). Polygons drawn as lines
- * or points (sec. 3.5.4) go the same way, edge by edge.
+ * cut at their ends by the diamond-exit rule (GL 2.1 sec. 3.4), or under multisampling rectangles along them; points are
+ * squares (sec. 3.3), under multisampling too. Polygons drawn as lines or points (sec. 3.5.4) go the same way, edge by edge.
  */
 #ifndef TRACER_EXPAND_H
 #define TRACER_EXPAND_H
@@ -20,6 +20,7 @@ struct expand_input {
 	const struct scene_rectangle *rectangles; /* [mesh vertices], or NULL: no pixels drawn as pixels */
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons that are not drawn in this shape */
 	uint32_t height, depth_bits;
+	uint32_t from_below; /* scene.samples_from_below */
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */
 };

@@ -26,7 +26,7 @@ enum buffer {
 	BUFFER_PATHS, BUFFER_PATH_RAYS, BUFFER_PATH_HITS, BUFFER_NEXT_PATHS, BUFFER_NEXT_RAYS, BUFFER_NEXT_COUNTS,
 	BUFFER_SKY_RAYS, BUFFER_SKY_HITS, BUFFER_GIVEN,
 	BUFFER_WALKERS, BUFFER_WALK_RAYS, BUFFER_WALK_HITS, BUFFER_NEXT_WALKERS, BUFFER_NEXT_WALK_RAYS,
-	BUFFER_FRAME, BUFFER_SUMS, BUFFER_HALVES, BUFFER_FLOATS,
+	BUFFER_FRAME, /* and of a pixel's other samples: */ BUFFER_SAMPLE2, BUFFER_SAMPLE3, BUFFER_SAMPLE4, BUFFER_SUMS, BUFFER_HALVES, BUFFER_FLOATS,
 	N_BUFFERS
 };
 
@@ -55,7 +55,9 @@ struct job {
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
 	uint32_t width, height, n_pixels;
-	uint32_t bits; /* of the frame buffer: see pixel_depth_bits */
+	uint32_t bits; /* of the frame buffer, and the sample that is drawn: see pixel_depth_bits */
+	uint32_t n_samples; /* of a pixel in this pass: 1 or SCENE_SAMPLES */
+	enum buffer frame;  /* the sample's that is drawn */
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; 0 is its centre, and the last to be traced */
 	uint32_t turn;           /* of other passes: which pixels take part (sample_turn) */

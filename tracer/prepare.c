@@ -274,7 +274,7 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 	uint32_t flags = 0;
 	int draws_color = (m->color_mask & 7) != 0;
 
-	if (!m->blend && !m->alpha_test && !m->logic_op && draws_color)
+	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
 	if (m->depth_test && draws_color && shape == PREPARED_FILLED)
 		flags |= INSTANCE_SECONDARY;
@@ -356,7 +356,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		p->n_light_slots = m->surface.light_count;
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
 	if (instance->flags & INSTANCE_SECONDARY)
-		p->has_veils |= m->blend || m->alpha_test || m->clip_plane_mask || m->surface.transmit > 0 ||
+		p->has_veils |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
 		                m->surface.hidden;
 }
 
@@ -396,12 +396,17 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 	    m->polygon_mode_back != GL_FILL)
 		return CAMERA_COLUMN;
 	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
-	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE ||
+	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
 	    (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;
 	return m->depth_func == GL_LEQUAL ? CAMERA_NEAREST_LEQUAL : CAMERA_COLUMN;
+}
+
+static uint32_t multisampled(const struct scene *scene, uint32_t instance)
+{
+	return scene->materials[scene->instances[instance].material].multisample;
 }
 
 /* A run of instances that one pass answers, before instances are made. */
@@ -423,7 +428,8 @@ static uint32_t cut_runs(const struct scene *scene, struct run *runs)
 
 		while (clears < scene->n_clears && scene->clears[clears].before_instance <= i)
 			clears++;
-		new_group = n == 0 || clears > clear || scene->instances[i].view != scene->instances[i - 1].view;
+		new_group = n == 0 || clears > clear || scene->instances[i].view != scene->instances[i - 1].view ||
+		            multisampled(scene, i) != multisampled(scene, i - 1);
 		if (new_group)
 			group = n;
 		if (!new_group && runs[n - 1].mode == mode) {
@@ -490,6 +496,7 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 			                     .view = SCENE_NONE, .mode = runs[r].mode, .instance_first = out->n_instances };
 		if (runs[r].first == runs[r].end || !draws_to_window(scene, runs[r].first))
 			continue;
+		segment->multisample = multisampled(scene, runs[r].first);
 		segment->view = out->n_views;
 		out->scene_views[out->n_views] = scene->views[scene->instances[runs[r].first].view];
 		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);

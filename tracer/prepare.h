@@ -15,6 +15,7 @@ struct segment {
 	uint32_t mode;                     /* CAMERA_*: nearest where that is the same answer, else columns */
 	uint32_t instance_first, instance_count; /* in prepared.instances; screen geometry comes last */
 	uint32_t screen_count;
+	uint32_t multisample; /* its primitives cover samples, not pixels */
 };
 
 /* What the rasterizer makes of an instance's primitives (GL 2.1 sec. 3.5.4: polygon modes). */

@@ -134,7 +134,7 @@ static int expand_instance(struct job *job, uint32_t i)
 	struct expand_input in = { .mesh = scene->meshes[scene->instances[p->instances[i].scene_instance].mesh],
 		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
 		                   .shape = p->shapes[i], .cull = p->culls[i], .height = job->height,
-		                   .depth_bits = scene->depth_bits, .vertices = vertices,
+		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .vertices = vertices,
 		                   .texcoords = (const float (*)[4])texcoords };
 	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
 	int err = 0;
@@ -325,24 +325,42 @@ static uint32_t rectangle_area(struct camera_rectangle r)
 	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
 }
 
-static int run_clear(struct job *job, const struct scene_clear *clear)
+/* Draw to one of the pixels' samples from now on. note: what the kernels are told of it (pixel_sample, PIXEL_FOLLOWS) */
+static void draw_to(struct job *job, uint32_t sample, uint32_t note)
+{
+	job->frame = (enum buffer)(BUFFER_FRAME + sample);
+	job->bits = (job->bits & 0xffffffu) | note;
+}
+
+static int clear_sample(struct job *job, const struct scene_clear *clear)
 {
 	struct camera_rectangle r = camera_rectangle(clear->scissor[0], clear->scissor[1], clear->scissor[2],
 	                                             clear->scissor[3], job->width, job->height);
 	uint32_t n = rectangle_area(r);
 	struct launch l = { .n = 0 };
 
-	if (clear->target != 0)
-		return 0;
-	if (clear->buffers & 1)
-		memcpy(job->background, clear->color, sizeof(job->background));
 	add_bytes(&l, clear, sizeof(*clear));
 	add_bytes(&l, &r, sizeof(r));
 	add_uint(&l, &job->width);
 	add_uint(&l, &job->bits);
 	add_uint(&l, &n);
-	add(&l, job->tr, BUFFER_FRAME);
+	add(&l, job->tr, job->frame);
 	return run(job->tr, KERNEL_clear, n, &l);
+}
+
+static int run_clear(struct job *job, const struct scene_clear *clear)
+{
+	int err = 0;
+
+	if (clear->target != 0)
+		return 0;
+	if (clear->buffers & 1)
+		memcpy(job->background, clear->color, sizeof(job->background));
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		draw_to(job, i, 0);
+		err = clear_sample(job, clear);
+	}
+	return err;
 }
 
 static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
@@ -473,7 +491,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	add_uint(&l, &job->width);
 	add_uint(&l, &job->bits);
 	add_uint(&l, &n);
-	add(&l, tr, BUFFER_FRAME);
+	add(&l, tr, job->frame);
 	return run(tr, KERNEL_resolve, n, &l);
 }
 
@@ -498,20 +516,14 @@ static int shade_list(struct job *job, uint32_t view, uint32_t n)
 	return err;
 }
 
-static int run_segment(struct job *job, const struct segment *segment)
+/* What the segment's draws leave on the sample that is drawn; of draws that cover pixels, on all of them. */
+static int run_draws(struct job *job, const struct segment *segment)
 {
 	struct tracer *tr = job->tr;
-	struct camera_rectangle r;
+	struct camera_rectangle r = view_rectangle(job, &job->prepared.views[segment->view]);
 	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
-	int more = 1, err = 0;
+	int more = 1, err;
 
-	for (uint32_t i = 0; i < segment->clear_count && !err; i++)
-		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
-	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
-		return err;
-	r = view_rectangle(job, &job->prepared.views[segment->view]);
-	if (rectangle_area(r) == 0)
-		return 0;
 	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
 	err = upload(tr, BUFFER_AFTER, tr->counts, job->n_pixels, sizeof(*tr->counts));
 	if (!err)
@@ -525,8 +537,65 @@ static int run_segment(struct job *job, const struct segment *segment)
 		err = run_gather(job, r, slots, n_list);
 		if (!err)
 			err = shade_list(job, segment->view, n_list);
-		if (!err)
+		for (uint32_t i = 0; i < (segment->multisample ? 1 : job->n_samples) && !err; i++) {
+			if (!segment->multisample)
+				draw_to(job, i, i ? PIXEL_FOLLOWS : 0);
 			err = run_resolve(job, r);
+		}
+	}
+	return err;
+}
+
+/*
+ * Where llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D have four samples: 1/256 pixel right of and below a pixel's centre. Rows
+ * count from the top of windows and from the bottom of framebuffer objects.
+ */
+static const int32_t sample_places[SCENE_SAMPLES][2] = { { -32, -96 }, { 96, -32 }, { -96, 32 }, { 32, 96 } };
+
+/*
+ * Under multisampling llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels before a scissor
+ * rectangle pass, where they lie in the same tile. Columns and rows counted from where it counts.
+ */
+static int32_t leaks(int32_t first, int32_t place)
+{
+	return first > 0 && first % 64 != 0 && place > 0;
+}
+
+/* Let a segment's view look at a sample's places. */
+static int look_at_sample(struct job *job, const struct segment *segment, uint32_t sample)
+{
+	struct view *view = &job->prepared.views[segment->view];
+	const int32_t *place = sample_places[sample], *scissor = job->prepared.scene_views[segment->view].scissor;
+	int32_t from_below = job->scene->samples_from_below != 0, left = leaks(scissor[0], place[0]);
+	int32_t row = leaks(from_below ? scissor[1] : (int32_t)job->height - scissor[1] - scissor[3], place[1]);
+
+	view->sample[0] = place[0];
+	view->sample[1] = from_below ? place[1] : -place[1];
+	view->scissor[0] = scissor[0] - left;
+	view->scissor[1] = scissor[1] - (from_below ? row : 0);
+	view->scissor[2] = scissor[2] + left;
+	view->scissor[3] = scissor[3] + row;
+	return device_write(job->tr->dev, job->tr->buffers[BUFFER_VIEWS], segment->view * sizeof(*view), view, sizeof(*view));
+}
+
+static int run_segment(struct job *job, const struct segment *segment)
+{
+	int err = 0;
+
+	for (uint32_t i = 0; i < segment->clear_count && !err; i++)
+		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
+	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
+		return err;
+	if (rectangle_area(view_rectangle(job, &job->prepared.views[segment->view])) == 0)
+		return 0;
+	draw_to(job, 0, segment->multisample && job->pass ? (job->pass % SCENE_SAMPLES + 1) << 24 : 0);
+	if (!segment->multisample || job->n_samples == 1)
+		return run_draws(job, segment);
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		draw_to(job, i, (i + 1) << 24);
+		err = look_at_sample(job, segment, i);
+		if (!err)
+			err = run_draws(job, segment);
 	}
 	return err;
 }
@@ -549,8 +618,8 @@ static int reserve_pixels(struct job *job)
 		tr->n_counted = job->n_pixels;
 	}
 	err = reserve(tr, BUFFER_COUNTS, job->n_pixels, sizeof(uint32_t));
-	if (!err)
-		err = reserve(tr, BUFFER_FRAME, job->n_pixels, sizeof(struct frame_pixel));
+	for (uint32_t i = 0; i < job->n_samples && !err; i++)
+		err = reserve(tr, (enum buffer)(BUFFER_FRAME + i), job->n_pixels, sizeof(struct frame_pixel));
 	if (!err && job->n_passes > 1)
 		err = reserve(tr, BUFFER_SUMS, (size_t)job->n_pixels * PASS_PARTS, sizeof(float));
 	if (!err)
@@ -592,9 +661,23 @@ static int upload_start(struct job *job)
 		p->depth_exact = far ? (float)p->depth / (float)far : 1;
 		p->stencil = start ? start->stencil[i] : 0;
 	}
-	err = device_write(job->tr->dev, job->tr->buffers[BUFFER_FRAME], 0, pixels, job->n_pixels * sizeof(*pixels));
+	err = 0;
+	for (uint32_t i = 0; i < job->n_samples && !err; i++)
+		err = device_write(job->tr->dev, job->tr->buffers[BUFFER_FRAME + i], 0, pixels, job->n_pixels * sizeof(*pixels));
 	free(pixels);
 	return err;
+}
+
+/* The samples of all pixels into the frame. */
+static int run_merge_samples(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct launch l = { .n = 0 };
+
+	for (uint32_t i = 0; i < SCENE_SAMPLES; i++)
+		add(&l, tr, (enum buffer)(BUFFER_FRAME + i));
+	add_uint(&l, &job->n_pixels);
+	return run(tr, KERNEL_merge_samples, job->n_pixels, &l);
 }
 
 /* The pixels of this pass to those of the passes before. */
@@ -698,6 +781,8 @@ static int trace_pass(struct job *job)
 
 	if (job->pass > 0)
 		sample_shift(job->turn, job->pass, shift);
+	/* Of several passes each looks at one place in a pixel; the one that makes GL's picture has GL's samples. */
+	job->n_samples = job->scene->samples > 1 && job->pass == 0 ? SCENE_SAMPLES : 1;
 	err = prepare_frame(job->scene, shift, &job->prepared);
 	if (err)
 		return err;
@@ -723,6 +808,9 @@ static int trace_pass(struct job *job)
 		err = job->scene->start || job->scene->needs_previous ? upload_start(job) : clear_all(job);
 	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
 		err = run_segment(job, &job->prepared.segments[i]);
+	draw_to(job, 0, 0);
+	if (!err && job->n_samples > 1)
+		err = run_merge_samples(job);
 	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
 		expanded_free(&job->expanded[i]);
 	free(job->expanded);

@@ -121,12 +121,12 @@ static void keep(struct pixel *p, const struct fragment *f)
 
 /* --- coverage --- */
 
-/* Twice the signed area, in 1/65536 square pixels, of a -> b -> the pixel centre: positive on the left of a -> b. */
+/* Twice the signed area, in 1/65536 square pixels, of a -> b -> where the view looks: positive on the left of a -> b. */
 static int64_t edge(struct window_vertex a, struct window_vertex b, const struct pixel *p)
 {
-	const int64_t px = (int64_t)p->x * 256 + 128, py = (int64_t)p->y * 256 + 128;
+	const struct clip_spot at = clip_spot(p->args->view, p->x, p->y);
 
-	return ((int64_t)b.x - a.x) * (py - a.y) - ((int64_t)b.y - a.y) * (px - a.x);
+	return ((int64_t)b.x - a.x) * (at.y - a.y) - ((int64_t)b.y - a.y) * (at.x - a.x);
 }
 
 /* 1 where centres on the edge a -> b of a counter-clockwise triangle belong to it: it lies on its right, or above. */
@@ -150,10 +150,16 @@ static int culled(uint32_t flags, int counter_clockwise)
 	return (flags & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0;
 }
 
+/* Where the view looks in the pixel, pixels. */
+static float spot(const struct pixel *p, int axis)
+{
+	return (float)(axis ? p->y : p->x) + 0.5f + (float)p->args->view->sample[axis] / 256;
+}
+
 static int in_viewport(const struct pixel *p)
 {
 	const float *v = p->args->view->viewport;
-	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f;
+	const float x = spot(p, 0), y = spot(p, 1);
 
 	return x >= v[0] && x < v[0] + v[2] && y >= v[1] && y < v[1] + v[3];
 }
@@ -179,7 +185,7 @@ static int cover_placed(const struct pixel *p, uint32_t flags, const struct wind
 	f->b1 = (float)edge(v[2], v[0], p) * inverse;
 	f->b2 = (float)edge(v[0], v[1], p) * inverse;
 	if (p->args->mode != CAMERA_COLUMN && clip_depth_plane(p->args->view, (float)height, corner, clip, z, &plane))
-		f->depth = clamp01(clip_plane_at(&plane, (float)p->x, (float)((int32_t)height - 1 - p->y)));
+		f->depth = clamp01(clip_plane_in(&plane, p->args->view, (float)height, p->x, p->y));
 	else
 		f->depth = clamp01(v[0].z + (f->b1 * (v[1].z - v[0].z) + f->b2 * (v[2].z - v[0].z)));
 	return 1;
@@ -354,12 +360,12 @@ static void walk_top(struct pixel *p)
 	}
 }
 
-/* Geometry in window space: the pixel centre is a point. */
+/* Geometry in window space: where the view looks is a point. */
 static void walk_screen(struct pixel *p, uint32_t instance_index)
 {
 	const struct args *a = p->args;
 	const struct instance *instance = &a->instances[instance_index];
-	const float x = (float)p->x + 0.5f, y = (float)p->y + 0.5f, pad = instance->pad;
+	const float x = spot(p, 0), y = spot(p, 1), pad = instance->pad;
 	uint32_t stack[BVH_MAX_DEPTH], depth = 0;
 
 	if (a->compressed) {
@@ -387,8 +393,8 @@ static void walk_screen(struct pixel *p, uint32_t instance_index)
 static int make_ray(struct pixel *p)
 {
 	const struct view *view = p->args->view;
-	const float x = 2.0f * ((float)p->x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
-	const float y = 2.0f * ((float)p->y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
+	const float x = 2.0f * (spot(p, 0) - view->viewport[0]) / view->viewport[2] - 1.0f;
+	const float y = 2.0f * (spot(p, 1) - view->viewport[1]) / view->viewport[3] - 1.0f;
 	const float *m = view->inverse;
 	float near[4], far[4], finite;
 

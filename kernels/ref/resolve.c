@@ -2,7 +2,7 @@
 #include "kernels/gl_stages.h"
 #include "tracer/device.h"
 
-extern device_twin clear_c, resolve_c;
+extern device_twin clear_c, resolve_c, merge_samples_c;
 
 static uint32_t number(const void *arg)
 {
@@ -24,6 +24,15 @@ void resolve_c(const void *const *args, size_t first, size_t last)
 	struct camera_rectangle rectangle = *(const struct camera_rectangle *)args[16];
 
 	for (size_t i = first; i < last && i < number(args[19]); i++)
-		resolve_item(&t, args[12], args[13], args[14], args[15], number(args[18]), (void *)args[20],
+		resolve_item(&t, args[12], (void *)args[13], args[14], args[15], number(args[18]), (void *)args[20],
 		             stage_pixel(rectangle, number(args[17]), (uint32_t)i));
+}
+
+void merge_samples_c(const void *const *args, size_t first, size_t last)
+{
+	const struct frame_pixel *second = args[1], *third = args[2], *fourth = args[3];
+	struct frame_pixel *frame = (void *)args[0];
+
+	for (size_t i = first; i < last && i < number(args[4]); i++)
+		pixel_resolve(&frame[i], &second[i], &third[i], &fourth[i]);
 }

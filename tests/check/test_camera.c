@@ -113,6 +113,13 @@ static struct frame make_frame(uint32_t seed, int orthographic)
 	return f;
 }
 
+/* Let the view look at the place of a sample instead of pixel centres. */
+static void look_aside(struct frame *f, int aside)
+{
+	f->s->view.sample[0] = aside ? -96 : 0;
+	f->s->view.sample[1] = aside ? 32 : 0;
+}
+
 static void free_frame(struct frame *f)
 {
 	free(f->clip);
@@ -211,14 +218,15 @@ START_TEST(kernels_agree_with_twins)
 	for (size_t k = 0; k < n_devices; k++) {
 		snprintf(number, sizeof(number), "%zu", k);
 		ck_assert_int_eq(device_open(number, 0, &dev), 0);
-		for (int i = 0; i < 2; i++) {
-			struct frame f = make_frame(seed + (uint32_t)i, i);
+		for (int i = 0; i < 4; i++) {
+			struct frame f = make_frame(seed + (uint32_t)i, i & 1);
 
+			look_aside(&f, i & 2);
 			for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
 				for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
-					snprintf(what, sizeof(what), "%s, %s, %s, mode %u", list[k].name,
-					         device_kernel_name(kernel), i ? "orthographic" : "perspective",
-					         mode);
+					snprintf(what, sizeof(what), "%s, %s, %s, at %s, mode %u", list[k].name,
+					         device_kernel_name(kernel), i & 1 ? "orthographic" : "perspective",
+					         i & 2 ? "a sample" : "centres", mode);
 					run(&f, reference, kernel, mode, &want);
 					run(&f, dev, kernel, mode, &got);
 					compare(&want, &got, mode, what);
@@ -242,9 +250,10 @@ START_TEST(boxes_lose_nothing)
 	const uint32_t seed = seed_of_run;
 
 	ck_assert_int_eq(device_open("reference", 2, &dev), 0);
-	for (int i = 0; i < 2; i++) {
-		struct frame f = make_frame(seed + (uint32_t)i, i);
+	for (int i = 0; i < 4; i++) {
+		struct frame f = make_frame(seed + (uint32_t)i, i & 1);
 
+		look_aside(&f, i & 2);
 		for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++) {
 			struct accel *a = f.s->accel;
 			struct node2 *nodes = malloc(a->n_nodes2 * sizeof(*nodes)), *top = malloc(a->n_top2 * sizeof(*top));

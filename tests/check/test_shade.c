@@ -1,6 +1,7 @@
 /*
  * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
- * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel.
+ * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel;
+ * with one sample a pixel and with several.
  */
 #include <check.h>
 #include <math.h>
@@ -50,6 +51,15 @@ static void make_scene(struct truth *t)
 	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
 }
 
+/* Four samples a pixel; the film covers whole pixels, and so do the tests of all samples there. */
+static void take_samples(struct truth *t)
+{
+	t->scene.samples = SCENE_SAMPLES;
+	for (uint32_t m = 0; m < TRUTH_MAX; m++)
+		t->materials[m].multisample = !t->materials[m].blend;
+	t->materials[0].samples_off = 2;
+}
+
 START_TEST(test_device_against_twins)
 {
 	struct device_description *devices = NULL;
@@ -60,6 +70,8 @@ START_TEST(test_device_against_twins)
 	if (device_list(&devices, &n) != 0 || n == 0)
 		return; /* no OpenCL here; said on standard error */
 	make_scene(&t);
+	if (_i)
+		take_samples(&t);
 	setenv("RELUME_TEST_DEVICE", "reference", 1);
 	truth_render(&t, "whitted", &c);
 	truth_check_closure(&c);
@@ -98,7 +110,7 @@ int main(void)
 	int failed;
 
 	tcase_set_timeout(tests, 240);
-	tcase_add_test(tests, test_device_against_twins);
+	tcase_add_loop_test(tests, test_device_against_twins, 0, 2); /* one sample a pixel, and several */
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);

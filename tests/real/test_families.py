@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
 """The same files, byte by byte, from every family of traversal kernels and their C twins: surfaces seen through each other, lines, points,
-bitmaps, mirrors, shadows."""
+bitmaps, mirrors, shadows, several samples a pixel."""
 from helpers import BUILD, SCRATCH, check, corpus, finish, record, relume, render
 
 FAMILIES = ("packets", "binary", "compressed")
@@ -10,6 +10,7 @@ PROGRAMS = {
     "glass": (corpus("still_life"), "--frames", "1"),
     "shapes": (BUILD / "tests/real/shapes",),
     "pixels": (BUILD / "tests/real/pixels",),
+    "samples": (BUILD / "tests/real/samples",),
 }
 
 for name, program in PROGRAMS.items():

@@ -1,0 +1,377 @@
+/*
+ * A window of four samples a pixel (GL 2.1 sec. 3.2.1), one thing a frame. Recorded by test_samples.py.
+ */
+#include <math.h>
+
+#include "tests/trace/window.h"
+
+enum { SIZE = 64, LEAVES = 14 };
+
+static void reset(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.41, 0.41, -0.307, 0.307, 1, 37.3);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glClearColor(0.1f, 0.2f, 0.3f, 0.4f);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	glEnable(GL_DEPTH_TEST);
+	glDepthFunc(GL_LESS);
+}
+
+static void flat_window(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, 64, 0, 48, -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+}
+
+static void leaf(int i, float depth)
+{
+	float angle = 6.2831853f * (float)i / LEAVES + 0.1f, next = angle + 6.2831853f / LEAVES;
+
+	glColor4f((float)(i % 3) / 2, (float)(i % 5) / 4, 1 - (float)i / LEAVES, 0.1f + 0.9f * (float)i / LEAVES);
+	glVertex3f(0.03f, -0.02f, depth);
+	glVertex3f(0.71f * cosf(angle), 0.53f * sinf(angle), depth - 0.3f * (float)(i & 1));
+	glColor4f((float)(i % 2), (float)(i % 4) / 3, (float)i / LEAVES, 0.9f - 0.7f * (float)i / LEAVES);
+	glVertex3f(0.71f * cosf(next), 0.53f * sinf(next), depth);
+}
+
+/* A fan of triangles whose edges are shared, of all slopes, each of its own colours. */
+static void fan(void)
+{
+	glBegin(GL_TRIANGLES);
+	for (int i = 0; i < LEAVES; i++)
+		leaf(i, -2);
+	glEnd();
+}
+
+/* Surfaces that go through each other: depth is each sample's own. */
+static void crossing(void)
+{
+	glTranslatef(0, 0, -3);
+	for (int i = 0; i < 7; i++) {
+		glRotatef(33, 0.7f, 0.2f + 0.1f * (float)i, 0.4f);
+		glColor3f((float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2));
+		glBegin(GL_QUADS);
+		glVertex3f(-0.9f, -0.6f, 0);
+		glVertex3f(0.9f, -0.6f, 0);
+		glColor3f(0.4f, 0.6f, (float)i / 7);
+		glVertex3f(0.9f, 0.6f, 0);
+		glVertex3f(-0.9f, 0.6f, 0);
+		glEnd();
+	}
+}
+
+/* A floor from the viewer to the horizon, which leaves the view on all sides, and steep strips that do. */
+static void floor_and_strips(void)
+{
+	glBegin(GL_QUADS);
+	glColor3f(0.9f, 0.4f, 0.1f);
+	glVertex3f(-40, -0.4f, 5);
+	glVertex3f(40, -0.4f, 5);
+	glColor3f(0.1f, 0.9f, 0.4f);
+	glVertex3f(40, -0.4f, -36);
+	glVertex3f(-40, -0.4f, -36);
+	for (int i = 0; i < 6; i++) {
+		float x = 0.31f * (float)i - 0.8f;
+
+		glColor3f(0.2f, 0.1f * (float)i, 0.8f);
+		glVertex3f(x, -2, -2 - 0.1f * (float)i);
+		glVertex3f(x + 0.03f, -2, -2);
+		glVertex3f(x + 0.2f, 2, -2.5f);
+		glVertex3f(x + 0.12f, 2, -2.5f);
+	}
+	glEnd();
+}
+
+static void lines(void)
+{
+	for (int width = 0; width < 4; width++) {
+		glLineWidth(0.5f + 0.9f * (float)width);
+		glBegin(GL_LINES);
+		for (int i = 0; i < 23; i++) {
+			float angle = 6.2831853f * (float)i / 23 + 0.013f * (float)width, near = 0.05f, far = 0.2f + 0.25f * (float)width;
+
+			glColor3f((float)i / 23, 1 - (float)i / 23, 0.6f);
+			glVertex3f(near * cosf(angle), near * sinf(angle), -2);
+			glColor3f(0.2f * (float)width, (float)i / 23, 0.1f);
+			glVertex3f(far * cosf(angle), far * sinf(angle), -2 - 0.5f * (float)width);
+		}
+		glEnd();
+	}
+	glLineWidth(1);
+	glLineStipple(2, 0x2cf1);
+	glEnable(GL_LINE_STIPPLE);
+	glColor3f(1, 1, 0);
+	glBegin(GL_LINE_STRIP);
+	for (int i = 0; i < 9; i++)
+		glVertex3f(-0.7f + 0.17f * (float)i, 0.4f - 0.2f * (float)(i & 1), -2);
+	glEnd();
+	glDisable(GL_LINE_STIPPLE);
+}
+
+/* Points, smooth or not: squares of their very size. */
+static void points(void)
+{
+	glRotatef(9, 0.3f, 0.5f, 1);
+	for (int size = 0; size < 6; size++) {
+		glPointSize(0.7f + 0.6f * (float)size);
+		if (size == 3)
+			glEnable(GL_POINT_SMOOTH);
+		glBegin(GL_POINTS);
+		for (int i = 0; i < 20; i++) {
+			glColor3f((float)i / 20, 0.2f, 0.7f);
+			glVertex3f(0.06f * (float)i - 0.6f, 0.13f * (float)size - 0.33f + 0.0037f * (float)i, -2 - 0.01f * (float)i);
+		}
+		glEnd();
+	}
+	glDisable(GL_POINT_SMOOTH);
+	glPointSize(1);
+}
+
+static void textured(void)
+{
+	static unsigned char texels[16][16][4];
+
+	for (int y = 0; y < 16; y++)
+		for (int x = 0; x < 16; x++) {
+			texels[y][x][0] = (unsigned char)(x * 17);
+			texels[y][x][1] = (unsigned char)(y * 17);
+			texels[y][x][2] = (unsigned char)((x ^ y) * 17);
+			texels[y][x][3] = (unsigned char)((x + y) * 8);
+		}
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	glEnable(GL_TEXTURE_2D);
+	glTranslatef(0, 0, -3);
+	for (int i = 0; i < 4; i++) {
+		glRotatef(47, 0.3f, 0.8f, 0.4f);
+		glBegin(GL_QUADS);
+		glTexCoord2f(0, 0);
+		glVertex3f(-0.9f, -0.6f, 0.2f);
+		glTexCoord2f(2, 0);
+		glVertex3f(0.9f, -0.6f, 0.2f);
+		glTexCoord2f(2, 2);
+		glVertex3f(0.9f, 0.6f, 0.1f);
+		glTexCoord2f(0, 2);
+		glVertex3f(-0.9f, 0.6f, 0.1f);
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_2D);
+}
+
+/* Alpha says how many samples are covered. */
+static void alpha_to_coverage(void)
+{
+	glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+	fan();
+	glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
+	glTranslatef(0.2f, 0.1f, 0.1f);
+	fan();
+	glDisable(GL_BLEND);
+	glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+	glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+static void sample_coverage(void)
+{
+	glEnable(GL_SAMPLE_COVERAGE);
+	for (int i = 0; i < 6; i++) {
+		glSampleCoverage(0.2f * (float)i, i & 1);
+		glBegin(GL_TRIANGLES);
+		leaf(2 * i, -2);
+		leaf(2 * i + 1, -2);
+		glEnd();
+	}
+	glSampleCoverage(0.5f, 0);
+	glTranslatef(0.4f, -0.2f, 0.4f);
+	fan();
+	glDisable(GL_SAMPLE_COVERAGE);
+}
+
+static void blended(void)
+{
+	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int i = 0; i < 5; i++) {
+		glRotatef(21, 0.1f, 0.2f, 1);
+		fan();
+	}
+	glDisable(GL_BLEND);
+}
+
+/* What is drawn without multisampling covers whole pixels, among what is not. */
+static void disabled(void)
+{
+	fan();
+	glDisable(GL_MULTISAMPLE);
+	glTranslatef(0.1f, 0.1f, 0.2f);
+	glRotatef(17, 0, 0, 1);
+	fan();
+	glBegin(GL_LINES);
+	glVertex3f(-0.7f, -0.4f, -2);
+	glVertex3f(0.6f, 0.5f, -2);
+	glEnd();
+	glEnable(GL_MULTISAMPLE);
+	glTranslatef(-0.3f, -0.1f, 0.2f);
+	fan();
+}
+
+/* Stencil of each sample, and alpha test. */
+static void stencilled(void)
+{
+	glEnable(GL_STENCIL_TEST);
+	glStencilFunc(GL_ALWAYS, 1, 255);
+	glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT);
+	glColorMask(0, 0, 0, 0);
+	glDepthMask(0);
+	glTranslatef(0.1f, 0, 0);
+	fan();
+	glTranslatef(0.1f, 0.1f, 0);
+	fan();
+	glColorMask(1, 1, 1, 1);
+	glDepthMask(1);
+	glStencilFunc(GL_NOTEQUAL, 0, 255);
+	glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+	glEnable(GL_ALPHA_TEST);
+	glAlphaFunc(GL_GREATER, 0.5f);
+	glTranslatef(-0.3f, -0.1f, 0.2f);
+	fan();
+	glDisable(GL_ALPHA_TEST);
+	glDisable(GL_STENCIL_TEST);
+}
+
+/* Bitmaps and pixel rectangles, beside and over edges, with depth. */
+static void pixels(void)
+{
+	static const unsigned char letter[8] = { 0x81, 0x42, 0x24, 0x18, 0x18, 0x24, 0x42, 0xff };
+	unsigned char rectangle[8][8][4];
+
+	for (int i = 0; i < 64; i++) {
+		rectangle[i / 8][i % 8][0] = (unsigned char)(i * 4);
+		rectangle[i / 8][i % 8][1] = (unsigned char)(255 - i);
+		rectangle[i / 8][i % 8][2] = (unsigned char)(i % 8 * 30);
+		rectangle[i / 8][i % 8][3] = 128;
+	}
+	fan();
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+	for (int i = 0; i < 5; i++) {
+		glColor3f(1, 1, 0.2f * (float)i);
+		glRasterPos3f(-0.5f + 0.2f * (float)i, -0.3f + 0.1f * (float)i, -1.7f - 0.15f * (float)i);
+		glBitmap(8, 8, 0, 0, 9, 0, letter);
+	}
+	glRasterPos3f(0, -0.2f, -2.1f);
+	glDrawPixels(8, 8, GL_RGBA, GL_UNSIGNED_BYTE, rectangle);
+	glDisable(GL_DEPTH_TEST);
+	glPixelZoom(1.3f, -0.7f);
+	glRasterPos3f(-0.3f, 0.2f, -2);
+	glDrawPixels(8, 8, GL_RGBA, GL_UNSIGNED_BYTE, rectangle);
+	glPixelZoom(1, 1);
+}
+
+static void scissored(void)
+{
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(13, 9, 31, 25);
+	fan();
+	glScissor(5, 22, 20, 20);
+	glClearColor(0.5f, 0.6f, 0.1f, 1);
+	glClear(GL_COLOR_BUFFER_BIT);
+	glDisable(GL_SCISSOR_TEST);
+}
+
+static void cut_by_planes(void)
+{
+	static const double left[4] = { 1, 0.3, 0.1, 0.2 }, low[4] = { -0.2, 1, 0, 0.3 };
+
+	glClipPlane(GL_CLIP_PLANE0, left);
+	glClipPlane(GL_CLIP_PLANE1, low);
+	glEnable(GL_CLIP_PLANE0);
+	glEnable(GL_CLIP_PLANE1);
+	fan();
+	glDisable(GL_CLIP_PLANE0);
+	glDisable(GL_CLIP_PLANE1);
+}
+
+/* Faces as lines and points, pushed off what they lie on. */
+static void outlines(void)
+{
+	glTranslatef(0, 0, -3);
+	glRotatef(30, 1, 0.5f, 0);
+	for (int pass = 0; pass < 3; pass++) {
+		glPolygonMode(GL_FRONT_AND_BACK, pass == 0 ? GL_FILL : pass == 1 ? GL_LINE : GL_POINT);
+		glColor3f(pass ? 1 : 0.3f, pass == 2, 0.3f);
+		if (pass == 0) {
+			glEnable(GL_POLYGON_OFFSET_FILL);
+			glPolygonOffset(1, 2);
+		}
+		glPointSize(3);
+		glLineWidth(1.5f);
+		glBegin(GL_QUADS);
+		for (int i = 0; i < 9; i++) {
+			float x = 0.5f * (float)(i % 3) - 0.8f, y = 0.4f * (float)(i / 3) - 0.6f;
+
+			glVertex3f(x, y, 0.1f * (float)(i % 4));
+			glVertex3f(x + 0.5f, y, 0.1f * (float)((i + 1) % 4));
+			glVertex3f(x + 0.5f, y + 0.4f, 0);
+			glVertex3f(x, y + 0.4f, 0.2f);
+		}
+		glEnd();
+		glDisable(GL_POLYGON_OFFSET_FILL);
+	}
+	glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+	glLineWidth(1);
+}
+
+/* The window as a texture: resolved. */
+static void copied(void)
+{
+	fan();
+	glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 16, 8, 32, 32, 0);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	flat_window();
+	glLoadIdentity();
+	glEnable(GL_TEXTURE_2D);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	glBegin(GL_QUADS);
+	glTexCoord2f(0, 0);
+	glVertex2f(4, 4);
+	glTexCoord2f(1, 0);
+	glVertex2f(36, 4);
+	glTexCoord2f(1, 1);
+	glVertex2f(36, 36);
+	glTexCoord2f(0, 1);
+	glVertex2f(4, 36);
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+}
+
+int main(void)
+{
+	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, points, textured, alpha_to_coverage, sample_coverage, blended,
+		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied };
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
+		             GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None };
+	GLint samples;
+
+	open_window_of(attributes);
+	glGetIntegerv(GL_SAMPLES, &samples);
+	expect(samples == 4, "the window has four samples a pixel");
+	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
+		reset();
+		frames[i]();
+		end_frame();
+	}
+	expect(glGetError() == GL_NO_ERROR, "no error");
+	return 0;
+}
