@@ -52,6 +52,19 @@ int bvh_build_sbvh(const struct bvh_box *boxes, const struct triangle *triangles
                    uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
 
 /**
+ * A kd-tree by the surface area heuristic (kd_split.h), as a binary tree whose sides bound what their cells hold: cells never
+ * overlap, so that a triangle is in the leaf of every cell that it crosses, each time with the box of its piece there. Where no
+ * plane pays and more than leaf_max are left, and where room or depth ends, items are divided as bvh_build_sah does.
+ *
+ * The parameters are those of bvh_build_sbvh; room for three to five times the triangles is seldom used up.
+ */
+int bvh_build_kd(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, unsigned threads,
+                 uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
+
+/* How the builders by surface area divide a part: its items; them, or space where these would overlap; space first of all. */
+enum bvh_splits { BVH_OBJECTS, BVH_SPATIAL, BVH_PLANES };
+
+/**
  * What a ray that meets the root is expected to pay (MacDonald and Booth 1990, "Heuristics for ray tracing using space
  * subdivision"): the sum over nodes of their area over the root's, times BVH_COST_NODE for an inner node and 1 for each item of a leaf.
  */

@@ -2,17 +2,17 @@
 #define SAH_BUILD sah_build_plain
 #include "tracer/sah_build.h"
 
-int sah_build_avx2(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+int sah_build_avx2(enum bvh_splits splits, const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
                    unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
 
-static int sah_build(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+static int sah_build(enum bvh_splits splits, const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
                      unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order)
 {
 #ifdef __x86_64__
 	if (__builtin_cpu_supports("avx2"))
-		return sah_build_avx2(boxes, triangles, n, leaf_max, most_bins, threads, room, nodes, n_nodes, order, n_order);
+		return sah_build_avx2(splits, boxes, triangles, n, leaf_max, most_bins, threads, room, nodes, n_nodes, order, n_order);
 #endif
-	return sah_build_plain(boxes, triangles, n, leaf_max, most_bins, threads, room, nodes, n_nodes, order, n_order);
+	return sah_build_plain(splits, boxes, triangles, n, leaf_max, most_bins, threads, room, nodes, n_nodes, order, n_order);
 }
 
 int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
@@ -20,7 +20,7 @@ int bvh_build_sah(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, un
 {
 	uint32_t n_order;
 
-	return sah_build(boxes, NULL, n, leaf_max, MAX_BINS, threads, n, nodes, n_nodes, order, &n_order);
+	return sah_build(BVH_OBJECTS, boxes, NULL, n, leaf_max, MAX_BINS, threads, n, nodes, n_nodes, order, &n_order);
 }
 
 /*
@@ -38,7 +38,7 @@ static int choose_bins(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_ma
 		uint32_t n_nodes, n_order;
 		double cost;
 
-		err = sah_build(boxes, NULL, n, leaf_max, choices[i], threads, n, nodes, &n_nodes, order, &n_order);
+		err = sah_build(BVH_OBJECTS, boxes, NULL, n, leaf_max, choices[i], threads, n, nodes, &n_nodes, order, &n_order);
 		if (err)
 			return err;
 		cost = bvh_cost(nodes, n_nodes);
@@ -56,6 +56,13 @@ int bvh_build_sbvh(const struct bvh_box *boxes, const struct triangle *triangles
 	uint32_t most_bins = MAX_BINS;
 	int err = choose_bins(boxes, n, leaf_max, threads, nodes, order, &most_bins);
 
-	return err ? err : sah_build(boxes, triangles, n, leaf_max, most_bins, threads, room < n ? n : room, nodes, n_nodes, order,
+	return err ? err : sah_build(BVH_SPATIAL, boxes, triangles, n, leaf_max, most_bins, threads, room < n ? n : room, nodes, n_nodes, order,
 	                             n_order);
+}
+
+int bvh_build_kd(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, unsigned threads,
+                 uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order)
+{
+	return sah_build(BVH_PLANES, boxes, triangles, n, leaf_max, MAX_BINS, threads, room < n ? n : room, nodes, n_nodes, order,
+	                 n_order);
 }

@@ -35,6 +35,7 @@ struct part {
 };
 
 #include "tracer/sbvh_split.h"
+#include "tracer/kd_split.h"
 
 /* Nodes that one thread filled one after the other, from `first` on; `used` of them. */
 struct run {
@@ -44,7 +45,8 @@ struct run {
 
 struct build {
 	const struct bvh_box *boxes;
-	const struct triangle *triangles; /* in the boxes: space may be cut; NULL: not */
+	enum bvh_splits splits;
+	const struct triangle *triangles; /* in the boxes; NULL with BVH_OBJECTS */
 	float least_overlap;              /* half area of what sides share from which on space is cut */
 	uint32_t *order;
 	box8 *refs;
@@ -362,7 +364,23 @@ static int divide_space(const struct build *build, const struct part *part, floa
 		return 0;
 	plane = find_plane(build->triangles, refs, part->count, part->box);
 	if (!(plane.cost < cost) ||
-	    !partition_space(build->triangles, refs, part->count, part->room, &plane, left, right))
+	    !partition_space(build->triangles, refs, part->count, part->room, &plane, 1, left, right))
+		return 0;
+	measure(refs, left->count, left);
+	measure(refs + left->count, right->count, right);
+	return 1;
+}
+
+/* Cut a cell in two. 0: there is no plane, or none that is worth it; then a few stay one leaf. */
+static int divide_cell(const struct build *build, const struct part *part, int may, struct part *left, struct part *right)
+{
+	const float area = box8_half_area(part->box), whole = area * (float)part->count;
+	box8 *refs = build->refs + part->first;
+	const struct plane plane = find_kd_plane(refs, part->count, part->box);
+
+	if (!(plane.cost + (may ? BVH_COST_NODE * area : 0) < whole) ||
+	    part->count + kd_count_cut(refs, part->count, &plane) > part->room ||
+	    !partition_space(build->triangles, refs, part->count, part->room, &plane, 0, left, right))
 		return 0;
 	measure(refs, left->count, left);
 	measure(refs + left->count, right->count, right);
@@ -387,6 +405,12 @@ static int divide_refs(const struct build *build, const struct part *part, int m
 		halve(build, part, left, right);
 		return 1;
 	}
+	if (build->splits == BVH_PLANES) {
+		if (divide_cell(build, part, may, left, right))
+			return 1;
+		if (may)
+			return 0;
+	}
 	if (n <= SMALL) {
 		const float cost = divide_small(refs, n, left, right);
 
@@ -399,7 +423,7 @@ static int divide_refs(const struct build *build, const struct part *part, int m
 	if (may && split.cost + BVH_COST_NODE * area >= area * (float)n)
 		return 0;
 	split_boxes(bins, n_bins, &split, left, right);
-	if (build->triangles && part->room > n && divide_space(build, part, split.cost, left, right))
+	if (build->splits == BVH_SPATIAL && part->room > n && divide_space(build, part, split.cost, left, right))
 		return 1;
 	if (split.cost == FLT_MAX) {
 		halve(build, part, left, right);
@@ -586,17 +610,17 @@ static void build_tiny(const struct bvh_box *boxes, uint32_t n, struct node2 *ro
 }
 
 /**
- * A binned tree, or one with spatial splits where there are triangles (NULL: there are none, and room is n).
+ * @param triangles  NULL with BVH_OBJECTS, where room is n
  * @param most_bins  at most MAX_BINS
  */
-int SAH_BUILD(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+int SAH_BUILD(enum bvh_splits splits, const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
               unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order);
 
-int SAH_BUILD(const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
+int SAH_BUILD(enum bvh_splits splits, const struct bvh_box *boxes, const struct triangle *triangles, uint32_t n, uint32_t leaf_max, uint32_t most_bins,
               unsigned threads, uint32_t room, struct node2 *nodes, uint32_t *n_nodes, uint32_t *order, uint32_t *n_order)
 {
 	const uint32_t most_runs = room / GRAIN + n / CHUNK + 1;
-	struct build build = { .boxes = boxes, .triangles = triangles, .order = order, .nodes = nodes, .leaf_max = leaf_max,
+	struct build build = { .boxes = boxes, .splits = splits, .triangles = triangles, .order = order, .nodes = nodes, .leaf_max = leaf_max,
 	                       .most_bins = most_bins };
 	struct fork_part all = { .part = { .count = n, .room = room } };
 	int err = 0;
@@ -610,7 +634,7 @@ int SAH_BUILD(const struct bvh_box *boxes, const struct triangle *triangles, uin
 		return 0;
 	}
 	build.refs = aligned_alloc(32, room * sizeof(*build.refs));
-	build.chunks = aligned_alloc(32, (n / CHUNK + 1) * sizeof(*build.chunks));
+	build.chunks = aligned_alloc(32, ((n / CHUNK + 1) * sizeof(*build.chunks) + 31) / 32 * 32);
 	build.runs = malloc(most_runs * sizeof(*build.runs));
 	if (!build.refs || !build.chunks || !build.runs)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");

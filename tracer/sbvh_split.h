@@ -157,12 +157,12 @@ static struct plane find_plane(const struct triangle *triangles, const box8 *ref
 
 /*
  * Sort references to both sides of a plane: the left side's to the front, the right side's behind them, up to `room` in all.
- * A triangle that is cut goes to both, or whole to the one where that is cheaper (Stich et al. sec. 4.4).
+ * A triangle that is cut goes to both, or, with may_keep, whole to the one where that is cheaper (Stich et al. sec. 4.4).
  * The parts get their counts and boxes.
  * @return 1; 0 where all would be on one side: the same references are there, in another order
  */
 static int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room, const struct plane *plane,
-                           struct part *left, struct part *right)
+                           int may_keep, struct part *left, struct part *right)
 {
 	box8 l = box8_empty(), r = l;
 	uint32_t n_left = 0, n_right = 0, n_cut, total = n;
@@ -199,7 +199,7 @@ static int partition_space(const struct triangle *triangles, box8 *refs, uint32_
 		whole_right = (n_left > 1 ? box8_half_area(l) * (float)(n_left - 1) : 0) + box8_half_area(rb) * (float)n_right;
 		both = box8_is_box(a) && box8_is_box(b) && total < room
 			? box8_half_area(box8_join(a, l)) * (float)n_left + box8_half_area(box8_join(b, r)) * (float)n_right : FLT_MAX;
-		if (both < whole_left && both < whole_right) {
+		if (both < FLT_MAX && (!may_keep || (both < whole_left && both < whole_right))) {
 			refs[i++] = a;
 			refs[total++] = b;
 			l = box8_join(a, l);

@@ -36,8 +36,8 @@ static const char help[] =
 	"      --reach X        how far the ao modes look, in units of eye space (default: without end)\n"
 	"      --look FILE      rules, YAML: what surfaces are made of, lights added, moved, off or with a size\n"
 	"                       (tracer/look.h shows all keys)\n"
-	"      --accel KIND     how trees of meshes are built: bvh, binned (default), or sbvh, with spatial splits: some\n"
-	"                       percent cheaper to trace, ten times the time to build\n"
+	"      --accel KIND     how trees of meshes are built: bvh, binned (default); sbvh, with spatial splits: some\n"
+	"                       percent cheaper to trace, ten times the time to build; kd, a kd-tree\n"
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number or part of the name as 'relume devices' lists\n"
@@ -180,7 +180,7 @@ int settings_parse_mode(const char *word, enum tracer_mode *out)
 
 static int parse_option(struct settings *s, enum key key, const char *value)
 {
-	static const char *const encodings[] = { "linear", "display", NULL }, *const kinds[] = { "bvh", "sbvh", NULL };
+	static const char *const encodings[] = { "linear", "display", NULL }, *const kinds[] = { "bvh", "sbvh", "kd", NULL };
 	const char *name = rows[key].name;
 	int err = 0, word = 0;
 

@@ -7,25 +7,29 @@
 
 /* Most triangles in a leaf. */
 #define LEAF_TRIANGLES 4
-/* How many more items than triangles spatial splits may make, as a share of the triangles. */
-#define SPATIAL_SHARE 4
+/* How many more items than triangles cutting space may make, for each triangle. */
+#define SPATIAL_SHARE 0.25
+#define KD_SHARE 3.0
 
 /* From how many triangles on a tree is kept: below, building it takes no longer than reading a file from a disk. */
-static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024 };
+static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024, [ACCEL_KD] = 1024 };
 
-static int build_sah(const struct soup *soup, enum accel_kind kind, struct tree *tree)
+static int build(const struct soup *soup, enum accel_kind kind, struct tree *tree)
 {
-	const int spatial = kind == ACCEL_SBVH && soup->bounded;
-	const uint32_t room = 1 + soup->n + (spatial ? soup->n / SPATIAL_SHARE : 0);
+	const double more = !soup->bounded ? 0 : kind == ACCEL_SBVH ? SPATIAL_SHARE : kind == ACCEL_KD ? KD_SHARE : 0;
+	const uint32_t n = soup->n, room = n + 1 + (uint32_t)(more * n);
 
+	if (room < n)
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of %u triangles is too large", n);
 	tree->nodes = malloc(room * sizeof(*tree->nodes));
 	tree->order = malloc(room * sizeof(*tree->order));
 	if (!tree->nodes || !tree->order)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-	tree->n_order = soup->n;
-	return spatial ? bvh_build_sbvh(soup->boxes, soup->triangles, soup->n, LEAF_TRIANGLES, 0, room, tree->nodes,
-	                                &tree->n_nodes, tree->order, &tree->n_order)
-	               : bvh_build_sah(soup->boxes, soup->n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes, tree->order);
+	tree->n_order = n;
+	if (more > 0)
+		return (kind == ACCEL_KD ? bvh_build_kd : bvh_build_sbvh)(soup->boxes, soup->triangles, n, LEAF_TRIANGLES, 0, room, tree->nodes,
+		                                                          &tree->n_nodes, tree->order, &tree->n_order);
+	return bvh_build_sah(soup->boxes, n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes, tree->order);
 }
 
 int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out)
@@ -37,7 +41,7 @@ int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash
 	*out = (struct tree){ NULL };
 	if (keep && store_load(store, &key, out))
 		return 0;
-	err = build_sah(soup, kind, out);
+	err = build(soup, kind, out);
 	if (!err && keep)
 		store_save(store, &key, out);
 	return err;

@@ -14,6 +14,7 @@
 enum accel_kind {
 	ACCEL_BVH,  /* binned SAH */
 	ACCEL_SBVH, /* the same with spatial splits: a triangle may be in several leaves */
+	ACCEL_KD,   /* kd-tree: cells that do not overlap, a triangle in each that it crosses */
 	N_ACCEL_KINDS
 };
 

@@ -152,7 +152,7 @@ static inline struct random_scene *random_scene_create(uint32_t seed)
 	return s;
 }
 
-/** The same scene in trees of another kind. Spatial splits must find something to cut in it. */
+/** The same scene in trees of another kind. Splits of space must find something to cut in it. */
 static inline void random_scene_rebuild(struct random_scene *s, enum accel_kind kind)
 {
 	const size_t before = s->accel->n_triangles;
@@ -161,7 +161,7 @@ static inline void random_scene_rebuild(struct random_scene *s, enum accel_kind 
 	s->accel->kind = kind;
 	ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances, INSTANCES, &s->view, &s->spaces,
 	                                   &s->n_spaces), 0);
-	if (kind == ACCEL_SBVH && s->accel->generation != generation)
+	if ((kind == ACCEL_SBVH || kind == ACCEL_KD) && s->accel->generation != generation)
 		ck_assert_uint_gt(s->accel->n_triangles, 2 * before);
 }
 

@@ -91,7 +91,7 @@ static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
 }
 
 /* The builder's text is compiled more than once; all make the same tree, by one thread or more. */
-int sah_build_plain(const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, uint32_t, unsigned, uint32_t,
+int sah_build_plain(enum bvh_splits, const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, uint32_t, unsigned, uint32_t,
                     struct node2 *, uint32_t *, uint32_t *, uint32_t *);
 
 static void check_same_tree(uint32_t n, uint32_t n_nodes)
@@ -100,7 +100,7 @@ static void check_same_tree(uint32_t n, uint32_t n_nodes)
 	static uint32_t plain_order[N];
 	uint32_t n_plain, n_order;
 
-	ck_assert_int_eq(sah_build_plain(boxes, NULL, n, 4, 32, 1, n, plain, &n_plain, plain_order, &n_order), 0);
+	ck_assert_int_eq(sah_build_plain(BVH_OBJECTS, boxes, NULL, n, 4, 32, 1, n, plain, &n_plain, plain_order, &n_order), 0);
 	ck_assert_uint_eq(n_order, n);
 	ck_assert_uint_eq(n_plain, n_nodes);
 	ck_assert_mem_eq(plain, nodes, n_nodes * sizeof(*nodes));
@@ -151,6 +151,36 @@ static void check_large_leaves(uint32_t n, uint32_t leaf)
 		ck_assert_msg(seen[i], "item %u of %u is in no compressed node", i, n);
 }
 
+/* The same with spatial splits and as kd-trees, whatever the number of threads; leaves are no larger than asked for. */
+static void check_cut_trees(const struct triangle *triangles, uint32_t n, uint32_t room)
+{
+	static struct node2 other[4 * N + 1];
+	static struct node2 first[4 * N + 1];
+	static uint32_t order_first[4 * N + 1], order_other[4 * N + 1];
+	uint32_t n_first, n_other, n_order_first, n_order_other;
+
+	for (int kd = 0; kd < 2; kd++) {
+		int (*build)(const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, unsigned, uint32_t, struct node2 *,
+		             uint32_t *, uint32_t *, uint32_t *) = kd ? bvh_build_kd : bvh_build_sbvh;
+
+		ck_assert_int_eq(build(boxes, triangles, n, 4, 1, room, first, &n_first, order_first, &n_order_first), 0);
+		ck_assert_int_eq(build(boxes, triangles, n, 4, 3, room, other, &n_other, order_other, &n_order_other), 0);
+		ck_assert_uint_eq(n_first, n_other);
+		ck_assert_uint_eq(n_order_first, n_order_other);
+		ck_assert_uint_le(n_order_first, room);
+		ck_assert_mem_eq(first, other, n_first * sizeof(*first));
+		ck_assert_mem_eq(order_first, order_other, n_order_first * sizeof(*order_first));
+		memset(seen, 0, sizeof(seen));
+		for (uint32_t i = 0; i < n_order_first; i++)
+			seen[order_first[i]] = 1;
+		for (uint32_t i = 0; i < n; i++)
+			ck_assert_msg(seen[i], "item %u of %u is in no leaf", i, n);
+		for (uint32_t i = 0; i < n_first; i++)
+			for (int side = 0; side < 2; side++)
+				ck_assert_uint_le(first[i].count[side], 4);
+	}
+}
+
 static void set_box(uint32_t i, float x, float y, float z, float size)
 {
 	boxes[i] = (struct bvh_box){ { x - size, y - size, z - size }, { x + size, y + size, z + size } };
@@ -183,6 +213,28 @@ START_TEST(strange_boxes_keep_the_depth)
 	for (uint32_t i = 0; i < N; i++) /* unbounded ones among small ones */
 		set_box(i, (float)i, 0, 0, i % 10 ? 0.5f : 1e18f);
 	check_trees(N);
+}
+END_TEST
+
+START_TEST(cut_space_loses_nothing)
+{
+	struct random_scene r = { .random = seed_of_run };
+	const uint32_t counts[] = { 0, 1, 2, 5, 17, 300, N };
+	static struct triangle triangles[N];
+
+	for (uint32_t i = 0; i < N; i++) {
+		for (int a = 0; a < 3; a++) {
+			/* Some all in one place, some flat. */
+			triangles[i].v0[a] = i % 11 ? between(&r, -9, 9) : 1;
+			triangles[i].e1[a] = i % 11 ? between(&r, -2, 2) : 3;
+			triangles[i].e2[a] = i % 13 == (uint32_t)a ? 0 : between(&r, -2, 2);
+			boxes[i].lo[a] = triangles[i].v0[a] + fminf(0, fminf(triangles[i].e1[a], triangles[i].e2[a]));
+			boxes[i].hi[a] = triangles[i].v0[a] + fmaxf(0, fmaxf(triangles[i].e1[a], triangles[i].e2[a]));
+		}
+	}
+	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
+		for (uint32_t share = 0; share < 4; share++) /* room that is used up, or not */
+			check_cut_trees(triangles, counts[k], counts[k] + 1 + counts[k] * share * share / 3);
 }
 END_TEST
 
@@ -232,6 +284,7 @@ int main(void)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, all_items_in_one_leaf);
 	tcase_add_test(tests, strange_boxes_keep_the_depth);
+	tcase_add_test(tests, cut_space_loses_nothing);
 	tcase_add_test(tests, meshes_are_kept_and_dropped);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
