@@ -31,6 +31,7 @@ struct cl_common {
 	cl_context context;
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
 	struct cl_keeping keeping;
+	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
 };
 
 struct cl_device {
@@ -120,6 +121,37 @@ static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
 	return 0;
 }
 
+static uint64_t device_bytes(cl_device_id id, cl_device_info what)
+{
+	cl_ulong bytes = 0;
+
+	clGetDeviceInfo(id, what, sizeof(bytes), &bytes, NULL);
+	return bytes;
+}
+
+static enum device_type type_of(cl_device_id id)
+{
+	cl_device_type type = 0;
+
+	clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+	return type & CL_DEVICE_TYPE_CPU ? DEVICE_CPU : type & CL_DEVICE_TYPE_GPU ? DEVICE_GPU : DEVICE_ACCELERATOR;
+}
+
+/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query, cl_amd_device_attribute_query). */
+static unsigned width_of(cl_device_id id)
+{
+	const cl_device_info of_gpu[] = { 0x4003 /* WARP_SIZE_NV */, 0x4043 /* WAVEFRONT_WIDTH_AMD */ };
+	cl_uint width = 0;
+
+	for (size_t i = 0; type_of(id) != DEVICE_CPU && i < sizeof(of_gpu) / sizeof(of_gpu[0]); i++)
+		if (clGetDeviceInfo(id, of_gpu[i], sizeof(width), &width, NULL) == CL_SUCCESS && width)
+			return width;
+	width = 0;
+	if (type_of(id) == DEVICE_CPU)
+		clGetDeviceInfo(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof(width), &width, NULL);
+	return width;
+}
+
 int cl_list(struct device_description **out, size_t *n)
 {
 	cl_device_id ids[MAX_DEVICES];
@@ -133,21 +165,19 @@ int cl_list(struct device_description **out, size_t *n)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (size_t i = 0; i < *n; i++) {
 		cl_platform_id platform = NULL;
-		cl_device_type type = 0;
 		cl_uint units = 0;
-		cl_ulong memory = 0;
 
 		clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof(list[i].name) - 1, list[i].name, NULL);
 		clGetDeviceInfo(ids[i], CL_DRIVER_VERSION, sizeof(list[i].driver) - 1, list[i].driver, NULL);
-		clGetDeviceInfo(ids[i], CL_DEVICE_TYPE, sizeof(type), &type, NULL);
 		clGetDeviceInfo(ids[i], CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
-		clGetDeviceInfo(ids[i], CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(memory), &memory, NULL);
 		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
 		if (platform)
 			clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(list[i].platform) - 1, list[i].platform, NULL);
-		list[i].cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+		list[i].type = type_of(ids[i]);
 		list[i].units = units;
-		list[i].memory_bytes = memory;
+		list[i].width = width_of(ids[i]);
+		list[i].memory_bytes = device_bytes(ids[i], CL_DEVICE_GLOBAL_MEM_SIZE);
+		list[i].buffer_bytes = device_bytes(ids[i], CL_DEVICE_MAX_MEM_ALLOC_SIZE);
 	}
 	*out = list;
 	return 0;
@@ -223,7 +253,6 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 	cl_device_id ids[MAX_DEVICES];
 	struct cl_device *dev = NULL;
 	struct cl_common *common;
-	cl_device_type type = 0;
 	cl_int code;
 	size_t n;
 	int err = find_devices(ids, &n);
@@ -241,8 +270,9 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 		goto fail;
 	}
 	common->root = common->id = ids[number];
-	clGetDeviceInfo(common->root, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
-	dev->cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+	dev->cpu = type_of(common->root) == DEVICE_CPU;
+	common->memory_bytes = device_bytes(common->root, CL_DEVICE_GLOBAL_MEM_SIZE);
+	common->buffer_bytes = device_bytes(common->root, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
 	err = limit_threads(common, dev->cpu, threads);
 	if (err)
 		goto fail;
@@ -296,9 +326,30 @@ void cl_close(struct cl_device **dev)
 	free(d);
 }
 
-int cl_is_cpu(const struct cl_device *dev)
+/* Count a buffer of so many bytes. @return 0, or ERR_SYSTEM (reported: there is no room for it) */
+static int take_memory(struct cl_common *c, size_t bytes)
 {
-	return dev->cpu;
+	uint64_t used;
+
+	if (bytes > c->buffer_bytes)
+		return err_report(ERR_SYSTEM, "OpenCL", "a buffer of %llu MiB is needed, and this device makes none of more than %llu: "
+		                  "choose another --device", (unsigned long long)bytes >> 20, (unsigned long long)c->buffer_bytes >> 20);
+	pthread_mutex_lock(&c->lock);
+	used = c->used_bytes + bytes;
+	if (used <= c->memory_bytes)
+		c->used_bytes = used;
+	pthread_mutex_unlock(&c->lock);
+	if (used <= c->memory_bytes)
+		return 0;
+	return err_report(ERR_SYSTEM, "OpenCL", "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
+	                  (unsigned long long)used >> 20, (unsigned long long)c->memory_bytes >> 20);
+}
+
+static void give_memory(struct cl_common *c, size_t bytes)
+{
+	pthread_mutex_lock(&c->lock);
+	c->used_bytes -= bytes;
+	pthread_mutex_unlock(&c->lock);
 }
 
 int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
@@ -317,9 +368,14 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (b->mem)
 		clReleaseMemObject(b->mem);
+	b->mem = NULL;
+	give_memory(dev->common, b->bytes);
 	b->bytes = 0;
+	if (take_memory(dev->common, bytes))
+		return ERR_SYSTEM;
 	b->mem = clCreateBuffer(dev->common->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
 	if (!b->mem) {
+		give_memory(dev->common, bytes);
 		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
 		return cl_report(code, what);
 	}
@@ -327,10 +383,12 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
 	return 0;
 }
 
-void cl_release(struct cl_buffer **buffer)
+void cl_release(struct cl_device *dev, struct cl_buffer **buffer)
 {
 	if (*buffer && (*buffer)->mem)
 		clReleaseMemObject((*buffer)->mem);
+	if (*buffer)
+		give_memory(dev->common, (*buffer)->bytes);
 	free(*buffer);
 	*buffer = NULL;
 }

@@ -28,15 +28,13 @@ void cl_close(struct cl_device **dev);
 /** The same device with a queue of its own, for another thread; programs are compiled once for all. As cl_open. */
 int cl_share(struct cl_device *dev, struct cl_device **out);
 
-int cl_is_cpu(const struct cl_device *dev);
-
 /* As device_keep_programs and device_programs_found. */
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
 unsigned cl_programs_found(struct cl_device *dev);
 
 /* As their namesakes in device.h. */
 int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
-void cl_release(struct cl_buffer **buffer);
+void cl_release(struct cl_device *dev, struct cl_buffer **buffer);
 int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes);
 int cl_finish(struct cl_device *dev);

@@ -56,19 +56,39 @@ static int contains(const char *text, const char *part)
 	return 0;
 }
 
-/* The device a choice names: a number, a part of a name, or NULL: the first GPU, else the first device. */
+const char *device_type_name(enum device_type type)
+{
+	static const char *const names[N_DEVICE_TYPES] = { "cpu", "gpu", "accelerator" };
+
+	return names[type];
+}
+
+enum device_family device_type_family(enum device_type type)
+{
+	return type == DEVICE_CPU ? FAMILY_PACKETS : FAMILY_COMPRESSED;
+}
+
+/* The first device of a type; n: there is none. */
+static size_t find_type(const struct device_description *list, size_t n, const char *type)
+{
+	size_t i = 0;
+
+	while (i < n && strcasecmp(device_type_name(list[i].type), type) != 0)
+		i++;
+	return i;
+}
+
+/* The device a choice names: a number, a type, a part of a name, or NULL: the first GPU, else the first device. */
 static int choose(const struct device_description *list, size_t n, const char *choice, size_t *number)
 {
 	char *end;
 
-	*number = 0;
-	if (!choice) {
-		while (*number < n && list[*number].cpu)
-			++*number;
-		if (*number == n)
-			*number = 0;
+	*number = find_type(list, n, choice ? choice : "gpu");
+	if (*number < n)
 		return 0;
-	}
+	*number = 0;
+	if (!choice)
+		return 0;
 	if (isdigit((unsigned char)choice[0])) {
 		unsigned long value = strtoul(choice, &end, 10);
 
@@ -97,6 +117,8 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 	if (!err)
 		snprintf(dev->name, sizeof(dev->name), "%s (%s %s)", list[number].name, list[number].platform,
 		         list[number].driver);
+	if (!err)
+		dev->family = device_type_family(list[number].type);
 	free(list);
 	return err;
 }
@@ -108,6 +130,7 @@ static void open_reference(struct device *dev, unsigned threads)
 	dev->threads = threads ? threads : cores > 0 ? (unsigned)cores : 1;
 	if (dev->threads > MAX_THREADS)
 		dev->threads = MAX_THREADS;
+	dev->family = FAMILY_PACKETS;
 	snprintf(dev->name, sizeof(dev->name), "reference (C)");
 }
 
@@ -126,7 +149,6 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 		free(dev);
 		return err;
 	}
-	dev->family = !dev->cl || cl_is_cpu(dev->cl) ? FAMILY_PACKETS : FAMILY_COMPRESSED;
 	*out = dev;
 	return 0;
 }
@@ -294,7 +316,7 @@ int device_reserve(struct device *dev, struct device_buffer **buffer, size_t byt
 void device_release(struct device *dev, struct device_buffer **buffer)
 {
 	if (*buffer && dev->cl)
-		cl_release(&(*buffer)->cl);
+		cl_release(dev->cl, &(*buffer)->cl);
 	if (*buffer)
 		free((*buffer)->memory);
 	free(*buffer);

@@ -85,13 +85,21 @@ typedef void device_twin(const void *const *args, size_t first, size_t last);
 struct device;
 struct device_buffer; /* memory on one device */
 
+enum device_type { DEVICE_CPU, DEVICE_GPU, DEVICE_ACCELERATOR, N_DEVICE_TYPES };
+
 /* An OpenCL device as `relume devices` lists it; its place in the list is the number device_open takes. */
 struct device_description {
 	char name[128], platform[64], driver[64];
-	int cpu;
+	enum device_type type;
 	unsigned units;
-	uint64_t memory_bytes;
+	unsigned width; /* floats that a unit computes with at once: of a vector, or work items in step; 0: it does not say */
+	uint64_t memory_bytes, buffer_bytes; /* buffer_bytes: of one buffer, at most */
 };
+
+const char *device_type_name(enum device_type type); /* "cpu", "gpu", "accelerator" */
+
+/** The family of traversal kernels that devices of a type run unless they are told otherwise. */
+enum device_family device_type_family(enum device_type type);
 
 /**
  * List the OpenCL devices.
@@ -102,8 +110,8 @@ int device_list(struct device_description **out, size_t *n);
 
 /**
  * Open a device.
- * @param choice  NULL: the first GPU, else the first CPU found by OpenCL. "reference": the C twins. Else a number from
- *                `relume devices` or part of a device's name.
+ * @param choice  NULL: the first GPU, else the first device found by OpenCL. "reference": the C twins. Else a number from
+ *                `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's name.
  * @param threads compute threads where the device is a CPU, 0: all cores
  * @param out     owned by the caller, device_close
  * @return 0; ERR_SYSTEM (reported: no OpenCL device at all names the package to install); ERR_USAGE (no such choice)
@@ -161,7 +169,9 @@ unsigned device_programs_found(const struct device *dev);
 
 /**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
- * @return 0 or ERR_SYSTEM (reported with the size)
+ * Drivers hand out memory that is not there and fail when it is used: what this device and all shared from it hold together is
+ * counted here.
+ * @return 0 or ERR_SYSTEM (reported with the size, and what the device has)
  */
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes);
 void device_release(struct device *dev, struct device_buffer **buffer);

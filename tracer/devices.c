@@ -11,8 +11,10 @@
 static const char help[] =
 	"usage: relume devices [--json]\n"
 	"\n"
-	"List the OpenCL devices. The number, or any part of the name, is what --device takes;\n"
-	"without --device the first GPU is used, else the first device.\n"
+	"List the OpenCL devices: number, type, name, compute units and the floats that each computes with at once, memory,\n"
+	"the family of traversal kernels that it runs (render --kernels names another), platform and driver. The number, the\n"
+	"type (cpu, gpu, accelerator: the first of it) or any part of the name is what --device takes; without --device the\n"
+	"first GPU is used, else the first device.\n"
 	"'--device reference' runs the kernels' C twins: slow, needs no OpenCL.\n"
 	"\n"
 	"  --json   as JSON\n";
@@ -39,8 +41,10 @@ static void print_json(const struct device_description *list, size_t n)
 		print_json_string(list[i].platform);
 		fputs(", \"driver\": ", stdout);
 		print_json_string(list[i].driver);
-		printf(", \"cpu\": %s, \"units\": %u, \"memory_bytes\": %llu}%s\n", list[i].cpu ? "true" : "false",
-		       list[i].units, (unsigned long long)list[i].memory_bytes, i + 1 < n ? "," : "");
+		printf(", \"type\": \"%s\", \"units\": %u, \"width\": %u, \"memory_bytes\": %llu, \"buffer_bytes\": %llu, "
+		       "\"kernels\": \"%s\"}%s\n", device_type_name(list[i].type), list[i].units, list[i].width,
+		       (unsigned long long)list[i].memory_bytes, (unsigned long long)list[i].buffer_bytes,
+		       device_family_name(device_type_family(list[i].type)), i + 1 < n ? "," : "");
 	}
 	puts("]");
 }
@@ -75,9 +79,10 @@ int devices_main(int argc, char **argv)
 		print_json(list, n);
 	} else {
 		for (size_t i = 0; i < n; i++)
-			printf("%zu  %s  %s, %u units, %llu MiB  (%s %s)\n", i, list[i].cpu ? "CPU" : "GPU", list[i].name,
-			       list[i].units, (unsigned long long)(list[i].memory_bytes >> 20), list[i].platform,
-			       list[i].driver);
+			printf("%zu  %s  %s, %u units of width %u, %llu MiB, kernels: %s  (%s %s)\n", i,
+			       device_type_name(list[i].type), list[i].name, list[i].units, list[i].width,
+			       (unsigned long long)(list[i].memory_bytes >> 20),
+			       device_family_name(device_type_family(list[i].type)), list[i].platform, list[i].driver);
 	}
 	free(list);
 	return 0;

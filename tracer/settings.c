@@ -40,7 +40,7 @@ static const char help[] =
 	"                       percent cheaper to trace, ten times the time to build; kd, a kd-tree\n"
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
-	"      --device LIST    devices that share the frames, by number or part of the name as 'relume devices' lists\n"
+	"      --device LIST    devices that share the frames, by number, type or part of the name as 'relume devices' lists\n"
 	"                       them, with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)\n"
 	"      --kernels FAMILY traversal kernels: packets (default on a CPU), binary, compressed (default on a GPU);\n"
 	"                       the pictures are the same\n"

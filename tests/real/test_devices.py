@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# limit: 200 s
+"""Devices as `relume devices` lists them and --device names them; one that lacks memory; one of two that fails in the middle."""
+import json
+import os
+import re
+
+from helpers import BUILD, SCRATCH, check, corpus, finish, must, record, relume
+
+trace = SCRATCH / "two.trace"
+FRAMES = 40
+record(trace, corpus("two_triangles"), "--frames", str(FRAMES), options=())
+
+
+def fake(**more):
+    return dict(os.environ, LD_PRELOAD=str(BUILD / "tests/real/failing_cl.so"), **more)
+
+
+def files(folder):
+    return {p.name: p.read_bytes() for p in folder.iterdir()} if folder.is_dir() else {}
+
+
+def render(folder, *options, env=None):
+    return relume("render", trace, "-o", SCRATCH / folder / "x.{frame}.exr", *options, env=env)
+
+
+def devices(env=None):
+    return json.loads(must(relume("devices", "--json", env=env)).stdout)
+
+
+must(render("whole", "-f", "0-1"))
+whole = files(SCRATCH / "whole")
+
+# What is listed, and how it is named.
+for kind, family in (("cpu", "packets"), ("gpu", "compressed"), ("accelerator", "compressed")):
+    env = None if kind == "cpu" else fake(AS_TYPE=kind)
+    listed = devices(env)
+    check(all(d["type"] == kind and d["kernels"] == family for d in listed), f"{kind}: {listed}")
+    text = must(relume("devices", env=env)).stdout
+    check(all(re.search(rf"^{d['number']}  {kind}  .*{re.escape(d['name'])}.* kernels: {family} ", text, re.M) for d in listed), text)
+    # A device of another type runs other kernels, in other groups, and leaves the same pictures.
+    for choice in ("0", kind, kind.upper(), listed[0]["name"][:12]):
+        must(render(f"{kind}-{choice}", "-f", "0-1", "--device", choice, env=env))
+        check(files(SCRATCH / f"{kind}-{choice}").keys() == whole.keys(), f"--device {choice}: frames")
+    other = {n for n, data in files(SCRATCH / f"{kind}-{kind}").items() if data != whole[n]}
+    check(not other, f"a device of type {kind} leaves other files: {other}")
+for d in devices():
+    check(d["memory_bytes"] >= d["buffer_bytes"] > 0 and d["width"] in (1, 4, 8, 16) and d["units"] > 0, f"what a device has: {d}")
+for choice in ("gpu", "accelerator", "77", "no such name"):
+    done = render("none", "-f", "0", "--device", choice)
+    check(done.returncode == 2 and "relume devices" in done.stderr and done.stderr.count("\n") == 1, f"--device {choice}: {done.stderr}")
+
+# Memory that is not there is said before it is used, in one line.
+for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("AS_BUFFER", "makes none of more than 2")):
+    done = render("small", "-f", "0", "-j", "1", env=fake(**{name: str(5 << 19)}))
+    lines = [line for line in done.stderr.splitlines() if line.startswith("relume: ")]
+    check(done.returncode == 5 and len(lines) == 1 and words in lines[0], f"{name}: exit code {done.returncode}, {done.stderr}")
+    check(not files(SCRATCH / "small"), f"{name}: something was written")
+
+# One of two devices fails in the middle: the other one takes what it had, and every frame is there.
+must(render("alone"))
+two = fake(POCL_DEVICES="pthread pthread", FAIL_AFTER="60", FAIL_ONLY="1")
+done = render("left", "--device", "all", "-j", "1", env=two)
+check(done.returncode == 0, f"one of two devices fails: exit code {done.returncode}: {done.stderr[-600:]}")
+check(done.stderr.count("CL_OUT_OF_RESOURCES") == 1 and done.stderr.count("not used again") == 1, f"it is said once: {done.stderr[-600:]}")
+shares = [int(n) for n in re.findall(r"^  device \d+: (\d+) frames", done.stderr, re.MULTILINE)]
+check(len(shares) == 2 and sum(shares) == FRAMES and min(shares) > 0, f"shares {shares}")
+check(files(SCRATCH / "left") == files(SCRATCH / "alone"), "one of two devices fails: every frame is there and whole")
+finish()
