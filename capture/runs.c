@@ -399,12 +399,23 @@ int runs_end(void)
 	return 1;
 }
 
-void runs_edge_flag_set(void)
+static void end_lists(void)
 {
-	struct runs_table *t = current_table();
+	struct runs_table *t = context_has(HAS_FIXED_FUNCTION) ? current_table() : NULL;
 
 	if (t)
 		t->off = 1;
+}
+
+void runs_edge_flag_set(void)
+{
+	end_lists();
+}
+
+void runs_color_material(unsigned face)
+{
+	if (face == GL_BACK)
+		end_lists();
 }
 
 void runs_list_state(void)

@@ -31,6 +31,12 @@ int runs_begin(unsigned mode);
 int runs_end(void);
 /** Edge flags were set: lists are made no more in this context (their vertices would need flags known only when called). */
 void runs_edge_flag_set(void);
+/**
+ * glColorMaterial. Where the back face alone follows the colour, lists are made no more: Mesa lights back faces otherwise where the
+ * colour is a vertex's than where it is constant (22.3.6), and the colour that a program sets before glBegin is the former where
+ * vertices are pending, the latter where a list is called.
+ */
+void runs_color_material(unsigned face);
 /** The program began or ended a list of its own, or deleted some. */
 void runs_list_state(void);
 void runs_lists_used(unsigned first, long count);

@@ -1,4 +1,7 @@
-/* Quads and line loops that repeat themselves from frame to frame, which drivers' lists may draw otherwise than immediate mode. */
+/*
+ * Quads and line loops that repeat themselves from frame to frame, which drivers' lists may draw otherwise than immediate mode; with
+ * the argument "back" lit faces whose back alone follows the colour, set in one run and in front of the next.
+ */
 #include "window.h"
 
 enum { FRAMES = 6, CORNERS = 12 };
@@ -17,9 +20,44 @@ static void run(GLenum mode, float size)
 	glEnd();
 }
 
-int main(void)
+static void light(void)
 {
+	static const float position[4] = { 1, 1, 1, 0 };
+
+	glLightfv(GL_LIGHT0, GL_POSITION, position);
+	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
+	glColorMaterial(GL_BACK, GL_DIFFUSE);
+	glEnable(GL_COLOR_MATERIAL);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_LIGHTING);
+}
+
+/* From front and behind, the colour of each corner or of all. */
+static void lit_faces(void)
+{
+	for (int side = -1; side <= 1; side += 2)
+		for (int one = 0; one < 2; one++) {
+			float left = (float)one - 1, bottom = 0.5f * (float)side - 0.5f;
+
+			glNormal3f(0, 0, (float)side);
+			glColor3f(0.9f, 0.8f, 0.3f);
+			glBegin(GL_TRIANGLE_FAN);
+			for (int i = 0; i < 8; i++) {
+				if (!one)
+					glColor3f(0.2f, 0.1f * (float)i, 0.4f);
+				glVertex2f(left + 0.1f * (float)i, bottom + (i % 2 ? 0.8f : 0.1f) + 0.01f * (float)i);
+			}
+			glEnd();
+		}
+}
+
+int main(int argc, char **argv)
+{
+	int back = argc > 1 && strcmp(argv[1], "back") == 0;
+
 	open_window();
+	if (back)
+		light();
 	glMatrixMode(GL_PROJECTION);
 	glFrustum(-0.5, 0.5, -0.4, 0.4, 1, 10);
 	glMatrixMode(GL_MODELVIEW);
@@ -29,8 +67,12 @@ int main(void)
 		glLoadIdentity();
 		glTranslatef(0, 0, -3);
 		glRotatef(10.0f * (float)frame, 1, 1, 0);
-		run(GL_QUADS, 1);
-		run(GL_LINE_LOOP, 1.2f);
+		if (back) {
+			lit_faces();
+		} else {
+			run(GL_QUADS, 1);
+			run(GL_LINE_LOOP, 1.2f);
+		}
 		end_frame();
 	}
 	expect(glGetError() == GL_NO_ERROR, "no error");
