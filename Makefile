@@ -26,7 +26,7 @@ LIBS_OIIO := -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c watch.c runs.c memory.c sink.c writer.c reference.c)
+RECORDER_SRC := $(addprefix capture/,wrap.c maps.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c watch.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
@@ -184,7 +184,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c) \
-	$(patsubst %,$(BUILD)/tests/%,real/closer real/leaving real/multisampled real/pixels real/samples real/shapes real/targets real/textures bench/static_scene) \
+	$(patsubst %,$(BUILD)/tests/%,real/closer real/leaving real/multisampled real/parameters real/persistent real/pixels real/samples real/shapes real/targets real/textures bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags

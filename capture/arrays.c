@@ -4,7 +4,8 @@
  * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call whose pointer is a
  * blob of the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (content.h). The driver is the authority on array state: it is asked again after any command
  * that can have changed it. Array state cannot be asked between Begin and End, where ArrayElement is legal, so it is asked
- * before Begin, and ArrayElement of client memory is written as the immediate-mode calls that it stands for (GL 2.1 sec. 2.8).
+ * before Begin, and ArrayElement of client memory is written as the immediate-mode calls that it stands for (GL 2.1 sec. 2.8);
+ * where other arrays lie in buffers the call itself is written, too, and for that time the trace has only those enabled.
  */
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -77,6 +78,7 @@ static __thread struct {
 	unsigned epoch; /* of the trace that has what is in `written` */
 	int n_client;   /* enabled arrays without a buffer */
 	int n_buffered; /* enabled arrays with one */
+	int apart;      /* between Begin and End of arrays of both kinds: the trace has those without disabled */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Asking the driver */
@@ -403,6 +405,8 @@ static long restart_index(unsigned type)
 		return (1L << (8 * type_bytes(type))) - 1;
 	if (context_has(HAS_RESTART) && real_glIsEnabled(GL_PRIMITIVE_RESTART))
 		return (long)(unsigned)context_get(GL_PRIMITIVE_RESTART_INDEX);
+	if (context_has(HAS_RESTART_NV) && real_glIsEnabled(GL_PRIMITIVE_RESTART_NV))
+		return (long)(unsigned)context_get(GL_PRIMITIVE_RESTART_INDEX_NV);
 	return -1;
 }
 
@@ -515,6 +519,77 @@ void arrays_multi_draw_elements(const int *count, unsigned type, const void *con
 	record_arrays(&d);
 }
 
+/*
+ * Draws whose parameters lie in memory (ARB_draw_indirect): calls `put` with each. Where a buffer of them cannot be read, the draw is
+ * an error, too.
+ */
+enum { ARRAYS_WORDS = 4, ELEMENTS_WORDS = 5 };
+
+static void for_each_indirect(const void *indirect, int words, int draws, int stride,
+                              void (*put)(const uint32_t *command, unsigned type, struct drawn *d), unsigned type, struct drawn *d)
+{
+	int buffered = context_has(HAS_INDIRECT) && context_get(GL_DRAW_INDIRECT_BUFFER_BINDING);
+
+	context_errors_before();
+	for (long i = 0; i < draws && stride >= 0; i++) {
+		long at = i * (stride ? stride : 4 * words);
+		uint32_t command[ELEMENTS_WORDS] = { 0 };
+
+		if (buffered)
+			real_glGetBufferSubData(GL_DRAW_INDIRECT_BUFFER, (long)(uintptr_t)indirect + at, 4 * words, command);
+		else if (indirect)
+			memory_read(command, (const uint8_t *)indirect + at, 4 * (size_t)words);
+		if (command[0] && command[1])
+			put(command, type, d);
+	}
+	context_errors_after();
+}
+
+static void add_instances(struct drawn *d, long instances, long base)
+{
+	d->instances = base + instances > d->instances ? base + instances : d->instances;
+}
+
+/* count, instances, first, base instance */
+static void add_arrays(const uint32_t *command, unsigned type, struct drawn *d)
+{
+	(void)type;
+	d->first = (long)command[2] < d->first ? (long)command[2] : d->first;
+	d->last = (long)command[2] + command[0] - 1 > d->last ? (long)command[2] + command[0] - 1 : d->last;
+	add_instances(d, command[1], command[3]);
+}
+
+/* count, instances, first index, base vertex, base instance */
+static void add_elements(const uint32_t *command, unsigned type, struct drawn *d)
+{
+	long offset = (long)command[2] * type_bytes(type);
+
+	find_range((const void *)(uintptr_t)offset, (int)command[0], type, restart_index(type), (int)command[3], d);
+	add_instances(d, command[1], command[4]);
+}
+
+void arrays_draw_indirect(const void *indirect, int draws, int stride)
+{
+	struct drawn d = { LONG_MAX, -1, 0, 1 };
+
+	if (!needed())
+		return;
+	for_each_indirect(indirect, ARRAYS_WORDS, draws, stride, add_arrays, 0, &d);
+	record_arrays(&d);
+}
+
+void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draws, int stride)
+{
+	struct drawn d = { LONG_MAX, -1, 0, 1 };
+
+	/* Without an element buffer it is an error (GL 4.0 sec. 2.8.3). */
+	if (!needed() || !context_has(HAS_BUFFERS) || !context_get(GL_ELEMENT_ARRAY_BUFFER_BINDING))
+		return;
+	for_each_indirect(indirect, ELEMENTS_WORDS, draws, stride, add_elements, type, &d);
+	d.first = d.first < 0 ? 0 : d.first;
+	record_arrays(&d);
+}
+
 /* InterleavedArrays sets pointers, which are written when drawn, and which arrays are enabled, which is written here. */
 
 int arrays_interleave_is_offset(unsigned format)
@@ -540,10 +615,57 @@ void arrays_interleaved(unsigned format)
 
 /* ArrayElement */
 
+/* The trace's array is enabled or disabled. */
+static void record_enabled(int slot, int on)
+{
+	uint8_t *p;
+
+	if (slot < SLOT_ATTRIBUTE || slot == SLOT_VERTEX) {
+		record_enum(on ? CMD_glEnableClientState : CMD_glDisableClientState,
+		            names[slot >= SLOT_TEXTURE && slot != SLOT_VERTEX ? SLOT_TEXTURE : slot].enable);
+		return;
+	}
+	p = writer_enter_fake(on ? CMD_glEnableVertexAttribArray : CMD_glDisableVertexAttribArray);
+	if (p)
+		writer_call_end(put_uint(put_argument(p, 0), (unsigned)(slot - SLOT_ATTRIBUTE)));
+}
+
+/* All arrays in client memory, so that the trace's ArrayElement takes from buffers only. */
+static void record_client_enabled(int on)
+{
+	unsigned active = context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ?
+	                  (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) : GL_TEXTURE0, now = active;
+
+	for (int slot = 0; slot < N_SLOTS; slot++) {
+		const struct array *a = &self.arrays[slot];
+		unsigned unit = slot >= SLOT_TEXTURE && slot < SLOT_ATTRIBUTE ? GL_TEXTURE0 + (unsigned)(slot - SLOT_TEXTURE) : now;
+
+		if (!a->enabled || a->buffer)
+			continue;
+		if (unit != now)
+			record_enum(CMD_glClientActiveTexture, unit);
+		now = unit;
+		record_enabled(slot, on);
+	}
+	if (now != active)
+		record_enum(CMD_glClientActiveTexture, active);
+}
+
 void arrays_begin(void)
 {
-	if (arrays_used && writer_active())
-		refresh();
+	if (!arrays_used || !writer_active())
+		return;
+	refresh();
+	self.apart = self.n_client && self.n_buffered;
+	if (self.apart)
+		record_client_enabled(0);
+}
+
+void arrays_ended(void)
+{
+	if (self.apart && writer_active())
+		record_client_enabled(1);
+	self.apart = 0;
 }
 
 enum { N_TYPES = 8, TYPE_NONE = -1 };
@@ -663,21 +785,27 @@ static void record_element(int slot, const struct array *a, int index)
 	writer_call_end(p);
 }
 
+static void record_index(int index)
+{
+	uint8_t *p = writer_enter_fake(CMD_glArrayElement);
+
+	if (p)
+		writer_call_end(put_sint(put_argument(p, 0), index));
+}
+
+/* 1 where the call itself is to be written. */
 int arrays_element_is_offset(int index)
 {
 	if (!writer_active() || !self.known || !self.n_client)
 		return 1; /* all of it in buffers: readers can do it themselves */
-	if (self.n_buffered) {
-		static _Atomic int said;
-
-		if (!said++)
-			writer_say("glArrayElement with arrays both in buffers and in client memory: the former are not recorded");
-	}
 	for (int slot = 0; slot < N_SLOTS && index >= 0; slot++) {
 		const struct array *a = &self.arrays[slot];
 
+		/* What is in buffers comes before a vertex of client memory, and after all else. */
+		if (self.apart && slot == SLOT_VERTEX && a->enabled && !a->buffer)
+			record_index(index);
 		if (a->enabled && !a->buffer && a->pointer)
 			record_element(slot, a, index);
 	}
-	return 0;
+	return self.apart && (!self.arrays[SLOT_VERTEX].enabled || self.arrays[SLOT_VERTEX].buffer);
 }

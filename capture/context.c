@@ -97,6 +97,8 @@ static const struct {
 	{ HAS_RESTART, 31, { NULL } },
 	{ HAS_DIVISOR, 33, { "GL_ARB_instanced_arrays" } },
 	{ HAS_FIXED_RESTART, 43, { "GL_ARB_ES3_compatibility" } },
+	{ HAS_INDIRECT, 40, { "GL_ARB_draw_indirect" } },
+	{ HAS_RESTART_NV, 1000, { "GL_NV_primitive_restart" } },
 	{ HAS_PACK_INVERT, 1000, { "GL_MESA_pack_invert" } },
 };
 
@@ -153,6 +155,7 @@ void context_destroyed(void *handle)
 	for (struct context *c = contexts; c; c = c->next)
 		if (c->handle == handle && handle && c != current) {
 			c->handle = NULL; /* the address may come back as another context */
+			maps_context_destroyed(&c->contents);
 			content_free(&c->contents);
 			mirror_free(&c->mirrors);
 			runs_free(&c->runs);

@@ -220,6 +220,7 @@ class Generator:
             "room": lambda: f"put_zeros(p_, {name}, (long)({rest}))",
             "image": lambda: f"put_image(p_, {name}, {', '.join(fields)})",
             "indices": lambda: f"put_indices(p_, {name}, {fields[0]}, {fields[1]})",
+            "indirect": lambda: f"put_indirect(p_, {name}, (long)({rest}))",
             "multi_indices": lambda: f"put_multi_indices(p_, (const void *const *){name}, {', '.join(fields)})",
             "attribs": lambda: f"put_attribs(p_, {name}, {rest})",
             "attribs_wide": lambda: f"put_attribs_wide(p_, {name}, {rest})",

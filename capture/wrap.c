@@ -103,6 +103,20 @@ uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *co
 	return p;
 }
 
+long indirect_bytes(int elements, int draws, int stride)
+{
+	long size = elements ? 20 : 16;
+
+	return draws > 0 && stride >= 0 ? (draws - 1L) * (stride ? stride : size) + size : 0;
+}
+
+uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes)
+{
+	if (!indirect || (context_has(HAS_INDIRECT) && context_get(GL_DRAW_INDIRECT_BUFFER_BINDING)))
+		return put_opaque(p, indirect);
+	return put_blob(p, indirect, bytes);
+}
+
 enum { MAX_ATTRIBS = 512 };
 
 uint8_t *put_attribs(uint8_t *p, const int *list, int end)
@@ -121,55 +135,4 @@ uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end)
 	while (list && n < MAX_ATTRIBS && list[n] != end)
 		n += 2;
 	return put_array_s64(p, (const int64_t *)list, n + 1);
-}
-
-/* Mapped buffers: the recorder sees no store, so what lies there goes out as a copy (apitrace's own memory function). */
-
-static void record_memory(const uint8_t *data, long bytes)
-{
-	uint8_t *p = data && bytes > 0 ? writer_enter_memcpy() : NULL;
-
-	if (!p)
-		return;
-	p = put_opaque(put_argument(p, 0), data);
-	p = put_blob(put_argument(p, 1), data, bytes);
-	p = put_uint(put_argument(p, 2), (uint64_t)bytes);
-	writer_call_end(p);
-}
-
-static int buffer_get(unsigned target, unsigned pname)
-{
-	int value = 0;
-
-	real_glGetBufferParameteriv(target, pname, &value);
-	return value;
-}
-
-void buffer_unmapped(unsigned target)
-{
-	void *data = NULL;
-	long bytes;
-
-	if (!writer_active() || !context_has(HAS_DESKTOP) || !context_has(HAS_BUFFERS) || !buffer_get(target, GL_BUFFER_MAPPED) ||
-	    buffer_get(target, GL_BUFFER_ACCESS) == GL_READ_ONLY)
-		return;
-	bytes = buffer_get(target, GL_BUFFER_SIZE);
-	if (context_has(HAS_MAP_RANGE)) {
-		if (buffer_get(target, GL_BUFFER_ACCESS_FLAGS) & GL_MAP_FLUSH_EXPLICIT_BIT)
-			return; /* written at each flush */
-		bytes = buffer_get(target, GL_BUFFER_MAP_LENGTH);
-	}
-	real_glGetBufferPointerv(target, GL_BUFFER_MAP_POINTER, &data);
-	record_memory(data, bytes);
-}
-
-void buffer_flushed(unsigned target, long offset, long length)
-{
-	void *data = NULL;
-
-	if (!writer_active() || !buffer_get(target, GL_BUFFER_MAPPED))
-		return;
-	real_glGetBufferPointerv(target, GL_BUFFER_MAP_POINTER, &data);
-	if (data && offset >= 0)
-		record_memory((const uint8_t *)data + offset, length);
 }

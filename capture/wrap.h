@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "capture/maps.h"
 #include "capture/runs.h"
 #include "capture/sizes.h"
 #include "capture/stats.h"
@@ -50,7 +51,8 @@ enum context_feature { /* what may be asked without making a GL error */
 	HAS_MULTITEXTURE = 1 << 4, HAS_FOG_COORD = 1 << 5, HAS_SECONDARY_COLOR = 1 << 6, HAS_ATTRIBUTES = 1 << 7,
 	HAS_FRAMEBUFFERS = 1 << 8, HAS_READ_FRAMEBUFFER = 1 << 9, HAS_DIVISOR = 1 << 10, HAS_RESTART = 1 << 11,
 	HAS_FIXED_RESTART = 1 << 12, HAS_INTEGER_ATTRIBUTES = 1 << 13, HAS_VERTEX_ARRAYS = 1 << 14,
-	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */, HAS_WINDOW_POS = 1 << 18
+	HAS_PACK_INVERT = 1 << 15, HAS_3D = 1 << 16, HAS_DESKTOP = 1 << 17 /* not OpenGL ES */, HAS_WINDOW_POS = 1 << 18,
+	HAS_INDIRECT = 1 << 19, HAS_RESTART_NV = 1 << 20
 };
 
 /** 1 where this thread has a context. */
@@ -159,12 +161,15 @@ int arrays_interleave_is_offset(unsigned format);
 void arrays_interleaved(unsigned format);
 void arrays_begin(void);
 int arrays_element_is_offset(int index);
+void arrays_ended(void);
 void arrays_draw(int first, int count, int instances, unsigned base_instance);
 void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
                           unsigned base_instance);
 void arrays_multi_draw(const int *first, const int *count, int draws);
 void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
                                 const int *base_vertex);
+void arrays_draw_indirect(const void *indirect, int draws, int stride);
+void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draws, int stride);
 
 /* wrap.c: values that depend on state */
 
@@ -178,6 +183,9 @@ void image_used(const void *pixels, int dims, unsigned format, unsigned type, in
 void image_written(void);
 uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type);
 uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *counts, unsigned type, int draws);
+/** The parameters of indirect draws: of how many bytes they are, and they themselves or their offset. */
+long indirect_bytes(int elements, int draws, int stride);
+uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes);
 uint8_t *put_attribs(uint8_t *p, const int *list, int end);
 uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end);
 long polygon_stipple_count(void);
@@ -189,8 +197,5 @@ long texture_image_bytes(unsigned target, int level, unsigned format, unsigned t
 long compressed_image_bytes(unsigned target, int level);
 /** So many bytes that a call has returned; below 0: their address, or offset in a buffer. */
 uint8_t *put_returned(uint8_t *p, const void *data, long bytes);
-
-void buffer_unmapped(unsigned target);
-void buffer_flushed(unsigned target, long offset, long length);
 
 #endif

@@ -42,6 +42,8 @@ static uint32_t *binding(struct gls_state *st, uint32_t target)
 		return &st->client.copy_read_buffer;
 	case GL_COPY_WRITE_BUFFER:
 		return &st->client.copy_write_buffer;
+	case GL_DRAW_INDIRECT_BUFFER:
+		return &st->client.indirect_buffer;
 	case GL_PIXEL_UNPACK_BUFFER:
 		return &st->client.unpack.buffer;
 	case GL_PIXEL_PACK_BUFFER:
@@ -102,13 +104,15 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 			st->client.copy_read_buffer = 0;
 		if (st->client.copy_write_buffer == name)
 			st->client.copy_write_buffer = 0;
+		if (st->client.indirect_buffer == name)
+			st->client.indirect_buffer = 0;
 		for (unsigned a = 0; a < N_GLS_ARRAYS; a++)
 			if (st->client.arrays[a].buffer == name)
 				st->client.arrays[a].buffer = 0;
 	}
 }
 
-GLS_HANDLER(glBufferData, CLIENT)
+static void set_data(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
 	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
 	int64_t size = arg_i(c, 1);
@@ -138,6 +142,9 @@ GLS_HANDLER(glBufferData, CLIENT)
 	b->bytes = (size_t)size;
 	b->version = ++x->versions;
 }
+
+GLS_HANDLER(glBufferData, CLIENT) { set_data(x, st, c); }
+GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
 
 static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)
 {
@@ -559,12 +566,24 @@ struct sources {
 	int has_edges;
 };
 
+/* @return the attributes that come from arrays */
+static uint32_t open_attributes(struct gls_state *st, struct sources *s)
+{
+	const struct gls_array *arrays = st->client.arrays;
+
+	memset(s, 0, sizeof(*s));
+	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+		if (arrays[a].enabled && open_source(st, &arrays[a], &s->attributes[a]))
+			s->given |= 1u << a;
+	return s->given;
+}
+
 /* @return 1 where there is something to draw from */
 static int open_sources(struct gls_exec *x, struct gls_state *st, struct sources *s)
 {
 	const struct gls_array *arrays = st->client.arrays;
 
-	memset(s, 0, sizeof(*s));
+	open_attributes(st, s);
 	if (!arrays[GLS_ARRAY_VERTEX].enabled) {
 		if (st->program || st->arb_vertex_enabled)
 			gls_unsupported(x, "draws whose positions only a program can find");
@@ -574,9 +593,6 @@ static int open_sources(struct gls_exec *x, struct gls_state *st, struct sources
 		gls_unsupported(x, "arrays whose contents the recording does not hold");
 		return 0;
 	}
-	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		if (arrays[a].enabled && open_source(st, &arrays[a], &s->attributes[a]))
-			s->given |= 1u << a;
 	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && open_source(st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
 	return 1;
 }
@@ -756,13 +772,15 @@ static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, i
 	return 0;
 }
 
-GLS_HANDLER(glDrawArrays, ARRAY)
+void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count)
 {
-	if (arg_i(c, 1) < 0)
+	if (first < 0 || first > UINT32_MAX)
 		gls_error(x, st, GL_INVALID_VALUE);
-	else if (check_mode(x, st, arg_u(c, 0), arg_i(c, 2)))
-		draw(x, st, arg_u(c, 0), arg_u(c, 1), arg_u(c, 2), NULL, 0);
+	else if (check_mode(x, st, mode, count))
+		draw(x, st, mode, (uint32_t)first, (uint32_t)count, NULL, 0);
 }
+
+GLS_HANDLER(glDrawArrays, ARRAY) { gls_draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2)); }
 
 GLS_HANDLER(glMultiDrawArrays, ARRAY)
 {
@@ -770,11 +788,9 @@ GLS_HANDLER(glMultiDrawArrays, ARRAY)
 	const struct trace_value *first = arg_items(c, 1, &n_first), *count = arg_items(c, 2, &n_count);
 
 	for (uint64_t i = 0; i < n_first && i < n_count; i++)
-		if (check_mode(x, st, arg_u(c, 0), gls_value_int(&count[i])))
-			draw(x, st, arg_u(c, 0), (uint32_t)gls_value_int(&first[i]), (uint32_t)gls_value_int(&count[i]), NULL, 0);
+		gls_draw_arrays(x, st, arg_u(c, 0), gls_value_int(&first[i]), gls_value_int(&count[i]));
 }
 
-/* Indices as 32-bit numbers in x->elements, from client memory or the bound element buffer. */
 /* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
 static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
 {
@@ -782,8 +798,8 @@ static int is_restart(const struct gls_client_attribs *client, uint32_t index, s
 	       (client->restart_fixed && index == 0xffffffffu >> (32 - 8 * bytes));
 }
 
-static void draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
-                          const struct trace_value *indices, int32_t base)
+void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
+                       const struct trace_value *indices, int32_t base)
 {
 	struct gls_buffer *b = gls_buffer_find(st, st->client.element_buffer);
 	size_t size = type_bytes(type), n = 0;
@@ -847,23 +863,38 @@ static void draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mod
 GLS_HANDLER(glPrimitiveRestartIndex, CLIENT) { st->client.restart_index = arg_u(c, 0); }
 GLS_HANDLER(glPrimitiveRestartIndexNV, CLIENT) { st->client.restart_index = arg_u(c, 0); }
 
-GLS_HANDLER(glDrawElements, ARRAY) { draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), 0); }
+GLS_HANDLER(glDrawElements, ARRAY) { gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), 0); }
 GLS_HANDLER(glDrawRangeElements, ARRAY)
 {
-	draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), 0);
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), 0);
 }
 GLS_HANDLER(glDrawElementsBaseVertex, ARRAY)
 {
-	draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), (int32_t)arg_i(c, 4));
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), (int32_t)arg_i(c, 4));
 }
 
-GLS_HANDLER(glMultiDrawElements, ARRAY)
+GLS_HANDLER(glDrawRangeElementsBaseVertex, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), (int32_t)arg_i(c, 6));
+}
+
+static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct trace_value *base, uint64_t n_base)
 {
 	uint64_t n_count, n_indices;
 	const struct trace_value *count = arg_items(c, 1, &n_count), *indices = arg_items(c, 3, &n_indices);
 
 	for (uint64_t i = 0; i < n_count && i < n_indices; i++)
-		draw_elements(x, st, arg_u(c, 0), gls_value_int(&count[i]), arg_u(c, 2), &indices[i], 0);
+		gls_draw_elements(x, st, arg_u(c, 0), gls_value_int(&count[i]), arg_u(c, 2), &indices[i],
+		                  i < n_base ? (int32_t)gls_value_int(&base[i]) : 0);
+}
+
+GLS_HANDLER(glMultiDrawElements, ARRAY) { multi_draw_elements(x, st, c, NULL, 0); }
+GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
+{
+	uint64_t n;
+	const struct trace_value *base = arg_items(c, 5, &n);
+
+	multi_draw_elements(x, st, c, base, n);
 }
 
 /* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */
@@ -890,13 +921,16 @@ GLS_HANDLER(glArrayElement, CLIENT)
 	struct trace_value numbers[4], args[2];
 	struct sources s;
 	float v[4];
+	int has_vertex;
 
-	if (!open_sources(x, st, &s))
+	/* Without positions it sets the current values only. */
+	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled != 0;
+	if (has_vertex ? !open_sources(x, st, &s) : !open_attributes(st, &s))
 		return;
 	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
 	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {
 		int is_vertex = a == N_GLS_ATTRIBUTES;
-		if (!is_vertex && !(s.given >> a & 1))
+		if (is_vertex ? !has_vertex : !(s.given >> a & 1))
 			continue;
 		read_element(is_vertex ? &s.vertex : &s.attributes[a], arg_u(c, 0), v);
 		for (unsigned i = 0; i < 4; i++)

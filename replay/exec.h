@@ -449,6 +449,15 @@ void gls_units_settle(struct gls_exec *x, struct gls_state *st);
 void gls_texture_detach(struct gls_exec *x, struct gls_state *st, uint32_t name);
 void gls_framebuffer_free(struct gls_framebuffer *fb);
 void gls_renderbuffer_free(struct gls_renderbuffer *r);
+/** glDrawArrays: draw, or keep in the list that is being made; errors as GL has them. */
+void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count);
+/**
+ * glDrawElementsBaseVertex.
+ * @param indices  a blob of them, or their offset in the element buffer
+ */
+void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
+                       const struct trace_value *indices, int32_t base);
+
 /** Draw a rectangle of pixels (pixels.c) with the raster position's attributes; left, low: its first pixel's outer corner. */
 void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind, float left, float low, uint32_t width,
                         uint32_t height, const float zoom[2], const uint8_t *texels);

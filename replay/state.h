@@ -217,7 +217,7 @@ struct gls_client_attribs {
 	struct gls_pixel_store pack, unpack;
 	struct gls_array arrays[N_GLS_ARRAYS]; /* 0 .. N_GLS_ATTRIBUTES-1: as gls_attribute */
 	uint32_t active_texture;               /* client active unit */
-	uint32_t array_buffer, element_buffer, copy_read_buffer, copy_write_buffer;
+	uint32_t array_buffer, element_buffer, copy_read_buffer, copy_write_buffer, indirect_buffer;
 	uint32_t lock_first, lock_count;
 	uint32_t restart, restart_fixed, restart_index; /* primitives begin anew at an index: NV_primitive_restart, GL 3.1 */
 };

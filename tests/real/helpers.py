@@ -117,6 +117,14 @@ def check_same_pictures(name, frames):
     return trace, score
 
 
+def check_replayed(trace, first):
+    """apitrace reads a trace to its end, and glretrace draws each frame from the first to look at on as the program did."""
+    dump = must(run("apitrace", "dump", "--color=never", trace))
+    check(not dump.stderr and "// incomplete" not in dump.stdout, f"{trace.name}: apitrace reads all of it: {dump.stderr}")
+    done = on_display(sys.executable, ROOT / "tests/real/replayed.py", trace.with_suffix(""), first)
+    check(done.returncode == 0, f"{trace.name} replayed by glretrace: {done.stdout}")
+
+
 def check_alone(trace, *numbers):
     """Frames that show what earlier ones left are the same where only they are asked for. After check_same_pictures."""
     folder = SCRATCH / f"alone{numbers[0]}"
