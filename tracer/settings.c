@@ -37,7 +37,8 @@ static const char help[] =
 	"      --look FILE      rules, YAML: what surfaces are made of, lights added, moved, off or with a size\n"
 	"                       (tracer/look.h shows all keys)\n"
 	"      --accel KIND     how trees of meshes are built: bvh, binned (default); sbvh, with spatial splits: some\n"
-	"                       percent cheaper to trace, ten times the time to build; kd, a kd-tree\n"
+	"                       percent cheaper to trace, ten times the time to build; kd, a kd-tree; lbvh, along a\n"
+	"                       Morton curve: the quickest to build\n"
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number, type or part of the name as 'relume devices' lists\n"
@@ -180,7 +181,7 @@ int settings_parse_mode(const char *word, enum tracer_mode *out)
 
 static int parse_option(struct settings *s, enum key key, const char *value)
 {
-	static const char *const encodings[] = { "linear", "display", NULL }, *const kinds[] = { "bvh", "sbvh", "kd", NULL };
+	static const char *const encodings[] = { "linear", "display", NULL }, *const kinds[] = { "bvh", "sbvh", "kd", "lbvh", NULL };
 	const char *name = rows[key].name;
 	int err = 0, word = 0;
 

@@ -12,7 +12,8 @@
 #define KD_SHARE 3.0
 
 /* From how many triangles on a tree is kept: below, building it takes no longer than reading a file from a disk. */
-static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024, [ACCEL_KD] = 1024 };
+static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024, [ACCEL_KD] = 1024,
+	                                               [ACCEL_LBVH] = 65536 };
 
 static int build(const struct soup *soup, enum accel_kind kind, struct tree *tree)
 {
@@ -29,7 +30,8 @@ static int build(const struct soup *soup, enum accel_kind kind, struct tree *tre
 	if (more > 0)
 		return (kind == ACCEL_KD ? bvh_build_kd : bvh_build_sbvh)(soup->boxes, soup->triangles, n, LEAF_TRIANGLES, 0, room, tree->nodes,
 		                                                          &tree->n_nodes, tree->order, &tree->n_order);
-	return bvh_build_sah(soup->boxes, n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes, tree->order);
+	return (kind == ACCEL_LBVH ? bvh_build_linear : bvh_build_sah)(soup->boxes, n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes,
+	                                                               tree->order);
 }
 
 int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out)

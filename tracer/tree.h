@@ -15,6 +15,7 @@ enum accel_kind {
 	ACCEL_BVH,  /* binned SAH */
 	ACCEL_SBVH, /* the same with spatial splits: a triangle may be in several leaves */
 	ACCEL_KD,   /* kd-tree: cells that do not overlap, a triangle in each that it crosses */
+	ACCEL_LBVH, /* along a Morton curve: the quickest to build */
 	N_ACCEL_KINDS
 };
 

@@ -23,7 +23,7 @@ record(trace, corpus("cornell"), "--frames", "1", "--mesh", "--mirror", options=
 plain = Image(render(trace, SCRATCH / "bvh")[0], CHANNELS)
 lit = sum(value > 0 for row in plain.planes["reflect.R"] for value in row)
 check(lit > 1000, f"the mirror shows something in {lit} pixels")
-for kind in ("sbvh", "kd"):
+for kind in ("sbvh", "kd", "lbvh"):
     same(plain, Image(render(trace, SCRATCH / kind, "--no-cache", "--accel", kind)[0], CHANNELS), kind)
 bad = relume("render", trace, "-o", SCRATCH / "no.#.exr", "--accel", "octree")
 check(bad.returncode == 2, f"--accel octree ends with {bad.returncode}")

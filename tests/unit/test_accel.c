@@ -4,7 +4,8 @@
 #include "kernels/compressed.h"
 #include "tracer/bvh.h"
 
-#define N 20000
+#define N 70000
+#define CUT_MAX 20000 /* triangles for trees that cut space */
 
 static struct bvh_box boxes[N];
 static struct node2 nodes[N];
@@ -107,13 +108,31 @@ static void check_same_tree(uint32_t n, uint32_t n_nodes)
 	ck_assert_mem_eq(plain_order, order, n * sizeof(*order));
 }
 
-static void check_trees(uint32_t n)
+static void check_same_linear(uint32_t n, uint32_t n_nodes)
+{
+	static struct node2 alone[N];
+	static uint32_t alone_order[N];
+	uint32_t n_alone;
+
+	ck_assert_int_eq(bvh_build_linear(boxes, n, 4, 1, alone, &n_alone, alone_order), 0);
+	ck_assert_uint_eq(n_alone, n_nodes);
+	ck_assert_mem_eq(alone, nodes, n_nodes * sizeof(*nodes));
+	ck_assert_mem_eq(alone_order, order, n * sizeof(*order));
+}
+
+static void check_trees(uint32_t n, int linear)
 {
 	uint32_t n_nodes, n_nodes8, n_blocks;
 	struct bvh_box whole;
 
-	ck_assert_int_eq(bvh_build_sah(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
-	check_same_tree(n, n_nodes);
+	if (linear) {
+		ck_assert_int_eq(bvh_build_linear(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
+		check_same_linear(n, n_nodes);
+	} else {
+		ck_assert_int_eq(bvh_build_sah(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
+		check_same_tree(n, n_nodes);
+	}
+	ck_assert_uint_le(n_nodes, n > 1 ? n - 1 : 1);
 	memset(seen, 0, sizeof(seen));
 	check_node2(0, 0);
 	for (uint32_t i = 0; i < n; i++)
@@ -154,9 +173,9 @@ static void check_large_leaves(uint32_t n, uint32_t leaf)
 /* The same with spatial splits and as kd-trees, whatever the number of threads; leaves are no larger than asked for. */
 static void check_cut_trees(const struct triangle *triangles, uint32_t n, uint32_t room)
 {
-	static struct node2 other[4 * N + 1];
-	static struct node2 first[4 * N + 1];
-	static uint32_t order_first[4 * N + 1], order_other[4 * N + 1];
+	static struct node2 other[4 * CUT_MAX + 1];
+	static struct node2 first[4 * CUT_MAX + 1];
+	static uint32_t order_first[4 * CUT_MAX + 1], order_other[4 * CUT_MAX + 1];
 	uint32_t n_first, n_other, n_order_first, n_order_other;
 
 	for (int kd = 0; kd < 2; kd++) {
@@ -189,12 +208,12 @@ static void set_box(uint32_t i, float x, float y, float z, float size)
 START_TEST(all_items_in_one_leaf)
 {
 	struct random_scene r = { .random = seed_of_run };
-	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, 8191, 8192, N };
+	const uint32_t counts[] = { 0, 1, 2, 3, 4, 5, 8, 9, 100, 8191, 8192, 20000, N };
 
 	for (uint32_t i = 0; i < N; i++)
 		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
 	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
-		check_trees(counts[k]);
+		check_trees(counts[k], _i);
 	for (uint32_t i = 0; i < N; i++) /* not to be divided */
 		set_box(i, 1, 2, 3, 0);
 	for (uint32_t leaf = 5; leaf <= BVH_COMPRESSED_LEAF; leaf = 3 * leaf + 1)
@@ -206,23 +225,23 @@ START_TEST(strange_boxes_keep_the_depth)
 {
 	for (uint32_t i = 0; i < N; i++) /* all the same */
 		set_box(i, 1, 2, 3, 0);
-	check_trees(N);
+	check_trees(N, _i);
 	for (uint32_t i = 0; i < N; i++) /* each farther than all before together */
 		set_box(i, ldexpf(1, (int)(i % 120) - 60), 0, 0, 0);
-	check_trees(N);
+	check_trees(N, _i);
 	for (uint32_t i = 0; i < N; i++) /* unbounded ones among small ones */
 		set_box(i, (float)i, 0, 0, i % 10 ? 0.5f : 1e18f);
-	check_trees(N);
+	check_trees(N, _i);
 }
 END_TEST
 
 START_TEST(cut_space_loses_nothing)
 {
 	struct random_scene r = { .random = seed_of_run };
-	const uint32_t counts[] = { 0, 1, 2, 5, 17, 300, N };
-	static struct triangle triangles[N];
+	const uint32_t counts[] = { 0, 1, 2, 5, 17, 300, CUT_MAX };
+	static struct triangle triangles[CUT_MAX];
 
-	for (uint32_t i = 0; i < N; i++) {
+	for (uint32_t i = 0; i < CUT_MAX; i++) {
 		for (int a = 0; a < 3; a++) {
 			/* Some all in one place, some flat. */
 			triangles[i].v0[a] = i % 11 ? between(&r, -9, 9) : 1;
@@ -282,8 +301,8 @@ int main(void)
 
 	choose_seed();
 	tcase_set_timeout(tests, 60);
-	tcase_add_test(tests, all_items_in_one_leaf);
-	tcase_add_test(tests, strange_boxes_keep_the_depth);
+	tcase_add_loop_test(tests, all_items_in_one_leaf, 0, 2);
+	tcase_add_loop_test(tests, strange_boxes_keep_the_depth, 0, 2);
 	tcase_add_test(tests, cut_space_loses_nothing);
 	tcase_add_test(tests, meshes_are_kept_and_dropped);
 	suite_add_tcase(suite, tests);

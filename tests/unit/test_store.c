@@ -373,7 +373,7 @@ END_TEST
 START_TEST(other_trees_are_another_version)
 {
 	static const uint64_t sums[N_ACCEL_KINDS] = { [ACCEL_BVH] = 0x1b93a3dbc07afc84u, [ACCEL_SBVH] = 0x8a222f99c945d872u,
-		[ACCEL_KD] = 0xb283596433dc3bcbu };
+		[ACCEL_KD] = 0xb283596433dc3bcbu, [ACCEL_LBVH] = 0x4349abbf97e11efeu };
 
 	ck_assert_uint_eq(TREE_VERSION, 1);
 	for (int kind = 0; kind < N_ACCEL_KINDS; kind++) {
