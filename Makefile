@@ -179,8 +179,9 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COM
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
+$(BUILD)/tests/fuzz/test_calls: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c) \
@@ -333,24 +334,28 @@ show-mutants: all
 show-replay: all
 	@tests/xvfb.sh $(PYTHON) tests/show/replay.py $(BUILD)
 
-# libFuzzer on reader and state machine, under sanitizers; what it finds worth keeping goes into tests/fuzz/kept.
+# libFuzzer under sanitizers: on reader and state machine (replay), on calls of the state machine alone (calls). What they find worth
+# keeping goes into tests/fuzz/kept and kept_calls.
 DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
-FUZZ_SRC := tests/fuzz/fuzz_replay.c $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c
-$(BUILD)/fuzz/replay: $(FUZZ_SRC) $(BUILD)/gen/dispatch.c | $(BUILD)/deps.fuzz
+FUZZ_TARGETS := replay calls
+FUZZ_SRC := $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c
+$(BUILD)/fuzz/calls: tests/fuzz/calls.c $(BUILD)/gen/fuzz_commands.c
+$(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_SRC) $(BUILD)/gen/dispatch.c | $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
 	$(Q)clang $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
 		-o $@ $^ $(LIBS)
 
+$(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B $< $@ $(sort $(wildcard replay/*.c))
+
 .PHONY: fuzz fuzz-keep
-fuzz: $(BUILD)/fuzz/replay
+fuzz: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
 	@tests/fuzz/campaign.sh $(BUILD) $(FUZZ_SECONDS)
 
 # Small ones: what only large ones reach is found again from the golden recordings.
-fuzz-keep: $(BUILD)/fuzz/replay
-	@rm -rf $(BUILD)/fuzz/small && mkdir -p $(BUILD)/fuzz/small
-	@find $(BUILD)/fuzz/found -type f -size -3k -exec cp -t $(BUILD)/fuzz/small {} +
-	@$< -merge=1 -close_fd_mask=3 tests/fuzz/kept $(BUILD)/fuzz/small
+fuzz-keep: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
+	@tests/fuzz/keep.sh $(BUILD)
 
 # Only in a commit of its own.
 golden-update: all

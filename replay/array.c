@@ -255,7 +255,8 @@ void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uin
 		array->client = grown;
 		array->client_room = n;
 	}
-	memcpy(array->client, data, n);
+	if (n)
+		memcpy(array->client, data, n);
 	array->client_bytes = n;
 	array->version = hash;
 }
@@ -812,7 +813,7 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (!check_mode(x, st, mode, count) || (!x->want && !st->list))
+	if (!check_mode(x, st, mode, count) || count == 0 || (!x->want && !st->list))
 		return;
 	if (indices->type == TRACE_BLOB) {
 		bytes = indices->blob;

@@ -69,6 +69,11 @@ static inline float arg_f(const struct call *c, unsigned i)
 	const struct trace_value *v = arg(c, i);
 	return v->type == TRACE_FLOAT ? v->f : (float)gls_value_double(v);
 }
+/** A token that was handed over as a float; 0 for what is none. */
+static inline uint32_t token_of_float(float v)
+{
+	return v >= 0.0f && v < 4294967296.0f ? (uint32_t)v : 0;
+}
 static inline double arg_d(const struct call *c, unsigned i)
 {
 	return gls_value_double(arg(c, i));

@@ -226,7 +226,7 @@ static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call 
 	uint32_t token;
 
 	arg_floats(c, 1, v, 4);
-	token = (uint32_t)v[0];
+	token = token_of_float(v[0]);
 	switch (arg_u(c, 0)) {
 	case GL_FOG_MODE:
 		if (token != GL_LINEAR && token != GL_EXP && token != GL_EXP2)

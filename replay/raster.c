@@ -34,7 +34,7 @@ static void set_point_parameter(struct gls_exec *x, struct gls_state *st, const 
 		memcpy(point->attenuation, v, sizeof(v));
 		break;
 	case GL_POINT_SPRITE_COORD_ORIGIN:
-		point->sprite_origin = (uint32_t)v[0];
+		point->sprite_origin = token_of_float(v[0]);
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);

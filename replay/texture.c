@@ -187,7 +187,7 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 	if (!t)
 		return;
 	arg_floats(c, 2, v, 4);
-	token = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	token = token_of_float(v[0]);
 	switch (arg_u(c, 1)) {
 	case GL_TEXTURE_WRAP_S:
 	case GL_TEXTURE_WRAP_T:
@@ -269,12 +269,12 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 		break;
 	case GL_TEXTURE_SWIZZLE_RGBA:
 		for (unsigned i = 0; i < 4; i++)
-			if (v[i] < 0 || !is_swizzle((uint32_t)v[i])) {
+			if (!(v[i] >= 0.0f) || !is_swizzle(token_of_float(v[i]))) {
 				gls_error(x, st, GL_INVALID_ENUM);
 				return;
 			}
 		for (unsigned i = 0; i < 4; i++)
-			t->swizzle[i] = (uint32_t)v[i];
+			t->swizzle[i] = token_of_float(v[i]);
 		break;
 	case GL_TEXTURE_MAX_ANISOTROPY_EXT:
 		if (!(v[0] >= 1))
@@ -369,7 +369,7 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 	float v[4] = { 0 };
 
 	arg_floats(c, 2, v, 4);
-	token = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	token = token_of_float(v[0]);
 	if (target == GL_TEXTURE_FILTER_CONTROL && pname == GL_TEXTURE_LOD_BIAS) {
 		unit->lod_bias = v[0];
 		return;
@@ -450,7 +450,7 @@ static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call 
 		return;
 	}
 	arg_floats(c, 2, v, 4);
-	mode = v[0] >= 0 && v[0] < 4e9f ? (uint32_t)v[0] : 0;
+	mode = token_of_float(v[0]);
 	switch (arg_u(c, 1)) {
 	case GL_TEXTURE_GEN_MODE:
 		if (mode != GL_OBJECT_LINEAR && mode != GL_EYE_LINEAR && (mode != GL_SPHERE_MAP || coord > 1) &&

@@ -1,0 +1,251 @@
+#include "tests/fuzz/calls.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/exec.h"
+#include "replay/snapshot.h"
+
+#define MAX_FRAMES 8
+#define MAX_ITEMS 64
+#define MAX_BLOB 16384
+#define WINDOW 7
+
+static const int64_t EXTREME_INTS[] = { -1, INT32_MAX, INT32_MIN, 0x7FFF, 0x8000, 0xFFFF, 0x10000, UINT32_MAX, 0x1000000, 4096, 2048, 1024, 100,
+	                                -2, -3, -100 };
+static const float EXTREME_FLOATS[] = { NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-40f, -0.0f, 16777217.0f };
+static const uint32_t BLOB_SIZES[] = { 0, 1, 3, 16, 64, 256, 1024, MAX_BLOB };
+
+/* What the calls' values point to. */
+struct calls {
+	struct trace_value args[CALLS_MAX_PARAMS], items[CALLS_MAX_PARAMS][MAX_ITEMS];
+	uint8_t blob[CALLS_MAX_PARAMS][MAX_BLOB];
+};
+
+static uint32_t next_random(uint32_t *state)
+{
+	*state = *state * 1664525u + 1013904223u;
+	return *state >> 16;
+}
+
+static int64_t int_of(uint32_t v)
+{
+	uint32_t how = v >> 8;
+
+	if (how < 128)
+		return v & 7;
+	if (how < 208)
+		return v & 255;
+	return how < 232 ? EXTREME_INTS[v % (sizeof(EXTREME_INTS) / sizeof(EXTREME_INTS[0]))] : (int16_t)(v << 4);
+}
+
+static float float_of(uint32_t v)
+{
+	uint32_t how = v >> 8;
+
+	if (how < 224)
+		return (float)(int8_t)v * (how < 96 ? 0.25f : how < 192 ? 1.0f / 64.0f : 16.0f);
+	return how < 240 ? EXTREME_FLOATS[v % (sizeof(EXTREME_FLOATS) / sizeof(EXTREME_FLOATS[0]))] : (float)(int16_t)(v << 4);
+}
+
+static uint32_t token_of(uint32_t v, const struct calls_group *group)
+{
+	return v < 0xF800 ? group->values[v % group->n] : calls_groups[0].values[v % calls_groups[0].n];
+}
+
+static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_group *group)
+{
+	int64_t i;
+
+	switch (letter) {
+	case 'e':
+		return (struct trace_value){ .type = TRACE_ENUM, .i = token_of(v, group) };
+	case 'm':
+		return (struct trace_value){ .type = TRACE_BITMASK, .u = token_of(v, group) | (v & 1 ? token_of(v >> 1, group) : 0) };
+	case 'f':
+		return (struct trace_value){ .type = TRACE_FLOAT, .f = float_of(v) };
+	case 'd':
+		return (struct trace_value){ .type = TRACE_DOUBLE, .d = float_of(v) };
+	case 'u':
+		return (struct trace_value){ .type = TRACE_UINT, .u = (uint32_t)int_of(v) };
+	default:
+		i = int_of(v);
+		return i < 0 ? (struct trace_value){ .type = TRACE_SINT, .i = i } : (struct trace_value){ .type = TRACE_UINT, .u = (uint64_t)i };
+	}
+}
+
+static struct trace_value array_of(struct calls *c, unsigned i, char letter, uint32_t v, const struct calls_group *group)
+{
+	uint32_t random = v, n = v >> 8 < 224 ? 1 + (v >> 8) % 16 : (v & MAX_ITEMS - 1);
+
+	for (uint32_t k = 0; k < n; k++)
+		c->items[i][k] = scalar_of(letter, k ? next_random(&random) : v & 255, group);
+	return (struct trace_value){ .type = TRACE_ARRAY, .count = n, .items = c->items[i] };
+}
+
+static struct trace_value blob_of(struct calls *c, unsigned i, uint32_t v)
+{
+	uint32_t random = v, n = BLOB_SIZES[v % 8], how = v >> 8;
+
+	if (how < 64)
+		return (struct trace_value){ .type = how < 32 ? TRACE_NULL : TRACE_OPAQUE, .u = how < 32 ? 0 : v & 255 };
+	for (uint32_t k = 0; k < n; k++)
+		c->blob[i][k] = how < 96 ? (uint8_t)how : (uint8_t)next_random(&random);
+	return (struct trace_value){ .type = TRACE_BLOB, .count = n, .blob = c->blob[i] };
+}
+
+static struct trace_value value_of(struct calls *c, unsigned i, char letter, uint32_t v, const struct calls_group *group)
+{
+	if (v >> 8 == 255) /* what a recorder might not have written */
+		return (struct trace_value){ .type = v & 1 ? TRACE_NULL : TRACE_NONE };
+	switch (letter) {
+	case 'b':
+		return blob_of(c, i, v);
+	case 's':
+		return (struct trace_value){ .type = TRACE_STRING, .count = 1, .str = "x" };
+	case 'p':
+		return (struct trace_value){ .type = v & 3 ? TRACE_OPAQUE : TRACE_NULL, .u = (v & 3) << 4 };
+	case 'E':
+	case 'I':
+	case 'F':
+	case 'D':
+		return array_of(c, i, (char)(letter + 'a' - 'A'), v, group);
+	default:
+		return scalar_of(letter, v, group);
+	}
+}
+
+static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
+{
+	const struct calls_command *command = &calls_commands[(slot[0] | slot[1] << 8) % n_calls_commands];
+	struct call_sig sig = { .name = command->name, .command = gls_command_find(command->name) };
+	struct call call = { .number = number, .sig = &sig, .args = c->args };
+
+	for (; command->letters[call.n_args]; call.n_args++)
+		c->args[call.n_args] = value_of(c, call.n_args, command->letters[call.n_args],
+		                                (uint32_t)(slot[2 + 2 * call.n_args] | slot[3 + 2 * call.n_args] << 8),
+		                                &calls_groups[command->group[call.n_args]]);
+	sig.n_args = call.n_args;
+	call.ret = (struct trace_value){ .type = TRACE_OPAQUE, .u = (uint64_t)(slot[CALLS_SLOT - 1] & 3) << 4 };
+	return gls_exec_call(x, &call);
+}
+
+static int call(struct gls_exec *x, const char *name, struct trace_value ret, uint32_t n, const struct trace_value *args)
+{
+	struct call_sig sig = { .name = name, .command = gls_command_find(name), .n_args = n };
+	struct call made = { .sig = &sig, .args = args, .n_args = n, .ret = ret };
+
+	return gls_exec_call(x, &made);
+}
+
+static int make_current(struct gls_exec *x)
+{
+	const struct trace_value none = { .type = TRACE_NONE }, null = { .type = TRACE_NULL },
+	                         address = { .type = TRACE_OPAQUE, .u = 0x10 }, window = { .type = TRACE_UINT, .u = WINDOW },
+	                         size = { .type = TRACE_UINT, .u = 64 };
+
+	return call(x, "glXCreateContext", address, 4, (struct trace_value[]){ address, null, null, window }) ||
+	       call(x, "glXMakeCurrent", none, 3, (struct trace_value[]){ address, window, address }) ||
+	       call(x, "glViewport", none, 4, (struct trace_value[]){ null, null, size, size }) ||
+	       call(x, "glScissor", none, 4, (struct trace_value[]){ null, null, size, size });
+}
+
+/* Blobs of a snapshot, one after the other. */
+struct blob {
+	struct blob *next;
+	uint64_t name[2];
+	size_t n;
+	uint8_t data[];
+};
+
+static int put(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	struct blob **first = user, *blob = malloc(sizeof(*blob) + n);
+
+	if (!blob)
+		return ERR_SYSTEM;
+	*blob = (struct blob){ .next = *first, .name = { name[0], name[1] }, .n = n };
+	memcpy(blob->data, data, n);
+	*first = blob;
+	return 0;
+}
+
+static uint8_t *get(void *user, const uint64_t name[2], size_t n)
+{
+	for (struct blob *blob = *(struct blob **)user; blob; blob = blob->next)
+		if (blob->name[0] == name[0] && blob->name[1] == name[1] && blob->n == n) {
+			uint8_t *copy = malloc(n ? n : 1);
+			return copy ? memcpy(copy, blob->data, n) : NULL;
+		}
+	return NULL;
+}
+
+/* Saved, loaded and saved again. @return 0 the same bytes, or nothing that can be saved; 1 other bytes, which is told */
+static int check_snapshot(struct gls_exec *x)
+{
+	struct blob *kept = NULL;
+	struct snapshot_blobs blobs = { .put = put, .get = get, .user = &kept };
+	struct bytes saved = { 0 }, again = { 0 };
+	struct gls_exec *other = NULL;
+	int differ = 0;
+
+	if (!snapshot_save(x, &blobs, &saved)) {
+		differ = gls_exec_create(&other, "calls") || snapshot_load(other, &blobs, saved.data, saved.n) ||
+		         snapshot_save(other, &blobs, &again) || again.n != saved.n || memcmp(again.data, saved.data, saved.n) != 0;
+		for (size_t at = 0; differ && at < saved.n && at < again.n; at++)
+			if (saved.data[at] != again.data[at]) {
+				fprintf(stderr, "a snapshot that was loaded differs from what was saved: %s\n", snapshot_place(x, at));
+				break;
+			}
+	}
+	gls_exec_destroy(&other);
+	free(saved.data);
+	free(again.data);
+	while (kept) {
+		struct blob *next = kept->next;
+		free(kept);
+		kept = next;
+	}
+	return differ;
+}
+
+/* What replay.c does where a frame has ended. */
+static int end_frame(struct gls_exec *x)
+{
+	struct scene *scene;
+
+	x->frame_ended = 0;
+	scene = gls_frame_finish(x);
+	if (scene)
+		scene_release(&scene);
+	x->frame++;
+	gls_mesh_cache_trim(x);
+	gls_image_cache_trim(x);
+	return x->failed || x->rewind ? 0 : check_snapshot(x);
+}
+
+int calls_run(const uint8_t *data, size_t size)
+{
+	struct calls *c = calloc(1, sizeof(*c));
+	struct gls_exec *x = NULL;
+	int wrong = 0;
+
+	if (c && !gls_exec_create(&x, "calls")) {
+		x->want = 1;
+		if (!make_current(x))
+			for (size_t at = 0; at + CALLS_SLOT <= size && x->frame < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
+				if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->rewind)
+					break;
+				if (x->frame_ended)
+					wrong = end_frame(x);
+			}
+		if (!x->failed && !x->rewind && !wrong)
+			wrong = end_frame(x);
+	}
+	gls_exec_destroy(&x);
+	free(c);
+	return wrong;
+}

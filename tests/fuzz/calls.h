@@ -1,0 +1,40 @@
+/*
+ * Bytes as calls of the state machine: every byte string means a sequence of calls, most of them legal or nearly so. How a
+ * fuzzer comes past the reader, which hardly lets a damaged stream through.
+ *
+ * A call is a slot of CALLS_SLOT bytes: the command (16 bits), then 16 bits for each of its parameters, of which the high half
+ * says how the low half becomes a value: a small number, one of the parameter's enumerants, an extreme one. The last two bytes
+ * are what the call returned.
+ */
+#ifndef TESTS_FUZZ_CALLS_H
+#define TESTS_FUZZ_CALLS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define CALLS_MAX_PARAMS 15
+#define CALLS_SLOT (2 + 2 * CALLS_MAX_PARAMS)
+
+struct calls_group {
+	const uint32_t *values; /* ascending */
+	uint32_t n;
+};
+struct calls_command {
+	const char *name;
+	const char *letters;              /* of each parameter: see gen_commands.py */
+	uint16_t group[CALLS_MAX_PARAMS]; /* in calls_groups; 0: any token */
+};
+
+/* Made by gen_commands.py. */
+extern const struct calls_group calls_groups[];
+extern const struct calls_command calls_commands[];
+extern const unsigned n_calls_commands;
+
+/**
+ * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
+ * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).
+ * @return 0; 1 where they are not
+ */
+int calls_run(const uint8_t *data, size_t size);
+
+#endif

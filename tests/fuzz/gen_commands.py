@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""gen_commands.py OUT HANDLER_SOURCE...: what tests/fuzz/calls.c makes calls of, as C: each command that a handler of replay/
+knows, with a letter for each parameter and the enumerants that the registry says belong there.
+
+Letters: e enum, m bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
+"""
+import sys
+
+sys.path.insert(0, "replay")
+import gen  # noqa: E402
+import registry  # noqa: E402  (gen.py knows where)
+
+SCALARS = {"GLenum": "e", "GLbitfield": "m", "GLfloat": "f", "GLclampf": "f", "GLdouble": "d", "GLclampd": "d",
+           **dict.fromkeys(("GLint", "GLsizei", "GLshort", "GLbyte", "GLintptr", "GLsizeiptr", "GLintptrARB", "GLsizeiptrARB", "int",
+                            "int64_t", "Bool"), "i"),
+           **dict.fromkeys(("GLuint", "GLushort", "GLubyte", "GLboolean", "GLXDrawable", "GLXPbuffer", "GLhandleARB", "Font",
+                            "unsigned long"), "u")}
+# What no registry of GL's or GLX' knows.
+OTHERS = {"memcpy": "pbi", "eglChooseConfig": "pIIiI", "eglGetConfigAttrib": "ppeI", "eglCreateContext": "pppI", "eglDestroyContext": "pp",
+          "eglMakeCurrent": "pppp", "eglSwapBuffers": "pp", "eglSwapBuffersWithDamageEXT": "ppIi", "eglSwapBuffersWithDamageKHR": "ppIi",
+          "OSMesaCreateContext": "ep", "OSMesaCreateContextExt": "eiiip", "OSMesaCreateContextAttribs": "Ip", "OSMesaDestroyContext": "p",
+          "OSMesaMakeCurrent": "ppeii"}
+MOST_PARAMS = 15
+
+
+def letter(param):
+    base = param.type.replace("const", "").replace("*", "").strip()
+    if not param.pointer:
+        return SCALARS.get(base, "p")
+    if base in ("void", "GLvoid"):
+        return "b"
+    if base in ("GLchar", "char"):
+        return "s"
+    return {"e": "E", "f": "F", "d": "D", "i": "I", "u": "I", "m": "I"}.get(SCALARS.get(base), "p")
+
+
+def main(out, sources):
+    known, values = {}, {}
+    for file_name in ("gl.xml", "glx.xml"):
+        known.update(registry.read(file_name)[0])
+        for enum in registry.read_enums(file_name):
+            for group in enum.groups:
+                values.setdefault(group, set()).add(enum.value & 0xFFFFFFFF)
+            if not enum.bits:
+                values.setdefault("", set()).add(enum.value & 0xFFFFFFFF)
+    handlers = gen.read_handlers(sources)
+    commands = {}
+    for name in sorted(known.keys() | handlers.keys()):
+        if name in handlers and name in OTHERS:
+            commands[name] = (OTHERS[name], [""] * len(OTHERS[name]))
+        elif name in known and (name in handlers or known[name].alias in handlers):
+            params = known[name].params[:MOST_PARAMS]
+            commands[name] = ("".join(map(letter, params)), [p.group if p.group in values else "" for p in params])
+    groups = ["", *sorted({g for _, of in commands.values() for g in of} - {""})]
+    lines = ["/* Made by tests/fuzz/gen_commands.py from Khronos' registries and the handlers of replay/. */",
+             '#include "tests/fuzz/calls.h"', ""]
+    for number, group in enumerate(groups):
+        lines.append(f"static const uint32_t group_{number}[] = {{ {', '.join(map(hex, sorted(values[group])))} }};")
+    lines += ["", "const struct calls_group calls_groups[] = {",
+              *(f"\t{{ group_{n}, {len(values[group])} }}," for n, group in enumerate(groups)), "};", "",
+              "const struct calls_command calls_commands[] = {",
+              *(f'\t{{ "{name}", "{letters}", {{ {", ".join(str(groups.index(g)) for g in of) or 0} }} }},'
+                for name, (letters, of) in commands.items()),
+              "};", "", "const unsigned n_calls_commands = sizeof(calls_commands) / sizeof(calls_commands[0]);"]
+    gen.write(out, lines)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2:])
