@@ -306,8 +306,8 @@ static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_
 			run->known = touched;
 		run->set |= touched | g->touched;
 		run->stop = i;
-		if (g->n_vertices && g->given & ~run->known)
-			return; /* an earlier vertex has a value that is not known yet */
+		if (n && g->n_vertices > n && touched & ~run->known)
+			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
 		run->stop = i + 1;
 		if (is_command(op, "glEnd"))
 			run->end = i + 1;

@@ -83,6 +83,36 @@ START_TEST(test_inherited)
 }
 END_TEST
 
+/* A value that a list gives to its second primitive says nothing of its first one, even where it was current in a list before. */
+START_TEST(test_inherited_by_the_first)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
+	gl_call(&gl, "glColor3f", "fff", 0.0, 0.0, 1.0);
+	triangle(&gl, 0);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glNewList", "ue", 2u, GL_COMPILE);
+	triangle(&gl, 1);
+	gl_call(&gl, "glColor3f", "fff", 0.0, 0.0, 1.0);
+	triangle(&gl, 2);
+	gl_call(&gl, "glColor3f", "fff", 0.0, 1.0, 0.0);
+	gl_call(&gl, "glEnable", "e", GL_FOG);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glColor3f", "fff", 1.0, 0.0, 0.0);
+	gl_call(&gl, "glCallList", "u", 2u);
+	ck_assert_floats(3, gl_state(&gl)->a.current.attribute[GLS_ATTR_COLOR], 0, 1, 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_primitives, 2);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_floats(3, s->currents[s->instances[0].current].color, 1, 0, 0);
+	ck_assert_floats(3, s->currents[s->instances[1].current].color, 0, 0, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Vertices of a list between Begin and End outside of it. */
 START_TEST(test_vertices_only)
 {
@@ -215,5 +245,5 @@ START_TEST(test_redundant_state)
 }
 END_TEST
 
-GL_TESTS("lists", test_compile, test_compile_and_execute, test_inherited, test_vertices_only, test_call_lists,
+GL_TESTS("lists", test_compile, test_compile_and_execute, test_inherited, test_inherited_by_the_first, test_vertices_only, test_call_lists,
          test_recursion_and_deletion, test_errors, test_redundant_state)
