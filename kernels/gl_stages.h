@@ -175,7 +175,12 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 			c->number = i;
 			c->b1 = i == 1u ? 1.0f : 0.0f;
 			c->b2 = i == 2u ? 1.0f : 0.0f;
-			clip_place(view, c->clip, (float)height, c->place);
+			if (p.geometry->flags & GEOMETRY_SMOOTH_LINE) {
+				c->place[0] = p.vertex[i]->size[0];
+				c->place[1] = p.vertex[i]->size[1];
+			} else {
+				clip_place(view, c->clip, (float)height, c->place);
+			}
 			c->window = windows[p.geometry->vertex_first + p.number[i]];
 		}
 		w_inv[i] = c->window.w_inv;
@@ -301,7 +306,7 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 /*
  * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module has it
  * (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any attribute; of a
- * point all pixels whose centres its circle holds. 0: nothing.
+ * point all pixels whose centres its circle holds.
  */
 static inline float stage_coverage(const struct point *p)
 {
@@ -357,7 +362,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	struct lit lit;
 	struct vec4 color;
 	float coverage;
-	int have_setup, clipped = 0;
+	int have_setup, clipped = 0, uncovered;
 	uint32_t group = 0u, kind = 0u;
 
 	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
@@ -379,7 +384,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	p = point_from_fragment(t, windows, &f);
 	coverage = stage_coverage(&p);
 	clipped |= !n_slots && !pixel_is_sampled(bits) && point_clipped(&p);
-	if (!n_slots && (clipped || stage_stippled_away(t, &p, x, y) || !(coverage > 0.0f))) {
+	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
+	if (!n_slots && (clipped || stage_stippled_away(t, &p, x, y) || uncovered)) {
 		out->flags = 0u;
 		return;
 	}

@@ -124,8 +124,8 @@ static inline void vertex_item(const struct tables *t, GLOBAL const struct view 
 	out->lit[0] = front.lights;
 	out->lit[1] = back.lights;
 	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
-	out->point_size = vertex_point_size(m, eye);
-	out->unused = 0u;
+	out->size[0] = vertex_point_size(m, eye);
+	out->size[1] = 0.0f;
 
 	for (uint32_t i = 0u; i < m->unit_count; i++)
 		v4_store(texcoords + (g->texcoord_first + v * m->unit_count + i) * 4u,

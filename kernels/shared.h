@@ -188,8 +188,7 @@ struct shaded_vertex {
 	float normal[3];       /* eye space, normalised only where GL does */
 	float fog_coord;
 	uint32_t lit[2];       /* per side, bit i: light i of the material's list adds diffuse or specular light here */
-	float point_size;      /* after attenuation, before rounding */
-	uint32_t unused;
+	float size[2];         /* of a point: [0], after attenuation, before rounding. Of a smooth line's corner: its place, see below */
 };
 SHARED_SIZE(struct shaded_vertex, 128);
 
@@ -198,7 +197,8 @@ SHARED_SIZE(struct shaded_vertex, 128);
 /*
  * Smooth ones: their vertices' color[1], which nothing else uses, holds where they are for the coverage (stage_coverage).
  *   line   pixels across the line, half its width and a half, pixels along it from its middle, half its length and a half;
- *          of lines shorter than a pixel the last two are shrunk so that they fade as they get shorter
+ *          of lines shorter than a pixel the last two are shrunk so that they fade as they get shorter. Its size[] is where
+ *          the corner is in the window, in pixels, y from the top, not snapped: clip would lose the last bits
  *   point  x and y in its circle of radius 1
  */
 #define GEOMETRY_SMOOTH_LINE 2u

@@ -192,17 +192,24 @@ static void add_corner(const struct expand_input *in, struct expanded *out, cons
 	out->n_texcoords += units;
 }
 
-/* Two triangles over the last four corners, front side up. */
+/*
+ * Two triangles over the last four corners, front side up. Their corners are in the order of Mesa's draw module, which decides
+ * the last bits of what is interpolated: turning one exchanges its first two, as llvmpipe does.
+ */
 static void add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw)
 {
 	uint32_t first = out->n_vertices - 4, *index = out->index + 3 * (size_t)out->n_primitives;
 	const struct window_vertex *w = out->windows + first;
 	int64_t area = ((int64_t)w[1].x - w[0].x) * ((int64_t)w[2].y - w[0].y) -
 	               ((int64_t)w[2].x - w[0].x) * ((int64_t)w[1].y - w[0].y);
-	int turn = (area > 0) != (in->material->front_face == GL_CCW);
-	uint32_t b = turn ? 3 : 1, d = turn ? 1 : 3;
+	uint32_t turn = (area > 0) != (in->material->front_face == GL_CCW);
+	const uint32_t corners[2][3] = { { 2, 0, 1 }, { 3, 0, 2 } };
 
-	memcpy(index, (uint32_t[6]){ first, first + b, first + 2, first, first + 2, first + d }, 6 * sizeof(*index));
+	for (unsigned i = 0; i < 2; i++) {
+		*index++ = first + corners[i][turn];
+		*index++ = first + corners[i][!turn];
+		*index++ = first + corners[i][2];
+	}
 	out->primitive_draw[out->n_primitives] = out->primitive_draw[out->n_primitives + 1] = draw;
 	out->n_primitives += 2;
 }
@@ -365,6 +372,8 @@ static void add_smooth_corner(const struct expand_input *in, struct expanded *ou
 	add_corner(in, out, e, snap(x), snap(y));
 	vertex->clip[0] = (2 * (x - v[0]) / v[2] - 1) * w;
 	vertex->clip[1] = (2 * ((float)in->height - y - v[1]) / v[3] - 1) * w;
+	vertex->size[0] = x;
+	vertex->size[1] = y;
 	memcpy(vertex->color[1], coverage, sizeof(vertex->color[1]));
 }
 
@@ -374,18 +383,19 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 {
 	float dx = b->x - a->x, dy = b->y - a->y, length = sqrtf(dx * dx + dy * dy);
 	float half_length = length < 1 ? length : 0.5f * length + 0.5f;
-	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f;
+	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f, angle = atan2f(dy, dx);
 
 	if (!(length > 0))
 		return;
-	dx /= length;
-	dy /= length;
+	/* Not divided by the length: lines drawn back over themselves show the last bits. */
+	dx = cosf(angle);
+	dy = sinf(angle);
 	/* From the corner on whose diagonal Mesa cuts the quad: where w differs along the line the two parts bend apart. */
 	for (int k = 0; k < 4; k++) {
 		const struct end *e = k >= 2 ? b : a;
 		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;
 
-		add_smooth_corner(in, out, e, e->x + along * dx - across * dy, e->y + along * dy + across * dx,
+		add_smooth_corner(in, out, e, e->x + (along * dx - across * dy), e->y + (along * dy + across * dx),
 		                  (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });
 	}
 	add_triangles(in, out, draw);
@@ -393,7 +403,7 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 
 static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
 {
-	const float *fade = in->material->point_attenuation, size = e->v.point_size;
+	const float *fade = in->material->point_attenuation, size = e->v.size[0];
 	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
 	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size;
 
@@ -408,7 +418,7 @@ static void add_smooth_point(const struct expand_input *in, struct expanded *out
 static void add_point(const struct expand_input *in, struct expanded *out, const struct end *e, uint32_t draw)
 {
 	const struct scene_material *m = in->material;
-	int32_t width = (int32_t)fmaxf(e->v.point_size * 256 + 0.5f, 256), x = snap(e->x) - width / 2, y = snap(e->y) - width / 2;
+	int32_t width = (int32_t)fmaxf(e->v.size[0] * 256 + 0.5f, 256), x = snap(e->x) - width / 2, y = snap(e->y) - width / 2;
 	/* Under multisampling llvmpipe takes a sprite's middle half a pixel off where it is. */
 	float off = m->multisample ? 128 / (float)width : 0;
 

@@ -1,6 +1,6 @@
 /*
- * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines drawn over
- * themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators. Recorded by test_shapes.py.
+ * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines, smooth ones too,
+ * drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -59,6 +59,18 @@ static void net(void)
 		}
 	}
 	glLineWidth(1);
+}
+
+/* The same smooth: their borders, which cover pixels in part, write depth too. */
+static void smooth_net(void)
+{
+	glEnable(GL_LINE_SMOOTH);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	glTranslatef(-0.2f, -0.05f, -0.3f); /* all of it in the view */
+	net();
+	glDisable(GL_BLEND);
+	glDisable(GL_LINE_SMOOTH);
 }
 
 /* Surfaces that lie in each other: which one is seen is decided by the last bit of their depths. */
@@ -161,7 +173,7 @@ static void evaluated(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, coplanar, materials, points, evaluated };
+	static void (*const frames[])(void) = { spokes, net, smooth_net, coplanar, materials, points, evaluated };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
