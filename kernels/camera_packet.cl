@@ -45,7 +45,7 @@ struct candidate {
 
 /* --- fragments --- */
 
-inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+static inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
 	struct row *row = &t->rows[y];
 	const uint8 steps = convert_uint8(rint(depth * 16777215.0f));
@@ -64,7 +64,7 @@ inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 
 	row->depth = select(row->depth, depth, better);
 }
 
-inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+static inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
 	for (int lane = 0; lane < 8; lane++) {
 		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
@@ -91,7 +91,7 @@ inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, floa
 	}
 }
 
-inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+static inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
 {
 	if (t->mode == CAMERA_COLUMN)
 		keep_in_columns(t, y, covered, b1, b2, depth, c);
@@ -100,7 +100,7 @@ inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b2, floa
 }
 
 /* Move the far plane up to the farthest of the tile's nearest fragments. */
-inline void shorten(struct tile *t)
+static inline void shorten(struct tile *t)
 {
 	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
 	uint8 steps = 0;
@@ -134,7 +134,7 @@ struct tile_edge {
 	int whole;          /* (value - (1 where the edge itself is outside)) / 256, rounded down and clamped */
 };
 
-inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
+static inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
 {
 	const int dx = b.x - a.x, dy = b.y - a.y;
 	struct tile_edge e;
@@ -147,7 +147,7 @@ inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b
 }
 
 /* In lanes: not negative where the centre is on the inner side, on row y after the edge's own. */
-inline int8 edge_inside(struct tile_edge e, int y)
+static inline int8 edge_inside(struct tile_edge e, int y)
 {
 	return (e.whole + y * e.step_y) + LANES * e.step_x;
 }
@@ -156,7 +156,7 @@ inline int8 edge_inside(struct tile_edge e, int y)
  * The function's value in all lanes, rounded once. `small`: inside the triangle it fits into 32 bits; what overflows in
  * other lanes, or on the way, does not matter.
  */
-inline float8 edge_values(struct tile_edge e, int y, int small)
+static inline float8 edge_values(struct tile_edge e, int y, int small)
 {
 	if (small)
 		return convert_float8(as_int8((uint)e.value + (uint)(y * e.step_y) * 256u + as_uint8(LANES * e.step_x) * 256u));
@@ -167,7 +167,7 @@ inline float8 edge_values(struct tile_edge e, int y, int small)
  * All vertices have a place in the window. corner: NULL, or the three corners where the triangle is part of one that leaves the
  * view volume; the fragments' weights are those of the whole then. clip: else, where the vertices are in clip space.
  */
-inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
+static inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
                        struct window_vertex v2, const struct clip_corner *const *corner, const struct vec4 *clip,
                        struct candidate c)
 {
@@ -225,7 +225,7 @@ inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, stru
 }
 
 /* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
-inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, struct candidate c)
+static inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, struct candidate c)
 {
 	struct clip_polygon polygon;
 
@@ -238,7 +238,7 @@ inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, s
 	}
 }
 
-inline void try_triangle(struct tile *t, uint index, __global const struct instance *instance,
+static inline void try_triangle(struct tile *t, uint index, __global const struct instance *instance,
                          __global const struct triangle *triangle)
 {
 	const uint first = instance->vertex_first, primitive = triangle->primitive;
@@ -262,7 +262,7 @@ inline void try_triangle(struct tile *t, uint index, __global const struct insta
 /* --- traversal --- */
 
 /* Where the view looks, pixels from their centres. */
-inline float tile_sample(const struct tile *t, int axis)
+static inline float tile_sample(const struct tile *t, int axis)
 {
 	return (float)t->view->sample[axis] * 0.00390625f;
 }
@@ -271,7 +271,7 @@ inline float tile_sample(const struct tile *t, int axis)
  * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
  * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
  */
-inline struct frustum tile_frustum(const struct tile *t, __global const float *m, __global const struct node2 *root)
+static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, __global const struct node2 *root)
 {
 	__global const struct view *view = t->view;
 	__global const float *p = view->projection;
@@ -301,7 +301,7 @@ inline struct frustum tile_frustum(const struct tile *t, __global const float *m
 	return frustum_make(o[0], o[1], o[2], o[3], abs_o[0], abs_o[1], abs_o[2], abs_o[3], root);
 }
 
-inline void walk_blas(struct tile *t, uint index)
+static inline void walk_blas(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node2 *nodes = t->nodes + instance->node2_first;
@@ -347,7 +347,7 @@ inline void walk_blas(struct tile *t, uint index)
 	}
 }
 
-inline void walk_top(struct tile *t, __global const struct node2 *top, __global const uint *instance_list)
+static inline void walk_top(struct tile *t, __global const struct node2 *top, __global const uint *instance_list)
 {
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
@@ -376,7 +376,7 @@ inline void walk_top(struct tile *t, __global const struct node2 *top, __global 
 }
 
 /* Geometry in window space: where the view looks in pixels are points. */
-inline void walk_screen(struct tile *t, uint index)
+static inline void walk_screen(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node2 *nodes = t->nodes + instance->node2_first;
@@ -400,7 +400,7 @@ inline void walk_screen(struct tile *t, uint index)
 	}
 }
 
-inline void store_tile(const struct tile *t, __global uint *counts)
+static inline void store_tile(const struct tile *t, __global uint *counts)
 {
 	for (int y = 0; y < CAMERA_TILE; y++)
 		for (int lane = 0; lane < 8; lane++) {

@@ -23,7 +23,7 @@ struct pixel {
 	struct fragment nearest;
 };
 
-inline void shorten(struct pixel *p, float depth)
+static inline void shorten(struct pixel *p, float depth)
 {
 	const float near = p->view->depth_range[0], range = p->view->depth_range[1] - near;
 	const float u = (depth - near) / range + 4e-7f;
@@ -34,7 +34,7 @@ inline void shorten(struct pixel *p, float depth)
 		p->t_max = fmin(p->t_max, u * p->d_scale / (p->near_w * w));
 }
 
-inline void keep_nearest(struct pixel *p, const struct fragment *f)
+static inline void keep_nearest(struct pixel *p, const struct fragment *f)
 {
 	const uint steps = convert_uint(rint(f->depth * 16777215.0f));
 
@@ -48,7 +48,7 @@ inline void keep_nearest(struct pixel *p, const struct fragment *f)
 	shorten(p, f->depth);
 }
 
-inline void keep_in_column(struct pixel *p, const struct fragment *f)
+static inline void keep_in_column(struct pixel *p, const struct fragment *f)
 {
 	uint place = p->count;
 
@@ -66,7 +66,7 @@ inline void keep_in_column(struct pixel *p, const struct fragment *f)
 	p->out[place] = *f;
 }
 
-inline void try_triangle(struct pixel *p, uint index, __global const struct instance *instance,
+static inline void try_triangle(struct pixel *p, uint index, __global const struct instance *instance,
                          __global const struct triangle *triangle)
 {
 	const uint first = instance->vertex_first;
@@ -100,13 +100,13 @@ inline void try_triangle(struct pixel *p, uint index, __global const struct inst
 		keep_nearest(p, &f);
 }
 
-inline float3 invert(float3 d)
+static inline float3 invert(float3 d)
 {
 	return 1.0f / select(copysign((float3)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
 /* Whether the ray meets a box, widened by pad, and where. */
-inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, float t_max, float *enter)
+static inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, float t_max, float *enter)
 {
 	const float3 t0 = (lo - pad - o) * inverse, t1 = (hi + pad - o) * inverse;
 	const float3 first = fmin(t0, t1), last = fmax(t0, t1);
@@ -117,14 +117,14 @@ inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, 
 }
 
 /* The same for one side of a binary node. */
-inline int meets_side(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
+static inline int meets_side(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
                       float *enter)
 {
 	return meets_box((float3)(node->lo[side][0], node->lo[side][1], node->lo[side][2]),
 	                 (float3)(node->hi[side][0], node->hi[side][1], node->hi[side][2]), o, inverse, pad, t_max, enter);
 }
 
-inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
+static inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
@@ -161,7 +161,7 @@ inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
 }
 
 /* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays_single.cl. */
-inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse)
+static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse)
 {
 	__global const struct instance *instance = &p->instances[index];
 	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
@@ -199,7 +199,7 @@ inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 invers
 	}
 }
 
-inline void walk_blas(struct pixel *p, uint index)
+static inline void walk_blas(struct pixel *p, uint index)
 {
 	__global const float *m = p->instances[index].obj_from_eye;
 	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
@@ -212,7 +212,7 @@ inline void walk_blas(struct pixel *p, uint index)
 		walk_binary(p, index, o, inverse);
 }
 
-inline void walk_top(struct pixel *p, __global const struct node2 *top, __global const uint *instance_list)
+static inline void walk_top(struct pixel *p, __global const struct node2 *top, __global const uint *instance_list)
 {
 	const float3 inverse = invert(p->d);
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
@@ -234,18 +234,18 @@ inline void walk_top(struct pixel *p, __global const struct node2 *top, __global
 }
 
 /* Where the view looks in the pixel, pixels. */
-inline float2 pixel_spot(const struct pixel *p)
+static inline float2 pixel_spot(const struct pixel *p)
 {
 	return (float2)((float)p->x, (float)p->y) + 0.5f + (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
 }
 
 /* Whether a box, widened by pad, is over or under a place of the window. */
-inline int is_below(float2 lo, float2 hi, float2 at, float pad)
+static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
 {
 	return all(at >= lo - pad) && all(at <= hi + pad);
 }
 
-inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
+static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
@@ -266,7 +266,7 @@ inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 	}
 }
 
-inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
+static inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node8c *nodes = p->compressed + instance->node8c_first;
@@ -293,7 +293,7 @@ inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
 }
 
 /* Geometry in window space: where the view looks is a point. */
-inline void walk_screen(struct pixel *p, uint index)
+static inline void walk_screen(struct pixel *p, uint index)
 {
 	const float2 at = pixel_spot(p);
 
@@ -304,7 +304,7 @@ inline void walk_screen(struct pixel *p, uint index)
 }
 
 /* 0 where the pixel has no ray: outside of the viewport, or the projection has no inverse. */
-inline int make_ray(struct pixel *p)
+static inline int make_ray(struct pixel *p)
 {
 	__global const float *m = p->view->inverse, *viewport = p->view->viewport;
 	const float px = pixel_spot(p).x, py = pixel_spot(p).y;
@@ -324,7 +324,7 @@ inline int make_ray(struct pixel *p)
 	       isfinite(p->o.x + p->o.y + p->o.z) && isfinite(p->d.x + p->d.y + p->d.z);
 }
 
-inline void do_pixel(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+static inline void do_pixel(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
                      __global const struct instance *instances, __global const struct node2 *top,
                      __global const uint *instance_list, __global const struct node2 *nodes,
                      __global const struct node8c *compressed, __global const struct triangle *triangles,

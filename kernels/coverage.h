@@ -8,7 +8,7 @@
 #include "kernels/shared.h"
 #include "kernels/gl_clip.h"
 
-inline int coverage_culled(uint flags, int counter_clockwise)
+static inline int coverage_culled(uint flags, int counter_clockwise)
 {
 	const int front = counter_clockwise == !(flags & INSTANCE_FRONT_CW);
 
@@ -16,12 +16,12 @@ inline int coverage_culled(uint flags, int counter_clockwise)
 }
 
 /* Twice the signed area of a -> b -> a place, in 1/65536 square pixel. */
-inline long coverage_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
+static inline long coverage_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
 {
 	return (long)(b.x - a.x) * (at.y - a.y) - (long)(b.y - a.y) * (at.x - a.x);
 }
 
-inline int coverage_inside(struct window_vertex a, struct window_vertex b, int sign, struct clip_spot at)
+static inline int coverage_inside(struct window_vertex a, struct window_vertex b, int sign, struct clip_spot at)
 {
 	const long e = sign * coverage_edge(a, b, at);
 	const int dx = sign * (b.x - a.x), dy = sign * (b.y - a.y);
@@ -30,7 +30,7 @@ inline int coverage_inside(struct window_vertex a, struct window_vertex b, int s
 }
 
 /* All vertices have a place in the window. */
-inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, uint flags,
+static inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, uint flags,
                            struct clip_spot at, float *b1, float *b2, float *depth)
 {
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
@@ -49,7 +49,7 @@ inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, str
 }
 
 /* Depth at a pixel as it counts in comparisons: from vertices that are not snapped. corner: as for clip_depth_plane. */
-inline float coverage_depth(__global const struct view *view, uint height, const struct clip_corner *const *corner,
+static inline float coverage_depth(__global const struct view *view, uint height, const struct clip_corner *const *corner,
                             const struct vec4 *clip, const float *z, int x, int y, float otherwise)
 {
 	struct clip_plane plane;
@@ -60,7 +60,7 @@ inline float coverage_depth(__global const struct view *view, uint height, const
 }
 
 /* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
-inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0, uint i1, uint i2,
+static inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0, uint i1, uint i2,
                             uint flags, int exact, int x, int y, float *b1, float *b2, float *depth)
 {
 	struct clip_polygon polygon;

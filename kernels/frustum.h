@@ -18,7 +18,7 @@ struct frustum {
 };
 
 /* Per lane how far the box of one side of a node reaches inside; negative: the box is outside. */
-inline float8 frustum_reach(const struct frustum *f, __global const struct node2 *node, uint side)
+static inline float8 frustum_reach(const struct frustum *f, __global const struct node2 *node, uint side)
 {
 	const float8 x = fma(f->ap, node->hi[side][0], fma(f->an, node->lo[side][0], f->d));
 	const float8 y = fma(f->bp, node->hi[side][1], f->bn * node->lo[side][1]);
@@ -27,13 +27,13 @@ inline float8 frustum_reach(const struct frustum *f, __global const struct node2
 	return x + (y + z);
 }
 
-inline int frustum_meets(float8 reach)
+static inline int frustum_meets(float8 reach)
 {
 	return lane_bits(as_int8(reach) < 0) == 0;
 }
 
 /* 0 for the empty side of a root. */
-inline int side_exists(__global const struct node2 *node, uint side)
+static inline int side_exists(__global const struct node2 *node, uint side)
 {
 	return (node->child[side] | node->count[side]) != 0;
 }
@@ -42,7 +42,7 @@ inline int side_exists(__global const struct node2 *node, uint side)
  * Planes with coefficients a b c d. abs_a .. abs_d bound the terms that each was added up from; what rounding may have
  * done to them, at any point of the tree under `root`, is given back.
  */
-inline struct frustum frustum_make(float8 a, float8 b, float8 c, float8 d, float8 abs_a, float8 abs_b, float8 abs_c,
+static inline struct frustum frustum_make(float8 a, float8 b, float8 c, float8 d, float8 abs_a, float8 abs_b, float8 abs_c,
                                    float8 abs_d, __global const struct node2 *root)
 {
 	struct frustum f;

@@ -25,7 +25,7 @@
 #endif
 
 /* One bit a lane. */
-inline uint lane_bits(int8 mask)
+static inline uint lane_bits(int8 mask)
 {
 #ifdef LANES_MOVEMASK
 	return (uint)__builtin_ia32_movmskps256(as_float8(mask));
@@ -38,7 +38,7 @@ inline uint lane_bits(int8 mask)
 #endif
 }
 
-inline int any_lane(int8 mask)
+static inline int any_lane(int8 mask)
 {
 #ifdef LANES_REDUCE
 	return __builtin_reduce_or(mask) != 0;
@@ -48,12 +48,12 @@ inline int any_lane(int8 mask)
 }
 
 /* Minimum and maximum as the processor has them, one instruction: where x is a NaN the result is y. */
-inline float8 lanes_min(float8 x, float8 y)
+static inline float8 lanes_min(float8 x, float8 y)
 {
 	return select(y, x, x < y);
 }
 
-inline float8 lanes_max(float8 x, float8 y)
+static inline float8 lanes_max(float8 x, float8 y)
 {
 	return select(y, x, x > y);
 }
@@ -73,7 +73,7 @@ typedef float16 packf;
 typedef int16 packi;
 typedef uint16 packu;
 
-inline int any_pack(packi mask)
+static inline int any_pack(packi mask)
 {
 #ifdef LANES_REDUCE
 	return __builtin_reduce_or(mask) != 0;
@@ -83,7 +83,7 @@ inline int any_pack(packi mask)
 }
 
 /* One bit a lane. */
-inline uint pack_bits(packi mask)
+static inline uint pack_bits(packi mask)
 {
 #ifdef LANES_MASK16
 	return (ushort)__builtin_ia32_cvtd2mask512(mask);
@@ -92,12 +92,12 @@ inline uint pack_bits(packi mask)
 #endif
 }
 
-inline packf pack_min(packf x, packf y)
+static inline packf pack_min(packf x, packf y)
 {
 	return select(y, x, x < y);
 }
 
-inline packf pack_max(packf x, packf y)
+static inline packf pack_max(packf x, packf y)
 {
 	return select(y, x, x > y);
 }

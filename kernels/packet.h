@@ -25,13 +25,13 @@ struct packet {
 	packf t_min, t_max, slack;             /* slack: what rounding may do to any of these */
 };
 
-inline packf pack_invert(packf d)
+static inline packf pack_invert(packf d)
 {
 	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
 /* Fill in what follows from o and d. */
-inline void packet_prepare(struct packet *p)
+static inline void packet_prepare(struct packet *p)
 {
 	const packf ix = pack_invert(p->dx), iy = pack_invert(p->dy), iz = pack_invert(p->dz);
 	const packf bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
@@ -44,7 +44,7 @@ inline void packet_prepare(struct packet *p)
 }
 
 /* o and d moved from eye to object space. */
-inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
+static inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
 {
 	p->ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
 	p->oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
@@ -55,7 +55,7 @@ inline void packet_transform(struct packet *p, const struct packet *eye, __globa
 }
 
 /* Per lane, 1 bit each: the signs of the directions. */
-inline packi packet_octants(const struct packet *p)
+static inline packi packet_octants(const struct packet *p)
 {
 	return (as_int16(p->ix) >> 31 & 1) | (as_int16(p->iy) >> 31 & 2) | (as_int16(p->iz) >> 31 & 4);
 }
@@ -65,7 +65,7 @@ struct planes {
 	uint near_x, near_y, near_z, far_x, far_y, far_z;
 };
 
-inline struct planes octant_planes(int octant)
+static inline struct planes octant_planes(int octant)
 {
 	struct planes s;
 
@@ -76,7 +76,7 @@ inline struct planes octant_planes(int octant)
 }
 
 /* Lanes that meet a node's box, all of one octant. bounds: the node's first float of that box. */
-inline packi packet_meets(const struct packet *p, __global const float *bounds, struct planes s)
+static inline packi packet_meets(const struct packet *p, __global const float *bounds, struct planes s)
 {
 	const packf enter = pack_max(pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
 	                             pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
@@ -87,7 +87,7 @@ inline packi packet_meets(const struct packet *p, __global const float *bounds, 
 }
 
 /* The same whatever the octants. */
-inline packi packet_meets_any(const struct packet *p, __global const struct node8 *node, uint side)
+static inline packi packet_meets_any(const struct packet *p, __global const struct node8 *node, uint side)
 {
 	const packf x0 = fma(node->lo[0][side], p->ix, p->near_x), x1 = fma(node->hi[0][side], p->ix, p->near_x);
 	const packf y0 = fma(node->lo[1][side], p->iy, p->near_y), y1 = fma(node->hi[1][side], p->iy, p->near_y);
@@ -99,7 +99,7 @@ inline packi packet_meets_any(const struct packet *p, __global const struct node
 }
 
 /* The octant of all lanes that are awake; -1: there are several. */
-inline int packet_octant(const struct packet *p)
+static inline int packet_octant(const struct packet *p)
 {
 	const packi awake = p->t_min <= p->t_max;
 	const uint lanes = pack_bits(awake), first = lanes ? popcount((lanes & -lanes) - 1) : 0;
@@ -110,7 +110,7 @@ inline int packet_octant(const struct packet *p)
 }
 
 /* Moeller and Trumbore: lanes hit at t in t_min .. t_max. */
-inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane)
+static inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane)
 {
 	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
 	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];

@@ -10,7 +10,7 @@
 #define PACKET_FEW 2
 
 /* Lanes of a packet down a subtree one by one. @return those that hit; their t_max is -infinity now */
-inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __global const struct node8 *nodes,
+static inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __global const struct node8 *nodes,
                        __global const struct triangle8 *triangles)
 {
 	uint done = 0;
@@ -36,7 +36,7 @@ inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __global const
 }
 
 /* Walk one instance's tree with a packet, of one octant or of several (-1). Rays that hit get a t_max of -infinity. */
-WIDE_VECTORS inline void walk_blas(struct packet *packet, int octant, __global const struct node8 *nodes,
+WIDE_VECTORS static inline void walk_blas(struct packet *packet, int octant, __global const struct node8 *nodes,
                                    __global const struct triangle8 *triangles)
 {
 	struct packet rays = *packet, *p = &rays; /* a copy of its own stays in registers */
@@ -77,7 +77,7 @@ WIDE_VECTORS inline void walk_blas(struct packet *packet, int octant, __global c
 }
 
 /* How far along each ray its walk through an instance starts. */
-inline packf far_shift(__global const struct instance *instance, const struct packet *p)
+static inline packf far_shift(__global const struct instance *instance, const struct packet *p)
 {
 	const packf cx = instance->centre[0] - p->ox, cy = instance->centre[1] - p->oy, cz = instance->centre[2] - p->oz;
 	const packf length = pack_max(pack_max(fabs(p->dx), fabs(p->dy)), fabs(p->dz));
@@ -87,7 +87,7 @@ inline packf far_shift(__global const struct instance *instance, const struct pa
 	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
 }
 
-inline void walk_instance(struct packet *eye, __global const struct instance *instance, __global const struct node8 *all_nodes,
+static inline void walk_instance(struct packet *eye, __global const struct instance *instance, __global const struct node8 *all_nodes,
                           __global const struct triangle8 *all_triangles)
 {
 	__global const struct node8 *nodes = all_nodes + instance->node8_first;
@@ -110,7 +110,7 @@ inline void walk_instance(struct packet *eye, __global const struct instance *in
 	eye->t_max = select(eye->t_max, (packf)(-INFINITY), p.t_max == -INFINITY);
 }
 
-inline void walk_top(struct packet *eye, __global const struct node8 *top, __global const uint *instance_list,
+static inline void walk_top(struct packet *eye, __global const struct node8 *top, __global const uint *instance_list,
                      __global const struct instance *instances, __global const struct node8 *nodes,
                      __global const struct triangle8 *triangles)
 {
@@ -132,7 +132,7 @@ inline void walk_top(struct packet *eye, __global const struct node8 *top, __glo
 }
 
 /* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for each awake */
-inline uint load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
+static inline uint load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
 	packf t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;
 	packi finite;

@@ -11,7 +11,7 @@
 #include "kernels/walk.h"
 
 /* Moeller and Trumbore; of equally near hits that of the lowest primitive stays. */
-inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance)
+static inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance)
 {
 	const float e1x = triangle->e1[0], e1y = triangle->e1[1], e1z = triangle->e1[2];
 	const float e2x = triangle->e2[0], e2y = triangle->e2[1], e2z = triangle->e2[2];
@@ -40,7 +40,7 @@ inline void try_single(struct walk *w, __global const struct triangle *triangle,
 /* --- Binary trees ------------------------------------------------------------------------------------------------- */
 
 /* Whether the ray meets a box, and where it enters. An empty one has lo > hi. */
-inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *enter)
+static inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *enter)
 {
 	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x), far_x = fma(w->ix < 0 ? lo.x : hi.x, w->far_ix, w->far_x);
 	const float near_y = fma(w->iy < 0 ? hi.y : lo.y, w->iy, w->near_y), far_y = fma(w->iy < 0 ? lo.y : hi.y, w->far_iy, w->far_y);
@@ -51,7 +51,7 @@ inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *enter)
 }
 
 /* The next subtree that is not behind what was hit meanwhile. @return 0: there is none */
-inline int pop(const struct walk *w, const struct entry *stack, uint *depth, struct entry *entry)
+static inline int pop(const struct walk *w, const struct entry *stack, uint *depth, struct entry *entry)
 {
 	do {
 		if (*depth == 0)
@@ -62,7 +62,7 @@ inline int pop(const struct walk *w, const struct entry *stack, uint *depth, str
 }
 
 /* On to the next leaf, the nearer child first. @return 0: there is none */
-inline int next_leaf(const struct walk *w, __global const struct node2 *nodes, struct entry *stack, uint *depth,
+static inline int next_leaf(const struct walk *w, __global const struct node2 *nodes, struct entry *stack, uint *depth,
                      struct entry *entry)
 {
 	while (entry->count == 0) {
@@ -90,7 +90,7 @@ inline int next_leaf(const struct walk *w, __global const struct node2 *nodes, s
 	return 1;
 }
 
-inline void walk_binary(struct walk *w, uint index, int any, __global const struct node2 *nodes,
+static inline void walk_binary(struct walk *w, uint index, int any, __global const struct node2 *nodes,
                         __global const struct triangle *triangles)
 {
 	struct entry stack[BVH_MAX_DEPTH], entry;
@@ -117,7 +117,7 @@ struct grid_axis {
 };
 
 /* Slack as for other boxes, of what is added up: the grid's origin, and the ray's. */
-inline struct grid_axis grid_axis(float origin, uint exponent, float i, float near, float far)
+static inline struct grid_axis grid_axis(float origin, uint exponent, float i, float near, float far)
 {
 	const float step = as_float(exponent << 23) * i, at = origin * i;
 	struct grid_axis axis;
@@ -129,7 +129,7 @@ inline struct grid_axis grid_axis(float origin, uint exponent, float i, float ne
 	return axis;
 }
 
-inline float byte_of(uint word, uint k)
+static inline float byte_of(uint word, uint k)
 {
 	return convert_float(word >> 8 * k & 255u);
 }
@@ -141,7 +141,7 @@ inline float byte_of(uint word, uint k)
  * @param head       receives the node's first children: x nodes, y triangles
  * @return a bit for each node that it meets, at slot ^ octant, the last one the nearest, and from bit 8 on which slots are nodes
  */
-inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node, uint *triangles, uint2 *head)
+static inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node, uint *triangles, uint2 *head)
 {
 	__global const uint4 *row = (__global const uint4 *)node;
 	const uint4 a = row[0], b = row[1], c = row[2], d = row[3], e = row[4];
@@ -174,7 +174,7 @@ inline uint meet_compressed(const struct walk *w, uint octant, __global const st
 	return hits | is_node << 8;
 }
 
-inline void walk_compressed(struct walk *w, uint index, int any, __global const struct node8c *nodes,
+static inline void walk_compressed(struct walk *w, uint index, int any, __global const struct node8c *nodes,
                             __global const struct triangle *triangles)
 {
 	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
@@ -210,7 +210,7 @@ inline void walk_compressed(struct walk *w, uint index, int any, __global const 
 /* --- Rays --------------------------------------------------------------------------------------------------------- */
 
 /* compressed: null for binary trees. */
-inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node2 *top,
+static inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node2 *top,
                            __global const uint *instance_list, __global const struct instance *instances,
                            __global const struct node2 *binary, __global const struct node8c *compressed,
                            __global const struct triangle *triangles)

@@ -4,7 +4,7 @@
 #include "kernels/rays.h"
 #include "kernels/wide.h"
 
-inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
+static inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
@@ -15,7 +15,7 @@ inline void walk_instance(struct walk *eye, uint index, int any, __global const 
 	walk_leave(eye, &w, shift);
 }
 
-inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,
+static inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,
                            __global const uint *instance_list, __global const struct instance *instances,
                            __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {

@@ -24,12 +24,12 @@ struct entry {
 	uint child, count;
 };
 
-inline float invert(float d)
+static inline float invert(float d)
 {
 	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
 }
 
-inline void prepare(struct walk *w)
+static inline void prepare(struct walk *w)
 {
 	float b;
 
@@ -42,7 +42,7 @@ inline void prepare(struct walk *w)
 }
 
 /* A ray in eye space that has hit nothing. @return 0 where it hits nothing by definition */
-inline int walk_start(struct walk *w, __global const struct ray *ray)
+static inline int walk_start(struct walk *w, __global const struct ray *ray)
 {
 	w->ox = ray->o[0], w->oy = ray->o[1], w->oz = ray->o[2];
 	w->dx = ray->d[0], w->dy = ray->d[1], w->dz = ray->d[2];
@@ -58,7 +58,7 @@ inline int walk_start(struct walk *w, __global const struct ray *ray)
 }
 
 /* How far along the ray its walk through an instance starts. */
-inline float walk_shift(__global const struct instance *instance, const struct walk *w)
+static inline float walk_shift(__global const struct instance *instance, const struct walk *w)
 {
 	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
 	const float length = fmax(fmax(fabs(w->dx), fabs(w->dy)), fabs(w->dz));
@@ -69,7 +69,7 @@ inline float walk_shift(__global const struct instance *instance, const struct w
 }
 
 /* The ray in an instance's object space. @return by how much it was moved along itself */
-inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance)
+static inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance)
 {
 	__global const float *m = instance->obj_from_eye;
 	float shift;
@@ -93,7 +93,7 @@ inline float walk_enter(struct walk *w, const struct walk *eye, __global const s
 }
 
 /* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
-inline void walk_leave(struct walk *eye, struct walk *w, float shift)
+static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
 	w->hit.t += shift;
 	if (w->hit.instance != SCENE_NONE &&

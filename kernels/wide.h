@@ -11,7 +11,7 @@
 #include "kernels/walk.h"
 
 /* Where the ray enters the eight boxes, and which it meets. */
-inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, float8 *enter)
+static inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, float8 *enter)
 {
 	__global const float *rows = (__global const float *)node;
 	const float8 near_x = fma(vload8(0, rows + w->row_x), w->ix, w->near_x);
@@ -27,7 +27,7 @@ inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, 
 }
 
 /* Push what the ray meets, farthest first, so that the nearest is popped next; in any order where any hit will do. */
-inline uint push_boxes(struct entry *stack, uint depth, uint bits, const float8 *enter, int any,
+static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const float8 *enter, int any,
                        __global const struct node8 *node)
 {
 	const uint bottom = any ? RAYS_WIDE_STACK : depth;
@@ -50,7 +50,7 @@ inline uint push_boxes(struct entry *stack, uint depth, uint bits, const float8 
 }
 
 /* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. */
-inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any)
+static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
 	const float8 e2x = vload8(0, block->e2[0]), e2y = vload8(0, block->e2[1]), e2z = vload8(0, block->e2[2]);
@@ -87,7 +87,7 @@ inline void try_block(struct walk *w, __global const struct triangle8 *block, ui
 }
 
 /* From a node (y: 0) or a leaf of y blocks on down. */
-inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, __global const struct node8 *nodes,
+static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, __global const struct node8 *nodes,
                          __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK], entry;
