@@ -331,35 +331,85 @@ static void outlines(void)
 	glLineWidth(1);
 }
 
+/* The bound texture over the lower left of the window, texel by pixel. */
+static void show_texture(int size)
+{
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	flat_window();
+	glLoadIdentity();
+	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_TEXTURE_2D);
+	glBegin(GL_QUADS);
+	glTexCoord2f(0, 0);
+	glVertex2i(4, 4);
+	glTexCoord2f(1, 0);
+	glVertex2i(4 + size, 4);
+	glTexCoord2f(1, 1);
+	glVertex2i(4 + size, 4 + size);
+	glTexCoord2f(0, 1);
+	glVertex2i(4, 4 + size);
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+}
+
 /* The window as a texture: resolved. */
 static void copied(void)
 {
 	fan();
 	glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 16, 8, 32, 32, 0);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-	flat_window();
-	glLoadIdentity();
-	glEnable(GL_TEXTURE_2D);
-	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-	glBegin(GL_QUADS);
-	glTexCoord2f(0, 0);
-	glVertex2f(4, 4);
-	glTexCoord2f(1, 0);
-	glVertex2f(36, 4);
-	glTexCoord2f(1, 1);
-	glVertex2f(36, 36);
-	glTexCoord2f(0, 1);
-	glVertex2f(4, 36);
+	show_texture(32);
+}
+
+/* A framebuffer object of four samples a pixel, resolved into one of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample). */
+static void object(void)
+{
+	GLuint buffers[2], objects[2], texture;
+
+	glGenRenderbuffers(2, buffers);
+	glGenFramebuffers(2, objects);
+	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
+	for (int i = 0; i < 2; i++) {
+		glBindRenderbuffer(GL_RENDERBUFFER, buffers[i]);
+		glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, 40, 40);
+		glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[i]);
+	}
+	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the framebuffer object of samples is complete");
+	glViewport(0, 0, 40, 40);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	fan();
+	glTranslatef(0.2f, 0.1f, 0);
+	glRotatef(11, 1, 1, 1);
+	fan();
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(7, 9, 15, 13);
+	glLineWidth(2);
+	glBegin(GL_LINES);
+	glVertex3f(-0.5f, -0.4f, -1.5f);
+	glVertex3f(0.1f, 0.5f, -1.5f);
+	glVertex3f(-0.5f, 0.1f, -1.5f);
+	glVertex3f(0.1f, -0.5f, -1.5f);
 	glEnd();
-	glDisable(GL_TEXTURE_2D);
+	glLineWidth(1);
+	glDisable(GL_SCISSOR_TEST);
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects[1]);
+	glGenTextures(1, &texture);
+	glBindTexture(GL_TEXTURE_2D, texture);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 40, 40, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+	glBlitFramebuffer(0, 0, 40, 40, 0, 0, 40, 40, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	glViewport(0, 0, 64, 48);
+	show_texture(40);
+	glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 int main(void)
 {
 	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, points, textured, alpha_to_coverage, sample_coverage, blended,
-		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied };
+		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
 		             GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None };
 	GLint samples;

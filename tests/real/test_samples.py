@@ -4,7 +4,7 @@ from helpers import check_gates, check_same_pictures, finish
 
 FRAMES = ("shared edges", "surfaces through each other", "a floor and strips that leave the view", "lines", "points", "textures",
           "alpha to coverage", "sample coverage", "blending", "multisampling disabled", "stencil and alpha tests", "bitmaps and pixel rectangles",
-          "scissors", "clip planes", "outlines", "the window as a texture")
+          "scissors", "clip planes", "outlines", "the window as a texture", "a framebuffer object")
 _, score = check_same_pictures("samples", FRAMES)
 check_gates(score, len(FRAMES), "samples", skip=("R1",))
 finish()
