@@ -295,17 +295,19 @@ static inline float pixel_average_part(float gl, const float *gls, const float *
 }
 
 /*
- * Four samples of a pixel into the first: colours and parts their means, albedo that of what was drawn; depth and stencil are the
+ * Four samples of a pixel into one: colours and parts their means, albedo that of what was drawn; depth and stencil are the
  * first sample's. The surface is that of the first sample that has one.
  */
-static inline void pixel_resolve(GLOBAL struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
-                                 GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth)
+static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
+                                 GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,
+                                 GLOBAL struct frame_pixel *out)
 {
 	GLOBAL const struct frame_pixel *from[4];
 	float gls[4], parts[4];
 	struct vec3 albedo = v3(0.0f, 0.0f, 0.0f);
 	uint32_t surface = 4u, drawn = 0u, unknown = 0u;
 
+	*out = *first;
 	from[0] = first;
 	from[1] = second;
 	from[2] = third;
@@ -328,19 +330,18 @@ static inline void pixel_resolve(GLOBAL struct frame_pixel *first, GLOBAL const 
 			for (uint32_t i = 0u; i < 4u; i++)
 				parts[i] = part == 0u ? from[i]->shadowed[c] : part == 1u ? from[i]->direct[c] :
 				           part == 2u ? from[i]->mirrored[c] : from[i]->beauty[c];
-			*(part == 0u ? &first->shadowed[c] : part == 1u ? &first->direct[c] : part == 2u ? &first->mirrored[c] :
-			                                                                                   &first->beauty[c]) =
+			*(part == 0u ? &out->shadowed[c] : part == 1u ? &out->direct[c] : part == 2u ? &out->mirrored[c] : &out->beauty[c]) =
 				pixel_average_part(gl, gls, parts);
 		}
-		first->gl[c] = gl;
+		out->gl[c] = gl;
 	}
-	first->unknown = unknown;
+	out->unknown = unknown;
 	if (drawn == 0u)
 		return;
-	v3_store(first->albedo, v3_scale(albedo, 1.0f / (float)drawn));
-	first->surface = from[surface]->surface;
-	first->layers = from[surface]->layers;
-	first->id = from[surface]->id;
+	v3_store(out->albedo, v3_scale(albedo, 1.0f / (float)drawn));
+	out->surface = from[surface]->surface;
+	out->layers = from[surface]->layers;
+	out->id = from[surface]->id;
 }
 
 static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)

@@ -20,11 +20,12 @@ __kernel void resolve(TABLES_ARGUMENTS, __global const struct fragment *fragment
 		             stage_pixel(rectangle, width, (uint32_t)get_global_id(0)));
 }
 
-__kernel void merge_samples(__global struct frame_pixel *first, __global const struct frame_pixel *second,
-                            __global const struct frame_pixel *third, __global const struct frame_pixel *fourth, uint32_t n)
+__kernel void merge_samples(__global const struct frame_pixel *first, __global const struct frame_pixel *second,
+                            __global const struct frame_pixel *third, __global const struct frame_pixel *fourth, uint32_t n,
+                            __global struct frame_pixel *frame)
 {
 	const uint32_t i = (uint32_t)get_global_id(0);
 
 	if (i < n)
-		pixel_resolve(&first[i], &second[i], &third[i], &fourth[i]);
+		pixel_merge(&first[i], &second[i], &third[i], &fourth[i], &frame[i]);
 }

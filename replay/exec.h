@@ -436,7 +436,7 @@ void gls_frame_skip(struct gls_exec *x);
 void gls_surface_free(struct gls_surface *surface);
 /** A black one, far and 0. @return a reference; NULL: out of memory (reported) */
 struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
-                                     uint32_t alpha_bits);
+                                     uint32_t alpha_bits, uint32_t samples);
 void gls_picture_release(struct gls_picture *picture);
 
 /* framebuffer.c: framebuffer objects */

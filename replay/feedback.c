@@ -17,13 +17,21 @@
 
 /* ---- pictures ---- */
 
+static void free_arrays(struct scene_picture *p)
+{
+	free(p->rgba);
+	free(p->depth);
+	free(p->stencil);
+}
+
 void gls_picture_release(struct gls_picture *p)
 {
 	if (!p || atomic_fetch_sub(&p->refs, 1) != 1)
 		return;
-	free(p->picture.rgba);
-	free(p->picture.depth);
-	free(p->picture.stencil);
+	for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
+		free_arrays(&p->picture.samples[i]);
+	free(p->picture.samples);
+	free_arrays(&p->picture);
 	free(p);
 }
 
@@ -34,30 +42,45 @@ static struct gls_picture *reference(struct gls_picture *p)
 	return p;
 }
 
-struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
-                                     uint32_t alpha_bits)
+/* Black, far and 0. @return 0: out of memory, with whatever was allocated */
+static int make_arrays(struct scene_picture *p, uint32_t width, uint32_t height, uint32_t depth_bits, uint32_t alpha_bits)
 {
 	size_t n = (size_t)width * height, room = n + !n;
-	struct gls_picture *p = calloc(1, sizeof(*p));
 	uint32_t bits = depth_bits > 24 ? 24 : depth_bits, far = (1u << bits) - 1;
+
+	p->width = width;
+	p->height = height;
+	p->depth_bits = bits;
+	p->rgba = calloc(room, 4);
+	p->depth = malloc(room * sizeof(*p->depth));
+	p->stencil = calloc(room, 1);
+	if (!p->rgba || !p->depth || !p->stencil)
+		return 0;
+	for (size_t i = 0; i < n; i++) {
+		p->depth[i] = far;
+		p->rgba[4 * i + 3] = alpha_bits ? 0 : 255;
+	}
+	return 1;
+}
+
+struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
+                                     uint32_t alpha_bits, uint32_t samples)
+{
+	struct gls_picture *p = calloc(1, sizeof(*p));
+	int good = p != NULL;
 
 	if (p) {
 		atomic_init(&p->refs, 1);
-		p->picture.width = width;
-		p->picture.height = height;
-		p->picture.depth_bits = bits;
-		p->picture.rgba = calloc(room, 4);
-		p->picture.depth = malloc(room * sizeof(*p->picture.depth));
-		p->picture.stencil = calloc(room, 1);
+		good = make_arrays(&p->picture, width, height, depth_bits, alpha_bits);
+		if (samples > 1)
+			good &= (p->picture.samples = calloc(SCENE_SAMPLES, sizeof(*p->picture.samples))) != NULL;
+		for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
+			good &= make_arrays(&p->picture.samples[i], width, height, depth_bits, alpha_bits);
 	}
-	if (!p || !p->picture.rgba || !p->picture.depth || !p->picture.stencil) {
+	if (!good) {
 		gls_picture_release(p);
-		gls_out_of_memory(x, n * 9);
+		gls_out_of_memory(x, (size_t)width * height * 9);
 		return NULL;
-	}
-	for (size_t i = 0; i < n; i++) {
-		p->picture.depth[i] = far;
-		p->picture.rgba[4 * i + 3] = alpha_bits ? 0 : 255;
 	}
 	return p;
 }
@@ -65,7 +88,7 @@ struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
-	struct gls_picture *p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits);
+	struct gls_picture *p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples);
 
 	if (!p || !s->width || !s->height)
 		return p;

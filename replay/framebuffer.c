@@ -23,6 +23,7 @@ struct target {
 	struct gls_texture *texture;           /* or this and the next two */
 	struct gls_level *level;
 	size_t first; /* texel */
+	int sample;   /* of a renderbuffer's pixels, from 1 on; 0: their mean */
 };
 
 /* @return 0 where there is none, or it has no pixels */
@@ -104,10 +105,21 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 	return any;
 }
 
+/* What of a picture a target's sample means; NULL: nothing is known of it. */
+static struct scene_picture *sample_of(const struct target *t, struct scene_picture *p)
+{
+	return !p || !t->sample ? p : p->samples ? &p->samples[t->sample - 1] : NULL;
+}
+
+/* What a renderbuffer holds, or NULL. */
+static struct scene_picture *held_by(const struct target *t)
+{
+	return sample_of(t, t->renderbuffer->content ? &t->renderbuffer->content->picture : NULL);
+}
+
 static void load_color(const struct target *t, struct scene_picture *p)
 {
-	const uint8_t *from = t->renderbuffer ? t->renderbuffer->content ? t->renderbuffer->content->picture.rgba : NULL :
-	                                        t->level->texels + 4 * t->first;
+	const uint8_t *from = t->renderbuffer ? held_by(t) ? held_by(t)->rgba : NULL : t->level->texels + 4 * t->first;
 
 	for (uint32_t y = 0; from && y < p->height; y++)
 		memcpy(p->rgba + 4 * (size_t)y * p->width, from + 4 * (size_t)y * t->width, 4 * (size_t)p->width);
@@ -125,8 +137,8 @@ static void load_depth(const struct target *t, struct scene_picture *p)
 			if (t->level) {
 				memcpy(&value, t->level->texels + 4 * (t->first + from), 4);
 				*to = (uint32_t)rintf(value * steps);
-			} else if (t->renderbuffer->content) {
-				*to = t->renderbuffer->content->picture.depth[from];
+			} else if (held_by(t)) {
+				*to = held_by(t)->depth[from];
 			}
 		}
 }
@@ -135,7 +147,7 @@ static void load_depth(const struct target *t, struct scene_picture *p)
 static uint8_t *stencil_of(const struct target *t)
 {
 	if (t->renderbuffer)
-		return t->renderbuffer->content ? t->renderbuffer->content->picture.stencil : NULL;
+		return held_by(t) ? held_by(t)->stencil : NULL;
 	return gls_level_stencil(t->level) ? gls_level_stencil(t->level) + t->first : NULL;
 }
 
@@ -145,6 +157,28 @@ static void load_stencil(const struct target *t, struct scene_picture *p)
 
 	for (uint32_t y = 0; from && y < p->height; y++)
 		memcpy(p->stencil + (size_t)y * p->width, from + (size_t)y * t->width, p->width);
+}
+
+/* What the attachments hold of a sample (see struct target). */
+static void load_sample(const struct gls_share *share, const struct gls_framebuffer *fb, int color, int sample,
+                        struct scene_picture *p)
+{
+	const struct gls_surface *s = &fb->surface;
+	struct target t;
+
+	/* A larger surface than this buffer's own cannot be: it is the smallest of all. A read buffer may be smaller still. */
+	if (color >= 0 && find_target(share, &fb->attached[color], &t) && t.width >= s->width && t.height >= s->height) {
+		t.sample = sample;
+		load_color(&t, p);
+	}
+	if (s->depth_bits && find_target(share, &fb->attached[DEPTH], &t)) {
+		t.sample = sample;
+		load_depth(&t, p);
+	}
+	if (s->stencil_bits && find_target(share, &fb->attached[STENCIL], &t)) {
+		t.sample = sample;
+		load_stencil(&t, p);
+	}
 }
 
 /* What the attachments hold. @return a reference; NULL: out of memory, or missing */
@@ -157,30 +191,28 @@ static struct gls_picture *load(struct gls_exec *x, const struct gls_share *shar
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++)
 		if ((i >= DEPTH || i == color) && find_target(share, &fb->attached[i], &t) && is_missing(&t))
 			return NULL;
-	p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits);
+	p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples);
 	if (!p)
 		return NULL;
-	/* A larger surface than this buffer's own cannot be: it is the smallest of all. A read buffer may be smaller still. */
-	if (color >= 0 && find_target(share, &fb->attached[color], &t) && t.width >= s->width && t.height >= s->height)
-		load_color(&t, &p->picture);
-	if (s->depth_bits && find_target(share, &fb->attached[DEPTH], &t))
-		load_depth(&t, &p->picture);
-	if (s->stencil_bits && find_target(share, &fb->attached[STENCIL], &t))
-		load_stencil(&t, &p->picture);
+	load_sample(share, fb, color, 0, &p->picture);
+	for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
+		load_sample(share, fb, color, i + 1, &p->picture.samples[i]);
 	return p;
 }
 
 /* Room for what was drawn to a renderbuffer. NULL: out of memory */
-static struct scene_picture *content_of(struct gls_exec *x, struct gls_renderbuffer *r)
+static struct scene_picture *content_of(struct gls_exec *x, const struct target *t)
 {
+	struct gls_renderbuffer *r = t->renderbuffer;
+
 	if (!r->content)
-		r->content = gls_picture_make(x, r->width, r->height, 24, 8);
-	return r->content ? &r->content->picture : NULL;
+		r->content = gls_picture_make(x, r->width, r->height, 24, 8, r->samples);
+	return held_by(t);
 }
 
 static void store_color(struct gls_exec *x, const struct target *t, const struct scene_picture *p)
 {
-	struct scene_picture *content = t->renderbuffer ? content_of(x, t->renderbuffer) : NULL;
+	struct scene_picture *content = t->renderbuffer ? content_of(x, t) : NULL;
 	const struct gls_format *format = gls_format_find(t->format);
 
 	for (uint32_t y = 0; format && y < p->height; y++)
@@ -197,7 +229,7 @@ static void store_color(struct gls_exec *x, const struct target *t, const struct
 
 static void store_depth(struct gls_exec *x, const struct target *t, const struct scene_picture *p)
 {
-	struct scene_picture *content = t->renderbuffer ? content_of(x, t->renderbuffer) : NULL;
+	struct scene_picture *content = t->renderbuffer ? content_of(x, t) : NULL;
 	float steps = (float)((1u << p->depth_bits) - 1), value;
 
 	for (uint32_t y = 0; y < p->height; y++)
@@ -218,10 +250,20 @@ static void store_stencil(struct gls_exec *x, const struct target *t, const stru
 	uint8_t *to;
 
 	if (t->renderbuffer)
-		content_of(x, t->renderbuffer);
+		content_of(x, t);
 	to = stencil_of(t);
 	for (uint32_t y = 0; to && y < p->height; y++)
 		memcpy(to + (size_t)y * t->width, p->stencil + (size_t)y * p->width, p->width);
+}
+
+static void store_sample(struct gls_exec *x, const struct target *t, int attachment, const struct scene_picture *p)
+{
+	if (attachment < DEPTH)
+		store_color(x, t, p);
+	else if (attachment == DEPTH && p->depth_bits)
+		store_depth(x, t, p);
+	else if (attachment == STENCIL)
+		store_stencil(x, t, p);
 }
 
 /* Attachments become what was drawn to them; without pixels (p NULL) they are missing from now on. */
@@ -240,12 +282,8 @@ static void store(struct gls_exec *x, const struct gls_share *share, struct gls_
 				set_missing(x, &t, 1);
 			continue;
 		}
-		if (i < DEPTH)
-			store_color(x, &t, p);
-		else if (i == DEPTH && p->depth_bits)
-			store_depth(x, &t, p);
-		else if (i == STENCIL)
-			store_stencil(x, &t, p);
+		for (t.sample = 0; t.sample <= SCENE_SAMPLES && (!t.sample || (p->samples && t.renderbuffer)); t.sample++)
+			store_sample(x, &t, i, t.sample ? &p->samples[t.sample - 1] : p);
 		if (t.width == p->width && t.height == p->height)
 			set_missing(x, &t, 0);
 	}

@@ -275,6 +275,8 @@ struct scene_picture {
 	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
 	uint8_t *stencil;
 	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does not hold */
+	/* Of a drawable of several samples a pixel each sample's own, [SCENE_SAMPLES], whose means the colours are; else NULL. */
+	struct scene_picture *samples;
 };
 
 struct scene {

@@ -325,10 +325,15 @@ static uint32_t rectangle_area(struct camera_rectangle r)
 	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
 }
 
+static enum buffer sample_buffer(const struct job *job, uint32_t sample)
+{
+	return job->n_samples == 1 ? BUFFER_FRAME : (enum buffer)(BUFFER_SAMPLE1 + sample);
+}
+
 /* Draw to one of the pixels' samples from now on. note: what the kernels are told of it (pixel_sample, PIXEL_FOLLOWS) */
 static void draw_to(struct job *job, uint32_t sample, uint32_t note)
 {
-	job->frame = (enum buffer)(BUFFER_FRAME + sample);
+	job->frame = sample_buffer(job, sample);
 	job->bits = (job->bits & 0xffffffu) | note;
 }
 
@@ -618,8 +623,10 @@ static int reserve_pixels(struct job *job)
 		tr->n_counted = job->n_pixels;
 	}
 	err = reserve(tr, BUFFER_COUNTS, job->n_pixels, sizeof(uint32_t));
+	if (!err)
+		err = reserve(tr, BUFFER_FRAME, job->n_pixels, sizeof(struct frame_pixel));
 	for (uint32_t i = 0; i < job->n_samples && !err; i++)
-		err = reserve(tr, (enum buffer)(BUFFER_FRAME + i), job->n_pixels, sizeof(struct frame_pixel));
+		err = reserve(tr, sample_buffer(job, i), job->n_pixels, sizeof(struct frame_pixel));
 	if (!err && job->n_passes > 1)
 		err = reserve(tr, BUFFER_SUMS, (size_t)job->n_pixels * PASS_PARTS, sizeof(float));
 	if (!err)
@@ -636,16 +643,12 @@ static int clear_all(struct job *job)
 	return run_clear(job, &clear);
 }
 
-/* Put the pixels on the device that were there before the scene, or say that they are not known. */
-static int upload_start(struct job *job)
+/* Pixels as a picture has them; NULL: not known. */
+static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
 {
-	const struct scene_picture *start = job->scene->start;
-	struct frame_pixel *pixels = calloc(job->n_pixels, sizeof(*pixels));
 	uint32_t depth_bits = pixel_depth_bits(job->bits), far = pixel_bits_mask(depth_bits);
-	int err;
 
-	if (!pixels)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
 	for (uint32_t i = 0; i < job->n_pixels; i++) {
 		struct frame_pixel *p = &pixels[i];
 
@@ -661,9 +664,22 @@ static int upload_start(struct job *job)
 		p->depth_exact = far ? (float)p->depth / (float)far : 1;
 		p->stencil = start ? start->stencil[i] : 0;
 	}
-	err = 0;
-	for (uint32_t i = 0; i < job->n_samples && !err; i++)
-		err = device_write(job->tr->dev, job->tr->buffers[BUFFER_FRAME + i], 0, pixels, job->n_pixels * sizeof(*pixels));
+}
+
+/* Put the pixels on the device that were there before the scene, or say that they are not known. */
+static int upload_start(struct job *job)
+{
+	const struct scene_picture *start = job->scene->start;
+	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	int err = 0;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		if (i == 0 || (start && start->samples))
+			start_pixels(job, start && start->samples && job->n_samples > 1 ? &start->samples[i] : start, pixels);
+		err = device_write(job->tr->dev, job->tr->buffers[sample_buffer(job, i)], 0, pixels, job->n_pixels * sizeof(*pixels));
+	}
 	free(pixels);
 	return err;
 }
@@ -675,8 +691,9 @@ static int run_merge_samples(struct job *job)
 	struct launch l = { .n = 0 };
 
 	for (uint32_t i = 0; i < SCENE_SAMPLES; i++)
-		add(&l, tr, (enum buffer)(BUFFER_FRAME + i));
+		add(&l, tr, sample_buffer(job, i));
 	add_uint(&l, &job->n_pixels);
+	add(&l, tr, BUFFER_FRAME);
 	return run(tr, KERNEL_merge_samples, job->n_pixels, &l);
 }
 
@@ -749,16 +766,13 @@ static uint64_t events_of(const struct scene *scene)
 	return 2 * ((uint64_t)scene->n_instances + scene->n_clears) + (scene->start != NULL);
 }
 
-/* Pixels of the frame on the device, rounded as GL's frame buffer is. */
-static int read_picture(struct tracer *tr, const struct scene *scene, struct scene_picture *picture)
+/* Pixels of the frame on the device, or of one of their samples, rounded as GL's frame buffer is. */
+static int read_pixels(struct tracer *tr, enum buffer buffer, const struct scene *scene, struct frame_pixel *pixels,
+                       struct scene_picture *picture)
 {
 	size_t n = (size_t)scene->width * scene->height;
-	struct frame_pixel *pixels = malloc(n * sizeof(*pixels));
-	int err;
+	int err = device_read(tr->dev, tr->buffers[buffer], 0, pixels, n * sizeof(*pixels));
 
-	if (!pixels)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
-	err = device_read(tr->dev, tr->buffers[BUFFER_FRAME], 0, pixels, n * sizeof(*pixels));
 	picture->unknown = 0;
 	for (size_t i = 0; i < n && !err; i++) {
 		for (int c = 0; c < 4; c++)
@@ -769,6 +783,19 @@ static int read_picture(struct tracer *tr, const struct scene *scene, struct sce
 		picture->stencil[i] = (uint8_t)pixels[i].stencil;
 		picture->unknown += (pixels[i].unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 	}
+	return err;
+}
+
+static int read_picture(struct tracer *tr, const struct scene *scene, struct scene_picture *picture)
+{
+	struct frame_pixel *pixels = malloc((size_t)scene->width * scene->height * sizeof(*pixels));
+	int err;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
+	err = read_pixels(tr, BUFFER_FRAME, scene, pixels, picture);
+	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && scene->samples > 1 && !err; i++)
+		err = read_pixels(tr, (enum buffer)(BUFFER_SAMPLE1 + i), scene, pixels, &picture->samples[i]);
 	free(pixels);
 	return err;
 }

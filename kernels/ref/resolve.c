@@ -30,9 +30,9 @@ void resolve_c(const void *const *args, size_t first, size_t last)
 
 void merge_samples_c(const void *const *args, size_t first, size_t last)
 {
-	const struct frame_pixel *second = args[1], *third = args[2], *fourth = args[3];
-	struct frame_pixel *frame = (void *)args[0];
+	const struct frame_pixel *sample[4] = { args[0], args[1], args[2], args[3] };
+	struct frame_pixel *frame = (void *)args[5];
 
 	for (size_t i = first; i < last && i < number(args[4]); i++)
-		pixel_resolve(&frame[i], &second[i], &third[i], &fourth[i]);
+		pixel_merge(&sample[0][i], &sample[1][i], &sample[2][i], &sample[3][i], &frame[i]);
 }

@@ -7,7 +7,7 @@
 
 enum { SIZE = 64, LEAVES = 14 };
 
-static void reset(void)
+static void reset(int clears)
 {
 	glMatrixMode(GL_PROJECTION);
 	glLoadIdentity();
@@ -15,7 +15,8 @@ static void reset(void)
 	glMatrixMode(GL_MODELVIEW);
 	glLoadIdentity();
 	glClearColor(0.1f, 0.2f, 0.3f, 0.4f);
-	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	if (clears)
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 	glEnable(GL_DEPTH_TEST);
 	glDepthFunc(GL_LESS);
 }
@@ -363,14 +364,10 @@ static void copied(void)
 	show_texture(32);
 }
 
-/* A framebuffer object of four samples a pixel, resolved into one of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample). */
-static void object(void)
+/* A framebuffer object of four samples a pixel. */
+static void bind_samples(GLuint object, const GLuint *buffers)
 {
-	GLuint buffers[2], objects[2], texture;
-
-	glGenRenderbuffers(2, buffers);
-	glGenFramebuffers(2, objects);
-	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
+	glBindFramebuffer(GL_FRAMEBUFFER, object);
 	for (int i = 0; i < 2; i++) {
 		glBindRenderbuffer(GL_RENDERBUFFER, buffers[i]);
 		glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, 40, 40);
@@ -378,6 +375,30 @@ static void object(void)
 	}
 	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the framebuffer object of samples is complete");
 	glViewport(0, 0, 40, 40);
+}
+
+/* Its pixels into a framebuffer object of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample), and into the window. */
+static void resolve_into(GLuint object, GLuint texture)
+{
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, object);
+	glBindTexture(GL_TEXTURE_2D, texture);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 40, 40, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+	glBlitFramebuffer(0, 0, 40, 40, 0, 0, 40, 40, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	glViewport(0, 0, 64, 48);
+	show_texture(40);
+	glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+static void object(void)
+{
+	GLuint buffers[2], objects[2], texture;
+
+	glGenRenderbuffers(2, buffers);
+	glGenFramebuffers(2, objects);
+	glGenTextures(1, &texture);
+	bind_samples(objects[0], buffers);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	fan();
 	glTranslatef(0.2f, 0.1f, 0);
@@ -394,22 +415,43 @@ static void object(void)
 	glEnd();
 	glLineWidth(1);
 	glDisable(GL_SCISSOR_TEST);
-	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects[1]);
+	resolve_into(objects[1], texture);
+}
+
+/* Over what the frame before left of each sample: colours and depth. */
+static void over_the_last(void)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	glTranslatef(0.13f, 0.07f, -0.1f);
+	glRotatef(31, 0.2f, 0.1f, 1);
+	fan();
+	glDisable(GL_BLEND);
+}
+
+/* A framebuffer object that is left and drawn to again keeps each sample's own. */
+static void object_again(void)
+{
+	GLuint buffers[2], objects[2], texture;
+
+	glGenRenderbuffers(2, buffers);
+	glGenFramebuffers(2, objects);
 	glGenTextures(1, &texture);
-	glBindTexture(GL_TEXTURE_2D, texture);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 40, 40, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
-	glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-	glBlitFramebuffer(0, 0, 40, 40, 0, 0, 40, 40, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-	glBindFramebuffer(GL_FRAMEBUFFER, 0);
-	glViewport(0, 0, 64, 48);
-	show_texture(40);
-	glBindTexture(GL_TEXTURE_2D, 0);
+	bind_samples(objects[0], buffers);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	fan();
+	resolve_into(objects[1], texture);
+	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
+	glViewport(0, 0, 40, 40);
+	reset(0);
+	over_the_last();
+	resolve_into(objects[1], texture);
 }
 
 int main(void)
 {
 	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, points, textured, alpha_to_coverage, sample_coverage, blended,
-		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object };
+		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object, object_again, fan, over_the_last, over_the_last };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
 		             GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None };
 	GLint samples;
@@ -418,7 +460,7 @@ int main(void)
 	glGetIntegerv(GL_SAMPLES, &samples);
 	expect(samples == 4, "the window has four samples a pixel");
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
-		reset();
+		reset(frames[i] != over_the_last);
 		frames[i]();
 		end_frame();
 	}
