@@ -4,9 +4,11 @@
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/err.h"
 #include "base/verbs.h"
+#include "tracer/bench_accel.h"
 #include "tracer/bench_frame.h"
 #include "tracer/settings.h"
 
@@ -18,13 +20,14 @@ static const char help[] =
 	"With a recording: render one of its frames several times and print what each kernel took, the\n"
 	"means of all runs but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median of\n"
 	"several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to\n"
-	"one point light, and short incoherent rays.\n"
+	"one point light, and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n"
 	"\n"
 	"  --device NAME    number or part of the name of an OpenCL device, or 'reference'\n"
 	"  --kernels FAMILY with a recording: packets, binary or compressed, as for relume render\n"
 	"  --threads N      compute threads on a CPU\n"
 	"  --models DIR     folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj\n"
 	"                   (default: ../shared/models; bumpy spheres stand in where they are missing)\n"
+	"  --accel LIST     kinds of trees, side by side: bvh, sbvh, kd, lbvh, with commas, or all\n"
 	"  --repeat N       runs of each (default 5)\n"
 	"  -f, --frame N    which frame of the recording (default 0)\n"
 	"  --mode MODE      as for relume render (default whitted)\n"
@@ -34,7 +37,7 @@ struct options {
 	const char *device, *models, *trace;
 	uint64_t frame;
 	enum tracer_mode mode;
-	unsigned threads;
+	unsigned threads, kinds; /* kinds: bit 1 << enum accel_kind; 0: what is not asked for */
 	size_t repeats;
 	int json, has_family;
 	enum device_family family;
@@ -47,6 +50,27 @@ struct figure {
 	double mrays;
 };
 
+static int parse_kinds(const char *list, unsigned *kinds)
+{
+	*kinds = 0;
+	if (strcmp(list, "all") == 0) {
+		*kinds = (1u << N_ACCEL_KINDS) - 1;
+		return 0;
+	}
+	do {
+		const size_t n = strcspn(list, ",");
+		int kind = 0;
+
+		while (kind < N_ACCEL_KINDS && (strlen(tree_kind_names[kind]) != n || strncmp(tree_kind_names[kind], list, n) != 0))
+			kind++;
+		if (kind == N_ACCEL_KINDS)
+			return err_report(ERR_USAGE, NULL, "--accel takes bvh, sbvh, kd, lbvh, with commas, or all, not '%.*s'", (int)n, list);
+		*kinds |= 1u << kind;
+		list += n + (list[n] == ',');
+	} while (*list);
+	return 0;
+}
+
 static int parse(int argc, char **argv, struct options *o)
 {
 	static const struct option options[] = {
@@ -54,7 +78,7 @@ static int parse(int argc, char **argv, struct options *o)
 		{ "models", required_argument, NULL, 'm' }, { "repeat", required_argument, NULL, 'r' },
 		{ "json", no_argument, NULL, 'j' },         { "help", no_argument, NULL, 'h' },
 		{ "frame", required_argument, NULL, 'f' },  { "mode", required_argument, NULL, 'M' },
-		{ "kernels", required_argument, NULL, 'k' },
+		{ "kernels", required_argument, NULL, 'k' }, { "accel", required_argument, NULL, 'a' },
 		{ NULL, 0, NULL, 0 }
 	};
 	int option, err = 0;
@@ -84,6 +108,9 @@ static int parse(int argc, char **argv, struct options *o)
 		case 'M':
 			err = settings_parse_mode(optarg, &o->mode);
 			break;
+		case 'a':
+			err = parse_kinds(optarg, &o->kinds);
+			break;
 		case 'k':
 			o->has_family = 1;
 			err = device_parse_family(optarg, &o->family);
@@ -99,6 +126,8 @@ static int parse(int argc, char **argv, struct options *o)
 		return err;
 	if (optind < argc)
 		o->trace = argv[optind++];
+	if (o->trace && o->kinds)
+		return err_report(ERR_USAGE, NULL, "--accel measures the scene of its own, no recording");
 	if (optind < argc)
 		return err_report(ERR_USAGE, NULL, "bench takes one recording; what is '%s'?", argv[optind]);
 	return 0;
@@ -158,6 +187,10 @@ int bench_main(int argc, char **argv)
 	}
 	if (!err)
 		err = bench_create(dev, o.models, 1600, 1200, &b);
+	if (!err && o.kinds) {
+		err = bench_accel(b, o.kinds, o.repeats, o.json);
+		goto done;
+	}
 	for (size_t i = 0; i < n && !err; i++)
 		err = measure(b, &figures[i], o.repeats);
 	if (err)

@@ -66,6 +66,16 @@ int bench_rays(struct bench *bench, enum device_kernel kernel, enum bench_ray_ki
 int bench_count_camera_hits(struct bench *bench, uint32_t *n);
 int bench_count_ray_hits(struct bench *bench, enum device_kernel kernel, enum bench_ray_kind kind, uint32_t *n);
 
+/* A tree of the bench's mesh. */
+struct bench_tree {
+	double build_s, build_cpu_s, cost; /* build_cpu_s: of all processors together; cost: bvh_cost */
+	size_t n_items;       /* in all leaves */
+	size_t bytes;         /* of what the device's family of kernels walks */
+};
+
+/** Trace from now on through a tree of some kind, built anew. @return 0 or ERR_SYSTEM (reported) */
+int bench_rebuild(struct bench *bench, enum accel_kind kind, struct bench_tree *out);
+
 /** The median of n figures; sorts them. */
 double bench_median(double *values, size_t n);
 

@@ -1,12 +1,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/err.h"
 #include "base/progress.h"
 #include "kernels/camera.h"
 #include "kernels/rays.h"
 #include "tracer/bench.h"
+#include "tracer/bvh.h"
 
 #define NEAR 0.1f
 #define FAR 100.0f
@@ -396,6 +398,57 @@ int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width,
 	return 0;
 fail:
 	bench_destroy(&b);
+	return err;
+}
+
+static double processor_s(void)
+{
+	struct timespec t;
+
+	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* How long the tree alone takes, and what it is like. */
+static int measure_tree(struct bench *b, enum accel_kind kind, struct bench_tree *out)
+{
+	struct soup soup;
+	struct tree tree = { NULL };
+	int err = soup_make(&b->state->mesh, (const float (*)[4])b->mesh.position, &soup);
+
+	out->build_s = progress_clock_s();
+	out->build_cpu_s = processor_s();
+	if (!err)
+		err = tree_make(&soup, kind, b->state->mesh.hash, NULL, &tree);
+	out->build_s = progress_clock_s() - out->build_s;
+	out->build_cpu_s = processor_s() - out->build_cpu_s;
+	out->cost = err ? 0 : bvh_cost(tree.nodes, tree.n_nodes);
+	out->n_items = tree.n_order;
+	tree_free(&tree);
+	soup_free(&soup);
+	return err;
+}
+
+int bench_rebuild(struct bench *b, enum accel_kind kind, struct bench_tree *out)
+{
+	struct bench_state *s = b->state;
+	const unsigned wide = s->accel->wide;
+	const struct accel *a;
+	int err = measure_tree(b, kind, out);
+
+	accel_destroy(&s->accel);
+	if (err || (err = accel_create(&s->accel)))
+		return err;
+	s->accel->wide = wide;
+	s->accel->kind = kind;
+	s->uploaded = 0;
+	err = prepare_frame(b);
+	a = s->accel;
+	out->bytes = device_family(b->dev) == FAMILY_COMPRESSED
+		? a->n_nodes8c * sizeof(*a->nodes8c) + a->n_triangles8c * sizeof(*a->triangles8c)
+		: a->n_nodes2 * sizeof(*a->nodes2) + a->n_triangles * sizeof(*a->triangles);
+	if (device_family(b->dev) == FAMILY_PACKETS)
+		out->bytes += a->n_nodes8 * sizeof(*a->nodes8) + a->n_triangles8 * sizeof(*a->triangles8);
 	return err;
 }
 

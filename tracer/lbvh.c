@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "tracer/box8.h"
 #include "tracer/forks.h"
 
 #define AXIS_BITS 14 /* of a code, per axis: four passes of sorting in all */
@@ -33,7 +34,7 @@ struct part {
 	uint32_t first, count, depth;
 	uint32_t used;
 	uint32_t child, n_items; /* what leads to it, its nodes numbered as they lie */
-	struct bvh_box box;
+	box8 box;
 };
 
 struct build {
@@ -43,6 +44,7 @@ struct build {
 	uint32_t *counts;        /* [thread chunk][DIGITS]: of a digit, then where it goes */
 	uint32_t chunk, n_chunks, shift;
 	float lo[3], scale;
+	box8 *sorted;            /* [n] boxes in the order of the items: read one after the other, as nodes are made */
 	struct node2 *nodes;     /* [n - 1] of the parts */
 	struct part *parts;
 	uint32_t n_parts;
@@ -166,17 +168,14 @@ static uint32_t find_split(const struct build *b, uint32_t first, uint32_t count
 	return hi;
 }
 
-static float half_area(const struct bvh_box *box)
+static void set_side(struct node2 *node, int side, box8 box, uint32_t child, uint32_t count)
 {
-	const float x = box->hi[0] - box->lo[0], y = box->hi[1] - box->lo[1], z = box->hi[2] - box->lo[2];
+	const vec4 lo = -box8_negative_lo(box), hi = box8_hi(box);
 
-	return x * y + y * z + z * x;
-}
-
-static void set_side(struct node2 *node, int side, const struct bvh_box *box, uint32_t child, uint32_t count)
-{
-	memcpy(node->lo[side], box->lo, sizeof(box->lo));
-	memcpy(node->hi[side], box->hi, sizeof(box->hi));
+	for (int a = 0; a < 3; a++) {
+		node->lo[side][a] = lo[a];
+		node->hi[side][a] = hi[a];
+	}
 	node->child[side] = child;
 	node->count[side] = count;
 }
@@ -187,19 +186,18 @@ static void set_side(struct node2 *node, int side, const struct bvh_box *box, ui
  * @return its cost, areas not divided; *child and *count are what leads to it
  */
 static float emit(const struct build *b, struct part *part, uint32_t first, uint32_t count, uint32_t depth, int must,
-                  struct bvh_box *box, uint32_t *child, uint32_t *count_out)
+                  box8 *box, uint32_t *child, uint32_t *count_out)
 {
 	const uint32_t at = part->first + part->used;
-	struct bvh_box sides[2];
+	box8 sides[2];
 	float cost = 0, leaf;
 	uint32_t split, ends[3];
 
-	bvh_box_clear(box);
 	if (count == 1) {
-		*box = b->boxes[b->from[first].item];
+		*box = b->sorted[first];
 		*child = first;
 		*count_out = 1;
-		return half_area(box);
+		return box8_half_area(*box);
 	}
 	part->used++;
 	split = find_split(b, first, count, depth);
@@ -208,11 +206,11 @@ static float emit(const struct build *b, struct part *part, uint32_t first, uint
 		uint32_t to, n;
 
 		cost += emit(b, part, ends[side], ends[side + 1] - ends[side], depth + 1, 0, &sides[side], &to, &n);
-		set_side(&b->nodes[at], side, &sides[side], to, n);
-		bvh_box_join(box, &sides[side]);
+		set_side(&b->nodes[at], side, sides[side], to, n);
 	}
-	cost += BVH_COST_NODE * half_area(box);
-	leaf = half_area(box) * (float)count;
+	*box = box8_join(sides[0], sides[1]);
+	cost += BVH_COST_NODE * box8_half_area(*box);
+	leaf = box8_half_area(*box) * (float)count;
 	*child = at;
 	*count_out = 0;
 	if (count > b->leaf_max || must || cost < leaf)
@@ -228,9 +226,13 @@ static void fill_part(void *arg, const void *task)
 	struct build *b = arg;
 	struct part *part = &b->parts[*(const uint32_t *)task];
 
-	emit(b, part, part->first, part->count, part->depth, part->count == b->n, &part->box, &part->child, &part->n_items);
-	for (uint32_t i = part->first; i < part->first + part->count; i++)
+	for (uint32_t i = part->first; i < part->first + part->count; i++) {
+		const struct bvh_box *box = &b->boxes[b->from[i].item];
+
 		b->order[i] = b->from[i].item;
+		b->sorted[i] = box8_make((vec4){ -box->lo[0], -box->lo[1], -box->lo[2], 0 }, (vec4){ box->hi[0], box->hi[1], box->hi[2], 0 });
+	}
+	emit(b, part, part->first, part->count, part->depth, part->count == b->n, &part->box, &part->child, &part->n_items);
 }
 
 /* The levels above the parts, into `nodes` from 0 on; sides that are parts hold their number for now, with a count of IS_PART. */
@@ -282,23 +284,19 @@ static uint32_t gather(const struct build *b, struct node2 *nodes, uint32_t n_to
 	for (uint32_t i = n_top; i-- > 0;)
 		for (int side = 0; side < 2; side++) {
 			struct node2 *node = &nodes[i];
-			struct bvh_box box;
 
 			if (node->count[side] == IS_PART) {
 				const struct part *part = &b->parts[node->child[side]];
 
-				set_side(node, side, &part->box, part->child, part->n_items);
-				continue;
-			}
-			bvh_box_clear(&box);
-			for (int s = 0; s < 2; s++) {
-				struct bvh_box below;
+				set_side(node, side, part->box, part->child, part->n_items);
+			} else {
+				const struct node2 *below = &nodes[node->child[side]];
 
-				memcpy(below.lo, nodes[node->child[side]].lo[s], sizeof(below.lo));
-				memcpy(below.hi, nodes[node->child[side]].hi[s], sizeof(below.hi));
-				bvh_box_join(&box, &below);
+				for (int a = 0; a < 3; a++) {
+					node->lo[side][a] = fminf(below->lo[0][a], below->lo[1][a]);
+					node->hi[side][a] = fmaxf(below->hi[0][a], below->hi[1][a]);
+				}
 			}
-			set_side(node, side, &box, node->child[side], 0);
 		}
 	return n;
 }
@@ -339,8 +337,9 @@ int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max,
 	b.to = malloc(n * sizeof(*b.to));
 	b.counts = malloc((size_t)b.n_chunks * DIGITS * sizeof(*b.counts));
 	b.nodes = malloc(n * sizeof(*b.nodes));
-	b.parts = malloc(most_parts * sizeof(*b.parts));
-	if (!b.from || !b.to || !b.counts || !b.nodes || !b.parts)
+	b.sorted = aligned_alloc(32, n * sizeof(*b.sorted));
+	b.parts = aligned_alloc(32, (most_parts * sizeof(*b.parts) + 31) / 32 * 32);
+	if (!b.sorted || !b.from || !b.to || !b.counts || !b.nodes || !b.parts)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
 		err = forks_init(&forks, sizeof(uint32_t), most_parts > b.n_chunks ? most_parts : b.n_chunks);
@@ -361,6 +360,7 @@ done:
 	free(b.to);
 	free(b.counts);
 	free(b.nodes);
+	free(b.sorted);
 	free(b.parts);
 	return err;
 }

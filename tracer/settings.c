@@ -181,7 +181,7 @@ int settings_parse_mode(const char *word, enum tracer_mode *out)
 
 static int parse_option(struct settings *s, enum key key, const char *value)
 {
-	static const char *const encodings[] = { "linear", "display", NULL }, *const kinds[] = { "bvh", "sbvh", "kd", "lbvh", NULL };
+	static const char *const encodings[] = { "linear", "display", NULL };
 	const char *name = rows[key].name;
 	int err = 0, word = 0;
 
@@ -207,7 +207,7 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 		s->tracer.look = s->look;
 		return err;
 	case ACCEL:
-		err = parse_word(value, name, kinds, &word);
+		err = parse_word(value, name, tree_kind_names, &word);
 		s->tracer.accel = (enum accel_kind)word;
 		return err;
 	case RELIGHT: s->tracer.relight = 1; return 0;

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/uio.h>
 #include <unistd.h>
 #include <xxhash.h>
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/kept.h"
 #include "base/part.h"
 #include "tracer/tree.h"
 
@@ -23,16 +23,10 @@
 #define COUNT_SHARE 16
 #define FULL_SHARE(most) ((most) / 4 * 3)
 
-static const char magic[8] = "relume\001\n"; /* its end shows files that were sent as text */
-
-/* A file: this, nodes, order. In this machine's byte order, which `version` gives away. */
-struct header {
-	char magic[8];
-	struct store_key key;
-	uint32_t n_nodes, n_order, node_bytes;
-	uint64_t checksum; /* XXH3 over all but itself */
+/* A file's content: this, nodes, order. */
+struct counts {
+	uint32_t n_nodes, n_order;
 };
-_Static_assert(sizeof(struct store_key) == 32 && sizeof(struct header) == 64, "no padding is written but zeros");
 
 struct store {
 	char folder[PATH_MAX - 96];
@@ -73,86 +67,62 @@ static void path_of(const struct store *store, const struct store_key *key, char
 	         (unsigned long long)key->hash[1], key->kind, key->version);
 }
 
-static struct header header_of(const struct store_key *key, const struct tree *tree)
+static size_t bytes_of(struct counts n)
 {
-	struct header h;
-
-	memset(&h, 0, sizeof(h));
-	memcpy(h.magic, magic, sizeof(magic));
-	memcpy(h.key.hash, key->hash, sizeof(h.key.hash));
-	h.key.version = key->version;
-	h.key.kind = key->kind;
-	h.key.n_triangles = key->n_triangles;
-	h.n_nodes = tree->n_nodes;
-	h.n_order = tree->n_order;
-	h.node_bytes = sizeof(struct node2);
-	return h;
+	return sizeof(n) + n.n_nodes * sizeof(struct node2) + n.n_order * sizeof(uint32_t);
 }
 
-/* Of a header whose checksum is 0, and what follows it. */
-static uint64_t checksum_of(const struct header *h, const struct tree *tree)
+/* Of all that the content depends on: nodes of another layout or byte order are other ones. */
+static void hash_key(const struct store_key *key, uint64_t out[2])
 {
-	uint64_t sum = XXH3_64bits(h, sizeof(*h));
+	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
+	const XXH128_hash_t hash = XXH3_128bits(all, sizeof(all));
 
-	sum = XXH3_64bits_withSeed(tree->nodes, tree->n_nodes * sizeof(*tree->nodes), sum);
-	return XXH3_64bits_withSeed(tree->order, tree->n_order * sizeof(*tree->order), sum);
+	out[0] = hash.low64;
+	out[1] = hash.high64;
 }
 
 /* --- Reading ------------------------------------------------------------------------------------------------------- */
 
-static int read_all(int fd, void *out, size_t bytes)
+/* A file's content as a tree. @return 0: it is none */
+static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree *out)
 {
-	while (bytes) {
-		ssize_t n = read(fd, out, bytes);
+	struct counts counts;
 
-		if (n <= 0)
-			return 0;
-		out = (char *)out + n;
-		bytes -= (size_t)n;
-	}
-	return 1;
-}
-
-/* A file's content, checked. @return 0: not one that can be used */
-static int read_tree(int fd, const struct store_key *key, struct tree *out)
-{
-	struct header h, want;
-	struct stat info;
-
-	if (fstat(fd, &info) || !read_all(fd, &h, sizeof(h)))
+	if (n < sizeof(counts))
 		return 0;
-	out->n_nodes = h.n_nodes;
-	out->n_order = h.n_order;
-	want = header_of(key, out);
-	want.checksum = h.checksum;
-	if (memcmp(&h, &want, sizeof(h)) != 0 ||
-	    (uint64_t)info.st_size != sizeof(h) + (uint64_t)h.n_nodes * sizeof(*out->nodes) + (uint64_t)h.n_order * sizeof(*out->order))
+	memcpy(&counts, bytes, sizeof(counts));
+	if (n != bytes_of(counts))
 		return 0;
-	out->nodes = malloc(h.n_nodes * sizeof(*out->nodes) + 1);
-	out->order = malloc(h.n_order * sizeof(*out->order) + 1);
-	if (!out->nodes || !out->order || !read_all(fd, out->nodes, h.n_nodes * sizeof(*out->nodes)) ||
-	    !read_all(fd, out->order, h.n_order * sizeof(*out->order)))
+	*out = (struct tree){ malloc(counts.n_nodes * sizeof(*out->nodes) + 1), malloc(counts.n_order * sizeof(*out->order) + 1),
+		              counts.n_nodes, counts.n_order };
+	if (!out->nodes || !out->order)
 		return 0;
-	h.checksum = 0;
-	return checksum_of(&h, out) == want.checksum && tree_is_sound(out, key->n_triangles);
+	bytes += sizeof(counts);
+	memcpy(out->nodes, bytes, counts.n_nodes * sizeof(*out->nodes));
+	memcpy(out->order, bytes + counts.n_nodes * sizeof(*out->nodes), counts.n_order * sizeof(*out->order));
+	return tree_is_sound(out, n_triangles);
 }
 
 int store_load(struct store *store, const struct store_key *key, struct tree *out)
 {
 	char path[PATH_MAX];
-	int fd, found;
+	uint64_t hash[2];
+	void *bytes;
+	size_t n;
+	int found;
 
 	path_of(store, key, path);
+	hash_key(key, hash);
 	*out = (struct tree){ NULL };
-	fd = open(path, O_RDONLY | O_CLOEXEC);
-	if (fd < 0)
+	if (!kept_read(path, hash, &bytes, &n))
 		return 0;
-	found = read_tree(fd, key, out);
+	found = unpack(bytes, n, key->n_triangles, out);
+	free(bytes);
 	if (found)
 		utimensat(AT_FDCWD, path, NULL, 0); /* used just now; where that is not allowed, nothing is removed either */
 	else
 		tree_free(out);
-	close(fd);
 	return found;
 }
 
@@ -234,82 +204,46 @@ static void keep_bound(struct store *store)
 
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
 
-/* @return 0, or the errno of what failed */
-static int write_parts(int fd, struct iovec *parts, int n)
+/* @return 0; the errno that says why not; -1 (reported) */
+static int save(struct store *store, const char *path, const struct store_key *key, const struct tree *tree)
 {
-	while (n) {
-		ssize_t done = writev(fd, parts, n);
+	const struct counts counts = { tree->n_nodes, tree->n_order };
+	char *bytes = malloc(bytes_of(counts));
+	uint64_t hash[2];
+	int failed;
 
-		if (done < 0 && errno == EINTR)
-			continue;
-		if (done < 0)
-			return errno;
-		for (; n && (size_t)done >= parts->iov_len; parts++, n--)
-			done -= (ssize_t)parts->iov_len;
-		if (n) {
-			parts->iov_base = (char *)parts->iov_base + done;
-			parts->iov_len -= (size_t)done;
-		}
-	}
-	return 0;
-}
-
-static int write_file(const char *part, const struct store_key *key, const struct tree *tree)
-{
-	struct header h = header_of(key, tree);
-	struct iovec parts[] = { { &h, sizeof(h) }, { tree->nodes, tree->n_nodes * sizeof(*tree->nodes) },
-		                 { tree->order, tree->n_order * sizeof(*tree->order) } };
-	int fd = open(part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666), failed;
-
-	if (fd < 0)
-		return errno;
-	h.checksum = checksum_of(&h, tree);
-	failed = write_parts(fd, parts, 3);
-	if (close(fd) && !failed)
-		failed = errno;
-	return failed;
-}
-
-static void save(struct store *store, const char *path, const struct store_key *key, const struct tree *tree)
-{
-	char part[PATH_MAX + 128];
-	int failed = folder_try(store->folder);
-
-	if (!failed && !store->counted) {
+	if (!bytes)
+		return ENOMEM;
+	memcpy(bytes, &counts, sizeof(counts));
+	memcpy(bytes + sizeof(counts), tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
+	memcpy(bytes + sizeof(counts) + tree->n_nodes * sizeof(*tree->nodes), tree->order, tree->n_order * sizeof(*tree->order));
+	if (!store->counted) {
 		part_sweep(path);
 		keep_bound(store);
 	}
-	if (!failed) {
-		if (part_begin(path, part, sizeof(part))) {
-			store->lost = 1;
-			return;
-		}
-		failed = write_file(part, key, tree);
-		if (failed)
-			part_drop(part);
-		else
-			store->lost = part_finish(part, path) != 0;
-	}
-	if (failed) {
-		err_warn(store->folder, "trees of meshes are not kept there: %s", strerror(failed));
-		store->lost = 1;
-	}
+	hash_key(key, hash);
+	failed = kept_write(path, hash, bytes, bytes_of(counts));
+	free(bytes);
+	return failed;
 }
 
 void store_save(struct store *store, const struct store_key *key, const struct tree *tree)
 {
-	const uint64_t bytes = sizeof(struct header) + (uint64_t)tree->n_nodes * sizeof(*tree->nodes) +
-	                       (uint64_t)tree->n_order * sizeof(*tree->order);
+	const uint64_t bytes = bytes_of((struct counts){ tree->n_nodes, tree->n_order });
 	char path[PATH_MAX];
+	int failed;
 
 	if (bytes > store->most / 4)
 		return; /* many others would go for it */
 	path_of(store, key, path);
 	pthread_mutex_lock(&store->lock);
 	if (!store->lost) {
-		save(store, path, key, tree);
+		failed = save(store, path, key, tree);
+		if (failed > 0)
+			err_warn(store->folder, "trees of meshes are not kept there: %s", strerror(failed));
+		store->lost = failed != 0;
 		store->added += bytes;
-		if (!store->lost && store->added > store->most / COUNT_SHARE)
+		if (!failed && store->added > store->most / COUNT_SHARE)
 			keep_bound(store);
 	}
 	pthread_mutex_unlock(&store->lock);

@@ -1,7 +1,7 @@
 /*
  * Trees of meshes on disk: a folder of files, one per tree, that any number of threads, processes and machines share.
  *
- * Files appear whole (base/part.h) and carry a checksum: one that is cut, damaged, of another version or another machine's
+ * Files appear whole and carry a checksum (base/kept.h): one that is cut, damaged, of another version or another machine's
  * byte order is as good as none, and is written again. A file's time is that of its last use; where the folder grows
  * beyond its bound those unused for longest go. Each process counts what it adds, so that several may exceed the bound by
  * a sixteenth each, for a while.

@@ -5,6 +5,9 @@
 
 #include "base/err.h"
 
+const char *const tree_kind_names[N_ACCEL_KINDS + 1] = { [ACCEL_BVH] = "bvh", [ACCEL_SBVH] = "sbvh", [ACCEL_KD] = "kd",
+	                                                 [ACCEL_LBVH] = "lbvh" };
+
 /* Most triangles in a leaf. */
 #define LEAF_TRIANGLES 4
 /* How many more items than triangles cutting space may make, for each triangle. */

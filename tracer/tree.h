@@ -19,6 +19,9 @@ enum accel_kind {
 	N_ACCEL_KINDS
 };
 
+/** What the kinds are called on command lines; NULL ends it. */
+extern const char *const tree_kind_names[N_ACCEL_KINDS + 1];
+
 /** To be raised whenever a builder gives another tree for the same triangles: kept trees of other versions are not used. */
 #define TREE_VERSION 1u
 
