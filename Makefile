@@ -29,7 +29,8 @@ LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -l
 RECORDER_SRC := $(addprefix capture/,wrap.c maps.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c watch.c runs.c memory.c sink.c writer.c reference.c)
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
-COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c diff/*.c kernels/ref/*.c) \
+VISUAL_SRC := diff/visual.c
+COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c kernels/ref/*.c) $(filter-out $(VISUAL_SRC),$(wildcard diff/*.c)) \
 	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/dispatch.c $(BUILD)/gen/page.c
 
@@ -58,7 +59,7 @@ DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-cli
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
 
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
@@ -73,6 +74,12 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 
 $(BUILD)/relume-oiio.so: $(OIIO_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -o $@ $^ $(LIBS_OIIO) $(LIBS)
+
+# Stands before libGL, under its name, for glretrace.
+$(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
+		-Wl,--no-as-needed -l:libGLX.so.0 -l:libOpenGL.so.0 -ldl
 
 # The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
 # C++ inside, no symbol of its own that the program could replace.
@@ -192,13 +199,6 @@ $(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -o $@ $< -ldl
 
-# Stands before libGL, under its name, for glretrace in the proofs that compare its pictures with a program's.
-VISUAL := $(BUILD)/tests/visual/libGL.so.1
-$(VISUAL): tests/real/visual.c $(BUILD)/flags
-	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
-		-Wl,--no-as-needed -l:libGLX.so.0 -l:libOpenGL.so.0 -ldl
-
 $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
@@ -228,7 +228,7 @@ show-sweep: all $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
 
 # The recorder alone on the same programs.
-show-sweep-record: all $(VISUAL) $(BUILD)/deps.sweep
+show-sweep-record: all $(BUILD)/deps.sweep
 	@$(PYTHON) -B tests/show/sweep_record.py $(BUILD) $(ONLY:%=--only %)
 
 # The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
@@ -296,7 +296,7 @@ show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so
 
 # Two games on which the usual recorder crashes.
 DEPS_crashes := extremetuxracer foobillardplus
-show-crashes: all $(VISUAL) $(BUILD)/deps.crashes
+show-crashes: all $(BUILD)/deps.crashes
 	@tests/xvfb.sh $(PYTHON) tests/show/crashes.py $(BUILD)
 
 # Every kernel under tools that watch it.

@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/beside.h"
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/frames.h"
@@ -36,6 +37,7 @@ struct frame_ends {
 	struct frame_end *ends;
 	size_t n, capacity;
 	int skipped_first; /* frame 0 was asked for, too */
+	char visual[64];   /* bits of a pixel, as visual.c takes them */
 };
 
 static void print_help(FILE *out)
@@ -44,7 +46,8 @@ static void print_help(FILE *out)
 	      "\n"
 	      "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, or on an\n"
 	      "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
-	      "The first frame of a trace is left out: what glretrace shows of it is not reliable.\n"
+	      "It draws with the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
+	      "such a visual. The first frame of another recorder's trace is left out: what glretrace shows of it is not reliable.\n"
 	      "\n"
 	      "  -f, --frames LIST     frames, as in 10-60 or 1-500x5; default: all\n"
 	      "  -o, --output PATTERN  file names with the frame number as ####, %04d or $F4, ending in .png\n"
@@ -107,6 +110,19 @@ static int add_end(struct frame_ends *ends, uint64_t frame, uint64_t call)
 	return 0;
 }
 
+/* The visual of the context that draws most. */
+static void find_visual(struct replay *rp, struct frame_ends *ends)
+{
+	const struct replay_context *contexts, *most = NULL;
+	size_t n = replay_contexts(rp, &contexts);
+
+	for (size_t i = 0; i < n; i++)
+		if (!most || contexts[i].calls > most->calls)
+			most = &contexts[i];
+	if (most)
+		snprintf(ends->visual, sizeof(ends->visual), "%u %u %u %u", most->alpha_bits, most->depth_bits, most->stencil_bits, most->samples);
+}
+
 static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 {
 	const uint64_t last = frame_list_last(&o->frames);
@@ -119,7 +135,7 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 
 		if (!frame_list_contains(&o->frames, frame))
 			continue;
-		if (frame == 0)
+		if (frame == 0 && !replay_is_ours(rp))
 			ends->skipped_first = 1;
 		else
 			err = add_end(ends, frame, replay_call_count(rp) - 1);
@@ -132,6 +148,8 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 		                 : "the trace has none of the frames asked for");
 	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
 		err_warn(o->trace, "the trace has %" PRIu64 " frames", replay_frame(rp));
+	if (!err)
+		find_visual(rp, ends);
 	replay_close(&rp);
 	return err;
 }
@@ -243,7 +261,23 @@ static int write_call_set(const struct frame_ends *ends, const char *path)
 	return 0;
 }
 
-static int run_glretrace(const struct options *o, const char *folder)
+/* glretrace takes visuals with the program's bits: visual.c stands before libGL. */
+static int set_visual(const char *visual)
+{
+	const char *others = getenv("LD_LIBRARY_PATH");
+	char library[PATH_MAX], path[2 * PATH_MAX];
+	int err = beside_find("visual/libGL.so.1", library, sizeof(library));
+
+	if (err)
+		return err;
+	*strrchr(library, '/') = '\0';
+	snprintf(path, sizeof(path), "%s%s%s", library, others ? ":" : "", others ? others : "");
+	setenv("LD_LIBRARY_PATH", path, 1);
+	setenv("RELUME_VISUAL", visual, 1);
+	return 0;
+}
+
+static int run_glretrace(const struct options *o, const struct frame_ends *ends, const char *folder)
 {
 	char prefix[PATH_MAX], calls[PATH_MAX], log[PATH_MAX], said[512];
 	char *argv[] = { "glretrace", "--headless", "-s", prefix, "-S", calls, (char *)o->trace, NULL };
@@ -252,7 +286,9 @@ static int run_glretrace(const struct options *o, const char *folder)
 	snprintf(prefix, sizeof(prefix), "%s/", folder);
 	snprintf(calls, sizeof(calls), "@%s/calls", folder);
 	snprintf(log, sizeof(log), "%s/log", folder);
-	code = run_command(argv, log);
+	code = set_visual(ends->visual);
+	if (!code)
+		code = run_command(argv, log);
 	if (code == 127)
 		return err_report(ERR_SYSTEM, "glretrace", "not found; install the Debian package apitrace");
 	if (code < 0)
@@ -328,7 +364,7 @@ static int raster(const struct options *o, const struct frame_ends *ends)
 	if (!err && !(display && display[0]) && (server = start_display()) < 0)
 		err = ERR_SYSTEM;
 	if (!err)
-		err = run_glretrace(o, folder);
+		err = run_glretrace(o, ends, folder);
 	if (!err)
 		err = name_frames(o, ends, folder);
 	stop_display(server);

@@ -25,6 +25,7 @@ version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
 sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build/relume.pc"
 
 place 755 "$build/relume" bin/relume
+place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours, whose folder goes with the last of them
 place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 capture/relume.h include/relume.h

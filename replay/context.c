@@ -215,6 +215,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	if (sscanf(text, "relume:bits %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples) >= 3 && alpha <= 32 && depth <= 32 &&
 	    stencil <= 8 && samples <= 64) {
 		gls_flush(x);
+		x->is_ours = 1;
 		st->alpha_bits = alpha;
 		st->depth_bits = depth;
 		st->stencil_bits = stencil;

@@ -248,6 +248,12 @@ static int put_begin_end(struct early *e, const struct call *call)
 	return held;
 }
 
+/* A clear of no buffers draws nothing, and makes glretrace's window known (capture/context.c). */
+static int is_clear_of_none(const struct call *call)
+{
+	return is(call, "glClear") && call->n_args == 1 && gls_value_int(&call->args[0]) == 0;
+}
+
 static int put_one(struct early *e, const struct call *call)
 {
 	uint64_t thread = call->thread;
@@ -257,7 +263,7 @@ static int put_one(struct early *e, const struct call *call)
 		return rc;
 	if (e->threads[thread].compiling || is(call, "glNewList"))
 		return put_list_call(e, call);
-	if ((call->sig->command >= 0 && gls_commands[call->sig->command].drawing) || is_time(call) || is_array_of_draw(call))
+	if ((call->sig->command >= 0 && gls_commands[call->sig->command].drawing && !is_clear_of_none(call)) || is_time(call) || is_array_of_draw(call))
 		return 0;
 	if ((is(call, "glBegin") && call->n_args == 1 && !e->threads[thread].drawing) || is(call, "glEnd"))
 		return put_begin_end(e, call);

@@ -283,6 +283,7 @@ struct gls_exec {
 	int failed;          /* ERR_*: a handler met a failure of ours */
 	uint64_t frame;      /* being executed */
 	int frame_ended;     /* set by swaps */
+	int is_ours;         /* 1: our recorder has left its mark */
 
 	struct gls_context **contexts; /* owned, in order of creation */
 	size_t n_contexts;

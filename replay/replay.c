@@ -452,9 +452,15 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out)
 		struct gls_context *ctx = x->contexts[i];
 		struct gls_drawable *d = ctx->state.ever_current ? gls_drawable_of(x, &ctx->state) : NULL;
 		rp->contexts[i] = (struct replay_context){ ctx->handle, d ? d->width : 0, d ? d->height : 0, ctx->api, ctx->calls,
-		                                           ctx->shares };
+		                                           ctx->shares, ctx->state.alpha_bits, ctx->state.depth_bits,
+		                                           ctx->state.stencil_bits, ctx->state.samples };
 	}
 	return x->n_contexts;
+}
+
+int replay_is_ours(const struct replay *rp)
+{
+	return rp->exec->is_ours;
 }
 
 void replay_report_unsupported(struct replay *rp, const char *where, size_t limit)

@@ -123,10 +123,14 @@ struct replay_context {
 	const char *api;        /* "GLX", "EGL" */
 	uint64_t calls;         /* executed in it */
 	int shares;             /* 1: shares its objects with another one */
+	uint32_t alpha_bits, depth_bits, stencil_bits, samples; /* of the drawable's pixels, as far as the trace tells */
 };
 
 /** Contexts met so far in the order they were created; as above. */
 size_t replay_contexts(struct replay *rp, const struct replay_context **out);
+
+/** 1 where a call met so far shows that the trace comes from `relume record`. */
+int replay_is_ours(const struct replay *rp);
 
 /** Report what replay_unsupported lists on standard error, one line each at most `limit`, as the end of a run does. */
 void replay_report_unsupported(struct replay *rp, const char *where, size_t limit);
