@@ -10,7 +10,7 @@ struct pixel {
 	__global const struct view *view;
 	__global const struct instance *instances;
 	__global const struct node2 *nodes;
-	__global const struct node8c *compressed; /* instead of nodes, or null */
+	__global const struct node8c *compressed; /* instead of nodes */
 	__global const struct triangle *triangles;
 	__global const struct window_vertex *window;
 	__global const float *clip;
@@ -160,8 +160,17 @@ static inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inv
 	}
 }
 
-/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays_single.cl. */
-static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse)
+/* Whether a box, widened by pad, is over or under a place of the window. */
+static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
+{
+	return all(at >= lo - pad) && all(at <= hi + pad);
+}
+
+/*
+ * Nodes in the order of the ray's octant, about from front to back, as in kernels/rays_single.cl. is_screen: o is where the view looks in the
+ * window, a point.
+ */
+static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
 	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
@@ -177,8 +186,11 @@ static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3
 			float lo[3], hi[3], enter;
 			uint count;
 
-			if (!node8c_box(node, slot, lo, hi) || !meets_box((float3)(lo[0], lo[1], lo[2]), (float3)(hi[0], hi[1], hi[2]), o,
-			                                                  inverse, instance->pad, p->t_max, &enter))
+			if (!node8c_box(node, slot, lo, hi))
+				continue;
+			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), o.xy, instance->pad) :
+			                !meets_box((float3)(lo[0], lo[1], lo[2]), (float3)(hi[0], hi[1], hi[2]), o, inverse, instance->pad,
+			                           p->t_max, &enter))
 				continue;
 			count = node8c_child(node, slot, &first);
 			group.y |= count ? 0u : 1u << i;
@@ -199,20 +211,21 @@ static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3
 	}
 }
 
-static inline void walk_blas(struct pixel *p, uint index)
+__attribute__((always_inline)) static inline void walk_blas(struct pixel *p, uint index, int is_compressed)
 {
 	__global const float *m = p->instances[index].obj_from_eye;
 	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
 	const float3 o = (float3)(dot(r0, p->o) + m[3], dot(r1, p->o) + m[7], dot(r2, p->o) + m[11]);
 	const float3 inverse = invert((float3)(dot(r0, p->d), dot(r1, p->d), dot(r2, p->d)));
 
-	if (p->compressed)
-		walk_compressed(p, index, o, inverse);
+	if (is_compressed)
+		walk_compressed(p, index, o, inverse, 0);
 	else
 		walk_binary(p, index, o, inverse);
 }
 
-static inline void walk_top(struct pixel *p, __global const struct node2 *top, __global const uint *instance_list)
+__attribute__((always_inline)) static inline void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
+                                                           __global const uint *instance_list)
 {
 	const float3 inverse = invert(p->d);
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
@@ -228,7 +241,7 @@ static inline void walk_top(struct pixel *p, __global const struct node2 *top, _
 			if (node->count[side] == 0)
 				stack[depth++] = node->child[side];
 			for (uint i = 0; i < node->count[side]; i++)
-				walk_blas(p, instance_list[node->child[side] + i]);
+				walk_blas(p, instance_list[node->child[side] + i], is_compressed);
 		}
 	}
 }
@@ -237,12 +250,6 @@ static inline void walk_top(struct pixel *p, __global const struct node2 *top, _
 static inline float2 pixel_spot(const struct pixel *p)
 {
 	return (float2)((float)p->x, (float)p->y) + 0.5f + (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
-}
-
-/* Whether a box, widened by pad, is over or under a place of the window. */
-static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
-{
-	return all(at >= lo - pad) && all(at <= hi + pad);
 }
 
 static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
@@ -266,39 +273,13 @@ static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 	}
 }
 
-static inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
-{
-	__global const struct instance *instance = &p->instances[index];
-	__global const struct node8c *nodes = p->compressed + instance->node8c_first;
-	uint stack[7 * NODE8C_MAX_DEPTH + 1], depth = 0;
-
-	stack[depth++] = 0;
-	while (depth) {
-		__global const struct node8c *node = &nodes[stack[--depth]];
-
-		for (uint slot = 0; slot < 8; slot++) {
-			float lo[3], hi[3];
-			uint first, count;
-
-			if (!node8c_box(node, slot, lo, hi) ||
-			    !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), at, instance->pad))
-				continue;
-			count = node8c_child(node, slot, &first);
-			if (count == 0)
-				stack[depth++] = first;
-			for (uint i = 0; i < count; i++)
-				try_triangle(p, index, instance, &p->triangles[instance->triangle8c_first + first + i]);
-		}
-	}
-}
-
 /* Geometry in window space: where the view looks is a point. */
-static inline void walk_screen(struct pixel *p, uint index)
+__attribute__((always_inline)) static inline void walk_screen(struct pixel *p, uint index, int is_compressed)
 {
 	const float2 at = pixel_spot(p);
 
-	if (p->compressed)
-		walk_screen_compressed(p, index, at);
+	if (is_compressed)
+		walk_compressed(p, index, (float3)(at, 0), (float3)(1), 1);
 	else
 		walk_screen_binary(p, index, at);
 }
@@ -324,12 +305,15 @@ static inline int make_ray(struct pixel *p)
 	       isfinite(p->o.x + p->o.y + p->o.z) && isfinite(p->d.x + p->d.y + p->d.z);
 }
 
-static inline void do_pixel(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                     __global const struct instance *instances, __global const struct node2 *top,
-                     __global const uint *instance_list, __global const struct node2 *nodes,
-                     __global const struct node8c *compressed, __global const struct triangle *triangles,
-                     __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
-                     __global struct fragment *fragments, __global uint *counts)
+/*
+ * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
+ */
+__attribute__((always_inline)) static inline void
+do_pixel(int is_compressed, uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+         __global const struct instance *instances, __global const struct node2 *top, __global const uint *instance_list,
+         __global const struct node2 *nodes, __global const struct node8c *compressed, __global const struct triangle *triangles,
+         __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
+         __global struct fragment *fragments, __global uint *counts)
 {
 	__global const struct view *view = &views[view_index];
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
@@ -359,9 +343,9 @@ static inline void do_pixel(uint view_index, __global const struct view *views, 
 	p.nearest.b1 = p.nearest.b2 = 0;
 	p.nearest.depth = 1;
 	if (view->tlas_count && make_ray(&p))
-		walk_top(&p, top + view->tlas_first, instance_list);
+		walk_top(&p, is_compressed, top + view->tlas_first, instance_list);
 	for (uint i = 0; i < view->screen_count; i++)
-		walk_screen(&p, view->screen_first + i);
+		walk_screen(&p, view->screen_first + i, is_compressed);
 	if (mode != CAMERA_COLUMN)
 		*p.out = p.nearest;
 	counts[pixel] = p.count;
@@ -374,7 +358,7 @@ __kernel void camera_wide(uint view_index, __global const struct view *views, ui
                           __global const float *clip, __global const uint *after, __global struct fragment *fragments,
                           __global uint *counts)
 {
-	do_pixel(view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
+	do_pixel(0, view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
 	         fragments, counts);
 }
 
@@ -385,6 +369,6 @@ __kernel void camera_compressed(uint view_index, __global const struct view *vie
                                 __global const float *clip, __global const uint *after, __global struct fragment *fragments,
                                 __global uint *counts)
 {
-	do_pixel(view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
+	do_pixel(1, view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
 	         fragments, counts);
 }

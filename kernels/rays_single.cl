@@ -209,11 +209,16 @@ static inline void walk_compressed(struct walk *w, uint index, int any, __global
 
 /* --- Rays --------------------------------------------------------------------------------------------------------- */
 
-/* compressed: null for binary trees. */
-static inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node2 *top,
-                           __global const uint *instance_list, __global const struct instance *instances,
-                           __global const struct node2 *binary, __global const struct node8c *compressed,
-                           __global const struct triangle *triangles)
+/*
+ * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone. While an
+ * instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again, which costs less than
+ * the registers.
+ */
+__attribute__((always_inline)) static inline struct hit walk_ray(__global const struct ray *ray, int any, int is_compressed,
+                                                __global const struct node2 *top, __global const uint *instance_list,
+                                                __global const struct instance *instances,
+                                                __global const struct node2 *binary, __global const struct node8c *compressed,
+                                                __global const struct triangle *triangles)
 {
 	struct entry stack[BVH_MAX_DEPTH], entry;
 	struct walk eye;
@@ -227,13 +232,16 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, __glo
 		for (uint i = 0; i < entry.count; i++) {
 			const uint index = instance_list[entry.child + i];
 			__global const struct instance *instance = &instances[index];
+			struct hit hit = eye.hit;
 			struct walk w;
 			const float shift = walk_enter(&w, &eye, instance);
 
-			if (compressed)
+			if (is_compressed)
 				walk_compressed(&w, index, any, compressed + instance->node8c_first, triangles + instance->triangle8c_first);
 			else
 				walk_binary(&w, index, any, binary + instance->node2_first, triangles + instance->triangle_first);
+			walk_start(&eye, ray);
+			eye.hit = hit;
 			walk_leave(&eye, &w, shift);
 			if (any && eye.hit.instance != SCENE_NONE)
 				return eye.hit;
@@ -252,7 +260,7 @@ __kernel void occlude_binary(uint n_rays, __global const struct ray *rays, uint 
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
+		occluded[i] = walk_ray(&rays[i], 1, 0, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
 		              SCENE_NONE;
 }
 
@@ -264,7 +272,7 @@ __kernel void intersect_binary(uint n_rays, __global const struct ray *rays, uin
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, top + top_first, instance_list, instances, nodes, 0, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
 }
 
 __kernel void occlude_compressed(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
@@ -275,7 +283,7 @@ __kernel void occlude_compressed(uint n_rays, __global const struct ray *rays, u
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
+		occluded[i] = walk_ray(&rays[i], 1, 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
 		              SCENE_NONE;
 }
 
@@ -287,5 +295,5 @@ __kernel void intersect_compressed(uint n_rays, __global const struct ray *rays,
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, top + top_first, instance_list, instances, 0, nodes, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 1, top + top_first, instance_list, instances, 0, nodes, triangles);
 }
