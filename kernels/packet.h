@@ -43,6 +43,12 @@ static inline void packet_prepare(struct packet *p)
 	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
 }
 
+/* Lanes whose distances to boxes are numbers. */
+static inline packi packet_in_range(const struct packet *p)
+{
+	return (fabs(p->ox * p->ix) < RAYS_RANGE) & (fabs(p->oy * p->iy) < RAYS_RANGE) & (fabs(p->oz * p->iz) < RAYS_RANGE);
+}
+
 /* o and d moved from eye to object space. */
 static inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
 {
@@ -86,6 +92,89 @@ static inline packi packet_meets(const struct packet *p, __global const float *b
 	return enter <= leave;
 }
 
+/*
+ * What the rays of a packet of one octant have in common: per axis the corner of their origins that lets them enter a box first, the
+ * one that lets them leave it last, and least and greatest 1/d. A box that all of it misses no ray meets (interval arithmetic:
+ * Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"): eight boxes are asked at once, whatever the number of rays.
+ */
+struct beam {
+	float near_o[3], far_o[3], least[3], greatest[3], t_min, t_max;
+};
+
+static inline float least_of(packf x)
+{
+	const float8 eight = lanes_min(x.lo, x.hi);
+	const float4 four = select(eight.hi, eight.lo, eight.lo < eight.hi);
+
+	return fmin(fmin(four.x, four.y), fmin(four.z, four.w));
+}
+
+/* Bounds of what n packets' awake rays have: least values, and the least of what they are negated. */
+struct bounds {
+	packf least, opposite;
+};
+
+static inline void bounds_add(struct bounds *b, packf x, packi awake)
+{
+	b->least = pack_min(b->least, select((packf)(INFINITY), x, awake));
+	b->opposite = pack_min(b->opposite, select((packf)(INFINITY), -x, awake));
+}
+
+static inline struct beam beam_around(const struct packet *p, uint n, int octant)
+{
+	struct bounds bounds[8];
+	struct beam b;
+
+	for (int i = 0; i < 8; i++)
+		bounds[i].least = bounds[i].opposite = INFINITY;
+	for (uint k = 0; k < n; k++) {
+		const packi awake = p[k].t_min <= p[k].t_max;
+
+		bounds_add(&bounds[0], p[k].ox, awake), bounds_add(&bounds[1], p[k].oy, awake), bounds_add(&bounds[2], p[k].oz, awake);
+		bounds_add(&bounds[3], p[k].ix, awake), bounds_add(&bounds[4], p[k].iy, awake), bounds_add(&bounds[5], p[k].iz, awake);
+		bounds_add(&bounds[6], p[k].t_min, awake), bounds_add(&bounds[7], p[k].t_max, awake);
+	}
+	for (int axis = 0; axis < 3; axis++) {
+		const float least = least_of(bounds[axis].least), greatest = -least_of(bounds[axis].opposite);
+
+		b.near_o[axis] = octant >> axis & 1 ? least : greatest;
+		b.far_o[axis] = octant >> axis & 1 ? greatest : least;
+		b.least[axis] = least_of(bounds[3 + axis].least);
+		b.greatest[axis] = -least_of(bounds[3 + axis].opposite);
+	}
+	b.t_min = least_of(bounds[6].least);
+	b.t_max = -least_of(bounds[7].opposite);
+	return b;
+}
+
+static inline float8 beam_enters(const struct beam *b, int axis, float8 plane)
+{
+	const float8 d = plane - b->near_o[axis];
+
+	return lanes_min(d * b->least[axis], d * b->greatest[axis]);
+}
+
+static inline float8 beam_leaves(const struct beam *b, int axis, float8 plane)
+{
+	const float8 d = plane - b->far_o[axis];
+
+	return lanes_max(d * b->least[axis], d * b->greatest[axis]);
+}
+
+/* One bit for each of a node's boxes that rays of the beam may meet. All is rounded in proportion to itself. */
+static inline uint beam_meets(const struct beam *b, __global const struct node8 *node, struct planes s)
+{
+	__global const float *rows = (__global const float *)node;
+	const float8 x = beam_enters(b, 0, vload8(0, rows + s.near_x)), y = beam_enters(b, 1, vload8(0, rows + s.near_y));
+	const float8 z = beam_enters(b, 2, vload8(0, rows + s.near_z));
+	const float8 u = beam_leaves(b, 0, vload8(0, rows + s.far_x)), v = beam_leaves(b, 1, vload8(0, rows + s.far_y));
+	const float8 w = beam_leaves(b, 2, vload8(0, rows + s.far_z));
+	const float8 enter = lanes_max(lanes_max(x, y), lanes_max(z, b->t_min));
+	const float8 leave = lanes_min(lanes_min(u, v), lanes_min(w, b->t_max));
+
+	return lane_bits(enter <= fma(fabs(leave), 2e-6f, leave));
+}
+
 /* The same whatever the octants. */
 static inline packi packet_meets_any(const struct packet *p, __global const struct node8 *node, uint side)
 {
@@ -98,15 +187,26 @@ static inline packi packet_meets_any(const struct packet *p, __global const stru
 	return enter <= fma(leave, 1 + 6e-7f, p->slack);
 }
 
-/* The octant of all lanes that are awake; -1: there are several. */
-static inline int packet_octant(const struct packet *p)
+/* The octant of all lanes of n packets that are awake; -1: there are several. */
+static inline int packet_octant(const struct packet *p, uint n)
 {
-	const packi awake = p->t_min <= p->t_max;
-	const uint lanes = pack_bits(awake), first = lanes ? popcount((lanes & -lanes) - 1) : 0;
-	const packi octants = packet_octants(p);
-	const int octant = ((const int *)&octants)[first];
+	packi all = -1, some = 0;
+	int octant = 0;
 
-	return any_pack(awake & (octants != octant)) ? -1 : octant;
+	for (uint k = 0; k < n; k++) {
+		const packi awake = p[k].t_min <= p[k].t_max, octants = packet_octants(&p[k]);
+
+		all &= octants | ~awake;
+		some |= octants & awake;
+	}
+	for (int bit = 1; bit < 8; bit <<= 1) {
+		const int set = any_pack((some & bit) != 0), clear = any_pack((all & bit) == 0);
+
+		if (set && clear)
+			return -1;
+		octant |= set ? bit : 0;
+	}
+	return octant;
 }
 
 /* Moeller and Trumbore: lanes hit at t in t_min .. t_max. */

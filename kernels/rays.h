@@ -4,7 +4,8 @@
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
  * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
- * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing.
+ * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing; nor do rays of which o / d, part by part, has no
+ * place in RAYS_RANGE (d of next to nothing counts as 1e-20), in eye space or an instance's: boxes could not be told apart.
  *
  * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
  * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth
@@ -27,7 +28,7 @@
  *                                 same t that of the lowest instance, there of the lowest primitive: it depends on
  *                                 no tree
  *
- * Work items: as many as hold n_rays in packets of RAYS_PER_PACKET for *_packet, n_rays for all others. A space with nothing
+ * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
  */
 #ifndef KERNELS_RAYS_H
@@ -36,10 +37,15 @@
 #include "replay/scene.h"
 #include "kernels/shared.h"
 
+/* Rays in a packet, packets of a work item. */
 #define RAYS_PER_PACKET 16u
+#define RAYS_PACKETS 4u
+#define RAYS_PER_ITEM (RAYS_PACKETS * RAYS_PER_PACKET)
 
 /* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
 #define RAYS_EDGE_SLACK 1e-6f
+
+#define RAYS_RANGE 1e38f
 
 /* From how many radii on a ray is moved. */
 #define RAYS_FAR 64.0f

@@ -1,6 +1,7 @@
 /*
- * occlude_packet: sixteen consecutive rays a work item against eight-wide trees, box by box; where only a few of them go on,
- * each of these on its own against eight boxes at once. See kernels/rays.h.
+ * occlude_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of sixteen that share one stack.
+ * Where all have one octant, boxes are first asked eight at a time against the beam around all rays, those that it meets then one by
+ * one by the packets. Where only a few rays of a packet go on, each does on its own against eight boxes at once. See kernels/rays.h.
  */
 #include "kernels/rays.h"
 #include "kernels/packet.h"
@@ -35,45 +36,104 @@ static inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __globa
 	return done;
 }
 
-/* Walk one instance's tree with a packet, of one octant or of several (-1). Rays that hit get a t_max of -infinity. */
-WIDE_VECTORS static inline void walk_blas(struct packet *packet, int octant, __global const struct node8 *nodes,
-                                   __global const struct triangle8 *triangles)
+static inline uint lanes_of(ulong lanes, uint k)
 {
-	struct packet rays = *packet, *p = &rays; /* a copy of its own stays in registers */
+	return (uint)(lanes >> (RAYS_PER_PACKET * k)) & 0xffffu;
+}
+
+static inline ulong lanes_at(uint lanes, uint k)
+{
+	return (ulong)lanes << (RAYS_PER_PACKET * k);
+}
+
+static inline ulong awake_lanes(const struct packet *p)
+{
+	ulong awake = 0;
+
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		awake |= lanes_at(pack_bits(p[k].t_min <= p[k].t_max), k);
+	return awake;
+}
+
+static inline uint existing_boxes(__global const struct node8 *node)
+{
+	return lane_bits(vload8(0, node->lo[0]) <= vload8(0, node->hi[0]));
+}
+
+/* A subtree to be walked, and the lanes that meet it. */
+struct task {
+	uint child, count;
+	ulong lanes;
+};
+
+/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these */
+static inline ulong walk_few(struct packet *p, const struct task *task, ulong lanes, ulong *awake, __global const struct node8 *nodes,
+                      __global const struct triangle8 *triangles)
+{
+	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		const uint few = lanes_of(lanes, k);
+
+		if (few == 0 || popcount(few) > PACKET_FEW)
+			continue;
+		*awake &= ~lanes_at(walk_lanes(&p[k], few, (uint2)(task->child, task->count), nodes, triangles), k);
+		lanes &= ~lanes_at(few, k);
+	}
+	return lanes;
+}
+
+WIDE_VECTORS static inline uint push_node(const struct packet *p, int octant, struct planes planes, const struct beam *beam,
+                                   __global const struct node8 *node, ulong lanes, struct task *stack, uint depth)
+{
+	__global const float *bounds = (__global const float *)node;
+
+	for (uint boxes = octant < 0 ? existing_boxes(node) : beam_meets(beam, node, planes); boxes; boxes &= boxes - 1) {
+		const uint box = popcount((boxes & -boxes) - 1);
+		ulong meet = 0;
+
+		for (uint k = 0; k < RAYS_PACKETS; k++)
+			if (lanes_of(lanes, k))
+				meet |= lanes_at(pack_bits(octant < 0 ? packet_meets_any(&p[k], node, box) :
+				                                        packet_meets(&p[k], bounds + box, planes)), k);
+		stack[depth].child = node->child[box];
+		stack[depth].count = node->count[box];
+		stack[depth].lanes = meet;
+		depth += meet != 0;
+	}
+	return depth;
+}
+
+WIDE_VECTORS static inline void try_blocks(struct packet *p, __global const struct triangle8 *blocks, uint n, ulong lanes)
+{
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		for (uint i = 0; i < n && lanes_of(lanes, k); i++)
+			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++)
+				p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), packet_triangle(&p[k], &blocks[i], lane));
+}
+
+/* Walk one instance's tree with packets, of one octant or of several (-1). Rays that hit get a t_max of -infinity. */
+static inline void walk_blas(struct packet *p, int octant, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+{
 	const struct planes planes = octant_planes(octant);
-	uint4 stack[RAYS_WIDE_STACK], entry = (uint4)(0, 0, 0xffff, 0); /* child, count, lanes that meet it */
-	uint depth = 0, awake = pack_bits(p->t_min <= p->t_max);
+	struct task stack[RAYS_WIDE_STACK], task = { 0, 0, awake_lanes(p) };
+	ulong awake = task.lanes;
+	struct beam beam;
+	uint depth = 0;
 
+	if (octant >= 0)
+		beam = beam_around(p, RAYS_PACKETS, octant);
 	for (;;) {
-		const uint lanes = entry.z & awake;
+		const ulong lanes = walk_few(p, &task, task.lanes & awake, &awake, nodes, triangles);
 
-		if (popcount(lanes) <= PACKET_FEW) {
-			awake &= ~walk_lanes(p, lanes, entry.xy, nodes, triangles);
-		} else if (entry.y == 0) {
-			__global const struct node8 *node = &nodes[entry.x];
-			__global const float *bounds = (__global const float *)node;
-
-			for (uint box = 0; box < 8 && node->lo[0][box] <= node->hi[0][box]; box++) {
-				const uint meet = pack_bits(octant < 0 ? packet_meets_any(p, node, box) :
-				                                         packet_meets(p, bounds + box, planes));
-
-				stack[depth] = (uint4)(node->child[box], node->count[box], meet, 0);
-				depth += meet != 0;
-			}
-		} else {
-			for (uint i = 0; i < entry.y; i++) {
-				__global const struct triangle8 *block = &triangles[entry.x + i];
-
-				for (uint lane = 0; lane < 8 && block->primitive[lane] != SCENE_NONE; lane++)
-					p->t_max = select(p->t_max, (packf)(-INFINITY), packet_triangle(p, block, lane));
-			}
-			awake = pack_bits(p->t_min <= p->t_max);
+		if (lanes && task.count == 0) {
+			depth = push_node(p, octant, planes, &beam, &nodes[task.child], lanes, stack, depth);
+		} else if (lanes) {
+			try_blocks(p, &triangles[task.child], task.count, lanes);
+			awake = awake_lanes(p);
 		}
 		if (!awake || depth == 0)
-			break;
-		entry = stack[--depth];
+			return;
+		task = stack[--depth];
 	}
-	packet->t_max = p->t_max;
 }
 
 /* How far along each ray its walk through an instance starts. */
@@ -87,27 +147,34 @@ static inline packf far_shift(__global const struct instance *instance, const st
 	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
 }
 
-static inline void walk_instance(struct packet *eye, __global const struct instance *instance, __global const struct node8 *all_nodes,
-                          __global const struct triangle8 *all_triangles)
+/* One instance's tree with the packets of `meets`. */
+static inline void walk_instance(struct packet *eye, uint meets, __global const struct instance *instance,
+                          __global const struct node8 *all_nodes, __global const struct triangle8 *all_triangles)
 {
 	__global const struct node8 *nodes = all_nodes + instance->node8_first;
 	__global const struct triangle8 *triangles = all_triangles + instance->triangle8_first;
-	struct packet p;
+	struct packet p[RAYS_PACKETS];
 	packf shift;
 	int octant;
 
-	packet_transform(&p, eye, instance->obj_from_eye);
-	shift = far_shift(instance, &p);
-	p.ox = fma(shift, p.dx, p.ox), p.oy = fma(shift, p.dy, p.oy), p.oz = fma(shift, p.dz, p.oz);
-	packet_prepare(&p);
-	p.t_min = eye->t_min - shift;
-	p.t_max = eye->t_max - shift;
-	octant = packet_octant(&p);
+	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		packet_transform(&p[k], &eye[k], instance->obj_from_eye);
+		shift = far_shift(instance, &p[k]);
+		p[k].ox = fma(shift, p[k].dx, p[k].ox), p[k].oy = fma(shift, p[k].dy, p[k].oy);
+		p[k].oz = fma(shift, p[k].dz, p[k].oz);
+		packet_prepare(&p[k]);
+		p[k].t_min = meets >> k & 1 ? eye[k].t_min - shift : 1;
+		p[k].t_max = meets >> k & 1 ? eye[k].t_max - shift : -INFINITY;
+		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* others sleep, and do not spoil the beam */
+	}
+	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
-		walk_blas(&p, -1, nodes, triangles);
+		walk_blas(p, -1, nodes, triangles);
 	else
-		walk_blas(&p, octant, nodes, triangles);
-	eye->t_max = select(eye->t_max, (packf)(-INFINITY), p.t_max == -INFINITY);
+		walk_blas(p, octant, nodes, triangles);
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		if (meets >> k & 1)
+			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
 }
 
 static inline void walk_top(struct packet *eye, __global const struct node8 *top, __global const uint *instance_list,
@@ -121,12 +188,16 @@ static inline void walk_top(struct packet *eye, __global const struct node8 *top
 		__global const struct node8 *node = &top[stack[--depth]];
 
 		for (uint box = 0; box < 8 && node->lo[0][box] <= node->hi[0][box]; box++) {
-			if (!any_pack(packet_meets_any(eye, node, box)))
+			uint meets = 0;
+
+			for (uint k = 0; k < RAYS_PACKETS; k++)
+				meets |= any_pack(packet_meets_any(&eye[k], node, box)) ? 1u << k : 0;
+			if (!meets)
 				continue;
 			if (node->count[box] == 0)
 				stack[depth++] = node->child[box];
 			for (uint i = 0; i < node->count[box]; i++)
-				walk_instance(eye, &instances[instance_list[node->child[box] + i]], nodes, triangles);
+				walk_instance(eye, meets, &instances[instance_list[node->child[box] + i]], nodes, triangles);
 		}
 	}
 }
@@ -146,9 +217,10 @@ static inline uint load_rays(struct packet *p, __global const struct ray *rays, 
 	finite = isfinite(ox) & isfinite(oy) & isfinite(oz) & isfinite(dx) & isfinite(dy) & isfinite(dz) & (t_min <= t_max);
 	p->ox = select((packf)(0), ox, finite), p->oy = select((packf)(0), oy, finite), p->oz = select((packf)(0), oz, finite);
 	p->dx = select((packf)(1), dx, finite), p->dy = select((packf)(1), dy, finite), p->dz = select((packf)(1), dz, finite);
+	packet_prepare(p);
+	finite &= packet_in_range(p);
 	p->t_min = select((packf)(1), t_min, finite);
 	p->t_max = select((packf)(-INFINITY), t_max, finite);
-	packet_prepare(p);
 	return pack_bits(finite);
 }
 
@@ -157,15 +229,17 @@ __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint 
                              __global const struct instance *instances, __global const struct node8 *nodes,
                              __global const struct triangle8 *triangles, __global uint *occluded)
 {
-	const uint first = (uint)get_global_id(0) * RAYS_PER_PACKET;
-	struct packet p;
-	uint lanes;
+	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
+	struct packet p[RAYS_PACKETS];
+	ulong lanes = 0;
 
 	if (first >= n_rays)
 		return;
-	lanes = load_rays(&p, rays, first, n_rays);
-	walk_top(&p, top + top_first, instance_list, instances, nodes, triangles);
-	lanes &= pack_bits(p.t_max == -INFINITY);
-	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n_rays; i++)
-		occluded[first + i] = lanes >> i & 1u;
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n_rays), k);
+	walk_top(p, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
+	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
+		occluded[first + i] = (uint)(lanes >> i) & 1u;
 }

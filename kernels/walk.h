@@ -41,6 +41,12 @@ static inline void prepare(struct walk *w)
 	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
 }
 
+/* Whether boxes can be told apart by their distances along the ray. */
+static inline int in_range(const struct walk *w)
+{
+	return fabs(w->ox * w->ix) < RAYS_RANGE && fabs(w->oy * w->iy) < RAYS_RANGE && fabs(w->oz * w->iz) < RAYS_RANGE;
+}
+
 /* A ray in eye space that has hit nothing. @return 0 where it hits nothing by definition */
 static inline int walk_start(struct walk *w, __global const struct ray *ray)
 {
@@ -54,7 +60,7 @@ static inline int walk_start(struct walk *w, __global const struct ray *ray)
 	    !isfinite(w->dy) || !isfinite(w->dz))
 		return 0;
 	prepare(w);
-	return 1;
+	return in_range(w);
 }
 
 /* How far along the ray its walk through an instance starts. */
@@ -89,6 +95,8 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 	w->hit.b1 = w->hit.b2 = 0;
 	w->hit.instance = w->hit.primitive = SCENE_NONE;
 	prepare(w);
+	if (!in_range(w))
+		w->hit.t = -INFINITY;
 	return shift;
 }
 

@@ -32,7 +32,7 @@ static const struct {
 	uint32_t rays_per_item; /* of occlude */
 	enum buffer top, nodes, triangles;
 } ray_kernels[N_DEVICE_FAMILIES] = {
-	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_wide, RAYS_PER_PACKET, BUFFER_TOP8, BUFFER_NODES8,
+	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_wide, RAYS_PER_ITEM, BUFFER_TOP8, BUFFER_NODES8,
 		             BUFFER_TRIANGLES8 },
 	[FAMILY_BINARY] = { KERNEL_occlude_binary, KERNEL_intersect_binary, 1, BUFFER_TOP2, BUFFER_NODES2, BUFFER_TRIANGLES },
 	[FAMILY_COMPRESSED] = { KERNEL_occlude_compressed, KERNEL_intersect_compressed, 1, BUFFER_TOP2, BUFFER_NODES8C,

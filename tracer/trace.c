@@ -394,8 +394,8 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 	return run(tr, kernels[family], family == FAMILY_PACKETS ? camera_packet_items(r) : camera_wide_items(r), &l);
 }
 
-/* Pixels across of the blocks that the list goes by: one is a packet of rays (RAYS_PER_PACKET), which should stay together. */
-#define LIST_BLOCK 4
+/* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay together. */
+#define LIST_BLOCK 8
 
 /* Up to `limit`, a step of blocks from `at` on; the first ends at a multiple. */
 static int32_t block_end(int32_t at, int32_t limit)

@@ -100,13 +100,17 @@ static int hits_lane(const struct walk *w, const struct node8 *node, int lane)
 	return hits_box(w, lo, hi);
 }
 
-/* 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. */
-static void set_direction(struct walk *w, const float d[3])
+/* d, and 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. @return 0: it hits nothing from its o */
+static int set_direction(struct walk *w, const float d[3])
 {
+	int in_range = 1;
+
 	for (int a = 0; a < 3; a++) {
 		w->d[a] = d[a];
 		w->inverse[a] = 1.0f / (fabsf(d[a]) > 1e-20f ? d[a] : copysignf(1e-20f, d[a]));
+		in_range &= fabsf(w->o[a] * w->inverse[a]) < RAYS_RANGE;
 	}
+	return in_range;
 }
 
 static void try_block(struct walk *w, const struct triangle8 *block, uint32_t instance_index)
@@ -225,6 +229,7 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	const struct instance *instance = &w->args->instances[instance_index];
 	const float *m = instance->obj_from_eye;
 	float d[3], shift;
+	int in_range;
 
 	for (int row = 0; row < 3; row++, m += 4) {
 		w->o[row] = fmaf(m[2], eye.o[2], fmaf(m[1], eye.o[1], fmaf(m[0], eye.o[0], m[3])));
@@ -233,12 +238,13 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	shift = far_shift(instance, w->o, d);
 	for (int a = 0; a < 3; a++)
 		w->o[a] = fmaf(shift, d[a], w->o[a]);
-	set_direction(w, d);
+	in_range = set_direction(w, d);
 	w->t_min = eye.t_min - shift;
 	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (shift > 0 && eye.hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
-	walk_blas(w, instance_index);
+	if (in_range)
+		walk_blas(w, instance_index);
 	w->hit.t += shift;
 	if (w->hit.instance == SCENE_NONE || (eye.hit.instance != SCENE_NONE && !(w->hit.t < eye.hit.t) &&
 	                                      !(w->hit.t == eye.hit.t && instance_index < eye.hit.instance)))
@@ -308,7 +314,8 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 			return w.hit;
 		w.o[a] = ray->o[a];
 	}
-	set_direction(&w, ray->d);
+	if (!set_direction(&w, ray->d))
+		return w.hit;
 	if (args->tree == TREE_ROWS)
 		walk_top_rows(&w);
 	else
@@ -332,7 +339,7 @@ void occlude_packet_c(const void *const *args, size_t first, size_t last)
 {
 	const struct args a = unpack(args, TREE_ROWS);
 
-	occlude(&a, first * RAYS_PER_PACKET, last * RAYS_PER_PACKET);
+	occlude(&a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
 }
 
 void occlude_wide_c(const void *const *args, size_t first, size_t last)

@@ -166,7 +166,7 @@ static int trace_ours(struct device *dev, struct world *w, const struct ray *ray
 		};
 
 		err = device_run(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_wide,
-		                 any ? (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET : n, args, sizeof(args) / sizeof(args[0]));
+		                 any ? (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM : n, args, sizeof(args) / sizeof(args[0]));
 	}
 	if (!err)
 		err = device_read(dev, w->hits, 0, hits, n * sizeof(*hits));

@@ -54,6 +54,9 @@ static struct ray *make_rays(struct random_scene *s)
 				r->o[a] -= 1e6f * r->d[a];
 			}
 			break;
+		case 61: /* from where object space has no numbers for */
+			r->o[i % 3] = i % 2 ? 3e38f : -3e38f;
+			break;
 		case 53: /* a tiny direction, and a huge one */
 			for (int a = 0; a < 3; a++)
 				r->d[a] *= i % 2 ? 1e-12f : 1e12f;
@@ -85,7 +88,7 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 	const struct accel *a = s->accel;
 	const int single = way == BINARY || way == COMPRESSED;
 	const uint32_t n = N_RAYS, top_first = single ? s->spaces[0].top2_first : s->spaces[0].top8_first;
-	const uint32_t packets = (n + RAYS_PER_PACKET - 1) / RAYS_PER_PACKET;
+	const uint32_t packets = (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM;
 	struct device_buffer *b[] = {
 		make_buffer(dev, rays, N_RAYS * sizeof(*rays)),
 		single ? make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)) :
