@@ -5,6 +5,7 @@
 #include "base/err.h"
 #include "replay/exec.h"
 #include "replay/mat4.h"
+#include "replay/texture.h"
 
 /* ---- initial values ---- */
 
@@ -420,6 +421,9 @@ GLS_HANDLER(glPushAttrib, STATE)
 	saved = &st->attrib_stack[st->attrib_depth++];
 	saved->mask = arg_u(c, 0);
 	saved->attribs = st->a;
+	memset(saved->textures, 0, sizeof(saved->textures));
+	if (saved->mask & GL_TEXTURE_BIT)
+		gls_texture_save_parameters(st, saved->textures);
 }
 
 /* GL_ENABLE_BIT: every capability, whichever group it belongs to. */
@@ -499,8 +503,10 @@ GLS_HANDLER(glPopAttrib, STATE)
 		a->evaluator = old->evaluator;
 	if (mask & GL_LIST_BIT)
 		a->list_base = old->list_base;
-	if (mask & GL_TEXTURE_BIT)
+	if (mask & GL_TEXTURE_BIT) {
 		a->texturing = old->texturing;
+		gls_texture_restore_parameters(st, st->attrib_stack[st->attrib_depth].textures);
+	}
 	if (mask & GL_SCISSOR_BIT)
 		a->scissor = old->scissor;
 	if (mask & GL_MULTISAMPLE_BIT)

@@ -48,7 +48,7 @@ static void copy(struct gls_exec *x, struct gls_state *st, struct gls_texture *t
 	t->dirty = 1;
 	if (p && to[0] == 0 && to[1] == 0 && size[0] == l->width && size[1] == l->height && l->depth == 1)
 		l->missing = 0;
-	if (t->generate_mipmap && level == (int64_t)t->base_level)
+	if (t->parameters.generate_mipmap && level == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
 

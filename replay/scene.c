@@ -173,7 +173,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	const struct gls_unit *unit = &st->a.texturing.units[u];
 	int target = enabled_target(unit);
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
-	const struct gls_texture *p = t ? gls_texture_sampler(st, u, t) : NULL;
+	const struct gls_texture_parameters *p = t ? &gls_texture_sampler(st, u, t)->parameters : NULL;
 	struct gls_texture_image *image = t ? gls_texture_image_of(x, t, p->min_filter) : NULL;
 	uint32_t missing;
 
@@ -193,14 +193,14 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->min_filter = p->min_filter;
 	out->mag_filter = p->mag_filter;
 	gls_format_border(image->texture.base_format, p->border_color, out->border_color);
-	out->swizzle = pack_swizzle(t->swizzle);
+	out->swizzle = pack_swizzle(t->parameters.swizzle);
 	out->lod_bias = p->lod_bias + unit->lod_bias;
 	out->min_lod = p->min_lod;
 	out->max_lod = p->max_lod;
 	out->max_anisotropy = p->max_anisotropy;
 	out->compare_mode = p->compare_mode;
 	out->compare_func = p->compare_func;
-	out->depth_mode = t->depth_mode;
+	out->depth_mode = t->parameters.depth_mode;
 	for (unsigned i = 0; i < 4; i++)
 		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
 	memcpy(out->matrix, st->texture[u].matrices[st->texture[u].depth], 64);

@@ -227,9 +227,23 @@ struct gls_matrix_stack {
 	unsigned depth, max; /* depth: index of the current one */
 };
 
+/* Of a texture or sampler object (table 6.16). */
+struct gls_texture_parameters {
+	uint32_t wrap_s, wrap_t, wrap_r, min_filter, mag_filter;
+	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
+	uint32_t base_level, max_level, generate_mipmap;
+	uint32_t compare_mode, compare_func, depth_mode;
+	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
+};
+struct gls_saved_texture {
+	uint32_t there, name; /* there: 0 where nothing was ever set of the object */
+	struct gls_texture_parameters parameters;
+};
+
 struct gls_saved_attribs {
 	uint32_t mask;
 	struct gls_attribs attribs;
+	struct gls_saved_texture textures[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]; /* all 0 but for TEXTURE_BIT */
 };
 struct gls_saved_client {
 	uint32_t mask;

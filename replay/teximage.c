@@ -540,13 +540,13 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 
 void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face)
 {
-	struct gls_level *from = t->base_level < GLS_MAX_LEVELS ? &t->levels[face][t->base_level] : NULL;
+	struct gls_level *from = t->parameters.base_level < GLS_MAX_LEVELS ? &t->levels[face][t->parameters.base_level] : NULL;
 	const struct gls_format *format = from && from->texels ? gls_format_find(from->internal_format) : NULL;
 	float linear[256];
 
 	for (unsigned i = 0; i < 256; i++)
 		linear[i] = gls_linear_from_srgb((float)i / 255) * 255;
-	for (uint32_t l = t->base_level + 1; format && l < GLS_MAX_LEVELS && l <= t->max_level; l++) {
+	for (uint32_t l = t->parameters.base_level + 1; format && l < GLS_MAX_LEVELS && l <= t->parameters.max_level; l++) {
 		struct gls_level *to = &t->levels[face][l];
 		uint32_t w = from->width > 1 ? from->width / 2 : 1, h = from->height > 1 ? from->height / 2 : 1;
 		uint32_t d = from->depth > 1 ? from->depth / 2 : 1;
@@ -669,7 +669,7 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 		gls_unsupported(x, "pixels beyond what the recording holds");
 	if (pixels && gls_level_stencil(l) && arg_u(c, border + 1) == GL_DEPTH_STENCIL)
 		gls_unpack_stencil(st, arg_u(c, border + 2), l->width, l->height * l->depth, pixels, n, gls_level_stencil(l));
-	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+	if (t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
 
@@ -725,7 +725,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 			       texels + y * extent[0], (size_t)extent[0]);
 	}
 	t->dirty = 1;
-	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+	if (t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
 
@@ -758,7 +758,7 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 	                        n_dims > 2 ? arg_i(c, 5) : 1, arg_i(c, n_dims + 3));
 	if (l && pixels)
 		unpack_compressed(x, l->internal_format, (int64_t[3]){ l->width, l->height, l->depth }, pixels, n, l->texels);
-	if (l && t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+	if (l && t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
 
@@ -793,7 +793,7 @@ static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const
 	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
 		place(l, at, size, texels);
 	t->dirty = 1;
-	if (t->generate_mipmap && arg_i(c, 1) == (int64_t)t->base_level)
+	if (t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
 

@@ -40,18 +40,18 @@ static struct gls_texture *create(uint32_t name, uint32_t target)
 		return NULL;
 	t->name = name;
 	t->target = target;
-	t->wrap_s = t->wrap_t = t->wrap_r = rectangle ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-	t->min_filter = rectangle ? GL_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
-	t->mag_filter = GL_LINEAR;
-	t->min_lod = -1000;
-	t->max_lod = 1000;
-	t->max_level = 1000;
-	t->max_anisotropy = 1;
-	t->priority = 1;
-	t->compare_func = GL_LEQUAL;
-	t->depth_mode = GL_LUMINANCE;
-	memcpy(t->swizzle, (uint32_t[]){ GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA }, sizeof(t->swizzle));
-	t->srgb_decode = GL_DECODE_EXT;
+	t->parameters.wrap_s = t->parameters.wrap_t = t->parameters.wrap_r = rectangle ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+	t->parameters.min_filter = rectangle ? GL_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+	t->parameters.mag_filter = GL_LINEAR;
+	t->parameters.min_lod = -1000;
+	t->parameters.max_lod = 1000;
+	t->parameters.max_level = 1000;
+	t->parameters.max_anisotropy = 1;
+	t->parameters.priority = 1;
+	t->parameters.compare_func = GL_LEQUAL;
+	t->parameters.depth_mode = GL_LUMINANCE;
+	memcpy(t->parameters.swizzle, (uint32_t[]){ GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA }, sizeof(t->parameters.swizzle));
+	t->parameters.srgb_decode = GL_DECODE_EXT;
 	t->dirty = 1;
 	return t;
 }
@@ -80,6 +80,41 @@ struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, 
 			gls_out_of_memory(x, sizeof(*t));
 	}
 	return st->share->defaults[target];
+}
+
+/* What is bound, without making what was never asked for. */
+static struct gls_texture *bound_if_any(const struct gls_state *st, uint32_t name, unsigned target)
+{
+	struct gls_texture *t = name ? table_find(&st->share->textures, name) : st->share->defaults[target];
+
+	return t && t->target == target ? t : NULL;
+}
+
+void gls_texture_save_parameters(const struct gls_state *st, struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS])
+{
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++) {
+			uint32_t name = st->a.texturing.units[u].bound[target];
+			const struct gls_texture *t = bound_if_any(st, name, target);
+
+			if (t)
+				saved[u][target] = (struct gls_saved_texture){ 1, name, t->parameters };
+		}
+}
+
+void gls_texture_restore_parameters(struct gls_state *st,
+                                    const struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS])
+{
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++) {
+			const struct gls_saved_texture *s = &saved[u][target];
+			struct gls_texture *t = s->there ? bound_if_any(st, s->name, target) : NULL;
+
+			if (!t || memcmp(&t->parameters, &s->parameters, sizeof(s->parameters)) == 0)
+				continue;
+			t->parameters = s->parameters;
+			t->dirty = 1;
+		}
 }
 
 static struct gls_unit *active_unit(struct gls_state *st)
@@ -196,7 +231,7 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 			gls_error(x, st, GL_INVALID_ENUM);
 			return;
 		}
-		*(arg_u(c, 1) == GL_TEXTURE_WRAP_S ? &t->wrap_s : arg_u(c, 1) == GL_TEXTURE_WRAP_T ? &t->wrap_t : &t->wrap_r) =
+		*(arg_u(c, 1) == GL_TEXTURE_WRAP_S ? &t->parameters.wrap_s : arg_u(c, 1) == GL_TEXTURE_WRAP_T ? &t->parameters.wrap_t : &t->parameters.wrap_r) =
 			token;
 		break;
 	case GL_TEXTURE_MIN_FILTER:
@@ -205,7 +240,7 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 			gls_error(x, st, GL_INVALID_ENUM);
 			return;
 		}
-		t->min_filter = token;
+		t->parameters.min_filter = token;
 		t->dirty = 1;
 		break;
 	case GL_TEXTURE_MAG_FILTER:
@@ -213,22 +248,22 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 			gls_error(x, st, GL_INVALID_ENUM);
 			return;
 		}
-		t->mag_filter = token;
+		t->parameters.mag_filter = token;
 		break;
 	case GL_TEXTURE_BORDER_COLOR:
 		for (unsigned i = 0; i < 4; i++) {
 			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-			t->border_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
+			t->parameters.border_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
 		}
 		break;
 	case GL_TEXTURE_PRIORITY:
-		t->priority = v[0];
+		t->parameters.priority = v[0];
 		break;
 	case GL_TEXTURE_MIN_LOD:
-		t->min_lod = v[0];
+		t->parameters.min_lod = v[0];
 		break;
 	case GL_TEXTURE_MAX_LOD:
-		t->max_lod = v[0];
+		t->parameters.max_lod = v[0];
 		break;
 	case GL_TEXTURE_BASE_LEVEL:
 	case GL_TEXTURE_MAX_LEVEL:
@@ -236,26 +271,26 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 			gls_error(x, st, GL_INVALID_VALUE);
 			return;
 		}
-		*(arg_u(c, 1) == GL_TEXTURE_BASE_LEVEL ? &t->base_level : &t->max_level) = token;
+		*(arg_u(c, 1) == GL_TEXTURE_BASE_LEVEL ? &t->parameters.base_level : &t->parameters.max_level) = token;
 		t->dirty = 1;
 		break;
 	case GL_TEXTURE_LOD_BIAS:
-		t->lod_bias = v[0];
+		t->parameters.lod_bias = v[0];
 		break;
 	case GL_GENERATE_MIPMAP:
-		t->generate_mipmap = v[0] != 0;
+		t->parameters.generate_mipmap = v[0] != 0;
 		break;
 	case GL_TEXTURE_COMPARE_MODE:
-		t->compare_mode = token;
+		t->parameters.compare_mode = token;
 		break;
 	case GL_TEXTURE_COMPARE_FUNC:
-		t->compare_func = token;
+		t->parameters.compare_func = token;
 		break;
 	case GL_DEPTH_TEXTURE_MODE:
-		t->depth_mode = token;
+		t->parameters.depth_mode = token;
 		break;
 	case GL_TEXTURE_SRGB_DECODE_EXT:
-		t->srgb_decode = token;
+		t->parameters.srgb_decode = token;
 		t->dirty = 1;
 		break;
 	case GL_TEXTURE_SWIZZLE_R:
@@ -265,7 +300,7 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 		if (!is_swizzle(token))
 			gls_error(x, st, GL_INVALID_ENUM);
 		else
-			t->swizzle[arg_u(c, 1) - GL_TEXTURE_SWIZZLE_R] = token;
+			t->parameters.swizzle[arg_u(c, 1) - GL_TEXTURE_SWIZZLE_R] = token;
 		break;
 	case GL_TEXTURE_SWIZZLE_RGBA:
 		for (unsigned i = 0; i < 4; i++)
@@ -274,13 +309,13 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 				return;
 			}
 		for (unsigned i = 0; i < 4; i++)
-			t->swizzle[i] = token_of_float(v[i]);
+			t->parameters.swizzle[i] = token_of_float(v[i]);
 		break;
 	case GL_TEXTURE_MAX_ANISOTROPY_EXT:
 		if (!(v[0] >= 1))
 			gls_error(x, st, GL_INVALID_VALUE);
 		else
-			t->max_anisotropy = v[0];
+			t->parameters.max_anisotropy = v[0];
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);
@@ -497,15 +532,15 @@ static uint32_t count_levels(const struct gls_texture *t, unsigned face)
 	const struct gls_level *base, *level;
 	uint32_t w, h, d, n;
 
-	if (t->base_level >= GLS_MAX_LEVELS || t->base_level > t->max_level)
+	if (t->parameters.base_level >= GLS_MAX_LEVELS || t->parameters.base_level > t->parameters.max_level)
 		return 0;
-	base = &t->levels[face][t->base_level];
+	base = &t->levels[face][t->parameters.base_level];
 	if (!base->texels)
 		return 0;
 	w = base->width - 2 * base->border;
 	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
 	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
-	for (n = 1; t->base_level + n < GLS_MAX_LEVELS && t->base_level + n <= t->max_level && (w > 1 || h > 1 || d > 1); n++) {
+	for (n = 1; t->parameters.base_level + n < GLS_MAX_LEVELS && t->parameters.base_level + n <= t->parameters.max_level && (w > 1 || h > 1 || d > 1); n++) {
 		w = half(w);
 		h = half(h);
 		d = half(d);
@@ -521,10 +556,10 @@ static uint32_t count_levels(const struct gls_texture *t, unsigned face)
 
 static int is_cube_complete(const struct gls_texture *t)
 {
-	const struct gls_level *first = &t->levels[0][t->base_level];
+	const struct gls_level *first = &t->levels[0][t->parameters.base_level];
 
 	for (unsigned face = 0; face < 6; face++) {
-		const struct gls_level *base = &t->levels[face][t->base_level];
+		const struct gls_level *base = &t->levels[face][t->parameters.base_level];
 		if (!base->texels || base->width != base->height || base->width != first->width ||
 		    base->internal_format != first->internal_format)
 			return 0;
@@ -544,10 +579,10 @@ static void decode_srgb(uint8_t *to, const uint8_t *from, size_t n_texels)
 
 static struct gls_texture_image *build_image(struct gls_exec *x, const struct gls_texture *t, uint32_t n_levels)
 {
-	const struct gls_level *base = &t->levels[0][t->base_level];
+	const struct gls_level *base = &t->levels[0][t->parameters.base_level];
 	unsigned n_faces = t->target == GLS_TEXTURE_CUBE ? 6 : 1;
 	const struct gls_format *format = gls_format_find(base->internal_format);
-	int srgb = format && format->srgb && t->srgb_decode != GL_SKIP_DECODE_EXT;
+	int srgb = format && format->srgb && t->parameters.srgb_decode != GL_SKIP_DECODE_EXT;
 	uint32_t head[8] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
 	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb };
@@ -562,7 +597,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	XXH3_128bits_update(&state, head, sizeof(head));
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
-			const struct gls_level *level = &t->levels[face][t->base_level + l];
+			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
 			XXH3_128bits_update(&state, level->texels, 4 * gls_level_count(level));
 			bytes += 4 * gls_level_count(level);
 		}
@@ -585,7 +620,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	image->texture.texels = at = (uint8_t *)(image + 1);
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
-			const struct gls_level *level = &t->levels[face][t->base_level + l];
+			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
 			if (srgb)
 				decode_srgb(at, level->texels, gls_level_count(level));
 			else

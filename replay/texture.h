@@ -31,11 +31,7 @@ static inline uint8_t *gls_level_stencil(const struct gls_level *l)
 struct gls_texture {
 	uint32_t name, target; /* target: enum gls_texture_target; N_GLS_TEXTURE_TARGETS before the first bind */
 	struct gls_level levels[6][GLS_MAX_LEVELS]; /* faces of cubes; others use face 0 */
-	uint32_t wrap_s, wrap_t, wrap_r, min_filter, mag_filter;
-	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
-	uint32_t base_level, max_level, generate_mipmap;
-	uint32_t compare_mode, compare_func, depth_mode;
-	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
+	struct gls_texture_parameters parameters;
 	uint32_t attached;               /* 1: is or was attached to a framebuffer object */
 	uint32_t dirty;                  /* image must be found again */
 	uint32_t mipmapped;              /* the image was found for a filter that wants all levels */
@@ -58,6 +54,10 @@ struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, 
 struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t, uint32_t min_filter);
 /** Whose parameters a unit samples a texture by: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture itself. */
 const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t);
+/** The parameters of what is bound to each unit and target, for PushAttrib; they come back to objects that are still there. */
+void gls_texture_save_parameters(const struct gls_state *st, struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]);
+void gls_texture_restore_parameters(struct gls_state *st,
+                                    const struct gls_saved_texture saved[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]);
 void gls_texture_image_release(struct gls_texture_image *image);
 void gls_texture_free(struct gls_texture *t);
 

@@ -156,6 +156,47 @@ START_TEST(test_texgen)
 }
 END_TEST
 
+/* PushAttrib(TEXTURE_BIT) keeps what is bound, and the parameters of that (sec. 6.1.14, table 6.16), of objects that are still there. */
+START_TEST(test_pushed_parameters)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	for (unsigned name = 5; name > 2; name--) {
+		gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, name);
+		gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	}
+	gl_call(&gl, "glPushAttrib", "m", GL_TEXTURE_BIT);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_LINEAR); /* incomplete */
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 4u);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+	gl_call(&gl, "glPopAttrib", "");
+	draw(&gl);
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 4u); /* was not bound then */
+	draw(&gl);
+	gl_call(&gl, "glPushAttrib", "m", GL_TEXTURE_BIT);
+	gl_call(&gl, "glDeleteTextures", "iU", 1, 1, (uint32_t[]){ 4 });
+	gl_call(&gl, "glPopAttrib", "");
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 3u);
+	gl_call(&gl, "glPushAttrib", "m", GL_ENABLE_BIT);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP);
+	gl_call(&gl, "glPopAttrib", "");
+	draw(&gl);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_units, 3);
+	ck_assert_uint_eq(s->units[0].wrap_s, GL_REPEAT);
+	ck_assert_uint_eq(s->units[0].min_filter, GL_LINEAR);
+	ck_assert_uint_eq(s->units[1].wrap_s, GL_CLAMP_TO_EDGE);
+	ck_assert_uint_eq(s->units[2].wrap_s, GL_CLAMP);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Sampler objects (GL 3.3 sec. 3.8.2) stand for the parameters of what is bound to their unit, completeness included. */
 START_TEST(test_samplers)
 {
@@ -183,4 +224,4 @@ START_TEST(test_samplers)
 }
 END_TEST
 
-GL_TESTS("textures", test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
+GL_TESTS("textures", test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
