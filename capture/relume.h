@@ -34,7 +34,10 @@ static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, floa
 		record((int)kind, amount, ior);
 }
 
-/** A good moment to build acceleration structures: the scene's static part has been drawn once. Never changes a picture. */
+/**
+ * The scene's static part has been drawn once: in every frame in which this context draws after the call, meshes that do not move
+ * become kd-trees. Never changes a picture.
+ */
 static inline void rtBuildKdTreeEXT(void)
 {
 	void (*record)(void);

@@ -212,6 +212,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	text[n] = 0;
 	if (strncmp(text, "relume:material ", 16) == 0)
 		set_surface(x, st, text + 16);
+	if (strcmp(text, "relume:kdtree") == 0)
+		st->kd_tree = 1;
 	if (sscanf(text, "relume:bits %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples) >= 3 && alpha <= 32 && depth <= 32 &&
 	    stencil <= 8 && samples <= 64) {
 		gls_flush(x);

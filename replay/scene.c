@@ -551,6 +551,7 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
 	s->n_instances++;
+	s->kd_tree |= st->kd_tree;
 	s->needs_previous |= looks_at(&s->materials[f->material]) & ~f->cleared ? 1u : 0;
 	if (s->materials[f->material].program)
 		gls_unsupported(x, "programs: drawn as fixed function");

@@ -303,6 +303,7 @@ struct scene {
 	uint32_t n_instances, n_materials, n_units, n_lights, n_currents, n_views, n_clears, n_stipples, n_meshes,
 		n_textures;
 	uint32_t n_primitives; /* in all instances */
+	uint32_t kd_tree; /* 1: of what drew here, some program has called rtBuildKdTreeEXT before */
 	uint32_t n_draws;
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;

@@ -864,7 +864,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34316,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34324,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));

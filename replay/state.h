@@ -275,6 +275,7 @@ struct gls_state {
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;
 	struct scene_surface surface;  /* what the program said through rtMaterialEXT */
+	uint32_t kd_tree;              /* 1: it has called rtBuildKdTreeEXT */
 
 	/* list being compiled */
 	struct gls_list *list;

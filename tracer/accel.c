@@ -347,7 +347,7 @@ static int refit(const struct accel *accel, const struct blas *moved, const stru
 }
 
 /*
- * A tree for a soup: fitted, found or built. What moves is not kept on disk.
+ * A tree for a soup: fitted, found or built. What moves gets a binned tree, quick to build, and is not kept on disk.
  * store: where it may be kept beyond this run, or NULL.
  */
 static int find_tree(struct accel *accel, const struct soup *soup, struct store *store, struct blas *blas, struct tree *out)
@@ -363,7 +363,7 @@ static int find_tree(struct accel *accel, const struct soup *soup, struct store 
 		return 0;
 	}
 	accel->n_made++;
-	err = tree_make(soup, blas->kind, blas->hash, moved ? NULL : store, out);
+	err = tree_make(soup, moved ? ACCEL_BVH : blas->kind, blas->hash, moved ? NULL : store, out);
 	if (!err && (blas->topology[0] | blas->topology[1]))
 		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
 	return err;

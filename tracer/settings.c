@@ -36,9 +36,10 @@ static const char help[] =
 	"      --reach X        how far the ao modes look, in units of eye space (default: without end)\n"
 	"      --look FILE      rules, YAML: what surfaces are made of, lights added, moved, off or with a size\n"
 	"                       (tracer/look.h shows all keys)\n"
-	"      --accel KIND     how trees of meshes are built: bvh, binned (default); sbvh, with spatial splits: some\n"
-	"                       percent cheaper to trace, ten times the time to build; kd, a kd-tree; lbvh, along a\n"
-	"                       Morton curve: the quickest to build\n"
+	"      --accel KIND     how trees of meshes are built: bvh, binned; sbvh, with spatial splits: some percent cheaper\n"
+	"                       to trace, ten times the time to build; kd, a kd-tree; lbvh, along a Morton curve: the\n"
+	"                       quickest to build (default: kd from where the program calls rtBuildKdTreeEXT, else bvh).\n"
+	"                       What moves gets a binned one. The picture is the same\n"
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number, type or part of the name as 'relume devices' lists\n"
@@ -209,6 +210,7 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 	case ACCEL:
 		err = parse_word(value, name, tree_kind_names, &word);
 		s->tracer.accel = (enum accel_kind)word;
+		s->tracer.accel_asked = 1;
 		return err;
 	case RELIGHT: s->tracer.relight = 1; return 0;
 	case DEVICE: s->device = value; return 0;

@@ -291,7 +291,7 @@ static int build_trees(struct job *job)
 
 	if (!err)
 		err = number_primitives(job);
-	tr->accel->kind = job->options->accel;
+	tr->accel->kind = job->scene->kd_tree && !job->options->accel_asked ? ACCEL_KD : job->options->accel;
 	tr->accel->store = job->options->store;
 	scene.views = p->scene_views;
 	scene.n_views = p->n_views;

@@ -33,6 +33,7 @@ struct tracer_options {
 	float reach;      /* of openness, eye-space units; 0: without end */
 	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
 	enum accel_kind accel; /* trees of meshes */
+	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
 	struct store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */

@@ -8,6 +8,9 @@
  * of the rays each, in turn: anywhere, through a vertex, through a point of an edge, along an axis, from a surface,
  * from a surface along an axis, from far away.
  *
+ * Every ray is traced through trees of each kind. The first kind is compared with Embree; the others should give its hits to the bit,
+ * and are judged as it is where they do not.
+ *
  * Where the two disagree, geometry in double precision decides. In the plane across the ray, a triangle is sure to be hit
  * where the ray passes at least `band` inside of its outline, sure to be missed at least `band` outside, and on the edge
  * between. band is ROUNDING times 2^-24 times the largest coordinate of the ray's origin and the triangle, and of one from the
@@ -140,22 +143,37 @@ static int open_ours(struct device *dev, struct world *w)
 	w->instance.flags = INSTANCE_OPAQUE | INSTANCE_SECONDARY;
 	for (int i = 0; i < 3; i++)
 		w->instance.eye_from_obj[5 * i] = w->instance.obj_from_eye[5 * i] = 1;
-	if ((err = accel_create(&w->accel)) ||
-	    (err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces)) ||
-	    (err = upload(dev, &w->top, w->accel->top8, w->accel->n_top8 * sizeof(*w->accel->top8))) ||
-	    (err = upload(dev, &w->list, w->accel->instance_list, w->accel->n_instance_list * sizeof(uint32_t))) ||
-	    (err = upload(dev, &w->instances, &w->instance, sizeof(w->instance))) ||
-	    (err = upload(dev, &w->nodes, w->accel->nodes8, w->accel->n_nodes8 * sizeof(*w->accel->nodes8))) ||
+	err = accel_create(&w->accel);
+	for (int kind = 0; kind < N_ACCEL_KINDS && !err; kind++) {
+		w->accel->kind = (enum accel_kind)kind;
+		err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces);
+	}
+	if (err || (err = upload(dev, &w->nodes, w->accel->nodes8, w->accel->n_nodes8 * sizeof(*w->accel->nodes8))) ||
 	    (err = upload(dev, &w->triangles, w->accel->triangles8, w->accel->n_triangles8 * sizeof(*w->accel->triangles8))))
 		return err;
 	return 0;
 }
 
-static int trace_ours(struct device *dev, struct world *w, const struct ray *rays, uint32_t n, struct hit *hits, uint32_t *occluded)
+/* What came of a batch of rays in a tree of one kind. */
+struct outcome {
+	struct hit hits[BATCH];
+	uint32_t occluded[BATCH];
+};
+
+static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind, const struct ray *rays, uint32_t n, struct outcome *out)
 {
-	const uint32_t top_first = w->spaces[0].top8_first;
+	uint32_t top_first, *occluded = out->occluded;
+	struct hit *hits = out->hits;
 	int err;
 
+	/* The trees are there; only the top level and the instance change. */
+	w->accel->kind = kind;
+	if ((err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces)) ||
+	    (err = upload(dev, &w->top, w->accel->top8, w->accel->n_top8 * sizeof(*w->accel->top8))) ||
+	    (err = upload(dev, &w->list, w->accel->instance_list, w->accel->n_instance_list * sizeof(uint32_t))) ||
+	    (err = upload(dev, &w->instances, &w->instance, sizeof(w->instance))))
+		return err;
+	top_first = w->spaces[0].top8_first;
 	if ((err = upload(dev, &w->rays, rays, n * sizeof(*rays))) || (err = device_reserve(dev, &w->hits, n * sizeof(*hits))) ||
 	    (err = device_reserve(dev, &w->occluded, n * sizeof(*occluded))))
 		return err;
@@ -340,6 +358,7 @@ static enum verdict judge(const struct world *w, const struct ray *ray, uint32_t
 
 struct tally {
 	uint64_t n[N_SCENES][N_KINDS][N_VERDICTS], occluded_wrong, shown[N_VERDICTS];
+	uint64_t differ[N_ACCEL_KINDS], wrong[N_ACCEL_KINDS]; /* rays whose hit in trees of a kind is not that of the first; of them, wrong ones */
 };
 
 static void count(struct tally *tally, const struct world *w, uint32_t scene, uint32_t kind, const struct ray *ray,
@@ -349,6 +368,7 @@ static void count(struct tally *tally, const struct world *w, uint32_t scene, ui
 	const enum verdict verdict = judge(w, ray, ours, theirs);
 
 	tally->n[scene][kind][verdict]++;
+	tally->wrong[0] += verdict == WRONG_OURS;
 	/* Any hit and nearest hit must agree to the ray. */
 	tally->occluded_wrong += occluded != (ours != SCENE_NONE);
 	if (verdict != SAME && tally->shown[verdict]++ < 5)
@@ -357,12 +377,32 @@ static void count(struct tally *tally, const struct world *w, uint32_t scene, ui
 		       ray->t_min, ray->t_max, (int)ours, (int)theirs);
 }
 
+/* Trees of the other kinds. */
+static void count_others(struct tally *tally, const struct world *w, const struct ray *ray, uint32_t i, struct outcome *const out[N_ACCEL_KINDS])
+{
+	for (int a = 1; a < N_ACCEL_KINDS; a++) {
+		const struct hit *hit = &out[a]->hits[i];
+		const uint32_t ours = hit->instance == SCENE_NONE ? SCENE_NONE : hit->primitive;
+
+		tally->occluded_wrong += out[a]->occluded[i] != (ours != SCENE_NONE);
+		if (memcmp(hit, &out[0]->hits[i], sizeof(*hit)) == 0)
+			continue;
+		if (tally->differ[a]++ < 5)
+			printf("%s is not %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: %d, %d\n", tree_kind_names[a], tree_kind_names[0],
+			       ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->t_min, ray->t_max, (int)ours,
+			       (int)out[0]->hits[i].primitive);
+		tally->wrong[a] += judge(w, ray, ours, trace_peer(w, ray)) == WRONG_OURS;
+	}
+}
+
 static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32_t scene, uint64_t n, struct tally *tally)
 {
 	struct ray *rays = must(malloc(BATCH * sizeof(*rays)));
-	struct hit *hits = must(malloc(BATCH * sizeof(*hits)));
-	uint32_t *occluded = must(malloc(BATCH * sizeof(*occluded)));
+	struct outcome *out[N_ACCEL_KINDS];
 	int err = open_ours(dev, w);
+
+	for (int a = 0; a < N_ACCEL_KINDS; a++)
+		out[a] = must(malloc(sizeof(*out[a])));
 
 	if (!err)
 		open_peer(peer, w);
@@ -371,9 +411,12 @@ static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32
 
 		for (uint32_t i = 0; i < batch; i++)
 			rays[i] = make_ray(w, i % N_KINDS);
-		err = trace_ours(dev, w, rays, batch, hits, occluded);
-		for (uint32_t i = 0; i < batch && !err; i++)
-			count(tally, w, scene, i % N_KINDS, &rays[i], &hits[i], occluded[i]);
+		for (int a = 0; a < N_ACCEL_KINDS && !err; a++)
+			err = trace_ours(dev, w, (enum accel_kind)a, rays, batch, out[a]);
+		for (uint32_t i = 0; i < batch && !err; i++) {
+			count(tally, w, scene, i % N_KINDS, &rays[i], &out[0]->hits[i], out[0]->occluded[i]);
+			count_others(tally, w, &rays[i], i, out);
+		}
 	}
 	if (w->peer)
 		rtcReleaseScene(w->peer);
@@ -382,8 +425,8 @@ static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32
 		                                                 &w->rays, &w->hits, &w->occluded }[i]);
 	accel_destroy(&w->accel);
 	free(rays);
-	free(hits);
-	free(occluded);
+	for (int a = 0; a < N_ACCEL_KINDS; a++)
+		free(out[a]);
 	return err;
 }
 
@@ -399,9 +442,18 @@ static uint64_t total(const struct tally *tally, int kind, int verdict)
 	return sum;
 }
 
+static uint64_t total_wrong(const struct tally *tally)
+{
+	uint64_t sum = tally->occluded_wrong;
+
+	for (int a = 0; a < N_ACCEL_KINDS; a++)
+		sum += tally->wrong[a];
+	return sum;
+}
+
 static int write_json(const char *path, const struct tally *tally, const char *device, const char *command)
 {
-	const uint64_t wrong = total(tally, -1, WRONG_OURS) + tally->occluded_wrong;
+	const uint64_t wrong = total_wrong(tally);
 	FILE *out = fopen(path, "w");
 
 	if (!out)
@@ -413,6 +465,10 @@ static int write_json(const char *path, const struct tally *tally, const char *d
 		fprintf(out, "    { \"what\": \"%s\", \"figure\": \"%llu rays\", \"bar\": %s, \"passed\": %s },\n", verdict_names[v],
 		        (unsigned long long)total(tally, -1, v), v == WRONG_OURS ? "\"0\"" : "null",
 		        v == WRONG_OURS ? (total(tally, -1, v) ? "false" : "true") : "null");
+	for (int a = 1; a < N_ACCEL_KINDS; a++)
+		fprintf(out, "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, %llu wrong\", \"bar\": "
+		        "\"0 wrong\", \"passed\": %s },\n", tree_kind_names[a], tree_kind_names[0], (unsigned long long)tally->differ[a],
+		        (unsigned long long)tally->wrong[a], tally->wrong[a] ? "false" : "true");
 	fprintf(out, "    { \"what\": \"any hit and nearest hit disagree\", \"figure\": \"%llu rays\", \"bar\": \"0\", \"passed\": %s }\n  ]\n}\n",
 	        (unsigned long long)tally->occluded_wrong, tally->occluded_wrong ? "false" : "true");
 	return fclose(out) ? err_report(ERR_SYSTEM, path, "cannot be written") : 0;
@@ -468,9 +524,12 @@ int main(int argc, char **argv)
 			printf(" %15llu", (unsigned long long)total(&tally, k, v));
 	}
 	printf("\nany hit and nearest hit disagree: %llu; bar: 0 of ours wrong, 0 of these\n", (unsigned long long)tally.occluded_wrong);
+	for (int a = 1; a < N_ACCEL_KINDS; a++)
+		printf("%s: %llu hits are not those of %s to the bit, %llu of them wrong; bar: 0 wrong\n", tree_kind_names[a],
+		       (unsigned long long)tally.differ[a], tree_kind_names[0], (unsigned long long)tally.wrong[a]);
 	if (json)
 		err = write_json(json, &tally, device_name(dev), command);
-	if (!err && (total(&tally, -1, WRONG_OURS) || tally.occluded_wrong))
+	if (!err && total_wrong(&tally))
 		err = ERR_FAILED;
 done:
 	device_close(&dev);

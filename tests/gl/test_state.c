@@ -196,6 +196,25 @@ START_TEST(test_scene_outlives)
 }
 END_TEST
 
+/* rtBuildKdTreeEXT's marker: frames with something drawn after it. */
+START_TEST(test_kd_tree_marker)
+{
+	struct gl gl = gl_open();
+
+	for (uint32_t frame = 0; frame < 4; frame++) {
+		struct scene *s;
+
+		if (frame == 1)
+			gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:kdtree");
+		draw(&gl);
+		s = gl_swap(&gl);
+		ck_assert_uint_eq(s->kd_tree, frame > 0);
+		scene_release(&s);
+	}
+	gl_close(&gl);
+}
+END_TEST
+
 /* rtMaterialEXT's marker. */
 START_TEST(test_surface_marker)
 {
@@ -260,4 +279,4 @@ START_TEST(test_nonsense)
 END_TEST
 
 GL_TESTS("state", test_push_attrib, test_first_error, test_color_material, test_state_at_draw, test_lights,
-         test_needs_previous, test_contexts, test_scene_outlives, test_surface_marker, test_every_command, test_nonsense)
+         test_needs_previous, test_contexts, test_scene_outlives, test_surface_marker, test_kd_tree_marker, test_every_command, test_nonsense)
