@@ -78,7 +78,7 @@ $(BUILD)/relume-oiio.so: $(OIIO_OBJ)
 # Stands before libGL, under its name, for glretrace.
 $(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
+	$(Q)$(CC) $(CPPFLAGS) $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) $(LDFLAGS) -shared -fPIC -Wl,-soname,libGL.so.1 -o $@ $< \
 		-Wl,--no-as-needed -l:libGLX.so.0 -l:libOpenGL.so.0 -ldl
 
 # The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
