@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "replay/bytes.h"
 #include "replay/exec.h"
 
 #define MAX_ORDER 30
@@ -33,6 +34,58 @@ void gls_maps_free(struct gls_maps *maps)
 	for (unsigned i = 0; maps && i < 2 * N_TARGETS; i++)
 		free(maps->map[i / N_TARGETS][i % N_TARGETS].points);
 	free(maps);
+}
+
+/* ---- snapshots ---- */
+
+/* Floats of a map's points. */
+static size_t map_size(const struct map *m, unsigned target)
+{
+	return (size_t)m->order[0] * m->order[1] * sizes[target];
+}
+
+void gls_maps_save(const struct gls_maps *maps, struct bytes *out)
+{
+	bytes_put_u64(out, maps != NULL);
+	for (unsigned i = 0; maps && i < 2 * N_TARGETS; i++) {
+		const struct map *m = &maps->map[i / N_TARGETS][i % N_TARGETS];
+
+		bytes_put_u64(out, m->order[0]);
+		bytes_put_u64(out, m->order[1]);
+		bytes_put(out, m->from, sizeof(m->from));
+		bytes_put(out, m->to, sizeof(m->to));
+		bytes_put(out, m->points, map_size(m, i % N_TARGETS) * sizeof(*m->points));
+	}
+}
+
+struct gls_maps *gls_maps_load(struct cursor *in)
+{
+	struct gls_maps *maps;
+
+	if (!cursor_u64(in) || in->failed)
+		return NULL;
+	maps = calloc(1, sizeof(*maps));
+	in->failed |= !maps;
+	for (unsigned i = 0; i < 2 * N_TARGETS && !in->failed; i++) {
+		struct map *m = &maps->map[i / N_TARGETS][i % N_TARGETS], loaded = { .points = NULL };
+		uint64_t order[2] = { cursor_u64(in), cursor_u64(in) };
+
+		cursor_copy(in, loaded.from, sizeof(loaded.from));
+		cursor_copy(in, loaded.to, sizeof(loaded.to));
+		if (order[0] > MAX_ORDER || order[1] > MAX_ORDER || !order[0] != !order[1])
+			in->failed = 1;
+		if (in->failed || !order[0])
+			continue;
+		loaded.order[0] = (uint32_t)order[0];
+		loaded.order[1] = (uint32_t)order[1];
+		loaded.points = calloc(map_size(&loaded, i % N_TARGETS), sizeof(*loaded.points));
+		if (loaded.points)
+			cursor_copy(in, loaded.points, map_size(&loaded, i % N_TARGETS) * sizeof(*loaded.points));
+		else
+			in->failed = 1;
+		*m = loaded;
+	}
+	return maps;
 }
 
 /* ---- Map1 and Map2, sec. 5.1 ---- */

@@ -319,6 +319,8 @@ static void put_state(struct saver *s, const struct gls_state *st)
 		saved.client = without_memory(&st->client_stack[i].client);
 		bytes_put(s->out, &saved, sizeof(saved));
 	}
+	section(s, "evaluators' maps of context", context_of(s->x, st));
+	gls_maps_save(st->maps, s->out);
 }
 
 /* Place of a context among all, from 1; 0: none. */
@@ -343,8 +345,8 @@ static uint64_t share_number(const struct gls_exec *x, const struct gls_share *s
 static int is_quiet(const struct gls_exec *x)
 {
 	for (size_t i = 0; i < x->n_contexts; i++)
-		if (x->contexts[i]->state.list || x->contexts[i]->state.begin_mode || x->contexts[i]->state.maps)
-			return 0; /* maps are rare and not kept: such traces replay from their last checkpoint without */
+		if (x->contexts[i]->state.list || x->contexts[i]->state.begin_mode)
+			return 0;
 	return x->geometry.n_vertices == 0;
 }
 
@@ -898,6 +900,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 		if (st->client_stack[i].client.active_texture >= GLS_MAX_UNITS)
 			l->in.failed = 1;
 	}
+	st->maps = gls_maps_load(&l->in);
 }
 
 /* The window system's name: contexts keep static strings. */

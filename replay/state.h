@@ -292,6 +292,12 @@ struct gls_state {
 int gls_state_init(struct gls_state *st);
 void gls_state_free(struct gls_state *st);
 void gls_maps_free(struct gls_maps *maps);
+struct bytes;
+struct cursor;
+/** A context's maps in a snapshot, and out of one: NULL there is as good as here. */
+void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
+/** @return NULL: there are none, or in->failed: no such bytes, or no memory for them. The caller owns it. */
+struct gls_maps *gls_maps_load(struct cursor *in);
 
 /** Record a GL error of the program (sec. 2.5): the first one sticks. */
 static inline void gls_set_error(struct gls_state *st, uint32_t error)

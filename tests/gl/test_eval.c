@@ -1,4 +1,6 @@
 /* Evaluators: curves, surfaces, grids and meshes (GL 2.1 sec. 5.1). */
+#include "base/err.h"
+#include "replay/snapshot.h"
 #include "tests/gl/gl.h"
 
 static const float arc[9] = { 0, 0, 0, 1, 2, 0, 2, 0, 0 };
@@ -92,4 +94,50 @@ START_TEST(test_errors)
 }
 END_TEST
 
-GL_TESTS("eval", test_curve, test_surface, test_errors)
+static int no_blob(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	(void)user, (void)name, (void)data;
+	ck_abort_msg("%zu bytes kept apart", n);
+	return 0;
+}
+
+/* Maps are part of a checkpoint: what is restored evaluates alike; bytes that are no maps are refused. */
+START_TEST(test_checkpoint)
+{
+	const struct snapshot_blobs blobs = { .put = no_blob };
+	struct gl gl = gl_open(), other = { 0 };
+	struct bytes saved = { 0 }, again = { 0 };
+	struct scene *s;
+
+	gl_call(&gl, "glMap1f", "effuuF", GL_MAP1_VERTEX_3, 2.0, 4.0, 3, 3, 9, arc);
+	gl_call(&gl, "glMap2f", "effuuffuuF", GL_MAP2_INDEX, 0.0, 1.0, 1, 1, 0.0, 1.0, 1, 1, 1, arc);
+	gl_call(&gl, "glEnable", "e", GL_MAP1_VERTEX_3);
+	s = gl_swap(&gl);
+	scene_release(&s);
+	ck_assert_int_eq(snapshot_save(gl.x, &blobs, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &blobs, saved.data, saved.n), 0);
+	ck_assert_int_eq(snapshot_save(other.x, &blobs, &again), 0);
+	ck_assert_uint_eq(saved.n, again.n);
+	ck_assert_int_eq(memcmp(saved.data, again.data, saved.n), 0);
+	other.x->want = 1;
+	gl_call(&other, "glBegin", "e", GL_POINTS);
+	gl_call(&other, "glEvalCoord1f", "f", 3.0);
+	gl_call(&other, "glEnd", "");
+	s = gl_swap(&other);
+	ck_assert_uint_eq(s->n_meshes, 1);
+	ck_assert_floats(4, s->meshes[0]->position, 1, 1, 0, 1);
+	scene_release(&s);
+	gl_close(&other);
+	for (size_t n = saved.n - 200; n < saved.n; n += 7) { /* cut within the maps and behind them */
+		ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+		ck_assert_int_eq(snapshot_load(other.x, &blobs, saved.data, n), ERR_INPUT);
+		gl_close(&other);
+	}
+	free(saved.data);
+	free(again.data);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("eval", test_curve, test_surface, test_errors, test_checkpoint)
