@@ -62,6 +62,14 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 	return !(t->stipples[stipple * 32u + (y & 31u)] >> (31u - (x & 31u)) & 1u);
 }
 
+/* 1 where a line's pixel is none of those that are drawn (GEOMETRY_LINE). row: from the top */
+static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
+{
+	GLOBAL const float *drawn = p->vertex[0]->secondary[1];
+
+	return p->geometry->flags & GEOMETRY_LINE && ((float)x < drawn[0] || (float)row < drawn[1] || (float)row > drawn[2]);
+}
+
 /* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
 static inline float stage_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
 {
@@ -385,7 +393,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	coverage = stage_coverage(&p);
 	clipped |= !n_slots && !pixel_is_sampled(bits) && point_clipped(&p);
 	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
-	if (!n_slots && (clipped || stage_stippled_away(t, &p, x, y) || uncovered)) {
+	if (!n_slots && (clipped || stage_undrawn(&p, x, height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
 		out->flags = 0u;
 		return;
 	}

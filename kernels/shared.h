@@ -205,7 +205,10 @@ SHARED_SIZE(struct shaded_vertex, 128);
 #define GEOMETRY_SMOOTH_POINT 4u
 /* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and SCENE_BITMAP etc. */
 #define GEOMETRY_PIXELS 8u
-/* Lines: color[1] of each corner holds where its end is in the window (x, y from the top, depth) and 0 at the first, 1 at the second. */
+/*
+ * Lines: color[1] of each corner holds where its end is in the window (x, y from the top, depth) and 0 at the first, 1 at the second;
+ * secondary[1] which pixels are drawn at all: first column, first and last row from the top.
+ */
 #define GEOMETRY_LINE 16u
 
 /* One instance as the vertex and fragment stages see it; the same index as its struct instance. */

@@ -279,14 +279,17 @@ static float end_shift(float x, float y, float d_major, float d_minor, int first
 	return -major - (d_major > 0 ? 0.5f : -0.5f);
 }
 
-/* Add an end's corner, with the end as it is: see GEOMETRY_LINE. */
+#define EVERYWHERE 1e6f /* pixels: beyond all windows */
+
+/* Add an end's corner, with the end as it is and what of the line is drawn: see GEOMETRY_LINE. */
 static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct end *e, int second, int32_t x,
-                            int32_t y)
+                            int32_t y, const float drawn[3])
 {
 	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
 
 	add_corner(in, out, e, x, y);
 	memcpy(vertex->color[1], (float[4]){ e->x, e->y, e->z, (float)second }, sizeof(vertex->color[1]));
+	memcpy(vertex->secondary[1], drawn, 3 * sizeof(*drawn));
 }
 
 /* The line a -> b, projected, as a quad. */
@@ -311,7 +314,8 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 		int i = k == 1 || k == 2;
 		int32_t side = k < 2 ? -half : half;
 
-		add_line_corner(in, out, ends[i], i, x[i] + (steep ? side : 0), y[i] + (steep ? 0 : side));
+		add_line_corner(in, out, ends[i], i, x[i] + (steep ? side : 0), y[i] + (steep ? 0 : side),
+		                (float[3]){ -EVERYWHERE, -EVERYWHERE, EVERYWHERE });
 	}
 	add_triangles(in, out, draw);
 }
@@ -324,11 +328,13 @@ static int32_t snap_sampled(float pixels)
 	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
 }
 
-/*
- * llvmpipe (22.3.6) rounds both sides of such a rectangle's box up to whole pixels, and draws none whose box is empty then. edge: 1
- * where a side on a border between pixels counts as beyond it.
- */
-static int is_dropped(const int32_t *v, int edge)
+/* Pixels of one axis that llvmpipe (22.3.6) draws of a rectangle along a line; it rounds both sides of their range up. */
+struct extent {
+	int32_t first, end;
+};
+
+/* edge: 1 where a place on a border between pixels counts as beyond it */
+static struct extent extent_of(const int32_t *v, int edge)
 {
 	int32_t least = v[0], most = v[0];
 
@@ -336,7 +342,13 @@ static int is_dropped(const int32_t *v, int edge)
 		least = v[k] < least ? v[k] : least;
 		most = v[k] > most ? v[k] : most;
 	}
-	return (most + 255 + edge) >> 8 <= (least + 255 + edge) >> 8;
+	return (struct extent){ (least + 255 + edge) >> 8, (most + 255 + edge) >> 8 };
+}
+
+/* The first pixel that is drawn: rectangles are filled tile by tile, from the tile of their extent's first pixel on. */
+static float first_drawn(struct extent e)
+{
+	return e.first % 64 == 0 ? (float)e.first : -EVERYWHERE;
 }
 
 /* The line a -> b under multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
@@ -344,20 +356,31 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
                                uint32_t draw)
 {
 	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
-	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area);
-	int32_t side_x = snap_sampled(-dy * scale), side_y = snap_sampled(dx * scale), x[4], y[4];
+	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area), drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
+	int32_t side_x = snap_sampled(-dy * scale), side_y = snap_sampled(dx * scale), x[4], y[4], row[4];
+	struct extent columns, rows;
 
+	if (!(area > 0))
+		return;
 	for (int k = 0; k < 4; k++) {
 		const struct end *e = k == 1 || k == 2 ? b : a;
 		int32_t side = k < 2 ? -1 : 1;
 
 		x[k] = snap_sampled(e->x) + side * side_x;
 		y[k] = snap_sampled(e->y) + side * side_y;
+		row[k] = in->from_below ? (int32_t)in->height * 256 - y[k] : y[k];
 	}
-	if (!(area > 0) || is_dropped(x, 0) || is_dropped(y, !in->from_below))
+	columns = extent_of(x, 0);
+	rows = extent_of(row, !in->from_below);
+	if (columns.end <= columns.first || rows.end <= rows.first)
 		return;
+	drawn[0] = first_drawn(columns);
+	if (in->from_below)
+		drawn[2] = (float)in->height - 1 - first_drawn(rows);
+	else
+		drawn[1] = first_drawn(rows);
 	for (int k = 0; k < 4; k++)
-		add_line_corner(in, out, k == 1 || k == 2 ? b : a, k == 1 || k == 2, x[k], y[k]);
+		add_line_corner(in, out, k == 1 || k == 2 ? b : a, k == 1 || k == 2, x[k], y[k], drawn);
 	add_triangles(in, out, draw);
 }
 

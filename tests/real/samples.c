@@ -5,7 +5,7 @@
 
 #include "tests/trace/window.h"
 
-enum { SIZE = 64, LEAVES = 14 };
+enum { WIDTH = 112, HEIGHT = 84, LEAVES = 14 }; /* more than one of llvmpipe's tiles of 64 x 64 */
 
 static void reset(int clears)
 {
@@ -25,7 +25,7 @@ static void flat_window(void)
 {
 	glMatrixMode(GL_PROJECTION);
 	glLoadIdentity();
-	glOrtho(0, 64, 0, 48, -1, 1);
+	glOrtho(0, WIDTH, 0, HEIGHT, -1, 1);
 	glMatrixMode(GL_MODELVIEW);
 }
 
@@ -112,6 +112,30 @@ static void lines(void)
 		glVertex3f(-0.7f + 0.17f * (float)i, 0.4f - 0.2f * (float)(i & 1), -2);
 	glEnd();
 	glDisable(GL_LINE_STIPPLE);
+}
+
+/* Lines that begin a little before a tile does, where they are cut off. y: of a border between tiles; away: where they come from */
+static void lines_near(float y, float away)
+{
+	glLoadIdentity();
+	glDisable(GL_DEPTH_TEST);
+	glLineWidth(1.5f);
+	glBegin(GL_LINES);
+	for (int i = 0; i < 20; i++) {
+		glColor3f(1, 0.05f * (float)i, 0);
+		glVertex2f(63 + 0.1f * (float)i, 3 + 3 * (float)i);
+		glVertex2f(70 + 0.1f * (float)i, 4 + 3 * (float)i);
+		glVertex2f(2 + 3 * (float)i, y - 1 + 0.1f * (float)i);
+		glVertex2f(3 + 3 * (float)i, away);
+	}
+	glEnd();
+	glLineWidth(1);
+}
+
+static void lines_at_tiles(void)
+{
+	flat_window();
+	lines_near(HEIGHT - 64, 9);
 }
 
 /* Points, smooth or not: squares of their very size. */
@@ -281,14 +305,15 @@ static void pixels(void)
 static void scissored(void)
 {
 	glEnable(GL_SCISSOR_TEST);
-	glScissor(13, 9, 31, 25);
+	glScissor(23, 9, 61, 55);
 	fan();
-	glScissor(5, 22, 20, 20);
+	glScissor(5, 40, 30, 30);
 	glClearColor(0.5f, 0.6f, 0.1f, 1);
 	glClear(GL_COLOR_BUFFER_BIT);
 	glDisable(GL_SCISSOR_TEST);
 }
 
+/* Few pixels: these cuts are made where samples are, while Mesa snaps their corners, which shows at one sample in thousands. */
 static void cut_by_planes(void)
 {
 	static const double left[4] = { 1, 0.3, 0.1, 0.2 }, low[4] = { -0.2, 1, 0, 0.3 };
@@ -297,7 +322,9 @@ static void cut_by_planes(void)
 	glClipPlane(GL_CLIP_PLANE1, low);
 	glEnable(GL_CLIP_PLANE0);
 	glEnable(GL_CLIP_PLANE1);
+	glViewport(0, 0, 64, 48);
 	fan();
+	glViewport(0, 0, WIDTH, HEIGHT);
 	glDisable(GL_CLIP_PLANE0);
 	glDisable(GL_CLIP_PLANE1);
 }
@@ -370,11 +397,11 @@ static void bind_samples(GLuint object, const GLuint *buffers)
 	glBindFramebuffer(GL_FRAMEBUFFER, object);
 	for (int i = 0; i < 2; i++) {
 		glBindRenderbuffer(GL_RENDERBUFFER, buffers[i]);
-		glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, 40, 40);
+		glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, i ? GL_DEPTH_COMPONENT24 : GL_RGBA8, 80, 80);
 		glFramebufferRenderbuffer(GL_FRAMEBUFFER, i ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[i]);
 	}
 	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the framebuffer object of samples is complete");
-	glViewport(0, 0, 40, 40);
+	glViewport(0, 0, 80, 80);
 }
 
 /* Its pixels into a framebuffer object of a texture (EXT_framebuffer_blit, EXT_framebuffer_multisample), and into the window. */
@@ -382,12 +409,12 @@ static void resolve_into(GLuint object, GLuint texture)
 {
 	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, object);
 	glBindTexture(GL_TEXTURE_2D, texture);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 40, 40, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 80, 80, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
 	glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-	glBlitFramebuffer(0, 0, 40, 40, 0, 0, 40, 40, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	glBlitFramebuffer(0, 0, 80, 80, 0, 0, 80, 80, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 	glBindFramebuffer(GL_FRAMEBUFFER, 0);
-	glViewport(0, 0, 64, 48);
-	show_texture(40);
+	glViewport(0, 0, WIDTH, HEIGHT);
+	show_texture(80);
 	glBindTexture(GL_TEXTURE_2D, 0);
 }
 
@@ -415,6 +442,11 @@ static void object(void)
 	glEnd();
 	glLineWidth(1);
 	glDisable(GL_SCISSOR_TEST);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, 80, 0, 80, -1, 1);
+	glMatrixMode(GL_MODELVIEW);
+	lines_near(64, 75);
 	resolve_into(objects[1], texture);
 }
 
@@ -442,7 +474,7 @@ static void object_again(void)
 	fan();
 	resolve_into(objects[1], texture);
 	glBindFramebuffer(GL_FRAMEBUFFER, objects[0]);
-	glViewport(0, 0, 40, 40);
+	glViewport(0, 0, 80, 80);
 	reset(0);
 	over_the_last();
 	resolve_into(objects[1], texture);
@@ -450,12 +482,14 @@ static void object_again(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, points, textured, alpha_to_coverage, sample_coverage, blended,
+	static void (*const frames[])(void) = { fan, crossing, floor_and_strips, lines, lines_at_tiles, points, textured, alpha_to_coverage, sample_coverage, blended,
 		                                disabled, stencilled, pixels, scissored, cut_by_planes, outlines, copied, object, object_again, fan, over_the_last, over_the_last };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8,
 		             GLX_SAMPLE_BUFFERS, 1, GLX_SAMPLES, 4, None };
 	GLint samples;
 
+	window_size[0] = WIDTH;
+	window_size[1] = HEIGHT;
 	open_window_of(attributes);
 	glGetIntegerv(GL_SAMPLES, &samples);
 	expect(samples == 4, "the window has four samples a pixel");

@@ -1,4 +1,4 @@
-/* A 64x48 GLX window for the small programs of this folder. */
+/* A GLX window for the small programs of this folder, of 64 x 48 pixels unless a program says otherwise before it opens it. */
 #ifndef TESTS_TRACE_WINDOW_H
 #define TESTS_TRACE_WINDOW_H
 
@@ -12,6 +12,7 @@
 
 static Display *display;
 static Window window;
+static unsigned window_size[2] = { 64, 48 };
 
 static inline void open_window_of(int *attributes)
 {
@@ -22,7 +23,7 @@ static inline void open_window_of(int *attributes)
 	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
 		exit(1);
 	set.colormap = XCreateColormap(display, DefaultRootWindow(display), visual->visual, AllocNone);
-	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, 64, 48, 0, visual->depth, InputOutput, visual->visual,
+	window = XCreateWindow(display, DefaultRootWindow(display), 0, 0, window_size[0], window_size[1], 0, visual->depth, InputOutput, visual->visual,
 	                       CWColormap, &set);
 	XMapWindow(display, window);
 	if (!glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True)))
