@@ -211,7 +211,7 @@ static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3
 	}
 }
 
-__attribute__((always_inline)) static inline void walk_blas(struct pixel *p, uint index, int is_compressed)
+INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
 {
 	__global const float *m = p->instances[index].obj_from_eye;
 	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
@@ -224,8 +224,8 @@ __attribute__((always_inline)) static inline void walk_blas(struct pixel *p, uin
 		walk_binary(p, index, o, inverse);
 }
 
-__attribute__((always_inline)) static inline void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
-                                                           __global const uint *instance_list)
+INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
+                      __global const uint *instance_list)
 {
 	const float3 inverse = invert(p->d);
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
@@ -274,7 +274,7 @@ static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 }
 
 /* Geometry in window space: where the view looks is a point. */
-__attribute__((always_inline)) static inline void walk_screen(struct pixel *p, uint index, int is_compressed)
+INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 {
 	const float2 at = pixel_spot(p);
 
@@ -308,12 +308,12 @@ static inline int make_ray(struct pixel *p)
 /*
  * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
  */
-__attribute__((always_inline)) static inline void
-do_pixel(int is_compressed, uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-         __global const struct instance *instances, __global const struct node2 *top, __global const uint *instance_list,
-         __global const struct node2 *nodes, __global const struct node8c *compressed, __global const struct triangle *triangles,
-         __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
-         __global struct fragment *fragments, __global uint *counts)
+INLINED void do_pixel(int is_compressed, uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                      __global const struct instance *instances, __global const struct node2 *top,
+                      __global const uint *instance_list, __global const struct node2 *nodes,
+                      __global const struct node8c *compressed, __global const struct triangle *triangles,
+                      __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
+                      __global struct fragment *fragments, __global uint *counts)
 {
 	__global const struct view *view = &views[view_index];
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],

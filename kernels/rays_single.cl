@@ -214,11 +214,10 @@ static inline void walk_compressed(struct walk *w, uint index, int any, __global
  * instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again, which costs less than
  * the registers.
  */
-__attribute__((always_inline)) static inline struct hit walk_ray(__global const struct ray *ray, int any, int is_compressed,
-                                                __global const struct node2 *top, __global const uint *instance_list,
-                                                __global const struct instance *instances,
-                                                __global const struct node2 *binary, __global const struct node8c *compressed,
-                                                __global const struct triangle *triangles)
+INLINED struct hit walk_ray(__global const struct ray *ray, int any, int is_compressed, __global const struct node2 *top,
+                            __global const uint *instance_list, __global const struct instance *instances,
+                            __global const struct node2 *binary, __global const struct node8c *compressed,
+                            __global const struct triangle *triangles)
 {
 	struct entry stack[BVH_MAX_DEPTH], entry;
 	struct walk eye;

@@ -14,6 +14,13 @@
 #ifdef __OPENCL_VERSION__
 typedef ushort uint16_t;
 #define SHARED_SIZE(type, bytes)
+/* A function that is compiled into each kernel that calls it, wherever constants make it another one there. Interpreters of
+ * kernels (LANES_PORTABLE, kernels/lanes.h) do not know compilers' own words. */
+#ifdef LANES_PORTABLE
+#define INLINED static inline
+#else
+#define INLINED __attribute__((always_inline)) static inline
+#endif
 #else
 #include "replay/scene.h"
 #define SHARED_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)

@@ -33,6 +33,8 @@
 	X(shadow_sum)       /* one ray to a light a work item: what arrives where nothing stopped it */ \
 	X(shadow_start)     /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
 	X(shadow_walk)      /* one of these a work item: past what it hit */ \
+	X(scan_sum)         /* a chunk of counts a work item: their sum */ \
+	X(scan_place)       /* the same: where each count's results go */ \
 	X(gather_paths)     /* one path a work item: its next rays into one dense list */ \
 	X(leave)            /* one fragment a work item: its mirrored, bent and scattered rays */ \
 	X(sky_ray)          /* one path a work item: its look at the sky where it hit nothing */ \

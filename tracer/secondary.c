@@ -1,9 +1,7 @@
 /* Rays from the fragments of the list: to the lights, into the surroundings, from mirror to mirror and through glass. */
-#include <stdlib.h>
-
-#include "base/err.h"
 #include "kernels/rays.h"
 #include "tracer/frame.h"
+#include "tracer/scan.h"
 
 /* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
 #define MOST_VEILS 32u
@@ -83,25 +81,8 @@ static int reserve_list(struct job *job, enum buffer paths, enum buffer rays, si
 static int place(struct job *job, enum buffer counts, uint32_t n, uint32_t *total)
 {
 	struct tracer *tr = job->tr;
-	uint32_t next = 0;
-	int err;
 
-	if (n > tr->path_room) {
-		free(tr->path_counts);
-		tr->path_counts = malloc(n * sizeof(*tr->path_counts));
-		tr->path_room = tr->path_counts ? n : 0;
-		if (!tr->path_counts)
-			return err_report(ERR_SYSTEM, NULL, "out of memory for %u rays", n);
-	}
-	err = device_read(tr->dev, tr->buffers[counts], 0, tr->path_counts, n * sizeof(*tr->path_counts));
-	for (uint32_t i = 0; i < n && !err; i++) {
-		uint32_t count = tr->path_counts[i];
-
-		tr->path_counts[i] = next;
-		next += count;
-	}
-	*total = next;
-	return err || next == 0 ? err : upload(tr, BUFFER_PLACES, tr->path_counts, n, sizeof(*tr->path_counts));
+	return scan_counts(tr->dev, tr->buffers[counts], n, &tr->buffers[BUFFER_PLACES], &tr->buffers[BUFFER_SCAN], total);
 }
 
 /* What came of a list's n paths, up to `slots` each, becomes the list. */

@@ -44,7 +44,6 @@ void tracer_destroy(struct tracer **tracer)
 		device_release(tr->dev, &tr->buffers[i]);
 	free(tr->counts);
 	free(tr->first);
-	free(tr->path_counts);
 	free(tr);
 	*tracer = NULL;
 }
