@@ -1,25 +1,23 @@
 /*
- * camera_packet: a tile of 8 x 8 pixels a work item. See kernels/camera.h.
+ * camera_packet: a tile of 16 x 16 pixels a work item. See kernels/camera.h.
  *
  * The tile's rays go through the trees as one frustum, nearest child first, cut off behind the farthest of the tile's
- * nearest fragments. A leaf's triangles are decided row by row, eight pixels at once.
+ * nearest fragments. A leaf's triangles are decided row by row, sixteen pixels at once.
  */
 #include "kernels/camera.h"
 #include "kernels/coverage.h"
 #include "kernels/frustum.h"
 
-#define LANES ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
-
 /* The far plane's lane in a tile's frustum. */
 #define FAR_PLANE 5
 
-/* What the eight pixels of a row hold. NEAREST: the nearest fragment; steps is all ones where there is none. */
+/* What the pixels of a row hold. NEAREST: the nearest fragment; steps is all ones where there is none. */
 struct row {
-	int8 inside;  /* pixels of the view's rectangle */
-	int8 on;      /* of these, pixels that take fragments now */
-	int8 counts;  /* COLUMN: fragments so far */
-	uint8 steps, order, instance, primitive;
-	float8 b1, b2, depth;
+	packi inside;  /* pixels of the view's rectangle */
+	packi on;      /* of these, pixels that take fragments now */
+	packi counts;  /* COLUMN: fragments so far */
+	packu steps, order, instance, primitive;
+	packf b1, b2, depth;
 };
 
 struct tile {
@@ -35,7 +33,7 @@ struct tile {
 	int x, y;      /* the first pixel */
 	int changed;   /* a nearest fragment was replaced since z_far was set */
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
-	struct row rows[CAMERA_TILE];
+	struct row rows[CAMERA_TILE_HEIGHT];
 };
 
 /* A candidate: its numbers. */
@@ -45,28 +43,28 @@ struct candidate {
 
 /* --- fragments --- */
 
-static inline void keep_nearest(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+WIDE_VECTORS static inline void keep_nearest(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
 	struct row *row = &t->rows[y];
-	const uint8 steps = convert_uint8(rint(depth * 16777215.0f));
-	const int8 before = t->mode == CAMERA_NEAREST_LESS ? (uint8)(c.order) < row->order : (uint8)(c.order) > row->order;
-	const int8 better = covered & ((steps < row->steps) | ((steps == row->steps) & before));
+	const packu steps = convert_uint16(rint(depth * 16777215.0f));
+	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(c.order) < row->order : (packu)(c.order) > row->order;
+	const packi better = covered & ((steps < row->steps) | ((steps == row->steps) & before));
 
-	if (!any_lane(better))
+	if (!any_pack(better))
 		return;
 	t->changed = 1;
-	row->order = select(row->order, (uint8)(c.order), better);
-	row->instance = select(row->instance, (uint8)(c.instance), better);
-	row->primitive = select(row->primitive, (uint8)(c.primitive), better);
+	row->order = select(row->order, (packu)(c.order), better);
+	row->instance = select(row->instance, (packu)(c.instance), better);
+	row->primitive = select(row->primitive, (packu)(c.primitive), better);
 	row->steps = select(row->steps, steps, better);
 	row->b1 = select(row->b1, b1, better);
 	row->b2 = select(row->b2, b2, better);
 	row->depth = select(row->depth, depth, better);
 }
 
-static inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+static inline void keep_in_columns(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
-	for (int lane = 0; lane < 8; lane++) {
+	for (int lane = 0; lane < CAMERA_TILE_WIDTH; lane++) {
 		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
 		int *count = (int *)&t->rows[y].counts + lane, place = *count;
@@ -91,7 +89,7 @@ static inline void keep_in_columns(struct tile *t, int y, int8 covered, float8 b
 	}
 }
 
-static inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b2, float8 depth, struct candidate c)
+static inline void keep(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
 	if (t->mode == CAMERA_COLUMN)
 		keep_in_columns(t, y, covered, b1, b2, depth, c);
@@ -100,10 +98,11 @@ static inline void keep(struct tile *t, int y, int8 covered, float8 b1, float8 b
 }
 
 /* Move the far plane up to the farthest of the tile's nearest fragments. */
-static inline void shorten(struct tile *t)
+WIDE_VECTORS static inline void shorten(struct tile *t)
 {
 	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
-	uint8 steps = 0;
+	packu steps = 0;
+	uint8 eight;
 	uint4 four;
 	uint2 two;
 	uint farthest;
@@ -111,9 +110,10 @@ static inline void shorten(struct tile *t)
 	t->changed = 0;
 	if (!(range > 0))
 		return; /* the nearest depth is not the first along the ray */
-	for (int y = 0; y < CAMERA_TILE; y++)
-		steps = max(steps, t->rows[y].steps & as_uint8(t->rows[y].on));
-	four = max(steps.lo, steps.hi);
+	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
+		steps = max(steps, t->rows[y].steps & as_uint16(t->rows[y].on));
+	eight = max(steps.lo, steps.hi);
+	four = max(eight.lo, eight.hi);
 	two = max(four.lo, four.hi);
 	farthest = max(two.lo, two.hi);
 	/* A step more, for equal depths, and what rounding may do. */
@@ -147,27 +147,27 @@ static inline struct tile_edge tile_edge(struct window_vertex a, struct window_v
 }
 
 /* In lanes: not negative where the centre is on the inner side, on row y after the edge's own. */
-static inline int8 edge_inside(struct tile_edge e, int y)
+static inline packi edge_inside(struct tile_edge e, int y)
 {
-	return (e.whole + y * e.step_y) + LANES * e.step_x;
+	return (e.whole + y * e.step_y) + PACK_LANES * e.step_x;
 }
 
 /*
  * The function's value in all lanes, rounded once. `small`: inside the triangle it fits into 32 bits; what overflows in
  * other lanes, or on the way, does not matter.
  */
-static inline float8 edge_values(struct tile_edge e, int y, int small)
+static inline packf edge_values(struct tile_edge e, int y, int small)
 {
 	if (small)
-		return convert_float8(as_int8((uint)e.value + (uint)(y * e.step_y) * 256u + as_uint8(LANES * e.step_x) * 256u));
-	return convert_float8((long8)(e.value + (long)y * e.step_y * 256) + convert_long8(LANES * e.step_x) * 256);
+		return convert_float16(as_int16((uint)e.value + (uint)(y * e.step_y) * 256u + as_uint16(PACK_LANES * e.step_x) * 256u));
+	return convert_float16((long16)(e.value + (long)y * e.step_y * 256) + convert_long16(PACK_LANES * e.step_x) * 256);
 }
 
 /*
  * All vertices have a place in the window. corner: NULL, or the three corners where the triangle is part of one that leaves the
  * view volume; the fragments' weights are those of the whole then. clip: else, where the vertices are in clip space.
  */
-static inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
+WIDE_VECTORS static inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
                        struct window_vertex v2, const struct clip_corner *const *corner, const struct vec4 *clip,
                        struct candidate c)
 {
@@ -175,7 +175,7 @@ static inline void try_placed(struct tile *t, uint flags, struct window_vertex v
 	const int in_x = 128 + t->view->sample[0], in_y = 128 + t->view->sample[1];
 	const int x_first = (min(min(v0.x, v1.x), v2.x) + 255 - in_x) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - in_x) >> 8;
 	const int y_first = max((min(min(v0.y, v1.y), v2.y) + 255 - in_y) >> 8, t->y);
-	const int y_last = min((max(max(v0.y, v1.y), v2.y) - in_y) >> 8, t->y + CAMERA_TILE - 1);
+	const int y_last = min((max(max(v0.y, v1.y), v2.y) - in_y) >> 8, t->y + CAMERA_TILE_HEIGHT - 1);
 	const struct clip_spot at = clip_spot(t->view, t->x, y_first);
 	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
 	const int clockwise = area < 0, small = area < (1l << 28) && area > -(1l << 28);
@@ -185,7 +185,7 @@ static inline void try_placed(struct tile *t, uint flags, struct window_vertex v
 	int exact = -1; /* not known yet */
 	float inverse;
 
-	if (y_first > y_last || x_first > x_last || x_last < t->x || x_first >= t->x + CAMERA_TILE || area == 0 ||
+	if (y_first > y_last || x_first > x_last || x_last < t->x || x_first >= t->x + CAMERA_TILE_WIDTH || area == 0 ||
 	    coverage_culled(flags, !clockwise))
 		return;
 	/* Edge i is the one across from vertex i; turned round where the triangle runs clockwise. */
@@ -195,27 +195,27 @@ static inline void try_placed(struct tile *t, uint flags, struct window_vertex v
 	inverse = 1.0f / (float)abs_diff(area, 0l);
 	for (int y = 0; y <= y_last - y_first; y++) {
 		const int row = y_first - t->y + y;
-		const int8 covered = t->rows[row].on & ((edge_inside(e0, y) | edge_inside(e1, y) | edge_inside(e2, y)) >= 0);
-		float8 b1, b2, depth;
+		const packi covered = t->rows[row].on & ((edge_inside(e0, y) | edge_inside(e1, y) | edge_inside(e2, y)) >= 0);
+		packf b1, b2, depth;
 
-		if (!any_lane(covered))
+		if (!any_pack(covered))
 			continue;
 		b1 = edge_values(e1, y, small) * inverse;
 		b2 = edge_values(e2, y, small) * inverse;
 		if (exact < 0)
 			exact = t->mode != CAMERA_COLUMN && clip_depth_plane(t->view, (float)t->height, corner, clip, z, &plane);
 		if (exact)
-			depth = fma((float8)(plane.along_y),
-			            (float8)(clip_from_origin(t->view, (int)t->height - 1 - (t->y + row), -t->view->sample[1])),
-			            fma((float8)(plane.along_x),
-			                convert_float8(LANES) + clip_from_origin(t->view, t->x, t->view->sample[0]),
-			                (float8)(plane.origin)));
+			depth = fma((packf)(plane.along_y),
+			            (packf)(clip_from_origin(t->view, (int)t->height - 1 - (t->y + row), -t->view->sample[1])),
+			            fma((packf)(plane.along_x),
+			                convert_float16(PACK_LANES) + clip_from_origin(t->view, t->x, t->view->sample[0]),
+			                (packf)(plane.origin)));
 		else
 			depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
-		depth = select(depth, (float8)(1), depth > 1.0f);
-		depth = select(depth, (float8)(0), depth < 0.0f);
+		depth = select(depth, (packf)(1), depth > 1.0f);
+		depth = select(depth, (packf)(0), depth < 0.0f);
 		if (corner) {
-			const float8 p0 = (1.0f - b1 - b2) * v0.w_inv, p1 = b1 * v1.w_inv, p2 = b2 * v2.w_inv, sum = p0 + p1 + p2;
+			const packf p0 = (1.0f - b1 - b2) * v0.w_inv, p1 = b1 * v1.w_inv, p2 = b2 * v2.w_inv, sum = p0 + p1 + p2;
 
 			b1 = (p0 * corner[0]->b1 + p1 * corner[1]->b1 + p2 * corner[2]->b1) / sum;
 			b2 = (p0 * corner[0]->b2 + p1 * corner[1]->b2 + p2 * corner[2]->b2) / sum;
@@ -279,8 +279,8 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 	const float left = (float)t->x + tile_sample(t, 0) - view->viewport[0];
 	const float low = (float)t->y + tile_sample(t, 1) - view->viewport[1];
 	/* A pixel's hundredth more: snapping moves edges by 1/512. */
-	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE - 0.49f) * scale_x - 1.0f;
-	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE - 0.49f) * scale_y - 1.0f;
+	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE_WIDTH - 0.49f) * scale_x - 1.0f;
+	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE_HEIGHT - 0.49f) * scale_y - 1.0f;
 	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that is always met. */
 	const float8 of_x = (float8)(1, -1, 0, 0, 0, 0, 0, 0), of_y = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
 	const float8 of_z = (float8)(0, 0, 0, 0, 1, -1, 0, 0), of_w = (float8)(-x0, x1, -y0, y1, 1, t->z_far, 1, 0);
@@ -381,8 +381,8 @@ static inline void walk_screen(struct tile *t, uint index)
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node2 *nodes = t->nodes + instance->node2_first;
 	const float left = (float)t->x + tile_sample(t, 0), low = (float)t->y + tile_sample(t, 1), pad = instance->pad;
-	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE - 0.5f + pad;
-	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE - 0.5f + pad;
+	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE_WIDTH - 0.5f + pad;
+	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE_HEIGHT - 0.5f + pad;
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
 	stack[depth++] = 0;
@@ -402,8 +402,8 @@ static inline void walk_screen(struct tile *t, uint index)
 
 static inline void store_tile(const struct tile *t, __global uint *counts)
 {
-	for (int y = 0; y < CAMERA_TILE; y++)
-		for (int lane = 0; lane < 8; lane++) {
+	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
+		for (int lane = 0; lane < CAMERA_TILE_WIDTH; lane++) {
 			const struct row *row = &t->rows[y];
 			const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
 			struct fragment f;
@@ -436,7 +436,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	__global const float *viewport = view->viewport;
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
 	                                                   view->scissor[3], width, height);
-	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
+	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE_WIDTH - 1) / CAMERA_TILE_WIDTH;
 	struct tile t;
 
 	if (item >= camera_packet_items(r))
@@ -452,18 +452,18 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.width = width;
 	t.height = height;
 	t.mode = mode;
-	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
-	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;
+	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE_WIDTH;
+	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE_HEIGHT;
 	t.changed = 0;
 	t.z_far = 1;
-	for (int y = 0; y < CAMERA_TILE; y++) {
+	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++) {
 		struct row *row = &t.rows[y];
-		const float8 px = convert_float8(t.x + LANES) + 0.5f + tile_sample(&t, 0);
+		const packf px = convert_float16(t.x + PACK_LANES) + 0.5f + tile_sample(&t, 0);
 		const float py = (float)(t.y + y) + 0.5f + tile_sample(&t, 1);
 
-		row->inside = (t.x + LANES < r.x1) & (int8)(t.y + y < r.y1 ? -1 : 0);
+		row->inside = (t.x + PACK_LANES < r.x1) & (packi)(t.y + y < r.y1 ? -1 : 0);
 		row->on = row->inside & (px >= viewport[0]) & (px < viewport[0] + viewport[2]) &
-		          (int8)(py >= viewport[1] && py < viewport[1] + viewport[3] ? -1 : 0);
+		          (packi)(py >= viewport[1] && py < viewport[1] + viewport[3] ? -1 : 0);
 		row->counts = 0;
 		row->steps = row->order = row->instance = row->primitive = SCENE_NONE;
 		row->b1 = row->b2 = 0;
@@ -471,7 +471,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	}
 	if (view->tlas_count)
 		walk_top(&t, top + view->tlas_first, instance_list);
-	for (int y = 0; y < CAMERA_TILE; y++)
+	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
 		t.rows[y].on = t.rows[y].inside;
 	for (uint i = 0; i < view->screen_count; i++)
 		walk_screen(&t, view->screen_first + i);

@@ -72,6 +72,7 @@ static inline float8 lanes_max(float8 x, float8 y)
 typedef float16 packf;
 typedef int16 packi;
 typedef uint16 packu;
+#define PACK_LANES ((packi)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
 static inline int any_pack(packi mask)
 {
