@@ -7,7 +7,7 @@
 #include "kernels/compressed.h"
 #include "tracer/bvh.h"
 
-/* The least exponent of a float that is no denormal. Boxes are bounded (accel.c), so that a grid for them is always found. */
+/* The least exponent of a float that is no denormal. Boxes are bounded (soup.h), so that a grid for them is always found. */
 #define LEAST_EXPONENT 1u
 
 /* One lane of a node in rows. */
