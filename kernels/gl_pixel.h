@@ -299,8 +299,8 @@ static inline float pixel_average_part(float gl, const float *gls, const float *
  * first sample's. The surface is that of the first sample that has one.
  */
 static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
-                                 GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,
-                                 GLOBAL struct frame_pixel *out)
+                               GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,
+                               GLOBAL struct frame_pixel *out)
 {
 	GLOBAL const struct frame_pixel *from[4];
 	float gls[4], parts[4];

@@ -223,6 +223,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->stencil_bits = stencil;
 		st->srgb = srgb != 0;
 		st->samples = samples;
+		if (samples > 1 && samples != SCENE_SAMPLES)
+			gls_unsupported(x, "other than four samples a pixel: four are taken");
 		st->dirty |= GLS_DIRTY_ALL;
 	}
 	if (sscanf(text, "relume:drawable %u %u", &width, &height) != 2 || width > 65536 || height > 65536)

@@ -612,6 +612,8 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 GLS_HANDLER(glRenderbufferStorage, NOW) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }
 GLS_HANDLER(glRenderbufferStorageMultisample, NOW)
 {
+	if (arg_i(c, 1) > SCENE_SAMPLES)
+		gls_unsupported(x, "more than four samples a pixel: four are taken");
 	storage(x, st, arg_u(c, 2), arg_i(c, 3), arg_i(c, 4), arg_i(c, 1));
 }
 

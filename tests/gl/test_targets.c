@@ -65,6 +65,41 @@ START_TEST(test_bits_of_marker)
 }
 END_TEST
 
+/* Samples of a pixel (sec. 3.2.1), what is asked of them, and smoothing, which they take the place of. Only four can be had. */
+START_TEST(test_samples)
+{
+	struct gl gl = gl_open();
+	const struct scene_material *m;
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_SAMPLE_COVERAGE);
+	gl_call(&gl, "glEnable", "e", GL_SAMPLE_ALPHA_TO_COVERAGE);
+	gl_call(&gl, "glEnable", "e", GL_LINE_SMOOTH);
+	gl_call(&gl, "glSampleCoverage", "fi", 0.5, 0);
+	triangle(&gl);
+	gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:bits 8 24 8 0 4");
+	triangle(&gl);
+	gl_call(&gl, "glSampleCoverage", "fi", 0.5, 1);
+	triangle(&gl);
+	gl_call(&gl, "glDisable", "e", GL_MULTISAMPLE);
+	triangle(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 4);
+	for (uint32_t i = 0; i < 4; i++) {
+		m = &s->materials[s->instances[i].material];
+		ck_assert_uint_eq(m->multisample, i == 1 || i == 2);
+		ck_assert_uint_eq(m->line_smooth, !m->multisample);
+		ck_assert_uint_eq(m->alpha_to_coverage, m->multisample);
+		ck_assert_uint_eq(m->samples_off, i == 1 ? 12 : i == 2 ? 3 : 0);
+	}
+	scene_release(&s);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glStringMarkerGREMEDY", "is", 0, "relume:bits 8 24 8 0 8");
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {
 	uint32_t asked, n_instances, width, height, depth_bits, alpha_bits, had_start;
@@ -308,5 +343,5 @@ START_TEST(test_accum)
 }
 END_TEST
 
-GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_render_to_texture, test_object_keeps, test_renderbuffers,
+GL_TESTS("targets", test_bits_of_visuals, test_bits_of_marker, test_samples, test_render_to_texture, test_object_keeps, test_renderbuffers,
          test_blit, test_object_skipped, test_accum)
