@@ -47,6 +47,9 @@
 
 #define RAYS_RANGE 1e38f
 
+/* How much farther than the nearest hit boxes are looked at, as a share of its t. */
+#define RAYS_END_SLACK 4e-6f
+
 /* From how many radii on a ray is moved. */
 #define RAYS_FAR 64.0f
 

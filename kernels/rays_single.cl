@@ -47,7 +47,7 @@ static inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *e
 	const float near_z = fma(w->iz < 0 ? hi.z : lo.z, w->iz, w->near_z), far_z = fma(w->iz < 0 ? lo.z : hi.z, w->far_iz, w->far_z);
 
 	*enter = fmax(fmax(near_x, near_y), fmax(near_z, w->t_min));
-	return lo.x <= hi.x && *enter <= fmin(fmin(far_x, far_y), fmin(far_z, w->hit.t));
+	return lo.x <= hi.x && *enter <= fmin(fmin(far_x, far_y), fmin(far_z, walk_end(w)));
 }
 
 /* The next subtree that is not behind what was hit meanwhile. @return 0: there is none */
@@ -57,7 +57,7 @@ static inline int pop(const struct walk *w, const struct entry *stack, uint *dep
 		if (*depth == 0)
 			return 0;
 		*entry = stack[--*depth];
-	} while (entry->enter > w->hit.t);
+	} while (entry->enter > walk_end(w));
 	return 1;
 }
 
@@ -163,7 +163,7 @@ static inline uint meet_compressed(const struct walk *w, uint octant, __global c
 		                         fmax(fma(byte_of(slot < 4 ? near_z.x : near_z.y, k), z.near_step, z.near), w->t_min));
 		const float leave = fmin(fmin(fma(byte_of(slot < 4 ? far_x.x : far_x.y, k), x.far_step, x.far),
 		                              fma(byte_of(slot < 4 ? far_y.x : far_y.y, k), y.far_step, y.far)),
-		                         fmin(fma(byte_of(slot < 4 ? far_z.x : far_z.y, k), z.far_step, z.far), w->hit.t));
+		                         fmin(fma(byte_of(slot < 4 ? far_z.x : far_z.y, k), z.far_step, z.far), walk_end(w)));
 		const uint meta = (slot < 4 ? b.z : b.w) >> 8 * k & 255u;
 
 		if (enter <= leave) {

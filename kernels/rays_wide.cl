@@ -31,7 +31,7 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, __glo
 	while (depth) {
 		const struct entry entry = stack[--depth];
 
-		if (entry.enter > w.hit.t)
+		if (entry.enter > walk_end(&w))
 			continue;
 		if (entry.count == 0) {
 			float8 enter;

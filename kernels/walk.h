@@ -18,6 +18,15 @@ struct walk {
 	struct hit hit; /* hit.t: the ray's end so far */
 };
 
+/*
+ * How far boxes are looked at: a little beyond the nearest hit so far, as what rounding makes of a triangle's t may lie before its
+ * box. Else which of two nearly equal hits counts would depend on the tree.
+ */
+static inline float walk_end(const struct walk *w)
+{
+	return fma(fabs(w->hit.t), RAYS_END_SLACK, w->hit.t);
+}
+
 /* A subtree to be walked. */
 struct entry {
 	float enter;

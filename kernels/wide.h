@@ -23,7 +23,7 @@ static inline uint meet_boxes(const struct walk *w, __global const struct node8 
 	const float8 first = lanes_max(lanes_max(near_x, near_y), lanes_max(near_z, w->t_min));
 
 	*enter = first;
-	return lane_bits(first <= lanes_min(lanes_min(far_x, far_y), lanes_min(far_z, w->hit.t)));
+	return lane_bits(first <= lanes_min(lanes_min(far_x, far_y), lanes_min(far_z, walk_end(w))));
 }
 
 /* Push what the ray meets, farthest first, so that the nearest is popped next; in any order where any hit will do. */
@@ -113,7 +113,7 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			if (depth == 0)
 				return;
 			entry = stack[--depth];
-		} while (entry.enter > w->hit.t);
+		} while (entry.enter > walk_end(w));
 	}
 }
 

@@ -96,7 +96,7 @@ static const struct row {
 	[RAYS] = { "rays", required_argument, PICTURE, 0 },
 	[REACH] = { "reach", required_argument, PICTURE, 0 },
 	[LOOK] = { "look", required_argument, PICTURE_FILE, 0 },
-	[ACCEL] = { "accel", required_argument, PICTURE, 0 }, /* what rounding decides, at the very edge of a box, may differ */
+	[ACCEL] = { "accel", required_argument, RUN, 0 }, /* no hit depends on the tree that found it (kernels/rays.h) */
 	[RELIGHT] = { "relight", no_argument, PICTURE, 0 },
 	[DEVICE] = { "device", required_argument, RUN, 0 },
 	[KERNELS] = { "kernels", required_argument, RUN, 0 },
