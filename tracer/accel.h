@@ -54,10 +54,11 @@ void accel_destroy(struct accel **accel);
  * Find or build the BLASes of a frame's instances (accel->kind), then its top levels.
  *
  * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. A mesh of the same
- * triangles as one of these but with other vertices gets its tree with other boxes, as long as that does not cost much more than
- * a new one. Those of INSTANCE_BAKED instances live for one frame. Triangles with a vertex that is not finite are left out; those with a
- * vertex at w <= 0 cannot be bounded and stay as candidates for camera rays only. A mesh of another kind than triangles
- * is an error of the caller: lines and points come as `extra` meshes.
+ * triangles as one of these but with other vertices gets its tree with other boxes, as long as that does not cost much
+ * more than when it was built, else a binned one (ACCEL_BVH). Those of INSTANCE_BAKED instances live for one frame.
+ * Triangles with a vertex that is not finite are left out; those with a vertex at w <= 0 cannot be bounded and stay as
+ * candidates for camera rays only. A mesh of another kind than triangles is an error of the caller: lines and points
+ * come as `extra` meshes.
  *
  * @param scene      meshes and views
  * @param extra      [n], or NULL: the triangle mesh of an instance that is not one of the scene's (screen geometry: x y

@@ -73,18 +73,19 @@ void tree_free(struct tree *tree)
 	*tree = (struct tree){ NULL };
 }
 
-/* One side of a node of a depth; notes how deep its child is. */
-static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t *depth)
+/* One side of a node; notes how deep its child is (0: nobody has come to it yet) and how many items leaves hold. */
+static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t *depth, uint64_t *items)
 {
 	const uint32_t child = tree->nodes[at].child[side], count = tree->nodes[at].count[side];
 
+	*items += count;
 	if (count)
-		return child <= tree->n_order && count <= tree->n_order - child;
+		return count <= LEAF_TRIANGLES && child <= tree->n_order && count <= tree->n_order - child;
 	if (!child)
 		return at == 0 && tree->nodes[at].lo[side][0] > tree->nodes[at].hi[side][0]; /* an empty side */
-	if (child <= at || child >= tree->n_nodes || depth[at] + 1 >= BVH_MAX_DEPTH)
+	if (child <= at || child >= tree->n_nodes || depth[child] || depth[at] + 1 >= BVH_MAX_DEPTH)
 		return 0;
-	depth[child] = (uint8_t)(depth[at] + 1 > depth[child] ? depth[at] + 1 : depth[child]);
+	depth[child] = (uint8_t)(depth[at] + 1);
 	return 1;
 }
 
@@ -92,11 +93,12 @@ int tree_is_sound(const struct tree *tree, uint32_t n_triangles)
 {
 	uint8_t *depth = calloc(tree->n_nodes + 1, sizeof(*depth));
 	int sound = depth && tree->n_nodes > 0;
+	uint64_t items = 0;
 
 	for (uint32_t i = 0; i < tree->n_nodes && sound; i++)
-		sound = side_is_sound(tree, i, 0, depth) && side_is_sound(tree, i, 1, depth);
+		sound = (i == 0 || depth[i]) && side_is_sound(tree, i, 0, depth, &items) && side_is_sound(tree, i, 1, depth, &items);
 	for (uint32_t i = 0; i < tree->n_order && sound; i++)
 		sound = tree->order[i] < n_triangles;
 	free(depth);
-	return sound;
+	return sound && items == tree->n_order;
 }

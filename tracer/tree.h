@@ -54,7 +54,10 @@ int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash
 int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out);
 void tree_free(struct tree *tree);
 
-/** Can the kernels walk it? Every index in range, children behind their parents, no path longer than BVH_MAX_DEPTH. */
+/**
+ * Can the kernels walk it, and wide nodes be made of it? Every index in range, each node below one other and behind it, leaves no larger
+ * than they are built, no path longer than BVH_MAX_DEPTH.
+ */
 int tree_is_sound(const struct tree *tree, uint32_t n_triangles);
 
 #endif

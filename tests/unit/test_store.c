@@ -207,7 +207,7 @@ START_TEST(an_unsound_tree_is_no_tree)
 	struct tree tree = build(ACCEL_BVH), got;
 
 	ck_assert(tree_is_sound(&tree, N));
-	for (int what = 0; what < 5; what++) {
+	for (int what = 0; what < 8; what++) {
 		struct node2 node = tree.nodes[0];
 		uint32_t item = tree.order[N - 1];
 
@@ -217,6 +217,9 @@ START_TEST(an_unsound_tree_is_no_tree)
 		case 2: tree.nodes[0].child[0] = N - 1; tree.nodes[0].count[0] = 2; break;
 		case 3: tree.nodes[0].child[0] = 7; tree.nodes[0].count[0] = 0xfffffff0u; break;
 		case 4: tree.order[N - 1] = N; break;
+		case 5: tree.nodes[0].child[1] = tree.nodes[0].child[0]; break; /* one child of two sides */
+		case 6: tree.nodes[0].child[0] = 0; tree.nodes[0].count[0] = 9; break; /* a leaf too large */
+		case 7: tree.nodes[0].child[1] = 0; tree.nodes[0].count[1] = 1; break; /* nodes that nobody comes to */
 		}
 		ck_assert_msg(!tree_is_sound(&tree, N), "case %d", what);
 		store_save(store, &key, &tree);
@@ -224,15 +227,16 @@ START_TEST(an_unsound_tree_is_no_tree)
 		tree.nodes[0] = node;
 		tree.order[N - 1] = item;
 	}
-	/* A path of nodes, one below the other. */
+	/* A path of nodes, one below the other, with an item each; the last one has two. */
 	for (uint32_t n = BVH_MAX_DEPTH; n <= BVH_MAX_DEPTH + 1; n++) {
 		for (uint32_t i = 0; i < n; i++) {
-			tree.nodes[i].child[0] = i + 1 < n ? i + 1 : 0;
+			tree.nodes[i].child[0] = i + 1 < n ? i + 1 : n;
 			tree.nodes[i].count[0] = i + 1 == n;
-			tree.nodes[i].child[1] = 0;
+			tree.nodes[i].child[1] = i;
 			tree.nodes[i].count[1] = 1;
 		}
 		tree.n_nodes = n;
+		tree.n_order = n + 1;
 		ck_assert_msg(tree_is_sound(&tree, N) == (n <= BVH_MAX_DEPTH), "a path of %u nodes", n);
 	}
 	tree_free(&tree);
