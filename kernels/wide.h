@@ -102,6 +102,13 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			float8 enter;
 			const uint bits = meet_boxes(w, node, &enter);
 
+			if (bits && (bits & (bits - 1)) == 0) { /* the only one: on with it, past the stack */
+				const uint lane = popcount(bits - 1);
+
+				entry.child = node->child[lane];
+				entry.count = node->count[lane];
+				continue;
+			}
 			depth = push_boxes(stack, depth, bits, &enter, any, node);
 		}
 		for (uint i = 0; i < entry.count; i++) {
