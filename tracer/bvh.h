@@ -104,8 +104,8 @@ int bvh_collapse8(const struct node2 *nodes2, uint32_t n_nodes2, enum bvh_leaves
                   uint32_t *n_nodes, uint32_t *block_first, uint32_t *block_count, uint32_t *n_blocks);
 
 /**
- * The same with all items as they are, into nodes of 80 bytes (kernels/shared.h: struct node8c). A leaf of more than
- * NODE8C_LEAF_MAX items becomes nodes.
+ * The same with all items as they are, into nodes of 80 bytes (kernels/shared.h: struct node8c): those that cost least by the
+ * measure of bvh_cost. A leaf of more than NODE8C_LEAF_MAX items becomes nodes.
  *
  * @param nodes2     as built above, of leaves of at most BVH_COMPRESSED_LEAF items
  * @param triangles  [n_items], in leaf order

@@ -1,4 +1,4 @@
-/* Eight-wide nodes of 80 bytes out of those in rows. */
+/* Eight-wide nodes of 80 bytes out of binary ones. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,21 +121,118 @@ static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8]
 	out->exponents |= exponent << 8 * axis;
 }
 
-/* Where a node comes from: one in rows, or items that are too many for a leaf, in a box. */
+/* --- Which nodes become one ---------------------------------------------------------------------------------------- */
+
+/*
+ * What a subtree costs as at most so many children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n] of
+ * them for its left side; 0: with one less. left[1] for the eight children of the node that it becomes by itself.
+ */
+struct plan {
+	float cost[8]; /* [1..7] */
+	uint8_t left[9];
+};
+
+static float side_area(const struct node2 *node, int side)
+{
+	const float x = node->hi[side][0] - node->lo[side][0], y = node->hi[side][1] - node->lo[side][1];
+	const float z = node->hi[side][2] - node->lo[side][2];
+
+	return x < 0 ? 0 : x * y + y * z + z * x;
+}
+
+/* The cost of one side of a node as at most n children. */
+static float side_cost(const struct node2 *node, int side, const struct plan *plans, uint32_t n)
+{
+	return node->count[side] ? side_area(node, side) * (float)node->count[side] : plans[node->child[side]].cost[n];
+}
+
+/* The best way to share n children between the sides of a node. @return the cost */
+static float share(const struct node2 *node, const struct plan *plans, uint32_t n, uint8_t *left)
+{
+	float best = INFINITY;
+
+	for (uint32_t k = 1; k < n; k++) {
+		const float cost = side_cost(node, 0, plans, k < 7 ? k : 7) + side_cost(node, 1, plans, n - k < 7 ? n - k : 7);
+
+		if (cost < best || k == 1) {
+			best = cost;
+			*left = (uint8_t)k;
+		}
+	}
+	return best;
+}
+
+/* area: of the box around the node. */
+static void plan_node(const struct node2 *node, const struct plan *plans, float area, struct plan *out)
+{
+	out->cost[1] = share(node, plans, 8, &out->left[1]) + BVH_COST_NODE * area;
+	for (uint32_t n = 2; n < 8; n++) {
+		out->cost[n] = share(node, plans, n, &out->left[n]);
+		if (out->cost[n - 1] < out->cost[n]) {
+			out->cost[n] = out->cost[n - 1];
+			out->left[n] = 0;
+		}
+	}
+}
+
+/* --- Nodes --------------------------------------------------------------------------------------------------------- */
+
+/* Where a node comes from: a binary one, or items that are too many for a leaf, in a box. */
 struct source {
-	uint32_t first, count; /* count 0: a node in rows */
+	uint32_t first, count; /* count 0: a binary node */
 	float lo[3], hi[3];
 };
 
 /* What is being written. */
 struct compression {
-	const struct node8 *rows;
-	const struct triangle *triangles; /* in the leaf order of the tree in rows */
+	const struct node2 *nodes2;
+	const struct plan *plans;         /* [nodes2] */
+	const struct triangle *triangles; /* in the leaf order of the binary tree */
 	struct node8c *nodes;
 	struct triangle *out;
 	struct source *from; /* [nodes] */
 	uint32_t n_nodes, n_out;
 };
+
+/* One side of a binary node as at most n children, appended to the lanes of a node in rows. */
+static void add_lanes(const struct compression *c, const struct node2 *node, int side, uint32_t n, struct node8 *out, uint32_t *lane)
+{
+	const struct plan *plan = &c->plans[node->child[side]];
+
+	if (node->count[side] == 0 && node->child[side] == 0)
+		return; /* an empty side */
+	while (node->count[side] == 0 && n > 1 && plan->left[n] == 0)
+		n--;
+	if (node->count[side] == 0 && n > 1) {
+		add_lanes(c, &c->nodes2[node->child[side]], 0, plan->left[n], out, lane);
+		add_lanes(c, &c->nodes2[node->child[side]], 1, n - plan->left[n], out, lane);
+		return;
+	}
+	for (int a = 0; a < 3; a++) {
+		out->lo[a][*lane] = node->lo[side][a];
+		out->hi[a][*lane] = node->hi[side][a];
+	}
+	out->child[*lane] = node->child[side];
+	out->count[(*lane)++] = node->count[side];
+}
+
+/* A binary node with what lies below it as a node in rows. */
+static struct node8 collapse(const struct compression *c, uint32_t index)
+{
+	const uint32_t left = c->plans[index].left[1];
+	struct node8 node;
+	uint32_t lane = 0;
+
+	memset(&node, 0, sizeof(node));
+	for (int a = 0; a < 3; a++)
+		for (int i = 0; i < 8; i++) {
+			node.lo[a][i] = BVH_EMPTY_LO;
+			node.hi[a][i] = BVH_EMPTY_HI;
+		}
+	add_lanes(c, &c->nodes2[index], 0, left < 7 ? left : 7, &node, &lane);
+	add_lanes(c, &c->nodes2[index], 1, 8 - left < 7 ? 8 - left : 7, &node, &lane);
+	return node;
+}
 
 /* Many items as a node in rows: eight leaves, or as many as it takes, all in the same box. */
 static struct node8 split_items(const struct source *items)
@@ -205,25 +302,34 @@ static void compress_node(struct compression *c, const struct node8 *in, struct 
 int bvh_compress8(const struct node2 *nodes2, uint32_t n_nodes2, const struct triangle *triangles, uint32_t n_items,
                   struct node8c *nodes, uint32_t *n_nodes, struct triangle *out)
 {
-	struct node8 *rows = malloc(n_nodes2 * sizeof(*rows));
-	struct compression c = { rows, triangles, nodes, out, malloc(BVH_COMPRESSED_NODES(n_nodes2, n_items) * sizeof(*c.from)), 1, 0 };
-	uint32_t n_rows;
+	struct plan *plans = calloc(n_nodes2, sizeof(*plans));
+	struct compression c = { nodes2, plans, triangles, nodes, out,
+		                 malloc(BVH_COMPRESSED_NODES(n_nodes2, n_items) * sizeof(*c.from)), 1, 0 };
 	int err = 0;
 
-	if (!rows || !c.from)
+	if (!plans || !c.from) {
 		err = err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-	if (!err)
-		err = bvh_collapse8(nodes2, n_nodes2, BVH_ITEMS, rows, &n_rows, NULL, NULL, NULL);
-	if (!err) {
-		c.from[0] = (struct source){ 0 };
-		for (uint32_t i = 0; i < c.n_nodes; i++) {
-			const struct node8 items = c.from[i].count ? split_items(&c.from[i]) : rows[c.from[i].first];
-
-			compress_node(&c, &items, &nodes[i]);
-		}
-		*n_nodes = c.n_nodes;
+		goto done;
 	}
-	free(rows);
+	/* Children come after their parents. */
+	for (uint32_t i = n_nodes2; i-- > 0;) {
+		struct node2 around = nodes2[i];
+
+		for (int a = 0; a < 3; a++) {
+			around.lo[0][a] = fminf(around.lo[0][a], around.lo[1][a]);
+			around.hi[0][a] = fmaxf(around.hi[0][a], around.hi[1][a]);
+		}
+		plan_node(&nodes2[i], plans, side_area(&around, 0), &plans[i]);
+	}
+	c.from[0] = (struct source){ 0 };
+	for (uint32_t i = 0; i < c.n_nodes; i++) {
+		const struct node8 rows = c.from[i].count ? split_items(&c.from[i]) : collapse(&c, c.from[i].first);
+
+		compress_node(&c, &rows, &nodes[i]);
+	}
+	*n_nodes = c.n_nodes;
+done:
+	free(plans);
 	free(c.from);
 	return err;
 }

@@ -120,7 +120,8 @@ static void check_same_linear(uint32_t n, uint32_t n_nodes)
 	ck_assert_mem_eq(alone_order, order, n * sizeof(*order));
 }
 
-static void check_trees(uint32_t n, int linear)
+/* @return binary nodes for each compressed one */
+static float check_trees(uint32_t n, int linear)
 {
 	uint32_t n_nodes, n_nodes8, n_blocks;
 	struct bvh_box whole;
@@ -151,6 +152,7 @@ static void check_trees(uint32_t n, int linear)
 	check_node8c(0, 0, &whole);
 	for (uint32_t i = 0; i < n; i++)
 		ck_assert_msg(seen[i], "item %u of %u is in no compressed node", i, n);
+	return (float)n_nodes / (float)n_nodes8;
 }
 
 /* Leaves that no compressed node has room for become nodes. */
@@ -214,6 +216,7 @@ START_TEST(all_items_in_one_leaf)
 		set_box(i, between(&r, -1, 1), between(&r, -1, 1), between(&r, -9, 9), between(&r, 0, 0.1f));
 	for (size_t k = 0; k < sizeof(counts) / sizeof(counts[0]); k++)
 		check_trees(counts[k], _i);
+	ck_assert_float_gt(check_trees(N, _i), 4); /* seven where all were full */
 	for (uint32_t i = 0; i < N; i++) /* not to be divided */
 		set_box(i, 1, 2, 3, 0);
 	for (uint32_t leaf = 5; leaf <= BVH_COMPRESSED_LEAF; leaf = 3 * leaf + 1)
