@@ -186,7 +186,7 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COM
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
-$(BUILD)/tests/fuzz/test_calls: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
+$(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 

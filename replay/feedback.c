@@ -146,12 +146,21 @@ struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
 	return st->draw_framebuffer ? gls_framebuffer_surface(x, st) : window(x, st, st->drawable);
 }
 
-/* A window of another size has nothing of the old one's. */
-static void check_size(struct gls_surface *surface, const struct scene *s)
+static int has_size(const struct scene_picture *p, const struct scene *s)
 {
-	if ((surface->picture && (surface->picture->picture.width != s->width || surface->picture->picture.height != s->height)) ||
+	return p->width == s->width && p->height == s->height;
+}
+
+/* A window of another size has nothing of the old one's, even where its size has changed within a frame. */
+static void check_size(struct gls_surface *surface, struct scene *s)
+{
+	if ((surface->picture && !has_size(&surface->picture->picture, s)) ||
 	    (surface->before && (surface->before->width != s->width || surface->before->height != s->height)))
 		forget(surface);
+	if (s->start && !has_size(s->start, s)) {
+		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+		s->start = NULL;
+	}
 }
 
 /*
@@ -207,7 +216,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	if (!s)
 		return NULL;
 	kept = gls_frame_snapshot(surface, &events);
-	if (*kept && *events == gls_frame_events(surface))
+	if (*kept && *events == gls_frame_events(surface) && has_size(&(*kept)->picture, s))
 		return &(*kept)->picture;
 	if (!find_start(x, surface, s, &snapshot))
 		return NULL;

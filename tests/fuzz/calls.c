@@ -12,24 +12,42 @@
 #define MAX_FRAMES 8
 #define MAX_ITEMS 64
 #define MAX_BLOB 16384
-#define WINDOW 7
 
 static const int64_t EXTREME_INTS[] = { -1, INT32_MAX, INT32_MIN, 0x7FFF, 0x8000, 0xFFFF, 0x10000, UINT32_MAX, 0x1000000, 4096, 2048, 1024, 100,
 	                                -2, -3, -100 };
 static const float EXTREME_FLOATS[] = { NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-40f, -0.0f, 16777217.0f };
 static const uint32_t BLOB_SIZES[] = { 0, 1, 3, 16, 64, 256, 1024, MAX_BLOB };
 
+static const char *const LIKELY[] = { "glBegin", "glVertex2f", "glVertex3f", "glVertex3f", "glVertex4f", "glEnd", "glRectf", "glDrawArrays",
+	                              "glDrawPixels", "glBitmap", "glCopyPixels", "glEnable", "glTexImage2D", "glColor4f", "glTexCoord2f",
+	                              "glNormal3f", "glCallList", "glClear", "glXSwapBuffers" };
+
+unsigned calls_draw(unsigned *state, unsigned n)
+{
+	*state = *state * 1664525u + 1013904223u;
+	return n ? (*state >> 8) % n : 0;
+}
+
+void calls_invent(unsigned *state, uint8_t *slot)
+{
+	const char *name = LIKELY[calls_draw(state, sizeof(LIKELY) / sizeof(LIKELY[0]))];
+	unsigned i = 0;
+
+	for (size_t k = 0; k < CALLS_SLOT; k++)
+		slot[k] = (uint8_t)calls_draw(state, 256);
+	if (calls_draw(state, 2))
+		return;
+	while (i + 1 < n_calls_commands && strcmp(calls_commands[i].name, name) != 0)
+		i++;
+	slot[0] = (uint8_t)i;
+	slot[1] = (uint8_t)(i >> 8);
+}
+
 /* What the calls' values point to. */
 struct calls {
 	struct trace_value args[CALLS_MAX_PARAMS], items[CALLS_MAX_PARAMS][MAX_ITEMS];
 	uint8_t blob[CALLS_MAX_PARAMS][MAX_BLOB];
 };
-
-static uint32_t next_random(uint32_t *state)
-{
-	*state = *state * 1664525u + 1013904223u;
-	return *state >> 16;
-}
 
 static int64_t int_of(uint32_t v)
 {
@@ -79,10 +97,10 @@ static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_
 
 static struct trace_value array_of(struct calls *c, unsigned i, char letter, uint32_t v, const struct calls_group *group)
 {
-	uint32_t random = v, n = v >> 8 < 224 ? 1 + (v >> 8) % 16 : (v & MAX_ITEMS - 1);
+	uint32_t random = v, n = v >> 8 < 224 ? 1 + (v >> 8) % 16 : v % MAX_ITEMS;
 
 	for (uint32_t k = 0; k < n; k++)
-		c->items[i][k] = scalar_of(letter, k ? next_random(&random) : v & 255, group);
+		c->items[i][k] = scalar_of(letter, k ? calls_draw(&random, 65536) : v & 255, group);
 	return (struct trace_value){ .type = TRACE_ARRAY, .count = n, .items = c->items[i] };
 }
 
@@ -93,7 +111,7 @@ static struct trace_value blob_of(struct calls *c, unsigned i, uint32_t v)
 	if (how < 64)
 		return (struct trace_value){ .type = how < 32 ? TRACE_NULL : TRACE_OPAQUE, .u = how < 32 ? 0 : v & 255 };
 	for (uint32_t k = 0; k < n; k++)
-		c->blob[i][k] = how < 96 ? (uint8_t)how : (uint8_t)next_random(&random);
+		c->blob[i][k] = how < 96 ? (uint8_t)how : (uint8_t)calls_draw(&random, 65536);
 	return (struct trace_value){ .type = TRACE_BLOB, .count = n, .blob = c->blob[i] };
 }
 
@@ -141,16 +159,16 @@ static int call(struct gls_exec *x, const char *name, struct trace_value ret, ui
 	return gls_exec_call(x, &made);
 }
 
+static const struct trace_value NONE = { .type = TRACE_NONE }, ZERO = { .type = TRACE_NULL },
+                                CONTEXT = { .type = TRACE_OPAQUE, .u = 0x10 }, WINDOW = { .type = TRACE_UINT, .u = 7 },
+                                SIZE = { .type = TRACE_UINT, .u = 64 };
+
 static int make_current(struct gls_exec *x)
 {
-	const struct trace_value none = { .type = TRACE_NONE }, null = { .type = TRACE_NULL },
-	                         address = { .type = TRACE_OPAQUE, .u = 0x10 }, window = { .type = TRACE_UINT, .u = WINDOW },
-	                         size = { .type = TRACE_UINT, .u = 64 };
-
-	return call(x, "glXCreateContext", address, 4, (struct trace_value[]){ address, null, null, window }) ||
-	       call(x, "glXMakeCurrent", none, 3, (struct trace_value[]){ address, window, address }) ||
-	       call(x, "glViewport", none, 4, (struct trace_value[]){ null, null, size, size }) ||
-	       call(x, "glScissor", none, 4, (struct trace_value[]){ null, null, size, size });
+	return call(x, "glXCreateContext", CONTEXT, 4, (struct trace_value[]){ CONTEXT, ZERO, ZERO, WINDOW }) ||
+	       call(x, "glXMakeCurrent", NONE, 3, (struct trace_value[]){ CONTEXT, WINDOW, CONTEXT }) ||
+	       call(x, "glViewport", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE }) ||
+	       call(x, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
 }
 
 /* Blobs of a snapshot, one after the other. */
@@ -213,12 +231,14 @@ static int check_snapshot(struct gls_exec *x)
 }
 
 /* What replay.c does where a frame has ended. */
-static int end_frame(struct gls_exec *x)
+static int end_frame(struct gls_exec *x, const struct calls_painter *painter)
 {
 	struct scene *scene;
 
 	x->frame_ended = 0;
 	scene = gls_frame_finish(x);
+	if (scene && painter && !x->rewind)
+		painter->paint(painter->user, scene);
 	if (scene)
 		scene_release(&scene);
 	x->frame++;
@@ -227,7 +247,7 @@ static int end_frame(struct gls_exec *x)
 	return x->failed || x->rewind ? 0 : check_snapshot(x);
 }
 
-int calls_run(const uint8_t *data, size_t size)
+int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter)
 {
 	struct calls *c = calloc(1, sizeof(*c));
 	struct gls_exec *x = NULL;
@@ -235,15 +255,17 @@ int calls_run(const uint8_t *data, size_t size)
 
 	if (c && !gls_exec_create(&x, "calls")) {
 		x->want = 1;
+		x->supply = painter ? painter->supply : NULL;
+		x->supply_user = painter ? painter->user : NULL;
 		if (!make_current(x))
 			for (size_t at = 0; at + CALLS_SLOT <= size && x->frame < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
 				if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->rewind)
 					break;
 				if (x->frame_ended)
-					wrong = end_frame(x);
+					wrong = end_frame(x, painter);
 			}
-		if (!x->failed && !x->rewind && !wrong)
-			wrong = end_frame(x);
+		if (!x->failed && !x->rewind && !wrong && !call(x, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
+			wrong = end_frame(x, painter);
 	}
 	gls_exec_destroy(&x);
 	free(c);

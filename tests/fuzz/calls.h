@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "replay/replay.h"
+
 #define CALLS_MAX_PARAMS 15
 #define CALLS_SLOT (2 + 2 * CALLS_MAX_PARAMS)
 
@@ -30,11 +32,25 @@ extern const struct calls_group calls_groups[];
 extern const struct calls_command calls_commands[];
 extern const unsigned n_calls_commands;
 
+/** A number below n (0 for n = 0), and the next state of the generator. */
+unsigned calls_draw(unsigned *state, unsigned n);
+
+/** Any call with any values; half of them are of the commands without which little is drawn. @param slot  [CALLS_SLOT] */
+void calls_invent(unsigned *state, uint8_t *slot);
+
+/* Who makes pixels of scenes. */
+struct calls_painter {
+	void (*paint)(void *user, const struct scene *scene); /* of each frame */
+	replay_supply *supply;                                /* for calls that read what was drawn */
+	void *user;
+};
+
 /**
  * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
  * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).
+ * @param painter  NULL: nobody makes pixels
  * @return 0; 1 where they are not
  */
-int calls_run(const uint8_t *data, size_t size);
+int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter);
 
 #endif

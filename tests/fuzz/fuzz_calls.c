@@ -22,40 +22,33 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-	if (calls_run(data, size))
+	if (calls_run(data, size, NULL))
 		abort();
 	return 0;
 }
 
-static unsigned draw(unsigned *state, unsigned n)
-{
-	*state = *state * 1664525u + 1013904223u;
-	return n ? (*state >> 8) % n : 0;
-}
-
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-	size_t n = size / CALLS_SLOT, most = max_size / CALLS_SLOT, at = draw(&seed, (unsigned)n), end, parts;
+	size_t n = size / CALLS_SLOT, most = max_size / CALLS_SLOT, at = calls_draw(&seed, (unsigned)n), end, parts;
 	uint8_t slot[CALLS_SLOT];
 
-	switch (n && n < most ? draw(&seed, 6) : n ? 4 + draw(&seed, 2) : 0) {
+	switch (n && n < most ? calls_draw(&seed, 6) : n ? 4 + calls_draw(&seed, 2) : 0) {
 	case 0: /* a call that was not there */
 	case 1:
-		for (size_t i = 0; i < CALLS_SLOT; i++)
-			slot[i] = (uint8_t)draw(&seed, 256);
+		calls_invent(&seed, slot);
 		break;
 	case 2: /* one that was, again */
-		memcpy(slot, data + draw(&seed, (unsigned)n) * CALLS_SLOT, CALLS_SLOT);
+		memcpy(slot, data + calls_draw(&seed, (unsigned)n) * CALLS_SLOT, CALLS_SLOT);
 		break;
 	case 3: /* without some */
 		parts = n - at < 8 ? n - at : 8;
-		end = at + 1 + draw(&seed, (unsigned)parts);
+		end = at + 1 + calls_draw(&seed, (unsigned)parts);
 		end = end > n ? n : end;
 		memmove(data + at * CALLS_SLOT, data + end * CALLS_SLOT, (n - end) * CALLS_SLOT);
 		return (n - (end - at)) * CALLS_SLOT;
 	default: /* another value */
-		data[at * CALLS_SLOT + 2 + draw(&seed, CALLS_SLOT - 2)] = (uint8_t)draw(&seed, 256);
-		if (draw(&seed, 4) == 0)
+		data[at * CALLS_SLOT + 2 + calls_draw(&seed, CALLS_SLOT - 2)] = (uint8_t)calls_draw(&seed, 256);
+		if (calls_draw(&seed, 4) == 0)
 			LLVMFuzzerMutate(data + at * CALLS_SLOT, CALLS_SLOT, CALLS_SLOT);
 		return n * CALLS_SLOT;
 	}
@@ -70,7 +63,7 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t 
                                  unsigned seed)
 {
 	size_t most = max_size / CALLS_SLOT, a_n = a_size / CALLS_SLOT, b_n = b_size / CALLS_SLOT;
-	size_t head = draw(&seed, (unsigned)a_n + 1), tail = draw(&seed, (unsigned)b_n + 1);
+	size_t head = calls_draw(&seed, (unsigned)a_n + 1), tail = calls_draw(&seed, (unsigned)b_n + 1);
 
 	head = head > most ? most : head;
 	tail = tail > most - head ? most - head : tail;

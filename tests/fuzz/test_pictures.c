@@ -1,0 +1,128 @@
+/*
+ * Pictures of what calls in any order with any values draw (calls.h): kernels and C twins stay in one piece, and agree to the
+ * last bit.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/fuzz/calls.h"
+#include "tests/fuzz/kept.h"
+#include "tracer/feed.h"
+
+#define N_PARTS 4
+#define N_RANDOM 15
+#define CALLS_A_RUN 200
+
+enum { TWIN, KERNELS, N_DEVICES };
+
+static uint8_t bytes[KEPT_LARGEST];
+
+struct painter {
+	struct device *dev[N_DEVICES];
+	struct tracer *tracer[N_DEVICES];
+	struct feed feed;
+	const char *what; /* is painted */
+	int number, part;
+	unsigned n_drawn;
+};
+
+static void paint(void *user, const struct scene *scene)
+{
+	const struct tracer_options options = { .mode = TRACER_WHITTED, .display = 1, .depth = 4 };
+	struct painter *p = user;
+	struct image image[N_DEVICES] = { 0 };
+
+	if (scene->n_instances == 0 || scene->width == 0 || scene->height == 0)
+		return;
+	for (int i = 0; i < N_DEVICES; i++)
+		ck_assert_int_eq(tracer_render(p->tracer[i], scene, &options, &image[i]), 0);
+	ck_assert_uint_eq(image[TWIN].n_channels, image[KERNELS].n_channels);
+	for (size_t c = 0; c < image[TWIN].n_channels; c++) {
+		const float *twin = image_values(&image[TWIN], c), *kernels = image_values(&image[KERNELS], c);
+		size_t n = (size_t)image[TWIN].width * image[TWIN].height, different = 0;
+		for (size_t k = 0; k < n; k++)
+			different += memcmp(&twin[k], &kernels[k], sizeof(float)) != 0;
+		ck_assert_msg(!different, "%s %d of part %d: %zu of %zu values of %s differ", p->what, p->number, p->part, different, n,
+		              image[TWIN].channels[c].name);
+	}
+	for (int i = 0; i < N_DEVICES; i++)
+		image_free(&image[i]);
+	p->n_drawn++;
+}
+
+static int supply(void *user, const struct scene *scene, struct scene_picture *picture)
+{
+	return feed_supply(&((struct painter *)user)->feed, scene, picture);
+}
+
+static void open_painter(struct painter *p, int part)
+{
+	*p = (struct painter){ .part = part };
+	ck_assert_int_eq(device_open("reference", 1, &p->dev[TWIN]), 0);
+	ck_assert_int_eq(device_open(NULL, 1, &p->dev[KERNELS]), 0);
+	for (int i = 0; i < N_DEVICES; i++)
+		ck_assert_int_eq(tracer_create(&p->tracer[i], p->dev[i]), 0);
+	p->feed.parent = p->dev[TWIN];
+}
+
+static void close_painter(struct painter *p)
+{
+	ck_assert_uint_gt(p->n_drawn, 10);
+	feed_free(&p->feed);
+	for (int i = 0; i < N_DEVICES; i++) {
+		tracer_destroy(&p->tracer[i]);
+		device_close(&p->dev[i]);
+	}
+}
+
+START_TEST(kept_pictures)
+{
+	struct painter p;
+	const struct calls_painter painter = { .paint = paint, .supply = supply, .user = &p };
+	FILE *file = fopen(KEPT, "rb");
+	size_t size;
+
+	ck_assert_msg(file != NULL, "no " KEPT);
+	open_painter(&p, _i);
+	p.what = "kept sequence";
+	for (; kept_next(file, bytes, &size); p.number++)
+		if (p.number % N_PARTS == _i)
+			calls_run(bytes, size, &painter);
+	close_painter(&p);
+	fclose(file);
+}
+END_TEST
+
+START_TEST(random_pictures)
+{
+	struct painter p;
+	const struct calls_painter painter = { .paint = paint, .supply = supply, .user = &p };
+	unsigned state = (unsigned)_i;
+
+	open_painter(&p, _i);
+	p.what = "random sequence";
+	for (; p.number < N_RANDOM; p.number++) {
+		for (unsigned i = 0; i < CALLS_A_RUN; i++)
+			calls_invent(&state, bytes + (size_t)i * CALLS_SLOT);
+		calls_run(bytes, CALLS_A_RUN * CALLS_SLOT, &painter);
+	}
+	close_painter(&p);
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tcase = tcase_create("pictures");
+	Suite *suite = suite_create("pictures");
+	SRunner *runner;
+	int failed;
+
+	tcase_add_loop_test(tcase, kept_pictures, 0, N_PARTS);
+	tcase_add_loop_test(tcase, random_pictures, 0, N_PARTS);
+	suite_add_tcase(suite, tcase);
+	runner = srunner_create(suite);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
