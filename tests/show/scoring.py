@@ -70,7 +70,9 @@ class Scorer:
 
     def check_replay(self, recording):
         """glretrace's picture of the last frame that has a reference must be the program's own, bit for bit."""
-        frames = [f for f in recording.references if f > 0]
+        # a program that was killed may have left the reference of a frame that it did not come to swap
+        whole = (self.info(recording.trace) or {"frames": 0})["frames"]
+        frames = [f for f in recording.references if 0 < f < whole]
         if not frames:
             return "no frame to compare"
         pictures = self.work / "raster"
