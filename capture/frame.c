@@ -46,6 +46,7 @@ static __thread struct {
 	uintptr_t drawable;
 	int width, height;     /* OSMesa's, which has no drawables */
 	int in_primitive;      /* between Begin and End: no call of ours may come there */
+	int unswapped;         /* the frame that ends does so without a swap */
 	int drawn, primitives; /* since the last frame: anything at all, anything but clears */
 } self __attribute__((tls_model("initial-exec")));
 
@@ -206,8 +207,9 @@ void frame_mark_bits(void)
 	char text[64];
 
 	context_errors_before();
-	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
-	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT), context_get(GL_SAMPLES));
+	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
+	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT), context_get(GL_SAMPLES),
+	         context_get(GL_DOUBLEBUFFER) != 0);
 	context_errors_after();
 	record_marker(text);
 }
@@ -227,7 +229,7 @@ static void frame_end(uintptr_t drawable, int width, int height)
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)now_ns());
 	record_marker(text);
 	if (drawable == self.drawable && context_is_current() && reference_wanted(writer_frames()))
-		reference_read(writer_frames(), width, height);
+		reference_read(writer_frames(), width, height, self.unswapped);
 	writer_frame_ends();
 }
 
@@ -307,12 +309,14 @@ static void frame_end_current(void)
 {
 	uint8_t *p;
 
+	self.unswapped = 1;
 	if (self.system == SYSTEM_GLX && self.drawable)
 		frame_end_glx(self.display, self.drawable);
 	else if (self.system == SYSTEM_EGL && self.drawable)
 		frame_end_egl(self.display, (void *)self.drawable);
 	else
 		frame_end(self.drawable, self.width, self.height); /* OSMesa's, or none: framebuffer objects are drawn to */
+	self.unswapped = 0;
 	p = writer_enter_fake(CMD_glFrameTerminatorGREMEDY);
 	if (p)
 		writer_call_end(p);

@@ -253,7 +253,15 @@ static int make_ready(int width, int height)
 	return 0;
 }
 
-void reference_read(uint64_t frame, int width, int height)
+/* What is drawn to in a window with a back buffer is its front buffer, alone or too. */
+static int draws_to_front(void)
+{
+	int buffer = context_has(HAS_DESKTOP) && context_get(GL_DOUBLEBUFFER) ? context_get(GL_DRAW_BUFFER) : GL_BACK;
+
+	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_LEFT || buffer == GL_FRONT_AND_BACK;
+}
+
+void reference_read(uint64_t frame, int width, int height, int unswapped)
 {
 	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 	struct reading_state state = { 0 };
@@ -267,6 +275,8 @@ void reference_read(uint64_t frame, int width, int height)
 		goto done;
 	context_errors_before();
 	reading_begin(&state);
+	if (unswapped && draws_to_front())
+		real_glReadBuffer(GL_FRONT);
 	if (r.color && !r.failed) {
 		reading_colors(width, height, r.pixels);
 		write_record(REF_COLOR, frame, width, height);

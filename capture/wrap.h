@@ -108,8 +108,11 @@ void frame_may_end(enum frame_trigger trigger, int truth);
 
 /** 1 where frame `frame` is to be read back. */
 int reference_wanted(uint64_t frame);
-/** Read the current context's default framebuffer; changes no state that the program can see. */
-void reference_read(uint64_t frame, int width, int height);
+/**
+ * Read the current context's default framebuffer; changes no state that the program can see.
+ * @param unswapped  1: the frame ends without a swap and shows what is drawn to, be it the front buffer
+ */
+void reference_read(uint64_t frame, int width, int height, int unswapped);
 
 /** All state that reading pixels depends on set to its initial value, the window's framebuffer bound; then put back. */
 enum { READING_PACK = 6, READING_TRANSFER = 10 };

@@ -70,6 +70,7 @@ struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st)
 		gls_out_of_memory(x, sizeof(*d));
 		return NULL;
 	}
+	d->front.is_front = 1;
 	return d;
 }
 
@@ -120,6 +121,7 @@ static void destroy_context(struct gls_exec *x, const struct call *c, unsigned c
 static void swap(struct gls_exec *x, uint64_t drawable)
 {
 	gls_flush(x);
+	x->unswapped = 0;
 	x->swapped = table_find(&x->drawables, drawable) || !x->st ? drawable : x->st->drawable;
 	x->frame_ended = 1;
 }
@@ -152,7 +154,11 @@ GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
 GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(eglSwapBuffersWithDamageEXT, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(eglSwapBuffersWithDamageKHR, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
-GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW)
+{
+	swap(x, x->st ? x->st->drawable : 0);
+	x->unswapped = 1;
+}
 
 /* OSMesa draws into the program's memory: each context is its own drawable. */
 GLS_HANDLER(OSMesaCreateContext, WINDOW)
@@ -202,7 +208,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	const struct trace_value *v = arg(c, 1);
 	struct gls_drawable *drawable;
 	char text[128];
-	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0;
+	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0, two_buffers = 1;
 	size_t n;
 
 	if (v->type != TRACE_STRING && v->type != TRACE_BLOB)
@@ -214,7 +220,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		set_surface(x, st, text + 16);
 	if (strcmp(text, "relume:kdtree") == 0)
 		st->kd_tree = 1;
-	if (sscanf(text, "relume:bits %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples) >= 3 && alpha <= 32 && depth <= 32 &&
+	if (sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 && alpha <= 32 && depth <= 32 &&
 	    stencil <= 8 && samples <= 64) {
 		gls_flush(x);
 		x->is_ours = 1;
@@ -223,6 +229,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		st->stencil_bits = stencil;
 		st->srgb = srgb != 0;
 		st->samples = samples;
+		st->double_buffered = two_buffers != 0;
 		if (samples > 1 && samples != SCENE_SAMPLES)
 			gls_unsupported(x, "other than four samples a pixel: four are taken");
 		st->dirty |= GLS_DIRTY_ALL;

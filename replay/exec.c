@@ -342,6 +342,7 @@ void gls_exec_destroy(struct gls_exec **exec)
 	for (size_t i = 0; i < x->drawables.room; i++)
 		if (x->drawables.entries[i].value) {
 			gls_surface_free(&((struct gls_drawable *)x->drawables.entries[i].value)->surface);
+			gls_surface_free(&((struct gls_drawable *)x->drawables.entries[i].value)->front);
 			free(((struct gls_drawable *)x->drawables.entries[i].value)->accum);
 			free(x->drawables.entries[i].value);
 		}

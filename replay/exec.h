@@ -249,6 +249,7 @@ struct gls_surface {
 	struct gls_picture *picture; /* a reference: what it held before them, */
 	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
 	int carried;                 /* 1: some of the events are of earlier frames, which nobody wanted */
+	int is_front;                /* 1: a front buffer beside a back buffer */
 	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
 };
 
@@ -265,7 +266,9 @@ struct gls_framebuffer {
 struct gls_drawable {
 	uint32_t width, height;
 	int fixed; /* size said by the recorder (relume:drawable) and not guessed from viewports */
-	struct gls_surface surface;
+	struct gls_surface surface; /* the back buffer, or the only one */
+	struct gls_surface front;   /* of two; without events while it has not parted (front.c) */
+	int parted;                 /* 1: both get every event */
 	int16_t *accum; /* owned: the accumulation buffer, [height][width][4], see accum.c; NULL: all 0 */
 	uint32_t accum_width, accum_height;
 	uint32_t accum_missing; /* 1: it was changed in a frame that was skipped */
@@ -305,6 +308,8 @@ struct gls_exec {
 	uint32_t command;             /* its index */
 	unsigned list_depth;
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
+	int unswapped;                /* 1: it ended without a swap */
+	int fronts;                   /* 1: what front buffers show is looked at */
 	uint64_t serial;              /* of the last scene begun */
 	replay_supply *supply;        /* makes pixels; NULL: nobody does */
 	void *supply_user;
@@ -424,6 +429,8 @@ struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st);
 const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface);
 /** The same of what the context reads from (ReadBuffer, read framebuffer, read drawable). */
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st);
+/** Make `to`, which holds nothing, begin from what `from` begins from. */
+void gls_surface_share(struct gls_surface *to, const struct gls_surface *from);
 /** The frame of the drawable that was swapped: its scene, a reference for the caller; NULL: out of memory or x->rewind. */
 struct scene *gls_frame_finish(struct gls_exec *x);
 /**
@@ -439,6 +446,21 @@ void gls_surface_free(struct gls_surface *surface);
 struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
                                      uint32_t alpha_bits, uint32_t samples);
 void gls_picture_release(struct gls_picture *picture);
+
+/* front.c: two buffers of a window */
+struct gls_target {
+	struct gls_surface *surface;
+	int colored; /* 0: the context draws to another buffer, which has the same depth and stencil buffers */
+};
+/** The surfaces that an event of the context changes. @return how many; 0: none, or out of memory */
+unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_target out[2]);
+/** 1 where the context draws to its window's front buffer beside a back buffer; where it reads from that. */
+int gls_front_is_drawn(const struct gls_state *st);
+int gls_front_is_read(const struct gls_state *st);
+/** From now until the next swap the front buffer is apart from the back buffer. @return it */
+struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d);
+/** The back buffer, whose scene has just ended, was swapped to the front. */
+void gls_front_swapped(struct gls_drawable *d);
 
 /* framebuffer.c: framebuffer objects */
 /** What the bound object draws to; NULL: out of memory, or nothing is attached. */

@@ -116,18 +116,16 @@ void gls_surface_free(struct gls_surface *surface)
 	forget(surface);
 }
 
-static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint64_t name)
+void gls_surface_share(struct gls_surface *to, const struct gls_surface *from)
 {
-	uint64_t drawn = st->drawable;
-	struct gls_drawable *d;
-	struct gls_surface *s;
+	to->picture = reference(from->picture);
+	to->before = from->before ? gls_scene_reference(from->before) : NULL;
+	to->skipped = from->skipped;
+	to->carried = from->carried;
+}
 
-	st->drawable = name;
-	d = gls_drawable_of(x, st);
-	st->drawable = drawn;
-	if (!d)
-		return NULL;
-	s = &d->surface;
+static void describe(struct gls_surface *s, const struct gls_drawable *d, const struct gls_state *st)
+{
 	if (s->carried && (s->width != d->width || s->height != d->height)) {
 		gls_surface_free(s); /* a window of another size has nothing of the old one's */
 		s->carried = 0;
@@ -138,12 +136,31 @@ static struct gls_surface *window(struct gls_exec *x, struct gls_state *st, uint
 	s->stencil_bits = st->stencil_bits;
 	s->alpha_bits = st->alpha_bits;
 	s->samples = st->samples;
-	return s;
+}
+
+static struct gls_drawable *window(struct gls_exec *x, struct gls_state *st, uint64_t name)
+{
+	uint64_t drawn = st->drawable;
+	struct gls_drawable *d;
+
+	st->drawable = name;
+	d = gls_drawable_of(x, st);
+	st->drawable = drawn;
+	if (!d)
+		return NULL;
+	describe(&d->surface, d, st);
+	describe(&d->front, d, st);
+	return d;
 }
 
 struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
 {
-	return st->draw_framebuffer ? gls_framebuffer_surface(x, st) : window(x, st, st->drawable);
+	struct gls_drawable *d;
+
+	if (st->draw_framebuffer)
+		return gls_framebuffer_surface(x, st);
+	d = window(x, st, st->drawable);
+	return d ? &d->surface : NULL;
 }
 
 static int has_size(const struct scene_picture *p, const struct scene *s)
@@ -189,6 +206,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		*snapshot = NULL;
 		if (surface->skipped) {
 			x->rewind = 1;
+			x->fronts |= surface->is_front;
 			return 0;
 		}
 		surface->picture = render(x, surface->before);
@@ -231,8 +249,13 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st)
 {
+	struct gls_drawable *d;
+
 	gls_flush(x);
-	return st->read_framebuffer ? gls_framebuffer_read(x, st) : gls_surface_read(x, window(x, st, st->read_drawable));
+	if (st->read_framebuffer)
+		return gls_framebuffer_read(x, st);
+	d = window(x, st, st->read_drawable);
+	return d ? gls_surface_read(x, gls_front_is_read(st) && x->want ? gls_front_part(x, d) : &d->surface) : NULL;
 }
 
 /* ---- ends of frames ---- */
@@ -255,18 +278,27 @@ static struct scene *end_scene(struct gls_exec *x, struct gls_surface *surface)
 	return s;
 }
 
-static struct gls_surface *swapped(struct gls_exec *x)
+static struct gls_drawable *swapped(struct gls_exec *x)
 {
 	struct gls_state none = { .drawable = x->swapped };
 
 	return window(x, x->st ? x->st : &none, x->swapped);
 }
 
+/* What the frame that has ended shows. */
+static struct gls_surface *shown(struct gls_exec *x, struct gls_drawable *d)
+{
+	return x->unswapped && x->st && gls_front_is_drawn(x->st) ? gls_front_part(x, d) : &d->surface;
+}
+
 struct scene *gls_frame_finish(struct gls_exec *x)
 {
-	struct gls_surface *surface = swapped(x);
+	struct gls_drawable *d = swapped(x);
+	struct scene *s = d ? end_scene(x, shown(x, d)) : NULL;
 
-	return surface ? end_scene(x, surface) : NULL;
+	if (s && !x->unswapped)
+		gls_front_swapped(d);
+	return s;
 }
 
 static void bundle(struct gls_exec *x, struct gls_surface *surface)
@@ -278,13 +310,16 @@ static void bundle(struct gls_exec *x, struct gls_surface *surface)
 
 void gls_frame_carry(struct gls_exec *x)
 {
-	struct gls_surface *surface = swapped(x);
+	struct gls_drawable *d = swapped(x);
+	struct gls_surface *surface = d ? shown(x, d) : NULL;
 
-	if (!surface || !surface->frame)
+	if (!surface)
 		return;
-	surface->carried = 1;
-	if (gls_frame_events(surface) > MANY_EVENTS)
+	surface->carried |= surface->frame != NULL;
+	if (gls_frame_events(surface) > MANY_EVENTS || (x->fronts && !x->unswapped))
 		bundle(x, surface);
+	if (!x->unswapped)
+		gls_front_swapped(d);
 }
 
 void gls_frame_stop_carrying(struct gls_exec *x)
@@ -292,8 +327,11 @@ void gls_frame_stop_carrying(struct gls_exec *x)
 	for (size_t i = 0; i < x->drawables.room; i++) {
 		struct gls_drawable *d = x->drawables.entries[i].value;
 
-		if (d)
-			bundle(x, &d->surface);
+		if (!d)
+			continue;
+		bundle(x, &d->surface);
+		if (d->parted)
+			bundle(x, &d->front);
 	}
 }
 
@@ -308,6 +346,8 @@ void gls_frame_skip(struct gls_exec *x)
 		if (!d)
 			continue;
 		gls_surface_free(&d->surface);
-		d->surface.skipped = 1;
+		gls_surface_free(&d->front);
+		d->surface.skipped = d->front.skipped = 1;
+		d->parted = 0;
 	}
 }

@@ -7,15 +7,23 @@
 GLS_HANDLER(glUseProgram, STATE) { st->program = arg_u(c, 0); }
 GLS_HANDLER(glUseProgramObjectARB, STATE) { st->program = arg_u(c, 0); }
 
-/* Several draw buffers belong to framebuffer objects and programs; of the window's there is one. */
+/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
 GLS_HANDLER(glDrawBuffers, STATE)
 {
-	uint32_t buffer = GL_NONE;
+	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE;
+	unsigned n = arg_uints(c, 1, list, 16);
 
-	if (arg_uints(c, 1, &buffer, 1))
-		st->a.color.draw_buffer = buffer;
-	if (arg_i(c, 0) > 1)
-		gls_unsupported(x, "more than one colour buffer at a time");
+	for (unsigned i = 0; i < n; i++) {
+		int is_pair = (buffer == GL_BACK_LEFT && list[i] == GL_FRONT_LEFT) || (buffer == GL_FRONT_LEFT && list[i] == GL_BACK_LEFT);
+
+		if (is_pair && !st->draw_framebuffer)
+			buffer = GL_FRONT_AND_BACK;
+		else if (buffer == GL_NONE)
+			buffer = list[i];
+		else if (list[i] != GL_NONE)
+			gls_unsupported(x, "more than one colour buffer of a framebuffer object at a time");
+	}
+	st->a.color.draw_buffer = buffer;
 }
 
 GLS_HANDLER(glBindVertexArray, CLIENT)

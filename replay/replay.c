@@ -133,12 +133,10 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 	return 1;
 }
 
-/* Start again, and come as far as before the frame that asked for it, with every frame built. */
+/* Start again, and build every frame. */
 static int rewind_and_build(struct replay *rp)
 {
-	uint64_t frame = rp->exec->frame;
-	struct scene *scene = NULL;
-	int rc;
+	int rc, fronts = rp->exec->fronts;
 
 	gls_exec_destroy(&rp->exec);
 	trace_reader_close(&rp->reader);
@@ -149,25 +147,25 @@ static int rewind_and_build(struct replay *rp)
 		return rc;
 	rp->exec->supply = rp->supply;
 	rp->exec->supply_user = rp->supply_user;
+	rp->exec->fronts = fronts;
 	rp->build_all = 1;
-	while (rp->exec->frame < frame) {
-		rc = run_frame(rp, 0, &scene);
-		if (rc != 1)
-			return rc;
-	}
 	return 1;
 }
 
 int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 {
+	uint64_t frame = rp->exec->frame;
 	int rc;
 
 	*scene = NULL;
 	rc = run_frame(rp, want, scene);
-	if (rc != 1 || !rp->exec->rewind)
-		return rc;
-	rc = rewind_and_build(rp);
-	return rc == 1 ? run_frame(rp, want, scene) : rc;
+	/* Twice, where only the second time finds that it is looked at what front buffers show. */
+	for (int i = 0; i < 2 && rc == 1 && rp->exec->rewind; i++) {
+		rc = rewind_and_build(rp);
+		while (rc == 1 && !rp->exec->rewind && rp->exec->frame <= frame)
+			rc = run_frame(rp, want && rp->exec->frame == frame, scene);
+	}
+	return rc;
 }
 
 static int have_index(struct replay *rp, enum index_mode mode)
@@ -180,6 +178,7 @@ static void use_instead(struct replay *rp, struct gls_exec *x)
 	gls_exec_take_counts(x, rp->exec);
 	x->supply = rp->supply;
 	x->supply_user = rp->supply_user;
+	x->fronts = rp->exec->fronts;
 	gls_exec_destroy(&rp->exec);
 	rp->exec = x;
 }

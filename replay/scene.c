@@ -15,6 +15,7 @@ struct gls_frame {
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
+	uint32_t colored; /* 1: some event may change colours */
 	uint32_t cleared; /* buffers wholly cleared so far, bits as in scene_clear */
 	uint64_t serial;  /* of the scene: what meshes and images remember their slots by */
 	struct gls_picture *snapshot; /* a reference: what the first snapshot_events events make, or NULL */
@@ -267,18 +268,19 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 	m->color_material_mode = l->color_material_mode;
 }
 
-static void fill_fragment_state(const struct gls_state *st, const struct gls_surface *d, struct scene_material *m)
+static void fill_fragment_state(const struct gls_state *st, const struct gls_target *target, struct scene_material *m)
 {
+	const struct gls_surface *d = target->surface;
 	const struct gls_attribs *a = &st->a;
 	const struct gls_color_buffer *b = &a->color;
 
 	m->alpha_test = a->color.alpha_test;
 	m->alpha_func = b->alpha_func;
 	m->alpha_ref = b->alpha_ref;
-	m->stencil_test = a->stencil.enabled && d && d->stencil_bits;
+	m->stencil_test = a->stencil.enabled && d->stencil_bits;
 	m->stencil_front = a->stencil.side[0];
 	m->stencil_back = a->stencil.side[1];
-	m->depth_test = a->depth.enabled && d && d->depth_bits;
+	m->depth_test = a->depth.enabled && d->depth_bits;
 	m->depth_func = a->depth.func;
 	m->depth_write = a->depth.write;
 	m->blend = b->blend;
@@ -290,7 +292,7 @@ static void fill_fragment_state(const struct gls_state *st, const struct gls_sur
 	m->blend_dst_alpha = b->dst_alpha;
 	memcpy(m->blend_color, b->blend_color, 16);
 	m->logic_op = b->logic_op_enabled ? b->logic_op : 0;
-	m->color_mask = b->draw_buffer == GL_NONE ? 0 : b->mask;
+	m->color_mask = target->colored ? b->mask : 0;
 }
 
 static void fill_raster_state(const struct gls_attribs *a, struct scene_material *m)
@@ -326,7 +328,7 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
  */
 static void fill_multisample(const struct gls_multisample *a, const struct gls_surface *d, struct scene_material *m)
 {
-	if (!a->enabled || !d || d->samples <= 1)
+	if (!a->enabled || d->samples <= 1)
 		return;
 	m->multisample = 1;
 	m->line_smooth = m->point_smooth = m->polygon_smooth = 0;
@@ -339,8 +341,9 @@ static void fill_multisample(const struct gls_multisample *a, const struct gls_s
 	}
 }
 
-static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const float color[4])
+static uint32_t find_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const float color[4])
 {
+	struct gls_frame *f = target->surface->frame;
 	struct scene *s = f->out;
 	const struct gls_attribs *a = &st->a;
 	struct scene_unit units[GLS_MAX_UNITS];
@@ -367,8 +370,8 @@ static uint32_t find_material(struct gls_exec *x, struct gls_frame *f, struct gl
 	memcpy(m.fog_color, a->fog.color, 16);
 	fill_raster_state(a, &m);
 	m.polygon_stipple = fill_stipple(f, a);
-	fill_fragment_state(st, gls_surface_of(x, st), &m);
-	fill_multisample(&a->multisample, gls_surface_of(x, st), &m);
+	fill_fragment_state(st, target, &m);
+	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
 	return intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
@@ -431,31 +434,19 @@ static uint32_t looks_at(const struct scene_material *m)
 	return (m->color_mask ? 1u : 0) | (m->depth_test && m->depth_func != GL_ALWAYS ? 2u : 0) | (m->stencil_test ? 4u : 0);
 }
 
-static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st);
+static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface);
 
-/* Does what the context draws to include the buffer that is shown (or all of a framebuffer object's colour)? */
-static int draws_to_picture(const struct gls_state *st)
+/* 1 where a clear leaves nothing of the depths that a surface held. */
+static int clears_depth(const struct gls_surface *d, const struct scene_clear *clear)
 {
-	switch (st->a.color.draw_buffer) {
-	case GL_NONE:
-	case GL_RIGHT:
-	case GL_FRONT_RIGHT:
-	case GL_BACK_RIGHT:
-		return 0;
-	case GL_FRONT:
-	case GL_FRONT_LEFT:
-		return !st->double_buffered;
-	default:
-		return 1;
-	}
+	return !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
+	       (uint32_t)clear->scissor[3] >= d->height && (!d->depth_bits || clear->buffers & 2);
 }
 
-/* 1 where a clear leaves nothing of the colours and depths that a surface held. */
-static int clears_all(const struct gls_state *st, const struct gls_surface *d, const struct scene_clear *clear)
+/* 1 where it leaves nothing of the colours either. */
+static int clears_all(const struct gls_surface *d, const struct scene_clear *clear)
 {
-	return d && draws_to_picture(st) && !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
-	       (uint32_t)clear->scissor[3] >= d->height && clear->buffers & 1 && (clear->color_mask & 7) == 7 &&
-	       (!d->alpha_bits || clear->color_mask & 8) && (!d->depth_bits || clear->buffers & 2);
+	return clears_depth(d, clear) && clear->buffers & 1 && (clear->color_mask & 7) == 7 && (!d->alpha_bits || clear->color_mask & 8);
 }
 
 /* 1 where it leaves nothing of their stencil either. */
@@ -508,34 +499,59 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	old->out->draws = NULL;
 	f->next_draw = old->next_draw;
 	f->cleared = old->cleared;
+	f->colored = old->colored;
 	d->frame = f;
 	free_frame(old);
 }
 
-void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
-                   uint32_t command, uint64_t call_number)
+/* What is drawn: as gls_frame_add has it, or gls_frame_add_rectangle. */
+struct event {
+	struct gls_mesh *mesh;
+	const float (*values)[4];
+	uint32_t command;
+	uint64_t call_number;
+	const struct scene_rectangle *rectangle; /* NULL: none */
+	struct gls_texture_image *image;         /* its */
+};
+
+/* Make a frame's last instance a rectangle. @return 0: out of memory */
+static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct event *e)
 {
-	struct gls_frame *f;
+	struct scene *s = f->out;
+	struct scene_rectangle *r;
+
+	if (grow(&s->rectangles, &f->room.rectangles, s->n_rectangles, sizeof(*r)))
+		return 0;
+	r = &s->rectangles[s->n_rectangles];
+	*r = *e->rectangle;
+	r->texture = texture_slot(x, f, e->image);
+	s->instances[s->n_instances].rectangle = ++s->n_rectangles;
+	f->last = NULL;
+	return 1;
+}
+
+/* @return 1 where an instance was added */
+static int add_to(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct event *e)
+{
+	const float (*values)[4] = e->values;
+	struct gls_mesh *mesh = e->mesh;
+	struct gls_frame *f = frame_of(x, target->surface);
 	struct scene_instance *instance;
 	struct scene *s;
 	uint32_t first_draw;
 
-	if (!gls_is_drawn(x, st))
-		return;
-	gls_units_settle(x, st);
-	if (!(f = frame_of(x, st)))
-		return;
+	if (!f)
+		return 0;
 	s = f->out;
 	first_draw = f->next_draw;
-	if (name_draws(x, f, command, call_number, mesh->n_draws) ||
+	if (name_draws(x, f, e->command, e->call_number, mesh->n_draws) ||
 	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
 		f->view = find_view(x, f, st);
 	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || st->a.lighting.color_material)
-		f->material = find_material(x, f, st, values[GLS_ATTR_COLOR]);
+		f->material = find_material(x, target, st, values[GLS_ATTR_COLOR]);
 	f->last = st;
-	st->dirty = 0;
 	instance = &s->instances[s->n_instances];
 	memset(instance, 0, sizeof(*instance));
 	instance->mesh = mesh_slot(x, f, mesh);
@@ -550,31 +566,63 @@ void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
 	instance->first_primitive = f->next_primitive;
 	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
+	if (e->rectangle && !add_rectangle(x, f, e))
+		goto fail;
 	s->n_instances++;
 	s->kd_tree |= st->kd_tree;
 	s->needs_previous |= looks_at(&s->materials[f->material]) & ~f->cleared ? 1u : 0;
-	if (s->materials[f->material].program)
-		gls_unsupported(x, "programs: drawn as fixed function");
-	return;
+	f->colored |= target->colored != 0;
+	return 1;
 fail:
 	f->last = NULL;
 	gls_out_of_memory(x, 0);
+	return 0;
 }
 
-void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
+/* What the context draws can change something of a surface: depth and stencil, where colours go elsewhere. */
+static int is_reached(const struct gls_target *target, const struct gls_state *st, const struct scene_rectangle *r)
 {
+	return target->colored || (st->a.depth.enabled && st->a.depth.write) || st->a.stencil.enabled ||
+	       (r && (r->kind == SCENE_DEPTH_PIXELS || r->kind == SCENE_STENCIL_PIXELS));
+}
+
+static void add(struct gls_exec *x, struct gls_state *st, const struct event *e)
+{
+	struct gls_target targets[2];
+	unsigned n, added = 0;
+
+	if (!gls_is_drawn(x, st))
+		return;
+	gls_units_settle(x, st);
+	n = gls_targets_of(x, st, targets);
+	for (unsigned i = 0; i < n; i++) {
+		if (n == 1 || is_reached(&targets[i], st, e->rectangle))
+			added |= (unsigned)add_to(x, &targets[i], st, e);
+		else if (targets[i].surface->frame)
+			targets[i].surface->frame->last = NULL; /* it has not seen this state */
+	}
+	st->dirty = 0;
+	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled))
+		gls_unsupported(x, "programs: drawn as fixed function");
+}
+
+void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
+                   uint32_t command, uint64_t call_number)
+{
+	add(x, st, &(struct event){ mesh, values, command, call_number, NULL, NULL });
+}
+
+static void clear_on(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, uint32_t buffers)
+{
+	struct gls_surface *d = target->surface;
 	struct gls_frame *f;
 	struct scene_clear clear;
 	struct scene *s;
-	struct gls_surface *d;
 	int whole;
 
-	if (!gls_is_drawn(x, st) || !buffers)
-		return;
-	d = gls_surface_of(x, st);
 	memset(&clear, 0, sizeof(clear));
 	clear.buffers = buffers;
-	clear.color_mask = st->a.color.draw_buffer == GL_NONE ? 0 : st->a.color.mask;
+	clear.color_mask = target->colored ? st->a.color.mask : 0;
 	fill_scissor(x, st, clear.scissor);
 	memcpy(clear.color, st->a.color.clear, 16);
 	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
@@ -582,13 +630,15 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 	clear.depth = st->a.depth.clear;
 	clear.stencil = st->a.stencil.clear;
 	clear.stencil_mask = st->a.stencil.side[0].write_mask;
-	if (clears_all(st, d, &clear)) {
+	if (d->frame && !target->colored && !d->frame->colored && clears_depth(d, &clear) && clears_stencil(d, &clear)) {
+		gls_frame_drop(d); /* colours are still those that it began with */
+	} else if (clears_all(d, &clear)) {
 		if (st->draw_framebuffer && clears_stencil(d, &clear)) /* nobody looks at its draw numbers: they need not pile up */
 			gls_frame_drop(d);
 		else if (d->frame && d->frame->out->n_instances && (clears_stencil(d, &clear) || !touches_stencil(d->frame->out)))
 			forget_drawn(x, d);
 	}
-	if (!(f = frame_of(x, st)))
+	if (!(f = frame_of(x, d)))
 		return;
 	s = f->out;
 	clear.before_instance = s->n_instances;
@@ -599,25 +649,33 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 		return;
 	}
 	s->clears[s->n_clears++] = clear;
-	whole = d && (uint32_t)clear.scissor[2] >= d->width && (uint32_t)clear.scissor[3] >= d->height;
+	f->colored |= clear.buffers & 1 && clear.color_mask;
+	whole = (uint32_t)clear.scissor[2] >= d->width && (uint32_t)clear.scissor[3] >= d->height;
 	if (whole && (clear.color_mask & 7) == 7)
 		f->cleared |= clear.buffers & 1;
 	if (whole)
 		f->cleared |= clear.buffers & ((clear.stencil_mask & 255) == 255 ? 6u : 2u);
 }
 
+void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
+{
+	struct gls_target targets[2];
+	unsigned n;
+
+	if (!gls_is_drawn(x, st) || !buffers)
+		return;
+	n = gls_targets_of(x, st, targets);
+	for (unsigned i = 0; i < n; i++)
+		if (n == 1 || targets[i].colored || buffers & 6)
+			clear_on(x, &targets[i], st, buffers);
+}
+
 void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
                              struct gls_texture_image *image, const float corner[4], const float (*values)[4])
 {
-	struct gls_frame *f;
 	struct gls_geometry *g = &x->compiling;
 	struct gls_mesh *mesh;
-	uint32_t before;
 
-	gls_units_settle(x, st); /* a surface may begin anew */
-	f = frame_of(x, st);
-	if (!f || grow(&f->out->rectangles, &f->room.rectangles, f->out->n_rectangles, sizeof(*r)))
-		return;
 	gls_geometry_clear(g);
 	g->kind = SCENE_POINTS;
 	if (gls_geometry_reserve(g, 1, 1))
@@ -627,17 +685,10 @@ void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const str
 	g->n_vertices = 1;
 	if (gls_geometry_cut(g, GL_POINTS, 0, 1, NULL) || !(g->n_draws = 1) || !(mesh = gls_geometry_mesh(x, g)))
 		return;
-	before = f->out->n_instances;
 	st->dirty |= GLS_DIRTY_ALL;
-	gls_frame_add(x, st, mesh, values, x->command, x->call->number);
+	add(x, st, &(struct event){ mesh, values, x->command, x->call->number, r, image });
 	gls_mesh_release(mesh);
 	gls_geometry_clear(g);
-	if (f->out->n_instances == before)
-		return;
-	f->out->rectangles[f->out->n_rectangles] = *r;
-	f->out->rectangles[f->out->n_rectangles].texture = texture_slot(x, f, image);
-	f->out->instances[before].rectangle = ++f->out->n_rectangles;
-	f->last = NULL;
 }
 
 /* ---- a frame's beginning and end ---- */
@@ -677,14 +728,12 @@ fail:
 	return NULL;
 }
 
-/* The events of what the context draws to; NULL: out of memory, or nothing to draw to. */
-static struct gls_frame *frame_of(struct gls_exec *x, struct gls_state *st)
+/* The events of a surface; NULL: out of memory. */
+static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface)
 {
-	struct gls_surface *surface = gls_surface_of(x, st);
-
-	if (surface && !surface->frame)
+	if (!surface->frame)
 		surface->frame = make_frame(x);
-	return surface ? surface->frame : NULL;
+	return surface->frame;
 }
 
 /* What the scene so far is a scene of. */
@@ -703,15 +752,13 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->alpha_bits = surface->alpha_bits;
 	s->samples = surface->samples;
 	s->samples_from_below = surface->samples_from_below;
-	if (!(f->cleared & 1) && !s->n_instances)
+	if (!(f->cleared & 1))
 		s->needs_previous = 1;
 }
 
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)
 {
-	if (!surface->frame)
-		surface->frame = make_frame(x);
-	if (!surface->frame)
+	if (!frame_of(x, surface))
 		return NULL;
 	describe(x, surface, surface->frame);
 	return surface->frame->out;

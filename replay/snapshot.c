@@ -357,7 +357,7 @@ static int save(struct saver *s)
 	struct table_entry *e;
 	size_t n;
 
-	KNOWN(struct gls_exec, 1232);
+	KNOWN(struct gls_exec, 1240);
 	if (!is_quiet(x))
 		return 1;
 	bytes_put_u64(out, x->frame);
@@ -392,7 +392,7 @@ static int save(struct saver *s)
 	n = e ? x->drawables.n : 0;
 	for (size_t i = 0; i < n; i++) {
 		const struct gls_drawable *d = e[i].value;
-		KNOWN(struct gls_drawable, 104);
+		KNOWN(struct gls_drawable, 192);
 		bytes_put_u64(out, e[i].key);
 		bytes_put_u64(out, d->width);
 		bytes_put_u64(out, d->height);
@@ -800,7 +800,7 @@ static void get_share(struct loader *l, struct gls_share *share)
 	uint64_t n, key;
 
 	KNOWN(struct gls_share, 192);
-	KNOWN(struct gls_framebuffer, 288);
+	KNOWN(struct gls_framebuffer, 296);
 	n = get_count(l, 32);
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
@@ -1004,7 +1004,8 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 		d->height = (uint32_t)cursor_u64(&l.in);
 		d->fixed = (int)cursor_u64(&l.in);
 		d->accum_missing = cursor_u64(&l.in) != 0;
-		d->surface.skipped = 1; /* as after any frame that was not built: gls_frame_skip */
+		d->front.is_front = 1;
+		d->surface.skipped = d->front.skipped = 1; /* as after any frame that was not built: gls_frame_skip */
 		keep(&l, &x->drawables, key, d);
 	}
 	count = get_count(&l, 16);

@@ -102,13 +102,13 @@ def check_gates(score, n_frames, what, skip=()):
                 check(found and found["state"] == "passed", f"{what}: frame {frame['frame']}: gate {gate}: {found}")
 
 
-def check_same_pictures(name, frames):
+def check_same_pictures(name, frames, *options):
     """
-    Record tests/real/NAME, trace it in mode gl, and check frame by frame that no pixel fails; `frames` says what each shows.
+    Record tests/real/NAME with options of `record`, trace it in mode gl, and check frame by frame that no pixel fails; `frames` says what each shows.
     Returns the trace and what `diff` says.
     """
     trace = SCRATCH / f"{name}.trace"
-    record(trace, BUILD / "tests/real" / name)
+    record(trace, BUILD / "tests/real" / name, options=("--ref", "color,depth", *options))
     files = render(trace, SCRATCH / "frames", *AS_SHOWN)
     check(len(files) == len(frames), f"{len(files)} frames of {len(frames)}")
     _, score = diff(trace, SCRATCH / "frames")
