@@ -103,22 +103,32 @@ static inline int clip_is_sliver(float area)
  * are not snapped and count from clip_origin.
  */
 struct clip_edges {
-	int a, b; /* which vertices are its first two */
+	int turned; /* 1: vertices 0 and 1 have changed places */
 	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: the first one's place */
 };
+
+/* Of a value at each vertex the first vertex's and the second's, chosen and not looked up: arrays then need no memory. */
+static inline float clip_first(const struct clip_edges *e, const float *value)
+{
+	return e->turned ? value[1] : value[0];
+}
+
+static inline float clip_second(const struct clip_edges *e, const float *value)
+{
+	return e->turned ? value[0] : value[1];
+}
 
 static inline struct clip_edges clip_edges_of(const float *px, const float *py)
 {
 	struct clip_edges e;
 
-	e.a = clip_place_area(px, py) < 0.0f;
-	e.b = 1 - e.a;
-	e.x = px[e.a];
-	e.y = py[e.a];
-	e.dx01 = px[e.a] - px[e.b];
-	e.dy01 = py[e.a] - py[e.b];
-	e.dx20 = px[2] - px[e.a];
-	e.dy20 = py[2] - py[e.a];
+	e.turned = clip_place_area(px, py) < 0.0f;
+	e.x = clip_first(&e, px);
+	e.y = clip_first(&e, py);
+	e.dx01 = e.x - clip_second(&e, px);
+	e.dy01 = e.y - clip_second(&e, py);
+	e.dx20 = px[2] - e.x;
+	e.dy20 = py[2] - e.y;
 	e.one_over_area = 1.0f / (e.dx01 * e.dy20 - e.dx20 * e.dy01);
 	return e;
 }
@@ -126,12 +136,12 @@ static inline struct clip_edges clip_edges_of(const float *px, const float *py)
 /* The plane through a value at each vertex: in llvmpipe's order of operations, through the first one. */
 static inline struct clip_plane clip_plane_through(const struct clip_edges *e, const float *value)
 {
-	const float v01 = value[e->a] - value[e->b], v20 = value[2] - value[e->a];
+	const float first = clip_first(e, value), v01 = first - clip_second(e, value), v20 = value[2] - first;
 	struct clip_plane out;
 
 	out.along_x = v01 * (e->dy20 * e->one_over_area) - v20 * (e->dy01 * e->one_over_area);
 	out.along_y = v20 * (e->dx01 * e->one_over_area) - v01 * (e->dx20 * e->one_over_area);
-	out.origin = value[e->a] - (out.along_x * e->x + out.along_y * e->y);
+	out.origin = first - (out.along_x * e->x + out.along_y * e->y);
 	return out;
 }
 

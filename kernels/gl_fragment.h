@@ -64,9 +64,9 @@ static inline struct vec3 point_clip_xyw(const struct point *p, int i)
 	return v3(c[0], c[1], c[3]);
 }
 
-/* The point under a fragment. */
-static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                               const struct fragment *f)
+/* The point under a fragment but for its weights: what it shares with all others of its triangle. w_inv: of the three vertices */
+static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                             const struct fragment *f, float *w_inv)
 {
 	struct point p;
 	GLOBAL const struct window_vertex *w;
@@ -74,10 +74,13 @@ static inline struct point point_from_fragment(const struct tables *t, GLOBAL co
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	w = windows + p.geometry->vertex_first;
-	fragment_weights(*f, w[p.number[0]].w_inv, w[p.number[1]].w_inv, w[p.number[2]].w_inv, p.weight);
+	for (int i = 0; i < 3; i++) {
+		w_inv[i] = w[p.number[i]].w_inv;
+		p.weight[i] = 0.0f;
+	}
 
 	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
-	if (w[p.number[0]].w_inv > 0.0f && w[p.number[1]].w_inv > 0.0f && w[p.number[2]].w_inv > 0.0f) {
+	if (w_inv[0] > 0.0f && w_inv[1] > 0.0f && w_inv[2] > 0.0f) {
 		float x0 = (float)w[p.number[0]].x, y0 = (float)w[p.number[0]].y;
 
 		clockwise = ((float)w[p.number[1]].x - x0) * ((float)w[p.number[2]].y - y0) -
@@ -87,6 +90,17 @@ static inline struct point point_from_fragment(const struct tables *t, GLOBAL co
 		clockwise = v3_dot(v3_cross(point_clip_xyw(&p, 0), point_clip_xyw(&p, 1)), point_clip_xyw(&p, 2)) < 0.0f;
 	}
 	p.front = clockwise == (p.material->front_face == GL_CW);
+	return p;
+}
+
+/* The point under a fragment. */
+static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                               const struct fragment *f)
+{
+	float w_inv[3];
+	struct point p = point_of_triangle(t, windows, f, w_inv);
+
+	fragment_weights(*f, w_inv[0], w_inv[1], w_inv[2], p.weight);
 	return p;
 }
 
@@ -209,20 +223,31 @@ static inline struct lit point_lit_from_vertices(const struct point *p)
 	return lit;
 }
 
-/* The same with shares of the lights' diffuse and specular light: the vertices are lit again. */
+/* The vertices lit again, with shares of the lights' diffuse and specular light; of flat shading the last one alone. */
+static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen, struct lit *lit)
+{
+	for (int i = p->material->shade_model == GL_FLAT ? 2 : 0; i < 3; i++)
+		lit[i] = vertex_color(t, p->geometry, p->vertex[i], p->number[i], point_side(p), seen);
+}
+
+/* point_lit_from_vertices, of vertices that point_light_corners has lit. */
+static inline struct lit point_lit_between(const struct point *p, const struct lit *lit)
+{
+	struct lit out = lit[2];
+
+	if (p->material->shade_model == GL_FLAT)
+		return out;
+	out.color = point_mix(p, lit[0].color, lit[1].color, lit[2].color);
+	out.secondary = point_mix(p, lit[0].secondary, lit[1].secondary, lit[2].secondary);
+	return out;
+}
+
 static inline struct lit point_lit_again(const struct tables *t, const struct point *p, const struct vec3 *seen)
 {
-	int side = point_side(p);
-	struct lit a, b, c;
+	struct lit lit[3];
 
-	c = vertex_color(t, p->geometry, p->vertex[2], p->number[2], side, seen);
-	if (p->material->shade_model == GL_FLAT)
-		return c;
-	a = vertex_color(t, p->geometry, p->vertex[0], p->number[0], side, seen);
-	b = vertex_color(t, p->geometry, p->vertex[1], p->number[1], side, seen);
-	c.color = point_mix(p, a.color, b.color, c.color);
-	c.secondary = point_mix(p, a.secondary, b.secondary, c.secondary);
-	return c;
+	point_light_corners(t, p, seen, lit);
+	return point_lit_between(p, lit);
 }
 
 /* The colour at the point that the draw gave its vertices. */
@@ -297,7 +322,7 @@ static inline void point_texcoord_planes(const struct tables *t, const struct po
 	for (uint32_t k = 0u; k < setup->cuts.n; k++)
 		pool[3u + k] = v4_mix(pool[setup->cuts.from[k]], pool[setup->cuts.to[k]], setup->cuts.t[k]);
 	for (int k = 0; k < 3; k++) {
-		struct vec4 c = v4_scale(pool[setup->corner[k].number], setup->corner[k].window.w_inv);
+		struct vec4 c = v4_scale(setup->cuts.n ? pool[setup->corner[k].number] : pool[k], setup->corner[k].window.w_inv);
 
 		over_w[0][k] = c.x;
 		over_w[1][k] = c.y;
@@ -318,6 +343,25 @@ static inline struct vec4 point_texcoord_at(const struct point_planes *planes, f
 
 	return v4(clip_plane_at(&planes->s, x, y) * w, clip_plane_at(&planes->t, x, y) * w, clip_plane_at(&planes->r, x, y) * w,
 	          clip_plane_at(&planes->q, x, y) * w);
+}
+
+/*
+ * What sampling the first unit's texture has found of a triangle, for its next fragment. Lists of fragments go along rows of eight
+ * pixels: four quads, which the next row has as well.
+ */
+#define POINT_KEPT_QUADS 4u
+struct point_kept {
+	int have_planes;
+	struct point_planes planes;
+	uint32_t quad[POINT_KEPT_QUADS]; /* which ones, row << 16 | column; SCENE_NONE: none */
+	struct texture_slope slope[POINT_KEPT_QUADS];
+};
+
+static inline void point_keep_nothing(struct point_kept *kept)
+{
+	kept->have_planes = 0;
+	for (uint32_t i = 0u; i < POINT_KEPT_QUADS; i++)
+		kept->quad[i] = SCENE_NONE;
 }
 
 /* Object-space weights of the triangle's plane at any window position (clip-space edge functions: nothing to clip). */
@@ -354,9 +398,11 @@ static inline float point_fog(const struct point *p)
 /*
  * Sample a point's textures. view: NULL for secondary hits, which have no neighbours: their finest level is taken.
  * setup: NULL where the point is no fragment of a triangle. x, row: the pixel, row 0 at the bottom; height: of the window.
+ * kept: NULL, or what earlier fragments of the same triangle have left.
  */
 static inline void point_coat(const struct tables *t, const struct point *p, GLOBAL const struct view *view,
-                              const struct clip_setup *setup, uint32_t x, uint32_t row, uint32_t height, struct coat *coat)
+                              const struct clip_setup *setup, struct point_kept *kept, uint32_t x, uint32_t row, uint32_t height,
+                              struct coat *coat)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	/* llvmpipe's quads: even columns, even rows counted from the top. */
@@ -371,17 +417,34 @@ static inline void point_coat(const struct tables *t, const struct point *p, GLO
 		struct vec4 c;
 		struct texture_slope slope;
 		int have_slope = view && texture_needs_slope(t, unit);
+		/* On a cube each pixel has slopes of its own. */
+		int keeps = kept && i == 0u && setup, keeps_slope = keeps && t->textures[unit->texture].target != GL_TEXTURE_CUBE_MAP;
+		const uint32_t quad_number = (uint32_t)quad_y << 16 | (uint32_t)quad_x, slot = x / 2u % POINT_KEPT_QUADS;
 
 		if (setup) {
-			point_texcoord_planes(t, p, i, setup, &planes);
+			if (keeps && kept->have_planes) {
+				planes = kept->planes;
+			} else {
+				point_texcoord_planes(t, p, i, setup, &planes);
+				if (keeps) {
+					kept->planes = planes;
+					kept->have_planes = 1;
+				}
+			}
 			c = point_texcoord_at(&planes, (float)x + middle, y + middle);
 		} else {
 			c = point_texcoord(t, p, i, p->weight);
 		}
-		if (have_slope && setup) {
+		if (have_slope && keeps_slope && kept->quad[slot] == quad_number) {
+			slope = kept->slope[slot];
+		} else if (have_slope && setup) {
 			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord_at(&planes, quad_x + middle, quad_y + middle),
 			                      point_texcoord_at(&planes, quad_x + 1.0f + middle, quad_y + middle),
 			                      point_texcoord_at(&planes, quad_x + middle, quad_y + 1.0f + middle));
+			if (keeps_slope) {
+				kept->quad[slot] = quad_number;
+				kept->slope[slot] = slope;
+			}
 		} else if (have_slope) {
 			if (!have_quad) {
 				float qx = quad_x + 0.5f, qy = (float)height - (quad_y + 0.5f);
@@ -407,9 +470,9 @@ static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const st
 	return format == GL_DEPTH_COMPONENT ? unit->depth_mode : format;
 }
 
-/* Texture environments, colour sum and fog over a lit colour; clamped. */
-static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct coat *coat,
-                                       const struct lit *lit)
+/* Texture environments, colour sum and fog over a lit colour; clamped. fog_factor: 1 leaves the colour as it is */
+static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct coat *coat,
+                                              const struct lit *lit, float fog_factor)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct vec4 color = lit->color;
@@ -426,7 +489,7 @@ static inline struct vec4 point_finish(const struct tables *t, const struct poin
 		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);
 	color = v4_clamp01(color);
 	if (m->fog) {
-		float f = coat->fog_factor;
+		float f = fog_factor;
 
 		color = v4_clamp01(v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
 		                      color.z * f + m->fog_color[2] * (1.0f - f), color.w));
@@ -434,15 +497,19 @@ static inline struct vec4 point_finish(const struct tables *t, const struct poin
 	return color;
 }
 
-/* The surface's own colour under white light: what the albedo channel shows. */
-static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct coat *coat)
+static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct coat *coat,
+                                       const struct lit *lit)
+{
+	return point_finish_in_fog(t, p, coat, lit, coat->fog_factor);
+}
+
+/* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
+static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p, const struct coat *coat, struct lit lit)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	int side = point_side(p);
 	uint32_t mode = m->color_material_mode;
 	uint32_t tracks = m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE);
-	struct coat clear = *coat;
-	struct lit lit = point_lit_from_vertices(p);
 
 	if (m->lighting && !(p->geometry->flags & GEOMETRY_EXPANDED))
 		lit.color = tracks ? v4_clamp01(point_mix(p, tables_color(t, p->geometry, p->number[0]),
@@ -452,8 +519,12 @@ static inline struct vec4 point_albedo(const struct tables *t, const struct poin
 		                                          v4_load(tables_face(t, p->geometry, p->number[1], side)->diffuse),
 		                                          v4_load(tables_face(t, p->geometry, p->number[2], side)->diffuse)));
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
-	clear.fog_factor = 1.0f;
-	return point_finish(t, p, &clear, &lit);
+	return point_finish_in_fog(t, p, coat, &lit, 1.0f);
+}
+
+static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct coat *coat)
+{
+	return point_albedo_of(t, p, coat, point_lit_from_vertices(p));
 }
 
 /* 1 where a user clip plane (sec. 2.12) cuts the point away. */

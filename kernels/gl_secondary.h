@@ -261,7 +261,7 @@ static inline struct vec3 veil_light(const struct tables *t, const struct hit *h
 		return all;
 	if (!m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask)
 		return none;
-	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, 0u, 0u, 0u, &coat);
+	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
 	lit = point_lit_from_vertices(&p);
 	color = point_finish(t, &p, &coat, &lit);
 	if (veil_is_hole(&p, color.w))
@@ -502,7 +502,7 @@ static inline void leave_item(const struct tables *t, GLOBAL const struct view *
 		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, sample);
 	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, sample);
 	if (split.through > 0.0f) {
-		point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, 0u, 0u, 0u, &coat);
+		point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
 		branch_through(&b, &p, d, &split, v3_scale(glass_tint(t, &p, &coat), split.through), PATH_REFRACT);
 	}
 	counts[item] = b.count;
@@ -532,7 +532,7 @@ static inline void want_lights_item(const struct tables *t, GLOBAL const struct 
 	if (hit.instance == SCENE_NONE)
 		return;
 	p = point_from_hit(t, &hit, v3_load(rays[item].d));
-	wanted[item] = stage_wanted(&p, stage_lights(t, &p, transport));
+	wanted[item] = stage_wanted(&p, stage_lights(t, &p, transport, point_lit_from_vertices(&p).lights));
 }
 
 /* The colour of what a path hit, with what arrives of the lights. */
@@ -563,7 +563,7 @@ static inline struct vec3 hit_nothing(const struct tables *t, GLOBAL const struc
 		return v3_load(background);
 	hit = *sky;
 	p = point_from_hit(t, &hit, v3_load(ray->d));
-	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, 0u, 0u, 0u, &coat);
+	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
 	lit = point_lit_from_vertices(&p);
 	color = point_finish(t, &p, &coat, &lit);
 	return v3(color.x, color.y, color.z);
@@ -636,8 +636,9 @@ static inline void shade_hit_item(const struct tables *t, GLOBAL const struct hi
 	}
 	v3_store(out, v3(0.0f, 0.0f, 0.0f));
 	p = point_from_hit(t, &hit, d);
-	dimmed = stage_seen(arriving, n_slots, n, item, seen);
-	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, 0u, 0u, 0u, &coat);
+	stage_seen(arriving, n_slots, n, item, seen);
+	dimmed = stage_dimmed(arriving, n_slots, n, item);
+	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
 	color = hit_color(t, &p, &coat, transport, seen, dimmed);
 	if (p.material->surface.hidden & 2u || veil_is_hole(&p, color.w)) {
 		branch_on(&b, &rays[item], hit.t, weight);

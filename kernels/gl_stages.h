@@ -34,15 +34,24 @@ static inline void gather_item(GLOBAL const struct fragment *sparse, GLOBAL cons
 	after[pixel] = n == slots ? sparse[pixel * slots + n - 1u].order + 1u : SCENE_NONE;
 }
 
-/* Shares of the material's lights that arrive at the item. @return 1 where any is dimmed */
-static inline int stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item,
-                             struct vec3 *seen)
+/* Shares of the material's lights that arrive at the item. */
+static inline void stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
+{
+	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++)
+		seen[slot] = v3(1.0f, 1.0f, 1.0f);
+	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++)
+		seen[slot] = v3_load(arriving + (slot * n + item) * 3u);
+}
+
+/* 1 where any of them is dimmed. */
+static inline int stage_dimmed(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item)
 {
 	int dimmed = 0;
 
-	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++) {
-		seen[slot] = slot < n_slots ? v3_load(arriving + (slot * n + item) * 3u) : v3(1.0f, 1.0f, 1.0f);
-		dimmed |= seen[slot].x < 1.0f || seen[slot].y < 1.0f || seen[slot].z < 1.0f;
+	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++) {
+		struct vec3 share = v3_load(arriving + (slot * n + item) * 3u);
+
+		dimmed |= (share.x < 1.0f) | (share.y < 1.0f) | (share.z < 1.0f);
 	}
 	return dimmed;
 }
@@ -73,7 +82,7 @@ static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 /* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
 static inline float stage_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
 {
-	const float dz01 = z[e->a] - z[e->b], dz20 = z[2] - z[e->a];
+	const float first = clip_first(e, z), dz01 = first - clip_second(e, z), dz20 = z[2] - first;
 	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
 	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
 	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
@@ -144,25 +153,19 @@ static inline void stage_line(const struct tables *t, GLOBAL const struct view *
 /*
  * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices; llvmpipe takes attributes and
  * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from clip
- * coordinates; of what leaves the view volume, from the part that covers the pixel. @return 0: a line, a sliver
+ * coordinates; of what leaves the view volume (cut), from the part that covers the pixel. @return 0: a line, a sliver
  */
-static inline int stage_setup(const struct tables *t, GLOBAL const struct view *views,
-                              GLOBAL const struct window_vertex *windows, uint32_t x, uint32_t y, uint32_t height,
-                              const struct fragment *f, struct clip_setup *setup)
+static inline int stage_setup(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
+                              uint32_t x, uint32_t y, uint32_t height, int cut, struct clip_setup *setup)
 {
-	struct point p;
-	GLOBAL const struct view *view;
 	struct clip_polygon polygon;
 	uint32_t part = 2u;
-	int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
 	float w_inv[3];
 
-	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
-	if (p.geometry->flags & GEOMETRY_LINE)
+	if (p->geometry->flags & GEOMETRY_LINE)
 		return 0;
-	view = &views[p.geometry->view];
 	if (cut) {
-		clip_triangle(view, (float)height, v4_load(p.vertex[0]->clip), v4_load(p.vertex[1]->clip), v4_load(p.vertex[2]->clip),
+		clip_triangle(view, (float)height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip), v4_load(p->vertex[2]->clip),
 		              &polygon);
 		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
 		                                        polygon.corner[0].window, clip_spot(view, (int32_t)x, (int32_t)y)))
@@ -179,17 +182,17 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 		if (cut) {
 			*c = polygon.corner[i == 2u ? 0u : part - 1u + i];
 		} else {
-			c->clip = v4_load(p.vertex[i]->clip);
+			c->clip = v4_load(p->vertex[i]->clip);
 			c->number = i;
 			c->b1 = i == 1u ? 1.0f : 0.0f;
 			c->b2 = i == 2u ? 1.0f : 0.0f;
-			if (p.geometry->flags & GEOMETRY_SMOOTH_LINE) {
-				c->place[0] = p.vertex[i]->size[0];
-				c->place[1] = p.vertex[i]->size[1];
+			if (p->geometry->flags & GEOMETRY_SMOOTH_LINE) {
+				c->place[0] = p->vertex[i]->size[0];
+				c->place[1] = p->vertex[i]->size[1];
 			} else {
 				clip_place(view, c->clip, (float)height, c->place);
 			}
-			c->window = windows[p.geometry->vertex_first + p.number[i]];
+			c->window = windows[p->geometry->vertex_first + p->number[i]];
 		}
 		w_inv[i] = c->window.w_inv;
 		setup->px[i] = c->place[0] - clip_origin(view);
@@ -202,25 +205,70 @@ static inline int stage_setup(const struct tables *t, GLOBAL const struct view *
 	return 1;
 }
 
+/* What the fragments of a triangle share, found for the first of them and kept for those that follow it in the list. */
+struct stage_kept {
+	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
+	struct point p;               /* but for its weights */
+	float w_inv[3];
+	int have_setup, have_lit;
+	struct clip_setup setup;
+	struct clip_plane depth;
+	float offset;                 /* of polygons; 0: none */
+	struct point_kept sampling;
+	struct vec3 seen[SCENE_MAX_LIGHTS]; /* of lights, where its vertices were lit again */
+	struct lit lit[3];
+};
+
+/* The triangle of a fragment. Not kept: what is cut to the view, as other pixels may lie in other parts of it. */
+static inline void stage_keep(const struct tables *t, GLOBAL const struct view *views, GLOBAL const struct window_vertex *windows,
+                              uint32_t x, uint32_t y, uint32_t height, uint32_t bits, int needs_depth, const struct fragment *f,
+                              int keeps, struct stage_kept *kept)
+{
+	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
+
+	if (keeps && kept->instance == f->instance && kept->primitive == f->primitive)
+		return;
+	kept->instance = cut ? SCENE_NONE : f->instance;
+	kept->primitive = f->primitive;
+	kept->p = point_of_triangle(t, windows, f, kept->w_inv);
+	kept->have_lit = kept->have_setup = 0;
+	point_keep_nothing(&kept->sampling);
+	if (needs_depth || kept->p.material->unit_count)
+		kept->have_setup = stage_setup(&views[kept->p.geometry->view], windows, &kept->p, x, y, height, cut, &kept->setup);
+	if (needs_depth && kept->have_setup) {
+		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
+
+		kept->depth = clip_plane_through(&kept->setup.edges, z);
+		kept->offset = kept->p.material->polygon_offset & 4u && !(kept->p.geometry->flags & GEOMETRY_EXPANDED) ?
+		                       stage_offset(kept->p.material, &kept->setup.edges, z, bits) : 0.0f;
+	}
+}
+
+/* The vertices lit again; what lights show to a fragment they mostly show to the next one too. */
+static inline void stage_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct stage_kept *kept)
+{
+	int same = keeps && kept->have_lit;
+
+	for (uint32_t i = 0u; i < SCENE_MAX_LIGHTS; i++) {
+		same &= seen[i].x == kept->seen[i].x && seen[i].y == kept->seen[i].y && seen[i].z == kept->seen[i].z;
+		kept->seen[i] = seen[i];
+	}
+	if (!same)
+		point_light_corners(t, &kept->p, seen, kept->lit);
+	kept->have_lit = 1;
+}
+
 /*
  * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place where the
  * view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
  */
-static inline void stage_unsnap(const struct tables *t, GLOBAL const struct view *views, const struct clip_setup *setup, uint32_t x, uint32_t y, uint32_t height,
-                                uint32_t bits, struct fragment *f)
+static inline void stage_unsnap(GLOBAL const struct view *view, const struct stage_kept *kept, uint32_t x, uint32_t y, uint32_t height,
+                                struct fragment *f)
 {
-	const float z[3] = { setup->corner[0].window.z, setup->corner[1].window.z, setup->corner[2].window.z };
-	struct clip_plane plane = clip_plane_through(&setup->edges, z);
-	GLOBAL const struct view *view;
-	struct point p;
+	const struct clip_setup *setup = &kept->setup;
 	float px[3], py[3], area = clip_place_area(setup->px, setup->py);
 
-	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
-	view = &views[p.geometry->view];
-	f->depth = clip_plane_in(&plane, view, (float)height, (int32_t)x, (int32_t)y);
-	if (p.material->polygon_offset & 4u && !(p.geometry->flags & GEOMETRY_EXPANDED))
-		f->depth += stage_offset(p.material, &setup->edges, z, bits);
-	f->depth = clamp01(f->depth);
+	f->depth = clamp01(clip_plane_in(&kept->depth, view, (float)height, (int32_t)x, (int32_t)y) + kept->offset);
 	for (uint32_t i = 0u; i < 3u; i++) {
 		px[i] = setup->px[i] - clip_from_origin(view, (int32_t)x, 0);
 		py[i] = setup->py[i] - clip_from_origin(view, (int32_t)(height - 1u - y), 0);
@@ -278,15 +326,14 @@ static inline uint32_t stage_radiant_lights(const struct tables *t, const struct
 	return lights;
 }
 
-/* Lights that must be asked for before a point can be lit. */
-static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport)
+/* Lights that must be asked for before a point can be lit. from_vertices: those that light its vertices (struct lit) */
+static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport, uint32_t from_vertices)
 {
 	if (transport == TRANSPORT_PATH)
 		return stage_radiant_lights(t, p);
 	if (transport == TRANSPORT_RELIGHT && !p->material->surface.relit)
-		return point_lit_from_vertices(p).lights | point_lit_here(t, p, (const struct vec3 *)0).lights;
-	return p->material->surface.relit ? point_lit_here(t, p, (const struct vec3 *)0).lights :
-	                                    point_lit_from_vertices(p).lights;
+		return from_vertices | point_lit_here(t, p, (const struct vec3 *)0).lights;
+	return p->material->surface.relit ? point_lit_here(t, p, (const struct vec3 *)0).lights : from_vertices;
 }
 
 static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 color)
@@ -353,43 +400,49 @@ static inline struct vec4 stage_texel_color(uint32_t texel)
 /*
  * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
  * n_slots > 0 gives fragments that asked their colour with what arrives of the lights. transport: TRANSPORT_*.
+ * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
+ * or nothing (kept->instance SCENE_NONE).
  */
 static inline void shade_item(const struct tables *t, GLOBAL const struct view *views,
                               GLOBAL const struct window_vertex *windows, GLOBAL struct fragment *fragments,
                               GLOBAL const uint32_t *pixels, uint32_t width, uint32_t height, uint32_t bits,
                               GLOBAL const float *arriving, uint32_t n_slots, uint32_t transport, uint32_t n,
-                              GLOBAL struct shaded *shaded, uint32_t item)
+                              GLOBAL struct shaded *shaded, uint32_t item, int keeps, struct stage_kept *kept)
 {
-	struct fragment f = fragments[item];
+	struct fragment f;
+	GLOBAL const struct view *view;
 	GLOBAL struct shaded *out = &shaded[item];
-	uint32_t x = pixels[item] % width, y = pixels[item] / width;
+	uint32_t x, y;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct point p;
-	struct clip_setup setup;
 	struct coat coat;
-	struct lit lit;
+	struct lit from_vertices, lit;
 	struct vec4 color;
 	float coverage;
-	int have_setup, clipped = 0, uncovered;
+	int clipped = 0, uncovered;
 	uint32_t group = 0u, kind = 0u;
 
-	if (!stage_seen(arriving, n_slots, n, item, seen) && n_slots)
+	if (n_slots && (!stage_dimmed(arriving, n_slots, n, item) || !(out->flags & SHADED_THERE)))
 		return;
-	if (n_slots && !(out->flags & SHADED_THERE))
-		return;
-	have_setup = stage_setup(t, views, windows, x, y, height, &f, &setup);
+	stage_seen(arriving, n_slots, n, item, seen);
+	f = fragments[item];
+	x = pixels[item] % width;
+	y = pixels[item] / width;
+	stage_keep(t, views, windows, x, y, height, bits, !n_slots, &f, keeps, kept);
+	p = kept->p;
+	view = &views[p.geometry->view];
 	if (!n_slots) {
 		if (pixel_is_sampled(bits)) { /* user clip planes cut at the sample's place */
-			p = point_from_fragment(t, windows, &f);
+			fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 			clipped = point_clipped(&p);
 		}
-		if (have_setup)
-			stage_unsnap(t, views, &setup, x, y, height, bits, &f);
+		if (kept->have_setup)
+			stage_unsnap(view, kept, x, y, height, &f);
 		else
 			stage_line(t, views, x, height - 1u - y, &f);
 		fragments[item] = f;
 	}
-	p = point_from_fragment(t, windows, &f);
+	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
 	clipped |= !n_slots && !pixel_is_sampled(bits) && point_clipped(&p);
 	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
@@ -404,8 +457,14 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 			return;
 		}
 	}
-	point_coat(t, &p, &views[p.geometry->view], have_setup ? &setup : (const struct clip_setup *)0, x, y, height, &coat);
-	lit = n_slots && !p.material->surface.relit ? point_lit_again(t, &p, seen) : point_lit_from_vertices(&p);
+	point_coat(t, &p, view, kept->have_setup ? &kept->setup : (const struct clip_setup *)0,
+	           keeps ? &kept->sampling : (struct point_kept *)0, x, y, height, &coat);
+	if (n_slots && !p.material->surface.relit) {
+		stage_keep_lit(t, seen, keeps, kept);
+		lit = from_vertices = point_lit_between(&p, kept->lit);
+	} else {
+		lit = from_vertices = point_lit_from_vertices(&p);
+	}
 	if (kind == SCENE_COLOR_PIXELS)
 		lit.color = stage_texel_color(group);
 	color = point_finish(t, &p, &coat, &lit);
@@ -416,7 +475,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		return;
 	color.w *= coverage;
 	v4_store(out->gl, color);
-	color = point_albedo(t, &p, &coat);
+	color = point_albedo_of(t, &p, &coat, from_vertices);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = f.depth;
 	if (kind == SCENE_DEPTH_PIXELS)
@@ -426,7 +485,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		out->flags = SHADED_THERE | SHADED_STENCIL;
 		return;
 	}
-	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport));
+	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport, from_vertices.lights));
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */

@@ -158,10 +158,10 @@ static inline void texture_wrap_8(uint32_t wrap, float s, int normalized, uint32
 		fixed = texture_int(M_RINT((s - M_FLOOR(s)) * (float)n * 256.0f)) - 128;
 	else
 		fixed = texture_int(M_RINT(normalized ? s * (float)(n * 256) : s * 256.0f)) - 128;
-	place = fixed >= 0 ? fixed / 256 : -((255 - fixed) / 256);
-	*weight = (uint32_t)(fixed - place * 256);
+	place = (int)(((uint32_t)fixed + 0x80000000u) >> 8) - 0x800000; /* fixed / 256, rounded down */
+	*weight = (uint32_t)fixed & 255u;
 	if (wrap == GL_REPEAT) {
-		*i0 = texture_modulo(place, n);
+		*i0 = power_of_two ? place & (n - 1) : texture_modulo(place, n);
 		*i1 = *i0 + 1 < n ? *i0 + 1 : 0;
 	} else {
 		*i0 = place < 0 ? 0 : place < n ? place : n - 1;
@@ -186,23 +186,24 @@ static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const stru
 {
 	int normalized = image->target != GL_TEXTURE_RECTANGLE, cube = image->target == GL_TEXTURE_CUBE_MAP;
 	int x[2], y[2] = { 0, 0 }, z[2], n_y = image->target == GL_TEXTURE_1D ? 1 : 2, n_z = image->target == GL_TEXTURE_3D ? 2 : 1;
+	const uint32_t width = texture_level_size(image->width, level), height = n_y == 1 ? 1u : texture_level_size(image->height, level);
+	GLOBAL const uint32_t *texels = t->texels + image->level_first[level]; /* without a border: texture_is_plain */
 	uint32_t wx, wy = 0u, wz = 0u, sum = 0u;
 
 	z[0] = z[1] = face;
-	texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_s, c.x, normalized, texture_level_size(image->width, level), &x[0], &x[1],
-	               &wx);
+	texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_s, c.x, normalized, width, &x[0], &x[1], &wx);
 	if (n_y == 2)
-		texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_t, c.y, normalized, texture_level_size(image->height, level), &y[0],
-		               &y[1], &wy);
+		texture_wrap_8(cube ? GL_CLAMP_TO_EDGE : unit->wrap_t, c.y, normalized, height, &y[0], &y[1], &wy);
 	if (n_z == 2)
 		texture_wrap_8(unit->wrap_r, c.z, 1, texture_level_size(image->depth, level), &z[0], &z[1], &wz);
 	for (int k = 0; k < n_z; k++) {
-		uint32_t slice = texture_mix_8(texture_word(t, image, level, x[0], y[0], z[k]),
-		                               texture_word(t, image, level, x[1], y[0], z[k]), wx);
+		GLOBAL const uint32_t *row = texels + ((uint32_t)z[k] * height + (uint32_t)y[0]) * width;
+		uint32_t slice = texture_mix_8(row[x[0]], row[x[1]], wx);
 
-		if (n_y == 2)
-			slice = texture_mix_8(slice, texture_mix_8(texture_word(t, image, level, x[0], y[1], z[k]),
-			                                           texture_word(t, image, level, x[1], y[1], z[k]), wx), wy);
+		if (n_y == 2) {
+			row = texels + ((uint32_t)z[k] * height + (uint32_t)y[1]) * width;
+			slice = texture_mix_8(slice, texture_mix_8(row[x[0]], row[x[1]], wx), wy);
+		}
 		sum = k == 0 ? slice : texture_mix_8(sum, slice, wz);
 	}
 	return sum;

@@ -16,8 +16,9 @@ __kernel void shade(TABLES_ARGUMENTS, __global const struct view *views, __globa
                     uint32_t n, __global struct shaded *shaded)
 {
 	struct tables t = TABLES_NAMED;
+	struct stage_kept kept;
 
 	if (get_global_id(0) < n)
 		shade_item(&t, views, windows, fragments, pixels, width, height, bits, arriving, n_slots, transport, n,
-		           shaded, (uint32_t)get_global_id(0));
+		           shaded, (uint32_t)get_global_id(0), 0, &kept);
 }

@@ -345,6 +345,9 @@ SHARED_SIZE(struct compose_request, 152);
 /* Pixels of a work item of compose_packet. */
 #define COMPOSE_PACKET 8u
 
+/* Fragments of a work item of shade_packet: a block of the list (tracer/trace.c) where each pixel has one. */
+#define SHADE_PACKET 64u
+
 /* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
 #define PASS_PARTS 12u
 

@@ -27,6 +27,7 @@
 	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
+	X(shade_packet)     /* the same, consecutive fragments a work item (CPUs) */ \
 	X(shadow_ray)       /* one fragment a work item: its ray to one light */ \
 	X(hit_ray)          /* one hit of a path a work item: its ray to one light */ \
 	X(ao_ray)           /* one fragment a work item: a look around */ \

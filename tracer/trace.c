@@ -464,6 +464,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	uint32_t transport = transport_of(job->options);
+	int packets = device_family(tr->dev) == FAMILY_PACKETS;
 	struct launch l = launch_with_tables(tr);
 
 	add(&l, tr, BUFFER_VIEWS);
@@ -478,7 +479,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	add_uint(&l, &transport);
 	add_uint(&l, &n);
 	add(&l, tr, BUFFER_SHADED);
-	return run(tr, KERNEL_shade, n, &l);
+	return run(tr, packets ? KERNEL_shade_packet : KERNEL_shade, packets ? (n + SHADE_PACKET - 1) / SHADE_PACKET : n, &l);
 }
 
 static int run_resolve(struct job *job, struct camera_rectangle r)

@@ -1,8 +1,8 @@
-/* C twins of kernels/shade.cl. */
+/* C twins of kernels/shade.cl and shade_packet.cl. */
 #include "kernels/gl_stages.h"
 #include "tracer/device.h"
 
-extern device_twin gather_c, shade_c;
+extern device_twin gather_c, shade_c, shade_packet_c;
 
 static uint32_t number(const void *arg)
 {
@@ -21,8 +21,15 @@ void gather_c(const void *const *args, size_t first, size_t last)
 void shade_c(const void *const *args, size_t first, size_t last)
 {
 	struct tables t = TABLES_NAMED;
+	struct stage_kept kept;
 
 	for (size_t i = first; i < last && i < number(args[22]); i++)
 		shade_item(&t, args[12], args[13], (void *)args[14], args[15], number(args[16]), number(args[17]), number(args[18]),
-		           args[19], number(args[20]), number(args[21]), number(args[22]), (void *)args[23], (uint32_t)i);
+		           args[19], number(args[20]), number(args[21]), number(args[22]), (void *)args[23], (uint32_t)i, 0, &kept);
+}
+
+/* Each fragment on its own: what neighbours share must not show. */
+void shade_packet_c(const void *const *args, size_t first, size_t last)
+{
+	shade_c(args, first * SHADE_PACKET, last * SHADE_PACKET);
 }
