@@ -583,11 +583,12 @@ static int look_at_sample(struct job *job, const struct segment *segment, uint32
 	return device_write(job->tr->dev, job->tr->buffers[BUFFER_VIEWS], segment->view * sizeof(*view), view, sizeof(*view));
 }
 
-static int run_segment(struct job *job, const struct segment *segment)
+/* n_cleared: how many of its clears are done */
+static int run_segment(struct job *job, const struct segment *segment, uint32_t n_cleared)
 {
 	int err = 0;
 
-	for (uint32_t i = 0; i < segment->clear_count && !err; i++)
+	for (uint32_t i = n_cleared; i < segment->clear_count && !err; i++)
 		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
 	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
 		return err;
@@ -634,12 +635,40 @@ static int reserve_pixels(struct job *job)
 	return err;
 }
 
-/* What nobody cleared is black, far and nothing. */
-static int clear_all(struct job *job)
+/* Whether of the buffers that it clears nothing is left. */
+static int clears_whole(const struct job *job, const struct scene_clear *clear)
 {
+	const int32_t *s = clear->scissor;
+	const uint32_t stencil = pixel_bits_mask(pixel_stencil_bits(job->bits));
+
+	return clear->target == 0 && s[0] <= 0 && s[1] <= 0 && s[0] + s[2] >= (int32_t)job->width &&
+	       s[1] + s[3] >= (int32_t)job->height && (!(clear->buffers & 1) || (clear->color_mask & 15) == 15) &&
+	       (!(clear->buffers & 4) || (clear->stencil_mask & stencil) == stencil);
+}
+
+/*
+ * What nobody cleared is black, far and nothing. Where the first segment begins with clears of the whole picture, as most frames do,
+ * theirs is done at once.
+ * @param n_done  receives how many of its clears that are
+ */
+static int clear_all(struct job *job, uint32_t *n_done)
+{
+	const struct segment *segment = job->prepared.segments;
 	struct scene_clear clear = { .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
 		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu };
 
+	for (*n_done = 0; job->prepared.n_segments && *n_done < segment->clear_count; ++*n_done) {
+		const struct scene_clear *next = &job->scene->clears[segment->clear_first + *n_done];
+
+		if (!clears_whole(job, next))
+			break;
+		if (next->buffers & 1)
+			memcpy(clear.color, next->color, sizeof(clear.color));
+		if (next->buffers & 2)
+			clear.depth = next->depth;
+		if (next->buffers & 4)
+			clear.stencil = next->stencil;
+	}
 	return run_clear(job, &clear);
 }
 
@@ -804,6 +833,7 @@ static int read_picture(struct tracer *tr, const struct scene *scene, struct sce
 static int trace_pass(struct job *job)
 {
 	float shift[2] = { 0, 0 };
+	uint32_t n_cleared = 0;
 	int err;
 
 	if (job->pass > 0)
@@ -832,9 +862,9 @@ static int trace_pass(struct job *job)
 	if (!err)
 		err = reserve_pixels(job);
 	if (!err)
-		err = job->scene->start || job->scene->needs_previous ? upload_start(job) : clear_all(job);
+		err = job->scene->start || job->scene->needs_previous ? upload_start(job) : clear_all(job, &n_cleared);
 	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
-		err = run_segment(job, &job->prepared.segments[i]);
+		err = run_segment(job, &job->prepared.segments[i], i == 0 ? n_cleared : 0);
 	draw_to(job, 0, 0);
 	if (!err && job->n_samples > 1)
 		err = run_merge_samples(job);
