@@ -112,26 +112,40 @@ static inline unsigned read_byte(struct trace_reader *r)
 	return *r->p++;
 }
 
+/* A number of up to 8 bytes, of which 8 can be read. @return behind it; NULL: it is longer */
+static inline const uint8_t *quick_uint(const uint8_t *p, uint64_t *value)
+{
+	uint64_t w, last;
+
+	if (__builtin_expect(*p < 0x80, 1)) {
+		*value = *p;
+		return p + 1;
+	}
+	memcpy(&w, p, 8);
+	last = ~w & 0x8080808080808080u; /* the top bit of the last byte, and others above it */
+	if (!last)
+		return NULL;
+	w &= (last ^ (last - 1)) & 0x7f7f7f7f7f7f7f7fu;
+	w = (w & 0x007f007f007f007fu) | (w & 0x7f007f007f007f00u) >> 1; /* groups of 7 bits become 14, 28, 56 */
+	w = (w & 0x00003fff00003fffu) | (w & 0x3fff00003fff0000u) >> 2;
+	*value = (w & 0x0fffffffu) | (w & 0x0fffffff00000000u) >> 4;
+	return p + (__builtin_ctzll(last) >> 3) + 1;
+}
+
 static uint64_t read_long_uint(struct trace_reader *r)
 {
 	uint64_t value = 0;
 	unsigned shift = 0, byte;
 
-	if (__builtin_expect(r->end - r->p >= 9, 1)) {
-		const uint8_t *p = r->p;
+	if (__builtin_expect(r->end - r->p >= 8, 1)) {
+		const uint8_t *behind = quick_uint(r->p, &value);
 
-		for (; shift < 63; shift += 7) {
-			byte = *p++;
-			value |= (uint64_t)(byte & 0x7f) << shift;
-			if (byte < 0x80) {
-				r->p = p;
-				return value;
-			}
+		if (behind) {
+			r->p = behind;
+			return value;
 		}
 		value = 0;
-		shift = 0;
 	}
-
 	do {
 		byte = read_byte(r);
 		if (shift == 63 && byte > 1) {
@@ -539,6 +553,120 @@ static void read_value(struct trace_reader *r, struct arena *a, struct trace_val
 	}
 }
 
+/* ---- the quick way ---- */
+
+/*
+ * Nearly all that a trace holds are short numbers, known enums and floats within a piece. These functions read them without
+ * looking for the piece's end at every byte, and without a store to the reader that the compiler could not keep in a
+ * register; what is anything else they leave, untouched, to the functions above.
+ */
+#define QUICK_BYTES 32 /* more than any value without items takes: tag, two numbers and a tag between them */
+
+/* A value without items at p, of which QUICK_BYTES can be read. @return behind it; NULL: not a quick one, v is untouched */
+static inline const uint8_t *quick_scalar(const struct trace_reader *r, const uint8_t *p, struct trace_value *v)
+{
+	unsigned tag = *p++, sign;
+	const void *sig = NULL;
+	uint64_t bits = 0;
+
+	switch (tag) {
+	case TRACE_NULL:
+	case TRACE_FALSE:
+		break;
+	case TRACE_TRUE:
+		bits = 1;
+		break;
+	case TRACE_FLOAT:
+		*v = (struct trace_value){ .type = TRACE_FLOAT };
+		memcpy(&v->f, p, 4);
+		return p + 4;
+	case TRACE_DOUBLE:
+		*v = (struct trace_value){ .type = TRACE_DOUBLE };
+		memcpy(&v->d, p, 8);
+		return p + 8;
+	case TRACE_SINT:
+		p = quick_uint(p, &bits);
+		bits = -bits;
+		break;
+	case TRACE_UINT:
+	case TRACE_OPAQUE:
+		p = quick_uint(p, &bits);
+		break;
+	case TRACE_ENUM:
+		p = quick_uint(p, &bits);
+		sig = p ? known_sig(r, SIG_ENUM, bits) : NULL;
+		if (!sig || r->version < 3)
+			return NULL;
+		sign = *p++;
+		if (sign != TRACE_SINT && sign != TRACE_UINT)
+			return NULL;
+		p = quick_uint(p, &bits);
+		bits = sign == TRACE_SINT ? -bits : bits;
+		break;
+	case TRACE_BITMASK:
+		p = quick_uint(p, &bits);
+		sig = p ? known_sig(r, SIG_BITMASK, bits) : NULL;
+		if (!sig)
+			return NULL;
+		p = quick_uint(p, &bits);
+		break;
+	default:
+		return NULL;
+	}
+	if (p)
+		*v = (struct trace_value){ .type = (enum trace_type)tag, .sig = sig, .u = bits };
+	return p;
+}
+
+/* An array of quick values: the vectors and matrices of GL. As quick_scalar. */
+static const uint8_t *quick_array(struct trace_reader *r, const uint8_t *p, struct arena *a, struct trace_value *v)
+{
+	struct trace_value *items;
+	uint64_t n = p[1];
+
+	if (n == 0 || n > 16)
+		return NULL;
+	items = arena_alloc(a, n * sizeof(*items));
+	p += 2;
+	for (uint64_t i = 0; i < n && items && p; i++)
+		p = r->end - p >= QUICK_BYTES ? quick_scalar(r, p, &items[i]) : NULL;
+	if (items && p)
+		*v = (struct trace_value){ .type = TRACE_ARRAY, .count = n, .items = items };
+	return items ? p : NULL;
+}
+
+/*
+ * Details at p as long as they are quick ones.
+ * @param whole  receives 1: these were all; 0: read_details goes on
+ * @return behind them
+ */
+static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct pending *pending, int *whole)
+{
+	const uint8_t *next, *const end = r->end;
+	const uint32_t n_args = pending->call.n_args < 0x80 ? pending->call.n_args : 0x80;
+	struct trace_value *v;
+
+	*whole = 0;
+	while (end - p >= QUICK_BYTES + 2) {
+		if (*p == 1 && p[1] < n_args) {
+			v = &pending->args[p[1]];
+			next = p + 2;
+		} else if (*p == 2) {
+			v = &pending->call.ret;
+			next = p + 1;
+		} else {
+			*whole = *p == 0;
+			p += *whole;
+			break;
+		}
+		next = *next == TRACE_ARRAY ? quick_array(r, next, &pending->arena, v) : quick_scalar(r, next, v);
+		if (!next)
+			break;
+		p = next;
+	}
+	return p;
+}
+
 /* ---- events ---- */
 
 static void skip_backtrace(struct trace_reader *r, struct arena *a)
@@ -609,6 +737,8 @@ static struct pending *new_pending(struct trace_reader *r)
 {
 	struct pending **grown, *p;
 
+	if (r->entered && !r->entered->in_use)
+		return r->entered;
 	for (size_t i = 0; i < r->n_pending; i++)
 		if (!r->pending[i]->in_use)
 			return r->entered = r->pending[i];
@@ -635,30 +765,41 @@ static void release_pending(struct pending *p)
 	p->in_use = 0;
 }
 
-static void read_enter(struct trace_reader *r)
+static void begin_call(struct pending *p, uint64_t thread, const struct call_sig *sig)
 {
-	struct pending *p = new_pending(r);
-	struct call *call;
+	const uint32_t n = sig->n_args;
 
-	if (!p)
-		return;
-	call = &p->call;
-	memset(call, 0, sizeof(*call));
-	call->thread = r->version >= 4 ? read_uint(r) : 0;
-	call->sig = read_call_sig(r);
-	if (!call->sig)
-		return;
-	call->args = p->args;
-	call->ret.type = TRACE_NONE;
-	for (; call->n_args < call->sig->n_args; call->n_args++)
-		p->args[call->n_args].type = TRACE_NONE;
+	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = n, .args = p->args, .ret.type = TRACE_NONE };
+	for (uint32_t i = 0; i < n; i++)
+		p->args[i].type = TRACE_NONE;
+}
+
+/* The details of an ENTER event, from r->p on, and its end. */
+static void end_enter(struct trace_reader *r, struct pending *p)
+{
 	read_details(r, p);
 	if (r->status) {
 		release_pending(p);
 		return;
 	}
-	call->number = r->next_number++;
+	p->call.number = r->next_number++;
 	p->in_use = 1;
+}
+
+static void read_enter(struct trace_reader *r)
+{
+	struct pending *p = new_pending(r);
+	const struct call_sig *sig;
+	uint64_t thread;
+
+	if (!p)
+		return;
+	thread = r->version >= 4 ? read_uint(r) : 0;
+	sig = read_call_sig(r);
+	if (!sig)
+		return;
+	begin_call(p, thread, sig);
+	end_enter(r, p);
 }
 
 /* @return the call that has returned, or NULL: failed, or a call that nobody knows */
@@ -683,6 +824,49 @@ static struct pending *read_leave(struct trace_reader *r)
 	return NULL;
 }
 
+/*
+ * The next call, if its ENTER begins the quick way and its LEAVE follows at once. Whatever is not so is left to the usual
+ * way, which goes on where r->p is then.
+ * @return the call that has returned, or NULL: the next event is to be read, or failed
+ */
+static struct pending *quick_call(struct trace_reader *r)
+{
+	const uint8_t *p = r->p;
+	const struct call_sig *sig;
+	struct pending *entered;
+	uint64_t thread, number;
+	int whole;
+
+	if (r->end - p < QUICK_BYTES || *p != 0 || r->version < 4)
+		return NULL;
+	p = quick_uint(p + 1, &thread);
+	p = p ? quick_uint(p, &number) : NULL;
+	sig = p ? known_sig(r, SIG_CALL, number) : NULL;
+	entered = sig ? new_pending(r) : NULL;
+	if (!entered)
+		return NULL;
+	begin_call(entered, thread, sig);
+	p = quick_details(r, p, entered, &whole);
+	if (whole) {
+		entered->call.number = r->next_number++;
+		entered->in_use = 1;
+	} else {
+		r->p = p;
+		end_enter(r, entered);
+		if (r->status)
+			return NULL;
+		p = r->p;
+	}
+	r->p = p;
+	if (r->end - p < QUICK_BYTES || *p != 1 || !(p = quick_uint(p + 1, &number)) || number != entered->call.number)
+		return NULL;
+	p = quick_details(r, p, entered, &whole);
+	r->p = p;
+	if (!whole)
+		read_details(r, entered);
+	return r->status ? NULL : entered;
+}
+
 /* At the end: calls that were entered and never left, in order. */
 static struct pending *end_of_calls(struct trace_reader *r)
 {
@@ -703,6 +887,20 @@ static struct pending *end_of_calls(struct trace_reader *r)
 	return oldest;
 }
 
+/* The usual way. @return the call that has returned by it, or NULL */
+static struct pending *read_event(struct trace_reader *r)
+{
+	unsigned event = read_byte(r);
+
+	if (event == 1)
+		return read_leave(r);
+	if (event == 0)
+		read_enter(r);
+	else
+		fail_at(r, "an event of unknown kind");
+	return NULL;
+}
+
 int trace_reader_next(struct trace_reader *r, const struct call **call)
 {
 	struct pending *p = NULL;
@@ -712,16 +910,11 @@ int trace_reader_next(struct trace_reader *r, const struct call **call)
 		release_pending(r->delivered);
 	r->delivered = NULL;
 	while (!p && r->status == 0) {
-		unsigned event;
 		if (r->p == r->end && !refill(r))
 			break;
-		event = read_byte(r);
-		if (event == 0)
-			read_enter(r);
-		else if (event == 1)
-			p = read_leave(r);
-		else
-			fail_at(r, "an event of unknown kind");
+		p = quick_call(r);
+		if (!p && r->status == 0 && r->p != r->end)
+			p = read_event(r);
 		if (r->status == 1)
 			r->cut = 1;
 	}
