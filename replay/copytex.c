@@ -45,7 +45,7 @@ static void copy(struct gls_exec *x, struct gls_state *st, struct gls_texture *t
 		l->missing = (uint32_t)x->frame + 1;
 		x->missing = 1;
 	}
-	t->dirty = 1;
+	gls_texture_changed(t);
 	if (p && to[0] == 0 && to[1] == 0 && size[0] == l->width && size[1] == l->height && l->depth == 1)
 		l->missing = 0;
 	if (t->parameters.generate_mipmap && level == (int64_t)t->parameters.base_level)

@@ -186,36 +186,30 @@ void gls_flush(struct gls_exec *x)
 	gls_geometry_clear(g);
 }
 
+enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
+
 void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
 {
+	/* What each kind asks for (exec.h); all of it means outside Begin/End. */
+	static const uint8_t rules[] = {
+		[GLS_KIND_STATE] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_MATRIX] = OUTSIDE | DRAW_PENDING,
+		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE, [GLS_KIND_WINDOW] = 0,
+	};
 	const struct gls_command *k = &gls_commands[command];
 	struct gls_state *st = x->st;
 
 	x->command = command;
-	switch (k->kind) {
-	case GLS_KIND_VERTEX:
-	case GLS_KIND_INSIDE:
-		break;
-	case GLS_KIND_STATE:
-	case GLS_KIND_MATRIX:
-	case GLS_KIND_ARRAY:
-	case GLS_KIND_NOW:
+	if (k->kind == GLS_KIND_NONE)
+		return;
+	if (rules[k->kind]) {
 		if (st->begin_mode) {
 			gls_error(x, st, GL_INVALID_OPERATION);
 			return;
 		}
-		if (k->kind == GLS_KIND_NOW)
-			break;
-		if (x->geometry.n_vertices)
+		if (rules[k->kind] & DRAW_PENDING && x->geometry.n_vertices)
 			gls_flush(x);
-		if (k->kind == GLS_KIND_STATE)
+		if (rules[k->kind] & STALE)
 			st->dirty |= GLS_DIRTY_ALL;
-		break;
-	case GLS_KIND_CLIENT:
-	case GLS_KIND_WINDOW:
-		break;
-	default:
-		return;
 	}
 	k->handler(x, st, c);
 }

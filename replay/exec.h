@@ -186,7 +186,7 @@ struct gls_list {
 	struct gls_op *ops;
 	uint32_t n, room;
 	struct arena arena;
-	uint32_t depth_guard;
+	uint64_t name[2], bytes, held; /* of its blob, and of that and its meshes' together (snapshot.c); held 0: not known yet */
 };
 void gls_list_free(struct gls_list *list);
 /** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */

@@ -276,7 +276,7 @@ static void store(struct gls_exec *x, const struct gls_share *share, struct gls_
 		if ((i < DEPTH && i != color) || !find_target(share, &fb->attached[i], &t))
 			continue;
 		if (t.texture)
-			t.texture->dirty = 1;
+			gls_texture_changed(t.texture);
 		if (!p) {
 			if (!x->want)
 				set_missing(x, &t, 1);

@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <snappy-c.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,10 +15,11 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/progress.h"
+#include "replay/pack.h"
 #include "replay/replay.h"
 #include "replay/snapshot.h"
 
-#define MAGIC "RELIDX1\n" /* the number changes with this file's form */
+#define MAGIC "RELIDX2\n" /* the number changes with this file's form */
 #define SPACING_BYTES ((uint64_t)256 << 10) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
 #define MAX_BLOB ((uint64_t)1 << 40)
@@ -129,22 +129,42 @@ static void lose_file(struct index *index)
 	index->n_checkpoints = 0;
 }
 
+static int is_kept(const struct index *index, const uint64_t name[2])
+{
+	uint64_t key = name[0];
+	uintptr_t number;
+
+	if (find_blob(index, name))
+		return 1;
+	for (; (number = (uintptr_t)table_find(&index->waiting, key)); key++)
+		if (memcmp(index->staged[number - 1].blob.name, name, 16) == 0)
+			return 1;
+	return 0;
+}
+
+static int have_blob(void *user, const uint64_t name[2], uint64_t n)
+{
+	struct index *index = user;
+	int kept = is_kept(index, name);
+
+	index->saved += kept ? n : 0;
+	return kept;
+}
+
 /* Pack a blob that is not there yet, and keep it for write_staged. */
 static int stage_blob(void *user, const uint64_t name[2], const void *data, size_t n)
 {
 	struct index *index = user;
-	struct staged s = { { { name[0], name[1] }, 0, snappy_max_compressed_length(n) }, NULL };
+	struct staged s = { { { name[0], name[1] }, 0, 0 }, NULL };
 	uint64_t key = name[0];
-	uintptr_t number;
 
 	index->saved += n;
-	if (!index->file || find_blob(index, name))
+	if (!index->file || is_kept(index, name))
 		return 0;
-	for (; (number = (uintptr_t)table_find(&index->waiting, key)); key++)
-		if (memcmp(index->staged[number - 1].blob.name, name, 16) == 0)
-			return 0;
-	s.packed = malloc(s.blob.packed + 1);
-	if (!s.packed || snappy_compress(data, n, s.packed, &s.blob.packed) != SNAPPY_OK ||
+	while (table_find(&index->waiting, key))
+		key++;
+	s.packed = malloc(pack_room(n) + 1);
+	if (!s.packed || pack_blob(data, n, s.packed, &s.blob.packed) ||
 	    grow(&index->staged, &index->room_staged, index->n_staged, sizeof(s)) ||
 	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1))) {
 		free(s.packed);
@@ -185,13 +205,14 @@ static uint8_t *get_blob(void *user, const uint64_t name[2], size_t n)
 	const struct blob *blob = find_blob(index, name);
 	char *packed = NULL, *data = NULL;
 	XXH128_hash_t hash;
-	size_t unpacked;
 
 	if (!blob || !index->file || blob->packed > index->end || !(packed = malloc(blob->packed + 1)) ||
-	    pread(fileno(index->file), packed, blob->packed, (off_t)blob->offset) != (ssize_t)blob->packed ||
-	    snappy_uncompressed_length(packed, blob->packed, &unpacked) != SNAPPY_OK || unpacked != n ||
-	    !(data = malloc(n + 1)) || snappy_uncompress(packed, blob->packed, data, &unpacked) != SNAPPY_OK)
+	    pread(fileno(index->file), packed, blob->packed, (off_t)blob->offset) != (ssize_t)blob->packed)
 		goto fail;
+	data = unpack_blob(packed, blob->packed, n);
+	if (!data)
+		goto fail;
+	packed = data == packed ? NULL : packed;
 	hash = XXH3_128bits(data, n);
 	if (hash.low64 != name[0] || hash.high64 != name[1])
 		goto fail;
@@ -206,7 +227,7 @@ fail:
 
 static struct snapshot_blobs blobs_of(struct index *index)
 {
-	return (struct snapshot_blobs){ .put = stage_blob, .get = get_blob, .user = index };
+	return (struct snapshot_blobs){ .put = stage_blob, .have = have_blob, .get = get_blob, .user = index };
 }
 
 /* --- Table of contents --------------------------------------------------------------------------------------------- */

@@ -7,8 +7,8 @@
  * a trace that has changed: it names the trace by size, time, the hash of its first MiB and, looked at where the time
  * differs, the hash of all of it.
  *
- * The file: a header; blobs, Snappy-packed, each once, under the XXH3-128 of their content; a table of contents with a
- * checksum. Checkpoints are snapshots (snapshot.h), themselves blobs. They come every 256 KiB of calls, less often where the
+ * The file: a header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a
+ * table of contents with a checksum. Checkpoints are snapshots (snapshot.h), themselves blobs. They come every 256 KiB of calls, less often where the
  * state is large or changes so much that the index would outgrow the trace.
  */
 #ifndef REPLAY_INDEX_H

@@ -82,12 +82,34 @@ static struct gls_op *new_op(struct gls_list *list)
 	return &list->ops[list->n++];
 }
 
+/* Keep a call with its arguments ready to be handed to a handler. Floats take eight times their bytes so. */
+static int keep_ready(struct gls_list *list, struct gls_op *op, const struct call *c, const struct gls_pixel_store *unpack)
+{
+	struct gls_pixel_store *kept;
+	struct trace_value *args;
+
+	op->form = GLS_OP_CALL;
+	op->n = c->n_args;
+	op->args = args = arena_alloc(&list->arena, (c->n_args + !c->n_args) * sizeof(*args));
+	if (!args)
+		return ERR_SYSTEM;
+	for (uint32_t i = 0; i < c->n_args; i++) {
+		if (copy_value(&list->arena, &args[i], &c->args[i]))
+			return ERR_SYSTEM;
+		if (c->args[i].type != TRACE_BLOB || !unpack)
+			continue;
+		op->unpack = kept = arena_alloc(&list->arena, sizeof(*kept));
+		if (!kept)
+			return ERR_SYSTEM;
+		*kept = *unpack;
+	}
+	return 0;
+}
+
 /* unpack: the state that pixels in client memory are read with, which is that of the moment (sec. 5.4). */
 static int keep_call(struct gls_list *list, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
 	struct gls_op *op = new_op(list);
-	struct gls_pixel_store *kept;
-	struct trace_value *args;
 
 	if (!op)
 		return ERR_SYSTEM;
@@ -104,23 +126,8 @@ static int keep_call(struct gls_list *list, const struct call *c, uint32_t comma
 		op->floats = pack_floats(&list->arena, c->args[0].items, op->n);
 		return op->floats ? 0 : ERR_SYSTEM;
 	}
-	op->form = GLS_OP_CALL;
-	op->n = c->n_args;
-	op->args = args = arena_alloc(&list->arena, (c->n_args + !c->n_args) * sizeof(*args));
-	if (!args)
-		goto fail;
-	for (uint32_t i = 0; i < c->n_args; i++) {
-		if (copy_value(&list->arena, &args[i], &c->args[i]))
-			goto fail;
-		if (c->args[i].type != TRACE_BLOB || !unpack)
-			continue;
-		op->unpack = kept = arena_alloc(&list->arena, sizeof(*kept));
-		if (!kept)
-			goto fail;
-		*kept = *unpack;
-	}
-	return 0;
-fail:
+	if (keep_ready(list, op, c, unpack) == 0)
+		return 0;
 	list->n--;
 	return ERR_SYSTEM;
 }
@@ -236,7 +243,12 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 			run_mesh(x, st, op->mesh);
 			continue;
 		}
-		unpack_call(op, args, &c);
+		if (op->form == GLS_OP_CALL) {
+			c.args = op->args;
+			c.n_args = op->n;
+		} else {
+			unpack_call(op, args, &c);
+		}
 		if (op->unpack)
 			run_with_pixels(x, st, op, &c);
 		else
@@ -348,13 +360,17 @@ static int keep_op(struct gls_list *list, const struct gls_op *from, const struc
 	struct call c = call_of_list(x);
 	struct gls_op *op;
 
-	if (from->form != GLS_OP_MESH) {
-		unpack_call(from, args, &c);
-		return keep_call(list, &c, from->command, from->unpack);
-	}
 	op = new_op(list);
 	if (!op)
 		return ERR_SYSTEM;
+	if (from->form != GLS_OP_MESH) {
+		op->command = from->command;
+		unpack_call(from, args, &c);
+		if (keep_ready(list, op, &c, from->unpack) == 0)
+			return 0;
+		list->n--;
+		return ERR_SYSTEM;
+	}
 	*op = *from;
 	op->mesh = arena_alloc(&list->arena, sizeof(*op->mesh));
 	if (!op->mesh) {

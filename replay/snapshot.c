@@ -25,6 +25,7 @@ struct saver {
 	struct gls_exec *x;
 	const struct snapshot_blobs *blobs;
 	struct bytes *out;
+	uint64_t held; /* bytes of all blobs so far */
 	int err;
 	size_t wanted; /* snapshot_place: the byte that is asked about, SIZE_MAX else */
 	char place[96];
@@ -38,22 +39,34 @@ static void section(struct saver *s, const char *what, uint64_t number)
 		         s->wanted - s->out->n);
 }
 
-static void put_blob(struct saver *s, const void *data, size_t n)
+static void find_name(const void *data, size_t n, uint64_t name[2])
 {
-	XXH128_hash_t hash;
-	uint64_t name[2];
+	XXH128_hash_t hash = XXH3_128bits(data, n);
 
+	name[0] = hash.low64;
+	name[1] = hash.high64;
+}
+
+static void put_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n)
+{
 	if (s->blobs->count) {
 		*s->blobs->count += n;
 		return;
 	}
-	hash = XXH3_128bits(data, n);
-	name[0] = hash.low64;
-	name[1] = hash.high64;
 	bytes_put_u64(s->out, n);
-	bytes_put(s->out, name, sizeof(name));
+	bytes_put(s->out, name, 16);
+	s->held += n;
 	if (n && !s->err)
 		s->err = s->blobs->put(s->blobs->user, name, data, n);
+}
+
+static void put_blob(struct saver *s, const void *data, size_t n)
+{
+	uint64_t name[2] = { 0 };
+
+	if (!s->blobs->count)
+		find_name(data, n, name);
+	put_named_blob(s, name, data, n);
 }
 
 static int by_key(const void *a, const void *b)
@@ -173,11 +186,18 @@ static void put_op(struct saver *s, const struct gls_op *op)
 	}
 }
 
-/* A list is a blob of its own: most lists are the same at every checkpoint. */
-static void put_list(struct saver *s, const struct gls_list *list)
+/* A list is a blob of its own: most lists are the same at every checkpoint, and none changes once it is whole. */
+static void put_list(struct saver *s, struct gls_list *list)
 {
 	struct bytes own = { .n = 0 }, *out = s->out;
+	uint64_t before = s->held;
 
+	if (list->held && s->blobs->have && s->blobs->have(s->blobs->user, list->name, list->held)) {
+		s->held += list->held;
+		bytes_put_u64(s->out, list->bytes);
+		bytes_put(s->out, list->name, sizeof(list->name));
+		return;
+	}
 	s->out = &own;
 	bytes_put_u64(&own, list->n);
 	for (uint32_t i = 0; i < list->n; i++)
@@ -186,25 +206,47 @@ static void put_list(struct saver *s, const struct gls_list *list)
 	if (own.failed && !s->err)
 		s->err = err_report(ERR_SYSTEM, s->x->path, "out of memory");
 	put_blob(s, own.data, own.n);
+	if (!s->blobs->count && !s->err) {
+		find_name(own.data, own.n, list->name);
+		list->bytes = own.n;
+		list->held = s->held - before;
+	}
 	free(own.data);
 }
 
-static void put_texture(struct saver *s, const struct gls_texture *t)
-{
-	struct gls_texture raw = *t;
+/* What of a texture is not levels: before them and behind them. */
+#define LEVELS_BEGIN offsetof(struct gls_texture, levels)
+#define LEVELS_END (LEVELS_BEGIN + sizeof(((struct gls_texture *)0)->levels))
 
+/* Levels that are there, each after its number. Most are the same at every checkpoint: their names are found once. */
+static void put_texture(struct saver *s, struct gls_texture *t)
+{
+	static const struct gls_level none;
+	struct gls_texture raw;
+
+	memcpy(&raw, t, LEVELS_BEGIN);
+	memcpy((char *)&raw + LEVELS_END, (const char *)t + LEVELS_END, sizeof(raw) - LEVELS_END);
 	raw.image = NULL;
 	raw.dirty = 1;
-	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++)
-		raw.levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS].texels = NULL;
-	bytes_put(s->out, &raw, sizeof(raw));
+	raw.hashed = 0;
+	bytes_put(s->out, &raw, LEVELS_BEGIN);
+	bytes_put(s->out, (const char *)&raw + LEVELS_END, sizeof(raw) - LEVELS_END);
 	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++) {
-		const struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS];
+		struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS], kept = *level;
+		kept.texels = NULL;
+		memset(kept.hash, 0, sizeof(kept.hash));
+		if (!level->texels && memcmp(&kept, &none, sizeof(kept)) == 0)
+			continue;
+		bytes_put_u64(s->out, i);
+		bytes_put(s->out, &kept, sizeof(kept));
+		bytes_put_u64(s->out, level->texels != NULL);
+		if (level->texels && !t->hashed && !s->blobs->count)
+			find_name(level->texels, level->bytes, level->hash);
 		if (level->texels)
-			put_blob(s, level->texels, level->bytes);
-		else
-			bytes_put_u64(s->out, UINT64_MAX);
+			put_named_blob(s, level->hash, level->texels, level->bytes);
 	}
+	bytes_put_u64(s->out, UINT64_MAX);
+	t->hashed |= !s->blobs->count;
 }
 
 static void put_share(struct saver *s, const struct gls_share *share)
@@ -692,7 +734,7 @@ static struct gls_list *get_list(struct loader *l)
 		free(list);
 		return NULL;
 	}
-	KNOWN(struct gls_list, 48);
+	KNOWN(struct gls_list, 72);
 	KNOWN(struct gls_op, 24);
 	KNOWN(struct gls_pixel_store, 36);
 	KNOWN(struct gls_op_mesh, 40);
@@ -719,22 +761,27 @@ static struct gls_texture *get_texture(struct loader *l)
 {
 	struct gls_texture *t = allocate(l, sizeof(*t));
 
-	KNOWN(struct gls_texture, 4448);
-	KNOWN(struct gls_level, 48);
+	KNOWN(struct gls_texture, 5896);
+	KNOWN(struct gls_level, 64);
 	if (!t)
 		return NULL;
-	cursor_copy(&l->in, t, sizeof(*t));
+	cursor_copy(&l->in, t, LEVELS_BEGIN);
+	cursor_copy(&l->in, (char *)t + LEVELS_END, sizeof(*t) - LEVELS_END);
 	t->image = NULL;
 	t->dirty = 1;
-	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++)
-		t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS].texels = NULL;
-	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS && !is_bad(l); i++) {
-		struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS];
-		struct cursor before = l->in;
+	t->hashed = 0;
+	for (uint64_t i; !is_bad(l) && (i = cursor_u64(&l->in)) != UINT64_MAX;) {
+		struct gls_level *level;
 		size_t n;
-		if (cursor_u64(&l->in) == UINT64_MAX)
+		if (i >= 6 * GLS_MAX_LEVELS || t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS].texels) {
+			l->in.failed = 1;
+			break;
+		}
+		level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS];
+		cursor_copy(&l->in, level, sizeof(*level));
+		level->texels = NULL;
+		if (!cursor_u64(&l->in))
 			continue;
-		l->in = before;
 		level->texels = get_blob(l, &n);
 		if (n != level->bytes || level->width > 65536 || level->height > 65536 || level->depth > 65536 ||
 		    (uint64_t)level->width * level->height * level->depth > n / 4)
@@ -806,7 +853,7 @@ static void get_share(struct loader *l, struct gls_share *share)
 		key = cursor_u64(&l->in);
 		keep(l, &share->lists, key, get_list(l));
 	}
-	n = get_count(l, sizeof(struct gls_texture));
+	n = get_count(l, sizeof(struct gls_texture) - sizeof(((struct gls_texture *)0)->levels));
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
 		keep(l, &share->textures, key, get_texture(l));

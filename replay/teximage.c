@@ -227,28 +227,51 @@ static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
 		place[3] = place[0];
 }
 
+/* Places as numbers of four bytes: a member times its number stands in all its places; `rest` are the other bytes. */
+struct spread {
+	uint32_t member[4], rest;
+};
+
+static struct spread spread_of(const uint8_t place[4])
+{
+	uint8_t bytes[5][4] = { { 0 } };
+	struct spread s;
+
+	for (unsigned k = 0; k < 4; k++) {
+		if (place[k] < ZERO_BYTE)
+			bytes[place[k]][k] = 1;
+		bytes[4][k] = place[k] == FULL_BYTE ? 255 : 0;
+	}
+	memcpy(s.member, bytes, sizeof(s.member));
+	memcpy(&s.rest, bytes[4], sizeof(s.rest));
+	return s;
+}
+
 static inline void place_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
 {
-	uint8_t group[6] = { 0, 0, 0, 0, 0, 255 };
+	const struct spread s = spread_of(place);
 
 	for (uint32_t i = 0; i < width; i++, from += n, out += 4) {
-		memcpy(group, from, n);
-		for (unsigned k = 0; k < 4; k++)
-			out[k] = group[place[k]];
+		uint32_t texel = s.rest;
+
+		for (unsigned k = 0; k < n; k++)
+			texel += from[k] * s.member[k];
+		memcpy(out, &texel, 4);
 	}
 }
 
 static inline void place_floats(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
 {
-	uint8_t group[6] = { 0, 0, 0, 0, 0, 255 };
+	const struct spread s = spread_of(place);
 	float values[4];
 
 	for (uint32_t i = 0; i < width; i++, from += 4 * n, out += 4) {
+		uint32_t texel = s.rest;
+
 		memcpy(values, from, 4 * n);
 		for (unsigned k = 0; k < n; k++)
-			group[k] = gls_byte(values[k]);
-		for (unsigned k = 0; k < 4; k++)
-			out[k] = group[place[k]];
+			texel += gls_byte(values[k]) * s.member[k];
+		memcpy(out, &texel, 4);
 	}
 }
 
@@ -261,7 +284,7 @@ static void unpack_floats(const uint8_t *from, unsigned n, uint32_t width, const
 	else if (n == 2)
 		place_floats(from, 2, width, place, out);
 	else
-		place_floats(from, n, width, place, out);
+		place_floats(from, 1, width, place, out);
 }
 
 static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
@@ -274,8 +297,10 @@ static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const 
 		place_bytes(from, 4, width, place, out);
 	else if (n == 3)
 		place_bytes(from, 3, width, place, out);
+	else if (n == 2)
+		place_bytes(from, 2, width, place, out);
 	else
-		place_bytes(from, n, width, place, out);
+		place_bytes(from, 1, width, place, out);
 }
 
 /* Colour indices as the colours that maps make of them (sec. 3.6.5). */
@@ -500,15 +525,26 @@ static void filter_texel(const struct gls_level *from, int depth, const float *l
 	}
 }
 
+/* The mean of each of four bytes, rounded up (Dietz, "The Aggregate Magic Algorithms": average of integers). */
+static uint32_t mean_bytes(uint32_t a, uint32_t b)
+{
+	return (a | b) - (((a ^ b) >> 1) & 0x7f7f7f7fu);
+}
+
 /* The same of a plane that is halved both ways, by bytes. */
 static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t *out)
 {
 	for (uint32_t y = 0; y < h; y++) {
 		const uint8_t *low = from->texels + 8 * (size_t)y * from->width, *high = low + 4 * (size_t)from->width;
 
-		for (uint32_t x = 0; x < w; x++, low += 8, high += 8, out += 4)
-			for (unsigned k = 0; k < 4; k++)
-				out[k] = (uint8_t)(((low[k] + low[k + 4] + 1u) / 2 + (high[k] + high[k + 4] + 1u) / 2 + 1u) / 2);
+		for (uint32_t x = 0; x < w; x++, low += 8, high += 8, out += 4) {
+			uint32_t below[2], above[2], mean;
+
+			memcpy(below, low, 8);
+			memcpy(above, high, 8);
+			mean = mean_bytes(mean_bytes(below[0], below[1]), mean_bytes(above[0], above[1]));
+			memcpy(out, &mean, 4);
+		}
 	}
 }
 
@@ -638,8 +674,8 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 	bytes = (size_t)(width * height * depth) * (gls_format_stencil_bits(internal_format) ? 5 : 4);
 	free(l->texels);
 	*l = (struct gls_level){ (uint32_t)width, (uint32_t)height, (uint32_t)depth, (uint32_t)border, internal_format, base,
-	                         NULL, bytes, 0 };
-	t->dirty = 1;
+	                         NULL, bytes, 0, { 0 } };
+	gls_texture_changed(t);
 	if (!bytes)
 		return NULL;
 	l->texels = calloc(1, bytes);
@@ -724,7 +760,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 			memcpy(gls_level_stencil(l) + ((at[2] + y / extent[1]) * room[1] + at[1] + y % extent[1]) * room[0] + at[0],
 			       texels + y * extent[0], (size_t)extent[0]);
 	}
-	t->dirty = 1;
+	gls_texture_changed(t);
 	if (t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
@@ -792,7 +828,7 @@ static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * 4);
 	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
 		place(l, at, size, texels);
-	t->dirty = 1;
+	gls_texture_changed(t);
 	if (t->parameters.generate_mipmap && arg_i(c, 1) == (int64_t)t->parameters.base_level)
 		gls_texture_generate_mipmaps(x, t, face);
 }
@@ -855,7 +891,7 @@ GLS_HANDLER(glClearTexImage, NOW)
 		st->client.unpack = unpack;
 		for (size_t i = 0; i < gls_level_count(l); i++)
 			memcpy(l->texels + 4 * i, texel, 4);
-		t->dirty = 1;
+		gls_texture_changed(t);
 	}
 }
 
@@ -868,7 +904,7 @@ GLS_HANDLER(glGenerateMipmap, STATE)
 		return;
 	for (face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
 		gls_texture_generate_mipmaps(x, t, face);
-	t->dirty = 1;
+	gls_texture_changed(t);
 }
 
 /* ---- pixel transfer, sec. 3.6.3 ---- */

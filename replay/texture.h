@@ -15,6 +15,7 @@ struct gls_level {
 	uint8_t *texels; /* 4 bytes each; where the format has stencil bits, a byte of stencil each after all of them */
 	size_t bytes;    /* of both */
 	uint32_t missing; /* frame + 1 in which what it holds was drawn, and not rendered; 0: it is all there */
+	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
 };
 
 static inline size_t gls_level_count(const struct gls_level *l)
@@ -34,6 +35,7 @@ struct gls_texture {
 	struct gls_texture_parameters parameters;
 	uint32_t attached;               /* 1: is or was attached to a framebuffer object */
 	uint32_t dirty;                  /* image must be found again */
+	uint32_t hashed;                 /* 1: the levels' hashes are of their texels (snapshot.c) */
 	uint32_t mipmapped;              /* the image was found for a filter that wants all levels */
 	struct gls_texture_image *image; /* a reference, or NULL: incomplete */
 };
@@ -46,6 +48,13 @@ struct gls_texture_image {
 	uint32_t slot;
 	uint64_t slot_frame;
 };
+
+/** Texels or levels have changed. */
+static inline void gls_texture_changed(struct gls_texture *t)
+{
+	t->dirty = 1;
+	t->hashed = 0;
+}
 
 /** The object bound to a target of a unit; never NULL but out of memory (x->failed). */
 struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target);
@@ -120,7 +129,10 @@ const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsi
 /* A number in [0,1] as 8 bits. */
 static inline uint8_t gls_byte(float value)
 {
-	return value <= 0 || value != value ? 0 : value >= 1 ? 255 : (uint8_t)(value * 255.0f + 0.5f);
+	float v = value > 0 ? value : 0; /* so written, what is no number is 0, and nothing branches */
+
+	v = v < 1 ? v : 1;
+	return (uint8_t)(v * 255.0f + 0.5f);
 }
 
 struct gls_format {

@@ -55,7 +55,7 @@ if (last - near) % 7 == 0:
 # Another trace under the same name, damage, and what is no index: noticed and made anew.
 good = index_of(live).read_bytes()
 for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(good) // 2 + 64:]),
-                   ("its end", good[:-40]), ("its head", b"RELIDX1\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
+                   ("its end", good[:-40]), ("its head", b"RELIDX2\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
                    ("everything", b"")):
     index_of(live).write_bytes(data)
     done = must(relume("render", live, "-f", "399", "-o", SCRATCH / "x.#.exr"))

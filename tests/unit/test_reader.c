@@ -13,7 +13,7 @@
 #include "base/err.h"
 
 struct bytes {
-	uint8_t data[8192];
+	uint8_t data[32768];
 	size_t n;
 };
 
@@ -172,6 +172,104 @@ START_TEST(test_snappy)
 }
 END_TEST
 
+/* A number whose highest bit is `bit`. */
+static uint64_t number_of(unsigned bit)
+{
+	return 0xb7e151628aed2a6bu >> (63 - bit);
+}
+
+/* A call for each length of a number that has it in every place where numbers stand, with arrays of 0 to 20 items. */
+static void put_numbers(struct bytes *b)
+{
+	for (unsigned bit = 0; bit < 64; bit++) {
+		const uint64_t v = number_of(bit);
+
+		put(b, bit ? "\0\0\200\1" : "\0\0\200\1\1f\6\1u\1s\1p\1e\1m\1a", bit ? 4 : 19); /* signature 128 */
+		put(b, "\1\0\4", 3);
+		put_uint(b, v);
+		put(b, "\1\1\3", 3);
+		put_uint(b, v);
+		put(b, "\1\2\x0d", 3);
+		put_uint(b, v);
+		put(b, bit ? "\1\3\x09\0" : "\1\3\x09\0\1\1E\4\0", bit ? 4 : 9);
+		put(b, bit & 1 ? "\3" : "\4", 1);
+		put_uint(b, v);
+		put(b, bit ? "\1\4\x0a\0" : "\1\4\x0a\0\1\1M\1", bit ? 4 : 8);
+		put_uint(b, v);
+		put(b, "\1\5\x0b", 3);
+		put_uint(b, bit % 21);
+		for (unsigned i = 0; i < bit % 21; i++) {
+			const float f = (float)bit + (float)i / 32;
+			if (i % 5 == 4) {
+				put(b, "\4", 1);
+				put_uint(b, v);
+			} else {
+				put(b, "\5", 1);
+				put(b, &f, 4);
+			}
+		}
+		put(b, "\0\1", 2);
+		put_uint(b, bit);
+		put(b, "\2\4", 2);
+		put_uint(b, v);
+		put(b, "\0", 1);
+	}
+}
+
+static void check_numbers(const char *path)
+{
+	struct trace_reader *r;
+	const struct call *c;
+
+	ck_assert_int_eq(trace_reader_open(&r, path), 0);
+	for (unsigned bit = 0; bit < 64; bit++) {
+		const uint64_t v = number_of(bit);
+		const enum trace_type types[] = { TRACE_UINT, TRACE_SINT, TRACE_OPAQUE, TRACE_ENUM, TRACE_BITMASK, TRACE_ARRAY };
+
+		ck_assert_int_eq(trace_reader_next(r, &c), 1);
+		ck_assert_str_eq(c->sig->name, "f");
+		ck_assert_uint_eq(c->number, bit);
+		ck_assert_uint_eq(c->n_args, 6);
+		for (unsigned i = 0; i < 6; i++)
+			ck_assert_int_eq(c->args[i].type, types[i]);
+		ck_assert_uint_eq(c->args[0].u, v);
+		ck_assert_uint_eq(c->args[1].u, -v);
+		ck_assert_uint_eq(c->args[2].u, v);
+		ck_assert_uint_eq(c->args[3].u, bit & 1 ? -v : v);
+		ck_assert_str_eq(((const struct trace_enum_sig *)c->args[3].sig)->names[0], "E");
+		ck_assert_uint_eq(c->args[4].u, v);
+		ck_assert_str_eq(((const struct trace_bitmask_sig *)c->args[4].sig)->names[0], "M");
+		ck_assert_uint_eq(c->args[5].count, bit % 21);
+		for (unsigned i = 0; i < bit % 21; i++) {
+			const struct trace_value *item = &c->args[5].items[i];
+			ck_assert_int_eq(item->type, i % 5 == 4 ? TRACE_UINT : TRACE_FLOAT);
+			if (i % 5 == 4)
+				ck_assert_uint_eq(item->u, v);
+			else
+				ck_assert_float_eq(item->f, (float)bit + (float)i / 32);
+		}
+		ck_assert_int_eq(c->ret.type, TRACE_UINT);
+		ck_assert_uint_eq(c->ret.u, v);
+	}
+	ck_assert_int_eq(trace_reader_next(r, &c), 0);
+	ck_assert_int_eq(trace_reader_is_cut(r), 0);
+	trace_reader_close(&r);
+}
+
+/* Numbers of every length, in chunks from one that holds them all down to a byte each. */
+START_TEST(test_numbers)
+{
+	static uint8_t file[8 * 32768];
+	struct bytes b = { .n = 0 };
+
+	put_header(&b);
+	put_numbers(&b);
+	for (size_t chunk = b.n; chunk; chunk -= 1 + chunk / 4)
+		check_numbers(write_file(file, pack_snappy(&b, chunk, file)));
+	unlink(path_of("trace"));
+}
+END_TEST
+
 START_TEST(test_gzip)
 {
 	struct bytes b = { .n = 0 };
@@ -304,6 +402,7 @@ int main(void)
 
 	tcase_set_timeout(tcase, 60);
 	tcase_add_test(tcase, test_snappy);
+	tcase_add_test(tcase, test_numbers);
 	tcase_add_test(tcase, test_gzip);
 	tcase_add_test(tcase, test_cut);
 	tcase_add_test(tcase, test_damaged);
