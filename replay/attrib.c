@@ -125,10 +125,7 @@ int gls_state_init(struct gls_state *st)
 	init_stack(&st->color_matrix, 4);
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		init_stack(&st->texture[u], GLS_MAX_TEXTURE_MATRICES);
-	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
-		st->client.arrays[i].size = 4;
-		st->client.arrays[i].type = GL_FLOAT;
-	}
+	gls_arrays_init(st->client.arrays);
 	st->client.pack.alignment = st->client.unpack.alignment = 4;
 	st->render_mode = GL_RENDER;
 	st->dirty = GLS_DIRTY_ALL;
@@ -143,6 +140,9 @@ void gls_state_free(struct gls_state *st)
 	gls_maps_free(st->maps);
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
 		free(st->client.arrays[i].client);
+	for (size_t i = 0; i < st->vertex_arrays.room; i++)
+		gls_vertex_array_free(st->vertex_arrays.entries[i].value);
+	table_free(&st->vertex_arrays);
 	if (st->list)
 		gls_list_free(st->list);
 	free(st->attrib_stack);
@@ -545,6 +545,7 @@ GLS_HANDLER(glPopClientAttrib, NOW)
 	}
 	if (!(saved->mask & GL_CLIENT_VERTEX_ARRAY_BIT))
 		return;
+	gls_vertex_array_bind(x, st, saved->client.vertex_array);
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
 		struct gls_array now = st->client.arrays[i], *array = &st->client.arrays[i];
 		*array = saved->client.arrays[i];

@@ -377,6 +377,11 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
 void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read);
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st);
 void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n);
+/** The initial values of vertex arrays (GL 2.1 table 6.6). */
+void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS]);
+/** Bind a vertex array object, made where there is none of this name. */
+void gls_vertex_array_bind(struct gls_exec *x, struct gls_state *st, uint32_t name);
+void gls_vertex_array_free(struct gls_vertex_array *object);
 struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name);
 /** The bits of drawables that a context made for this visual or configuration draws to, as far as they are known. */
 void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config);

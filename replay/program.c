@@ -1,6 +1,5 @@
 /*
- * Later objects that a program of the fixed-function age may use beside it: shaders, several draw buffers, vertex array
- * objects. Draws with programs are rendered as fixed function and counted.
+ * Later things that a program of the fixed-function age may use beside it: shaders, several draw buffers. Draws with programs are rendered as fixed function and counted.
  */
 #include "replay/exec.h"
 
@@ -24,10 +23,4 @@ GLS_HANDLER(glDrawBuffers, STATE)
 			gls_unsupported(x, "more than one colour buffer of a framebuffer object at a time");
 	}
 	st->a.color.draw_buffer = buffer;
-}
-
-GLS_HANDLER(glBindVertexArray, CLIENT)
-{
-	if (arg_u(c, 0))
-		gls_unsupported(x, "vertex array objects: their arrays are taken for the context's");
 }

@@ -317,6 +317,33 @@ static void put_share(struct saver *s, const struct gls_share *share)
 	}
 }
 
+/* Of all arrays. */
+static void put_array_memory(struct saver *s, const struct gls_array *arrays)
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
+		put_blob(s, arrays[i].client, arrays[i].client ? arrays[i].client_bytes : 0);
+}
+
+static void put_vertex_arrays(struct saver *s, const struct gls_state *st)
+{
+	struct table_entry *e = sorted(s, &st->vertex_arrays);
+	size_t n = e ? st->vertex_arrays.n : 0;
+
+	for (size_t i = 0; i < n; i++) {
+		const struct gls_vertex_array *object = e[i].value;
+		struct gls_vertex_array raw = *object;
+
+		for (unsigned k = 0; k < N_GLS_ARRAYS; k++) {
+			raw.arrays[k].client = NULL;
+			raw.arrays[k].client_room = 0;
+		}
+		bytes_put_u64(s->out, e[i].key);
+		bytes_put(s->out, &raw, sizeof(raw));
+		put_array_memory(s, object->arrays);
+	}
+	free(e);
+}
+
 /* Client memory apart, which belongs to the arrays in use and not to those on the stack. */
 static struct gls_client_attribs without_memory(const struct gls_client_attribs *client)
 {
@@ -348,12 +375,14 @@ static void put_state(struct saver *s, const struct gls_state *st)
 	raw.share = NULL;
 	raw.list = NULL;
 	raw.maps = NULL;
+	memset(&raw.vertex_arrays, 0, sizeof(raw.vertex_arrays));
 	raw.dirty = GLS_DIRTY_ALL;
 	section(s, "struct gls_state of context", context_of(s->x, st));
 	bytes_put(s->out, &raw, sizeof(raw));
 	section(s, "array memory of context", context_of(s->x, st));
-	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
-		put_blob(s, st->client.arrays[i].client, st->client.arrays[i].client ? st->client.arrays[i].client_bytes : 0);
+	put_array_memory(s, st->client.arrays);
+	section(s, "vertex array objects of context", context_of(s->x, st));
+	put_vertex_arrays(s, st);
 	section(s, "attribute stacks of context", context_of(s->x, st));
 	bytes_put(s->out, st->attrib_stack, st->attrib_depth * sizeof(*st->attrib_stack));
 	for (unsigned i = 0; i < st->client_depth; i++) {
@@ -909,11 +938,46 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 	       raw->a.texturing.active < GLS_MAX_UNITS && raw->client.active_texture < GLS_MAX_UNITS && !raw->begin_mode;
 }
 
+/* The pointers among what was read are none until their bytes are. */
+static void get_array_memory(struct loader *l, struct gls_array *arrays)
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
+		size_t n;
+
+		arrays[i].client = is_bad(l) ? NULL : get_blob(l, &n);
+		arrays[i].client_room = arrays[i].client ? n : 0;
+		if (!is_bad(l) && arrays[i].client_room != arrays[i].client_bytes)
+			l->in.failed = 1;
+	}
+}
+
+static void get_vertex_arrays(struct loader *l, struct gls_state *st)
+{
+	uint64_t n = get_count(l, sizeof(struct gls_vertex_array));
+
+	KNOWN(struct gls_vertex_array, 1088);
+	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
+		struct gls_vertex_array *object = allocate(l, sizeof(*object));
+		uint64_t name = cursor_u64(&l->in);
+
+		if (!object)
+			return;
+		cursor_copy(&l->in, object, sizeof(*object));
+		get_array_memory(l, object->arrays);
+		if (is_bad(l) || table_find(&st->vertex_arrays, name)) {
+			l->in.failed = 1;
+			gls_vertex_array_free(object);
+		} else {
+			keep(l, &st->vertex_arrays, name, object);
+		}
+	}
+}
+
 static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34324,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34348,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));
@@ -927,16 +991,11 @@ static void get_state(struct loader *l, struct gls_state *st)
 	raw.share = st->share;
 	raw.list = NULL;
 	raw.maps = NULL;
+	memset(&raw.vertex_arrays, 0, sizeof(raw.vertex_arrays));
 	raw.dirty = GLS_DIRTY_ALL;
 	*st = raw;
-	for (unsigned i = 0; i < N_GLS_ARRAYS && !is_bad(l); i++) {
-		struct gls_array *array = &st->client.arrays[i];
-		size_t n;
-		array->client = get_blob(l, &n);
-		array->client_room = n;
-		if (n != array->client_bytes)
-			l->in.failed = 1;
-	}
+	get_array_memory(l, st->client.arrays);
+	get_vertex_arrays(l, st);
 	cursor_copy(&l->in, st->attrib_stack, st->attrib_depth * sizeof(*st->attrib_stack));
 	cursor_copy(&l->in, st->client_stack, st->client_depth * sizeof(*st->client_stack));
 	for (unsigned i = 0; i < st->attrib_depth; i++)

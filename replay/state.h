@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "replay/scene.h"
+#include "replay/table.h"
 
 #define GLS_MAX_UNITS SCENE_MAX_UNITS
 #define GLS_MAX_LIGHTS SCENE_MAX_LIGHTS
@@ -217,9 +218,16 @@ struct gls_client_attribs {
 	struct gls_pixel_store pack, unpack;
 	struct gls_array arrays[N_GLS_ARRAYS]; /* 0 .. N_GLS_ATTRIBUTES-1: as gls_attribute */
 	uint32_t active_texture;               /* client active unit */
+	uint32_t vertex_array;                 /* name of the object whose arrays these are; 0: none */
 	uint32_t array_buffer, element_buffer, copy_read_buffer, copy_write_buffer, indirect_buffer;
 	uint32_t lock_first, lock_count;
 	uint32_t restart, restart_fixed, restart_index; /* primitives begin anew at an index: NV_primitive_restart, GL 3.1 */
+};
+
+/* A vertex array object that is not bound (all 0 while it is: struct gls_client_attribs has it then). */
+struct gls_vertex_array {
+	struct gls_array arrays[N_GLS_ARRAYS];
+	uint32_t element_buffer;
 };
 
 struct gls_matrix_stack {
@@ -265,6 +273,7 @@ struct gls_state {
 	struct gls_saved_attribs *attrib_stack; /* [GLS_MAX_ATTRIB_DEPTH], owned */
 	struct gls_saved_client *client_stack;  /* [GLS_MAX_ATTRIB_DEPTH], owned */
 	unsigned attrib_depth, client_depth;
+	struct table vertex_arrays; /* name (0: none bound) -> struct gls_vertex_array, owned */
 
 	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
 	struct gls_maps *maps; /* evaluators' (eval.c), owned; NULL: none was ever defined */

@@ -1,6 +1,9 @@
 /* Vertex arrays and buffer objects (GL 2.1 sec. 2.8, 2.9). */
 #include <math.h>
 
+#include "base/err.h"
+#include "replay/bytes.h"
+#include "replay/snapshot.h"
 #include "tests/gl/gl.h"
 
 static const float square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -217,5 +220,99 @@ START_TEST(test_copy_buffer)
 }
 END_TEST
 
+/* Blobs kept by the hash that names them. */
+static struct { uint64_t name[2]; void *data; size_t n; } kept[64];
+static unsigned n_kept;
+
+static int keep_blob(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	(void)user;
+	ck_assert_uint_lt(n_kept, 64);
+	memcpy(kept[n_kept].name, name, sizeof(kept[0].name));
+	kept[n_kept].n = n;
+	kept[n_kept].data = malloc(n);
+	memcpy(kept[n_kept++].data, data, n);
+	return 0;
+}
+
+static uint8_t *find_blob(void *user, const uint64_t name[2], size_t n)
+{
+	uint8_t *copy = malloc(n);
+
+	(void)user;
+	for (unsigned i = 0; i < n_kept; i++)
+		if (memcmp(kept[i].name, name, sizeof(kept[i].name)) == 0 && kept[i].n == n)
+			return memcpy(copy, kept[i].data, n);
+	free(copy);
+	return NULL;
+}
+
+static void draw_quad(struct gl *gl, uint32_t object, uint32_t attributes)
+{
+	struct scene *s;
+
+	gl_call(gl, "glBindVertexArray", "u", object);
+	gl_call(gl, "glDrawArrays", "eii", GL_QUADS, 0, 4);
+	s = gl_swap(gl);
+	if (attributes == UINT32_MAX) {
+		ck_assert_uint_eq(s->n_instances, 0);
+	} else {
+		ck_assert_uint_eq(s->n_instances, 1);
+		ck_assert_uint_eq(s->meshes[0]->attributes, attributes);
+		ck_assert_floats(16, s->meshes[0]->position, 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1);
+	}
+	scene_release(&s);
+}
+
+/* Vertex array objects (GL 3.0 sec. 2.10): each has arrays of its own; so it has after a checkpoint, and on the attribute stack. */
+START_TEST(test_vertex_array_objects)
+{
+	const struct snapshot_blobs blobs = { .put = keep_blob, .get = find_blob };
+	static const uint32_t names[] = { 3, 8 };
+	struct gl gl = gl_open(), other = { 0 };
+	struct bytes saved = { 0 }, again = { 0 };
+
+	gl_call(&gl, "glBindVertexArray", "u", 3u);
+	client_arrays(&gl);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ELEMENT_ARRAY_BUFFER, 5u);
+	gl_call(&gl, "glBindVertexArrayAPPLE", "u", 8u);
+	ck_assert_uint_eq(gl_state(&gl)->client.element_buffer, 0);
+	client_arrays(&gl);
+	gl_call(&gl, "glDisableClientState", "e", GL_COLOR_ARRAY);
+	draw_quad(&gl, 3, SCENE_HAS_COLOR);
+	ck_assert_uint_eq(gl_state(&gl)->client.element_buffer, 5);
+	draw_quad(&gl, 0, UINT32_MAX);
+	draw_quad(&gl, 8, 0);
+
+	gl_call(&gl, "glPushClientAttrib", "m", GL_CLIENT_VERTEX_ARRAY_BIT);
+	gl_call(&gl, "glBindVertexArray", "u", 3u);
+	gl_call(&gl, "glPopClientAttrib", "");
+	ck_assert_uint_eq(gl_state(&gl)->client.vertex_array, 8);
+	draw_quad(&gl, 3, SCENE_HAS_COLOR);
+
+	ck_assert_int_eq(snapshot_save(gl.x, &blobs, &saved), 0);
+	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
+	ck_assert_int_eq(snapshot_load(other.x, &blobs, saved.data, saved.n), 0);
+	ck_assert_int_eq(snapshot_save(other.x, &blobs, &again), 0);
+	ck_assert_uint_eq(saved.n, again.n);
+	ck_assert_mem_eq(saved.data, again.data, saved.n);
+	other.x->want = 1;
+	draw_quad(&other, 8, 0);
+	draw_quad(&other, 0, UINT32_MAX);
+	draw_quad(&other, 3, SCENE_HAS_COLOR);
+	gl_close(&other);
+
+	gl_call(&gl, "glDeleteVertexArrays", "iU", 2, 2, names); /* 3 is bound */
+	ck_assert_uint_eq(gl_state(&gl)->client.vertex_array, 0);
+	draw_quad(&gl, 3, UINT32_MAX); /* a new one */
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_close(&gl);
+	free(saved.data);
+	free(again.data);
+	while (n_kept)
+		free(kept[--n_kept].data);
+}
+END_TEST
+
 GL_TESTS("arrays", test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_into_list, test_array_element, test_interleaved,
-         test_errors_and_shortness)
+         test_errors_and_shortness, test_vertex_array_objects)
