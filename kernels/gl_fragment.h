@@ -139,24 +139,47 @@ static inline struct vec3 point_normal(const struct point *p)
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }
 
+/* A point's triangle in eye space: what rays from it need, whatever the point. */
+struct point_plane {
+	struct vec3 corner[3], normal; /* point_plane_normal */
+	float length[3], area;         /* of the edge opposite of each corner; of the parallelogram */
+};
+
+static inline struct point_plane point_plane_of(const struct point *p)
+{
+	struct point_plane plane;
+	struct vec3 edge[3], cross;
+
+	for (int i = 0; i < 3; i++)
+		plane.corner[i] = point_corner(p, i);
+	plane.normal = point_plane_normal(p);
+	edge[0] = v3_sub(plane.corner[2], plane.corner[1]);
+	edge[1] = v3_sub(plane.corner[0], plane.corner[2]);
+	edge[2] = v3_sub(plane.corner[1], plane.corner[0]);
+	cross = v3_cross(edge[2], edge[0]);
+	plane.area = M_SQRT(v3_dot(cross, cross));
+	for (int i = 0; i < 3; i++)
+		plane.length[i] = M_SQRT(v3_dot(edge[i], edge[i]));
+	return plane;
+}
+
+static inline struct vec3 point_place(const struct point_plane *plane, const float *weight)
+{
+	return v3_add(v3_add(v3_scale(plane->corner[0], weight[0]), v3_scale(plane->corner[1], weight[1])),
+	              v3_scale(plane->corner[2], weight[2]));
+}
+
 /*
  * Weights of a place inside of the triangle, at least `inset` away from its edges, where the triangle is that wide: the
  * point's own unless it lies at an edge, or beyond one that covers its pixel by the snapping of vertices.
  */
-static inline void point_inset_weights(const struct point *p, float inset, float *weight)
+static inline void point_inset_weights(const struct point *p, const struct point_plane *plane, float inset, float *weight)
 {
-	struct vec3 a = point_corner(p, 0), b = point_corner(p, 1), c = point_corner(p, 2);
-	struct vec3 edge[3], cross;
-	float area, sum = 0.0f;
+	float sum = 0.0f;
 
-	edge[0] = v3_sub(c, b);
-	edge[1] = v3_sub(a, c);
-	edge[2] = v3_sub(b, a);
-	cross = v3_cross(edge[2], edge[0]);
-	area = M_SQRT(v3_dot(cross, cross));
 	for (int i = 0; i < 3; i++) {
-		float length = M_SQRT(v3_dot(edge[i], edge[i]));
-		float least = inset * length * 3.0f < area ? inset * length / area : 1.0f / 3.0f;
+		float length = plane->length[i];
+		float least = inset * length * 3.0f < plane->area ? inset * length / plane->area : 1.0f / 3.0f;
 
 		weight[i] = M_MAX(p->weight[i], least);
 		sum += weight[i];
@@ -177,15 +200,15 @@ static inline void point_inset_weights(const struct point *p, float inset, float
  * direction of the ray that led to it: what lies before it on that ray was seen through, so nothing stands there. Not so
  * where `towards` leads away through the other side of the triangle.
  */
-static inline struct vec3 point_ray_origin(const struct point *p, struct vec3 towards, struct vec3 from)
+static inline struct vec3 point_ray_origin(const struct point *p, const struct point_plane *plane, struct vec3 towards,
+                                           struct vec3 from)
 {
-	struct vec3 at = point_position(p), n = point_plane_normal(p), back = v3_scale(v3_normalize(from), -1.0f);
+	struct vec3 at = point_place(plane, p->weight), n = plane->normal, back = v3_scale(v3_normalize(from), -1.0f);
 	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f, weight[3];
 
 	n = v3_dot(n, towards) < 0.0f ? v3_scale(n, -1.0f) : n;
-	point_inset_weights(p, size, weight);
-	at = v3_add(v3_add(v3_scale(point_corner(p, 0), weight[0]), v3_scale(point_corner(p, 1), weight[1])),
-	            v3_scale(point_corner(p, 2), weight[2]));
+	point_inset_weights(p, plane, size, weight);
+	at = point_place(plane, weight);
 	if (v3_dot(n, back) > 0.0f)
 		at = v3_add(at, v3_scale(back, size));
 	return v3_add(at, v3_scale(n, size));

@@ -24,7 +24,9 @@ static inline void stage_no_ray(GLOBAL struct ray *ray)
 /* A ray without end from a point; `from`: the direction of the ray that led there. */
 static inline void stage_ray(const struct point *p, struct vec3 direction, struct vec3 from, GLOBAL struct ray *ray)
 {
-	v3_store(ray->o, point_ray_origin(p, direction, from));
+	struct point_plane plane = point_plane_of(p);
+
+	v3_store(ray->o, point_ray_origin(p, &plane, direction, from));
 	v3_store(ray->d, direction);
 	ray->t_min = 0.0f;
 	ray->t_max = 1.0e30f;
@@ -48,11 +50,11 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
  * direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen as a
  * disk; the radius of a light at infinity is the tangent of half the angle that it fills.
  */
-static inline void stage_light_ray(const struct tables *t, const struct point *p, uint32_t slot, struct vec3 from,
-                                   float u, float v, GLOBAL struct ray *ray)
+static inline void stage_light_ray(const struct tables *t, const struct point *p, const struct point_plane *plane, uint32_t slot,
+                                   struct vec3 from, float u, float v, GLOBAL struct ray *ray)
 {
 	GLOBAL const struct scene_light *light = &t->lights[point_lights(p).first + slot];
-	struct vec3 to = v3_load(light->position_eye), at = point_position(p), place, o;
+	struct vec3 to = v3_load(light->position_eye), at = point_place(plane, p->weight), place, o;
 	int positional = light->position_eye[3] != 0.0f;
 
 	place = positional ? v3_scale(to, 1.0f / light->position_eye[3]) : to;
@@ -60,22 +62,30 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 		place = v3_add(place, v3_scale(sample_disk(v3_normalize(v3_sub(at, place)), u, v), light->radius));
 	else if (light->radius > 0.0f)
 		place = v3_add(v3_normalize(to), v3_scale(sample_disk(v3_normalize(to), u, v), light->radius));
-	o = point_ray_origin(p, positional ? v3_sub(place, at) : place, from);
+	o = point_ray_origin(p, plane, positional ? v3_sub(place, at) : place, from);
 	v3_store(ray->o, o);
 	v3_store(ray->d, positional ? v3_sub(place, o) : place);
 	ray->t_min = 0.0f;
 	ray->t_max = positional ? 1.0f : 1.0e30f;
 }
 
+/* What rays from the fragments of a triangle share, found for the first of them. */
+struct stage_kept_plane {
+	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
+	struct point p;               /* but for its weights */
+	float w_inv[3];
+	struct point_plane plane;
+};
+
 /*
  * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted.
- * sample: which of the rays to each light, over all passes of the frame.
+ * sample: which of the rays to each light, over all passes of the frame. keeps, kept: as for shade_item.
  */
 static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct view *views,
                                    GLOBAL const struct window_vertex *windows,
                                    GLOBAL const struct fragment *fragments, GLOBAL const uint32_t *pixels,
                                    uint32_t width, GLOBAL const struct shaded *shaded, uint32_t sample, uint32_t n,
-                                   GLOBAL struct ray *rays, uint32_t item)
+                                   GLOBAL struct ray *rays, uint32_t item, int keeps, struct stage_kept_plane *kept)
 {
 	uint32_t slot = item / n, i = item % n;
 	struct fragment f = fragments[i];
@@ -86,9 +96,16 @@ static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct v
 		stage_no_ray(&rays[item]);
 		return;
 	}
-	p = point_from_fragment(t, windows, &f);
+	if (!keeps || kept->instance != f.instance || kept->primitive != f.primitive) {
+		kept->instance = f.instance;
+		kept->primitive = f.primitive;
+		kept->p = point_of_triangle(t, windows, &f, kept->w_inv);
+		kept->plane = point_plane_of(&kept->p);
+	}
+	p = kept->p;
+	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	sample_square(sample_hash(pixels[i]) + SAMPLE_LIGHT + slot, sample, &u, &v);
-	stage_light_ray(t, &p, slot,
+	stage_light_ray(t, &p, &kept->plane, slot,
 	                stage_view_direction(&views[p.geometry->view], pixels[i] % width, pixels[i] / width), u, v,
 	                &rays[item]);
 }
@@ -107,6 +124,7 @@ static inline void hit_ray_item(const struct tables *t, GLOBAL const struct hit 
 {
 	uint32_t slot = item / n, i = item % n;
 	struct hit hit = hits[i];
+	struct point_plane plane;
 	struct point p;
 	float u, v;
 
@@ -116,7 +134,8 @@ static inline void hit_ray_item(const struct tables *t, GLOBAL const struct hit 
 	}
 	p = point_from_hit(t, &hit, v3_load(rays[i].d));
 	sample_square(stage_seed(&paths[i], pixels, SAMPLE_LIGHT + slot), sample, &u, &v);
-	stage_light_ray(t, &p, slot, v3_load(rays[i].d), u, v, &out[item]);
+	plane = point_plane_of(&p);
+	stage_light_ray(t, &p, &plane, slot, v3_load(rays[i].d), u, v, &out[item]);
 }
 
 /* ao_ray: an even look around from each fragment, as far as `reach`. */

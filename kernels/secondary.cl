@@ -7,10 +7,11 @@ __kernel void shadow_ray(TABLES_ARGUMENTS, __global const struct view *views,
                          uint32_t sample, uint32_t n, uint32_t n_rays, __global struct ray *rays)
 {
 	struct tables t = TABLES_NAMED;
+	struct stage_kept_plane kept;
 
 	if (get_global_id(0) < n_rays)
 		shadow_ray_item(&t, views, windows, fragments, pixels, width, shaded, sample, n, rays,
-		                (uint32_t)get_global_id(0));
+		                (uint32_t)get_global_id(0), 0, &kept);
 }
 
 __kernel void hit_ray(TABLES_ARGUMENTS, __global const struct hit *hits, __global const struct ray *rays,

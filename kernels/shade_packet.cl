@@ -5,9 +5,6 @@
  */
 #include "kernels/gl_stages.h"
 
-/* Triangles that a work item keeps, by their numbers: neighbours mostly have numbers close together. */
-#define SHADE_TRIANGLES 8u
-
 __kernel void shade_packet(TABLES_ARGUMENTS, __global const struct view *views, __global const struct window_vertex *windows,
                            __global struct fragment *fragments, __global const uint32_t *pixels, uint32_t width,
                            uint32_t height, uint32_t bits, __global const float *arriving, uint32_t n_slots, uint32_t transport,

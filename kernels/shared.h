@@ -345,8 +345,10 @@ SHARED_SIZE(struct compose_request, 152);
 /* Pixels of a work item of compose_packet. */
 #define COMPOSE_PACKET 8u
 
-/* Fragments of a work item of shade_packet: a block of the list (tracer/trace.c) where each pixel has one. */
+/* Fragments of a work item of shade_packet, rays of one of shadow_ray_packet: a block of the list (tracer/trace.c) where each pixel
+ * has one. And triangles that it keeps, by their numbers: neighbours mostly have numbers close together. */
 #define SHADE_PACKET 64u
+#define SHADE_TRIANGLES 8u
 
 /* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
 #define PASS_PARTS 12u

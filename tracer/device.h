@@ -29,6 +29,7 @@
 	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
 	X(shade_packet)     /* the same, consecutive fragments a work item (CPUs) */ \
 	X(shadow_ray)       /* one fragment a work item: its ray to one light */ \
+	X(shadow_ray_packet) /* the same, consecutive ones a work item (CPUs) */ \
 	X(hit_ray)          /* one hit of a path a work item: its ray to one light */ \
 	X(ao_ray)           /* one fragment a work item: a look around */ \
 	X(shadow_sum)       /* one ray to a light a work item: what arrives where nothing stopped it */ \

@@ -213,6 +213,7 @@ int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
+	int packets = device_family(tr->dev) == FAMILY_PACKETS;
 	int err = reserve_light_rays(job, n_rays);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
@@ -229,7 +230,8 @@ int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
 		add_uint(&l, &n);
 		add_uint(&l, &n_rays);
 		add(&l, tr, BUFFER_RAYS);
-		err = run(tr, KERNEL_shadow_ray, n_rays, &l);
+		err = run(tr, packets ? KERNEL_shadow_ray_packet : KERNEL_shadow_ray,
+		          packets ? (n_rays + SHADE_PACKET - 1) / SHADE_PACKET : n_rays, &l);
 		if (!err)
 			err = ask_lights(job, space, n_rays, i, samples);
 	}

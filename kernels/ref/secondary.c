@@ -1,9 +1,9 @@
-/* C twins of kernels/secondary.cl. */
+/* C twins of kernels/secondary.cl and shadow_packet.cl. */
 #include "kernels/gl_secondary.h"
 #include "tracer/device.h"
 
-extern device_twin shadow_ray_c, hit_ray_c, ao_ray_c, shadow_sum_c, shadow_start_c, shadow_walk_c, gather_paths_c,
-	leave_c, sky_ray_c, want_lights_c, shade_hit_c, credit_c, ao_shade_c;
+extern device_twin shadow_ray_c, shadow_ray_packet_c, hit_ray_c, ao_ray_c, shadow_sum_c, shadow_start_c, shadow_walk_c,
+	gather_paths_c, leave_c, sky_ray_c, want_lights_c, shade_hit_c, credit_c, ao_shade_c;
 
 static uint32_t number(const void *arg)
 {
@@ -18,10 +18,17 @@ static float real(const void *arg)
 void shadow_ray_c(const void *const *args, size_t first, size_t last)
 {
 	struct tables t = TABLES_NAMED;
+	struct stage_kept_plane kept;
 
 	for (size_t i = first; i < last && i < number(args[20]); i++)
 		shadow_ray_item(&t, args[12], args[13], args[14], args[15], number(args[16]), args[17], number(args[18]),
-		                number(args[19]), (void *)args[21], (uint32_t)i);
+		                number(args[19]), (void *)args[21], (uint32_t)i, 0, &kept);
+}
+
+/* Each ray on its own: what neighbours share must not show. */
+void shadow_ray_packet_c(const void *const *args, size_t first, size_t last)
+{
+	shadow_ray_c(args, first * SHADE_PACKET, last * SHADE_PACKET);
 }
 
 void hit_ray_c(const void *const *args, size_t first, size_t last)
