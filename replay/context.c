@@ -220,8 +220,10 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 		set_surface(x, st, text + 16);
 	if (strcmp(text, "relume:kdtree") == 0)
 		st->kd_tree = 1;
-	if (sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 && alpha <= 32 && depth <= 32 &&
-	    stencil <= 8 && samples <= 64) {
+	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
+	if (strncmp(text, "relume:bits", 11) == 0 &&
+	    sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 &&
+	    alpha <= 32 && depth <= 32 && stencil <= 8 && samples <= 64) {
 		gls_flush(x);
 		x->is_ours = 1;
 		st->alpha_bits = alpha;
@@ -234,7 +236,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 			gls_unsupported(x, "other than four samples a pixel: four are taken");
 		st->dirty |= GLS_DIRTY_ALL;
 	}
-	if (sscanf(text, "relume:drawable %u %u", &width, &height) != 2 || width > 65536 || height > 65536)
+	if (strncmp(text, "relume:drawable", 15) != 0 || sscanf(text, "relume:drawable %u %u", &width, &height) != 2 ||
+	    width > 65536 || height > 65536)
 		return;
 	drawable = gls_drawable_of(x, st);
 	if (drawable)
