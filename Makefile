@@ -386,4 +386,5 @@ FORCE:
 .PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d)
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d) \
+	$(BUILD)/tests/fuzz/calls.d $(BUILD)/gen/fuzz_commands.d
