@@ -466,23 +466,41 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 	add_triangles(in, out, draw);
 }
 
+#define FARTHEST 32768.0f /* pixels from a window's corner: twice what any window has */
+
+/*
+ * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis: beyond, places
+ * have no number in 1/256 pixel. What is as wide as that all by itself ends there.
+ */
+static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float place[2])
+{
+	const float low = (-FARTHEST - corner) / zoom, high = (FARTHEST - corner) / zoom;
+
+	kept[0] = fminf(fmaxf(floorf(fminf(low, high)), 0), (float)n);
+	kept[1] = fminf(fmaxf(ceilf(fmaxf(low, high)), 0), (float)n);
+	for (int i = 0; i < 2; i++)
+		place[i] = fminf(fmaxf(corner + kept[i] * zoom, -2 * FARTHEST), 2 * FARTHEST);
+}
+
 /* A bitmap or pixel rectangle whose first corner is a vertex of the mesh, in window coordinates. */
 static int rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw)
 {
 	const struct scene_rectangle *r = &in->rectangles[i];
 	const float *corner = in->mesh->position + 4 * (size_t)i;
 	struct end e = load(in, i, 0);
+	float column[2], row[2], x[2], y[2];
 
 	if (out->n_vertices / 4 == out->room && grow(in, out))
 		return ERR_SYSTEM;
 	e.w_inv = 1;
 	e.z = fminf(fmaxf(corner[2], 0), 1);
+	keep_near(corner[0], r->zoom[0], r->width, column, x);
+	keep_near(corner[1], r->zoom[1], r->height, row, y);
 	for (int k = 0; k < 4; k++) {
-		float column = k == 1 || k == 2 ? (float)r->width : 0, row = k >= 2 ? (float)r->height : 0;
+		int right = k == 1 || k == 2, high = k >= 2;
 
-		add_smooth_corner(in, out, &e, corner[0] + column * r->zoom[0],
-		                  (float)in->height - (corner[1] + row * r->zoom[1]),
-		                  (float[4]){ column, row, (float)r->texture, (float)r->kind });
+		add_smooth_corner(in, out, &e, x[right], (float)in->height - y[high],
+		                  (float[4]){ column[right], row[high], (float)r->texture, (float)r->kind });
 	}
 	add_triangles(in, out, draw);
 	return 0;
