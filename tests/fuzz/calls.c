@@ -39,8 +39,8 @@ void calls_invent(unsigned *state, uint8_t *slot)
 		return;
 	while (i + 1 < n_calls_commands && strcmp(calls_commands[i].name, name) != 0)
 		i++;
-	slot[0] = (uint8_t)i;
-	slot[1] = (uint8_t)(i >> 8);
+	slot[0] = (uint8_t)calls_commands[i].number;
+	slot[1] = (uint8_t)(calls_commands[i].number >> 8);
 }
 
 /* What the calls' values point to. */
@@ -136,9 +136,23 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 	}
 }
 
+static const struct calls_command *command_at(unsigned number)
+{
+	unsigned low = 0, high = n_calls_commands;
+
+	while (low < high) {
+		unsigned middle = (low + high) / 2;
+		if (calls_commands[middle].number < number)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return &calls_commands[low % n_calls_commands];
+}
+
 static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
 {
-	const struct calls_command *command = &calls_commands[(slot[0] | slot[1] << 8) % n_calls_commands];
+	const struct calls_command *command = command_at(slot[0] | (unsigned)slot[1] << 8);
 	struct call_sig sig = { .name = command->name, .command = gls_command_find(command->name) };
 	struct call call = { .number = number, .sig = &sig, .args = c->args };
 

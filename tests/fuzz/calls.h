@@ -2,7 +2,7 @@
  * Bytes as calls of the state machine: every byte string means a sequence of calls, most of them legal or nearly so. How a
  * fuzzer comes past the reader, which hardly lets a damaged stream through.
  *
- * A call is a slot of CALLS_SLOT bytes: the command (16 bits), then 16 bits for each of its parameters, of which the high half
+ * A call is a slot of CALLS_SLOT bytes: 16 bits that choose the command whose number is the next at or above them, then 16 bits for each of its parameters, of which the high half
  * says how the low half becomes a value: a small number, one of the parameter's enumerants, an extreme one. The last two bytes
  * are what the call returned.
  */
@@ -23,11 +23,12 @@ struct calls_group {
 };
 struct calls_command {
 	const char *name;
+	uint16_t number;
 	const char *letters;              /* of each parameter: see gen_commands.py */
 	uint16_t group[CALLS_MAX_PARAMS]; /* in calls_groups; 0: any token */
 };
 
-/* Made by gen_commands.py. */
+/* Made by gen_commands.py. Commands in ascending order of their numbers. */
 extern const struct calls_group calls_groups[];
 extern const struct calls_command calls_commands[];
 extern const unsigned n_calls_commands;
