@@ -64,13 +64,30 @@ static inline struct vec3 point_clip_xyw(const struct point *p, int i)
 	return v3(c[0], c[1], c[3]);
 }
 
+/* 1 where a fragment's triangle shows its front. w: window vertices of its geometry */
+static inline int point_shows_front(const struct point *p, GLOBAL const struct window_vertex *w)
+{
+	int clockwise;
+
+	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
+	if (w[p->number[0]].w_inv > 0.0f && w[p->number[1]].w_inv > 0.0f && w[p->number[2]].w_inv > 0.0f) {
+		float x0 = (float)w[p->number[0]].x, y0 = (float)w[p->number[0]].y;
+
+		clockwise = ((float)w[p->number[1]].x - x0) * ((float)w[p->number[2]].y - y0) -
+		                    ((float)w[p->number[2]].x - x0) * ((float)w[p->number[1]].y - y0) <
+		            0.0f;
+	} else {
+		clockwise = v3_dot(v3_cross(point_clip_xyw(p, 0), point_clip_xyw(p, 1)), point_clip_xyw(p, 2)) < 0.0f;
+	}
+	return clockwise == (p->material->front_face == GL_CW);
+}
+
 /* The point under a fragment but for its weights: what it shares with all others of its triangle. w_inv: of the three vertices */
 static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                              const struct fragment *f, float *w_inv)
 {
 	struct point p;
 	GLOBAL const struct window_vertex *w;
-	int clockwise;
 
 	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
 	w = windows + p.geometry->vertex_first;
@@ -78,29 +95,21 @@ static inline struct point point_of_triangle(const struct tables *t, GLOBAL cons
 		w_inv[i] = w[p.number[i]].w_inv;
 		p.weight[i] = 0.0f;
 	}
-
-	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
-	if (w_inv[0] > 0.0f && w_inv[1] > 0.0f && w_inv[2] > 0.0f) {
-		float x0 = (float)w[p.number[0]].x, y0 = (float)w[p.number[0]].y;
-
-		clockwise = ((float)w[p.number[1]].x - x0) * ((float)w[p.number[2]].y - y0) -
-		                    ((float)w[p.number[2]].x - x0) * ((float)w[p.number[1]].y - y0) <
-		            0.0f;
-	} else {
-		clockwise = v3_dot(v3_cross(point_clip_xyw(&p, 0), point_clip_xyw(&p, 1)), point_clip_xyw(&p, 2)) < 0.0f;
-	}
-	p.front = clockwise == (p.material->front_face == GL_CW);
+	p.front = point_shows_front(&p, w);
 	return p;
 }
 
-/* The point under a fragment. */
+/* The point under a fragment. Not by way of point_of_triangle: compilers for CPUs then keep all of it in memory. */
 static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                                const struct fragment *f)
 {
-	float w_inv[3];
-	struct point p = point_of_triangle(t, windows, f, w_inv);
+	struct point p;
+	GLOBAL const struct window_vertex *w;
 
-	fragment_weights(*f, w_inv[0], w_inv[1], w_inv[2], p.weight);
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	w = windows + p.geometry->vertex_first;
+	fragment_weights(*f, w[p.number[0]].w_inv, w[p.number[1]].w_inv, w[p.number[2]].w_inv, p.weight);
+	p.front = point_shows_front(&p, w);
 	return p;
 }
 
