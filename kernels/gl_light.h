@@ -93,7 +93,7 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	struct vec4 emission = light_material_color(face->emission, mode == GL_EMISSION, vertex_color);
 	struct vec4 primary = v4_add(emission, v4_mul(ambient, v4_load(m->light_model_ambient)));
 	struct vec4 secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
-	struct vec3 at = eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) : v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w);
+	struct vec3 at = v3(eye.x, eye.y, eye.z); /* Mesa never divides by w here (sundancer2) */
 	struct vec3 to_viewer = m->local_viewer ? v3_normalize(v3_scale(at, -1.0f)) : v3(0.0f, 0.0f, 1.0f);
 	struct lit out;
 

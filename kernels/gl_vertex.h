@@ -24,6 +24,17 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 
+/*
+ * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where vertices
+ * carry the colour, and 0 where it is the current one.
+ */
+static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t carried)
+{
+	if (carried)
+		c = v4(c.x < 1.0f ? c.x : 1.0f, c.y < 1.0f ? c.y : 1.0f, c.z < 1.0f ? c.z : 1.0f, c.w < 1.0f ? c.w : 1.0f);
+	return v4_clamp01(c);
+}
+
 /* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
 static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
                                       GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back,
@@ -37,8 +48,8 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye),
 		                    back ? v3_scale(normal, -1.0f) : normal, tables_face(t, g, v, back), tables_color(t, g, v),
 		                    back, seen);
-	lit.color = v4_clamp01(tables_color(t, g, v));
-	lit.secondary = v4_clamp01(tables_secondary(t, g, v));
+	lit.color = vertex_clamp(tables_color(t, g, v), g->attributes & 2u);
+	lit.secondary = vertex_clamp(tables_secondary(t, g, v), g->attributes & 4u);
 	lit.lights = 0u;
 	return lit;
 }

@@ -1,0 +1,108 @@
+/*
+ * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, and positions whose w is not 1 under
+ * lights and fog. Recorded by test_vertices.py.
+ */
+#include <math.h>
+
+#include "tests/trace/window.h"
+
+static void reset(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glOrtho(0, 64, 0, 48, -10, 10);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glClearColor(0.2f, 0.4f, 0.6f, 0.4f);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glColor4f(1, 1, 1, 1);
+}
+
+/* A fan of six triangles whose middle has another alpha than its rim. */
+static void puff(float x, float y, float size, float alpha)
+{
+	glBegin(GL_TRIANGLE_FAN);
+	glColor4f(0.8f, 0.4f, 0.2f, alpha);
+	glVertex2f(x, y);
+	glColor4f(0, 0, 0, 0);
+	for (int i = 0; i <= 6; i++)
+		glVertex2f(x + size * cosf((float)i * 1.0472f), y + size * sinf((float)i * 1.0472f));
+	glEnd();
+}
+
+/* As hufo_smoke draws its smoke: the square root of a negative number as alpha; within the window, and cut by its edge. */
+static void no_numbers(void)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
+	puff(16, 20, 15, NAN);
+	puff(48, 46, 15, NAN);
+	puff(48, 12, 10, INFINITY);
+	puff(56, 30, 10, -INFINITY);
+	glDisable(GL_BLEND);
+	glColor4f(NAN, 0.5f, 0.2f, 1); /* the current colour, for all vertices */
+	glRecti(2, 38, 10, 46);
+	glBegin(GL_TRIANGLES);
+	glColor4f(0.2f, NAN, 0.4f, 1);
+	glVertex2i(14, 38);
+	glColor4f(0.2f, 0.4f, 0.4f, 1);
+	glVertex2i(26, 38);
+	glColor4f(0.8f, 0.4f, NAN, 1);
+	glVertex2i(14, 46);
+	glEnd();
+}
+
+static void panel(float x, float y, float w)
+{
+	glBegin(GL_QUADS);
+	glVertex4f(x * w, y * w, w, w);
+	glVertex4f((x + 14) * w, y * w, 2 * w, w);
+	glVertex4f((x + 14) * w, (y + 14) * w, 3, 1.5f * w);
+	glVertex4f(x * w, (y + 14) * w, 4 * w, w);
+	glEnd();
+}
+
+/* Distances to lights and viewer, spots and fog, where w differs from vertex to vertex; a light whose own w is not 1. */
+static void divided(void)
+{
+	static const float place[4] = { 10, 15, 6, 1 }, shared[4] = { 60, 10, 12, 2 }, down[3] = { 0, 0, -1 }, grey[4] = { 0.2f, 0.2f, 0.2f, 1 };
+
+	glLightfv(GL_LIGHT0, GL_POSITION, place);
+	glLightf(GL_LIGHT0, GL_LINEAR_ATTENUATION, 0.05f);
+	glLightfv(GL_LIGHT1, GL_POSITION, shared);
+	glLightfv(GL_LIGHT1, GL_DIFFUSE, grey);
+	glLightfv(GL_LIGHT1, GL_SPECULAR, grey);
+	glMaterialf(GL_FRONT, GL_SHININESS, 8);
+	glMaterialfv(GL_FRONT, GL_SPECULAR, grey);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	panel(2, 2, 1);
+	panel(18, 2, 1.5f);
+	glEnable(GL_LIGHT1);
+	panel(34, 2, 0.75f);
+	glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, 1);
+	panel(2, 18, 1.25f);
+	glLightf(GL_LIGHT0, GL_SPOT_CUTOFF, 60);
+	glLightf(GL_LIGHT0, GL_SPOT_EXPONENT, 2);
+	glLightfv(GL_LIGHT0, GL_SPOT_DIRECTION, down);
+	panel(18, 18, 0.5f);
+	glDisable(GL_LIGHTING);
+	glEnable(GL_FOG);
+	glFogi(GL_FOG_MODE, GL_LINEAR);
+	glFogf(GL_FOG_END, 8);
+	panel(34, 18, 1.5f);
+	glDisable(GL_FOG);
+}
+
+int main(void)
+{
+	static void (*const frames[])(void) = { no_numbers, divided };
+
+	open_window();
+	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
+		reset();
+		frames[i]();
+		end_frame();
+	}
+	return 0;
+}
