@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-#define BLOCK_BYTES (64u << 10)
+#define FIRST_BYTES (1u << 10) /* of the first block: most display lists are short */
+#define BLOCK_BYTES (64u << 10) /* of later ones, each four times the one before until then */
 
 struct arena_block {
 	struct arena_block *next;
@@ -21,7 +22,9 @@ void *arena_alloc(struct arena *a, size_t n)
 	while (!a->current || n > a->current->room - a->used) {
 		struct arena_block *next = a->current ? a->current->next : a->first;
 		if (!next || next->room < n) {
-			size_t room = n > BLOCK_BYTES ? n : BLOCK_BYTES;
+			size_t room = a->current ? 4 * a->current->room : FIRST_BYTES;
+			room = room < BLOCK_BYTES ? room : BLOCK_BYTES;
+			room = room > n ? room : n;
 			block = malloc(sizeof(*block) + room);
 			if (!block)
 				return NULL;

@@ -15,6 +15,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/progress.h"
+#include "replay/hash.h"
 #include "replay/pack.h"
 #include "replay/replay.h"
 #include "replay/snapshot.h"
@@ -296,23 +297,20 @@ static int get_toc(struct index *index, const void *data, size_t n)
 static int hash_whole(const char *path, uint64_t out[2])
 {
 	XXH3_state_t *state = XXH3_createState();
-	FILE *file = fopen(path, "rb");
-	static _Thread_local char piece[1 << 16];
 	XXH128_hash_t hash;
-	size_t n;
+	int rc = state ? 0 : err_report(ERR_SYSTEM, path, "out of memory");
 
-	if (state && file) {
+	if (!rc) {
 		XXH3_128bits_reset(state);
-		while ((n = fread(piece, 1, sizeof(piece), file)))
-			XXH3_128bits_update(state, piece, n);
+		rc = hash_file(path, UINT64_MAX, state);
+	}
+	if (!rc) {
 		hash = XXH3_128bits_digest(state);
 		out[0] = hash.low64;
 		out[1] = hash.high64;
 	}
-	if (file)
-		fclose(file);
 	XXH3_freeState(state);
-	return state && file ? 0 : err_report(ERR_INPUT, path, "cannot be read: %s", strerror(errno));
+	return rc;
 }
 
 static int describe_trace(const char *path, const char *hash, struct header *header)
@@ -563,17 +561,18 @@ static int begin_file(struct index *index, int cached, char path[PATH_MAX], char
 	return 0;
 }
 
-static int make(struct index *index)
+/* fresh: a replay to scan with, or NULL */
+static int make(struct index *index, struct replay *fresh)
 {
 	char path[PATH_MAX], part[PATH_MAX];
 	double start = progress_clock_s();
-	struct replay *rp = NULL;
+	struct replay *rp = fresh;
 	int kept = begin_file(index, 0, path, part) || begin_file(index, 1, path, part), rc;
 
 	if (!kept)
 		err_warn(index->trace, "its index cannot be written, neither beside it nor into the cache folder; the next run "
 		         "makes it again");
-	rc = replay_open(&rp, index->trace);
+	rc = fresh ? 0 : replay_open(&rp, index->trace);
 	if (!rc)
 		rc = scan(index, rp);
 	if (!rc)
@@ -582,7 +581,8 @@ static int make(struct index *index)
 		rc = hash_whole(index->trace, index->header.whole_hash);
 	if (!rc && index->file)
 		rc = write_toc(index);
-	replay_close(&rp);
+	if (!fresh)
+		replay_close(&rp);
 	index->build_s = progress_clock_s() - start;
 	if (kept && (rc || !index->file)) {
 		part_drop(part);
@@ -615,7 +615,7 @@ static void forget(struct index *index)
 	index->n_frames = index->room_frames = index->n_signatures = 0;
 }
 
-int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode)
+int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct replay *fresh)
 {
 	struct index *index = calloc(1, sizeof(*index));
 	char where[PATH_MAX];
@@ -636,7 +636,7 @@ int index_open(struct index **out, const char *path, const char *hash, enum inde
 		}
 		forget(index);
 	}
-	rc = make(index);
+	rc = make(index, fresh);
 	if (rc)
 		goto fail;
 	*out = index;

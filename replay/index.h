@@ -29,10 +29,11 @@ enum index_mode {
  * The index of a trace.
  * @param path  of the trace
  * @param hash  replay_trace_hash
+ * @param fresh a replay of the trace that has executed nothing, which is run through where an index is made; NULL: one is opened
  * @return 0; ERR_INPUT or ERR_SYSTEM (reported). Where an index can be made but not written anywhere, that is a warning:
  *         this process has it, the next one makes it again
  */
-int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode);
+int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct replay *fresh);
 void index_close(struct index **index);
 
 struct index_facts {

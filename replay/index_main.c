@@ -91,7 +91,7 @@ int index_main(int argc, char **argv)
 		return -err_report(ERR_USAGE, NULL, "index takes one trace; 'relume help index' says more");
 	rc = replay_open(&rp, argv[optind]);
 	if (!rc)
-		rc = index_open(&index, argv[optind], replay_trace_hash(rp), mode);
+		rc = index_open(&index, argv[optind], replay_trace_hash(rp), mode, rp);
 	if (!rc) {
 		facts = index_facts(index);
 		if (json)

@@ -8,10 +8,11 @@
 
 #include "base/err.h"
 #include "replay/exec.h"
+#include "replay/hash.h"
 #include "replay/index.h"
 #include "replay/reader.h"
 
-#define HASHED_BYTES ((size_t)1 << 20)
+#define HASHED_BYTES ((uint64_t)1 << 20)
 #define FEW_FRAMES 8 /* that are rather executed than looked for in the index */
 
 struct replay {
@@ -28,28 +29,25 @@ struct replay {
 	struct index *index; /* once it was needed */
 };
 
-static int hash_file(struct replay *rp)
+static int hash_begin(struct replay *rp)
 {
-	FILE *file = fopen(rp->path, "rb");
-	uint8_t *bytes = malloc(HASHED_BYTES + 8);
 	uint64_t size = trace_reader_size(rp->reader);
+	XXH3_state_t *state = XXH3_createState();
 	XXH128_hash_t hash;
-	size_t n;
+	int rc = state ? 0 : err_report(ERR_SYSTEM, rp->path, "out of memory");
 
-	if (!file || !bytes) {
-		if (file)
-			fclose(file);
-		free(bytes);
-		return err_report(ERR_SYSTEM, rp->path, "cannot be read a second time");
+	if (!rc) {
+		XXH3_128bits_reset(state);
+		rc = hash_file(rp->path, HASHED_BYTES, state);
 	}
-	n = fread(bytes, 1, HASHED_BYTES, file);
-	memcpy(bytes + n, &size, 8);
-	hash = XXH3_128bits(bytes, n + 8);
-	snprintf(rp->hash, sizeof(rp->hash), "%016llx%016llx", (unsigned long long)hash.high64,
-	         (unsigned long long)hash.low64);
-	fclose(file);
-	free(bytes);
-	return 0;
+	if (!rc) {
+		XXH3_128bits_update(state, &size, sizeof(size));
+		hash = XXH3_128bits_digest(state);
+		snprintf(rp->hash, sizeof(rp->hash), "%016llx%016llx", (unsigned long long)hash.high64,
+		         (unsigned long long)hash.low64);
+	}
+	XXH3_freeState(state);
+	return rc;
 }
 
 int replay_open(struct replay **out, const char *path)
@@ -64,7 +62,7 @@ int replay_open(struct replay **out, const char *path)
 	}
 	rc = trace_reader_open(&rp->reader, path);
 	if (!rc)
-		rc = hash_file(rp);
+		rc = hash_begin(rp);
 	if (!rc)
 		rc = gls_exec_create(&rp->exec, rp->path);
 	if (rc)
@@ -170,7 +168,7 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 
 static int have_index(struct replay *rp, enum index_mode mode)
 {
-	return rp->index ? 0 : index_open(&rp->index, rp->path, rp->hash, mode);
+	return rp->index ? 0 : index_open(&rp->index, rp->path, rp->hash, mode, NULL);
 }
 
 static void use_instead(struct replay *rp, struct gls_exec *x)
