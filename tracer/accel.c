@@ -20,29 +20,49 @@
 /* Frames that a BLAS nobody used stays in the pools. */
 #define KEEP_FRAMES 16
 
+/* Smaller ones each worker makes for itself: that is as quick as waiting for another one. */
+#define SHARE_TRIANGLES 256
+
 /* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
 struct blas {
 	uint64_t hash[2];
 	enum accel_kind kind;
 	int baked; /* of this frame only */
 	uint64_t last_use;
-	uint64_t topology[2]; /* hash of the mesh's indices where the tree may be fitted to other vertices; 0 0: it may not */
-	uint64_t fitted;      /* frame in which it was fitted to another mesh */
-	double built_cost;    /* bvh_cost when the tree was built, not fitted; with a topology only */
-	size_t node2_first, n_nodes2, node8_first, n_nodes8, triangle_first, n_triangles, triangle8_first, n_triangles8;
-	size_t node8c_first, n_nodes8c, triangle8c_first, n_triangles8c;
-	struct bvh_box box;
+	uint64_t fitted; /* frame in which its tree was fitted to another mesh */
+	size_t first[N_BOTTOM_PARTS];
+	struct bottom bottom; /* its parts are in the pools, not here */
 };
 
 struct accel_cache {
 	struct blas *entries;
 	size_t n, capacity;
-	size_t capacity_nodes2, capacity_nodes8, capacity_triangles, capacity_triangles8, capacity_nodes8c, capacity_triangles8c;
+	size_t capacities[N_BOTTOM_PARTS]; /* of the pools */
 	size_t capacity_top2, capacity_top8, capacity_list;
 	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
 	size_t table_size;
 	uint64_t frame;
 };
+
+/* One of the pools of struct accel. */
+struct part {
+	void **items;
+	size_t *n;
+};
+
+static struct part part_of(struct accel *a, int part)
+{
+	const struct part parts[N_BOTTOM_PARTS] = {
+		[BOTTOM_NODES2] = { (void **)&a->nodes2, &a->n_nodes2 },
+		[BOTTOM_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
+		[BOTTOM_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
+		[BOTTOM_TRIANGLES8] = { (void **)&a->triangles8, &a->n_triangles8 },
+		[BOTTOM_NODES8C] = { (void **)&a->nodes8c, &a->n_nodes8c },
+		[BOTTOM_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
+	};
+
+	return parts[part];
+}
 
 static int out_of_memory(void)
 {
@@ -89,12 +109,8 @@ void accel_destroy(struct accel **accel)
 	*accel = NULL;
 	if (!a)
 		return;
-	free(a->nodes2);
-	free(a->nodes8);
-	free(a->triangles);
-	free(a->triangles8);
-	free(a->nodes8c);
-	free(a->triangles8c);
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		free(*part_of(a, part).items);
 	free(a->top2);
 	free(a->top8);
 	free(a->instance_list);
@@ -156,141 +172,63 @@ static struct blas *find_blas(const struct accel_cache *cache, const uint64_t ha
 	}
 }
 
+/* Move a BLAS down to the ends of what is kept, and these up by it. */
+static void move_down(struct accel *accel, struct blas *blas, size_t ends[N_BOTTOM_PARTS])
+{
+	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
+		const size_t bytes = bottom_item_bytes[part], n = blas->bottom.n[part];
+		char *items = *part_of(accel, part).items;
+
+		if (n && blas->first[part] != ends[part])
+			memmove(items + ends[part] * bytes, items + blas->first[part] * bytes, n * bytes);
+		blas->first[part] = ends[part];
+		ends[part] += n;
+	}
+}
+
 /* Take out what was not used for a while, and what was baked for the last frame; close the gaps. */
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
-	size_t n = 0, nodes2 = 0, nodes8 = 0, triangles = 0, triangles8 = 0, nodes8c = 0, triangles8c = 0;
+	size_t n = 0, ends[N_BOTTOM_PARTS] = { 0 };
 
 	for (size_t i = 0; i < cache->n; i++) {
 		struct blas b = cache->entries[i];
 
 		if (b.baked || b.last_use + KEEP_FRAMES < cache->frame)
 			continue;
-		memmove(accel->nodes2 + nodes2, accel->nodes2 + b.node2_first, b.n_nodes2 * sizeof(*accel->nodes2));
-		if (b.n_nodes8) {
-			memmove(accel->nodes8 + nodes8, accel->nodes8 + b.node8_first, b.n_nodes8 * sizeof(*accel->nodes8));
-			memmove(accel->triangles8 + triangles8, accel->triangles8 + b.triangle8_first,
-			        b.n_triangles8 * sizeof(*accel->triangles8));
-		}
-		memmove(accel->triangles + triangles, accel->triangles + b.triangle_first,
-		        b.n_triangles * sizeof(*accel->triangles));
-		if (b.n_nodes8c) {
-			memmove(accel->nodes8c + nodes8c, accel->nodes8c + b.node8c_first, b.n_nodes8c * sizeof(*accel->nodes8c));
-			memmove(accel->triangles8c + triangles8c, accel->triangles8c + b.triangle8c_first,
-			        b.n_triangles8c * sizeof(*accel->triangles8c));
-		}
-		b.node8c_first = nodes8c;
-		b.triangle8c_first = triangles8c;
-		nodes8c += b.n_nodes8c;
-		triangles8c += b.n_triangles8c;
-		b.node2_first = nodes2;
-		b.node8_first = nodes8;
-		b.triangle_first = triangles;
-		b.triangle8_first = triangles8;
-		nodes2 += b.n_nodes2;
-		nodes8 += b.n_nodes8;
-		triangles += b.n_triangles;
-		triangles8 += b.n_triangles8;
+		move_down(accel, &b, ends);
 		cache->entries[n++] = b;
 	}
 	if (n == cache->n)
 		return 0;
 	cache->n = n;
-	accel->n_nodes2 = nodes2;
-	accel->n_nodes8 = nodes8;
-	accel->n_triangles = triangles;
-	accel->n_triangles8 = triangles8;
-	accel->n_nodes8c = nodes8c;
-	accel->n_triangles8c = triangles8c;
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		*part_of(accel, part).n = ends[part];
 	accel->generation++;
 	return table_rebuild(cache);
 }
 
 /* --- building BLASes --- */
 
-static void set_triangle8(struct triangle8 *out, const struct triangle *triangles, uint32_t n)
+/* Copy a bottom level to the ends of the pools. */
+static int append(struct accel *accel, const struct bottom *bottom, struct blas *blas)
 {
-	memset(out, 0, sizeof(*out));
-	for (uint32_t lane = 0; lane < 8; lane++) {
-		out->primitive[lane] = SCENE_NONE;
-		if (lane >= n)
-			continue;
-		for (int a = 0; a < 3; a++) {
-			out->v0[a][lane] = triangles[lane].v0[a];
-			out->e1[a][lane] = triangles[lane].e1[a];
-			out->e2[a][lane] = triangles[lane].e2[a];
-		}
-		out->primitive[lane] = triangles[lane].primitive;
+	int err = 0;
+
+	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++) {
+		const struct part pool = part_of(accel, part);
+		const size_t bytes = bottom_item_bytes[part];
+
+		blas->first[part] = *pool.n;
+		err = grow_array(pool.items, &accel->cache->capacities[part], *pool.n, bottom->n[part], bytes);
+		if (!err && bottom->n[part])
+			memcpy((char *)*pool.items + *pool.n * bytes, bottom->parts[part], bottom->n[part] * bytes);
 	}
-}
-
-/* The eight-wide tree in rows, out of the binary one. block_first, block_count: room for all triangles */
-static int append_rows(struct accel *accel, struct blas *blas, uint32_t *block_first, uint32_t *block_count)
-{
-	const struct node2 *nodes2 = accel->nodes2 + blas->node2_first;
-	const struct triangle *triangles = accel->triangles + blas->triangle_first;
-	struct accel_cache *cache = accel->cache;
-	uint32_t n_nodes8, n_blocks;
-	int err = GROW(accel->nodes8, cache->capacity_nodes8, accel->n_nodes8, blas->n_nodes2);
-
-	if (!err)
-		err = bvh_collapse8(nodes2, (uint32_t)blas->n_nodes2, BVH_BLOCKS, accel->nodes8 + accel->n_nodes8, &n_nodes8, block_first,
-		                    block_count, &n_blocks);
-	if (!err)
-		err = GROW(accel->triangles8, cache->capacity_triangles8, accel->n_triangles8, n_blocks);
-	if (err)
-		return err;
-	for (uint32_t i = 0; i < n_blocks; i++)
-		set_triangle8(&accel->triangles8[accel->n_triangles8 + i], triangles + block_first[i], block_count[i]);
-	blas->n_nodes8 = n_nodes8;
-	blas->n_triangles8 = n_blocks;
-	return 0;
-}
-
-/* The compressed one. */
-static int append_compressed(struct accel *accel, struct blas *blas)
-{
-	struct accel_cache *cache = accel->cache;
-	uint32_t n_nodes = 0;
-	int err = GROW(accel->nodes8c, cache->capacity_nodes8c, accel->n_nodes8c,
-	               BVH_COMPRESSED_NODES(blas->n_nodes2, blas->n_triangles));
-
-	if (!err)
-		err = GROW(accel->triangles8c, cache->capacity_triangles8c, accel->n_triangles8c, blas->n_triangles);
-	if (!err)
-		err = bvh_compress8(accel->nodes2 + blas->node2_first, (uint32_t)blas->n_nodes2, accel->triangles + blas->triangle_first,
-		                    (uint32_t)blas->n_triangles, accel->nodes8c + accel->n_nodes8c, &n_nodes,
-		                    accel->triangles8c + accel->n_triangles8c);
-	blas->n_nodes8c = n_nodes;
-	blas->n_triangles8c = blas->n_triangles;
-	return err;
-}
-
-/* All trees over a soup, appended to the pools at the places that *blas says. */
-static int append_trees(struct accel *accel, const struct soup *soup, const struct tree *tree, struct blas *blas)
-{
-	struct accel_cache *cache = accel->cache;
-	uint32_t *block_first = malloc(2 * (size_t)(tree->n_order + 1) * sizeof(*block_first));
-	uint32_t *block_count = block_first + tree->n_order + 1;
-	int err;
-
-	if (!block_first)
-		return out_of_memory();
-	if ((err = GROW(accel->nodes2, cache->capacity_nodes2, accel->n_nodes2, tree->n_nodes)) ||
-	    (err = GROW(accel->triangles, cache->capacity_triangles, accel->n_triangles, tree->n_order)))
-		goto done;
-	memcpy(accel->nodes2 + accel->n_nodes2, tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
-	for (uint32_t i = 0; i < tree->n_order; i++)
-		accel->triangles[accel->n_triangles + i] = soup->triangles[tree->order[i]];
-	blas->n_nodes2 = tree->n_nodes;
-	blas->n_triangles = tree->n_order;
-	if (accel->wide & ACCEL_ROWS)
-		err = append_rows(accel, blas, block_first, block_count);
-	if (!err && accel->wide & ACCEL_COMPRESSED)
-		err = append_compressed(accel, blas);
-done:
-	free(block_first);
+	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++)
+		*part_of(accel, part).n += bottom->n[part];
+	blas->bottom = *bottom;
+	memset(blas->bottom.parts, 0, sizeof(blas->bottom.parts));
 	return err;
 }
 
@@ -311,17 +249,16 @@ static void find_topology(const struct scene_mesh *mesh, const struct soup *soup
  * The tree to fit to a mesh that nobody has seen: one of the same triangles, not used in this frame, used last before. Where there are
  * several, meshes find theirs in the order in which they were first drawn, each its own. NULL: there is none.
  */
-static struct blas *find_moved(struct accel_cache *cache, const struct blas *blas)
+static struct blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
 {
 	struct blas *best = NULL;
 
-	if (!(blas->topology[0] | blas->topology[1]))
+	if (!(topology[0] | topology[1]))
 		return NULL;
 	for (size_t i = 0; i < cache->n; i++) {
 		struct blas *b = &cache->entries[i];
 
-		if (b->kind == blas->kind && b->topology[0] == blas->topology[0] && b->topology[1] == blas->topology[1] &&
-		    b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
+		if (b->kind == kind && b->bottom.topology[0] == topology[0] && b->bottom.topology[1] == topology[1] && b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
 			best = b;
 	}
 	if (best)
@@ -332,91 +269,118 @@ static struct blas *find_moved(struct accel_cache *cache, const struct blas *bla
 /* The tree of a mesh whose vertices have moved. *out is empty where it is better built. */
 static int refit(const struct accel *accel, const struct blas *moved, const struct soup *soup, struct tree *out)
 {
-	const struct triangle *triangles = accel->triangles + moved->triangle_first;
-	struct tree old = { accel->nodes2 + moved->node2_first, malloc(moved->n_triangles * sizeof(*old.order)),
-		            (uint32_t)moved->n_nodes2, (uint32_t)moved->n_triangles };
+	const struct triangle *triangles = accel->triangles + moved->first[BOTTOM_TRIANGLES];
+	const size_t n = moved->bottom.n[BOTTOM_TRIANGLES];
+	struct tree old = { accel->nodes2 + moved->first[BOTTOM_NODES2], malloc(n * sizeof(*old.order)),
+		            (uint32_t)moved->bottom.n[BOTTOM_NODES2], (uint32_t)n };
 	int err;
 
 	if (!old.order)
 		return out_of_memory();
 	for (uint32_t i = 0; i < old.n_order; i++)
 		old.order[i] = triangles[i].primitive; /* none was left out */
-	err = tree_refit(&old, soup, REFIT_COST * moved->built_cost, out);
+	err = tree_refit(&old, soup, REFIT_COST * moved->bottom.built_cost, out);
 	free(old.order);
 	return err;
 }
 
+/* What a BLAS is asked for. */
+struct order {
+	const struct scene_mesh *mesh;
+	const float (*positions)[4];
+	int baked, of_frame; /* of_frame: the mesh lives for this frame only */
+	enum accel_kind kind;
+};
+
 /*
  * A tree for a soup: fitted, found or built. What moves gets a binned tree, quick to build, and is not kept on disk.
- * store: where it may be kept beyond this run, or NULL.
+ * @param own  receives 1 where it depends on what this accel saw before
  */
-static int find_tree(struct accel *accel, const struct soup *soup, struct store *store, struct blas *blas, struct tree *out)
+static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct bottom *bottom, struct tree *out,
+                     int *own)
 {
-	struct blas *moved = find_moved(accel->cache, blas);
+	struct blas *moved = find_moved(accel->cache, order->kind, bottom->topology);
 	int err = moved ? refit(accel, moved, soup, out) : 0;
 
+	*own = moved != NULL;
 	if (err)
 		return err;
 	if (out->nodes) {
-		blas->built_cost = moved->built_cost;
+		bottom->built_cost = moved->bottom.built_cost;
 		accel->n_fitted++;
 		return 0;
 	}
 	accel->n_made++;
-	err = tree_make(soup, moved ? ACCEL_BVH : blas->kind, blas->hash, moved ? NULL : store, out);
-	if (!err && (blas->topology[0] | blas->topology[1]))
-		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
+	err = tree_make(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
+	if (!err && (bottom->topology[0] | bottom->topology[1]))
+		bottom->built_cost = bvh_cost(out->nodes, out->n_nodes);
 	return err;
 }
 
-/* of_frame: the mesh lives for this frame only. */
-static int build_blas(struct accel *accel, const struct scene_mesh *mesh, const float (*positions)[4], int baked,
-                      int of_frame, enum accel_kind kind, struct blas **out)
+/* @param out, own  as of find_tree; *out to be freed, also after an error */
+static int make_bottom(struct accel *accel, const struct order *order, struct bottom *out, int *own)
 {
-	struct accel_cache *cache = accel->cache;
-	struct soup soup = { NULL };
+	struct soup soup;
 	struct tree tree = { NULL };
-	struct blas blas = { .baked = baked, .kind = kind };
-	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
+	int err = soup_make(order->mesh, order->positions, &soup);
 
+	if (!err && !order->of_frame)
+		find_topology(order->mesh, &soup, out->topology);
 	if (!err)
-		err = soup_make(mesh, positions, &soup);
-	if (err)
-		goto done;
-	memcpy(blas.hash, mesh->hash, sizeof(blas.hash));
-	blas.node2_first = accel->n_nodes2;
-	blas.node8_first = accel->n_nodes8;
-	blas.triangle_first = accel->n_triangles;
-	blas.triangle8_first = accel->n_triangles8;
-	blas.node8c_first = accel->n_nodes8c;
-	blas.triangle8c_first = accel->n_triangles8c;
-	blas.box = soup.box;
-	if (!of_frame)
-		find_topology(mesh, &soup, blas.topology);
-	err = find_tree(accel, &soup, of_frame ? NULL : accel->store, &blas, &tree);
+		err = find_tree(accel, &soup, order, out, &tree, own);
 	if (!err)
-		err = append_trees(accel, &soup, &tree, &blas);
-	if (err)
-		goto done;
-	accel->n_nodes2 += blas.n_nodes2;
-	accel->n_nodes8 += blas.n_nodes8;
-	accel->n_triangles += blas.n_triangles;
-	accel->n_triangles8 += blas.n_triangles8;
-	accel->n_nodes8c += blas.n_nodes8c;
-	accel->n_triangles8c += blas.n_triangles8c;
-	accel->generation++;
-	*out = &cache->entries[cache->n];
-	cache->entries[cache->n++] = blas;
-	if (baked)
-		goto done;
-	if (4 * cache->n > cache->table_size)
-		err = table_rebuild(cache);
-	else
-		table_insert(cache, (uint32_t)(cache->n - 1));
-done:
+		err = bottom_make(&soup, &tree, accel->wide, out);
 	tree_free(&tree);
 	soup_free(&soup);
 	return err;
+}
+
+/* Into the pools, from what all workers share or for this one alone. */
+static int place_bottom(struct accel *accel, const struct order *order, struct blas *blas)
+{
+	struct grove *grove = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->grove;
+	const struct grove_key key = { { order->mesh->hash[0], order->mesh->hash[1] }, order->kind, accel->wide };
+	const struct bottom *shared = NULL;
+	struct bottom bottom = { .n = { 0 } };
+	int own = 0, err = grove ? grove_take(grove, &key, &shared) : 0;
+
+	if (err)
+		return err;
+	if (!shared) {
+		err = make_bottom(accel, order, &bottom, &own);
+		if (grove && (err || own))
+			grove_abandon(grove, &key);
+		else if (grove)
+			shared = grove_give(grove, &key, &bottom);
+	}
+	if (!err)
+		err = append(accel, shared ? shared : &bottom, blas);
+	if (shared)
+		grove_release(grove, shared);
+	bottom_free(&bottom);
+	return err;
+}
+
+static int build_blas(struct accel *accel, const struct order *order, struct blas **out)
+{
+	struct accel_cache *cache = accel->cache;
+	struct blas blas = { .baked = order->baked, .kind = order->kind };
+	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
+
+	memcpy(blas.hash, order->mesh->hash, sizeof(blas.hash));
+	if (!err)
+		err = place_bottom(accel, order, &blas);
+	if (err)
+		return err;
+	accel->generation++;
+	*out = &cache->entries[cache->n];
+	cache->entries[cache->n++] = blas;
+	if (order->baked)
+		return 0;
+	if (4 * cache->n > cache->table_size)
+		return table_rebuild(cache);
+	table_insert(cache, (uint32_t)(cache->n - 1));
+	return 0;
 }
 
 /* Does its mesh live for one frame only? */
@@ -435,25 +399,25 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
                           struct instance *instance, struct bvh_box *box)
 {
 	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
-	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash, accel_kind_of(accel, instance));
+	const struct order order = { mesh, baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position, baked,
+		                     is_of_frame(instance), accel_kind_of(accel, instance) };
+	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash, order.kind);
 	int err = 0;
 
 	if (mesh->kind != SCENE_TRIANGLES)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of lines or points was not expanded");
 	if (!blas)
-		err = build_blas(accel, mesh,
-		                 baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position,
-		                 baked, is_of_frame(instance), accel_kind_of(accel, instance), &blas);
+		err = build_blas(accel, &order, &blas);
 	if (err)
 		return err;
 	blas->last_use = accel->cache->frame;
-	instance->node2_first = (uint32_t)blas->node2_first;
-	instance->node8_first = (uint32_t)blas->node8_first;
-	instance->triangle_first = (uint32_t)blas->triangle_first;
-	instance->triangle8_first = (uint32_t)blas->triangle8_first;
-	instance->node8c_first = (uint32_t)blas->node8c_first;
-	instance->triangle8c_first = (uint32_t)blas->triangle8c_first;
-	*box = blas->box;
+	instance->node2_first = (uint32_t)blas->first[BOTTOM_NODES2];
+	instance->node8_first = (uint32_t)blas->first[BOTTOM_NODES8];
+	instance->triangle_first = (uint32_t)blas->first[BOTTOM_TRIANGLES];
+	instance->triangle8_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8];
+	instance->node8c_first = (uint32_t)blas->first[BOTTOM_NODES8C];
+	instance->triangle8c_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8C];
+	*box = blas->bottom.box;
 	instance->radius = 0;
 	for (int a = 0; a < 3; a++) {
 		instance->centre[a] = 0.5f * (box->lo[a] + box->hi[a]);

@@ -6,7 +6,8 @@
 
 #include "kernels/shared.h"
 #include "replay/scene.h"
-#include "tracer/tree.h"
+#include "tracer/bottom.h"
+#include "tracer/grove.h"
 
 /* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY, or its skies (INSTANCE_SKY). */
 struct accel_space {
@@ -16,10 +17,6 @@ struct accel_space {
 	uint32_t top8_first; /* in accel.top8 */
 	uint32_t n_nodes;    /* 0: nothing to hit */
 };
-
-/* Which eight-wide trees there are beside the binary ones. */
-#define ACCEL_ROWS 1u       /* nodes8, triangles8 */
-#define ACCEL_COMPRESSED 2u /* nodes8c, triangles8c */
 
 /* Flat pools, as uploaded. BLAS indices inside nodes are relative to the BLAS's own first node or triangle. */
 struct accel {
@@ -41,7 +38,8 @@ struct accel {
 	unsigned wide;        /* of ACCEL_ROWS and ACCEL_COMPRESSED, those wanted; ACCEL_ROWS at first; settled before the first frame */
 	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
 	struct store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
-	uint64_t n_made, n_fitted; /* trees of meshes so far: built or read, and fitted to vertices that have moved */
+	struct grove *grove;  /* what other accels share with it; borrowed, NULL: nothing, as at first */
+	uint64_t n_made, n_fitted; /* trees of meshes so far: built or read here, and fitted to vertices that have moved */
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
 	struct accel_space *spaces;
 	size_t n_spaces;

@@ -9,6 +9,8 @@ int feed_supply(void *user, const struct scene *scene, struct scene_picture *pic
 		err = device_share(feed->parent, &feed->dev);
 	if (!err && !feed->tracer)
 		err = tracer_create(&feed->tracer, feed->dev);
+	if (!err)
+		tracer_share(feed->tracer, feed->grove);
 	return err ? err : tracer_render_picture(feed->tracer, scene, picture);
 }
 

@@ -10,11 +10,12 @@
 
 struct feed {
 	struct device *parent; /* borrowed */
+	struct grove *grove;   /* trees that it shares with others; borrowed, or NULL */
 	struct device *dev;    /* owned: shares the parent's device */
 	struct tracer *tracer; /* owned */
 };
 
-/** A replay_supply; user is a struct feed with nothing but its parent set. */
+/** A replay_supply; user is a struct feed with nothing but its parent and grove set. */
 int feed_supply(void *user, const struct scene *scene, struct scene_picture *picture);
 void feed_free(struct feed *feed);
 

@@ -17,6 +17,7 @@
 
 struct run {
 	struct pipeline *p;
+	struct grove *grove; /* trees that the workers share; NULL: there is only one */
 	struct queue scenes, pictures;
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
@@ -143,6 +144,15 @@ static int decode(struct run *run)
 
 enum outcome { TRACED, LATE, STOPPED, BROKEN };
 
+static int start_tracer(const struct worker *w, struct tracer **out)
+{
+	int err = tracer_create(out, w->dev);
+
+	if (!err)
+		tracer_share(*out, w->run->grove);
+	return err;
+}
+
 static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
 {
 	double start = progress_clock_s();
@@ -220,7 +230,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene
 		give_up(run, picture);
 		add_undrawn(run, *tracer);
 		tracer_destroy(tracer);
-		if (tracer_create(tracer, w->dev))
+		if (start_tracer(w, tracer))
 			fail(run, ERR_SYSTEM);
 	}
 	if (picture)
@@ -239,7 +249,7 @@ static void *work(void *arg)
 	unsigned left = 1;
 	int sound = 1;
 
-	if (tracer_create(&tracer, w->dev))
+	if (start_tracer(w, &tracer))
 		fail(run, ERR_SYSTEM);
 	while (tracer && sound && (scene = queue_take(&run->scenes)))
 		sound = work_on(w, &tracer, scene);
@@ -372,13 +382,17 @@ int pipeline_run(struct pipeline *p)
 		err = queue_init(&run.scenes, n, n);
 	if (!err)
 		err = queue_init(&run.pictures, writer_count(), 0);
+	if (!err && n > 1)
+		err = grove_create(GROVE_BYTES, &run.grove);
 	if (!err)
 		err = seat_workers(&run, workers, n);
+	feed.grove = run.grove;
 	replay_set_supplier(p->replay, feed_supply, &feed);
 	if (!err)
 		err = start_and_join(&run, workers, n);
 	replay_set_supplier(p->replay, NULL, NULL);
 	feed_free(&feed);
+	grove_destroy(&run.grove);
 	for (size_t i = 0; workers && i < n; i++)
 		p->shares[i / p->jobs] += workers[i].done;
 	for (size_t i = 0; workers && i < n; i++)

@@ -48,6 +48,11 @@ void tracer_destroy(struct tracer **tracer)
 	*tracer = NULL;
 }
 
+void tracer_share(struct tracer *tracer, struct grove *grove)
+{
+	tracer->accel->grove = grove;
+}
+
 int tracer_check_aov(const char *aov)
 {
 	const char *at = aov;

@@ -45,6 +45,9 @@ struct tracer;
 int tracer_create(struct tracer **out, struct device *dev);
 void tracer_destroy(struct tracer **tracer);
 
+/** Share trees of meshes with other tracers of the process from now on. @param grove  kept until tracer_destroy */
+void tracer_share(struct tracer *tracer, struct grove *grove);
+
 /** 0, or ERR_USAGE (reported) where a list of channel groups names one that is not there. */
 int tracer_check_aov(const char *aov);
 
