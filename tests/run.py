@@ -59,6 +59,8 @@ def environment(build, tmp):
     env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp, CK_DEFAULT_TIMEOUT="30")
     # Kernels are compiled once for all tests, though many have a scratch home.
     env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
+    # Trees and indices go where they harm nobody, and last from one run to the next.
+    env["XDG_CACHE_HOME"] = str(build / "tests" / "cache")
     # Leaks of Mesa, PoCL and the like are not ours.
     env.setdefault("LSAN_OPTIONS", f"suppressions={ROOT / 'tests' / 'lsan.supp'}:print_suppressions=0")
     # OpenImageIO brings OpenBLAS, whose threads confuse the leak check of forked tests.
