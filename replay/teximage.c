@@ -7,6 +7,7 @@
 #include "replay/texture.h"
 
 #define MAX_SIZE 16384
+#define MAX_TEXELS ((int64_t)1 << 29) /* of an image: so many, of four bytes each, llvmpipe (Mesa 22.3) refuses */
 
 /* ---- client formats, tables 3.5 and 3.6 ---- */
 
@@ -667,8 +668,12 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		return NULL;
 	}
 	if (width < 0 || height < 0 || depth < 0 || width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 ||
-	    (border != 0 && border != 1) || width * height * depth > (int64_t)1 << 30) {
+	    (border != 0 && border != 1)) {
 		gls_error(x, st, GL_INVALID_VALUE);
+		return NULL;
+	}
+	if (width * height * depth >= MAX_TEXELS) {
+		gls_error(x, st, GL_OUT_OF_MEMORY);
 		return NULL;
 	}
 	bytes = (size_t)(width * height * depth) * (gls_format_stencil_bits(internal_format) ? 5 : 4);

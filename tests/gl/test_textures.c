@@ -224,4 +224,17 @@ START_TEST(test_samplers)
 }
 END_TEST
 
-GL_TESTS("textures", test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_texgen)
+/* Sec. 2.5: what there is no memory for is OUT_OF_MEMORY; here where llvmpipe has none. 16384 by 16384 texels it has. */
+START_TEST(test_largest)
+{
+	struct gl gl = gl_open();
+
+	gl_call(&gl, "glTexStorage3D", "eieiii", GL_TEXTURE_3D, 1, GL_RGBA8, 1024, 1024, 512);
+	ck_assert_uint_eq(gl_error(&gl), GL_OUT_OF_MEMORY);
+	gl_call(&gl, "glTexStorage2D", "eieii", GL_TEXTURE_2D, 1, GL_RGBA8, 16384, 16384);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("textures", test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
