@@ -28,19 +28,57 @@ unsigned calls_draw(unsigned *state, unsigned n)
 	return n ? (*state >> 8) % n : 0;
 }
 
-void calls_invent(unsigned *state, uint8_t *slot)
+static const struct calls_command *command_at(const uint8_t *slot)
 {
-	const char *name = LIKELY[calls_draw(state, sizeof(LIKELY) / sizeof(LIKELY[0]))];
+	unsigned number = slot[0] | (unsigned)slot[1] << 8, low = 0, high = n_calls_commands;
+
+	while (low < high) {
+		unsigned middle = (low + high) / 2;
+		if (calls_commands[middle].number < number)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return &calls_commands[low % n_calls_commands];
+}
+
+static void set_command(uint8_t *slot, const struct calls_command *command)
+{
+	slot[0] = (uint8_t)command->number;
+	slot[1] = (uint8_t)(command->number >> 8);
+}
+
+void calls_settle(uint8_t *slot)
+{
+	set_command(slot, command_at(slot));
+}
+
+size_t calls_used(const uint8_t *slot)
+{
+	return 2 + 2 * strlen(command_at(slot)->letters);
+}
+
+void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near)
+{
+	const char *likely = LIKELY[calls_draw(state, sizeof(LIKELY) / sizeof(LIKELY[0]))];
 	unsigned i = 0;
 
 	for (size_t k = 0; k < CALLS_SLOT; k++)
 		slot[k] = (uint8_t)calls_draw(state, 256);
-	if (calls_draw(state, 2))
+	switch (calls_draw(state, 4)) {
+	case 0:
+		calls_settle(slot);
 		return;
-	while (i + 1 < n_calls_commands && strcmp(calls_commands[i].name, name) != 0)
-		i++;
-	slot[0] = (uint8_t)calls_commands[i].number;
-	slot[1] = (uint8_t)(calls_commands[i].number >> 8);
+	case 1:
+		i = calls_draw(state, n_calls_commands);
+		while (near && calls_commands[i].chapter != command_at(near)->chapter)
+			i = (i + 1) % n_calls_commands;
+		break;
+	default:
+		while (i + 1 < n_calls_commands && strcmp(calls_commands[i].name, likely) != 0)
+			i++;
+	}
+	set_command(slot, &calls_commands[i]);
 }
 
 /* What the calls' values point to. */
@@ -136,23 +174,9 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 	}
 }
 
-static const struct calls_command *command_at(unsigned number)
-{
-	unsigned low = 0, high = n_calls_commands;
-
-	while (low < high) {
-		unsigned middle = (low + high) / 2;
-		if (calls_commands[middle].number < number)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return &calls_commands[low % n_calls_commands];
-}
-
 static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
 {
-	const struct calls_command *command = command_at(slot[0] | (unsigned)slot[1] << 8);
+	const struct calls_command *command = command_at(slot);
 	struct call_sig sig = { .name = command->name, .command = gls_command_find(command->name) };
 	struct call call = { .number = number, .sig = &sig, .args = c->args };
 
@@ -185,22 +209,26 @@ static int make_current(struct gls_exec *x)
 	       call(x, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
 }
 
-/* Blobs of a snapshot, one after the other. */
+/* Blobs of a snapshot, one after the other. Nothing but zeros, such as a texture that nobody filled, takes no room. */
 struct blob {
 	struct blob *next;
 	uint64_t name[2];
 	size_t n;
+	int zeros;
 	uint8_t data[];
 };
 
 static int put(void *user, const uint64_t name[2], const void *data, size_t n)
 {
-	struct blob **first = user, *blob = malloc(sizeof(*blob) + n);
+	const uint8_t *bytes = data;
+	int zeros = n > 0 && bytes[0] == 0 && memcmp(bytes, bytes + 1, n - 1) == 0;
+	struct blob **first = user, *blob = malloc(sizeof(*blob) + (zeros ? 0 : n));
 
 	if (!blob)
 		return ERR_SYSTEM;
-	*blob = (struct blob){ .next = *first, .name = { name[0], name[1] }, .n = n };
-	memcpy(blob->data, data, n);
+	*blob = (struct blob){ .next = *first, .name = { name[0], name[1] }, .n = n, .zeros = zeros };
+	if (!zeros)
+		memcpy(blob->data, data, n);
 	*first = blob;
 	return 0;
 }
@@ -209,8 +237,8 @@ static uint8_t *get(void *user, const uint64_t name[2], size_t n)
 {
 	for (struct blob *blob = *(struct blob **)user; blob; blob = blob->next)
 		if (blob->name[0] == name[0] && blob->name[1] == name[1] && blob->n == n) {
-			uint8_t *copy = malloc(n ? n : 1);
-			return copy ? memcpy(copy, blob->data, n) : NULL;
+			uint8_t *copy = calloc(n ? n : 1, 1);
+			return copy && !blob->zeros ? memcpy(copy, blob->data, n) : copy;
 		}
 	return NULL;
 }

@@ -2,9 +2,9 @@
  * Bytes as calls of the state machine: every byte string means a sequence of calls, most of them legal or nearly so. How a
  * fuzzer comes past the reader, which hardly lets a damaged stream through.
  *
- * A call is a slot of CALLS_SLOT bytes: 16 bits that choose the command whose number is the next at or above them, then 16 bits for each of its parameters, of which the high half
- * says how the low half becomes a value: a small number, one of the parameter's enumerants, an extreme one. The last two bytes
- * are what the call returned.
+ * A call is a slot of CALLS_SLOT bytes: 16 bits that choose the command whose number is the next at or above them, then 16 bits
+ * for each of its parameters, of which the high half says how the low half becomes a value: a small number, one of the
+ * parameter's enumerants, an extreme one. The last two bytes are what the call returned.
  */
 #ifndef TESTS_FUZZ_CALLS_H
 #define TESTS_FUZZ_CALLS_H
@@ -23,7 +23,7 @@ struct calls_group {
 };
 struct calls_command {
 	const char *name;
-	uint16_t number;
+	uint16_t number, chapter;         /* chapter: commands of one source of replay/ have to do with each other */
 	const char *letters;              /* of each parameter: see gen_commands.py */
 	uint16_t group[CALLS_MAX_PARAMS]; /* in calls_groups; 0: any token */
 };
@@ -36,8 +36,18 @@ extern const unsigned n_calls_commands;
 /** A number below n (0 for n = 0), and the next state of the generator. */
 unsigned calls_draw(unsigned *state, unsigned n);
 
-/** Any call with any values; half of them are of the commands without which little is drawn. @param slot  [CALLS_SLOT] */
-void calls_invent(unsigned *state, uint8_t *slot);
+/**
+ * Any call with any values; half of them are of the commands without which little is drawn, a quarter of near's chapter.
+ * @param slot  [CALLS_SLOT]
+ * @param near  a call; NULL: none
+ */
+void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near);
+
+/** Name a call's command by its very number: then it is the same one when others have come. @param slot  [CALLS_SLOT] */
+void calls_settle(uint8_t *slot);
+
+/** How many of a call's bytes mean something: the command and its parameters. @param slot  [CALLS_SLOT] */
+size_t calls_used(const uint8_t *slot);
 
 /* Who makes pixels of scenes. */
 struct calls_painter {

@@ -27,36 +27,51 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	return 0;
 }
 
+/* Calls that were not there, each with some to do with the one before; or one that was there, again. @return how many */
+static size_t insert(uint8_t *data, size_t n, size_t most, unsigned *seed)
+{
+	size_t at = calls_draw(seed, (unsigned)n + 1), count = calls_draw(seed, 3) ? 1 : 1 + calls_draw(seed, 8);
+	uint8_t slot[CALLS_SLOT], *to = data + at * CALLS_SLOT;
+
+	count = count < most - n ? count : most - n;
+	if (n)
+		memcpy(slot, data + calls_draw(seed, (unsigned)n) * CALLS_SLOT, CALLS_SLOT);
+	memmove(to + count * CALLS_SLOT, to, (n - at) * CALLS_SLOT);
+	if (n && calls_draw(seed, 3) == 0)
+		for (size_t i = 0; i < count; i++)
+			memcpy(to + i * CALLS_SLOT, slot, CALLS_SLOT);
+	else
+		for (size_t i = 0; i < count; i++, to += CALLS_SLOT)
+			calls_invent(seed, to, to > data ? to - CALLS_SLOT : NULL);
+	return count;
+}
+
+static void change(uint8_t *slot, unsigned *seed)
+{
+	size_t n = calls_used(slot) - 2, at = 2 + calls_draw(seed, (unsigned)n + 1);
+
+	slot[at < n + 2 ? at : CALLS_SLOT - 1] = (uint8_t)calls_draw(seed, 256);
+	if (calls_draw(seed, 8) == 0) {
+		LLVMFuzzerMutate(slot, CALLS_SLOT, CALLS_SLOT);
+		calls_settle(slot);
+	}
+}
+
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-	size_t n = size / CALLS_SLOT, most = max_size / CALLS_SLOT, at = calls_draw(&seed, (unsigned)n), end, parts;
-	uint8_t slot[CALLS_SLOT];
+	size_t n = size / CALLS_SLOT, most = max_size / CALLS_SLOT, at = calls_draw(&seed, (unsigned)n), count;
 
-	switch (n && n < most ? calls_draw(&seed, 6) : n ? 4 + calls_draw(&seed, 2) : 0) {
-	case 0: /* a call that was not there */
-	case 1:
-		calls_invent(&seed, slot);
-		break;
-	case 2: /* one that was, again */
-		memcpy(slot, data + calls_draw(&seed, (unsigned)n) * CALLS_SLOT, CALLS_SLOT);
-		break;
-	case 3: /* without some */
-		parts = n - at < 8 ? n - at : 8;
-		end = at + 1 + calls_draw(&seed, (unsigned)parts);
-		end = end > n ? n : end;
-		memmove(data + at * CALLS_SLOT, data + end * CALLS_SLOT, (n - end) * CALLS_SLOT);
-		return (n - (end - at)) * CALLS_SLOT;
-	default: /* another value */
-		data[at * CALLS_SLOT + 2 + calls_draw(&seed, CALLS_SLOT - 2)] = (uint8_t)calls_draw(&seed, 256);
-		if (calls_draw(&seed, 4) == 0)
-			LLVMFuzzerMutate(data + at * CALLS_SLOT, CALLS_SLOT, CALLS_SLOT);
+	if (most > n && (n == 0 || calls_draw(&seed, 2)))
+		return (n + insert(data, n, most, &seed)) * CALLS_SLOT;
+	if (n == 0)
+		return 0;
+	if (calls_draw(&seed, 3)) {
+		change(data + at * CALLS_SLOT, &seed);
 		return n * CALLS_SLOT;
 	}
-	if (most == 0)
-		return 0;
-	memmove(data + (at + 1) * CALLS_SLOT, data + at * CALLS_SLOT, (n - at) * CALLS_SLOT);
-	memcpy(data + at * CALLS_SLOT, slot, CALLS_SLOT);
-	return (n + 1) * CALLS_SLOT;
+	count = 1 + calls_draw(&seed, n - at < 8 ? (unsigned)(n - at) : 8);
+	memmove(data + at * CALLS_SLOT, data + (at + count) * CALLS_SLOT, (n - at - count) * CALLS_SLOT);
+	return (n - count) * CALLS_SLOT;
 }
 
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """gen_commands.py OUT HANDLER_SOURCE...: what tests/fuzz/calls.c makes calls of, as C: each command that a handler of replay/
-knows, with a letter for each parameter and the enumerants that the registry says belong there.
+knows, with a letter for each parameter, the enumerants that the registry says belong there, and the chapter: which source handles it.
 
 Commands go by a number made of their name, so that what was kept means the same when others have come.
 Letters: e enum, m bitmask, i and u integers, f and d floats, p address, b bytes or an offset, s string; E I F D arrays of these.
@@ -46,20 +46,22 @@ def main(out, sources):
             if not enum.bits:
                 values.setdefault("", set()).add(enum.value & 0xFFFFFFFF)
     handlers = gen.read_handlers(sources)
+    chapters = {name: number for number, source in enumerate(sources) for name in gen.read_handlers([source])}
     commands = {}
     for name in sorted(known.keys() | handlers.keys()):
         if name in handlers and name in OTHERS:
-            commands[name] = (OTHERS[name], [""] * len(OTHERS[name]))
+            commands[name] = (OTHERS[name], [""] * len(OTHERS[name]), chapters[name])
         elif name in known and (name in handlers or known[name].alias in handlers):
             params = known[name].params[:MOST_PARAMS]
-            commands[name] = ("".join(map(letter, params)), [p.group if p.group in values else "" for p in params])
+            commands[name] = ("".join(map(letter, params)), [p.group if p.group in values else "" for p in params],
+                              chapters[name if name in handlers else known[name].alias])
     numbers = {}
     for name in commands:
         number = zlib.crc32(name.encode()) & 0xFFFF
         while number in numbers:
             number = (number + 1) & 0xFFFF
         numbers[number] = name
-    groups = ["", *sorted({g for _, of in commands.values() for g in of} - {""})]
+    groups = ["", *sorted({g for _, of, _ in commands.values() for g in of} - {""})]
     lines = ["/* Made by tests/fuzz/gen_commands.py from Khronos' registries and the handlers of replay/. */",
              '#include "tests/fuzz/calls.h"', ""]
     for number, group in enumerate(groups):
@@ -67,8 +69,8 @@ def main(out, sources):
     lines += ["", "const struct calls_group calls_groups[] = {",
               *(f"\t{{ group_{n}, {len(values[group])} }}," for n, group in enumerate(groups)), "};", "",
               "const struct calls_command calls_commands[] = {",
-              *(f'\t{{ "{name}", {number}, "{letters}", {{ {", ".join(str(groups.index(g)) for g in of) or 0} }} }},'
-                for number, name in sorted(numbers.items()) for letters, of in [commands[name]]),
+              *(f'\t{{ "{name}", {number}, {chapter}, "{letters}", {{ {", ".join(str(groups.index(g)) for g in of) or 0} }} }},'
+                for number, name in sorted(numbers.items()) for letters, of, chapter in [commands[name]]),
               "};", "", "const unsigned n_calls_commands = sizeof(calls_commands) / sizeof(calls_commands[0]);"]
     gen.write(out, lines)
 

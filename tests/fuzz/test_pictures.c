@@ -103,7 +103,7 @@ START_TEST(random_pictures)
 	p.what = "random sequence";
 	for (; p.number < N_RANDOM; p.number++) {
 		for (unsigned i = 0; i < CALLS_A_RUN; i++)
-			calls_invent(&state, bytes + (size_t)i * CALLS_SLOT);
+			calls_invent(&state, bytes + (size_t)i * CALLS_SLOT, i ? bytes + (size_t)(i - 1) * CALLS_SLOT : NULL);
 		calls_run(bytes, CALLS_A_RUN * CALLS_SLOT, &painter);
 	}
 	close_painter(&p);
