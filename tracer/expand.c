@@ -408,9 +408,9 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 	float half_length = length < 1 ? length : 0.5f * length + 0.5f;
 	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f, angle = atan2f(dy, dx);
 
-	if (!(length > 0))
+	if (!(length >= 0))
 		return;
-	/* Not divided by the length: lines drawn back over themselves show the last bits. */
+	/* Not divided by the length: lines drawn back over themselves show the last bits, and one without a length lies flat. */
 	dx = cosf(angle);
 	dy = sinf(angle);
 	/* From the corner on whose diagonal Mesa cuts the quad: where w differs along the line the two parts bend apart. */

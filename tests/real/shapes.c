@@ -73,6 +73,25 @@ static void smooth_net(void)
 	glDisable(GL_LINE_SMOOTH);
 }
 
+/* As fieldlines draws: strips whose vertices are all given twice, so that every other smooth line has no length. */
+static void smooth_dots(void)
+{
+	glEnable(GL_LINE_SMOOTH);
+	for (int k = 0; k < 6; k++) {
+		glLineWidth(1.3f + 0.7f * (float)k);
+		glBegin(GL_LINE_STRIP);
+		for (int i = 0; i < 24; i++) {
+			float t = 0.17f * (float)(i / 2 * 2) + (float)k;
+
+			glColor3f(0.5f + 0.5f * sinf(3 * t), 0.5f + 0.5f * cosf(5 * t), (float)(i / 2 % 3) / 2);
+			glVertex3f(1.4f * sinf(2 * t), 1.1f * cosf(3 * t), -4 + sinf(t));
+		}
+		glEnd();
+	}
+	glLineWidth(1);
+	glDisable(GL_LINE_SMOOTH);
+}
+
 /* Surfaces that lie in each other: which one is seen is decided by the last bit of their depths. */
 static void coplanar(void)
 {
@@ -173,7 +192,7 @@ static void evaluated(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, smooth_net, coplanar, materials, points, evaluated };
+	static void (*const frames[])(void) = { spokes, net, smooth_net, smooth_dots, coplanar, materials, points, evaluated };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
