@@ -11,6 +11,7 @@
 #include "kernels/common.h"
 #include "kernels/gl_fragment.h"
 #include "kernels/gl_pixel.h"
+#include "kernels/gl_userclip.h"
 
 /* Pixel number of a work item in a rectangle. */
 static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, uint32_t item)
@@ -432,10 +433,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	p = kept->p;
 	view = &views[p.geometry->view];
 	if (!n_slots) {
-		if (pixel_is_sampled(bits)) { /* user clip planes cut at the sample's place */
-			fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
-			clipped = point_clipped(&p);
-		}
+		clipped = userclip_outside(view, windows, &p, (int32_t)x, (int32_t)y, (float)height);
 		if (kept->have_setup)
 			stage_unsnap(view, kept, x, y, height, &f);
 		else
@@ -444,7 +442,6 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
-	clipped |= !n_slots && !pixel_is_sampled(bits) && point_clipped(&p);
 	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
 	if (!n_slots && (clipped || stage_undrawn(&p, x, height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
 		out->flags = 0u;

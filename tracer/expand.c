@@ -134,14 +134,28 @@ static void move_end(struct end *e, const struct end *to, float t)
 	e->cut = 1;
 }
 
+/* The planes that cut: the volume's, and after them those of the program that are enabled (sec. 2.12), which cut in eye space. */
+enum { N_VOLUME_PLANES = 6, N_PLANES = N_VOLUME_PLANES + SCENE_MAX_CLIP_PLANES };
+
+static float plane_distance(const struct expand_input *in, const struct end *e, int plane)
+{
+	const float *p, *eye = e->v.eye;
+
+	if (plane < N_VOLUME_PLANES)
+		return clip_distance(e->v.clip, plane);
+	plane -= N_VOLUME_PLANES;
+	p = in->material->clip_plane_eye[plane];
+	return in->material->clip_plane_mask >> plane & 1 ? p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] : 0;
+}
+
 /* Cut a line to what can be seen. @return 0 where nothing is left */
-static int clip_line(struct end *a, struct end *b)
+static int clip_line(const struct expand_input *in, struct end *a, struct end *b)
 {
 	float t_a = 0, t_b = 0; /* shares cut off at either end */
 	struct end from = *a;
 
-	for (int plane = 0; plane < 6; plane++) {
-		float da = clip_distance(a->v.clip, plane), db = clip_distance(b->v.clip, plane);
+	for (int plane = 0; plane < N_PLANES; plane++) {
+		float da = plane_distance(in, a, plane), db = plane_distance(in, b, plane);
 
 		if (da < 0 && db < 0)
 			return 0;
@@ -535,7 +549,7 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 	uint32_t start = 0, n;
 	int err = 0;
 
-	if (!clip_line(&a, &b))
+	if (!clip_line(in, &a, &b))
 		return 0;
 	project(in, &a);
 	project(in, &b);
@@ -563,8 +577,8 @@ static int line(const struct expand_input *in, struct expanded *out, struct end 
 
 static int point(const struct expand_input *in, struct expanded *out, struct end e, float offset, uint32_t draw)
 {
-	for (int plane = 0; plane < 6; plane++) {
-		if (clip_distance(e.v.clip, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
+	for (int plane = 0; plane < N_PLANES; plane++) {
+		if (plane_distance(in, &e, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
 			return 0;
 	}
 	if (!(e.v.clip[3] > 0))

@@ -1,6 +1,6 @@
 /*
- * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, and positions whose w is not 1 under
- * lights and fog. Recorded by test_vertices.py.
+ * What vertices carry beyond the usual, one thing a frame: colours that are no numbers, positions whose w is not 1 under
+ * lights and fog, planes that cut them away. Recorded by test_vertices.py.
  */
 #include <math.h>
 
@@ -94,9 +94,86 @@ static void divided(void)
 	glDisable(GL_FOG);
 }
 
+static void plane(int i, double a, double b, double c, double d)
+{
+	double equation[4] = { a, b, c, d };
+
+	glClipPlane(GL_CLIP_PLANE0 + (unsigned)i, equation);
+	glEnable(GL_CLIP_PLANE0 + (unsigned)i);
+}
+
+/* A star of triangles, lines or points. */
+static void star(unsigned mode)
+{
+	glBegin(mode);
+	for (int i = 0; i < 27; i++) {
+		float a = 2.3f * (float)i;
+
+		glColor3f(0.5f + 0.5f * sinf(a), 0.5f + 0.5f * cosf(a), (float)(i % 3) / 2);
+		glVertex3f((8 + (float)(i % 3) * 5) * cosf(a), (8 + (float)(i % 4) * 4) * sinf(a), (float)(i % 5 - 2));
+	}
+	glEnd();
+}
+
+/* What planes leave, added to what they cut away: gaps and overlaps show; along diagonals through pixel centres, too. */
+static void planes(void)
+{
+	static const unsigned modes[] = { GL_TRIANGLES, GL_LINES, GL_POINTS };
+
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE);
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-32, 32, -24, 24, 20, 60);
+	glTranslatef(0, 0, -20.5f);
+	glMatrixMode(GL_MODELVIEW);
+	for (int sign = -1; sign < 2; sign += 2) {
+		glLoadIdentity();
+		plane(0, sign, sign, 0, 0);
+		glRotatef(20, 0, 1, 0);
+		glTranslatef(-12, 6, -3);
+		glPointSize(5);
+		for (unsigned i = 0; i < 3; i++) {
+			star(modes[i]);
+			glTranslatef(i ? 22 : 6, i ? 2 : -14, 0);
+		}
+	}
+	plane(1, 1, 0, 0.5, 11);
+	plane(2, 0.3, -1, 0.2, 7.5);
+	plane(3, 0, 1, 0.1, 9.25);
+	star(GL_TRIANGLES);
+	star(GL_LINE_STRIP);
+	for (unsigned i = 0; i < 4; i++)
+		glDisable(GL_CLIP_PLANE0 + i);
+	glDisable(GL_BLEND);
+}
+
+/* An octagon that eight planes cut from a square, and the same added as a polygon. */
+static void octagon(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE);
+	for (int i = 0; i < 8; i++)
+		plane(i, cos(0.78539816 * i), sin(0.78539816 * i), 0, 0.5);
+	glColor3f(0, 0.5f, 0);
+	glRectf(-1, -1, 1, 1);
+	for (unsigned i = 0; i < 8; i++)
+		glDisable(GL_CLIP_PLANE0 + i);
+	glColor3f(0.8f, 0, 0.4f);
+	glBegin(GL_POLYGON);
+	for (int i = 0; i < 8; i++)
+		glVertex2d(0.5 / cos(0.39269908) * cos(0.78539816 * (i + 0.5)), 0.5 / cos(0.39269908) * sin(0.78539816 * (i + 0.5)));
+	glEnd();
+	glDisable(GL_BLEND);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { no_numbers, divided };
+	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
