@@ -3,7 +3,7 @@
  *
  * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of where else in
  * its pixels the view looks (view.sample; "centre" stands for either), through the view's top level and the instances'
- * binary trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a
+ * trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a
  * pixel's hundredth wider. What they find are candidates: whether one covers a pixel is decided by GL's own rule on its
  * window vertices (GL 2.1 sec. 3.5.1), so that edges fall where the rasterizer puts them:
  *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
@@ -21,8 +21,8 @@
  *    5  const struct instance instances[]
  *    6  const struct node2 top[]            accel.top2
  *    7  const uint instance_list[]
- *    8  const struct node2 nodes[]          accel.nodes2; _compressed: accel.nodes8c, struct node8c
- *    9  const struct triangle triangles[]   accel.triangles; _compressed: accel.triangles8c
+ *    8  trees               _packet: struct node8, accel.nodes8; _wide: node2, accel.nodes2; _compressed: node8c, accel.nodes8c
+ *    9  triangles           _packet: struct face8, accel.faces8; _wide: triangle, accel.triangles; _compressed: accel.triangles8c
  *   10  const struct window_vertex window[] at instance.vertex_first
  *   11  const float clip[][4]               the same vertices in clip space
  *   12  const uint after[]                  per pixel; CAMERA_COLUMN only, any buffer otherwise

@@ -1,39 +1,52 @@
 /*
  * camera_packet: a tile of 16 x 16 pixels a work item. See kernels/camera.h.
  *
- * The tile's rays go through the trees as one frustum, nearest child first, cut off behind the farthest of the tile's
- * nearest fragments. A leaf's triangles are decided row by row, sixteen pixels at once.
+ * The tile's rays go through the trees as one frustum against eight boxes at once, nearest child first, cut off behind the farthest
+ * of the tile's nearest fragments. Triangles of leaves wait until there are sixteen, which are set up at once (kernels/batch.h); what
+ * is left of them is decided row by row, sixteen pixels at once.
  */
+#include "kernels/batch.h"
 #include "kernels/camera.h"
 #include "kernels/coverage.h"
 #include "kernels/frustum.h"
+#include "kernels/rays.h"
 
 /* The far plane's lane in a tile's frustum. */
 #define FAR_PLANE 5
 
-/* What the pixels of a row hold. NEAREST: the nearest fragment; steps is all ones where there is none. */
-struct row {
-	packi inside;  /* pixels of the view's rectangle */
-	packi on;      /* of these, pixels that take fragments now */
-	packi counts;  /* COLUMN: fragments so far */
+/* Sixteen pixels of a row. */
+#define TILE_PACKS (CAMERA_TILE_WIDTH / 16)
+
+/* What they hold. NEAREST: the nearest fragment; steps is all ones where there is none. COLUMN: how many fragments so far. */
+struct pack {
 	packu steps, order, instance, primitive;
 	packf b1, b2, depth;
+	packi counts;
+};
+
+/* Faces that wait until there are sixteen of them: numbers in the mesh. */
+struct pending {
+	uint n, primitive[24], vertex[3][24];
 };
 
 struct tile {
 	__global const struct view *view;
 	__global const struct instance *instances;
-	__global const struct node2 *nodes;
-	__global const struct triangle *triangles;
+	__global const struct node8 *nodes;
+	__global const struct face8 *faces;
 	__global const struct window_vertex *window;
 	__global const float *clip;
 	__global const uint *after;
 	__global struct fragment *fragments;
 	uint width, height, mode;
 	int x, y;      /* the first pixel */
+	int y_first, y_last; /* rows that take fragments now, and in them these pixels */
+	packi on[TILE_PACKS];
+	packf plane_x[TILE_PACKS]; /* where a view looks in the pixels of a row, as planes count */
 	int changed;   /* a nearest fragment was replaced since z_far was set */
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
-	struct row rows[CAMERA_TILE_HEIGHT];
+	struct pending pending;
+	struct pack packs[CAMERA_TILE_HEIGHT][TILE_PACKS];
 };
 
 /* A candidate: its numbers. */
@@ -43,31 +56,32 @@ struct candidate {
 
 /* --- fragments --- */
 
-WIDE_VECTORS static inline void keep_nearest(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
+/* Which of these pixels a candidate at this depth takes. */
+WIDE_VECTORS static inline packi find_better(const struct tile *t, const struct pack *p, packi covered, packu steps, uint order)
 {
-	struct row *row = &t->rows[y];
-	const packu steps = convert_uint16(rint(depth * 16777215.0f));
-	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(c.order) < row->order : (packu)(c.order) > row->order;
-	const packi better = covered & ((steps < row->steps) | ((steps == row->steps) & before));
+	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(order) < p->order : (packu)(order) > p->order;
 
-	if (!any_pack(better))
-		return;
-	t->changed = 1;
-	row->order = select(row->order, (packu)(c.order), better);
-	row->instance = select(row->instance, (packu)(c.instance), better);
-	row->primitive = select(row->primitive, (packu)(c.primitive), better);
-	row->steps = select(row->steps, steps, better);
-	row->b1 = select(row->b1, b1, better);
-	row->b2 = select(row->b2, b2, better);
-	row->depth = select(row->depth, depth, better);
+	return covered & ((steps < p->steps) | ((steps == p->steps) & before));
 }
 
-static inline void keep_in_columns(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
+WIDE_VECTORS static inline void keep_nearest(struct pack *p, packi better, packu steps, packf b1, packf b2, packf depth, struct candidate c)
 {
-	for (int lane = 0; lane < CAMERA_TILE_WIDTH; lane++) {
-		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
+	p->order = select(p->order, (packu)(c.order), better);
+	p->instance = select(p->instance, (packu)(c.instance), better);
+	p->primitive = select(p->primitive, (packu)(c.primitive), better);
+	p->steps = select(p->steps, steps, better);
+	p->b1 = select(p->b1, b1, better);
+	p->b2 = select(p->b2, b2, better);
+	p->depth = select(p->depth, depth, better);
+}
+
+static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, const packf *b1, const packf *b2, const packf *depth,
+                                   struct candidate c)
+{
+	for (int lane = 0; lane < 16; lane++) {
+		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + 16 * x + lane);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
-		int *count = (int *)&t->rows[y].counts + lane, place = *count;
+		int *count = (int *)&t->packs[y][x].counts + lane, place = *count;
 
 		if (!((const int *)&covered)[lane] || c.order < t->after[pixel])
 			continue;
@@ -83,18 +97,10 @@ static inline void keep_in_columns(struct tile *t, int y, packi covered, packf b
 		column[place].order = c.order;
 		column[place].instance = c.instance;
 		column[place].primitive = c.primitive;
-		column[place].b1 = ((const float *)&b1)[lane];
-		column[place].b2 = ((const float *)&b2)[lane];
-		column[place].depth = ((const float *)&depth)[lane];
+		column[place].b1 = ((const float *)b1)[lane];
+		column[place].b2 = ((const float *)b2)[lane];
+		column[place].depth = ((const float *)depth)[lane];
 	}
-}
-
-static inline void keep(struct tile *t, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
-{
-	if (t->mode == CAMERA_COLUMN)
-		keep_in_columns(t, y, covered, b1, b2, depth, c);
-	else
-		keep_nearest(t, y, covered, b1, b2, depth, c);
 }
 
 /* Move the far plane up to the farthest of the tile's nearest fragments. */
@@ -110,8 +116,9 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 	t->changed = 0;
 	if (!(range > 0))
 		return; /* the nearest depth is not the first along the ray */
-	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
-		steps = max(steps, t->rows[y].steps & as_uint16(t->rows[y].on));
+	for (int y = t->y_first; y <= t->y_last; y++)
+		for (int x = 0; x < TILE_PACKS; x++)
+			steps = max(steps, t->packs[y][x].steps & as_uint16(t->on[x]));
 	eight = max(steps.lo, steps.hi);
 	four = max(eight.lo, eight.hi);
 	two = max(four.lo, four.hi);
@@ -123,140 +130,179 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 
 /* --- coverage --- */
 
-/*
- * One edge a -> b of a triangle that turns counter-clockwise once exchanged so: the edge function at a pixel centre and
- * its steps to the right and up. 64 bits hold the function exactly; of its whole part, which is clamped to where the
- * steps inside a tile cannot change its sign, 32 bits do.
- */
-struct tile_edge {
-	long value;         /* exact, 1/65536 square pixel */
-	int step_x, step_y; /* 1/256 square pixel a pixel */
-	int whole;          /* (value - (1 where the edge itself is outside)) / 256, rounded down and clamped */
-};
+#define LANE_INT(rows, lane) (((const int *)&(rows))[lane])
+#define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
-static inline struct tile_edge tile_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
+/* The weight of edge 1 + i's corner in sixteen pixels of a row: its function's value, rounded once, in the whole triangle's. */
+WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, int x, int y)
 {
-	const int dx = b.x - a.x, dy = b.y - a.y;
-	struct tile_edge e;
+	const long value = ((const long *)&s->value[i])[lane];
+	const int step_x = LANE_INT(s->step_x[1 + i], lane), step_y = LANE_INT(s->step_y[1 + i], lane);
+	packf rounded;
 
-	e.value = (long)dx * (at.y - a.y) - (long)dy * (at.x - a.x);
-	e.step_x = -dy;
-	e.step_y = dx;
-	e.whole = (int)clamp((e.value - !(dy < 0 || (dy == 0 && dx > 0))) >> 8, -(1l << 30), 1l << 30);
-	return e;
+	/* What overflows in lanes that are outside, or on the way, does not matter. */
+	if (LANE_INT(s->small, lane))
+		rounded = convert_float16(as_int16((uint)value + (uint)(y * step_y + x * step_x) * 256u + as_uint16(PACK_LANES * step_x) * 256u));
+	else
+		rounded = convert_float16((long16)(value + ((long)y * step_y + (long)x * step_x) * 256) + convert_long16(PACK_LANES * step_x) * 256);
+	return rounded * LANE_FLOAT(s->inverse, lane);
 }
 
-/* In lanes: not negative where the centre is on the inner side, on row y after the edge's own. */
-static inline packi edge_inside(struct tile_edge e, int y)
+/* In the volume, where the triangle is part of one that leaves it: the fragments' weights are those of the whole. */
+WIDE_VECTORS static inline void weigh_in_volume(const struct clip_corner *const *corner, packf *b1, packf *b2)
 {
-	return (e.whole + y * e.step_y) + PACK_LANES * e.step_x;
+	const packf p0 = (1.0f - *b1 - *b2) * corner[0]->window.w_inv, p1 = *b1 * corner[1]->window.w_inv;
+	const packf p2 = *b2 * corner[2]->window.w_inv, sum = p0 + p1 + p2;
+
+	*b1 = (p0 * corner[0]->b1 + p1 * corner[1]->b1 + p2 * corner[2]->b1) / sum;
+	*b2 = (p0 * corner[0]->b2 + p1 * corner[1]->b2 + p2 * corner[2]->b2) / sum;
 }
 
-/*
- * The function's value in all lanes, rounded once. `small`: inside the triangle it fits into 32 bits; what overflows in
- * other lanes, or on the way, does not matter.
- */
-static inline packf edge_values(struct tile_edge e, int y, int small)
+WIDE_VECTORS static inline packf clamp_depth(packf depth)
 {
-	if (small)
-		return convert_float16(as_int16((uint)e.value + (uint)(y * e.step_y) * 256u + as_uint16(PACK_LANES * e.step_x) * 256u));
-	return convert_float16((long16)(e.value + (long)y * e.step_y * 256) + convert_long16(PACK_LANES * e.step_x) * 256);
+	depth = select(depth, (packf)(1), depth > 1.0f);
+	return select(depth, (packf)(0), depth < 0.0f);
 }
 
-/*
- * All vertices have a place in the window. corner: NULL, or the three corners where the triangle is part of one that leaves the
- * view volume; the fragments' weights are those of the whole then. clip: else, where the vertices are in clip space.
- */
-WIDE_VECTORS static inline void try_placed(struct tile *t, uint flags, struct window_vertex v0, struct window_vertex v1,
-                       struct window_vertex v2, const struct clip_corner *const *corner, const struct vec4 *clip,
-                       struct candidate c)
+/* What one triangle of a batch covers of sixteen pixels of row y. corner: NULL, or the three of a part of one. */
+WIDE_VECTORS static inline void draw_pack(struct tile *t, const struct batch *s, uint lane, int x, int y, packi covered,
+                                          const struct clip_corner *const *corner, struct candidate c)
 {
-	/* Rows and columns of pixels whose places (centres, or samples) the triangle's box holds. */
-	const int in_x = 128 + t->view->sample[0], in_y = 128 + t->view->sample[1];
-	const int x_first = (min(min(v0.x, v1.x), v2.x) + 255 - in_x) >> 8, x_last = (max(max(v0.x, v1.x), v2.x) - in_x) >> 8;
-	const int y_first = max((min(min(v0.y, v1.y), v2.y) + 255 - in_y) >> 8, t->y);
-	const int y_last = min((max(max(v0.y, v1.y), v2.y) - in_y) >> 8, t->y + CAMERA_TILE_HEIGHT - 1);
-	const struct clip_spot at = clip_spot(t->view, t->x, y_first);
-	const long area = (long)(v1.x - v0.x) * (v2.y - v0.y) - (long)(v2.x - v0.x) * (v1.y - v0.y);
-	const int clockwise = area < 0, small = area < (1l << 28) && area > -(1l << 28);
-	const float z[3] = { v0.z, v1.z, v2.z };
-	struct tile_edge e0, e1, e2;
-	struct clip_plane plane;
-	int exact = -1; /* not known yet */
-	float inverse;
+	const int exact = t->mode != CAMERA_COLUMN && LANE_INT(s->exact, lane);
+	struct pack *p = &t->packs[y][x];
+	packf depth, b1, b2;
+	packu steps;
+	packi better;
 
-	if (y_first > y_last || x_first > x_last || x_last < t->x || x_first >= t->x + CAMERA_TILE_WIDTH || area == 0 ||
-	    coverage_culled(flags, !clockwise))
+	if (exact) {
+		const float row = clip_from_origin(t->view, (int)t->height - 1 - (t->y + y), -t->view->sample[1]);
+
+		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), (packf)(row),
+		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x], (packf)(LANE_FLOAT(s->origin, lane)))));
+		steps = convert_uint16(rint(depth * 16777215.0f));
+		better = find_better(t, p, covered, steps, c.order);
+		if (!any_pack(better))
+			return;
+	}
+	b1 = weight_at(s, lane, 0, 16 * x, y);
+	b2 = weight_at(s, lane, 1, 16 * x, y);
+	if (!exact)
+		depth = clamp_depth(LANE_FLOAT(s->z, lane) + (b1 * LANE_FLOAT(s->along_b1, lane) + b2 * LANE_FLOAT(s->along_b2, lane)));
+	if (corner)
+		weigh_in_volume(corner, &b1, &b2);
+	if (t->mode == CAMERA_COLUMN) {
+		keep_in_columns(t, x, y, covered, &b1, &b2, &depth, c);
 		return;
-	/* Edge i is the one across from vertex i; turned round where the triangle runs clockwise. */
-	e0 = clockwise ? tile_edge(v2, v1, at) : tile_edge(v1, v2, at);
-	e1 = clockwise ? tile_edge(v0, v2, at) : tile_edge(v2, v0, at);
-	e2 = clockwise ? tile_edge(v1, v0, at) : tile_edge(v0, v1, at);
-	inverse = 1.0f / (float)abs_diff(area, 0l);
-	for (int y = 0; y <= y_last - y_first; y++) {
-		const int row = y_first - t->y + y;
-		const packi covered = t->rows[row].on & ((edge_inside(e0, y) | edge_inside(e1, y) | edge_inside(e2, y)) >= 0);
-		packf b1, b2, depth;
+	}
+	if (!exact) {
+		steps = convert_uint16(rint(depth * 16777215.0f));
+		better = find_better(t, p, covered, steps, c.order);
+		if (!any_pack(better))
+			return;
+	}
+	t->changed = 1;
+	keep_nearest(p, better, steps, b1, b2, depth, c);
+}
 
-		if (!any_pack(covered))
-			continue;
-		b1 = edge_values(e1, y, small) * inverse;
-		b2 = edge_values(e2, y, small) * inverse;
-		if (exact < 0)
-			exact = t->mode != CAMERA_COLUMN && clip_depth_plane(t->view, (float)t->height, corner, clip, z, &plane);
-		if (exact)
-			depth = fma((packf)(plane.along_y),
-			            (packf)(clip_from_origin(t->view, (int)t->height - 1 - (t->y + row), -t->view->sample[1])),
-			            fma((packf)(plane.along_x),
-			                convert_float16(PACK_LANES) + clip_from_origin(t->view, t->x, t->view->sample[0]),
-			                (packf)(plane.origin)));
-		else
-			depth = v0.z + (b1 * (v1.z - v0.z) + b2 * (v2.z - v0.z));
-		depth = select(depth, (packf)(1), depth > 1.0f);
-		depth = select(depth, (packf)(0), depth < 0.0f);
-		if (corner) {
-			const packf p0 = (1.0f - b1 - b2) * v0.w_inv, p1 = b1 * v1.w_inv, p2 = b2 * v2.w_inv, sum = p0 + p1 + p2;
+/* All that one triangle of a batch covers. */
+WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane, const struct clip_corner *const *corner,
+                                              struct candidate c)
+{
+	const int y_first = max(LANE_INT(s->y_first, lane), t->y_first), y_last = min(LANE_INT(s->y_last, lane), t->y_last);
 
-			b1 = (p0 * corner[0]->b1 + p1 * corner[1]->b1 + p2 * corner[2]->b1) / sum;
-			b2 = (p0 * corner[0]->b2 + p1 * corner[1]->b2 + p2 * corner[2]->b2) / sum;
+	for (int x = LANE_INT(s->x_first, lane) / 16; x <= LANE_INT(s->x_last, lane) / 16; x++) {
+		packi at[3], step[3];
+
+		for (int i = 0; i < 3; i++) {
+			step[i] = LANE_INT(s->step_y[i], lane);
+			at[i] = LANE_INT(s->whole[i], lane) + y_first * step[i] + (PACK_LANES + 16 * x) * LANE_INT(s->step_x[i], lane);
 		}
-		keep(t, row, covered, b1, b2, depth, c);
+		for (int y = y_first; y <= y_last; y++) {
+			const packi covered = t->on[x] & ((at[0] | at[1] | at[2]) >= 0);
+
+			for (int i = 0; i < 3; i++)
+				at[i] += step[i];
+			if (any_pack(covered))
+				draw_pack(t, s, lane, x, y, covered, corner, c);
+		}
 	}
 }
 
-/* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
-static inline void try_clipped(struct tile *t, uint flags, uint i0, uint i1, uint i2, struct candidate c)
+/* A corner has no place in the window: what the view volume leaves of the triangle is asked. vertex: places in clip. */
+static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, struct candidate c)
 {
 	struct clip_polygon polygon;
+	struct batch_corners v;
+	struct batch batch;
 
-	clip_triangle(t->view, (float)t->height, v4_load(t->clip + 4 * i0), v4_load(t->clip + 4 * i1), v4_load(t->clip + 4 * i2),
-	              &polygon);
-	for (uint k = 2; k < polygon.n; k++) {
-		const struct clip_corner *corner[3] = { &polygon.corner[k - 1], &polygon.corner[k], &polygon.corner[0] };
+	clip_triangle(t->view, (float)t->height, v4_load(t->clip + 4 * (size_t)vertex[0]), v4_load(t->clip + 4 * (size_t)vertex[1]),
+	              v4_load(t->clip + 4 * (size_t)vertex[2]), &polygon);
+	if (polygon.n < 3)
+		return;
+	for (uint lane = 0; lane < 16; lane++)
+		for (uint i = 0; i < 3; i++) {
+			const struct clip_corner *from = &polygon.corner[i == 2 ? 0 : min(lane + 1 + i, polygon.n - 1)];
 
-		try_placed(t, flags, corner[0]->window, corner[1]->window, corner[2]->window, corner, 0, c);
+			((int *)&v.x[i])[lane] = from->window.x;
+			((int *)&v.y[i])[lane] = from->window.y;
+			((float *)&v.z[i])[lane] = from->window.z;
+			((float *)&v.place_x[i])[lane] = from->place[0] - clip_origin(t->view);
+			((float *)&v.place_y[i])[lane] = from->place[1] - clip_origin(t->view);
+		}
+	for (uint lanes = batch_set_up(t->view, t->x, t->y, flags, &v, PACK_LANES < (int)polygon.n - 2, &batch); lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+		const struct clip_corner *corner[3] = { &polygon.corner[lane + 1], &polygon.corner[lane + 2], &polygon.corner[0] };
+
+		draw_triangle(t, &batch, lane, corner, c);
 	}
 }
 
-static inline void try_triangle(struct tile *t, uint index, __global const struct instance *instance,
-                         __global const struct triangle *triangle)
+/* The first sixteen pending faces, or as many as there are. */
+WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
 {
-	const uint first = instance->vertex_first, primitive = triangle->primitive;
-	const uint i0 = first + triangle->vertex[0], i1 = first + triangle->vertex[1], i2 = first + triangle->vertex[2];
-	const struct window_vertex v0 = t->window[i0], v1 = t->window[i1], v2 = t->window[i2];
-	struct candidate c;
+	__global const struct instance *instance = &t->instances[index];
+	struct pending *pending = &t->pending;
+	const uint n = min(pending->n, 16u);
+	const packi there = PACK_LANES < (int)n;
+	struct batch_corners v;
+	struct batch batch;
+	packu vertex[3];
+	packi placed;
+	uint clipped;
 
-	c.order = instance->primitive_first + primitive;
-	c.instance = index;
-	c.primitive = primitive;
-	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
-		const struct vec4 clip[3] = { v4_load(t->clip + 4 * i0), v4_load(t->clip + 4 * i1), v4_load(t->clip + 4 * i2) };
+	for (int i = 0; i < 3; i++)
+		vertex[i] = instance->vertex_first + select((packu)(pending->vertex[i][0]), vload16(0, pending->vertex[i]), there);
+	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
+	clipped = pack_bits(there & ~placed);
+	for (uint lanes = batch_set_up(t->view, t->x, t->y, instance->flags, &v, there & placed, &batch); lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane];
+		const struct candidate c = { instance->primitive_first + primitive, index, primitive };
 
-		try_placed(t, instance->flags, v0, v1, v2, 0, clip, c);
-	} else {
-		c.primitive |= FRAGMENT_PERSPECTIVE;
-		try_clipped(t, instance->flags, i0, i1, i2, c);
+		draw_triangle(t, &batch, lane, 0, c);
 	}
+	for (; clipped; clipped &= clipped - 1) {
+		const uint lane = popcount((clipped & -clipped) - 1), primitive = pending->primitive[lane];
+		const struct candidate c = { instance->primitive_first + primitive, index, primitive | FRAGMENT_PERSPECTIVE };
+		const uint corner[3] = { LANE_INT(vertex[0], lane), LANE_INT(vertex[1], lane), LANE_INT(vertex[2], lane) };
+
+		draw_clipped(t, instance->flags, corner, c);
+	}
+	pending->n -= n;
+	if (pending->n) {
+		vstore8(vload8(2, pending->primitive), 0, pending->primitive);
+		for (int i = 0; i < 3; i++)
+			vstore8(vload8(2, pending->vertex[i]), 0, pending->vertex[i]);
+	}
+}
+
+static inline void add_faces(struct pending *pending, __global const struct face8 *faces)
+{
+	const uint n = pending->n;
+
+	vstore8(vload8(0, faces->primitive), 0, pending->primitive + n);
+	for (int i = 0; i < 3; i++)
+		vstore8(vload8(0, faces->vertex[i]), 0, pending->vertex[i] + n);
+	pending->n = n + popcount(lane_bits(vload8(0, faces->primitive) != SCENE_NONE));
 }
 
 /* --- traversal --- */
@@ -271,7 +317,7 @@ static inline float tile_sample(const struct tile *t, int axis)
  * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
  * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
  */
-static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, __global const struct node2 *root)
+static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, float3 extent)
 {
 	__global const struct view *view = t->view;
 	__global const float *p = view->projection;
@@ -292,54 +338,70 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 		           fabs(of_w * p[4 * i + 3]);
 	}
 	if (!m)
-		return frustum_make(e[0], e[1], e[2], e[3], abs_e[0], abs_e[1], abs_e[2], abs_e[3], root);
+		return frustum_make(e[0], e[1], e[2], e[3], abs_e[0], abs_e[1], abs_e[2], abs_e[3], extent);
 	for (int i = 0; i < 4; i++) {
 		o[i] = e[0] * m[i] + e[1] * m[4 + i] + e[2] * m[8 + i] + (i == 3 ? e[3] : (float8)(0));
 		abs_o[i] = abs_e[0] * fabs(m[i]) + abs_e[1] * fabs(m[4 + i]) + abs_e[2] * fabs(m[8 + i]) +
 		           (i == 3 ? abs_e[3] : (float8)(0));
 	}
-	return frustum_make(o[0], o[1], o[2], o[3], abs_o[0], abs_o[1], abs_o[2], abs_o[3], root);
+	return frustum_make(o[0], o[1], o[2], o[3], abs_o[0], abs_o[1], abs_o[2], abs_o[3], extent);
+}
+
+/* A node, or a leaf of `count` blocks of faces, and how far it reaches before the far plane. */
+struct entry {
+	float reach;
+	uint child, count;
+};
+
+/* Push what of a node the tile may see, so that what reaches farthest before the far plane is popped first. */
+static inline uint push_children(const struct frustum8 *f, __global const struct node8 *node, struct entry *stack, uint depth)
+{
+	const uint bottom = depth;
+	float8 reach;
+
+	for (uint bits = frustum8_meets(f, node, &reach); bits; bits &= bits - 1) {
+		const uint lane = popcount((bits & -bits) - 1);
+		const float r = LANE_FLOAT(reach, lane);
+		uint place = depth++;
+
+		for (; place > bottom && stack[place - 1].reach > r; place--)
+			stack[place] = stack[place - 1];
+		stack[place].reach = r;
+		stack[place].child = node->child[lane];
+		stack[place].count = node->count[lane];
+	}
+	return depth;
+}
+
+static inline struct frustum8 instance_frustum(const struct tile *t, __global const struct instance *instance)
+{
+	const float3 extent = fabs(vload3(0, instance->centre)) + instance->radius;
+
+	return frustum8_from(tile_frustum(t, instance->eye_from_obj, extent), FAR_PLANE);
 }
 
 static inline void walk_blas(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
-	__global const struct node2 *nodes = t->nodes + instance->node2_first;
-	__global const struct triangle *triangles = t->triangles + instance->triangle_first;
-	struct frustum f = tile_frustum(t, instance->eye_from_obj, nodes);
-	uint2 stack[BVH_MAX_DEPTH + 1]; /* child, count */
+	__global const struct node8 *nodes = t->nodes + instance->node8_first;
+	__global const struct face8 *faces = t->faces + instance->triangle8_first;
+	struct frustum8 f = instance_frustum(t, instance);
+	struct entry stack[RAYS_WIDE_STACK], entry = { 0, 0, 0 };
 	uint depth = 0;
-	uint2 entry = (uint2)(0, 0);
 
 	for (;;) {
-		if (entry.y == 0) {
-			__global const struct node2 *node = &nodes[entry.x];
-			const float8 reach0 = frustum_reach(&f, node, 0), reach1 = frustum_reach(&f, node, 1);
-			const int meets0 = frustum_meets(reach0), meets1 = frustum_meets(reach1) && side_exists(node, 1);
-			const uint2 side0 = (uint2)(node->child[0], node->count[0]), side1 = (uint2)(node->child[1], node->count[1]);
+		if (entry.count == 0)
+			depth = push_children(&f, &nodes[entry.child], stack, depth);
+		for (uint i = 0; i < entry.count; i++)
+			add_faces(&t->pending, &faces[entry.child + i]);
+		while (t->pending.n >= 16 || (t->pending.n && !depth))
+			draw_pending(t, index);
+		if (t->changed) {
+			const float before = t->z_far;
 
-			if (meets0 && meets1) {
-				/* What reaches farther before the far plane goes first. */
-				const int first = reach1.s5 > reach0.s5;
-
-				stack[depth++] = first ? side0 : side1;
-				entry = first ? side1 : side0;
-				continue;
-			}
-			if (meets0 || meets1) {
-				entry = meets0 ? side0 : side1;
-				continue;
-			}
-		} else {
-			for (uint i = 0; i < entry.y; i++)
-				try_triangle(t, index, instance, &triangles[entry.x + i]);
-			if (t->changed) {
-				const float before = t->z_far;
-
-				shorten(t);
-				if (t->z_far < before)
-					f = tile_frustum(t, instance->eye_from_obj, nodes);
-			}
+			shorten(t);
+			if (t->z_far < before)
+				f = instance_frustum(t, instance);
 		}
 		if (depth == 0)
 			return;
@@ -354,7 +416,7 @@ static inline void walk_top(struct tile *t, __global const struct node2 *top, __
 	stack[depth++] = 0;
 	while (depth) {
 		__global const struct node2 *node = &top[stack[--depth]];
-		const struct frustum f = tile_frustum(t, 0, top);
+		const struct frustum f = tile_frustum(t, 0, frustum_extent(top));
 		const int first = frustum_reach(&f, node, 1).s5 > frustum_reach(&f, node, 0).s5;
 
 		/* Nearest first: instances at once, of inner children the farther one is pushed before the nearer. */
@@ -379,56 +441,103 @@ static inline void walk_top(struct tile *t, __global const struct node2 *top, __
 static inline void walk_screen(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
-	__global const struct node2 *nodes = t->nodes + instance->node2_first;
+	__global const struct node8 *nodes = t->nodes + instance->node8_first;
 	const float left = (float)t->x + tile_sample(t, 0), low = (float)t->y + tile_sample(t, 1), pad = instance->pad;
 	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE_WIDTH - 0.5f + pad;
 	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE_HEIGHT - 0.5f + pad;
-	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
+	uint stack[RAYS_WIDE_STACK], depth = 0;
 
 	stack[depth++] = 0;
 	while (depth) {
-		__global const struct node2 *node = &nodes[stack[--depth]];
+		__global const struct node8 *node = &nodes[stack[--depth]];
+		const int8 meets = (x1 >= vload8(0, node->lo[0])) & (x0 <= vload8(0, node->hi[0])) & (y1 >= vload8(0, node->lo[1])) &
+		                   (y0 <= vload8(0, node->hi[1]));
 
-		for (uint side = 0; side < 2; side++) {
-			if (!(x1 >= node->lo[side][0] && x0 <= node->hi[side][0] && y1 >= node->lo[side][1] && y0 <= node->hi[side][1]))
-				continue;
-			if (node->count[side] == 0)
-				stack[depth++] = node->child[side];
-			for (uint i = 0; i < node->count[side]; i++)
-				try_triangle(t, index, instance, &t->triangles[instance->triangle_first + node->child[side] + i]);
+		for (uint bits = lane_bits(meets); bits; bits &= bits - 1) {
+			const uint lane = popcount((bits & -bits) - 1);
+
+			if (node->count[lane] == 0)
+				stack[depth++] = node->child[lane];
+			for (uint i = 0; i < node->count[lane]; i++) {
+				add_faces(&t->pending, &t->faces[instance->triangle8_first + node->child[lane] + i]);
+				if (t->pending.n >= 16)
+					draw_pending(t, index);
+			}
 		}
 	}
+	while (t->pending.n)
+		draw_pending(t, index);
 }
 
-static inline void store_tile(const struct tile *t, __global uint *counts)
+/* Pixels of the tile between places x0 and x1, y0 and y1 take fragments from now on. */
+WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, float x1, float y1)
 {
-	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
-		for (int lane = 0; lane < CAMERA_TILE_WIDTH; lane++) {
-			const struct row *row = &t->rows[y];
-			const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + lane);
-			struct fragment f;
+	const float py = (float)t->y + 0.5f + tile_sample(t, 1);
 
-			if (!((const int *)&row->inside)[lane])
-				continue;
-			if (t->mode == CAMERA_COLUMN) {
-				counts[pixel] = (uint)((const int *)&row->counts)[lane];
-				continue;
-			}
-			f.order = ((const uint *)&row->order)[lane];
-			f.instance = ((const uint *)&row->instance)[lane];
-			f.primitive = ((const uint *)&row->primitive)[lane];
-			f.b1 = ((const float *)&row->b1)[lane];
-			f.b2 = ((const float *)&row->b2)[lane];
-			f.depth = ((const float *)&row->depth)[lane];
-			t->fragments[pixel] = f;
-			counts[pixel] = f.order != SCENE_NONE;
+	for (int x = 0; x < TILE_PACKS; x++) {
+		const packf px = convert_float16(t->x + 16 * x + PACK_LANES) + 0.5f + tile_sample(t, 0);
+
+		t->on[x] = (px >= x0) & (px < x1);
+	}
+	t->y_first = 0;
+	t->y_last = CAMERA_TILE_HEIGHT - 1;
+	while (t->y_first < CAMERA_TILE_HEIGHT && !((float)t->y_first + py >= y0))
+		t->y_first++;
+	while (t->y_last >= 0 && !((float)t->y_last + py < y1))
+		t->y_last--;
+}
+
+static inline void store_pixel(const struct tile *t, int x, int y, uint lane, __global uint *counts)
+{
+	const struct pack *p = &t->packs[y][x];
+	const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + 16 * x) + lane;
+	struct fragment f;
+
+	if (t->mode == CAMERA_COLUMN) {
+		counts[pixel] = (uint)LANE_INT(p->counts, lane);
+		return;
+	}
+	f.order = (uint)LANE_INT(p->order, lane);
+	f.instance = (uint)LANE_INT(p->instance, lane);
+	f.primitive = (uint)LANE_INT(p->primitive, lane);
+	f.b1 = LANE_FLOAT(p->b1, lane);
+	f.b2 = LANE_FLOAT(p->b2, lane);
+	f.depth = LANE_FLOAT(p->depth, lane);
+	t->fragments[pixel] = f;
+	counts[pixel] = f.order != SCENE_NONE;
+}
+
+/* The pixels of the tile that lie in the view's rectangle, which ends before x1 and y1. */
+static inline void store_tile(const struct tile *t, int x1, int y1, __global uint *counts)
+{
+	for (int y = 0; y < min(CAMERA_TILE_HEIGHT, y1 - t->y); y++)
+		for (int x = 0; x < TILE_PACKS; x++)
+			for (int lane = 0; lane < min(16, x1 - t->x - 16 * x); lane++)
+				store_pixel(t, x, y, lane, counts);
+}
+
+WIDE_VECTORS static inline void clear_tile(struct tile *t)
+{
+	t->changed = 0;
+	t->z_far = 1;
+	t->pending.n = 0;
+	for (int x = 0; x < TILE_PACKS; x++)
+		t->plane_x[x] = convert_float16(PACK_LANES + 16 * x) + clip_from_origin(t->view, t->x, t->view->sample[0]);
+	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
+		for (int x = 0; x < TILE_PACKS; x++) {
+			struct pack *p = &t->packs[y][x];
+
+			p->counts = 0;
+			p->steps = p->order = p->instance = p->primitive = SCENE_NONE;
+			p->b1 = p->b2 = 0;
+			p->depth = 1;
 		}
 }
 
 __kernel void camera_packet(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
                             __global const struct instance *instances, __global const struct node2 *top,
-                            __global const uint *instance_list, __global const struct node2 *nodes,
-                            __global const struct triangle *triangles, __global const struct window_vertex *window,
+                            __global const uint *instance_list, __global const struct node8 *nodes,
+                            __global const struct face8 *faces, __global const struct window_vertex *window,
                             __global const float *clip, __global const uint *after,
                             __global struct fragment *fragments, __global uint *counts)
 {
@@ -444,7 +553,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.view = view;
 	t.instances = instances;
 	t.nodes = nodes;
-	t.triangles = triangles;
+	t.faces = faces;
 	t.window = window;
 	t.clip = clip;
 	t.after = after;
@@ -454,26 +563,14 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.mode = mode;
 	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE_WIDTH;
 	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE_HEIGHT;
-	t.changed = 0;
-	t.z_far = 1;
-	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++) {
-		struct row *row = &t.rows[y];
-		const packf px = convert_float16(t.x + PACK_LANES) + 0.5f + tile_sample(&t, 0);
-		const float py = (float)(t.y + y) + 0.5f + tile_sample(&t, 1);
-
-		row->inside = (t.x + PACK_LANES < r.x1) & (packi)(t.y + y < r.y1 ? -1 : 0);
-		row->on = row->inside & (px >= viewport[0]) & (px < viewport[0] + viewport[2]) &
-		          (packi)(py >= viewport[1] && py < viewport[1] + viewport[3] ? -1 : 0);
-		row->counts = 0;
-		row->steps = row->order = row->instance = row->primitive = SCENE_NONE;
-		row->b1 = row->b2 = 0;
-		row->depth = 1;
-	}
-	if (view->tlas_count)
+	clear_tile(&t);
+	if (view->tlas_count) {
+		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),
+		            fmin((float)r.x1, viewport[0] + viewport[2]), fmin((float)r.y1, viewport[1] + viewport[3]));
 		walk_top(&t, top + view->tlas_first, instance_list);
-	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
-		t.rows[y].on = t.rows[y].inside;
+	}
+	open_pixels(&t, (float)r.x0, (float)r.y0, (float)r.x1, (float)r.y1);
 	for (uint i = 0; i < view->screen_count; i++)
 		walk_screen(&t, view->screen_first + i);
-	store_tile(&t, counts);
+	store_tile(&t, r.x1, r.y1, counts);
 }

@@ -122,6 +122,12 @@ struct triangle8 {
 };
 SHARED_SIZE(struct triangle8, 320);
 
+/* The corners of the triangles of a triangle8, in the same lanes, for tests on window vertices: indices in the mesh. */
+struct face8 {
+	uint32_t vertex[3][8], primitive[8]; /* unused lanes: 0, and SCENE_NONE */
+};
+SHARED_SIZE(struct face8, 128);
+
 /* bits of instance.flags */
 #define INSTANCE_OPAQUE 1u       /* hides what lies behind it: nothing of the draw lets light through */
 #define INSTANCE_SECONDARY 2u    /* seen by secondary rays: depth-tested and writes colour */

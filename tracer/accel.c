@@ -57,6 +57,7 @@ static struct part part_of(struct accel *a, int part)
 		[BOTTOM_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
 		[BOTTOM_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
 		[BOTTOM_TRIANGLES8] = { (void **)&a->triangles8, &a->n_triangles8 },
+		[BOTTOM_FACES8] = { (void **)&a->faces8, &a->n_faces8 },
 		[BOTTOM_NODES8C] = { (void **)&a->nodes8c, &a->n_nodes8c },
 		[BOTTOM_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
 	};

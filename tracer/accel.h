@@ -24,9 +24,10 @@ struct accel {
 	struct node8 *nodes8;
 	struct triangle *triangles;   /* leaf order of nodes2 */
 	struct triangle8 *triangles8; /* leaf order of nodes8 */
+	struct face8 *faces8;         /* their corners */
 	struct node8c *nodes8c;
 	struct triangle *triangles8c; /* leaf order of nodes8c */
-	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8, n_nodes8c, n_triangles8c;
+	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8, n_faces8, n_nodes8c, n_triangles8c;
 	uint64_t generation; /* grows whenever the pools above changed: upload again */
 
 	/* Of the current frame: leaves of both hold indices into instance_list. */

@@ -34,7 +34,7 @@ struct bench_state {
 	struct window_vertex *window;
 	struct fragment *fragments; /* [pixel], of the picture that the other rays start from */
 
-	struct device_buffer *views, *instances, *top2, *top8, *list, *nodes2, *nodes8, *nodes8c, *triangles, *triangles8, *triangles8c;
+	struct device_buffer *views, *instances, *top2, *top8, *list, *nodes2, *nodes8, *nodes8c, *triangles, *triangles8, *triangles8c, *faces8;
 	struct device_buffer *window_buffer, *clip_buffer, *fragment_buffer, *count_buffer;
 	struct device_buffer *rays[N_BENCH_RAY_KINDS], *results;
 };
@@ -143,6 +143,7 @@ static int prepare_frame(struct bench *b)
 	    (err = upload(b->dev, &s->nodes8, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8))) ||
 	    (err = upload(b->dev, &s->triangles, a->triangles, a->n_triangles * sizeof(*a->triangles))) ||
 	    (err = upload(b->dev, &s->triangles8, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))) ||
+	    (err = upload(b->dev, &s->faces8, a->faces8, a->n_faces8 * sizeof(*a->faces8))) ||
 	    (err = upload(b->dev, &s->nodes8c, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c))) ||
 	    (err = upload(b->dev, &s->triangles8c, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c))))
 		return err;
@@ -155,7 +156,7 @@ int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
 	const uint32_t view = 0, mode = CAMERA_NEAREST_LESS;
 	const struct camera_rectangle r = camera_rectangle(0, 0, (int32_t)b->width, (int32_t)b->height, b->width, b->height);
 	const uint32_t n = kernel == KERNEL_camera_packet ? camera_packet_items(r) : camera_wide_items(r);
-	const int compressed = kernel == KERNEL_camera_compressed;
+	const int compressed = kernel == KERNEL_camera_compressed, packet = kernel == KERNEL_camera_packet;
 	const double start = progress_clock_s();
 	int err = prepare_frame(b);
 
@@ -163,7 +164,9 @@ int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
 		const struct device_arg args[] = {
 			ARG_VALUE(view), ARG_BUFFER(s->views), ARG_VALUE(b->width), ARG_VALUE(b->height), ARG_VALUE(mode),
 			ARG_BUFFER(s->instances), ARG_BUFFER(s->top2), ARG_BUFFER(s->list),
-			ARG_BUFFER(compressed ? s->nodes8c : s->nodes2), ARG_BUFFER(compressed ? s->triangles8c : s->triangles), ARG_BUFFER(s->window_buffer), ARG_BUFFER(s->clip_buffer),
+			ARG_BUFFER(packet ? s->nodes8 : compressed ? s->nodes8c : s->nodes2),
+			ARG_BUFFER(packet ? s->faces8 : compressed ? s->triangles8c : s->triangles), ARG_BUFFER(s->window_buffer),
+			ARG_BUFFER(s->clip_buffer),
 			ARG_BUFFER(s->count_buffer), ARG_BUFFER(s->fragment_buffer), ARG_BUFFER(s->count_buffer),
 		};
 
@@ -456,7 +459,7 @@ static void release_buffers(struct device *dev, struct bench_state *s)
 {
 	struct device_buffer **buffers[] = {
 		&s->views, &s->instances, &s->top2, &s->top8, &s->list, &s->nodes2, &s->nodes8, &s->nodes8c,
-		&s->triangles, &s->triangles8, &s->triangles8c, &s->window_buffer, &s->clip_buffer, &s->fragment_buffer, &s->count_buffer,
+		&s->triangles, &s->triangles8, &s->triangles8c, &s->faces8, &s->window_buffer, &s->clip_buffer, &s->fragment_buffer, &s->count_buffer,
 		&s->rays[BENCH_SHADOW], &s->rays[BENCH_AMBIENT], &s->results,
 	};
 

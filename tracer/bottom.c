@@ -9,6 +9,7 @@
 const size_t bottom_item_bytes[N_BOTTOM_PARTS] = {
 	[BOTTOM_NODES2] = sizeof(struct node2),   [BOTTOM_TRIANGLES] = sizeof(struct triangle),
 	[BOTTOM_NODES8] = sizeof(struct node8),   [BOTTOM_TRIANGLES8] = sizeof(struct triangle8),
+	[BOTTOM_FACES8] = sizeof(struct face8),
 	[BOTTOM_NODES8C] = sizeof(struct node8c), [BOTTOM_TRIANGLES8C] = sizeof(struct triangle),
 };
 
@@ -47,6 +48,16 @@ static void set_triangle8(struct triangle8 *out, const struct triangle *triangle
 	}
 }
 
+static void set_face8(struct face8 *out, const struct triangle *triangles, uint32_t n)
+{
+	memset(out, 0, sizeof(*out));
+	for (uint32_t lane = 0; lane < 8; lane++) {
+		out->primitive[lane] = lane < n ? triangles[lane].primitive : SCENE_NONE;
+		for (int i = 0; i < 3 && lane < n; i++)
+			out->vertex[i][lane] = triangles[lane].vertex[i];
+	}
+}
+
 /* The eight-wide tree in rows. */
 static int make_rows(const struct tree *tree, struct bottom *bottom)
 {
@@ -55,6 +66,7 @@ static int make_rows(const struct tree *tree, struct bottom *bottom)
 	struct node8 *nodes = make_part(bottom, BOTTOM_NODES8, tree->n_nodes);
 	uint32_t n_nodes, n_blocks;
 	struct triangle8 *blocks;
+	struct face8 *faces;
 	int err = nodes ? 0 : ERR_SYSTEM;
 
 	if (!first)
@@ -65,9 +77,12 @@ static int make_rows(const struct tree *tree, struct bottom *bottom)
 		goto done;
 	cut_part(bottom, BOTTOM_NODES8, n_nodes);
 	blocks = make_part(bottom, BOTTOM_TRIANGLES8, n_blocks);
-	err = blocks ? 0 : ERR_SYSTEM;
-	for (uint32_t i = 0; i < n_blocks && !err; i++)
+	faces = make_part(bottom, BOTTOM_FACES8, n_blocks);
+	err = blocks && faces ? 0 : ERR_SYSTEM;
+	for (uint32_t i = 0; i < n_blocks && !err; i++) {
 		set_triangle8(&blocks[i], triangles + first[i], count[i]);
+		set_face8(&faces[i], triangles + first[i], count[i]);
+	}
 done:
 	free(first);
 	return err;

@@ -8,7 +8,7 @@
 #include "tracer/tree.h"
 
 /* Which eight-wide trees there are beside the binary ones. */
-#define ACCEL_ROWS 1u       /* nodes8, triangles8 */
+#define ACCEL_ROWS 1u       /* nodes8, triangles8, faces8 */
 #define ACCEL_COMPRESSED 2u /* nodes8c, triangles8c */
 
 enum bottom_part {
@@ -16,6 +16,7 @@ enum bottom_part {
 	BOTTOM_TRIANGLES,   /* struct triangle, leaf order of nodes2 */
 	BOTTOM_NODES8,      /* struct node8 */
 	BOTTOM_TRIANGLES8,  /* struct triangle8, leaf order of nodes8 */
+	BOTTOM_FACES8,      /* struct face8, one for each triangle8 */
 	BOTTOM_NODES8C,     /* struct node8c */
 	BOTTOM_TRIANGLES8C, /* struct triangle, leaf order of nodes8c */
 	N_BOTTOM_PARTS

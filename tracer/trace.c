@@ -376,6 +376,8 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 {
 	static const enum device_kernel kernels[N_DEVICE_FAMILIES] = { KERNEL_camera_packet, KERNEL_camera_wide,
 		                                                       KERNEL_camera_compressed };
+	static const enum buffer nodes[N_DEVICE_FAMILIES] = { BUFFER_NODES8, BUFFER_NODES2, BUFFER_NODES8C };
+	static const enum buffer triangles[N_DEVICE_FAMILIES] = { BUFFER_FACES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8C };
 	struct tracer *tr = job->tr;
 	enum device_family family = device_family(tr->dev);
 	struct launch l = { .n = 0 };
@@ -388,8 +390,8 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 	add(&l, tr, BUFFER_INSTANCES);
 	add(&l, tr, BUFFER_TOP2);
 	add(&l, tr, BUFFER_INSTANCE_LIST);
-	add(&l, tr, family == FAMILY_COMPRESSED ? BUFFER_NODES8C : BUFFER_NODES2);
-	add(&l, tr, family == FAMILY_COMPRESSED ? BUFFER_TRIANGLES8C : BUFFER_TRIANGLES);
+	add(&l, tr, nodes[family]);
+	add(&l, tr, triangles[family]);
 	add(&l, tr, BUFFER_WINDOWS);
 	add(&l, tr, BUFFER_CLIPS);
 	add(&l, tr, BUFFER_AFTER);

@@ -150,14 +150,14 @@ static int upload_mesh_trees(struct tracer *tr, const struct accel *a)
 		err = upload(tr, BUFFER_NODES8C, a->nodes8c, a->n_nodes8c, sizeof(*a->nodes8c));
 		return err ? err : upload(tr, BUFFER_TRIANGLES8C, a->triangles8c, a->n_triangles8c, sizeof(*a->triangles8c));
 	}
-	err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
+	if (family == FAMILY_BINARY) {
+		err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
+		return err ? err : upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
+	}
+	err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
 	if (!err)
-		err = upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
-	if (!err && family == FAMILY_PACKETS)
-		err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
-	if (!err && family == FAMILY_PACKETS)
 		err = upload(tr, BUFFER_TRIANGLES8, a->triangles8, a->n_triangles8, sizeof(*a->triangles8));
-	return err;
+	return err ? err : upload(tr, BUFFER_FACES8, a->faces8, a->n_faces8, sizeof(*a->faces8));
 }
 
 int upload_trees(struct job *job)

@@ -5,6 +5,7 @@
 
 #include "kernels/compressed.h"
 #include "kernels/gl_clip.h"
+#include "kernels/rays.h"
 #include "kernels/shared.h"
 #include "tracer/device.h"
 
@@ -16,9 +17,12 @@ struct args {
 	const struct instance *instances;
 	const struct node2 *top;
 	const uint32_t *instance_list;
+	/* The trees of one kind and their triangles; the other kinds are NULL. */
 	const struct node2 *nodes;
-	const struct node8c *compressed; /* instead of nodes, or NULL */
-	const struct triangle *triangles;
+	const struct triangle *triangles; /* of compressed, too */
+	const struct node8c *compressed;
+	const struct node8 *rows;
+	const struct face8 *faces;
 	const struct window_vertex *window;
 	const float (*clip)[4];
 	const uint32_t *after;
@@ -39,13 +43,14 @@ struct pixel {
 	uint32_t count;
 };
 
-static struct args unpack(const void *const *args, int compressed)
+/* All but the trees and their triangles. */
+static struct args unpack(const void *const *args)
 {
 	return (struct args){
-		(const struct view *)args[1] + *(const uint32_t *)args[0],
-		*(const uint32_t *)args[2], *(const uint32_t *)args[3], *(const uint32_t *)args[4],
-		args[5], args[6], args[7], compressed ? NULL : args[8], compressed ? args[8] : NULL, args[9], args[10], args[11], args[12],
-		(struct fragment *)args[13], (uint32_t *)args[14]
+		.view = (const struct view *)args[1] + *(const uint32_t *)args[0],
+		.width = *(const uint32_t *)args[2], .height = *(const uint32_t *)args[3], .mode = *(const uint32_t *)args[4],
+		.instances = args[5], .top = args[6], .instance_list = args[7], .window = args[10], .clip = args[11], .after = args[12],
+		.fragments = (struct fragment *)args[13], .counts = (uint32_t *)args[14]
 	};
 }
 
@@ -210,24 +215,44 @@ static int cover_clipped(const struct pixel *p, uint32_t flags, const float *con
 	return 0;
 }
 
-static void try_triangle(struct pixel *p, uint32_t instance_index, const struct triangle *triangle)
+static void try_triangle(struct pixel *p, uint32_t instance_index, uint32_t primitive, const uint32_t vertex[3])
 {
 	const struct args *a = p->args;
 	const struct instance *instance = &a->instances[instance_index];
-	struct fragment f = { instance->primitive_first + triangle->primitive, instance_index, triangle->primitive, 0, 0, 0 };
+	struct fragment f = { instance->primitive_first + primitive, instance_index, primitive, 0, 0, 0 };
 	struct window_vertex v[3];
 	struct vec4 clip[3];
 	const float *c[3];
 	int placed = 1;
 
 	for (int i = 0; i < 3; i++) {
-		v[i] = a->window[instance->vertex_first + triangle->vertex[i]];
-		c[i] = a->clip[instance->vertex_first + triangle->vertex[i]];
+		v[i] = a->window[instance->vertex_first + vertex[i]];
+		c[i] = a->clip[instance->vertex_first + vertex[i]];
 		clip[i] = v4_load(c[i]);
 		placed &= v[i].w_inv > 0;
 	}
 	if (placed ? cover_placed(p, instance->flags, v, NULL, clip, &f) : cover_clipped(p, instance->flags, c, &f))
 		keep(p, &f);
+}
+
+/* A leaf of the binary or of the compressed tree; triangle_first: of the instance. */
+static void try_triangles(struct pixel *p, uint32_t instance_index, uint32_t triangle_first, uint32_t first, uint32_t count)
+{
+	const struct triangle *triangles = p->args->triangles + triangle_first + first;
+
+	for (uint32_t i = 0; i < count; i++)
+		try_triangle(p, instance_index, triangles[i].primitive, triangles[i].vertex);
+}
+
+/* A leaf of the tree in rows. */
+static void try_faces(struct pixel *p, uint32_t instance_index, uint32_t first, uint32_t count)
+{
+	const struct face8 *faces = p->args->faces + p->args->instances[instance_index].triangle8_first + first;
+
+	for (uint32_t i = 0; i < count; i++)
+		for (int lane = 0; lane < 8 && faces[i].primitive[lane] != SCENE_NONE; lane++)
+			try_triangle(p, instance_index, faces[i].primitive[lane],
+			             (const uint32_t[]){ faces[i].vertex[0][lane], faces[i].vertex[1][lane], faces[i].vertex[2][lane] });
 }
 
 /* --- traversal --- */
@@ -275,9 +300,8 @@ static void walk_binary(struct pixel *p, uint32_t instance_index, const float o[
 		for (int i = 0; i < 2; i++) {
 			const int side = first ^ i;
 
-			for (uint32_t k = 0; hit[side] && k < node->count[side]; k++)
-				try_triangle(p, instance_index,
-				             &a->triangles[instance->triangle_first + node->child[side] + k]);
+			if (hit[side])
+				try_triangles(p, instance_index, instance->triangle_first, node->child[side], node->count[side]);
 			hit[side] = hit[side] && !node->count[side];
 		}
 		if (hit[first] && hit[!first])
@@ -291,7 +315,37 @@ static void walk_binary(struct pixel *p, uint32_t instance_index, const float o[
 	}
 }
 
-/* inverse NULL: the pixel centre is a point, under which boxes are looked for in x and y. */
+/* Is a box on the way? inverse NULL: the pixel centre is a point, under which boxes are looked for in x and y. */
+static int meets_box(const struct pixel *p, const float o[3], const float *inverse, const float lo[3], const float hi[3], float pad)
+{
+	float t;
+
+	return inverse ? hits_box(o, inverse, lo, hi, pad, p->t_max, &t)
+	               : o[0] >= lo[0] - pad && o[0] <= hi[0] + pad && o[1] >= lo[1] - pad && o[1] <= hi[1] + pad;
+}
+
+static void walk_rows(struct pixel *p, uint32_t instance_index, const float o[3], const float *inverse)
+{
+	const struct instance *instance = &p->args->instances[instance_index];
+	uint32_t stack[RAYS_WIDE_STACK], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		const struct node8 *node = &p->args->rows[instance->node8_first + stack[--depth]];
+
+		for (int lane = 0; lane < 8; lane++) {
+			const float lo[3] = { node->lo[0][lane], node->lo[1][lane], node->lo[2][lane] };
+			const float hi[3] = { node->hi[0][lane], node->hi[1][lane], node->hi[2][lane] };
+
+			if (!(node->child[lane] | node->count[lane]) || !meets_box(p, o, inverse, lo, hi, instance->pad))
+				continue;
+			if (!node->count[lane])
+				stack[depth++] = node->child[lane];
+			try_faces(p, instance_index, node->child[lane], node->count[lane]);
+		}
+	}
+}
+
 static void walk_compressed(struct pixel *p, uint32_t instance_index, const float o[3], const float *inverse)
 {
 	const struct instance *instance = &p->args->instances[instance_index];
@@ -304,18 +358,14 @@ static void walk_compressed(struct pixel *p, uint32_t instance_index, const floa
 
 		for (uint32_t slot = 0; slot < 8; slot++) {
 			uint32_t first, count;
-			float lo[3], hi[3], t;
+			float lo[3], hi[3];
 
-			if (!node8c_box(node, slot, lo, hi))
-				continue;
-			if (inverse ? !hits_box(o, inverse, lo, hi, pad, p->t_max, &t) :
-			              !(o[0] >= lo[0] - pad && o[0] <= hi[0] + pad && o[1] >= lo[1] - pad && o[1] <= hi[1] + pad))
+			if (!node8c_box(node, slot, lo, hi) || !meets_box(p, o, inverse, lo, hi, pad))
 				continue;
 			count = node8c_child(node, slot, &first);
 			if (!count)
 				stack[depth++] = first;
-			for (uint32_t k = 0; k < count; k++)
-				try_triangle(p, instance_index, &p->args->triangles[instance->triangle8c_first + first + k]);
+			try_triangles(p, instance_index, instance->triangle8c_first, first, count);
 		}
 	}
 }
@@ -332,6 +382,8 @@ static void walk_blas(struct pixel *p, uint32_t instance_index)
 	invert(d, inverse);
 	if (p->args->compressed)
 		walk_compressed(p, instance_index, o, inverse);
+	else if (p->args->rows)
+		walk_rows(p, instance_index, o, inverse);
 	else
 		walk_binary(p, instance_index, o, inverse);
 }
@@ -365,11 +417,11 @@ static void walk_screen(struct pixel *p, uint32_t instance_index)
 {
 	const struct args *a = p->args;
 	const struct instance *instance = &a->instances[instance_index];
-	const float x = spot(p, 0), y = spot(p, 1), pad = instance->pad;
+	const float at[3] = { spot(p, 0), spot(p, 1), 0 };
 	uint32_t stack[BVH_MAX_DEPTH], depth = 0;
 
-	if (a->compressed) {
-		walk_compressed(p, instance_index, (const float[]){ x, y, 0 }, NULL);
+	if (a->compressed || a->rows) {
+		(a->compressed ? walk_compressed : walk_rows)(p, instance_index, at, NULL);
 		return;
 	}
 	stack[depth++] = 0;
@@ -377,14 +429,11 @@ static void walk_screen(struct pixel *p, uint32_t instance_index)
 		const struct node2 *node = &a->nodes[instance->node2_first + stack[--depth]];
 
 		for (int side = 0; side < 2; side++) {
-			if (!(x >= node->lo[side][0] - pad && x <= node->hi[side][0] + pad && y >= node->lo[side][1] - pad &&
-			      y <= node->hi[side][1] + pad))
+			if (!meets_box(p, at, NULL, node->lo[side], node->hi[side], instance->pad))
 				continue;
 			if (!node->count[side])
 				stack[depth++] = node->child[side];
-			for (uint32_t k = 0; k < node->count[side]; k++)
-				try_triangle(p, instance_index,
-				             &a->triangles[instance->triangle_first + node->child[side] + k]);
+			try_triangles(p, instance_index, instance->triangle_first, node->child[side], node->count[side]);
 		}
 	}
 }
@@ -440,10 +489,12 @@ static struct camera_rectangle rectangle_of(const struct args *args)
 
 void camera_packet_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 0);
+	struct args a = unpack(args);
 	const struct camera_rectangle r = rectangle_of(&a);
 	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE_WIDTH - 1) / CAMERA_TILE_WIDTH;
 
+	a.rows = args[8];
+	a.faces = args[9];
 	for (size_t item = first; item < last && item < camera_packet_items(r); item++) {
 		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE_WIDTH;
 		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE_HEIGHT;
@@ -465,14 +516,18 @@ static void do_pixels(const struct args *a, size_t first, size_t last)
 
 void camera_wide_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 0);
+	struct args a = unpack(args);
 
+	a.nodes = args[8];
+	a.triangles = args[9];
 	do_pixels(&a, first, last);
 }
 
 void camera_compressed_c(const void *const *args, size_t first, size_t last)
 {
-	const struct args a = unpack(args, 1);
+	struct args a = unpack(args);
 
+	a.compressed = args[8];
+	a.triangles = args[9];
 	do_pixels(&a, first, last);
 }

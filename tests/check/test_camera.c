@@ -134,14 +134,16 @@ static void run(const struct frame *f, struct device *dev, enum device_kernel ke
 	const struct accel *a = s->accel;
 	const uint32_t view = 0, width = WIDTH, height = HEIGHT;
 	const int32_t *sc = s->view.scissor;
-	const int compressed = kernel == KERNEL_camera_compressed;
+	const int compressed = kernel == KERNEL_camera_compressed, packet = kernel == KERNEL_camera_packet;
 	const struct camera_rectangle r = camera_rectangle(sc[0], sc[1], sc[2], sc[3], WIDTH, HEIGHT);
 	struct device_buffer *b[] = {
 		make_buffer(dev, &s->view, sizeof(s->view)), make_buffer(dev, s->instances, sizeof(s->instances)),
 		make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)),
 		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
+		packet ? make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)) :
 		compressed ? make_buffer(dev, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c)) :
 		             make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
+		packet ? make_buffer(dev, a->faces8, a->n_faces8 * sizeof(*a->faces8)) :
 		compressed ? make_buffer(dev, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c)) :
 		             make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
 		make_buffer(dev, f->window, s->n_vertices * sizeof(*f->window)),
@@ -274,6 +276,8 @@ START_TEST(boxes_lose_nothing)
 			compare(&want, &got, mode, "boxes");
 			run(&f, dev, KERNEL_camera_compressed, mode, &got);
 			compare(&want, &got, mode, "compressed boxes");
+			run(&f, dev, KERNEL_camera_packet, mode, &got);
+			compare(&want, &got, mode, "boxes in rows");
 			memcpy(a->nodes2, nodes, a->n_nodes2 * sizeof(*nodes));
 			memcpy(a->top2, top, a->n_top2 * sizeof(*top));
 			free(nodes);
@@ -315,6 +319,16 @@ START_TEST(trees_change_nothing)
 }
 END_TEST
 
+/* Let boxes that are not empty, n numbers of their bounds, hold all there is. */
+static void widen(float *lo, float *hi, int n)
+{
+	for (int i = 0; i < n; i++)
+		if (lo[i] <= hi[i]) {
+			lo[i] = -1e6f;
+			hi[i] = 1e6f;
+		}
+}
+
 /* A fan of triangles over the whole window, centres on many edges: each pixel belongs to exactly one. */
 START_TEST(shared_edges_belong_to_one)
 {
@@ -336,15 +350,12 @@ START_TEST(shared_edges_belong_to_one)
 			f.window[v].x = at[0];
 			f.window[v].y = at[1];
 		}
-	for (size_t k = 0; k < s->accel->n_nodes2 + s->accel->n_top2; k++) {
-		struct node2 *node = k < s->accel->n_nodes2 ? &s->accel->nodes2[k] : &s->accel->top2[k - s->accel->n_nodes2];
-
-		for (int side = 0; side < 2; side++)
-			for (int axis = 0; axis < 3 && (node->count[side] || node->child[side]); axis++) {
-				node->lo[side][axis] = -1e6f;
-				node->hi[side][axis] = 1e6f;
-			}
-	}
+	for (size_t k = 0; k < s->accel->n_top2; k++)
+		widen(s->accel->top2[k].lo[0], s->accel->top2[k].hi[0], 6);
+	for (size_t k = 0; k < s->accel->n_nodes8; k++)
+		widen(s->accel->nodes8[k].lo[0], s->accel->nodes8[k].hi[0], 24);
+	for (int k = 0; k < INSTANCES; k++)
+		s->instances[k].radius = 1e6f;
 	memset(f.after, 0, PIXELS * sizeof(*f.after));
 	ck_assert_int_eq(device_open(NULL, 0, &dev), 0);
 	run(&f, dev, KERNEL_camera_packet, CAMERA_COLUMN, &got);
