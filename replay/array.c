@@ -606,7 +606,7 @@ static uint64_t draw_key(const struct gls_state *st, const struct sources *s, ui
 	const struct source *all[N_GLS_ATTRIBUTES + 2];
 	unsigned n = 0, n_sources = 0;
 
-	key[n++] = (uint64_t)mode << 32 | s->given;
+	key[n++] = (uint64_t)mode << 32 | (uint64_t)st->a.lighting.first_provokes << 31 | s->given;
 	key[n++] = elements;
 	key[n++] = n_elements;
 	key[n++] = s->has_edges ? 2 : st->a.current.edge_flag != 0;
@@ -666,7 +666,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		for (uint32_t i = 0; i < count; i++)
 			if (add_vertex(x, st, g, s, (uint64_t)first + i))
 				return -1;
-		if (gls_geometry_cut(g, mode, 0, count, NULL))
+		if (gls_geometry_cut(g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
 			goto fail;
 		g->n_draws = 1;
 		return 0;
@@ -694,7 +694,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		}
 		cut[i] = *slot;
 	}
-	if (gls_geometry_cut(g, mode, 0, count, cut))
+	if (gls_geometry_cut(g, mode, 0, count, cut, (int)st->a.lighting.first_provokes))
 		goto fail;
 	g->n_draws = 1;
 	return 0;
@@ -705,7 +705,7 @@ fail:
 
 static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
 {
-	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1 };
+	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
 
 	if (st->list) {
 		atomic_fetch_add(&mesh->refs, 1);

@@ -170,7 +170,16 @@ static unsigned flags(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k
 	return edges & (edge[vertex_of(c, i)] | edge[vertex_of(c, j)] << 1 | edge[vertex_of(c, k)] << 2);
 }
 
-int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements)
+/* The triangle with its provoking vertex last: i, or k as it is. */
+static void put_provoked(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges, int first_provokes)
+{
+	if (first_provokes)
+		put_triangle(c, j, k, i, (edges >> 1 | edges << 2) & 7);
+	else
+		put_triangle(c, i, j, k, edges);
+}
+
+int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes)
 {
 	const struct cutter c = { g, elements, first };
 	uint32_t i;
@@ -195,17 +204,19 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 		break;
 	case GL_TRIANGLES:
 		for (i = 0; i + 2 < count; i += 3)
-			put_triangle(&c, i, i + 1, i + 2, flags(&c, i, i + 1, i + 2, 7));
+			put_provoked(&c, i, i + 1, i + 2, flags(&c, i, i + 1, i + 2, 7), first_provokes);
 		break;
 	case GL_TRIANGLE_STRIP:
-		for (i = 2; i < count; i++)
+		for (i = 2; i < count && first_provokes; i++)
+			put_provoked(&c, i - 2, i + (i & 1) - 1, i - (i & 1), 7, 1);
+		for (i = 2; i < count && !first_provokes; i++)
 			put_triangle(&c, i + (i & 1) - 2, i - (i & 1) - 1, i, 7);
 		break;
 	case GL_TRIANGLE_FAN:
 		for (i = 2; i < count; i++)
-			put_triangle(&c, 0, i - 1, i, 7);
+			put_triangle(&c, first_provokes ? i : 0, first_provokes ? 0 : i - 1, first_provokes ? i - 1 : i, 7);
 		break;
-	case GL_QUADS:
+	case GL_QUADS: /* llvmpipe has quads follow the last vertex in any case */
 		for (i = 0; i + 3 < count; i += 4) {
 			put_triangle(&c, i, i + 1, i + 3, flags(&c, i, i + 1, i + 3, 1 | 4));
 			put_triangle(&c, i + 1, i + 2, i + 3, flags(&c, i + 1, i + 2, i + 3, 1 | 2));

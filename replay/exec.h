@@ -145,9 +145,11 @@ enum scene_primitive gls_mode_kind(uint32_t mode);
 /**
  * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
+ * @param first_provokes  1: separate triangles, strips and fans go by FIRST_VERTEX_CONVENTION (ARB_provoking_vertex); lines, which
+ *                  have a direction, are left to who draws them
  * @return 0 or ERR_SYSTEM
  */
-int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements);
+int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
 /**
  * Cut the other way, from the first to the third vertex, the quads of a geometry that holds nothing else: llvmpipe does so with
  * quads that come without indices (not in lists, then), are shaded smoothly, and of which nothing has to be clipped.
@@ -181,6 +183,7 @@ struct gls_op_mesh {
 	uint32_t before, after; /* attributes set before the first vertex, and to be set after the last: 1 << attribute */
 	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
 	uint32_t n_draws;
+	uint32_t first_provokes; /* as it was cut */
 };
 struct gls_list {
 	struct gls_op *ops;

@@ -217,6 +217,17 @@ GLS_HANDLER(glShadeModel, STATE)
 		st->a.lighting.shade_model = model;
 }
 
+/* ARB_provoking_vertex (GL 3.2 sec. 2.21): which vertex of a primitive gives it its colour under FLAT. */
+GLS_HANDLER(glProvokingVertex, STATE)
+{
+	uint32_t mode = arg_u(c, 0);
+
+	if (mode != GL_FIRST_VERTEX_CONVENTION && mode != GL_LAST_VERTEX_CONVENTION)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->a.lighting.first_provokes = mode == GL_FIRST_VERTEX_CONVENTION;
+}
+
 /* ---- fog, sec. 3.10 ---- */
 
 static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)

@@ -212,6 +212,8 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	set_attributes(x, st, op->before, op->before_values);
 	if (!st->a.current.edge_flag && op->mesh)
 		gls_unsupported(x, "edge flags that are off when a list is called");
+	if (op->mesh && op->first_provokes != st->a.lighting.first_provokes && st->a.lighting.shade_model == GL_FLAT)
+		gls_unsupported(x, "lists made under another glProvokingVertex than they are called under");
 	if (op->mesh)
 		gls_frame_add(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 	set_attributes(x, st, op->after, op->after_values);
@@ -340,7 +342,7 @@ static const float (*keep_values(struct gls_list *list, uint32_t mask, const flo
 static int keep_run(struct gls_exec *x, struct gls_list *list, const struct run *run)
 {
 	struct gls_geometry *g = &x->geometry;
-	struct gls_op_mesh op = { .n_draws = g->n_draws };
+	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = x->assembling->a.lighting.first_provokes };
 
 	op.before = run->known & ~g->given;
 	op.after = run->set;
@@ -496,8 +498,10 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 	if (!x->assembling)
 		x->assembling = calloc(1, sizeof(*x->assembling));
 	failed |= !x->assembling;
-	if (x->assembling)
+	if (x->assembling) {
 		x->assembling->a.current.edge_flag = 1;
+		x->assembling->a.lighting.first_provokes = x->st->a.lighting.first_provokes;
+	}
 	x->geometry = x->compiling;
 	x->want = 1;
 	for (uint32_t i = 0; i < list->n && !failed;) {

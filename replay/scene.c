@@ -357,6 +357,7 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	m.normalize = a->transform.normalize;
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
+	m.first_provokes = a->lighting.first_provokes;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		m.unit_count += (uint32_t)fill_unit(x, f, st, u, &units[m.unit_count]);
 	m.unit_first = intern_run(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
@@ -683,7 +684,7 @@ void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const str
 	memcpy(g->position, corner, 16);
 	g->edge[0] = 1;
 	g->n_vertices = 1;
-	if (gls_geometry_cut(g, GL_POINTS, 0, 1, NULL) || !(g->n_draws = 1) || !(mesh = gls_geometry_mesh(x, g)))
+	if (gls_geometry_cut(g, GL_POINTS, 0, 1, NULL, 0) || !(g->n_draws = 1) || !(mesh = gls_geometry_mesh(x, g)))
 		return;
 	st->dirty |= GLS_DIRTY_ALL;
 	add(x, st, &(struct event){ mesh, values, x->command, x->call->number, r, image });

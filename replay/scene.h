@@ -85,6 +85,7 @@ struct scene_material {
 	uint32_t color_material_mode; /* GL token */
 	uint32_t normalize, rescale_normal;
 	uint32_t shade_model; /* GL token: FLAT, SMOOTH. Flat takes the last vertex of each primitive */
+	uint32_t first_provokes; /* 1: but of a line the first one */
 
 	/* texturing: scene.units[unit_first .. +unit_count), in ascending order of unit */
 	uint32_t unit_first, unit_count;

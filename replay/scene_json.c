@@ -112,6 +112,7 @@ static void write_material(struct json *j, const struct scene_material *m)
 	UINT(m, normalize);
 	UINT(m, rescale_normal);
 	UINT(m, shade_model);
+	UINT(m, first_provokes);
 	UINT(m, unit_first);
 	UINT(m, unit_count);
 	UINT(m, color_sum);

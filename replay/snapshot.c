@@ -177,7 +177,7 @@ static void put_op(struct saver *s, const struct gls_op *op)
 	} else if (op->form == GLS_OP_MESH) {
 		put_values4(s->out, op->mesh->before, op->mesh->before_values);
 		put_values4(s->out, op->mesh->after, op->mesh->after_values);
-		bytes_put_u64(s->out, op->mesh->n_draws);
+		bytes_put_u64(s->out, (uint64_t)op->mesh->first_provokes << 32 | op->mesh->n_draws);
 		bytes_put_u64(s->out, op->mesh->mesh != NULL);
 		if (op->mesh->mesh)
 			put_mesh(s, op->mesh->mesh);
@@ -712,6 +712,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 	struct gls_op_mesh *kept;
 	struct gls_pixel_store *unpack;
 	struct trace_value *args;
+	uint64_t n_draws;
 	float *floats;
 
 	op->form = (uint16_t)cursor_u64(&l->in);
@@ -744,7 +745,9 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 	memset(kept, 0, sizeof(*kept));
 	kept->before_values = get_values4(l, &list->arena, &kept->before);
 	kept->after_values = get_values4(l, &list->arena, &kept->after);
-	kept->n_draws = (uint32_t)cursor_u64(&l->in);
+	n_draws = cursor_u64(&l->in);
+	kept->n_draws = (uint32_t)n_draws;
+	kept->first_provokes = n_draws >> 32 & 1;
 	if (cursor_u64(&l->in))
 		kept->mesh = get_mesh(l);
 }
@@ -977,7 +980,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34348,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34344,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));

@@ -64,6 +64,7 @@ struct gls_lighting {
 	float model_ambient[4];
 	uint32_t local_viewer, two_side, separate_specular;
 	uint32_t shade_model;
+	uint32_t first_provokes; /* ARB_provoking_vertex: 1 FIRST_VERTEX_CONVENTION */
 	struct gls_light lights[GLS_MAX_LIGHTS];
 };
 

@@ -133,7 +133,7 @@ GLS_HANDLER(glEnd, INSIDE)
 		return;
 	}
 	if (x->want) {
-		if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL))
+		if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes))
 			gls_out_of_memory(x, 0);
 		g->n_draws++;
 	}
@@ -149,7 +149,8 @@ GLS_HANDLER(glPrimitiveRestartNV, INSIDE)
 		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
 	}
-	if (x->want && gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL))
+	if (x->want && gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL,
+	                                (int)st->a.lighting.first_provokes))
 		gls_out_of_memory(x, 0);
 	g->begin_vertex = g->n_vertices;
 }

@@ -664,7 +664,7 @@ static int expand_line(const struct expand_input *in, struct expanded *out, uint
 	if (primitive == 0 || index[0] != index[-1])
 		stipple->counter = 0;
 	if (in->material->shade_model == GL_FLAT)
-		take_color(&a, &b);
+		take_color(in->material->first_provokes ? &b : &a, in->material->first_provokes ? &a : &b);
 	return line(in, out, a, b, 0, draw, stipple);
 }
 

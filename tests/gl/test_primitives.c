@@ -48,6 +48,39 @@ START_TEST(test_cut)
 }
 END_TEST
 
+/* ARB_provoking_vertex: what goes by the first vertex; lists were cut when they were made, which is told where it shows. */
+START_TEST(test_provoking)
+{
+	static const uint32_t strip[] = { 1, 2, 0, 3, 2, 1 }, fan[] = { 2, 0, 1, 3, 0, 2 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
+	vertices(&gl, GL_TRIANGLES, 3);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glProvokingVertex", "e", GL_FIRST_VERTEX_CONVENTION);
+	gl_call(&gl, "glProvokingVertexEXT", "e", GL_FLAT);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glCallList", "u", 1u);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glPushAttrib", "m", GL_LIGHTING_BIT);
+	gl_call(&gl, "glShadeModel", "e", GL_FLAT);
+	gl_call(&gl, "glCallList", "u", 1u);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_call(&gl, "glProvokingVertex", "e", GL_LAST_VERTEX_CONVENTION);
+	gl_call(&gl, "glPopAttrib", "");
+	vertices(&gl, GL_TRIANGLE_STRIP, 4);
+	gl_call(&gl, "glShadeModel", "e", GL_FLAT); /* a mesh of its own */
+	vertices(&gl, GL_TRIANGLE_FAN, 4);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 4);
+	ck_assert_mem_eq(s->meshes[s->instances[2].mesh]->index, strip, sizeof(strip));
+	ck_assert_mem_eq(s->meshes[s->instances[3].mesh]->index, fan, sizeof(fan));
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Sec. 2.6.2: inner edges of what is cut are no edges; flags count for polygons and quads. */
 START_TEST(test_edges)
 {
@@ -246,5 +279,5 @@ START_TEST(test_turned_quads)
 }
 END_TEST
 
-GL_TESTS("primitives", test_cut, test_turned_quads, test_edges, test_varying, test_constant_and_same_mesh, test_merged_runs, test_errors,
-         test_material_inside)
+GL_TESTS("primitives", test_cut, test_provoking, test_turned_quads, test_edges, test_varying, test_constant_and_same_mesh, test_merged_runs,
+         test_errors, test_material_inside)

@@ -171,9 +171,37 @@ static void octagon(void)
 	glDisable(GL_BLEND);
 }
 
+/* All kinds of primitives, each vertex of another colour, under flat shading by either convention (ARB_provoking_vertex). */
+static void provoking(void)
+{
+	static const unsigned modes[] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON, GL_LINES,
+		                          GL_LINE_STRIP, GL_LINE_LOOP };
+
+	glShadeModel(GL_FLAT);
+	for (int k = 0; k < 2; k++) {
+		glProvokingVertex(k ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
+		for (int m = 0; m < 9; m++) {
+			float x0 = 7 * (float)m + 3.5f, y0 = 24 * (float)k + 12;
+
+			glBegin(modes[m]);
+			for (int i = 0; i < 12; i++) {
+				int round = m == 2 || m == 5 || m == 8;
+				float a = 0.5f * (float)i, x = round ? 3.2f * cosf(a) : (float)(i % 2 ? 3 : -3), y = round ? 10 * sinf(a) : 1.8f * (float)(i / 2) - 5;
+
+				if (m == 3 && i % 4 > 1)
+					x = -x;
+				glColor3f((float)(i & 1), (float)(i >> 1 & 1) * 0.9f, (float)(i >> 2) / 3);
+				glVertex2f(x0 + x, y0 + y);
+			}
+			glEnd();
+		}
+	}
+	glShadeModel(GL_SMOOTH);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon };
+	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon, provoking };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
