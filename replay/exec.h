@@ -185,13 +185,26 @@ struct gls_op_mesh {
 	uint32_t n_draws;
 	uint32_t first_provokes; /* as it was cut */
 };
+/* What a list leaves behind when nothing is drawn (effect.c). All zero: not made yet. */
+struct gls_effect {
+	struct gls_op *ops; /* owned; what they point to belongs to the lists they come from */
+	uint32_t n;
+	uint32_t pushes, nesting; /* of the matrix stack and of lists, as far as they are left out */
+	uint32_t n_made, none;    /* how often it was; 1: there is none */
+	uint64_t epoch;           /* of the share group when it was made, + 1 */
+};
 struct gls_list {
 	struct gls_op *ops;
 	uint32_t n, room;
 	struct arena arena;
+	struct gls_effect effect;
+	uint32_t inlined, skipped; /* 1: effects of other lists may hold ops of this one; calls of it in frames that were skipped */
 	uint64_t name[2], bytes, held; /* of its blob, and of that and its meshes' together (snapshot.c); held 0: not known yet */
 };
+#define GLS_MAX_LIST_NESTING 64
 void gls_list_free(struct gls_list *list);
+/** What to run in place of a list that is called now: its effect, borrowed until lists or textures go; NULL: the list itself. */
+const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_state *st, struct gls_list *list);
 /** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c);
 /** Keep a mesh in it (takes the reference). */
@@ -228,6 +241,7 @@ struct gls_share {
 	struct table programs;                 /* ARB program name -> target + 1 */
 	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
 	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
+	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */
 };
 
 struct gls_context {
@@ -368,6 +382,11 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 
 /* Handlers that others call as part of what they do. */
 gls_handler gls_glBegin, gls_glEnd, gls_glBindFramebuffer, gls_glBindRenderbuffer;
+/* Handlers that effect.c knows something of. */
+gls_handler gls_glTranslatef, gls_glTranslated, gls_glRotatef, gls_glRotated, gls_glScalef, gls_glScaled, gls_glMultMatrixf,
+	gls_glMultMatrixd, gls_glLoadIdentity, gls_glLoadMatrixf, gls_glLoadMatrixd, gls_glPushMatrix, gls_glPopMatrix,
+	gls_glMatrixMode, gls_glCallList, gls_glBindTexture, gls_glActiveTexture, gls_glPopAttrib, gls_glEdgeFlag, gls_glEdgeFlagv,
+	gls_glMaterialf, gls_glMaterialfv, gls_glMateriali, gls_glMaterialiv;
 
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);

@@ -11,7 +11,6 @@
 #include "base/err.h"
 #include "replay/exec.h"
 
-#define MAX_NESTING 64
 #define MAX_PACKED 16
 
 /* ---- keeping calls ---- */
@@ -163,6 +162,7 @@ void gls_list_free(struct gls_list *list)
 		if (list->ops[i].form == GLS_OP_MESH)
 			gls_mesh_release(list->ops[i].mesh->mesh);
 	free(list->ops);
+	free(list->effect.ops);
 	arena_free(&list->arena);
 	free(list);
 }
@@ -232,15 +232,22 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_list *list = table_find(&st->share->lists, name);
 	struct trace_value args[MAX_PACKED + 1];
-	uint32_t command = x->command;
-	struct call c = call_of_list(x);
+	const struct gls_effect *effect;
+	uint32_t command = x->command, n;
+	const struct gls_op *ops;
+	struct call c;
 
-	if (!list || x->list_depth == MAX_NESTING)
+	if (!list || x->list_depth == GLS_MAX_LIST_NESTING)
 		return;
+	effect = gls_effect_of(x, st, list);
+	ops = effect ? effect->ops : list->ops;
+	n = effect ? effect->n : list->n;
+	if (n == 0)
+		return;
+	c = call_of_list(x);
 	if (x->list_depth++ == 0)
 		x->drawn_list = name;
-	for (uint32_t i = 0; i < list->n && !x->failed; i++) {
-		const struct gls_op *op = &list->ops[i];
+	for (const struct gls_op *op = ops; op < ops + n && !x->failed; op++) {
 		if (op->form == GLS_OP_MESH) {
 			run_mesh(x, st, op->mesh);
 			continue;
@@ -561,8 +568,10 @@ static void remove_list(struct gls_state *st, uint32_t name)
 {
 	struct gls_list *list = table_remove(&st->share->lists, name);
 
-	if (list)
-		gls_list_free(list);
+	if (!list)
+		return;
+	st->share->epoch += list->inlined;
+	gls_list_free(list);
 }
 
 GLS_HANDLER(glEndList, NOW)

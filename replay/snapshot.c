@@ -365,6 +365,12 @@ static uint64_t context_of(const struct gls_exec *x, const struct gls_state *st)
 	return i;
 }
 
+/* What was pushed once, and is not read again: it differs with what was left out of lists that drew nothing (effect.c). */
+static void clear_unused(struct gls_matrix_stack *stack)
+{
+	memset(stack->matrices[stack->depth + 1], 0, (GLS_MAX_MATRICES - 1 - stack->depth) * sizeof(stack->matrices[0]));
+}
+
 static void put_state(struct saver *s, const struct gls_state *st)
 {
 	struct gls_state raw = *st;
@@ -377,6 +383,11 @@ static void put_state(struct saver *s, const struct gls_state *st)
 	raw.maps = NULL;
 	memset(&raw.vertex_arrays, 0, sizeof(raw.vertex_arrays));
 	raw.dirty = GLS_DIRTY_ALL;
+	clear_unused(&raw.modelview);
+	clear_unused(&raw.projection);
+	clear_unused(&raw.color_matrix);
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		clear_unused(&raw.texture[u]);
 	section(s, "struct gls_state of context", context_of(s->x, st));
 	bytes_put(s->out, &raw, sizeof(raw));
 	section(s, "array memory of context", context_of(s->x, st));
@@ -766,7 +777,7 @@ static struct gls_list *get_list(struct loader *l)
 		free(list);
 		return NULL;
 	}
-	KNOWN(struct gls_list, 72);
+	KNOWN(struct gls_list, 120);
 	KNOWN(struct gls_op, 24);
 	KNOWN(struct gls_pixel_store, 36);
 	KNOWN(struct gls_op_mesh, 40);
@@ -878,7 +889,7 @@ static void get_share(struct loader *l, struct gls_share *share)
 {
 	uint64_t n, key;
 
-	KNOWN(struct gls_share, 192);
+	KNOWN(struct gls_share, 200);
 	KNOWN(struct gls_framebuffer, 296);
 	n = get_count(l, 32);
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {

@@ -180,6 +180,7 @@ GLS_HANDLER(glDeleteTextures, NOW)
 {
 	uint64_t n;
 	const struct trace_value *names = arg_items(c, 1, &n);
+	struct gls_texture *t;
 
 	gls_flush(x);
 	st->dirty |= GLS_DIRTY_MATERIAL;
@@ -188,7 +189,9 @@ GLS_HANDLER(glDeleteTextures, NOW)
 		if (!name)
 			continue;
 		gls_texture_detach(x, st, name);
-		gls_texture_free(table_remove(&st->share->textures, name));
+		t = table_remove(&st->share->textures, name);
+		st->share->epoch += t != NULL;
+		gls_texture_free(t);
 		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 			for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
 				if (st->a.texturing.units[u].bound[target] == name)
