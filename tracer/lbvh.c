@@ -32,7 +32,7 @@ struct place {
 /* A subtree to be filled by one thread: items first .. first + count - 1, nodes from `first` on, `used` in the end. */
 struct part {
 	uint32_t first, count, depth;
-	uint32_t used;
+	uint32_t used, place; /* place: where its nodes go in the end */
 	uint32_t child, n_items; /* what leads to it, its nodes numbered as they lie */
 	box8 box;
 };
@@ -43,9 +43,11 @@ struct build {
 	struct place *from, *to; /* sorting: exchanged after each pass */
 	uint32_t *counts;        /* [thread chunk][DIGITS]: of a digit, then where it goes */
 	uint32_t chunk, n_chunks, shift;
+	struct bvh_box *bounds;  /* [chunk] around centres */
 	float lo[3], scale;
 	box8 *sorted;            /* [n] boxes in the order of the items: read one after the other, as nodes are made */
 	struct node2 *nodes;     /* [n - 1] of the parts */
+	struct node2 *out;
 	struct part *parts;
 	uint32_t n_parts;
 	uint32_t *order;
@@ -71,6 +73,36 @@ static uint32_t chunk_end(const struct build *b, uint32_t chunk)
 	const uint32_t end = (chunk + 1) * b->chunk;
 
 	return end < b->n ? end : b->n;
+}
+
+static void find_bounds(void *arg, const void *task)
+{
+	struct build *b = arg;
+	const uint32_t chunk = *(const uint32_t *)task;
+	struct bvh_box bounds = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+
+	for (uint32_t i = chunk * b->chunk; i < chunk_end(b, chunk); i++)
+		for (int a = 0; a < 3; a++) {
+			const float at = centre(&b->boxes[i], a);
+
+			bounds.lo[a] = at < bounds.lo[a] ? at : bounds.lo[a];
+			bounds.hi[a] = at > bounds.hi[a] ? at : bounds.hi[a];
+		}
+	b->bounds[chunk] = bounds;
+}
+
+/* Cells of the curve are cubes: an axis along which there is little has something to say only where cells are small. */
+static void set_scale(struct build *b)
+{
+	struct bvh_box all = b->bounds[0];
+	float widest = 0;
+
+	for (uint32_t i = 1; i < b->n_chunks; i++)
+		bvh_box_join(&all, &b->bounds[i]);
+	for (int a = 0; a < 3; a++)
+		widest = all.hi[a] - all.lo[a] > widest ? all.hi[a] - all.lo[a] : widest;
+	memcpy(b->lo, all.lo, sizeof(b->lo));
+	b->scale = widest > 0 ? (1 << AXIS_BITS) / widest : 0;
 }
 
 static void make_codes(void *arg, const void *task)
@@ -126,6 +158,8 @@ static void run_chunks(struct build *b, struct forks *forks, unsigned threads, f
 /* By code, and of equal codes by item: passes keep the order of the one before. */
 static void sort(struct build *b, struct forks *forks, unsigned threads)
 {
+	run_chunks(b, forks, threads, find_bounds);
+	set_scale(b);
 	run_chunks(b, forks, threads, make_codes);
 	for (int pass = 0; pass < PASSES; pass++) {
 		struct place *swap = b->from;
@@ -261,36 +295,35 @@ static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32
 	}
 }
 
-/* Behind the levels above them, the nodes of all parts, in the order of their items. */
-static uint32_t gather(const struct build *b, struct node2 *nodes, uint32_t n_top)
+/* A part's nodes to their place. */
+static void move_part(void *arg, const void *task)
 {
-	uint32_t n = n_top;
+	const struct build *b = arg;
+	const struct part *part = &b->parts[*(const uint32_t *)task];
 
-	for (uint32_t p = 0; p < b->n_parts; p++) {
-		struct part *part = &b->parts[p];
+	for (uint32_t i = 0; i < part->used; i++) {
+		struct node2 *node = &b->out[part->place + i];
 
-		for (uint32_t i = 0; i < part->used; i++) {
-			struct node2 *node = &nodes[n + i];
-
-			*node = b->nodes[part->first + i];
-			for (int side = 0; side < 2; side++)
-				if (!node->count[side])
-					node->child[side] += n - part->first;
-		}
-		if (!part->n_items)
-			part->child += n - part->first;
-		n += part->used;
+		*node = b->nodes[part->first + i];
+		for (int side = 0; side < 2; side++)
+			if (!node->count[side])
+				node->child[side] += part->place - part->first;
 	}
+}
+
+/* What leads from the levels above to the parts, and the boxes there. */
+static void close_top(const struct build *b, uint32_t n_top)
+{
 	for (uint32_t i = n_top; i-- > 0;)
 		for (int side = 0; side < 2; side++) {
-			struct node2 *node = &nodes[i];
+			struct node2 *node = &b->out[i];
 
 			if (node->count[side] == IS_PART) {
 				const struct part *part = &b->parts[node->child[side]];
 
 				set_side(node, side, part->box, part->child, part->n_items);
 			} else {
-				const struct node2 *below = &nodes[node->child[side]];
+				const struct node2 *below = &b->out[node->child[side]];
 
 				for (int a = 0; a < 3; a++) {
 					node->lo[side][a] = fminf(below->lo[0][a], below->lo[1][a]);
@@ -298,26 +331,34 @@ static uint32_t gather(const struct build *b, struct node2 *nodes, uint32_t n_to
 				}
 			}
 		}
-	return n;
 }
 
-/* Cells of the curve are cubes: an axis along which there is little has something to say only where cells are small. */
-static void set_scale(struct build *b)
+static void run_parts(struct build *b, struct forks *forks, unsigned threads, forks_do *run)
 {
-	float hi[3] = { -INFINITY, -INFINITY, -INFINITY }, widest = 0;
+	for (uint32_t i = 0; i < b->n_parts; i++)
+		forks_add(forks, &i);
+	forks_run(forks, threads, run, b);
+}
 
-	for (int a = 0; a < 3; a++)
-		b->lo[a] = INFINITY;
-	for (uint32_t i = 0; i < b->n; i++)
-		for (int a = 0; a < 3; a++) {
-			const float at = centre(&b->boxes[i], a);
+/* Over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their items */
+static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threads)
+{
+	uint32_t n_top = 0, child, count, n;
 
-			b->lo[a] = at < b->lo[a] ? at : b->lo[a];
-			hi[a] = at > hi[a] ? at : hi[a];
-		}
-	for (int a = 0; a < 3; a++)
-		widest = hi[a] - b->lo[a] > widest ? hi[a] - b->lo[a] : widest;
-	b->scale = widest > 0 ? (1 << AXIS_BITS) / widest : 0;
+	lay_out(b, b->out, &n_top, 0, b->n, 0, &child, &count);
+	run_parts(b, forks, threads, fill_part);
+	n = n_top;
+	for (uint32_t p = 0; p < b->n_parts; p++) {
+		struct part *part = &b->parts[p];
+
+		part->place = n;
+		if (!part->n_items)
+			part->child += n - part->first;
+		n += part->used;
+	}
+	run_parts(b, forks, threads, move_part);
+	close_top(b, n_top);
+	return n;
 }
 
 int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
@@ -325,9 +366,8 @@ int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max,
 {
 	/* At each of the levels, parts of 2 * GRAIN items and more are divided. */
 	const uint32_t most_parts = BVH_MAX_DEPTH * (n / (2 * GRAIN) + 1) + 1;
-	struct build b = { .boxes = boxes, .n = n, .leaf_max = leaf_max, .order = order, .chunk = 4 * GRAIN };
+	struct build b = { .boxes = boxes, .n = n, .leaf_max = leaf_max, .out = nodes, .order = order, .chunk = 4 * GRAIN };
 	struct forks forks = { 0 };
-	uint32_t n_top = 0, child, count;
 	int err = 0;
 
 	if (n < 2)
@@ -335,11 +375,12 @@ int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max,
 	b.n_chunks = (n - 1) / b.chunk + 1;
 	b.from = malloc(n * sizeof(*b.from));
 	b.to = malloc(n * sizeof(*b.to));
+	b.bounds = malloc(b.n_chunks * sizeof(*b.bounds));
 	b.counts = malloc((size_t)b.n_chunks * DIGITS * sizeof(*b.counts));
 	b.nodes = malloc(n * sizeof(*b.nodes));
 	b.sorted = aligned_alloc(32, n * sizeof(*b.sorted));
 	b.parts = aligned_alloc(32, (most_parts * sizeof(*b.parts) + 31) / 32 * 32);
-	if (!b.sorted || !b.from || !b.to || !b.counts || !b.nodes || !b.parts)
+	if (!b.sorted || !b.from || !b.to || !b.bounds || !b.counts || !b.nodes || !b.parts)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err)
 		err = forks_init(&forks, sizeof(uint32_t), most_parts > b.n_chunks ? most_parts : b.n_chunks);
@@ -347,17 +388,13 @@ int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max,
 		goto done;
 	if (n < 2 * GRAIN)
 		threads = 1;
-	set_scale(&b);
 	sort(&b, &forks, n < SORT_ALONE ? 1 : threads);
-	lay_out(&b, nodes, &n_top, 0, n, 0, &child, &count);
-	for (uint32_t i = 0; i < b.n_parts; i++)
-		forks_add(&forks, &i);
-	forks_run(&forks, threads, fill_part, &b);
-	*n_nodes = gather(&b, nodes, n_top);
+	*n_nodes = build_nodes(&b, &forks, threads);
 	forks_free(&forks);
 done:
 	free(b.from);
 	free(b.to);
+	free(b.bounds);
 	free(b.counts);
 	free(b.nodes);
 	free(b.sorted);
