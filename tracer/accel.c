@@ -17,8 +17,9 @@
  */
 #define REFIT_TRIANGLES 256
 #define REFIT_COST 1.25
-/* Frames that a BLAS nobody used stays in the pools. */
+/* Frames that a BLAS nobody used stays in the pools, and which share of them such ones may be: closing gaps moves all that follows. */
 #define KEEP_FRAMES 16
+#define UNUSED_SHARE 0.5
 
 /* Smaller ones each worker makes for itself: that is as quick as waiting for another one. */
 #define SHARE_TRIANGLES 256
@@ -122,6 +123,19 @@ void accel_destroy(struct accel **accel)
 	free(a);
 }
 
+struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part)
+{
+	const struct part pool = part_of((struct accel *)accel, part);
+
+	return (struct accel_pool){ *pool.items, *pool.n, accel->same[part] };
+}
+
+void accel_copied(struct accel *accel)
+{
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		accel->same[part] = *part_of(accel, part).n;
+}
+
 /* --- finding BLASes --- */
 
 static size_t table_slot(const struct accel_cache *cache, const uint64_t hash[2])
@@ -180,23 +194,38 @@ static void move_down(struct accel *accel, struct blas *blas, size_t ends[N_BOTT
 		const size_t bytes = bottom_item_bytes[part], n = blas->bottom.n[part];
 		char *items = *part_of(accel, part).items;
 
-		if (n && blas->first[part] != ends[part])
+		if (n && blas->first[part] != ends[part]) {
 			memmove(items + ends[part] * bytes, items + blas->first[part] * bytes, n * bytes);
+			accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
+		}
 		blas->first[part] = ends[part];
 		ends[part] += n;
 	}
 }
 
-/* Take out what was not used for a while, and what was baked for the last frame; close the gaps. */
+/* Is there much that was not used for a while? */
+static int much_is_unused(const struct accel *accel)
+{
+	const struct accel_cache *cache = accel->cache;
+	size_t unused = 0;
+
+	for (size_t i = 0; i < cache->n; i++)
+		if (cache->entries[i].last_use + KEEP_FRAMES < cache->frame)
+			unused += cache->entries[i].bottom.n[BOTTOM_TRIANGLES];
+	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
+}
+
+/* Take out what was not used for a while where that is much, and what was baked for the last frame; close the gaps. */
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
+	const int drop = much_is_unused(accel);
 	size_t n = 0, ends[N_BOTTOM_PARTS] = { 0 };
 
 	for (size_t i = 0; i < cache->n; i++) {
 		struct blas b = cache->entries[i];
 
-		if (b.baked || b.last_use + KEEP_FRAMES < cache->frame)
+		if (b.baked || (drop && b.last_use + KEEP_FRAMES < cache->frame))
 			continue;
 		move_down(accel, &b, ends);
 		cache->entries[n++] = b;
@@ -204,8 +233,10 @@ static int drop_unused(struct accel *accel)
 	if (n == cache->n)
 		return 0;
 	cache->n = n;
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
 		*part_of(accel, part).n = ends[part];
+		accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
+	}
 	accel->generation++;
 	return table_rebuild(cache);
 }

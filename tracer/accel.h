@@ -28,7 +28,8 @@ struct accel {
 	struct node8c *nodes8c;
 	struct triangle *triangles8c; /* leaf order of nodes8c */
 	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8, n_faces8, n_nodes8c, n_triangles8c;
-	uint64_t generation; /* grows whenever the pools above changed: upload again */
+	uint64_t generation; /* grows whenever the pools above changed */
+	size_t same[N_BOTTOM_PARTS]; /* items at the front of each pool that are as they were when accel_copied was called last */
 
 	/* Of the current frame: leaves of both hold indices into instance_list. */
 	struct node2 *top2;
@@ -52,7 +53,7 @@ void accel_destroy(struct accel **accel);
 /**
  * Find or build the BLASes of a frame's instances (accel->kind), then its top levels.
  *
- * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use. A mesh of the same
+ * BLASes are kept across frames by the mesh's hash, and dropped some frames after their last use, once they are a good part of all. A mesh of the same
  * triangles as one of these but with other vertices gets its tree with other boxes, as long as that does not cost much
  * more than when it was built, else a binned one (ACCEL_BVH). Those of INSTANCE_BAKED instances live for one frame.
  * Triangles with a vertex that is not finite are left out; those with a vertex at w <= 0 cannot be bounded and stay as
@@ -76,5 +77,15 @@ void accel_destroy(struct accel **accel);
 int accel_build_frame(struct accel *accel, const struct scene *scene, const struct scene_mesh *const *extra,
                       const float (*eye_vertices)[4], struct instance *instances, uint32_t n, struct view *views,
                       const struct accel_space **spaces, uint32_t *n_spaces);
+
+/* One of the pools: its items, how many, and how many of these, from the first on, are those that its user has a copy of. */
+struct accel_pool {
+	const void *items;
+	size_t n, same;
+};
+struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part);
+
+/** Its user has a copy of all pools now. */
+void accel_copied(struct accel *accel);
 
 #endif

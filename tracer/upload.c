@@ -140,36 +140,59 @@ int upload_state(struct job *job)
 	return err;
 }
 
-/* Those of meshes. */
-static int upload_mesh_trees(struct tracer *tr, const struct accel *a)
+/* One pool of those of meshes: what is not there yet, or all of it where the buffer has to grow. */
+static int upload_pool(struct tracer *tr, enum bottom_part part, enum buffer buffer)
 {
-	enum device_family family = device_family(tr->dev);
+	const struct accel_pool pool = accel_pool(tr->accel, part);
+	const size_t size = bottom_item_bytes[part];
+	size_t from = pool.same;
 	int err = 0;
 
-	if (family == FAMILY_COMPRESSED) {
-		err = upload(tr, BUFFER_NODES8C, a->nodes8c, a->n_nodes8c, sizeof(*a->nodes8c));
-		return err ? err : upload(tr, BUFFER_TRIANGLES8C, a->triangles8c, a->n_triangles8c, sizeof(*a->triangles8c));
+	if (!tr->buffers[buffer] || pool.n > tr->tree_room[part]) {
+		/* A buffer that grew once will again. */
+		const size_t room = tr->buffers[buffer] ? pool.n + pool.n / 4 : pool.n;
+
+		err = reserve(tr, buffer, room, size);
+		tr->tree_room[part] = err ? 0 : room;
+		from = 0;
 	}
-	if (family == FAMILY_BINARY) {
-		err = upload(tr, BUFFER_NODES2, a->nodes2, a->n_nodes2, sizeof(*a->nodes2));
-		return err ? err : upload(tr, BUFFER_TRIANGLES, a->triangles, a->n_triangles, sizeof(*a->triangles));
-	}
-	err = upload(tr, BUFFER_NODES8, a->nodes8, a->n_nodes8, sizeof(*a->nodes8));
+	if (err || from == pool.n)
+		return err;
+	return device_write(tr->dev, tr->buffers[buffer], from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+}
+
+/* What the device's kernels walk of them. */
+static int upload_mesh_trees(struct tracer *tr)
+{
+	static const struct {
+		enum bottom_part part;
+		enum buffer buffer;
+		unsigned families;
+	} pools[] = {
+		{ BOTTOM_NODES2, BUFFER_NODES2, 1u << FAMILY_BINARY },
+		{ BOTTOM_TRIANGLES, BUFFER_TRIANGLES, 1u << FAMILY_BINARY },
+		{ BOTTOM_NODES8, BUFFER_NODES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_TRIANGLES8, BUFFER_TRIANGLES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_FACES8, BUFFER_FACES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_NODES8C, BUFFER_NODES8C, 1u << FAMILY_COMPRESSED },
+		{ BOTTOM_TRIANGLES8C, BUFFER_TRIANGLES8C, 1u << FAMILY_COMPRESSED },
+	};
+	int err = 0;
+
+	for (size_t i = 0; i < sizeof(pools) / sizeof(pools[0]) && !err; i++)
+		if (pools[i].families >> device_family(tr->dev) & 1)
+			err = upload_pool(tr, pools[i].part, pools[i].buffer);
 	if (!err)
-		err = upload(tr, BUFFER_TRIANGLES8, a->triangles8, a->n_triangles8, sizeof(*a->triangles8));
-	return err ? err : upload(tr, BUFFER_FACES8, a->faces8, a->n_faces8, sizeof(*a->faces8));
+		accel_copied(tr->accel);
+	return err;
 }
 
 int upload_trees(struct job *job)
 {
 	struct tracer *tr = job->tr;
 	const struct accel *a = tr->accel;
-	int err = 0;
+	int err = upload_mesh_trees(tr);
 
-	if (a->generation != tr->uploaded || !tr->buffers[BUFFER_TOP2]) {
-		err = upload_mesh_trees(tr, a);
-		tr->uploaded = a->generation;
-	}
 	if (!err)
 		err = upload(tr, BUFFER_TOP2, a->top2, a->n_top2, sizeof(*a->top2));
 	if (!err)

@@ -295,6 +295,41 @@ START_TEST(meshes_are_kept_and_dropped)
 }
 END_TEST
 
+/* What accel_pool says is as it was, is: meshes come, move and go, and a copy is kept up as the tracer keeps its device's. */
+START_TEST(copies_are_kept_up)
+{
+	struct random_scene *s = random_scene_create(3);
+	char *copies[N_BOTTOM_PARTS] = { NULL };
+	size_t copied = 0, all = 0;
+
+	for (uint32_t frame = 0; frame < 200; frame++) {
+		const uint32_t first = frame % 50 < 25, n = between(s, 0, 1) < 0.5f ? 1 : 3;
+
+		s->meshes[frame % MESHES].hash[1] = frame; /* as if it had moved */
+		ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances + first, n, &s->view, &s->spaces,
+		                                   &s->n_spaces), 0);
+		for (int part = 0; part < N_BOTTOM_PARTS; part++) {
+			const struct accel_pool pool = accel_pool(s->accel, (enum bottom_part)part);
+			const size_t bytes = bottom_item_bytes[part];
+
+			ck_assert_uint_le(pool.same, pool.n);
+			if (pool.same)
+				ck_assert_mem_eq(copies[part], pool.items, pool.same * bytes);
+			copies[part] = realloc(copies[part], pool.n * bytes + 1);
+			memcpy(copies[part] + pool.same * bytes, (const char *)pool.items + pool.same * bytes, (pool.n - pool.same) * bytes);
+			ck_assert_mem_eq(copies[part], pool.items, pool.n * bytes);
+			copied += (pool.n - pool.same) * bytes;
+			all += pool.n * bytes;
+		}
+		accel_copied(s->accel);
+	}
+	ck_assert_uint_lt(copied, all / 2);
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		free(copies[part]);
+	random_scene_free(s);
+}
+END_TEST
+
 int main(void)
 {
 	Suite *suite = suite_create("accel");
@@ -308,6 +343,7 @@ int main(void)
 	tcase_add_loop_test(tests, strange_boxes_keep_the_depth, 0, 2);
 	tcase_add_test(tests, cut_space_loses_nothing);
 	tcase_add_test(tests, meshes_are_kept_and_dropped);
+	tcase_add_test(tests, copies_are_kept_up);
 	suite_add_tcase(suite, tests);
 	runner = srunner_create(suite);
 	srunner_run_all(runner, CK_NORMAL);
