@@ -1,5 +1,5 @@
 /*
- * Inside of the wavefront (trace.c, upload.c, secondary.c): the tracer, a frame on its way through it, and how kernels
+ * Inside of the wavefront (trace.c, upload.c, geometry.c, secondary.c): the tracer, a frame on its way through it, and how kernels
  * are launched. Functions return 0 or ERR_SYSTEM (reported).
  */
 #ifndef TRACER_FRAME_H
@@ -74,6 +74,11 @@ int upload_state(struct job *job);
 
 /** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */
 int upload_trees(struct job *job);
+
+/* --- geometry.c: vertices and trees --------------------------------------------------------------------------------- */
+
+/** Run the vertex stage, make triangles of lines and points, build the frame's trees; all of it on the device. Needs upload_state. */
+int place_geometry(struct job *job);
 
 /* --- secondary.c: rays from the fragments in the list -------------------------------------------------------------- */
 
