@@ -274,7 +274,9 @@ struct gls_surface {
 struct gls_framebuffer {
 	struct gls_attachment attached[N_GLS_ATTACHMENTS];
 	uint32_t draw_buffer, read_buffer; /* GL tokens, while it is not bound */
-	uint32_t drawn_buffer;             /* what the surface's events draw to */
+	uint32_t also_drawn;               /* as in struct gls_color, while it is not bound */
+	uint32_t drawn_buffer;             /* what the surface's events draw to, */
+	uint32_t drawn_too;                /* and other colours, 1 << number: each begins from what it held itself */
 	struct gls_surface surface;
 	struct gls_picture *read; /* a reference: what was read last */
 };
@@ -441,6 +443,8 @@ struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 void gls_frame_drop(struct gls_surface *surface);
 /** Nothing from before the events shows any more. */
 void gls_frame_all_known(struct gls_surface *surface);
+/** The scene so far becomes another one: what was rendered of it is not looked for. */
+void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface);
 uint64_t gls_frame_events(const struct gls_surface *surface);
 /** Where the picture of the first *events events is kept; the surface must have a frame. */
 struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events);
@@ -454,6 +458,8 @@ struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st);
  * @return borrowed, valid until the surface's next event; NULL: not to be had (counted, or x->rewind is set)
  */
 const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface);
+/** Let the same events begin from another picture (takes the reference). @return 1; 0: what it was before does not show */
+int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture);
 /** The same of what the context reads from (ReadBuffer, read framebuffer, read drawable). */
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st);
 /** Make `to`, which holds nothing, begin from what `from` begins from. */

@@ -247,6 +247,28 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	return snapshot ? &snapshot->picture : NULL;
 }
 
+int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture)
+{
+	struct scene *s = gls_frame_scene(x, surface);
+	struct gls_picture **kept;
+	uint64_t *events;
+
+	if (!s || !s->needs_previous) {
+		gls_picture_release(picture);
+		return 0;
+	}
+	kept = gls_frame_snapshot(surface, &events);
+	gls_picture_release(*kept);
+	*kept = NULL;
+	if (s->start)
+		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+	s->start = NULL;
+	gls_frame_renew(x, surface);
+	forget(surface);
+	surface->picture = picture;
+	return 1;
+}
+
 const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_drawable *d;

@@ -181,6 +181,7 @@ GLS_HANDLER(glDrawBuffer, STATE)
 {
 	uint32_t buffer = arg_u(c, 0);
 
+	st->a.color.also_drawn = 0;
 	switch (buffer) {
 	case GL_FRONT:
 	case GL_FRONT_LEFT:

@@ -77,18 +77,27 @@ static int has_alpha(uint32_t base)
 	return base == GL_RGBA || base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY;
 }
 
+/* The colours that a surface's events draw to: 1 << number. */
+static uint32_t colors_of(const struct gls_framebuffer *fb)
+{
+	int color = color_of(fb->drawn_buffer);
+
+	return fb->drawn_too | (color >= 0 ? 1u << color : 0);
+}
+
 /* Size and bits of the surface that the attachments make. @return 0: there is nothing to draw to */
 static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
 	struct target t;
-	int color = color_of(fb->drawn_buffer), any = 0;
+	uint32_t colors = colors_of(fb);
+	int any = 0;
 
 	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = 0;
 	s->samples_from_below = 1;
 	s->width = s->height = 16384;
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
-		if ((i < DEPTH && i != color) || !find_target(share, &fb->attached[i], &t))
+		if ((i < DEPTH && !(colors >> i & 1)) || !find_target(share, &fb->attached[i], &t))
 			continue;
 		any = 1;
 		s->width = t.width < s->width ? t.width : s->width;
@@ -96,7 +105,7 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 		if (t.renderbuffer && t.renderbuffer->samples > s->samples)
 			s->samples = t.renderbuffer->samples;
 		if (i < DEPTH)
-			s->alpha_bits = has_alpha(gls_base_format(t.format)) ? 8 : 0;
+			s->alpha_bits |= has_alpha(gls_base_format(t.format)) ? 8 : 0;
 		else if (i == DEPTH)
 			s->depth_bits = gls_format_depth_bits(t.format);
 		else
@@ -266,14 +275,14 @@ static void store_sample(struct gls_exec *x, const struct target *t, int attachm
 		store_stencil(x, t, p);
 }
 
-/* Attachments become what was drawn to them; without pixels (p NULL) they are missing from now on. */
-static void store(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb, const struct scene_picture *p)
+/* Attachments (1 << number) become what was drawn to them; without pixels (p NULL) they are missing from now on. */
+static void store(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb, uint32_t attachments,
+                  const struct scene_picture *p)
 {
-	int color = color_of(fb->drawn_buffer);
 	struct target t;
 
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
-		if ((i < DEPTH && i != color) || !find_target(share, &fb->attached[i], &t))
+		if (!(attachments >> i & 1) || !find_target(share, &fb->attached[i], &t))
 			continue;
 		if (t.texture)
 			gls_texture_changed(t.texture);
@@ -289,20 +298,44 @@ static void store(struct gls_exec *x, const struct gls_share *share, struct gls_
 	}
 }
 
-/* Render what was drawn so far, and write it back. */
+/*
+ * Render what was drawn so far, and write it back. Fixed function gives all colours the same fragments (GL 2.1 sec. 3.11.2): they
+ * differ in what was there before, so that where it shows the events are rendered once for each; depth and stencil come out alike.
+ */
+static void settle_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
+{
+	struct gls_surface *s = &fb->surface;
+	uint32_t left = colors_of(fb), others = 1u << DEPTH | 1u << STENCIL;
+	int color = left ? __builtin_ctz(left) : -1, loads = x->want && x->supply, shows = 1;
+	const struct scene_picture *p = NULL;
+
+	if (loads && !(s->picture = load(x, share, fb, color)))
+		s->skipped = 1;
+	p = gls_surface_read(x, s);
+	for (left &= left - 1; left && p; left &= left - 1) {
+		struct gls_picture *next;
+
+		store(x, share, fb, 1u << color, p);
+		color = __builtin_ctz(left);
+		if (!shows)
+			continue;
+		if (!(next = load(x, share, fb, color)))
+			s->skipped = 1;
+		if ((shows = gls_surface_restart(x, s, next)))
+			p = gls_surface_read(x, s);
+	}
+	store(x, share, fb, p ? others | (color >= 0 ? 1u << color : 0) : others | colors_of(fb), p);
+}
+
+/* The same where anything was drawn at all; begin anew. */
 static void settle(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
-	const struct scene_picture *p = NULL;
 
 	if (!s->frame)
 		return;
-	if (gls_frame_events(s) && describe(share, fb)) {
-		if (x->want && x->supply && !(s->picture = load(x, share, fb, color_of(fb->drawn_buffer))))
-			s->skipped = 1;
-		p = gls_surface_read(x, s);
-		store(x, share, fb, p);
-	}
+	if (gls_frame_events(s) && describe(share, fb))
+		settle_colors(x, share, fb);
 	gls_surface_free(s);
 	s->skipped = 0;
 }
@@ -368,9 +401,11 @@ struct gls_surface *gls_framebuffer_surface(struct gls_exec *x, struct gls_state
 
 	if (!fb)
 		return NULL;
-	if (fb->drawn_buffer != st->a.color.draw_buffer || gls_frame_events(&fb->surface) > MANY_EVENTS)
+	if (fb->drawn_buffer != st->a.color.draw_buffer || fb->drawn_too != st->a.color.also_drawn ||
+	    gls_frame_events(&fb->surface) > MANY_EVENTS)
 		settle(x, st->share, fb);
 	fb->drawn_buffer = st->a.color.draw_buffer;
+	fb->drawn_too = st->a.color.also_drawn;
 	if (!describe(st->share, fb))
 		return NULL;
 	for (int i = 0; !fb->surface.frame && i < N_GLS_ATTACHMENTS; i++)
@@ -381,7 +416,7 @@ struct gls_surface *gls_framebuffer_surface(struct gls_exec *x, struct gls_state
 const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_framebuffer *fb = find(x, st, st->read_framebuffer);
-	uint32_t drawn;
+	uint32_t drawn, too;
 
 	if (!fb || !x->want)
 		return NULL;
@@ -391,10 +426,13 @@ const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_
 	gls_picture_release(fb->read);
 	fb->read = NULL;
 	drawn = fb->drawn_buffer;
+	too = fb->drawn_too;
 	fb->drawn_buffer = st->a.pixel.read_buffer;
+	fb->drawn_too = 0;
 	if (describe(st->share, fb) && !(fb->read = load(x, st->share, fb, color_of(fb->drawn_buffer))) && !x->failed && x->supply)
 		x->rewind = 1;
 	fb->drawn_buffer = drawn;
+	fb->drawn_too = too;
 	return fb->read ? &fb->read->picture : NULL;
 }
 
@@ -406,7 +444,8 @@ void gls_framebuffer_touch(struct gls_exec *x, struct gls_state *st)
 		return;
 	gls_surface_free(&fb->surface);
 	fb->drawn_buffer = st->a.color.draw_buffer;
-	store(x, st->share, fb, NULL);
+	fb->drawn_too = st->a.color.also_drawn;
+	store(x, st->share, fb, 1u << DEPTH | 1u << STENCIL | colors_of(fb), NULL);
 }
 
 /* ---- objects ---- */
@@ -461,8 +500,10 @@ static void bind_draw(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	if (!x->want)
 		gls_framebuffer_touch(x, st);
 	old->draw_buffer = st->a.color.draw_buffer;
+	old->also_drawn = st->a.color.also_drawn;
 	st->draw_framebuffer = name;
 	st->a.color.draw_buffer = fb->draw_buffer;
+	st->a.color.also_drawn = fb->also_drawn;
 }
 
 static void bind_read(struct gls_exec *x, struct gls_state *st, uint32_t name)

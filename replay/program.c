@@ -9,7 +9,7 @@ GLS_HANDLER(glUseProgramObjectARB, STATE) { st->program = arg_u(c, 0); }
 /* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
 GLS_HANDLER(glDrawBuffers, STATE)
 {
-	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE;
+	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE, also = 0;
 	unsigned n = arg_uints(c, 1, list, 16);
 
 	for (unsigned i = 0; i < n; i++) {
@@ -19,8 +19,11 @@ GLS_HANDLER(glDrawBuffers, STATE)
 			buffer = GL_FRONT_AND_BACK;
 		else if (buffer == GL_NONE)
 			buffer = list[i];
+		else if (list[i] >= GL_COLOR_ATTACHMENT0 && list[i] - GL_COLOR_ATTACHMENT0 < GLS_ATTACHMENT_DEPTH)
+			also |= 1u << (list[i] - GL_COLOR_ATTACHMENT0);
 		else if (list[i] != GL_NONE)
-			gls_unsupported(x, "more than one colour buffer of a framebuffer object at a time");
+			gls_unsupported(x, "more than one colour buffer of a window at a time");
 	}
 	st->a.color.draw_buffer = buffer;
+	st->a.color.also_drawn = st->draw_framebuffer ? also : 0;
 }

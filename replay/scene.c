@@ -771,6 +771,11 @@ void gls_frame_all_known(struct gls_surface *surface)
 	surface->frame->cleared |= 1;
 }
 
+void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface)
+{
+	surface->frame->serial = ++x->serial;
+}
+
 uint64_t gls_frame_events(const struct gls_surface *surface)
 {
 	const struct gls_frame *f = surface->frame;

@@ -890,7 +890,7 @@ static void get_share(struct loader *l, struct gls_share *share)
 	uint64_t n, key;
 
 	KNOWN(struct gls_share, 200);
-	KNOWN(struct gls_framebuffer, 296);
+	KNOWN(struct gls_framebuffer, 304);
 	n = get_count(l, 32);
 	for (uint64_t i = 0; i < n && !is_bad(l); i++) {
 		key = cursor_u64(&l->in);
@@ -991,7 +991,7 @@ static void get_state(struct loader *l, struct gls_state *st)
 {
 	struct gls_state raw;
 
-	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34344,
+	_Static_assert(sizeof(struct gls_state) - sizeof(struct gls_attribs) == 34348,
 	               "struct gls_state has changed: see what becomes of it in replay/snapshot.c");
 	KNOWN(struct gls_array, 72);
 	cursor_copy(&l->in, &raw, sizeof(raw));

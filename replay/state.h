@@ -135,6 +135,7 @@ struct gls_color_buffer {
 	uint32_t dither;
 	uint32_t mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
 	uint32_t draw_buffer;
+	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number */
 	float clear[4];
 };
 struct gls_accum {

@@ -283,10 +283,72 @@ static void more_sums(void)
 	glDisable(GL_SCISSOR_TEST);
 }
 
+/* Colours that one object has at a time, each with a past of its own: cleared together, drawn over with and without depth. */
+static void several(void)
+{
+	static const unsigned both[2] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT2 };
+	unsigned tex[2], depth, fb;
+
+	glGenTextures(2, tex);
+	glGenFramebuffers(1, &fb);
+	glGenRenderbuffers(1, &depth);
+	glBindRenderbuffer(GL_RENDERBUFFER, depth);
+	glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, 32, 24);
+	glBindFramebuffer(GL_FRAMEBUFFER, fb);
+	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+	glViewport(0, 0, 32, 24);
+	for (unsigned i = 0; i < 2; i++) {
+		glBindTexture(GL_TEXTURE_2D, tex[i]);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+		glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 32, 24, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+		glFramebufferTexture2D(GL_FRAMEBUFFER, both[i], GL_TEXTURE_2D, tex[i], 0);
+		glDrawBuffer(both[i]);
+		glClearColor(i ? 0.2f : 0.8f, 0.4f, i ? 0.8f : 0, i ? 0.2f : 0.6f);
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+		panel(6 + 20 * (int)i, 6, 22, 1, (float)i, 0.4f, 0.8f);
+	}
+	glDrawBuffers(2, both);
+	expect(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "the object with two colours is complete");
+	glEnable(GL_DEPTH_TEST);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_DST_ALPHA);
+	glTranslatef(0, 0, 3);
+	panel(12, 12, 30, 0.2f, 0.6f, 1, 0.4f);
+	glTranslatef(0, 0, -2);
+	panel(2, 20, 30, 1, 0.6f, 0, 0.6f); /* behind it in part */
+	glLoadIdentity();
+	glDisable(GL_BLEND);
+	glDisable(GL_DEPTH_TEST);
+	glDrawBuffer(GL_COLOR_ATTACHMENT2);
+	panel(48, 30, 10, 0, 0, 0, 1);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	glViewport(0, 0, 64, 48);
+	show(tex[0], 0, 0, 32, 24);
+	show(tex[1], 32, 0, 32, 24);
+	glBindFramebuffer(GL_FRAMEBUFFER, fb); /* both drawn to again */
+	glDrawBuffers(2, both);
+	glViewport(0, 0, 32, 24);
+	glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+	glClearColor(0, 0.9f, 0.9f, 0);
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(16, 4, 100, 12);
+	glClear(GL_COLOR_BUFFER_BIT);
+	glDisable(GL_SCISSOR_TEST);
+	glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	glViewport(0, 0, 64, 48);
+	show(tex[0], 0, 24, 32, 24);
+	show(tex[1], 32, 24, 32, 24);
+	glDeleteFramebuffers(1, &fb);
+	glDeleteRenderbuffers(1, &depth);
+	glDeleteTextures(2, tex);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
-		                              more_sums };
+		                              more_sums, several };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
