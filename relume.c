@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/verbs.h"
 
 static const struct verb {
@@ -56,6 +57,7 @@ int main(int argc, char **argv)
 	const struct verb *verb;
 	int wants_help;
 
+	memory_use_large_pages();
 	if (argc < 2) {
 		print_help(stderr);
 		return -ERR_USAGE;

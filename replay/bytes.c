@@ -21,11 +21,6 @@ void bytes_put(struct bytes *b, const void *data, size_t n)
 	b->n += n;
 }
 
-void bytes_put_u64(struct bytes *b, uint64_t value)
-{
-	bytes_put(b, &value, sizeof(value));
-}
-
 void bytes_put_text(struct bytes *b, const char *text)
 {
 	size_t n = strlen(text);

@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* Bytes that grow. All zero: none. */
 struct bytes {
@@ -16,7 +17,15 @@ struct bytes {
 };
 
 void bytes_put(struct bytes *b, const void *data, size_t n);
-void bytes_put_u64(struct bytes *b, uint64_t value);
+static inline void bytes_put_u64(struct bytes *b, uint64_t value)
+{
+	if (b->room - b->n >= sizeof(value)) {
+		memcpy(b->data + b->n, &value, sizeof(value));
+		b->n += sizeof(value);
+	} else {
+		bytes_put(b, &value, sizeof(value));
+	}
+}
 void bytes_put_text(struct bytes *b, const char *text); /* its length and NUL with it */
 
 /* Bytes being read. */

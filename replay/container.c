@@ -12,6 +12,7 @@
 #include "base/err.h"
 
 #define PIECE_BYTES (1u << 20)
+#define SMALL_BYTES (64u << 10) /* unpacked, below which chunks are delivered together */
 #define CHUNK_MAX_BYTES (64u << 20) /* unpacked; recorders write 1 MiB */
 
 enum container_kind { CONTAINER_SNAPPY, CONTAINER_GZIP, CONTAINER_BROTLI };
@@ -20,7 +21,7 @@ struct container {
 	char *path;
 	FILE *file;
 	uint64_t size, offset;
-	uint64_t piece; /* offset of the chunk last delivered */
+	uint64_t piece; /* offset of the first chunk last delivered */
 	enum container_kind kind;
 	int cut, ended;
 	int delivered; /* Brotli: some of it is read already */
@@ -120,6 +121,7 @@ int container_open(struct container **out, const char *path)
 		                                                       : "is not a plain file");
 		goto fail;
 	}
+	setvbuf(c->file, NULL, _IOFBF, SMALL_BYTES);
 	c->size = (uint64_t)info.st_size;
 	rc = detect(c);
 	if (rc)
@@ -199,12 +201,16 @@ static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t
 	return made;
 }
 
-static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
+/*
+ * Unpack the chunk at c->offset behind what is unpacked already.
+ * @param made  bytes of that; counts up
+ * @param why   receives what is wrong with it
+ * @return 1; 0 there is none; ERR_INPUT (not reported: nothing was read); ERR_SYSTEM
+ */
+static int add_chunk(struct container *c, size_t *made, const char **why)
 {
 	uint8_t head[4];
 	size_t length, unpacked, got = fread(head, 1, 4, c->file);
-
-	c->piece = c->offset;
 
 	if (got < 4) {
 		c->cut = got > 0;
@@ -220,23 +226,43 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	if (reserve(&c->packed, &c->packed_room, length + 1))
 		return ERR_SYSTEM;
 	length = fread(c->packed, 1, length, c->file);
+	*why = "no Snappy chunk";
 	if (snappy_uncompressed_length((const char *)c->packed, length, &unpacked) != SNAPPY_OK)
-		return c->cut ? 0 : err_report(ERR_INPUT, c->path, "damaged at byte %llu: no Snappy chunk",
-		                               (unsigned long long)c->offset);
+		return c->cut ? 0 : ERR_INPUT;
+	*why = "a chunk that claims to hold too much";
 	if (unpacked > CHUNK_MAX_BYTES)
-		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: a chunk that claims to hold %zu bytes",
-		                  (unsigned long long)c->offset, unpacked);
-	if (reserve(&c->unpacked, &c->unpacked_room, unpacked + 1))
+		return ERR_INPUT;
+	if (reserve(&c->unpacked, &c->unpacked_room, *made + unpacked + 1))
 		return ERR_SYSTEM;
+	*why = "a Snappy chunk that does not unpack";
 	if (c->cut)
-		unpacked = unpack_cut_block(c->packed, length, c->unpacked, unpacked);
-	else if (snappy_uncompress((const char *)c->packed, length, (char *)c->unpacked, &unpacked) != SNAPPY_OK)
-		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: a Snappy chunk that does not unpack",
-		                  (unsigned long long)c->offset);
+		unpacked = unpack_cut_block(c->packed, length, c->unpacked + *made, unpacked);
+	else if (snappy_uncompress((const char *)c->packed, length, (char *)c->unpacked + *made, &unpacked) != SNAPPY_OK)
+		return ERR_INPUT;
 	c->offset += 4 + length;
-	*data = c->unpacked;
-	*size = unpacked;
+	*made += unpacked;
 	return 1;
+}
+
+/* As many chunks as make a piece of some size: our recorder ends one with each frame, and many frames are short. */
+static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
+{
+	const char *why = "";
+	size_t made = 0;
+	int rc;
+
+	c->piece = c->offset;
+	do
+		rc = add_chunk(c, &made, &why);
+	while (rc == 1 && made < SMALL_BYTES && !c->cut);
+	*data = c->unpacked;
+	*size = made;
+	if (rc == ERR_INPUT && made) /* what stands before the damage; the next call meets it again */
+		return fseeko(c->file, (off_t)c->offset, SEEK_SET) ? err_report(ERR_SYSTEM, c->path, "%s", strerror(errno)) : 1;
+	c->ended = rc <= 0 || c->cut;
+	if (rc == ERR_INPUT)
+		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: %s", (unsigned long long)c->offset, why);
+	return rc < 0 ? rc : made > 0;
 }
 
 /* Refill a stream decoder's input. @return bytes read */
@@ -312,17 +338,11 @@ static int next_brotli(struct container *c, const uint8_t **data, size_t *size)
 
 int container_next(struct container *c, const uint8_t **data, size_t *size)
 {
-	int rc;
-
 	if (c->ended)
 		return 0;
 	switch (c->kind) {
 	case CONTAINER_SNAPPY:
-		do {
-			rc = next_snappy(c, data, size);
-			c->ended = rc <= 0 || c->cut;
-		} while (!c->ended && *size == 0);
-		return rc == 1 && *size == 0 ? 0 : rc;
+		return next_snappy(c, data, size);
 	case CONTAINER_GZIP:
 		return next_gzip(c, data, size);
 	default:

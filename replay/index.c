@@ -21,7 +21,7 @@
 #include "replay/snapshot.h"
 
 #define MAGIC "RELIDX2\n" /* the number changes with this file's form */
-#define SPACING_BYTES ((uint64_t)256 << 10) /* of calls between checkpoints: some milliseconds */
+#define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
 #define MAX_BLOB ((uint64_t)1 << 40)
 

@@ -5,16 +5,16 @@
 
 const float mat4_identity[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
 
+/* A column at once. Each entry is made by the same operations in the same order as if it were made alone. */
+typedef float column __attribute__((vector_size(16)));
+
 void mat4_mul(float out[16], const float a[16], const float b[16])
 {
-	float product[16];
+	column c[4], product[4];
 
-	for (int row = 0; row < 4; row++) {
-		const float a0 = a[row], a1 = a[row + 4], a2 = a[row + 8], a3 = a[row + 12];
-		for (int col = 0; col < 4; col++)
-			product[row + 4 * col] =
-				a0 * b[4 * col] + a1 * b[4 * col + 1] + a2 * b[4 * col + 2] + a3 * b[4 * col + 3];
-	}
+	memcpy(c, a, sizeof(c));
+	for (int i = 0; i < 4; i++, b += 4)
+		product[i] = c[0] * b[0] + c[1] * b[1] + c[2] * b[2] + c[3] * b[3];
 	memcpy(out, product, sizeof(product));
 }
 

@@ -121,6 +121,14 @@ static inline const uint8_t *quick_uint(const uint8_t *p, uint64_t *value)
 		*value = *p;
 		return p + 1;
 	}
+	if (p[1] < 0x80) {
+		*value = (p[0] & 0x7fu) | (uint64_t)p[1] << 7;
+		return p + 2;
+	}
+	if (p[2] < 0x80) {
+		*value = (p[0] & 0x7fu) | (p[1] & 0x7fu) << 7 | (uint64_t)p[2] << 14;
+		return p + 3;
+	}
 	memcpy(&w, p, 8);
 	last = ~w & 0x8080808080808080u; /* the top bit of the last byte, and others above it */
 	if (!last)
