@@ -13,7 +13,7 @@
 #include "base/err.h"
 
 struct bytes {
-	uint8_t data[32768];
+	uint8_t data[3 << 16];
 	size_t n;
 };
 
@@ -44,6 +44,22 @@ static void put_string(struct bytes *b, const char *s)
 static void put_header(struct bytes *b)
 {
 	put(b, "\6\6", 2);
+	put_string(b, "process.name");
+	put_string(b, "/bin/test");
+	put_string(b, "");
+}
+
+#define PIECE_BYTES 65536 /* from which on the container delivers chunks apart */
+
+/* A header so long that the chunk which holds it is a piece of its own. */
+static void put_long_header(struct bytes *b)
+{
+	static char filler[PIECE_BYTES + 1];
+
+	memset(filler, 'x', PIECE_BYTES);
+	put(b, "\6\6", 2);
+	put_string(b, "filler");
+	put_string(b, filler);
 	put_string(b, "process.name");
 	put_string(b, "/bin/test");
 	put_string(b, "");
@@ -99,20 +115,35 @@ static const char *write_file(const void *data, size_t n)
 	return path;
 }
 
+static size_t pack_chunk(const uint8_t *data, size_t here, uint8_t *out)
+{
+	size_t packed = snappy_max_compressed_length(here);
+
+	ck_assert_int_eq(snappy_compress((const char *)data, here, (char *)out + 4, &packed), SNAPPY_OK);
+	for (unsigned i = 0; i < 4; i++)
+		out[i] = (uint8_t)(packed >> (8 * i));
+	return 4 + packed;
+}
+
 /* A Snappy container of chunks of `chunk` bytes. */
 static size_t pack_snappy(const struct bytes *b, size_t chunk, uint8_t *out)
 {
 	size_t n = 2;
 
 	memcpy(out, "at", 2);
-	for (size_t at = 0; at < b->n; at += chunk) {
-		size_t here = b->n - at < chunk ? b->n - at : chunk, packed = snappy_max_compressed_length(here);
-		ck_assert_int_eq(snappy_compress((const char *)b->data + at, here, (char *)out + n + 4, &packed), SNAPPY_OK);
-		for (unsigned i = 0; i < 4; i++)
-			out[n + i] = (uint8_t)(packed >> (8 * i));
-		n += 4 + packed;
-	}
+	for (size_t at = 0; at < b->n; at += chunk)
+		n += pack_chunk(b->data + at, b->n - at < chunk ? b->n - at : chunk, out + n);
 	return n;
+}
+
+/* One of two chunks. */
+static size_t pack_in_two(const struct bytes *b, size_t first, uint8_t *out)
+{
+	size_t n = 2;
+
+	memcpy(out, "at", 2);
+	n += pack_chunk(b->data, first, out + n);
+	return n + pack_chunk(b->data + first, b->n - first, out + n);
 }
 
 static void check_calls(const char *path)
@@ -168,6 +199,22 @@ START_TEST(test_snappy)
 	put_calls(&b);
 	for (size_t chunk = 1; chunk <= b.n; chunk += 1 + chunk / 4)
 		check_calls(write_file(file, pack_snappy(&b, chunk, file)));
+	unlink(path_of("trace"));
+}
+END_TEST
+
+/* And pieces, of which one does not see the next. */
+START_TEST(test_pieces)
+{
+	static uint8_t file[8 * 32768];
+	struct bytes b = { .n = 0 };
+	size_t header;
+
+	put_long_header(&b);
+	header = b.n;
+	put_calls(&b);
+	for (size_t first = header; first < b.n; first++)
+		check_calls(write_file(file, pack_in_two(&b, first, file)));
 	unlink(path_of("trace"));
 }
 END_TEST
@@ -270,6 +317,21 @@ START_TEST(test_numbers)
 }
 END_TEST
 
+START_TEST(test_numbers_over_pieces)
+{
+	static uint8_t file[8 * 32768];
+	struct bytes b = { .n = 0 };
+	size_t header;
+
+	put_long_header(&b);
+	header = b.n;
+	put_numbers(&b);
+	for (size_t first = header; first < b.n; first += 7)
+		check_numbers(write_file(file, pack_in_two(&b, first, file)));
+	unlink(path_of("trace"));
+}
+END_TEST
+
 START_TEST(test_gzip)
 {
 	struct bytes b = { .n = 0 };
@@ -321,6 +383,25 @@ START_TEST(test_cut)
 		before = calls;
 	}
 	ck_assert_uint_eq(calls, 2);
+	unlink(path_of("trace"));
+}
+END_TEST
+
+/* A chunk that does not unpack takes nothing from those before it that are delivered with it. */
+START_TEST(test_damaged_chunk)
+{
+	struct bytes b = { .n = 0 };
+	uint8_t file[65536];
+	size_t first;
+	int rc;
+
+	put_header(&b);
+	put_calls(&b);
+	first = 2 + pack_chunk(b.data, b.n, file + 2);
+	memcpy(file, "at", 2);
+	memcpy(file + first, "\4\0\0\0\x08\xff\xff\xff", 8);
+	ck_assert_uint_eq(read_all(write_file(file, first + 8), &rc), 2);
+	ck_assert_int_eq(rc, ERR_INPUT);
 	unlink(path_of("trace"));
 }
 END_TEST
@@ -402,9 +483,12 @@ int main(void)
 
 	tcase_set_timeout(tcase, 60);
 	tcase_add_test(tcase, test_snappy);
+	tcase_add_test(tcase, test_pieces);
 	tcase_add_test(tcase, test_numbers);
+	tcase_add_test(tcase, test_numbers_over_pieces);
 	tcase_add_test(tcase, test_gzip);
 	tcase_add_test(tcase, test_cut);
+	tcase_add_test(tcase, test_damaged_chunk);
 	tcase_add_test(tcase, test_damaged);
 	tcase_add_test(tcase, test_impossible);
 	tcase_add_test(tcase, test_no_traces);
