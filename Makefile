@@ -186,7 +186,8 @@ $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COM
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
-$(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
+$(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/stream.o
+$(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
@@ -339,19 +340,26 @@ show-replay: all
 DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
 FUZZ_TARGETS := replay calls
-FUZZ_SRC := $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c
-$(BUILD)/fuzz/calls: tests/fuzz/calls.c $(BUILD)/gen/fuzz_commands.c
-$(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: tests/fuzz/fuzz_%.c $(FUZZ_SRC) $(BUILD)/gen/dispatch.c | $(BUILD)/deps.fuzz
+FUZZ_SRC := $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c tests/fuzz/calls.c tests/fuzz/stream.c
+FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/gen/dispatch.o $(BUILD)/fuzz/objects/gen/fuzz_commands.o
+FUZZ_CFLAGS := $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -MMD -MP -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+$(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
-	$(Q)clang $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-		-o $@ $^ $(LIBS)
+	$(Q)clang $(FUZZ_CFLAGS) -c -o $@ $<
+
+$(BUILD)/fuzz/objects/gen/%.o: $(BUILD)/gen/%.c | $(BUILD)/deps.fuzz
+	@mkdir -p $(@D)
+	$(Q)clang $(FUZZ_CFLAGS) -c -o $@ $<
+
+$(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(FUZZ_OBJ)
+	$(Q)clang -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS)
 
 $(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
 	$(Q)$(PYTHON) -B $< $@ $(sort $(wildcard replay/*.c))
 
 .PHONY: fuzz fuzz-keep
-fuzz: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
-	@tests/fuzz/campaign.sh $(BUILD) $(FUZZ_SECONDS)
+fuzz: all $(HELPERS) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
+	@tests/xvfb.sh tests/fuzz/campaign.sh $(BUILD) $(FUZZ_SECONDS)
 
 # Small ones: what only large ones reach is found again from the golden recordings.
 fuzz-keep: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
@@ -387,4 +395,4 @@ FORCE:
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d) \
-	$(BUILD)/tests/fuzz/calls.d $(BUILD)/gen/fuzz_commands.d
+	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -1,6 +1,7 @@
 /*
  * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/trace.md), put into a
  * Snappy container and replayed with the scenes of its first frames. Links no tracer: a frame that needs pixels goes without.
+ * Most changes are to its calls (stream.h), the others to its bytes.
  */
 #include <snappy-c.h>
 #include <stdint.h>
@@ -11,12 +12,18 @@
 #include <unistd.h>
 
 #include "replay/replay.h"
+#include "tests/fuzz/calls.h"
+#include "tests/fuzz/stream.h"
 
 #define CHUNK ((size_t)1 << 20)
 #define MAX_FRAMES 8
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
+                                 unsigned seed);
 
 /* What is reported about damaged input is of no interest here. */
 int LLVMFuzzerInitialize(int *argc, char ***argv)
@@ -62,4 +69,21 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	replay_close(&rp);
 	close(file);
 	return 0;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
+{
+	uint8_t *out = calls_draw(&seed, 8) ? malloc(max_size) : NULL;
+	size_t n = out ? stream_change(data, size, NULL, 0, out, max_size, &seed) : 0;
+
+	if (n)
+		memcpy(data, out, n);
+	free(out);
+	return n ? n : LLVMFuzzerMutate(data, size, max_size);
+}
+
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t max_size,
+                                 unsigned seed)
+{
+	return stream_change(a, a_size, b, b_size, out, max_size, &seed);
 }

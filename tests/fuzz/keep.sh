@@ -12,7 +12,7 @@ small() {
 small replay 3k
 "$build/fuzz/replay" -merge=1 -close_fd_mask=3 "$here/kept" "$build/fuzz/small"
 
-small calls 500c
+small calls 2k
 mkdir -p "$build/fuzz/kept_calls"
 "$here/pack_calls.py" unpack "$here/kept_calls" "$build/fuzz/small"
 "$build/fuzz/calls" -set_cover_merge=1 -close_fd_mask=3 "$build/fuzz/kept_calls" "$build/fuzz/small"
