@@ -148,7 +148,7 @@ GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
 
 static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)
 {
-	if (!bytes || offset > b->bytes)
+	if (!bytes || offset >= b->bytes)
 		return;
 	memcpy(b->data + offset, bytes, n < b->bytes - offset ? n : b->bytes - offset);
 	b->version = ++x->versions;
@@ -180,7 +180,8 @@ GLS_HANDLER(glCopyBufferSubData, CLIENT)
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
 	}
-	write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
+	if (n)
+		write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
 }
 
 static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)
@@ -821,7 +822,7 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 		b = NULL;
 	} else if (b) {
 		offset = (uint64_t)gls_value_int(indices);
-		bytes = offset <= b->bytes ? b->data + offset : NULL;
+		bytes = offset < b->bytes ? b->data + offset : NULL;
 		n = bytes ? b->bytes - offset : 0;
 	}
 	if (!bytes || n / size < (uint64_t)count) {

@@ -326,6 +326,7 @@ struct gls_exec {
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
 	unsigned list_depth;
+	uint64_t nested_ops, nested_frame; /* operations that lists called by lists ran in that frame (list.c) */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 	int fronts;                   /* 1: what front buffers show is looked at */

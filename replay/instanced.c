@@ -58,7 +58,7 @@ static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, co
 	if (!found && b && arg_is_offset(c, argument)) {
 		uint64_t offset = (uint64_t)gls_value_int(arg(c, argument));
 
-		found = offset <= b->bytes ? b->data + offset : NULL;
+		found = offset < b->bytes ? b->data + offset : NULL;
 		n = found ? b->bytes - offset : 0;
 	}
 	if (found && n >= bytes)

@@ -439,7 +439,7 @@ static int save(struct saver *s)
 	struct table_entry *e;
 	size_t n;
 
-	KNOWN(struct gls_exec, 1240);
+	KNOWN(struct gls_exec, 1256);
 	if (!is_quiet(x))
 		return 1;
 	bytes_put_u64(out, x->frame);

@@ -314,5 +314,21 @@ START_TEST(test_vertex_array_objects)
 }
 END_TEST
 
-GL_TESTS("arrays", test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_into_list, test_array_element, test_interleaved,
+/* Buffers that were never filled: nothing is there to copy or to draw. Undefined without a care (make check SAN=undefined). */
+START_TEST(test_empty_buffers)
+{
+	struct gl gl = gl_open();
+
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 3u);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ELEMENT_ARRAY_BUFFER, 4u);
+	gl_call(&gl, "glBufferSubData", "eiib", GL_ARRAY_BUFFER, 0, 0, (size_t)0, "");
+	gl_call(&gl, "glCopyBufferSubData", "eeiii", GL_ARRAY_BUFFER, GL_ELEMENT_ARRAY_BUFFER, 0, 0, 0);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("arrays", test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)

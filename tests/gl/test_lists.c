@@ -245,5 +245,30 @@ START_TEST(test_redundant_state)
 }
 END_TEST
 
+/* Lists that call lists twice each, forty deep, end all the same; a list that calls another a thousand times is run whole. */
+START_TEST(test_lists_without_end)
+{
+	struct gl gl = gl_open();
+
+	for (unsigned list = 1; list <= 40; list++) {
+		gl_call(&gl, "glNewList", "ue", list, GL_COMPILE);
+		gl_call(&gl, "glTranslatef", "fff", 1.0, 0.0, 0.0);
+		for (unsigned i = 0; i < 2 && list > 1; i++)
+			gl_call(&gl, "glCallList", "u", list - 1);
+		gl_call(&gl, "glEndList", "");
+	}
+	gl_call(&gl, "glNewList", "ue", 50u, GL_COMPILE);
+	for (unsigned i = 0; i < 1000; i++)
+		gl_call(&gl, "glCallList", "u", 1u);
+	gl_call(&gl, "glEndList", "");
+	gl_call(&gl, "glCallList", "u", 50u);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	ck_assert_floats(1, &gl_state(&gl)->modelview.matrices[0][12], 1000);
+	gl_call(&gl, "glCallList", "u", 40u);
+	ck_assert_uint_gt(gl_unsupported(&gl), 0);
+	gl_close(&gl);
+}
+END_TEST
+
 GL_TESTS("lists", test_compile, test_compile_and_execute, test_inherited, test_inherited_by_the_first, test_vertices_only, test_call_lists,
-         test_recursion_and_deletion, test_errors, test_redundant_state)
+         test_recursion_and_deletion, test_errors, test_lists_without_end, test_redundant_state)
