@@ -117,19 +117,30 @@ static inline struct vec4 combine_function(uint32_t function, struct vec4 a, str
 	}
 }
 
+/* The sums of NV_texture_env_combine4 are of two products; its other functions are those of COMBINE. */
+static inline struct vec4 combine_function4(uint32_t function, const struct vec4 *arguments)
+{
+	if (function != GL_ADD && function != GL_ADD_SIGNED)
+		return combine_function(function, arguments[0], arguments[1], arguments[2]);
+	return combine_function(function, v4_mul(arguments[0], arguments[1]), v4_mul(arguments[2], arguments[3]), arguments[2]);
+}
+
 static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, struct vec4 previous, struct vec4 texture,
                                        struct vec4 primary, const struct vec4 *samples)
 {
-	struct vec4 own = v4_load(unit->env_color), rgb[3], alpha[3], color, out;
+	int four = unit->env_mode == GL_COMBINE4_NV, n = four ? 4 : 3;
+	struct vec4 own = v4_load(unit->env_color), rgb[4], alpha[4], color, out;
 
-	for (int i = 0; i < 3; i++) {
+	for (int i = 0; i < n; i++) {
 		rgb[i] = combine_argument(unit->source_rgb[i], unit->operand_rgb[i], previous, texture, primary, own,
 		                          samples);
 		alpha[i] = combine_argument(unit->source_alpha[i], unit->operand_alpha[i], previous, texture, primary,
 		                            own, samples);
 	}
-	color = v4_scale(combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]), unit->scale_rgb);
-	out = v4_scale(combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]), unit->scale_alpha);
+	color = four ? combine_function4(unit->combine_rgb, rgb) : combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]);
+	out = four ? combine_function4(unit->combine_alpha, alpha) : combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]);
+	color = v4_scale(color, unit->scale_rgb);
+	out = v4_scale(out, unit->scale_alpha);
 	if (unit->combine_rgb == GL_DOT3_RGBA || unit->combine_rgb == GL_DOT3_RGBA_EXT)
 		out.w = color.w;
 	return v4_clamp01(v4(color.x, color.y, color.z, out.w));

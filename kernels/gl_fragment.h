@@ -513,7 +513,7 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
 		struct vec4 sample = coat->sample[unit->unit];
 
-		color = unit->env_mode == GL_COMBINE ?
+		color = unit->env_mode == GL_COMBINE || unit->env_mode == GL_COMBINE4_NV ?
 		                combine_full(unit, color, sample, lit->color, coat->sample) :
 		                combine_plain(unit->env_mode, point_unit_format(t, unit), color, sample, v4_load(unit->env_color));
 	}

@@ -42,8 +42,8 @@ static void init_unit(struct gls_unit *unit, uint32_t index)
 	v->unit = index;
 	v->env_mode = GL_MODULATE;
 	v->combine_rgb = v->combine_alpha = GL_MODULATE;
-	for (unsigned i = 0; i < 3; i++) {
-		static const uint32_t sources[] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT };
+	for (unsigned i = 0; i < 4; i++) {
+		static const uint32_t sources[] = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT, GL_CONSTANT }; /* the fourth as Mesa has it */
 		v->source_rgb[i] = v->source_alpha[i] = sources[i];
 		v->operand_rgb[i] = i < 2 ? GL_SRC_COLOR : GL_SRC_ALPHA;
 		v->operand_alpha[i] = GL_SRC_ALPHA;

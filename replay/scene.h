@@ -150,8 +150,8 @@ struct scene_unit {
 	uint32_t env_mode; /* GL token */
 	float env_color[4];
 	uint32_t combine_rgb, combine_alpha;                         /* GL tokens */
-	uint32_t source_rgb[3], source_alpha[3];                     /* GL tokens */
-	uint32_t operand_rgb[3], operand_alpha[3];                   /* GL tokens */
+	uint32_t source_rgb[4], source_alpha[4];                     /* GL tokens; the fourth: NV_texture_env_combine4 */
+	uint32_t operand_rgb[4], operand_alpha[4];                   /* GL tokens */
 	float scale_rgb, scale_alpha;
 	/* coordinate generation, sec. 2.11.4: per coordinate s t r q; mode 0: off, else GL token */
 	uint32_t gen_mode[4];

@@ -203,10 +203,10 @@ static void write_unit(struct json *j, const struct scene_unit *u)
 	FLOATS(u, env_color);
 	UINT(u, combine_rgb);
 	UINT(u, combine_alpha);
-	json_key_uints(j, "source_rgb", u->source_rgb, 3);
-	json_key_uints(j, "source_alpha", u->source_alpha, 3);
-	json_key_uints(j, "operand_rgb", u->operand_rgb, 3);
-	json_key_uints(j, "operand_alpha", u->operand_alpha, 3);
+	json_key_uints(j, "source_rgb", u->source_rgb, 4);
+	json_key_uints(j, "source_alpha", u->source_alpha, 4);
+	json_key_uints(j, "operand_rgb", u->operand_rgb, 4);
+	json_key_uints(j, "operand_alpha", u->operand_alpha, 4);
 	FLOAT(u, scale_rgb);
 	FLOAT(u, scale_alpha);
 	json_key_uints(j, "gen_mode", u->gen_mode, 4);

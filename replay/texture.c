@@ -420,26 +420,26 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 3) {
+	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 4) {
 		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
 		return;
 	}
-	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 3) {
+	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 4) {
 		e->source_alpha[pname - GL_SOURCE0_ALPHA] = token;
 		return;
 	}
-	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 3) {
+	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 4) {
 		e->operand_rgb[pname - GL_OPERAND0_RGB] = token;
 		return;
 	}
-	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 3) {
+	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 4) {
 		e->operand_alpha[pname - GL_OPERAND0_ALPHA] = token;
 		return;
 	}
 	switch (pname) {
 	case GL_TEXTURE_ENV_MODE:
 		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
-		    token != GL_COMBINE) {
+		    token != GL_COMBINE && token != GL_COMBINE4_NV) {
 			gls_error(x, st, GL_INVALID_ENUM);
 			return;
 		}

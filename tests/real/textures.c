@@ -254,6 +254,37 @@ static void depth_environments(void)
 	glDisable(GL_BLEND);
 }
 
+/* Sums of two products (NV_texture_env_combine4), and functions that stay what they are. */
+static void combine4(void)
+{
+	static const int functions[4] = { GL_ADD, GL_ADD_SIGNED, GL_INTERPOLATE, GL_DOT3_RGBA };
+	static const int operands[3][4] = { { GL_SRC_COLOR, GL_SRC_COLOR, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR },
+		                            { GL_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_SRC_COLOR },
+		                            { GL_ONE_MINUS_SRC_COLOR, GL_SRC_COLOR, GL_SRC_COLOR, GL_SRC_ALPHA } };
+	static const int sources[3][4] = { { GL_TEXTURE, GL_PRIMARY_COLOR, GL_CONSTANT, GL_TEXTURE },
+		                           { GL_PRIMARY_COLOR, GL_TEXTURE, GL_TEXTURE, GL_ZERO }, { GL_PREVIOUS, GL_TEXTURE, GL_CONSTANT, GL_CONSTANT } };
+	const float constant[4] = { 0.3f, 0.9f, 0.5f, 0.6f };
+
+	texture();
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, colors);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE4_NV);
+	glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, constant);
+	glColor4f(0.9f, 0.4f, 0.7f, 0.8f);
+	for (int i = 0; i < 12; i++) {
+		glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, functions[i % 4]);
+		glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_ALPHA, functions[i % 3]);
+		for (int k = 0; k < 4; k++) {
+			glTexEnvi(GL_TEXTURE_ENV, k < 3 ? GL_SOURCE0_RGB + (unsigned)k : GL_SOURCE3_RGB_NV, sources[i / 4][k]);
+			glTexEnvi(GL_TEXTURE_ENV, k < 3 ? GL_OPERAND0_RGB + (unsigned)k : GL_OPERAND3_RGB_NV, operands[i / 4][k]);
+			glTexEnvi(GL_TEXTURE_ENV, k < 3 ? GL_SOURCE0_ALPHA + (unsigned)k : GL_SOURCE3_ALPHA_NV, sources[(i / 4 + 1) % 3][k]);
+		}
+		glEnable(GL_BLEND);
+		glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+		panel(i % 4 * 16, i / 4 * 16, 15, 0.01f, 0.98f);
+	}
+	glDisable(GL_BLEND);
+}
+
 /* Walls that lead out of the view on all sides, with texels much smaller than pixels: the last bits of coordinates choose one. */
 static void walls(void)
 {
@@ -302,7 +333,7 @@ static void trail(void)
 int main(void)
 {
 	static void (*const frames[])(void) = { formats, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
-		                              depth_environments, walls, trail, trail, trail, trail, trail };
+		                              depth_environments, combine4, walls, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
 		colors[i / 16][i / 4 % 4][i % 4] = (unsigned char)(i % 4 == 3 ? 255 - 12 * (i / 4) : i * 67 + i / 4 * 13);
