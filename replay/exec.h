@@ -385,7 +385,7 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 
 /* Handlers that others call as part of what they do. */
 gls_handler gls_glBegin, gls_glEnd, gls_glBindFramebuffer, gls_glBindRenderbuffer;
-/* Handlers that effect.c knows something of. */
+/* Handlers that list.c and effect.c know something of. */
 gls_handler gls_glTranslatef, gls_glTranslated, gls_glRotatef, gls_glRotated, gls_glScalef, gls_glScaled, gls_glMultMatrixf,
 	gls_glMultMatrixd, gls_glLoadIdentity, gls_glLoadMatrixf, gls_glLoadMatrixd, gls_glPushMatrix, gls_glPopMatrix,
 	gls_glMatrixMode, gls_glCallList, gls_glBindTexture, gls_glActiveTexture, gls_glPopAttrib, gls_glEdgeFlag, gls_glEdgeFlagv,

@@ -299,11 +299,9 @@ struct run {
 	uint32_t stop;  /* op that did not fit, or whose vertex needs a value that is not known yet */
 };
 
-static int is_command(const struct gls_op *op, const char *name)
+static int is_command(const struct gls_op *op, gls_handler *handler)
 {
-	const char *have = gls_commands[op->command].name;
-
-	return op->form != GLS_OP_MESH && have[2] == name[2] && strcmp(have, name) == 0;
+	return op->form != GLS_OP_MESH && gls_commands[op->command].handler == handler;
 }
 
 /* May the op be part of a run? */
@@ -314,13 +312,13 @@ static int fits_run(const struct gls_exec *x, const struct gls_op *op)
 	int open = x->assembling->begin_mode != 0;
 	enum scene_primitive kind;
 
-	if (op->form == GLS_OP_MESH || (k->name[2] == 'E' && strncmp(k->name, "glEdgeFlag", 10) == 0))
+	if (op->form == GLS_OP_MESH || k->handler == gls_glEdgeFlag || k->handler == gls_glEdgeFlagv)
 		return 0;
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;
-	if (is_command(op, "glEnd"))
+	if (is_command(op, gls_glEnd))
 		return open;
-	if (!is_command(op, "glBegin") || open || op->form != GLS_OP_CALL)
+	if (!is_command(op, gls_glBegin) || open || op->form != GLS_OP_CALL)
 		return 0;
 	kind = gls_mode_kind((uint32_t)gls_value_int(&op->args[0]));
 	return kind && (!g->n_vertices || (g->kind == kind && g->n_vertices <= GLS_MAX_PENDING_VERTICES));
@@ -352,7 +350,7 @@ static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_
 		if (n && g->n_vertices > n && touched & ~run->known)
 			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
 		run->stop = i + 1;
-		if (is_command(op, "glEnd"))
+		if (is_command(op, gls_glEnd))
 			run->end = i + 1;
 	}
 }
@@ -425,7 +423,7 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 
 	do {
 		const struct gls_op *op = &list->ops[*at];
-		open = is_command(op, "glBegin") || (open && !is_command(op, "glEnd"));
+		open = is_command(op, gls_glBegin) || (open && !is_command(op, gls_glEnd));
 		if (keep_op(out, op, x))
 			return ERR_SYSTEM;
 		(*at)++;
@@ -459,12 +457,19 @@ static int equal_args(const struct gls_op *a, const struct gls_op *b)
 	return 1;
 }
 
+static int is_material(const struct gls_op *op)
+{
+	gls_handler *handler = gls_commands[op->command].handler;
+
+	return handler == gls_glMaterialfv || handler == gls_glMaterialf || handler == gls_glMaterialiv || handler == gls_glMateriali;
+}
+
 /* Do both set something in common? Materials: face and name; textures: the target. */
 static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 {
 	int64_t p, q;
 
-	if (material != (strncmp(gls_commands[a->command].name, "glMaterial", 10) == 0))
+	if (material != is_material(a))
 		return 0;
 	if (!material || a->n < 2 || b->n < 2)
 		return 1;
@@ -477,10 +482,10 @@ static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 static int is_redundant(struct remembered *r, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
-	int material = op->form == GLS_OP_CALL && strncmp(k->name, "glMaterial", 10) == 0;
-	int texture = op->form == GLS_OP_CALL && strcmp(k->name, "glBindTexture") == 0;
+	int material = op->form == GLS_OP_CALL && is_material(op);
+	int texture = op->form == GLS_OP_CALL && is_command(op, gls_glBindTexture);
 
-	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || is_command(op, "glBegin") || is_command(op, "glEnd")))
+	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || is_command(op, gls_glBegin) || is_command(op, gls_glEnd)))
 		return 0;
 	if (!material && !texture) {
 		r->n = 0;
@@ -503,17 +508,13 @@ static int is_redundant(struct remembered *r, const struct gls_op *op)
 static void drop_redundant(struct gls_list *list)
 {
 	struct remembered known = { .n = 0 };
-	struct gls_op *kept = list->n ? malloc(list->n * sizeof(*kept)) : NULL;
 	uint32_t n = 0;
 
-	if (!kept)
-		return; /* empty, or no memory: the list is right without it */
-	for (uint32_t i = 0; i < list->n; i++)
-		if (!is_redundant(&known, &list->ops[i]))
-			kept[n++] = list->ops[i];
-	memcpy(list->ops, kept, n * sizeof(*kept));
+	for (uint32_t i = 0; i < list->n; i++) {
+		list->ops[n] = list->ops[i]; /* moved before it is remembered where it stands */
+		n += !is_redundant(&known, &list->ops[n]);
+	}
 	list->n = n;
-	free(kept);
 }
 
 /* The same list with its runs assembled, in an arena of its own. The old one is freed. */
@@ -534,15 +535,15 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 	x->geometry = x->compiling;
 	x->want = 1;
 	for (uint32_t i = 0; i < list->n && !failed;) {
-		struct run run, whole;
+		struct run run;
 		collect_run(x, list, i, list->n, &run);
 		if (!run.end) {
 			failed = keep_ops(x, out, list, run.stop, &i) != 0;
 			continue;
 		}
-		/* Once more up to its end: what came after it left traces in the geometry. */
-		collect_run(x, list, i, run.end, &whole);
-		failed = keep_run(x, out, &whole) != 0;
+		if (run.stop > run.end) /* once more up to its end: what came after it left traces in the geometry */
+			collect_run(x, list, i, run.end, &run);
+		failed = keep_run(x, out, &run) != 0;
 		i = run.end;
 	}
 	x->compiling = x->geometry;
