@@ -2,11 +2,11 @@
  * Blending against Mesa's llvmpipe, bit for bit: every source and alpha over every destination (alphas in steps), for the
  * pairs of factors that programs use.
  */
-#include <check.h>
 #include <stdlib.h>
 
 #include "kernels/gl_blend.h"
 #include "replay/scene.h"
+#include "tests/case.h"
 
 #define SIDE 256
 
@@ -83,19 +83,11 @@ END_TEST
 
 int main(void)
 {
-	Suite *s = suite_create("blend");
 	TCase *c = tcase_create("llvmpipe");
-	SRunner *r;
-	int failed;
 
 	setenv("GALLIUM_DRIVER", "llvmpipe", 1);
 	tcase_set_timeout(c, 60);
 	tcase_add_test(c, factors_one_and_zero);
 	tcase_add_loop_test(c, every_color, 0, sizeof(factors) / sizeof(factors[0]));
-	suite_add_tcase(s, c);
-	r = srunner_create(s);
-	srunner_run_all(r, CK_NORMAL);
-	failed = srunner_ntests_failed(r);
-	srunner_free(r);
-	return failed != 0;
+	return run_case(c, "blend");
 }

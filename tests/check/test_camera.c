@@ -2,6 +2,7 @@
 #include "tests/check/random_scene.h"
 
 #include "kernels/camera.h"
+#include "tests/case.h"
 
 #define WIDTH 75 /* not a multiple of a tile */
 #define HEIGHT 53
@@ -370,10 +371,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("camera");
 	TCase *tests = tcase_create("camera");
-	SRunner *runner;
-	int failed;
 
 	choose_seed();
 	tcase_set_timeout(tests, 120);
@@ -381,10 +379,5 @@ int main(void)
 	tcase_add_test(tests, boxes_lose_nothing);
 	tcase_add_test(tests, trees_change_nothing);
 	tcase_add_test(tests, shared_edges_belong_to_one);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "camera");
 }

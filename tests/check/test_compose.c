@@ -2,13 +2,13 @@
  * The compose kernels on each device against their C twins: pixels by chance, with equal, strange and huge colours among them,
  * in pictures whose rows are no whole packets; and the packets against the kernel that takes one pixel at a time, bit by bit.
  */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "kernels/gl_tables.h"
+#include "tests/case.h"
 #include "tracer/device.h"
 
 #define WIDTH 13u
@@ -189,17 +189,9 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("compose");
 	TCase *tests = tcase_create("compose");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 240);
 	tcase_add_test(tests, test_packets_and_twins);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "compose");
 }

@@ -2,6 +2,7 @@
 #include "tests/check/random_scene.h"
 
 #include "kernels/rays.h"
+#include "tests/case.h"
 
 #define N_RAYS 4099 /* not a multiple of a packet */
 #define GUARD 64
@@ -352,10 +353,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("rays");
 	TCase *tests = tcase_create("rays");
-	SRunner *runner;
-	int failed;
 
 	choose_seed();
 	tcase_set_timeout(tests, 120);
@@ -363,10 +361,5 @@ int main(void)
 	tcase_add_loop_test(tests, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, 2);
 	tcase_add_loop_test(tests, hits_depend_on_no_fitting, 0, 2);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "rays");
 }

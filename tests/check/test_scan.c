@@ -1,10 +1,10 @@
 /* Prefix sums: the kernels and their C twins against a plain loop, at sizes about every border of a level. */
-#include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "kernels/scan.h"
+#include "tests/case.h"
 #include "tracer/scan.h"
 
 #define MOST (SCAN_CHUNK * SCAN_CHUNK * SCAN_CHUNK + 3)
@@ -65,16 +65,8 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("scan");
 	TCase *tests = tcase_create("scan");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tests, places_are_sums_of_counts);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "scan");
 }

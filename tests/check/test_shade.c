@@ -3,11 +3,11 @@
  * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel;
  * with one sample a pixel and with several.
  */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 
 #define SIZE 64
@@ -104,17 +104,9 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("shade");
 	TCase *tests = tcase_create("shade");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 240);
 	tcase_add_loop_test(tests, test_device_against_twins, 0, 2); /* one sample a pixel, and several */
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "shade");
 }

@@ -2,10 +2,10 @@
  * Calls in any order with any values (calls.h): the state machine stays in one piece, and what is saved between two frames is
  * what is loaded. The kept ones are what libFuzzer found worth keeping, with every sequence that ever broke something.
  */
-#include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
 
@@ -44,16 +44,8 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("calls");
-	Suite *suite = suite_create("calls");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tcase, kept_sequences);
 	tcase_add_loop_test(tcase, random_sequences, 0, N_PARTS);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "calls");
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
 #include "tracer/feed.h"
@@ -113,16 +114,8 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("pictures");
-	Suite *suite = suite_create("pictures");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_loop_test(tcase, kept_pictures, 0, N_PARTS);
 	tcase_add_loop_test(tcase, random_pictures, 0, N_PARTS);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "pictures");
 }

@@ -1,5 +1,4 @@
 /* Streams whose calls are changed are still read to their ends: that is how they get past the reader. */
-#include <check.h>
 #include <snappy-c.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +6,7 @@
 
 #include "replay/container.h"
 #include "replay/reader.h"
+#include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/stream.h"
 
@@ -111,18 +111,10 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("stream");
-	Suite *suite = suite_create("stream");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_unchecked_fixture(tcase, setup, NULL);
 	tcase_add_test(tcase, changed_streams_are_read);
 	tcase_add_test(tcase, changes_add_up);
 	tcase_add_test(tcase, what_is_no_stream);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "stream");
 }

@@ -13,13 +13,13 @@
 #ifndef TESTS_GL_GL_H
 #define TESTS_GL_GL_H
 
-#include <check.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "replay/exec.h"
 #include "replay/replay.h"
+#include "tests/case.h"
 
 #define GL_MAX_ARGS 16
 
@@ -188,16 +188,9 @@ static inline uint64_t gl_unsupported(const struct gl *gl)
 	{ \
 		const TTest *const tests[] = { __VA_ARGS__ }; \
 		TCase *tcase = tcase_create(name); \
-		Suite *suite = suite_create(name); \
-		SRunner *runner = srunner_create(suite); \
-		int failed; \
 		for (size_t i = 0; i < sizeof(tests) / sizeof(tests[0]); i++) \
 			tcase_add_test(tcase, tests[i]); \
-		suite_add_tcase(suite, tcase); \
-		srunner_run_all(runner, CK_NORMAL); \
-		failed = srunner_ntests_failed(runner); \
-		srunner_free(runner); \
-		return failed != 0; \
+		return run_case(tcase, name); \
 	}
 
 #endif

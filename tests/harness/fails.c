@@ -1,8 +1,9 @@
 /* Tests that must fail, each in its own way; tests/harness/test_must_fail.py checks that the runner notices. */
-#include <check.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "tests/case.h"
 
 START_TEST(test_pass)
 {
@@ -52,18 +53,11 @@ int main(int argc, char **argv)
 		{ "pass", test_pass }, { "fail", test_fail }, { "crash", test_crash },
 		{ "exit", test_exit }, { "hang", test_hang }, { "leak", test_leak },
 	};
-	Suite *suite = suite_create("must fail");
 	TCase *tcase = tcase_create("all");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_set_timeout(tcase, 1);
 	for (size_t i = 0; i < sizeof(tests) / sizeof(tests[0]); i++)
 		if (argc > 1 && strcmp(argv[1], tests[i].name) == 0)
 			tcase_add_test(tcase, tests[i].test);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "must fail");
 }

@@ -2,11 +2,11 @@
  * Clears before all draws (GL 2.1 sec. 4.2.3): any of colour, depth and stencil, under masks and scissors, one after the other and
  * whole ones done at once, against a plain account of what each leaves.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 
 enum { WIDTH = 7, HEIGHT = 5, PIXELS = WIDTH * HEIGHT, MOST = 4, ROUNDS = 400 };
@@ -97,16 +97,8 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("clears");
 	TCase *tests = tcase_create("clears");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tests, test_clears_against_account);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "clears");
 }

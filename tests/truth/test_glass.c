@@ -2,10 +2,10 @@
  * Glass in closed form: Snell's law by a slab that moves what stands behind it, Fresnel's weights at one boundary, total
  * reflection, Beer's law; and the shadows of what lets light through.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 
 #define SIZE 128
@@ -270,10 +270,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("glass");
 	TCase *tests = tcase_create("glass");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 120);
 	tcase_add_test(tests, test_snell);
@@ -281,10 +278,5 @@ int main(void)
 	tcase_add_test(tests, test_total_reflection);
 	tcase_add_test(tests, test_beer);
 	tcase_add_test(tests, test_shadows_of_what_lets_light_through);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "glass");
 }

@@ -4,9 +4,9 @@
  *
  * Eight sheets, each from a strip of its own to the right border, drawn in order; the numbers are counted by hand.
  */
-#include <check.h>
 
 #include "tests/truth/scenes.h"
+#include "tests/case.h"
 
 enum { STRIPS = 8, STRIP = 8, SIZE = STRIPS * STRIP, CLEARED_ROWS = 16 };
 
@@ -79,17 +79,9 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("layers");
 	TCase *tests = tcase_create("layers");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 120);
 	tcase_add_test(tests, test_number_of_layers);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "layers");
 }

@@ -1,11 +1,11 @@
 /* Rules (tracer/look.h): files that are wrong, what rules match, and what they make of a picture. */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 #include "tracer/look.h"
 
@@ -186,9 +186,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("look");
 	TCase *tests = tcase_create("look");
-	SRunner *runner;
 	int failed, file = mkstemp(path);
 
 	if (file < 0)
@@ -199,11 +197,7 @@ int main(void)
 	tcase_add_test(tests, test_matches);
 	tcase_add_test(tests, test_lights);
 	tcase_add_test(tests, test_light_of_an_object);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
+	failed = run_case(tests, "look");
 	unlink(path);
 	return failed != 0;
 }

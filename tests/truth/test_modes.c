@@ -2,10 +2,10 @@
  * Light of a size, openness, and light between surfaces in closed form: the width and course of a penumbra, a plane under
  * a disk, a white furnace; pixels that are means of several pictures; light at pixels instead of vertices.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 
 #define SIZE 64
@@ -317,10 +317,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("modes");
 	TCase *tests = tcase_create("modes");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 180);
 	tcase_add_test(tests, test_penumbra);
@@ -330,10 +327,5 @@ int main(void)
 	tcase_add_test(tests, test_samples);
 	tcase_add_test(tests, test_samples_differ_from_pixel_to_pixel);
 	tcase_add_test(tests, test_relight);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "modes");
 }

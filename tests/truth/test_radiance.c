@@ -2,10 +2,10 @@
  * Pictures whose every pixel is known in closed form: Lambert's law on a square and inside a sphere, the outline of a
  * shadow, a mirror that shows a plane, a lit corner without a spot of shadow.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "tests/case.h"
 #include "tests/truth/scenes.h"
 
 #define SIZE 96
@@ -307,10 +307,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("radiance");
 	TCase *tests = tcase_create("radiance");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 120);
 	tcase_add_test(tests, test_square_under_point_light);
@@ -320,10 +317,5 @@ int main(void)
 	tcase_add_test(tests, test_corner_without_specks);
 	tcase_add_test(tests, test_shadows_at_any_scale);
 	tcase_add_test(tests, test_smooth_lines_cover_their_width);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "radiance");
 }

@@ -2,6 +2,7 @@
 #include "tests/check/random_scene.h"
 
 #include "kernels/compressed.h"
+#include "tests/case.h"
 #include "tracer/bvh.h"
 
 #define N 70000
@@ -332,10 +333,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("accel");
 	TCase *tests = tcase_create("accel");
-	SRunner *runner;
-	int failed;
 
 	choose_seed();
 	tcase_set_timeout(tests, 60);
@@ -344,10 +342,5 @@ int main(void)
 	tcase_add_test(tests, cut_space_loses_nothing);
 	tcase_add_test(tests, meshes_are_kept_and_dropped);
 	tcase_add_test(tests, copies_are_kept_up);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "accel");
 }

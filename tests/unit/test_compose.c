@@ -1,10 +1,10 @@
 /* The numbers of finished pictures: halves as OpenEXR has them, sRGB's curve as C's library computes it. */
-#include <check.h>
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <half.h>
 #include <math.h>
 
 #include "kernels/gl_compose.h"
+#include "tests/case.h"
 #include "tracer/image.h"
 
 START_TEST(test_halves)
@@ -58,19 +58,11 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("compose");
 	TCase *tests = tcase_create("compose");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_halves);
 	tcase_add_test(tests, test_linear);
 	tcase_add_test(tests, test_codes);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "compose");
 }

@@ -1,5 +1,4 @@
 /* Configuration files: what is wrong is named with its line, and never half taken. */
-#include <check.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 
 #include "base/config.h"
 #include "base/err.h"
+#include "tests/case.h"
 
 struct rule {
 	char *match;
@@ -94,9 +94,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("config");
 	TCase *tests = tcase_create("config");
-	SRunner *runner;
 	int failed, fd = mkstemp(path);
 
 	if (fd < 0)
@@ -104,11 +102,7 @@ int main(void)
 	close(fd);
 	tcase_add_test(tests, a_good_file);
 	tcase_add_test(tests, bad_files);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
+	failed = run_case(tests, "config");
 	unlink(path);
 	return failed != 0;
 }

@@ -1,5 +1,4 @@
 /* Devices: what a shared one has in common with its parent, what a profile counts, and what is kept of compiled kernels. */
-#include <check.h>
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include "kernels/shared.h"
+#include "tests/case.h"
 #include "tracer/device.h"
 
 /* A second queue that took the kernels for GPUs on a CPU would be several times slower, and nobody would see why. */
@@ -204,19 +204,11 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("device");
 	TCase *tests = tcase_create("device");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tests, test_shared_device_takes_the_same_kernels);
 	tcase_add_test(tests, test_profile);
 	tcase_add_test(tests, test_programs_are_kept);
 	tcase_add_test(tests, test_programs_are_shared);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "device");
 }

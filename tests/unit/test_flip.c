@@ -2,12 +2,12 @@
  * FLIP against its authors' implementation: numbers from the Python package flip-evaluator 1.7 (LDR, default 67.0206
  * pixels per degree) on patterns that both sides make by the same rule.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "diff/score.h"
+#include "tests/case.h"
 
 enum { WIDTH = 64, HEIGHT = 48, N = WIDTH * HEIGHT };
 
@@ -167,10 +167,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("flip");
 	TCase *tests = tcase_create("flip");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tests, even_shift_of_grey);
 	tcase_add_test(tests, extremes);
@@ -180,10 +177,5 @@ int main(void)
 	tcase_add_test(tests, smaller_than_the_filters);
 	tcase_add_test(tests, equal_pictures);
 	tcase_add_test(tests, magma_has_its_ends);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "flip");
 }

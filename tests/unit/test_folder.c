@@ -1,13 +1,13 @@
 /* base/folder: making folders for output. */
 #include "base/folder.h"
 
-#include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 
 static char scratch[64];
 
@@ -65,16 +65,9 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("folder");
-	Suite *suite = suite_create("folder");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_add_checked_fixture(tcase, setup, teardown);
 	tcase_add_test(tcase, test_make);
 	tcase_add_test(tcase, test_in_the_way);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "folder");
 }

@@ -1,10 +1,10 @@
 /* base/frames: ranges and file name patterns. */
 #include "base/frames.h"
 
-#include <check.h>
 #include <stdio.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 
 /** "0 2 4" for the frames below `end` that a list holds. */
 static const char *frames_of(const char *text, uint64_t end)
@@ -139,9 +139,6 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("frames");
-	Suite *suite = suite_create("frames");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_add_test(tcase, test_ranges);
 	tcase_add_test(tcase, test_not_ranges);
@@ -149,9 +146,5 @@ int main(void)
 	tcase_add_test(tcase, test_last_and_count);
 	tcase_add_test(tcase, test_patterns);
 	tcase_add_test(tcase, test_pattern_too_long);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "frames");
 }

@@ -2,13 +2,13 @@
  * The scorer's own test: a good frame passes every gate, each fault fails the gate that is there for it, and harmless
  * differences fail none. The frames are made here: three draws of known colour, depth and number over a background.
  */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "diff/score.h"
+#include "tests/case.h"
 
 enum { WIDTH = 160, HEIGHT = 120, N = WIDTH * HEIGHT };
 
@@ -740,10 +740,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("gates");
 	TCase *tests = tcase_create("gates");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_checked_fixture(tests, begin, end);
 	tcase_add_test(tests, good_frame_passes_every_gate);
@@ -781,10 +778,5 @@ int main(void)
 	tcase_add_test(tests, baseline_sees_lost_shadows_and_names_the_draw);
 	tcase_add_test(tests, blame_of_a_missing_draw_by_the_approved_frame);
 	tcase_add_test(tests, codes_round_trip);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "gates");
 }

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
+#include "tests/case.h"
 #include "tracer/grove.h"
 
 #define THREADS 4
@@ -205,10 +206,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("grove");
 	TCase *tests = tcase_create("grove");
-	SRunner *runner;
-	int failed;
 
 	choose_seed();
 	tcase_set_timeout(tests, 60);
@@ -217,10 +215,5 @@ int main(void)
 	tcase_add_test(tests, unused_for_longest_goes_first);
 	tcase_add_test(tests, what_fails_passes_on);
 	tcase_add_test(tests, accels_share_trees);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "grove");
 }

@@ -1,5 +1,4 @@
 /* struct image and its OpenEXR form: what is written is what is read, byte for byte the same twice, or not at all. */
-#include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 #include "tracer/image.h"
 
 static char folder[] = "/tmp/test_image.XXXXXX";
@@ -187,9 +187,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("image");
 	TCase *tests = tcase_create("image");
-	SRunner *runner;
 	char command[64];
 	int failed;
 
@@ -202,11 +200,7 @@ int main(void)
 	tcase_add_test(tests, test_cut_file);
 	tcase_add_test(tests, test_refuses);
 	tcase_add_test(tests, test_encoding);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
+	failed = run_case(tests, "image");
 	snprintf(command, sizeof(command), "rm -rf %s", folder);
 	return system(command) != 0 || failed != 0;
 }

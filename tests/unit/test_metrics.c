@@ -2,12 +2,12 @@
  * Metrics that never decide, against published and independent values: the 34 pairs of Sharma, Wu and Dalal 2005
  * (table 1) for CIEDE2000; SSIM, MS-SSIM and PSNR against values computed apart from this code by their definitions.
  */
-#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "diff/score.h"
+#include "tests/case.h"
 
 static const struct { double a[3], b[3], difference; } sharma[] = {
 	{ { 50.0000, 2.6772, -79.7751 }, { 50.0000, 0.0000, -82.7485 }, 2.0425 },
@@ -120,20 +120,12 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("metrics");
 	TCase *tests = tcase_create("metrics");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tests, ciede2000_of_sharma);
 	tcase_add_test(tests, lab);
 	tcase_add_test(tests, ssim);
 	tcase_add_test(tests, psnr);
 	tcase_add_test(tests, ciede2000_percentile);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "metrics");
 }

@@ -1,11 +1,11 @@
 /* Pieces made by several threads arrive in order, know the same costs in every run, and stop where one fails. */
-#include <check.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/err.h"
 #include "diff/ordered.h"
+#include "tests/case.h"
 
 enum { N = 200, FAILS_AT = 90 };
 
@@ -81,17 +81,10 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("ordered");
-	Suite *suite = suite_create("ordered");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_add_test(tcase, pieces_arrive_in_order);
 	tcase_add_test(tcase, costs_are_those_of_pieces_long_before);
 	tcase_add_test(tcase, a_failure_ends_the_run);
 	tcase_add_test(tcase, nothing_is_nothing);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "ordered");
 }

@@ -1,10 +1,11 @@
 /* replay/pack: what is packed comes back, and what does not pack is kept as it is. */
 #include "replay/pack.h"
 
-#include <check.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "tests/case.h"
 
 #define MAX_BYTES 100000u
 
@@ -75,16 +76,9 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("pack");
-	Suite *suite = suite_create("pack");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_add_test(tcase, test_sizes);
 	tcase_add_test(tcase, test_worth);
 	tcase_add_test(tcase, test_damaged);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "pack");
 }

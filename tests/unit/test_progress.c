@@ -1,12 +1,12 @@
 /* base/progress and base/err: what goes to standard error, off a terminal. (The bar: tests/real/test_progress.py.) */
 #include "base/progress.h"
 
-#include <check.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 
 static char captured[2048];
 
@@ -75,15 +75,8 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("progress");
-	Suite *suite = suite_create("progress");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_add_test(tcase, test_lines);
 	tcase_add_test(tcase, test_reports);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "progress");
 }

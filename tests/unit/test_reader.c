@@ -1,7 +1,6 @@
 /* replay/reader: traces written here byte by byte, whole, cut and damaged. */
 #include "replay/reader.h"
 
-#include <check.h>
 #include <snappy-c.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 #include <zlib.h>
 
 #include "base/err.h"
+#include "tests/case.h"
 
 struct bytes {
 	uint8_t data[3 << 16];
@@ -477,9 +477,6 @@ END_TEST
 int main(void)
 {
 	TCase *tcase = tcase_create("reader");
-	Suite *suite = suite_create("reader");
-	SRunner *runner = srunner_create(suite);
-	int failed;
 
 	tcase_set_timeout(tcase, 60);
 	tcase_add_test(tcase, test_snappy);
@@ -492,9 +489,5 @@ int main(void)
 	tcase_add_test(tcase, test_damaged);
 	tcase_add_test(tcase, test_impossible);
 	tcase_add_test(tcase, test_no_traces);
-	suite_add_tcase(suite, tcase);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "reader");
 }

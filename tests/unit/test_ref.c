@@ -1,5 +1,4 @@
 /* The reader of reference frames: whole files, files cut at every byte, and files that lie. */
-#include <check.h>
 #include <snappy-c.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 
 #include "base/err.h"
 #include "capture/ref.h"
+#include "tests/case.h"
 
 enum { WIDTH = 5, HEIGHT = 3, PIXEL_BYTES = WIDTH * HEIGHT * 4, N_FRAMES = 4 };
 
@@ -166,9 +166,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("ref");
 	TCase *tcase = tcase_create("ref");
-	SRunner *runner;
 	int failed, fd = mkstemp(path);
 
 	if (fd < 0)
@@ -177,11 +175,7 @@ int main(void)
 	tcase_add_test(tcase, test_reads_back_what_was_written);
 	tcase_add_test(tcase, test_cut_at_any_byte_keeps_whole_records);
 	tcase_add_test(tcase, test_lies_are_refused);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
+	failed = run_case(tcase, "ref");
 	unlink(path);
 	return failed != 0;
 }

@@ -1,9 +1,9 @@
 /* Sizes of what arguments point to: pixel rectangles under every part of the unpack state, evaluator maps, lists, vectors. */
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <check.h>
 
 #include "capture/sizes.h"
+#include "tests/case.h"
 
 static const struct pixel_layout initial = { .alignment = 4 };
 
@@ -83,10 +83,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("sizes");
 	TCase *tcase = tcase_create("sizes");
-	SRunner *runner;
-	int failed;
 
 	tcase_add_test(tcase, test_rows_are_padded_but_for_the_last);
 	tcase_add_test(tcase, test_bitmaps_count_bits);
@@ -94,10 +91,5 @@ int main(void)
 	tcase_add_test(tcase, test_packed_pixels);
 	tcase_add_test(tcase, test_nonsense_is_nothing);
 	tcase_add_test(tcase, test_lists_maps_and_vectors);
-	suite_add_tcase(suite, tcase);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tcase, "sizes");
 }

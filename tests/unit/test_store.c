@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "tests/case.h"
 #include "tracer/store.h"
 #include "tracer/tree.h"
 
@@ -394,10 +395,7 @@ END_TEST
 
 int main(void)
 {
-	Suite *suite = suite_create("store");
 	TCase *tests = tcase_create("store");
-	SRunner *runner;
-	int failed;
 
 	tcase_set_timeout(tests, 60);
 	tcase_add_checked_fixture(tests, set_up, NULL);
@@ -410,10 +408,5 @@ int main(void)
 	tcase_add_test(tests, no_right_to_write_is_one_line);
 	tcase_add_test(tests, a_full_disk_is_one_line);
 	tcase_add_test(tests, other_trees_are_another_version);
-	suite_add_tcase(suite, tests);
-	runner = srunner_create(suite);
-	srunner_run_all(runner, CK_NORMAL);
-	failed = srunner_ntests_failed(runner);
-	srunner_free(runner);
-	return failed != 0;
+	return run_case(tests, "store");
 }

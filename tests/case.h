@@ -1,0 +1,21 @@
+/** tests/case.h: what the mains of all C tests have in common. */
+#ifndef TESTS_CASE_H
+#define TESTS_CASE_H
+
+#include <check.h>
+
+/** Runs a case, which it takes, each test in a process of its own. Returns main's exit code: 0 where all passed. */
+static inline int run_case(TCase *tests, const char *name)
+{
+	Suite *suite = suite_create(name);
+	SRunner *runner = srunner_create(suite);
+	int failed;
+
+	suite_add_tcase(suite, tests);
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
+
+#endif
