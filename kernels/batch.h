@@ -29,6 +29,7 @@ struct batch {
 	packi step_x[3], step_y[3];   /* 1/256 square pixel a pixel */
 	long16 value[2];              /* of edges 1 and 2 at the tile's first pixel, exact, 1/65536 square pixel */
 	packi small;                  /* lanes whose functions fit into 32 bits wherever they are inside */
+	packi rest[2];                /* of them, where whole stands for the function: what is to be added to 256 times it */
 	packf inverse;                /* 1 / twice the area, in their unit */
 	packi x_first, x_last, y_first, y_last; /* pixels of the tile that the triangle's box holds */
 	packf z, along_b1, along_b2;  /* depth from weights */
@@ -121,6 +122,8 @@ WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int 
 	out->step_x[i] = -dy;
 	out->step_y[i] = dx;
 	out->whole[i] = convert_int16(clamp((value + convert_long16(~owned)) >> 8, (long16)(-(1l << 30)), (long16)(1l << 30)));
+	if (i)
+		out->rest[i - 1] = ((convert_int16(value) + ~owned) & 255) - ~owned;
 	return value;
 }
 
@@ -150,8 +153,8 @@ WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, i
 	const long16 sign = area >> 63, size = (area ^ sign) - sign;
 	const packi clockwise = convert_int16(sign);
 
-	lanes &= (x_first <= x_last) & (x_last >= 0) & (x_first < CAMERA_TILE_WIDTH) & (y_first <= y_last) & (y_last >= 0) &
-	         (y_first < CAMERA_TILE_HEIGHT) & convert_int16(area != 0l);
+	lanes &= (x_first <= x_last) & (x_last >= 0) & (x_first < CAMERA_TILE) & (y_first <= y_last) & (y_last >= 0) &
+	         (y_first < CAMERA_TILE) & convert_int16(area != 0l);
 	if (coverage_culled(flags, 1))
 		lanes &= clockwise;
 	if (coverage_culled(flags, 0))
@@ -159,9 +162,9 @@ WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, i
 	if (!any_pack(lanes))
 		return 0;
 	out->x_first = max(x_first, 0);
-	out->x_last = min(x_last, CAMERA_TILE_WIDTH - 1);
+	out->x_last = min(x_last, CAMERA_TILE - 1);
 	out->y_first = max(y_first, 0);
-	out->y_last = min(y_last, CAMERA_TILE_HEIGHT - 1);
+	out->y_last = min(y_last, CAMERA_TILE - 1);
 	batch_edge(v, 0, 1, 2, clockwise, at, out);
 	out->value[0] = batch_edge(v, 1, 2, 0, clockwise, at, out);
 	out->value[1] = batch_edge(v, 2, 0, 1, clockwise, at, out);

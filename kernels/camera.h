@@ -39,7 +39,7 @@
  *
  * Window vertices with a place lie within +-2^23 (32768 pixels).
  *
- * Work items: camera_packet_items() tiles of 16 x 16 pixels, or for the others camera_wide_items() pixels, of the view's
+ * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels, of the view's
  * rectangle.
  */
 #ifndef KERNELS_CAMERA_H
@@ -53,9 +53,8 @@
 #define CAMERA_COLUMN 2u
 
 #define CAMERA_COLUMN_MAX 8
-/* A tile in pixels. */
-#define CAMERA_TILE_WIDTH 16 /* lanes of a row: kernels/lanes.h */
-#define CAMERA_TILE_HEIGHT 16
+/* A tile is square; in pixels. */
+#define CAMERA_TILE 32
 
 /* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
 struct camera_rectangle {
@@ -80,8 +79,8 @@ static inline struct camera_rectangle camera_rectangle(int32_t x, int32_t y, int
 /** How many work items a rectangle takes. */
 static inline uint32_t camera_packet_items(struct camera_rectangle r)
 {
-	return (uint32_t)((r.x1 - r.x0 + CAMERA_TILE_WIDTH - 1) / CAMERA_TILE_WIDTH) *
-	       (uint32_t)((r.y1 - r.y0 + CAMERA_TILE_HEIGHT - 1) / CAMERA_TILE_HEIGHT);
+	return (uint32_t)((r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE) *
+	       (uint32_t)((r.y1 - r.y0 + CAMERA_TILE - 1) / CAMERA_TILE);
 }
 
 static inline uint32_t camera_wide_items(struct camera_rectangle r)

@@ -1,9 +1,9 @@
 /*
- * camera_packet: a tile of 16 x 16 pixels a work item. See kernels/camera.h.
+ * camera_packet: a tile of 32 x 32 pixels a work item. See kernels/camera.h.
  *
  * The tile's rays go through the trees as one frustum against eight boxes at once, nearest child first, cut off behind the farthest
  * of the tile's nearest fragments. Triangles of leaves wait until there are sixteen, which are set up at once (kernels/batch.h); what
- * is left of them is decided row by row, sixteen pixels at once.
+ * is left of them is decided block by block, four rows of four pixels at once: small triangles meet few of those.
  */
 #include "kernels/batch.h"
 #include "kernels/camera.h"
@@ -14,12 +14,16 @@
 /* The far plane's lane in a tile's frustum. */
 #define FAR_PLANE 5
 
-/* Sixteen pixels of a row. */
-#define TILE_PACKS (CAMERA_TILE_WIDTH / 16)
+/* Sixteen pixels: a block of four rows of four. */
+#define BLOCK 4
+#define TILE_BLOCKS (CAMERA_TILE / BLOCK)
+#define BLOCK_X (PACK_LANES & 3)
+#define BLOCK_Y (PACK_LANES >> 2)
 
-/* What they hold. NEAREST: the nearest fragment; steps is all ones where there is none. COLUMN: how many fragments so far. */
+/* What they hold. NEAREST: the nearest fragment; its depth is NO_DEPTH where there is none. COLUMN: how many fragments so far. */
+#define NO_DEPTH 2.0f
 struct pack {
-	packu steps, order, instance, primitive;
+	packu order, instance, primitive;
 	packf b1, b2, depth;
 	packi counts;
 };
@@ -40,13 +44,12 @@ struct tile {
 	__global struct fragment *fragments;
 	uint width, height, mode;
 	int x, y;      /* the first pixel */
-	int y_first, y_last; /* rows that take fragments now, and in them these pixels */
-	packi on[TILE_PACKS];
-	packf plane_x[TILE_PACKS]; /* where a view looks in the pixels of a row, as planes count */
+	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones where a pixel takes no fragments now */
+	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* where a view looks in the pixels, as planes count */
 	int changed;   /* a nearest fragment was replaced since z_far was set */
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
 	struct pending pending;
-	struct pack packs[CAMERA_TILE_HEIGHT][TILE_PACKS];
+	struct pack packs[TILE_BLOCKS][TILE_BLOCKS];
 };
 
 /* A candidate: its numbers. */
@@ -56,20 +59,26 @@ struct candidate {
 
 /* --- fragments --- */
 
-/* Which of these pixels a candidate at this depth takes. */
-WIDE_VECTORS static inline packi find_better(const struct tile *t, const struct pack *p, packi covered, packu steps, uint order)
+/* Depth in steps of 2^-24, as it is compared. */
+WIDE_VECTORS static inline packf depth_steps(packf depth)
 {
-	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(order) < p->order : (packu)(order) > p->order;
-
-	return covered & ((steps < p->steps) | ((steps == p->steps) & before));
+	return rint(depth * 16777215.0f);
 }
 
-WIDE_VECTORS static inline void keep_nearest(struct pack *p, packi better, packu steps, packf b1, packf b2, packf depth, struct candidate c)
+/* Which of these pixels a candidate at this depth takes. */
+WIDE_VECTORS static inline packi find_better(const struct tile *t, const struct pack *p, packi covered, packf depth, uint order)
+{
+	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(order) < p->order : (packu)(order) > p->order;
+	const packf steps = depth_steps(depth), nearest = depth_steps(p->depth);
+
+	return covered & ((steps < nearest) | ((steps == nearest) & before));
+}
+
+WIDE_VECTORS static inline void keep_nearest(struct pack *p, packi better, packf b1, packf b2, packf depth, struct candidate c)
 {
 	p->order = select(p->order, (packu)(c.order), better);
 	p->instance = select(p->instance, (packu)(c.instance), better);
 	p->primitive = select(p->primitive, (packu)(c.primitive), better);
-	p->steps = select(p->steps, steps, better);
 	p->b1 = select(p->b1, b1, better);
 	p->b2 = select(p->b2, b2, better);
 	p->depth = select(p->depth, depth, better);
@@ -79,7 +88,7 @@ static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, 
                                    struct candidate c)
 {
 	for (int lane = 0; lane < 16; lane++) {
-		const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + 16 * x + lane);
+		const size_t pixel = (size_t)(t->y + BLOCK * y + lane / BLOCK) * t->width + (size_t)(t->x + BLOCK * x + lane % BLOCK);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
 		int *count = (int *)&t->packs[y][x].counts + lane, place = *count;
 
@@ -107,25 +116,25 @@ static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, 
 WIDE_VECTORS static inline void shorten(struct tile *t)
 {
 	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
-	packu steps = 0;
-	uint8 eight;
-	uint4 four;
-	uint2 two;
-	uint farthest;
+	packf depth = 0;
+	float8 eight;
+	float4 four;
+	float2 two;
+	float farthest;
 
 	t->changed = 0;
 	if (!(range > 0))
 		return; /* the nearest depth is not the first along the ray */
-	for (int y = t->y_first; y <= t->y_last; y++)
-		for (int x = 0; x < TILE_PACKS; x++)
-			steps = max(steps, t->packs[y][x].steps & as_uint16(t->on[x]));
-	eight = max(steps.lo, steps.hi);
-	four = max(eight.lo, eight.hi);
-	two = max(four.lo, four.hi);
-	farthest = max(two.lo, two.hi);
+	for (int y = 0; y < TILE_BLOCKS; y++)
+		for (int x = 0; x < TILE_BLOCKS; x++)
+			depth = pack_max(depth, select(t->packs[y][x].depth, (packf)(0), t->off_x[x] | t->off_y[y]));
+	eight = lanes_max(depth.lo, depth.hi);
+	four = fmax(eight.lo, eight.hi);
+	two = fmax(four.lo, four.hi);
+	farthest = fmax(two.lo, two.hi);
 	/* A step more, for equal depths, and what rounding may do. */
-	if (farthest < 0x1000000u)
-		t->z_far = fmin(2.0f * (((float)farthest * (1.0f / 16777216.0f) - near) / range + 4e-7f) - 1.0f, 1.0f);
+	if (farthest < NO_DEPTH)
+		t->z_far = fmin(2.0f * ((farthest - near) / range + 5e-7f) - 1.0f, 1.0f);
 }
 
 /* --- coverage --- */
@@ -133,18 +142,20 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 #define LANE_INT(rows, lane) (((const int *)&(rows))[lane])
 #define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
-/* The weight of edge 1 + i's corner in sixteen pixels of a row: its function's value, rounded once, in the whole triangle's. */
-WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, int x, int y)
+/* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole triangle's. */
+WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, int x, int y, packi at)
 {
-	const long value = ((const long *)&s->value[i])[lane];
-	const int step_x = LANE_INT(s->step_x[1 + i], lane), step_y = LANE_INT(s->step_y[1 + i], lane);
 	packf rounded;
 
-	/* What overflows in lanes that are outside, or on the way, does not matter. */
-	if (LANE_INT(s->small, lane))
-		rounded = convert_float16(as_int16((uint)value + (uint)(y * step_y + x * step_x) * 256u + as_uint16(PACK_LANES * step_x) * 256u));
-	else
-		rounded = convert_float16((long16)(value + ((long)y * step_y + (long)x * step_x) * 256) + convert_long16(PACK_LANES * step_x) * 256);
+	if (LANE_INT(s->small, lane)) {
+		rounded = convert_float16(at * 256 + LANE_INT(s->rest[i], lane));
+	} else {
+		const long value = ((const long *)&s->value[i])[lane];
+		const packi step_x = LANE_INT(s->step_x[1 + i], lane), step_y = LANE_INT(s->step_y[1 + i], lane);
+
+		rounded = convert_float16((long16)(value) + (convert_long16(BLOCK_Y + BLOCK * y) * convert_long16(step_y) +
+		                                             convert_long16(BLOCK_X + BLOCK * x) * convert_long16(step_x)) * 256);
+	}
 	return rounded * LANE_FLOAT(s->inverse, lane);
 }
 
@@ -164,28 +175,24 @@ WIDE_VECTORS static inline packf clamp_depth(packf depth)
 	return select(depth, (packf)(0), depth < 0.0f);
 }
 
-/* What one triangle of a batch covers of sixteen pixels of row y. corner: NULL, or the three of a part of one. */
-WIDE_VECTORS static inline void draw_pack(struct tile *t, const struct batch *s, uint lane, int x, int y, packi covered,
-                                          const struct clip_corner *const *corner, struct candidate c)
+/* What one triangle of a batch covers of a block. at: its edges there. corner: NULL, or the three of a part of one. */
+WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, int x, int y, packi covered, const packi *at,
+                                           const struct clip_corner *const *corner, struct candidate c)
 {
 	const int exact = t->mode != CAMERA_COLUMN && LANE_INT(s->exact, lane);
 	struct pack *p = &t->packs[y][x];
 	packf depth, b1, b2;
-	packu steps;
 	packi better;
 
 	if (exact) {
-		const float row = clip_from_origin(t->view, (int)t->height - 1 - (t->y + y), -t->view->sample[1]);
-
-		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), (packf)(row),
+		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), t->plane_y[y],
 		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x], (packf)(LANE_FLOAT(s->origin, lane)))));
-		steps = convert_uint16(rint(depth * 16777215.0f));
-		better = find_better(t, p, covered, steps, c.order);
+		better = find_better(t, p, covered, depth, c.order);
 		if (!any_pack(better))
 			return;
 	}
-	b1 = weight_at(s, lane, 0, 16 * x, y);
-	b2 = weight_at(s, lane, 1, 16 * x, y);
+	b1 = weight_at(s, lane, 0, x, y, at[1]);
+	b2 = weight_at(s, lane, 1, x, y, at[2]);
 	if (!exact)
 		depth = clamp_depth(LANE_FLOAT(s->z, lane) + (b1 * LANE_FLOAT(s->along_b1, lane) + b2 * LANE_FLOAT(s->along_b2, lane)));
 	if (corner)
@@ -195,36 +202,42 @@ WIDE_VECTORS static inline void draw_pack(struct tile *t, const struct batch *s,
 		return;
 	}
 	if (!exact) {
-		steps = convert_uint16(rint(depth * 16777215.0f));
-		better = find_better(t, p, covered, steps, c.order);
+		better = find_better(t, p, covered, depth, c.order);
 		if (!any_pack(better))
 			return;
 	}
 	t->changed = 1;
-	keep_nearest(p, better, steps, b1, b2, depth, c);
+	keep_nearest(p, better, b1, b2, depth, c);
 }
 
 /* All that one triangle of a batch covers. */
 WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane, const struct clip_corner *const *corner,
                                               struct candidate c)
 {
-	const int y_first = max(LANE_INT(s->y_first, lane), t->y_first), y_last = min(LANE_INT(s->y_last, lane), t->y_last);
+	const int x_first = LANE_INT(s->x_first, lane) / BLOCK, x_last = LANE_INT(s->x_last, lane) / BLOCK;
+	const int y_first = LANE_INT(s->y_first, lane) / BLOCK, y_last = LANE_INT(s->y_last, lane) / BLOCK;
+	const packi x0 = BLOCK_X + BLOCK * x_first, y0 = BLOCK_Y + BLOCK * y_first;
+	const packi step_x[3] = { LANE_INT(s->step_x[0], lane), LANE_INT(s->step_x[1], lane), LANE_INT(s->step_x[2], lane) };
+	const packi step_y[3] = { LANE_INT(s->step_y[0], lane), LANE_INT(s->step_y[1], lane), LANE_INT(s->step_y[2], lane) };
+	packi row[3] = { LANE_INT(s->whole[0], lane) + x0 * step_x[0] + y0 * step_y[0],
+		         LANE_INT(s->whole[1], lane) + x0 * step_x[1] + y0 * step_y[1],
+		         LANE_INT(s->whole[2], lane) + x0 * step_x[2] + y0 * step_y[2] };
 
-	for (int x = LANE_INT(s->x_first, lane) / 16; x <= LANE_INT(s->x_last, lane) / 16; x++) {
-		packi at[3], step[3];
+	for (int y = y_first; y <= y_last; y++) {
+		packi at[3] = { row[0], row[1], row[2] };
 
-		for (int i = 0; i < 3; i++) {
-			step[i] = LANE_INT(s->step_y[i], lane);
-			at[i] = LANE_INT(s->whole[i], lane) + y_first * step[i] + (PACK_LANES + 16 * x) * LANE_INT(s->step_x[i], lane);
-		}
-		for (int y = y_first; y <= y_last; y++) {
-			const packi covered = t->on[x] & ((at[0] | at[1] | at[2]) >= 0);
+		for (int x = x_first; x <= x_last; x++) {
+			const packi covered = (at[0] | at[1] | at[2] | t->off_x[x] | t->off_y[y]) >= 0;
 
-			for (int i = 0; i < 3; i++)
-				at[i] += step[i];
 			if (any_pack(covered))
-				draw_pack(t, s, lane, x, y, covered, corner, c);
+				draw_block(t, s, lane, x, y, covered, at, corner, c);
+			at[0] += BLOCK * step_x[0];
+			at[1] += BLOCK * step_x[1];
+			at[2] += BLOCK * step_x[2];
 		}
+		row[0] += BLOCK * step_y[0];
+		row[1] += BLOCK * step_y[1];
+		row[2] += BLOCK * step_y[2];
 	}
 }
 
@@ -325,8 +338,8 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 	const float left = (float)t->x + tile_sample(t, 0) - view->viewport[0];
 	const float low = (float)t->y + tile_sample(t, 1) - view->viewport[1];
 	/* A pixel's hundredth more: snapping moves edges by 1/512. */
-	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE_WIDTH - 0.49f) * scale_x - 1.0f;
-	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE_HEIGHT - 0.49f) * scale_y - 1.0f;
+	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE - 0.49f) * scale_x - 1.0f;
+	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE - 0.49f) * scale_y - 1.0f;
 	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that is always met. */
 	const float8 of_x = (float8)(1, -1, 0, 0, 0, 0, 0, 0), of_y = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
 	const float8 of_z = (float8)(0, 0, 0, 0, 1, -1, 0, 0), of_w = (float8)(-x0, x1, -y0, y1, 1, t->z_far, 1, 0);
@@ -443,8 +456,8 @@ static inline void walk_screen(struct tile *t, uint index)
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node8 *nodes = t->nodes + instance->node8_first;
 	const float left = (float)t->x + tile_sample(t, 0), low = (float)t->y + tile_sample(t, 1), pad = instance->pad;
-	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE_WIDTH - 0.5f + pad;
-	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE_HEIGHT - 0.5f + pad;
+	const float x0 = left + 0.5f - pad, x1 = left + CAMERA_TILE - 0.5f + pad;
+	const float y0 = low + 0.5f - pad, y1 = low + CAMERA_TILE - 0.5f + pad;
 	uint stack[RAYS_WIDE_STACK], depth = 0;
 
 	stack[depth++] = 0;
@@ -472,25 +485,20 @@ static inline void walk_screen(struct tile *t, uint index)
 /* Pixels of the tile between places x0 and x1, y0 and y1 take fragments from now on. */
 WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, float x1, float y1)
 {
-	const float py = (float)t->y + 0.5f + tile_sample(t, 1);
+	for (int i = 0; i < TILE_BLOCKS; i++) {
+		const packf px = convert_float16(t->x + BLOCK * i + BLOCK_X) + 0.5f + tile_sample(t, 0);
+		const packf py = convert_float16(t->y + BLOCK * i + BLOCK_Y) + 0.5f + tile_sample(t, 1);
 
-	for (int x = 0; x < TILE_PACKS; x++) {
-		const packf px = convert_float16(t->x + 16 * x + PACK_LANES) + 0.5f + tile_sample(t, 0);
-
-		t->on[x] = (px >= x0) & (px < x1);
+		t->off_x[i] = ~((px >= x0) & (px < x1));
+		t->off_y[i] = ~((py >= y0) & (py < y1));
 	}
-	t->y_first = 0;
-	t->y_last = CAMERA_TILE_HEIGHT - 1;
-	while (t->y_first < CAMERA_TILE_HEIGHT && !((float)t->y_first + py >= y0))
-		t->y_first++;
-	while (t->y_last >= 0 && !((float)t->y_last + py < y1))
-		t->y_last--;
 }
 
-static inline void store_pixel(const struct tile *t, int x, int y, uint lane, __global uint *counts)
+static inline void store_pixel(const struct tile *t, int x, int y, __global uint *counts)
 {
-	const struct pack *p = &t->packs[y][x];
-	const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + 16 * x) + lane;
+	const struct pack *p = &t->packs[y / BLOCK][x / BLOCK];
+	const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + x);
+	const uint lane = y % BLOCK * BLOCK + x % BLOCK;
 	struct fragment f;
 
 	if (t->mode == CAMERA_COLUMN) {
@@ -502,35 +510,75 @@ static inline void store_pixel(const struct tile *t, int x, int y, uint lane, __
 	f.primitive = (uint)LANE_INT(p->primitive, lane);
 	f.b1 = LANE_FLOAT(p->b1, lane);
 	f.b2 = LANE_FLOAT(p->b2, lane);
-	f.depth = LANE_FLOAT(p->depth, lane);
+	f.depth = fmin(LANE_FLOAT(p->depth, lane), 1.0f);
 	t->fragments[pixel] = f;
 	counts[pixel] = f.order != SCENE_NONE;
+}
+
+/* Of each row of a block, four numbers a row: the first two of a and of b by turns, the last two; halves of a and of b. */
+#define STORE_LOW(a, b) (packu)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd)
+#define STORE_HIGH(a, b) (packu)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se, b.se, a.sf, b.sf)
+#define STORE_FIRST(a, b) (packu)(a.s01, b.s01, a.s45, b.s45, a.s89, b.s89, a.scd, b.scd)
+#define STORE_LAST(a, b) (packu)(a.s23, b.s23, a.s67, b.s67, a.sab, b.sab, a.sef, b.sef)
+#define STORE_FIRST_LAST(a, b) (packu)(a.s01, b.s23, a.s45, b.s67, a.s89, b.sab, a.scd, b.sef)
+#define STORE_LAST_FIRST(a, b) (packu)(a.s23, b.s01, a.s67, b.s45, a.sab, b.s89, a.sef, b.scd)
+
+/* A block whose pixels all lie in the view's rectangle: a fragment's six numbers, four fragments a row. */
+WIDE_VECTORS static inline void store_block(const struct tile *t, int x, int y, __global uint *counts)
+{
+	const struct pack *p = &t->packs[y][x];
+	const packu b1 = as_uint16(p->b1), b2 = as_uint16(p->b2), depth = as_uint16(pack_min(p->depth, (packf)(1)));
+	const packu ids01 = STORE_LOW(p->order, p->instance), ids23 = STORE_HIGH(p->order, p->instance);
+	const packu first01 = STORE_LOW(p->primitive, b1), first23 = STORE_HIGH(p->primitive, b1);
+	const packu last01 = STORE_LOW(b2, depth), last23 = STORE_HIGH(b2, depth);
+	const packu out[6] = { STORE_FIRST(ids01, first01), STORE_FIRST_LAST(last01, ids01), STORE_LAST(first01, last01),
+		               STORE_FIRST(ids23, first23), STORE_FIRST_LAST(last23, ids23), STORE_LAST(first23, last23) };
+	const packu count = select((packu)(0), (packu)(1), p->order != SCENE_NONE);
+	const size_t pixel = (size_t)(t->y + BLOCK * y) * t->width + (size_t)(t->x + BLOCK * x);
+
+	for (int row = 0; row < BLOCK; row++) {
+		__global uint4 *fragments = (__global uint4 *)(t->fragments + pixel + (size_t)row * t->width);
+
+		for (int i = 0; i < 6; i++)
+			vstore4(((const uint4 *)&out[i])[row], i, (__global uint *)fragments);
+		vstore4(((const uint4 *)&count)[row], 0, counts + pixel + (size_t)row * t->width);
+	}
 }
 
 /* The pixels of the tile that lie in the view's rectangle, which ends before x1 and y1. */
 static inline void store_tile(const struct tile *t, int x1, int y1, __global uint *counts)
 {
-	for (int y = 0; y < min(CAMERA_TILE_HEIGHT, y1 - t->y); y++)
-		for (int x = 0; x < TILE_PACKS; x++)
-			for (int lane = 0; lane < min(16, x1 - t->x - 16 * x); lane++)
-				store_pixel(t, x, y, lane, counts);
+	const int width = min(CAMERA_TILE, x1 - t->x), height = min(CAMERA_TILE, y1 - t->y);
+
+	for (int y = 0; y < height; y += BLOCK)
+		for (int x = 0; x < width; x += BLOCK)
+			if (t->mode != CAMERA_COLUMN && x + BLOCK <= width && y + BLOCK <= height)
+				store_block(t, x / BLOCK, y / BLOCK, counts);
+			else
+				for (int i = 0; i < BLOCK * BLOCK; i++)
+					if (x + i % BLOCK < width && y + i / BLOCK < height)
+						store_pixel(t, x + i % BLOCK, y + i / BLOCK, counts);
 }
 
 WIDE_VECTORS static inline void clear_tile(struct tile *t)
 {
+	const float row = clip_from_origin(t->view, (int)t->height - 1 - t->y, -t->view->sample[1]);
+
 	t->changed = 0;
 	t->z_far = 1;
 	t->pending.n = 0;
-	for (int x = 0; x < TILE_PACKS; x++)
-		t->plane_x[x] = convert_float16(PACK_LANES + 16 * x) + clip_from_origin(t->view, t->x, t->view->sample[0]);
-	for (int y = 0; y < CAMERA_TILE_HEIGHT; y++)
-		for (int x = 0; x < TILE_PACKS; x++) {
+	for (int i = 0; i < TILE_BLOCKS; i++) {
+		t->plane_x[i] = convert_float16(BLOCK_X + BLOCK * i) + clip_from_origin(t->view, t->x, t->view->sample[0]);
+		t->plane_y[i] = row - convert_float16(BLOCK_Y + BLOCK * i);
+	}
+	for (int y = 0; y < TILE_BLOCKS; y++)
+		for (int x = 0; x < TILE_BLOCKS; x++) {
 			struct pack *p = &t->packs[y][x];
 
 			p->counts = 0;
-			p->steps = p->order = p->instance = p->primitive = SCENE_NONE;
+			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;
-			p->depth = 1;
+			p->depth = NO_DEPTH;
 		}
 }
 
@@ -545,7 +593,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	__global const float *viewport = view->viewport;
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
 	                                                   view->scissor[3], width, height);
-	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE_WIDTH - 1) / CAMERA_TILE_WIDTH;
+	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
 	struct tile t;
 
 	if (item >= camera_packet_items(r))
@@ -561,8 +609,8 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.width = width;
 	t.height = height;
 	t.mode = mode;
-	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE_WIDTH;
-	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE_HEIGHT;
+	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
+	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;
 	clear_tile(&t);
 	if (view->tlas_count) {
 		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),

@@ -76,7 +76,9 @@ typedef uint16 packu;
 
 static inline int any_pack(packi mask)
 {
-#ifdef LANES_REDUCE
+#ifdef LANES_MASK16
+	return (ushort)__builtin_ia32_cvtd2mask512(mask) != 0;
+#elif defined(LANES_REDUCE)
 	return __builtin_reduce_or(mask) != 0;
 #else
 	return any_lane(mask.lo | mask.hi);

@@ -14,7 +14,7 @@
 
 /* X(name): kernel NAME in kernels/, twin NAME_c in kernels/ref/. */
 #define DEVICE_KERNELS(X) \
-	X(camera_packet)    /* camera rays, a tile of 16 x 16 pixels a work item, BVH2; nearest fragment or a column of them */ \
+	X(camera_packet)    /* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
 	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
 	X(camera_compressed) /* the same, compressed nodes */ \
 	X(occlude_packet)   /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \

@@ -491,16 +491,16 @@ void camera_packet_c(const void *const *args, size_t first, size_t last)
 {
 	struct args a = unpack(args);
 	const struct camera_rectangle r = rectangle_of(&a);
-	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE_WIDTH - 1) / CAMERA_TILE_WIDTH;
+	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
 
 	a.rows = args[8];
 	a.faces = args[9];
 	for (size_t item = first; item < last && item < camera_packet_items(r); item++) {
-		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE_WIDTH;
-		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE_HEIGHT;
+		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE;
+		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE;
 
-		for (int32_t y = y0; y < y0 + CAMERA_TILE_HEIGHT && y < r.y1; y++)
-			for (int32_t x = x0; x < x0 + CAMERA_TILE_WIDTH && x < r.x1; x++)
+		for (int32_t y = y0; y < y0 + CAMERA_TILE && y < r.y1; y++)
+			for (int32_t x = x0; x < x0 + CAMERA_TILE && x < r.x1; x++)
 				do_pixel(&a, x, y);
 	}
 }
