@@ -80,6 +80,15 @@ GLS_HANDLER(glBindBuffer, CLIENT)
 	make_buffer(x, st, *name);
 }
 
+/* x->maps holds the buffers that are mapped, each under the one address where it is. */
+static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
+{
+	if (b && b->mapped)
+		table_remove(&x->maps, b->mapped);
+	if (b)
+		b->mapped = 0;
+}
+
 GLS_HANDLER(glDeleteBuffers, CLIENT)
 {
 	uint64_t n;
@@ -90,8 +99,7 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 		struct gls_buffer *b = name ? table_remove(&st->share->buffers, name) : NULL;
 		if (!b)
 			continue;
-		if (b->mapped)
-			table_remove(&x->maps, b->mapped);
+		unmap_buffer(x, b);
 		free(b->data);
 		free(b);
 		if (st->client.array_buffer == name)
@@ -126,11 +134,11 @@ static void set_data(struct gls_exec *x, struct gls_state *st, const struct call
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
 	}
-	if ((uint64_t)size > (uint64_t)1 << 32) {
-		gls_unsupported(x, "buffers of more than 4 GiB");
+	if (size > INT32_MAX) {
+		gls_unsupported(x, "buffers of 2 GiB and more");
 		return;
 	}
-	data = calloc(1, (size_t)size + 1);
+	data = calloc(1, size ? (size_t)size : 1);
 	if (!data) {
 		gls_out_of_memory(x, (size_t)size);
 		return;
@@ -190,6 +198,8 @@ static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct ca
 
 	if (!b || !address || c->ret.type == TRACE_NONE)
 		return;
+	unmap_buffer(x, b);
+	unmap_buffer(x, table_find(&x->maps, address));
 	b->mapped = address;
 	b->map_offset = offset;
 	b->map_bytes = n;
@@ -212,12 +222,7 @@ GLS_HANDLER(glMapBufferRange, CLIENT)
 
 GLS_HANDLER(glUnmapBuffer, CLIENT)
 {
-	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
-
-	if (b && b->mapped) {
-		table_remove(&x->maps, b->mapped);
-		b->mapped = 0;
-	}
+	unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0)));
 }
 
 /* What the program wrote into a mapped buffer, as recorders tell it. */

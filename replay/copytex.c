@@ -19,7 +19,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 				continue;
 			if (l->base_format == GL_DEPTH_COMPONENT) {
 				v[0] = (far > 0 ? (float)p->depth[from] / far : 0) * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
-				v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
+				v[0] = v[0] > 0 ? v[0] < 1 ? v[0] : 1 : 0;
 				memcpy(texel, v, 4);
 				if (gls_level_stencil(l))
 					gls_level_stencil(l)[(size_t)(texel - l->texels) / 4] = p->stencil[from];
@@ -56,7 +56,7 @@ static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struc
 {
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
-	const int64_t from[2] = { arg_i(c, 3), arg_i(c, 4) }, zero[3] = { 0 };
+	const int64_t from[2] = { arg_i32(c, 3), arg_i32(c, 4) }, zero[3] = { 0 };
 	struct gls_level *l;
 
 	if (!t)
@@ -72,8 +72,8 @@ static void copy_tex_sub_image(struct gls_exec *x, struct gls_state *st, const s
 	unsigned face, after = 2 + n_dims; /* place; then the corner on the screen and the size */
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
-	int64_t to[3] = { 0 }, size[2] = { arg_i(c, after + 2), n_dims > 1 ? arg_i(c, after + 3) : 1 };
-	const int64_t from[2] = { arg_i(c, after), arg_i(c, after + 1) };
+	int64_t to[3] = { 0 }, size[2] = { arg_i32(c, after + 2), n_dims > 1 ? arg_i32(c, after + 3) : 1 };
+	const int64_t from[2] = { arg_i32(c, after), arg_i32(c, after + 1) };
 
 	if (!l)
 		return;
@@ -82,7 +82,7 @@ static void copy_tex_sub_image(struct gls_exec *x, struct gls_state *st, const s
 		return;
 	}
 	for (unsigned i = 0; i < n_dims; i++)
-		to[i] = arg_i(c, 2 + i) + l->border;
+		to[i] = arg_i32(c, 2 + i) + l->border;
 	if (to[0] < 0 || to[1] < 0 || to[2] < 0 || size[0] < 0 || size[1] < 0 || to[0] > l->width || to[1] > l->height ||
 	    to[2] >= l->depth || size[0] > l->width - to[0] || size[1] > l->height - to[1]) {
 		gls_error(x, st, GL_INVALID_VALUE);

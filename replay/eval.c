@@ -380,10 +380,10 @@ GLS_HANDLER(glEvalMesh1, STATE)
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (!mesh_fits(x, arg_d(c, 2) - arg_d(c, 1), 1))
+	if (!mesh_fits(x, (double)(arg_i32(c, 2) - arg_i32(c, 1)), 1))
 		return;
 	begin(x, st, mode == GL_POINT ? GL_POINTS : GL_LINE_STRIP);
-	for (int64_t i = arg_i(c, 1); i <= arg_i(c, 2); i++)
+	for (int64_t i = arg_i32(c, 1); i <= arg_i32(c, 2); i++)
 		point_1(x, st, i);
 	gls_glEnd(x, st, x->call);
 }
@@ -392,13 +392,13 @@ GLS_HANDLER(glEvalMesh1, STATE)
 GLS_HANDLER(glEvalMesh2, STATE)
 {
 	uint32_t mode = arg_u(c, 0);
-	int64_t i1 = arg_i(c, 1), i2 = arg_i(c, 2), j1 = arg_i(c, 3), j2 = arg_i(c, 4);
+	int64_t i1 = arg_i32(c, 1), i2 = arg_i32(c, 2), j1 = arg_i32(c, 3), j2 = arg_i32(c, 4);
 
 	if (mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) {
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (!mesh_fits(x, fabs((double)i2 - (double)i1) + 1, fabs((double)j2 - (double)j1) + 1))
+	if (!mesh_fits(x, fabs((double)(i2 - i1)) + 1, fabs((double)(j2 - j1)) + 1))
 		return;
 	for (int64_t j = j1; j <= j2 - (mode == GL_FILL); j++) {
 		begin(x, st, mode == GL_POINT ? GL_POINTS : mode == GL_LINE ? GL_LINE_STRIP : GL_TRIANGLE_STRIP);

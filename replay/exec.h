@@ -69,7 +69,7 @@ static inline float arg_f(const struct call *c, unsigned i)
 	const struct trace_value *v = arg(c, i);
 	return v->type == TRACE_FLOAT ? v->f : (float)gls_value_double(v);
 }
-/** A token that was handed over as a float; 0 for what is none. */
+/** A token or an index that was handed over as a float; 0 for what is none. */
 static inline uint32_t token_of_float(float v)
 {
 	return v >= 0.0f && v < 4294967296.0f ? (uint32_t)v : 0;
@@ -85,6 +85,11 @@ static inline int64_t arg_i(const struct call *c, unsigned i)
 static inline uint32_t arg_u(const struct call *c, unsigned i)
 {
 	return (uint32_t)gls_value_int(arg(c, i));
+}
+/** A GLint that is reckoned with: 32 bits, whatever the recording says, so that sums of some fit 64. */
+static inline int64_t arg_i32(const struct call *c, unsigned i)
+{
+	return (int32_t)gls_value_int(arg(c, i));
 }
 /** Numbers of an array argument (or one plain number). @return how many there were; the rest of out is left alone */
 unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n);

@@ -705,8 +705,8 @@ GLS_HANDLER(glBlitFramebuffer, NOW)
 	const struct scene_picture *p;
 
 	changes(x, st);
-	if (!span(arg_i(c, 0), arg_i(c, 2), arg_i(c, 4), arg_i(c, 6), &b.from[0], &b.from[2], &b.left, &b.zoom[0]) ||
-	    !span(arg_i(c, 1), arg_i(c, 3), arg_i(c, 5), arg_i(c, 7), &b.from[1], &b.from[3], &b.low, &b.zoom[1]))
+	if (!span(arg_i32(c, 0), arg_i32(c, 2), arg_i32(c, 4), arg_i32(c, 6), &b.from[0], &b.from[2], &b.left, &b.zoom[0]) ||
+	    !span(arg_i32(c, 1), arg_i32(c, 3), arg_i32(c, 5), arg_i32(c, 7), &b.from[1], &b.from[3], &b.low, &b.zoom[1]))
 		return;
 	if (!x->want)
 		return;

@@ -56,7 +56,7 @@ static uint32_t index_at(const struct gls_state *st, uint32_t type, const uint8_
 			value |= (uint32_t)data[at + (u->swap_bytes ? size - 1 - i : i)] << (8 * i);
 		if (type == GL_FLOAT) {
 			memcpy(&f, &value, 4);
-			value = f > 0 ? (uint32_t)f : 0;
+			value = token_of_float(f);
 		}
 	}
 	value = p->index_shift >= 0 ? value << (p->index_shift & 31) : value >> (-p->index_shift & 31);
@@ -67,7 +67,7 @@ static uint8_t mapped(const struct gls_pixel_map *m, uint32_t index)
 {
 	float v = m->size ? m->values[index & (m->size - 1)] : 0;
 
-	return (uint8_t)(v <= 0 ? 0 : v >= 1 ? 255 : v * 255 + 0.5f);
+	return (uint8_t)(v > 0 ? v < 1 ? v * 255 + 0.5f : 255 : 0);
 }
 
 /* ---- drawing ---- */
@@ -167,7 +167,7 @@ int gls_unpack_indices(const struct gls_state *st, uint32_t format, uint32_t typ
 
 		if (format == GL_STENCIL_INDEX) {
 			if (st->a.pixel.map_stencil && m->size)
-				value = (uint32_t)m->values[value & (m->size - 1)];
+				value = token_of_float(m->values[value & (m->size - 1)]);
 			memcpy(texels, &value, 4);
 			continue;
 		}
@@ -248,12 +248,13 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
                        uint8_t *texel)
 {
 	uint32_t bits = p->depth_bits, value;
-	size_t from = (size_t)(y * p->width + x);
+	size_t from;
 	float v[4];
 
 	memset(texel, 0, 4);
 	if (x < 0 || y < 0 || x >= p->width || y >= p->height)
 		return;
+	from = (size_t)y * p->width + (size_t)x;
 	if (kind == SCENE_STENCIL_PIXELS) {
 		value = p->stencil[from];
 		value = st->a.pixel.index_shift >= 0 ? value << (st->a.pixel.index_shift & 31) :
@@ -265,7 +266,7 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 	if (kind == SCENE_DEPTH_PIXELS) {
 		v[0] = (bits ? (float)p->depth[from] / (float)((1u << bits) - 1) : 0) * st->a.pixel.depth_scale +
 		       st->a.pixel.depth_bias;
-		v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
+		v[0] = v[0] > 0 ? v[0] < 1 ? v[0] : 1 : 0;
 		memcpy(texel, v, 4);
 		return;
 	}
@@ -276,7 +277,7 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 
 GLS_HANDLER(glCopyPixels, STATE)
 {
-	int64_t x0 = arg_i(c, 0), y0 = arg_i(c, 1);
+	int64_t x0 = arg_i32(c, 0), y0 = arg_i32(c, 1);
 	uint32_t width = arg_u(c, 2), height = arg_u(c, 3), kind = kind_of(arg_u(c, 4));
 	const float *at = st->a.current.raster_position;
 	const struct scene_picture *p;

@@ -369,7 +369,7 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 						v[k] = plain_component(data + at + k * component, type, u->swap_bytes);
 				if (depth_texels) {
 					v[0] = v[0] * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
-					v[0] = v[0] < 0 ? 0 : v[0] > 1 ? 1 : v[0];
+					v[0] = v[0] > 0 ? v[0] < 1 ? v[0] : 1 : 0;
 					memcpy(out, v, 4);
 					continue;
 				}
@@ -743,8 +743,8 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 	room[1] = l->height;
 	room[2] = l->depth;
 	for (unsigned i = 0; i < n_dims; i++) {
-		at[i] = arg_i(c, 2 + i) + l->border;
-		extent[i] = arg_i(c, size + i);
+		at[i] = arg_i32(c, 2 + i) + l->border;
+		extent[i] = arg_i32(c, size + i);
 		if (at[i] < 0 || extent[i] < 0 || at[i] > room[i] || extent[i] > room[i] - at[i]) {
 			gls_error(x, st, GL_INVALID_VALUE);
 			return;
@@ -816,8 +816,8 @@ static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const
 	if (!l || !pixels)
 		return;
 	for (unsigned i = 0; i < n_dims; i++) {
-		at[i] = arg_i(c, 2 + i);
-		size[i] = arg_i(c, 2 + n_dims + i);
+		at[i] = arg_i32(c, 2 + i);
+		size[i] = arg_i32(c, 2 + n_dims + i);
 	}
 	if (!l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims)) {
 		gls_error(x, st, GL_INVALID_OPERATION);

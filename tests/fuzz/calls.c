@@ -14,7 +14,7 @@
 #define MAX_BLOB 16384
 
 static const int64_t EXTREME_INTS[] = { -1, INT32_MAX, INT32_MIN, 0x7FFF, 0x8000, 0xFFFF, 0x10000, UINT32_MAX, 0x1000000, 4096, 2048, 1024, 100,
-	                                -2, -3, -100 };
+	                                INT64_MAX, INT64_MIN, -100 };
 static const float EXTREME_FLOATS[] = { NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e-40f, -0.0f, 16777217.0f };
 static const uint32_t BLOB_SIZES[] = { 0, 1, 3, 16, 64, 256, 1024, MAX_BLOB };
 

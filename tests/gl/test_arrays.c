@@ -326,9 +326,33 @@ START_TEST(test_empty_buffers)
 	ck_assert_uint_eq(gl_error(&gl), 0);
 	gl_call(&gl, "glDrawElements", "eiep", GL_TRIANGLES, 3, GL_UNSIGNED_BYTE, (uint64_t)0);
 	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_call(&gl, "glBufferData", "epp", GL_ARRAY_BUFFER, (uint64_t)1 << 31, (uint64_t)0); /* more than anybody fills */
+	ck_assert_uint_eq(gl_unsupported(&gl), 2);
 	gl_close(&gl);
 }
 END_TEST
 
-GL_TESTS("arrays", test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
+/* A buffer that is mapped again, and one that is mapped where another was: each is at one address, and none when it is gone. */
+START_TEST(test_mapped_again)
+{
+	struct gl gl = gl_open();
+
+	for (unsigned name = 3; name < 5; name++) {
+		gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, name);
+		gl_call(&gl, "glBufferData", "eip", GL_ARRAY_BUFFER, 16, (uint64_t)0);
+		gl_call_address(&gl, 0x7000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
+		gl_call_address(&gl, 0x8000, "glMapBuffer", "ee", GL_ARRAY_BUFFER, GL_WRITE_ONLY);
+		ck_assert_uint_eq(gl.x->maps.n, 1);
+	}
+	gl_call(&gl, "memcpy", "pbi", (uint64_t)0x8000, (size_t)1, "x", 1);
+	ck_assert_uint_eq(gls_buffer_find(gl_state(&gl), 3)->data[0], 0);
+	ck_assert_uint_eq(gls_buffer_find(gl_state(&gl), 4)->data[0], 'x');
+	gl_call(&gl, "glDeleteBuffers", "iU", 2, 2, ((uint32_t[2]){ 3, 4 }));
+	ck_assert_uint_eq(gl.x->maps.n, 0);
+	gl_call(&gl, "memcpy", "pbi", (uint64_t)0x7000, (size_t)1, "x", 1);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("arrays", test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)

@@ -90,6 +90,8 @@ START_TEST(test_errors)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
 	gl_call(&gl, "glEvalMesh1", "eii", GL_FILL, 0, 1);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged recording's: it ends */
+	gl_call(&gl, "glEvalMesh2", "epppp", GL_LINE, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX);
 	gl_close(&gl);
 }
 END_TEST

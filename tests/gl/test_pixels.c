@@ -171,4 +171,28 @@ START_TEST(test_pixel_buffer)
 }
 END_TEST
 
-GL_TESTS("pixels", test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+/* Depths that are no numbers are 0, as Mesa clamps them; indices and maps of any floats have a defined meaning (SAN=undefined). */
+START_TEST(test_no_numbers)
+{
+	static const float wild[4] = { NAN, INFINITY, -1e30f, 4.6e30f };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glRasterPos2f", "ff", 0.0, 0.0);
+	gl_call(&gl, "glDrawPixels", "iieeb", 4, 1, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(wild), wild);
+	for (unsigned i = 0; i < 4; i++)
+		gl_call(&gl, "glPixelMapfv", "eiF", GL_PIXEL_MAP_I_TO_R + i, 4, 4, wild);
+	gl_call(&gl, "glPixelMapfv", "eiF", GL_PIXEL_MAP_S_TO_S, 4, 4, wild);
+	gl_call(&gl, "glPixelTransferi", "ei", GL_MAP_STENCIL, 1);
+	gl_call(&gl, "glDrawPixels", "iieeb", 4, 1, GL_COLOR_INDEX, GL_FLOAT, sizeof(wild), wild);
+	gl_call(&gl, "glDrawPixels", "iieeb", 4, 4, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, sizeof(wild), wild);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_rectangles, 3);
+	ck_assert_mem_eq(s->textures[s->rectangles[0].texture]->texels, ((float[4]){ 0, 1, 0, 1 }), 16);
+	ck_assert_mem_eq(s->textures[s->rectangles[1].texture]->texels, ((uint8_t[4]){ 0, 0, 0, 0 }), 4);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("pixels", test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
