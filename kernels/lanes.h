@@ -58,6 +58,16 @@ static inline float8 lanes_max(float8 x, float8 y)
 	return select(y, x, x > y);
 }
 
+/* Memory that will be read soon: what the language's own prefetch does is up to the device, and PoCL leaves it out. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_prefetch)
+#define LANES_PREFETCH(address) __builtin_prefetch(address)
+#endif
+#endif
+#ifndef LANES_PREFETCH
+#define LANES_PREFETCH(address)
+#endif
+
 /* Sixteen lanes in one register where there is one: the compiler would rather halve them. */
 #if defined(__AVX512F__) && defined(__has_attribute)
 #if __has_attribute(min_vector_width)

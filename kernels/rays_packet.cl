@@ -202,18 +202,38 @@ static inline void walk_top(struct packet *eye, __global const struct node8 *top
 	}
 }
 
+/* Rows of four numbers of sixteen rays, which stand together in each: of rays 0 to 3, 4 to 7 and so on. */
+static inline void turn(float16 a, float16 b, float16 c, float16 d, packf *x, packf *y, packf *z, packf *w)
+{
+	*x = (packf)(a.s048c, b.s048c, c.s048c, d.s048c), *y = (packf)(a.s159d, b.s159d, c.s159d, d.s159d);
+	*z = (packf)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), *w = (packf)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
+}
+
 /* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for each awake */
 static inline uint load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
-	packf t_min = 1, t_max = -INFINITY, ox = 0, oy = 0, oz = 0, dx = 1, dy = 1, dz = 1;
+	const float8 asleep = (float8)(0, 0, 0, 1, 1, 1, 1, -INFINITY);
+	packf t_min, t_max, ox, oy, oz, dx, dy, dz;
+	float16 two[8];
 	packi finite;
 
-	for (uint i = 0; i < RAYS_PER_PACKET && first + i < n; i++) {
-		const float8 ray = vload8(first + i, (__global const float *)rays);
+	for (uint i = 0; i < 8; i++) {
+		const uint ray = first + 2 * i;
 
-		((float *)&ox)[i] = ray.s0, ((float *)&oy)[i] = ray.s1, ((float *)&oz)[i] = ray.s2, ((float *)&t_min)[i] = ray.s3;
-		((float *)&dx)[i] = ray.s4, ((float *)&dy)[i] = ray.s5, ((float *)&dz)[i] = ray.s6, ((float *)&t_max)[i] = ray.s7;
+		two[i] = (float16)(asleep, asleep);
+		if (ray + 1 < n)
+			two[i] = vload16(0, (__global const float *)(rays + ray));
+		else if (ray < n)
+			two[i].lo = vload8(0, (__global const float *)(rays + ray));
 	}
+	turn((float16)(two[0].lo.lo, two[0].hi.lo, two[1].lo.lo, two[1].hi.lo),
+	     (float16)(two[2].lo.lo, two[2].hi.lo, two[3].lo.lo, two[3].hi.lo),
+	     (float16)(two[4].lo.lo, two[4].hi.lo, two[5].lo.lo, two[5].hi.lo),
+	     (float16)(two[6].lo.lo, two[6].hi.lo, two[7].lo.lo, two[7].hi.lo), &ox, &oy, &oz, &t_min);
+	turn((float16)(two[0].lo.hi, two[0].hi.hi, two[1].lo.hi, two[1].hi.hi),
+	     (float16)(two[2].lo.hi, two[2].hi.hi, two[3].lo.hi, two[3].hi.hi),
+	     (float16)(two[4].lo.hi, two[4].hi.hi, two[5].lo.hi, two[5].hi.hi),
+	     (float16)(two[6].lo.hi, two[6].hi.hi, two[7].lo.hi, two[7].hi.hi), &dx, &dy, &dz, &t_max);
 	finite = isfinite(ox) & isfinite(oy) & isfinite(oz) & isfinite(dx) & isfinite(dy) & isfinite(dz) & (t_min <= t_max);
 	p->ox = select((packf)(0), ox, finite), p->oy = select((packf)(0), oy, finite), p->oz = select((packf)(0), oz, finite);
 	p->dx = select((packf)(1), dx, finite), p->dy = select((packf)(1), dy, finite), p->dz = select((packf)(1), dz, finite);
@@ -237,6 +257,8 @@ __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint 
 		return;
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n_rays), k);
+	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* the next item's; two fill a line */
+		LANES_PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
 	walk_top(p, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
