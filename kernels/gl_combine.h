@@ -17,6 +17,12 @@ static inline int combine_has_alpha(uint32_t base_format)
 	       base_format == GL_RGBA;
 }
 
+/* What functions must be clamped after: Mesa does it where they can leave [0,1] although their arguments do not. */
+static inline int combine_leaves_range(uint32_t function)
+{
+	return function != GL_REPLACE && function != GL_MODULATE && function != GL_INTERPOLATE;
+}
+
 /* The environments of tables 3.22 and 3.23; p: previous, s: texture, e: the unit's colour. */
 static inline struct vec4 combine_plain(uint32_t mode, uint32_t format, struct vec4 p, struct vec4 s, struct vec4 e)
 {
@@ -56,7 +62,7 @@ static inline struct vec4 combine_plain(uint32_t mode, uint32_t format, struct v
 		else
 			out.w = p.w * s.w;
 	}
-	return v4_clamp01(out);
+	return mode == GL_ADD ? v4_clamp01(out) : out;
 }
 
 /* One argument; `alpha` asks for what feeds the alpha equation (w of the result). samples: of all enabled units. */
@@ -140,10 +146,14 @@ static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, str
 	color = four ? combine_function4(unit->combine_rgb, rgb) : combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]);
 	out = four ? combine_function4(unit->combine_alpha, alpha) : combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]);
 	color = v4_scale(color, unit->scale_rgb);
+	if (combine_leaves_range(unit->combine_rgb) || unit->scale_rgb != 1.0f)
+		color = v4_clamp01(color);
 	out = v4_scale(out, unit->scale_alpha);
+	if (combine_leaves_range(unit->combine_alpha) || unit->scale_alpha != 1.0f)
+		out = v4_clamp01(out);
 	if (unit->combine_rgb == GL_DOT3_RGBA || unit->combine_rgb == GL_DOT3_RGBA_EXT)
 		out.w = color.w;
-	return v4_clamp01(v4(color.x, color.y, color.z, out.w));
+	return v4(color.x, color.y, color.z, out.w);
 }
 
 #endif

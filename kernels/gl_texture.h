@@ -85,9 +85,9 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	*i1 = texture_place(wrap, first + 1, n, border);
 }
 
-/* One texel of a level as it is stored; no coordinate may be outside. `layer`: slice of a 3D image or face of a cube. */
-static inline uint32_t texture_word(const struct tables *t, GLOBAL const struct texture_image *image, uint32_t level, int x,
-                                    int y, int layer)
+/* Where a texel of a level is stored; no coordinate may be outside. `layer`: slice of a 3D image or face of a cube. */
+static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBAL const struct texture_image *image, uint32_t level,
+                                                   int x, int y, int layer)
 {
 	uint32_t border = image->border;
 	uint32_t width = texture_level_size(image->width, level) + 2u * border;
@@ -98,7 +98,7 @@ static inline uint32_t texture_word(const struct tables *t, GLOBAL const struct 
 		y += (int)border;
 	if (image->target == GL_TEXTURE_3D)
 		layer += (int)border;
-	return t->texels[image->level_first[level] + ((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x];
+	return t->texels + image->level_first[level] + (((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x) * image->words;
 }
 
 /* Four bytes, red lowest, as numbers. Multiplied, not divided: products on the verge of the next 8-bit number then fall
@@ -115,17 +115,19 @@ static inline struct vec4 texture_unpack(uint32_t texel)
 static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const struct texture_image *image,
                                         GLOBAL const struct scene_unit *unit, uint32_t level, int x, int y, int layer)
 {
-	uint32_t texel;
+	GLOBAL const uint32_t *texel;
 
 	if (x == TEXTURE_OUTSIDE || y == TEXTURE_OUTSIDE || layer == TEXTURE_OUTSIDE)
 		return v4_load(unit->border_color);
-	texel = texture_word(t, image, level, x, y, layer);
+	texel = texture_words(t, image, level, x, y, layer);
 	if (image->base_format == GL_DEPTH_COMPONENT) {
-		float d = M_FLOAT(texel);
+		float d = M_FLOAT(*texel);
 
 		return v4(d, d, d, d);
 	}
-	return texture_unpack(texel);
+	if (image->words == 4u)
+		return v4(M_FLOAT(texel[0]), M_FLOAT(texel[1]), M_FLOAT(texel[2]), M_FLOAT(texel[3]));
+	return texture_unpack(*texel);
 }
 
 /*
@@ -172,7 +174,7 @@ static inline void texture_wrap_8(uint32_t wrap, float s, int normalized, uint32
 /* 1 where a texture is filtered in 8 bits. */
 static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLOBAL const struct scene_unit *unit)
 {
-	if (image->base_format == GL_DEPTH_COMPONENT || image->border)
+	if (image->base_format == GL_DEPTH_COMPONENT || image->border || image->words == 4u)
 		return 0;
 	if (image->target == GL_TEXTURE_CUBE_MAP)
 		return 1;

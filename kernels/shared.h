@@ -246,9 +246,10 @@ SHARED_SIZE(struct geometry, 276);
 struct texture_image {
 	uint32_t target, base_format; /* GL tokens */
 	uint32_t width, height, depth, n_levels, border;
-	uint32_t level_first[TEXTURE_MAX_LEVELS]; /* first texel in the pool of texels; a texel is 4 bytes */
+	uint32_t words; /* of four bytes that a texel is: 4 where it is floats, else 1 */
+	uint32_t level_first[TEXTURE_MAX_LEVELS]; /* first word in the pool of texels */
 };
-SHARED_SIZE(struct texture_image, 92);
+SHARED_SIZE(struct texture_image, 96);
 
 /* The fragment's colours as the per-fragment operations take them. */
 struct shaded {

@@ -12,7 +12,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 	for (int64_t y = 0; y < height; y++)
 		for (int64_t x = 0; x < width; x++) {
 			size_t from = (size_t)((y0 + y) * p->width + x0 + x);
-			uint8_t *texel = l->texels + 4 * (at + (size_t)y * l->width + (size_t)x);
+			uint8_t *texel = l->texels + l->texel_bytes * (at + (size_t)y * l->width + (size_t)x);
 			float v[4];
 
 			if (x0 + x < 0 || y0 + y < 0 || x0 + x >= p->width || y0 + y >= p->height)
@@ -22,7 +22,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 				v[0] = v[0] > 0 ? v[0] < 1 ? v[0] : 1 : 0;
 				memcpy(texel, v, 4);
 				if (gls_level_stencil(l))
-					gls_level_stencil(l)[(size_t)(texel - l->texels) / 4] = p->stencil[from];
+					gls_level_stencil(l)[(size_t)(texel - l->texels) / l->texel_bytes] = p->stencil[from];
 				continue;
 			}
 			for (unsigned i = 0; i < 4; i++)

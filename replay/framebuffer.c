@@ -128,10 +128,23 @@ static struct scene_picture *held_by(const struct target *t)
 
 static void load_color(const struct target *t, struct scene_picture *p)
 {
-	const uint8_t *from = t->renderbuffer ? held_by(t) ? held_by(t)->rgba : NULL : t->level->texels + 4 * t->first;
+	const struct gls_level *l = t->level;
+	const uint8_t *from = t->renderbuffer ? held_by(t) ? held_by(t)->rgba : NULL : l->texels + l->texel_bytes * t->first;
+	float v[4];
 
-	for (uint32_t y = 0; from && y < p->height; y++)
-		memcpy(p->rgba + 4 * (size_t)y * p->width, from + 4 * (size_t)y * t->width, 4 * (size_t)p->width);
+	for (uint32_t y = 0; from && y < p->height; y++) {
+		uint8_t *to = p->rgba + 4 * (size_t)y * p->width;
+
+		if (!l || l->texel_bytes == 4) {
+			memcpy(to, from + 4 * (size_t)y * t->width, 4 * (size_t)p->width);
+			continue;
+		}
+		for (uint32_t x = 0; x < p->width; x++) {
+			gls_texel_load(l->texel_bytes, from + l->texel_bytes * ((size_t)y * t->width + x), v);
+			for (unsigned i = 0; i < 4; i++)
+				to[4 * x + i] = gls_byte(v[i]);
+		}
+	}
 }
 
 static void load_depth(const struct target *t, struct scene_picture *p)
@@ -231,8 +244,10 @@ static void store_color(struct gls_exec *x, const struct target *t, const struct
 
 			float v[4] = { (float)from[0] / 255, (float)from[1] / 255, (float)from[2] / 255, (float)from[3] / 255 };
 
-			if (t->level || content)
-				gls_format_store(format, v, t->level ? t->level->texels + 4 * (t->first + to) : content->rgba + 4 * to);
+			if (t->level)
+				gls_format_store(format, v, t->level->texels + t->level->texel_bytes * (t->first + to));
+			else if (content)
+				gls_format_store_bytes(format, v, content->rgba + 4 * to);
 		}
 }
 

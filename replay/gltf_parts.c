@@ -245,16 +245,32 @@ static void mend_positions(struct gltf *g, uint32_t position)
 
 /* ---- materials ---- */
 
+/* Four floats as a colour of four bytes. */
+static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
+{
+	const float *v = (const float *)(const void *)t->texels;
+
+	for (size_t i = 0; i < 4 * n; i++)
+		out[i] = (uint8_t)(v[i] > 0 ? v[i] < 1 ? v[i] * 255 + 0.5f : 255 : 0);
+}
+
 /* Level 0 as PNG. */
 static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
 {
 	uint32_t w = t->width + 2 * t->border, piece;
-	const uint8_t *first = t->texels + 4 * ((size_t)t->border * w + t->border);
+	size_t texels = (size_t)w * (t->height + 2 * t->border);
+	uint8_t *clamped = t->floats ? malloc(4 * texels) : NULL;
+	const uint8_t *first = (clamped ? clamped : t->texels) + 4 * ((size_t)t->border * w + t->border);
 	png_image png = { .version = PNG_IMAGE_VERSION, .width = t->width, .height = t->height, .format = PNG_FORMAT_RGBA };
 	png_alloc_size_t n = PNG_IMAGE_PNG_SIZE_MAX(png);
 	void *out = put_piece(g, n, 0, &piece);
+	int wrong;
 
-	if (!out || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL)) {
+	if (clamped)
+		clamp_texels(t, texels, clamped);
+	wrong = !out || (t->floats && !clamped) || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL);
+	free(clamped);
+	if (wrong) {
 		g->failed = 1;
 		return SCENE_NONE;
 	}

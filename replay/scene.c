@@ -193,7 +193,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->wrap_r = p->wrap_r;
 	out->min_filter = p->min_filter;
 	out->mag_filter = p->mag_filter;
-	gls_format_border(image->texture.base_format, p->border_color, out->border_color);
+	gls_format_border(t->levels[0][t->parameters.base_level].internal_format, p->border_color, out->border_color);
 	out->swizzle = pack_swizzle(t->parameters.swizzle);
 	out->lod_bias = p->lod_bias + unit->lod_bias;
 	out->min_lod = p->min_lod;

@@ -252,7 +252,7 @@ struct scene_mesh {
 
 /*
  * Texture image, found by content. Texels are RGBA, 8 bits each, as GL expands them for sampling (table 3.20: alpha
- * textures give 0,0,0,A, luminance L,L,L,1, intensity I,I,I,I); depth textures hold one float each.
+ * textures give 0,0,0,A, luminance L,L,L,1, intensity I,I,I,I), or four floats; depth textures hold one float each.
  */
 struct scene_texture {
 	uint64_t hash[2];
@@ -261,6 +261,7 @@ struct scene_texture {
 	uint32_t width, height, depth; /* of level 0, without border; powers of two or not */
 	uint32_t n_levels;             /* complete ones only */
 	uint32_t border;               /* 1: each level has a border of one texel around it, kept in the data */
+	uint32_t floats;               /* 1: texels are four floats, which may be beyond [0,1] */
 	const uint8_t *texels; /* all levels, finest first, one after the other; faces of a level in GL's order; rows from t = 0 up */
 	size_t n_bytes;
 };

@@ -826,8 +826,9 @@ static struct gls_texture *get_texture(struct loader *l)
 		if (!cursor_u64(&l->in))
 			continue;
 		level->texels = get_blob(l, &n);
+		level->texel_bytes = gls_texel_bytes(level->internal_format);
 		if (n != level->bytes || level->width > 65536 || level->height > 65536 || level->depth > 65536 ||
-		    (uint64_t)level->width * level->height * level->depth > n / 4)
+		    (uint64_t)level->width * level->height * level->depth > n / level->texel_bytes)
 			l->in.failed = 1;
 	}
 	if (!is_bad(l) && t->target <= N_GLS_TEXTURE_TARGETS)

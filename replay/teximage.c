@@ -192,7 +192,7 @@ static int has_transfer(const struct gls_pixel *p)
 	return p->map_color != 0;
 }
 
-void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t out[4])
+void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t *out)
 {
 	transfer(st, rgba);
 	gls_format_store(gls_format_find(internal_format), rgba, out);
@@ -312,8 +312,12 @@ static int unpack_indices(struct gls_exec *x, struct gls_state *st, uint32_t typ
 		gls_unsupported(x, "pixels of this format and type");
 		return -1;
 	}
-	for (size_t i = 0; i < (size_t)width * height; i++, out += 4)
-		gls_format_store(to, (float[4]){ (float)out[0] / 255, (float)out[1] / 255, (float)out[2] / 255, (float)out[3] / 255 }, out);
+	for (size_t i = (size_t)width * height; i-- > 0;) { /* from the last on: texels may be larger than colours */
+		float v[4];
+
+		gls_texel_load(4, out + 4 * i, v);
+		gls_format_store(to, v, out + (to->numbers ? 16 : 4) * i);
+	}
 	return 0;
 }
 
@@ -325,7 +329,7 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	const struct format *f = find_format(format);
 	const struct packed *packed = find_packed(type);
 	const struct gls_format *to = gls_format_find(internal_format);
-	size_t component = plain_bytes(type), group, row, image, start;
+	size_t component = plain_bytes(type), group, row, image, start, step = to->numbers ? 16 : 4;
 	int depth_texels = to->base == GL_DEPTH_COMPONENT, do_transfer = has_transfer(&st->a.pixel), cut = 0;
 	uint8_t place[4];
 	int plain;
@@ -344,7 +348,7 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 	image = row * (u->image_height > 0 ? (size_t)u->image_height : height);
 	start = (depth ? (size_t)u->skip_images * image : 0) + (size_t)u->skip_rows * row + (size_t)u->skip_pixels * group;
 	plain = (type == GL_UNSIGNED_BYTE || (type == GL_FLOAT && !u->swap_bytes)) && !do_transfer && !depth_texels &&
-	        !to->bits[0] && !to->bits[3] && !to->s3tc;
+	        !to->bits[0] && !to->bits[3] && !to->s3tc && !to->numbers;
 	if (plain)
 		places_of(f, to->base, place);
 	for (uint32_t z = 0; z < (depth ? depth : 1); z++)
@@ -355,11 +359,11 @@ int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format,
 				out += 4 * (size_t)width;
 				continue;
 			}
-			for (uint32_t i = 0; i < width; i++, at += group, out += 4) {
+			for (uint32_t i = 0; i < width; i++, at += group, out += step) {
 				float rgba[4] = { 0, 0, 0, 1 }, v[4];
 				if (at > n || group > n - at) {
 					cut = 1;
-					memset(out, 0, 4);
+					memset(out, 0, step);
 					continue;
 				}
 				if (packed)
@@ -484,12 +488,11 @@ static float mix(float a, float b, uint32_t weight)
 	return a + (b - a) * (float)weight / 256;
 }
 
-/* Texels as numbers: bytes of a colour (in linear light where they are encoded), or one depth. */
-static void load_texel(const uint8_t *texel, int depth, const float *linear, float out[4])
+/* Texels as numbers: bytes of a colour (in linear light where they are encoded), its floats, or one depth. */
+static void load_texel(const uint8_t *texel, int floats, const float *linear, float out[4])
 {
-	if (depth)
-		memcpy(out, texel, 4);
-	for (unsigned k = 0; k < 4 && !depth; k++)
+	memcpy(out, texel, 4 * (size_t)floats);
+	for (unsigned k = 0; k < 4 && !floats; k++)
 		out[k] = linear && k < 3 ? linear[texel[k]] : (float)texel[k];
 }
 
@@ -499,20 +502,21 @@ static void mix_texels(float a[4], const float b[4], uint32_t weight, int round)
 		a[k] = round ? floorf(mix(a[k], b[k], weight) + 0.5f) : mix(a[k], b[k], weight);
 }
 
-static void filter_texel(const struct gls_level *from, int depth, const float *linear, const struct tap t[3], float out[4])
+/* floats: how many a texel is, 0: it is bytes */
+static void filter_texel(const struct gls_level *from, int floats, const float *linear, const struct tap t[3], float out[4])
 {
-	int round = !depth && !linear;
+	int round = !floats && !linear;
 
 	for (unsigned z = 0; z < (from->depth > 1 ? 2u : 1u); z++) {
 		float slice[4] = { 0 };
 
 		for (unsigned y = 0; y < (from->height > 1 ? 2u : 1u); y++) {
-			const uint8_t *row = from->texels + 4 * ((size_t)(z ? t[2].second : t[2].first) * from->height +
+			const uint8_t *row = from->texels + from->texel_bytes * ((size_t)(z ? t[2].second : t[2].first) * from->height +
 			                                         (y ? t[1].second : t[1].first)) * from->width;
 			float left[4] = { 0 }, right[4] = { 0 };
 
-			load_texel(row + 4 * (size_t)t[0].first, depth, linear, left);
-			load_texel(row + 4 * (size_t)t[0].second, depth, linear, right);
+			load_texel(row + from->texel_bytes * (size_t)t[0].first, floats, linear, left);
+			load_texel(row + from->texel_bytes * (size_t)t[0].second, floats, linear, right);
 			mix_texels(left, right, t[0].weight, round);
 			if (y)
 				mix_texels(slice, left, t[1].weight, round);
@@ -552,9 +556,9 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 static void generate_level(const struct gls_level *from, struct gls_level *to, const float *linear)
 {
 	const struct gls_format *format = gls_format_find(to->internal_format);
-	int depth = to->base_format == GL_DEPTH_COMPONENT;
+	int floats = to->base_format == GL_DEPTH_COMPONENT ? 1 : format->numbers ? 4 : 0;
 
-	if (!depth && !linear && !format->bits[0] && !format->bits[3] && !format->s3tc && from->width == 2 * to->width &&
+	if (!floats && !linear && !format->bits[0] && !format->bits[3] && !format->s3tc && from->width == 2 * to->width &&
 	    from->height == 2 * to->height && from->depth == 1) {
 		halve(from, to->width, to->height, to->texels);
 		return;
@@ -565,13 +569,13 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 			            tap_at((uint32_t)(i / to->width / to->height), to->depth, from->depth) };
 		float v[4] = { 0 };
 
-		filter_texel(from, depth, linear, t, v);
-		for (unsigned k = 0; k < 4 && !depth; k++)
+		filter_texel(from, floats, linear, t, v);
+		for (unsigned k = 0; k < 4 && !floats; k++)
 			v[k] = linear && k < 3 ? gls_srgb_from_linear(v[k] / 255) : v[k] / 255;
-		if (depth)
+		if (floats == 1)
 			memcpy(to->texels + 4 * i, v, 4);
 		else
-			gls_format_store(format, v, to->texels + 4 * i);
+			gls_format_store(format, v, to->texels + to->texel_bytes * i);
 	}
 }
 
@@ -595,9 +599,9 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 			gls_unsupported(x, "generated mipmaps of textures with borders");
 			break;
 		}
-		texels = malloc((size_t)w * h * d * 4);
+		texels = malloc((size_t)w * h * d * from->texel_bytes);
 		if (!texels) {
-			gls_out_of_memory(x, (size_t)w * h * d * 4);
+			gls_out_of_memory(x, (size_t)w * h * d * from->texel_bytes);
 			return;
 		}
 		free(to->texels);
@@ -606,7 +610,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->height = h;
 		to->depth = d;
 		to->texels = texels;
-		to->bytes = (size_t)w * h * d * 4;
+		to->bytes = (size_t)w * h * d * to->texel_bytes;
 		/* what Mesa cannot draw to it averages as it is stored */
 		generate_level(from, to, format->srgb && !format->s3tc && (format->base == GL_RGB || format->base == GL_RGBA) ? linear : NULL);
 		from = to;
@@ -676,10 +680,10 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		gls_error(x, st, GL_OUT_OF_MEMORY);
 		return NULL;
 	}
-	bytes = (size_t)(width * height * depth) * (gls_format_stencil_bits(internal_format) ? 5 : 4);
+	bytes = (size_t)(width * height * depth) * (gls_texel_bytes(internal_format) + (gls_format_stencil_bits(internal_format) ? 1 : 0));
 	free(l->texels);
 	*l = (struct gls_level){ (uint32_t)width, (uint32_t)height, (uint32_t)depth, (uint32_t)border, internal_format, base,
-	                         NULL, bytes, 0, { 0 } };
+	                         NULL, bytes, 0, gls_texel_bytes(internal_format), { 0 } };
 	gls_texture_changed(t);
 	if (!bytes)
 		return NULL;
@@ -719,8 +723,8 @@ static void place(struct gls_level *l, const int64_t at[3], const int64_t size[3
 {
 	for (int64_t z = 0; z < size[2]; z++)
 		for (int64_t y = 0; y < size[1]; y++)
-			memcpy(l->texels + 4 * (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
-			       texels + 4 * (z * size[1] + y) * size[0], 4 * (size_t)size[0]);
+			memcpy(l->texels + l->texel_bytes * (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
+			       texels + l->texel_bytes * (z * size[1] + y) * size[0], l->texel_bytes * (size_t)size[0]);
 }
 
 static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
@@ -753,7 +757,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 	pixels = gls_pixel_source(st, c, format + 2, &n);
 	if (!pixels || !extent[0] || !extent[1] || !extent[2])
 		return;
-	texels = gls_scratch(x, (size_t)(extent[0] * extent[1] * extent[2]) * 4);
+	texels = gls_scratch(x, (size_t)(extent[0] * extent[1] * extent[2]) * l->texel_bytes);
 	if (!texels || gls_unpack_pixels(x, st, arg_u(c, format), arg_u(c, format + 1), (uint32_t)extent[0],
 	                                 (uint32_t)extent[1], n_dims > 2 ? (uint32_t)extent[2] : 0, pixels, n, l->internal_format,
 	                                 texels) == -1)
@@ -876,7 +880,7 @@ GLS_HANDLER(glClearTexImage, NOW)
 	const struct gls_pixel_store unpack = st->client.unpack;
 	size_t n;
 	const uint8_t *pixel = arg_blob(c, 4, &n);
-	uint8_t texel[4] = { 0 };
+	uint8_t texel[16] = { 0 };
 
 	gls_flush(x);
 	st->dirty |= GLS_DIRTY_MATERIAL;
@@ -895,7 +899,7 @@ GLS_HANDLER(glClearTexImage, NOW)
 			gls_unpack_pixels(x, st, arg_u(c, 2), arg_u(c, 3), 1, 1, 0, pixel, n, l->internal_format, texel);
 		st->client.unpack = unpack;
 		for (size_t i = 0; i < gls_level_count(l); i++)
-			memcpy(l->texels + 4 * i, texel, 4);
+			memcpy(l->texels + l->texel_bytes * i, texel, l->texel_bytes);
 		gls_texture_changed(t);
 	}
 }

@@ -254,10 +254,8 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 		t->parameters.mag_filter = token;
 		break;
 	case GL_TEXTURE_BORDER_COLOR:
-		for (unsigned i = 0; i < 4; i++) {
-			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-			t->parameters.border_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
-		}
+		for (unsigned i = 0; i < 4; i++)
+			t->parameters.border_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
 		break;
 	case GL_TEXTURE_PRIORITY:
 		t->parameters.priority = v[0];
@@ -586,14 +584,15 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	unsigned n_faces = t->target == GLS_TEXTURE_CUBE ? 6 : 1;
 	const struct gls_format *format = gls_format_find(base->internal_format);
 	int srgb = format && format->srgb && t->parameters.srgb_decode != GL_SKIP_DECODE_EXT;
-	uint32_t head[8] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
+	uint32_t head[9] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
 	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
-	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb };
+	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb,
+	                     base->texel_bytes };
 	struct gls_texture_image *image;
 	XXH3_state_t state;
 	XXH128_hash_t hash;
 	uint64_t key;
-	size_t bytes = 0;
+	size_t bytes = 0, n;
 	uint8_t *at;
 
 	XXH3_128bits_reset(&state);
@@ -601,8 +600,9 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
 			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
-			XXH3_128bits_update(&state, level->texels, 4 * gls_level_count(level));
-			bytes += 4 * gls_level_count(level);
+			n = level->texel_bytes * gls_level_count(level);
+			XXH3_128bits_update(&state, level->texels, n);
+			bytes += n;
 		}
 	hash = XXH3_128bits_digest(&state);
 	for (key = hash.low64; (image = table_find(&x->images, key)); key++)
@@ -619,7 +619,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	atomic_init(&image->refs, 2); /* the cache's and the caller's */
 	image->texture = (struct scene_texture){ .hash = { hash.low64, hash.high64 }, .target = head[0],
 		.base_format = head[1], .width = head[2], .height = head[3], .depth = head[4], .n_levels = n_levels,
-		.border = base->border, .n_bytes = bytes };
+		.border = base->border, .floats = base->texel_bytes == 16, .n_bytes = bytes };
 	image->texture.texels = at = (uint8_t *)(image + 1);
 	for (uint32_t l = 0; l < n_levels; l++)
 		for (unsigned face = 0; face < n_faces; face++) {
@@ -627,8 +627,8 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 			if (srgb)
 				decode_srgb(at, level->texels, gls_level_count(level));
 			else
-				memcpy(at, level->texels, 4 * gls_level_count(level));
-			at += 4 * gls_level_count(level);
+				memcpy(at, level->texels, level->texel_bytes * gls_level_count(level));
+			at += level->texel_bytes * gls_level_count(level);
 		}
 	x->image_bytes += bytes;
 	return image;
@@ -640,7 +640,7 @@ struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t wi
 	struct gls_texture_image *image;
 
 	t.levels[0][0] = (struct gls_level){ .width = width, .height = height, .depth = 1, .base_format = GL_RGBA,
-		                             .texels = (uint8_t *)(uintptr_t)texels, .bytes = (size_t)width * height * 4 };
+		                             .texel_bytes = 4, .texels = (uint8_t *)(uintptr_t)texels, .bytes = (size_t)width * height * 4 };
 	image = build_image(x, &t, 1);
 	if (image)
 		image->used_frame = x->frame;

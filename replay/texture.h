@@ -12,9 +12,10 @@
 struct gls_level {
 	uint32_t width, height, depth; /* with border; 0: not specified */
 	uint32_t border, internal_format, base_format;
-	uint8_t *texels; /* 4 bytes each; where the format has stencil bits, a byte of stencil each after all of them */
+	uint8_t *texels; /* where the format has stencil bits, a byte of stencil each after all of them */
 	size_t bytes;    /* of both */
 	uint32_t missing; /* frame + 1 in which what it holds was drawn, and not rendered; 0: it is all there */
+	uint32_t texel_bytes; /* gls_texel_bytes of the internal format */
 	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
 };
 
@@ -26,7 +27,9 @@ static inline size_t gls_level_count(const struct gls_level *l)
 /* Stencil values of a level, NULL where it has none. */
 static inline uint8_t *gls_level_stencil(const struct gls_level *l)
 {
-	return l->texels && l->bytes > 4 * gls_level_count(l) ? l->texels + 4 * gls_level_count(l) : NULL;
+	size_t texels = l->texel_bytes * gls_level_count(l);
+
+	return l->texels && l->bytes > texels ? l->texels + texels : NULL;
 }
 
 struct gls_texture {
@@ -78,7 +81,7 @@ int gls_texture_target_of(uint32_t token, unsigned *face);
 /**
  * Client pixels to texels (sec. 3.6.4): unpack state, format, type and pixel transfer.
  * @param depth  of images of three dimensions; 0: of two, for which no images are skipped
- * @param out  width * height * depth texels of 4 bytes, RGBA or one float where base is DEPTH_COMPONENT
+ * @param out  width * height * depth texels of the internal format, RGBA or one float where its base is DEPTH_COMPONENT
  * @return 0; -1: format or type is not known (error set); -2: too few bytes (what is there was read)
  */
 int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
@@ -98,7 +101,7 @@ void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t widt
                         uint8_t *out);
 
 /** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of an internal format. */
-void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t out[4]);
+void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t *out);
 
 /** Whatever the client's format was, a block-compressed image as texels; texcompress.c. @return 0; -1: too few bytes */
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
@@ -143,7 +146,12 @@ struct gls_format {
 	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded;
 	   so does every texel here, which is all that is done of that compression */
 	uint8_t s3tc;
+	uint8_t numbers; /* enum gls_numbers */
 };
+
+/* Formats whose texels are four floats, which may be beyond [0,1]: what numbers they can hold. */
+enum gls_numbers { GLS_BYTES, GLS_SNORM8, GLS_SNORM16, GLS_FLOAT, GLS_HALF, GLS_11F, GLS_9E5 };
+
 /** NULL: none that fixed function could sample. */
 const struct gls_format *gls_format_find(uint32_t internal_format);
 /** Base format of an internal format, 0: none. */
@@ -151,10 +159,16 @@ uint32_t gls_base_format(uint32_t internal_format);
 /** Of a surface that such a texture or renderbuffer is attached to. */
 uint32_t gls_format_depth_bits(uint32_t internal_format);
 uint32_t gls_format_stencil_bits(uint32_t internal_format);
-/** A colour as a texel, rounded to the format's bits, expanded as sampling does (table 3.20). */
-void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
-/** A border colour as sampling a base format gives it. */
-void gls_format_border(uint32_t base, const float color[4], float out[4]);
+/** Of a texel: 4, or 16 where it is four floats. */
+uint32_t gls_texel_bytes(uint32_t internal_format);
+/** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
+void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
+/** The same in four bytes, whatever the format. */
+void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
+/** What a texel holds. */
+void gls_texel_load(uint32_t texel_bytes, const uint8_t *texel, float out[4]);
+/** A border colour as sampling a format gives it: no number that its texels could not be. */
+void gls_format_border(uint32_t internal_format, const float color[4], float out[4]);
 /** EXT_texture_sRGB, of one channel in [0,1]. */
 float gls_linear_from_srgb(float c);
 float gls_srgb_from_linear(float c);

@@ -75,7 +75,7 @@ static uint32_t level_words(const struct scene_texture *t, uint32_t level)
 	w += 2 * t->border;
 	h = t->target == GL_TEXTURE_1D ? 1 : h + 2 * t->border;
 	d = t->target == GL_TEXTURE_3D ? d + 2 * t->border : t->target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
-	return w * h * d;
+	return w * h * d * (t->floats ? 4 : 1);
 }
 
 static int describe_texture(const struct scene_texture *t, uint32_t place, struct texture_image *out)
@@ -83,7 +83,7 @@ static int describe_texture(const struct scene_texture *t, uint32_t place, struc
 	size_t at = 0;
 
 	*out = (struct texture_image){ t->target, t->base_format, t->width, t->height, t->depth, t->n_levels, t->border,
-		                       { 0 } };
+		                       t->floats ? 4 : 1, { 0 } };
 	if (out->n_levels > TEXTURE_MAX_LEVELS)
 		out->n_levels = TEXTURE_MAX_LEVELS;
 	for (uint32_t level = 0; level < out->n_levels; level++) {

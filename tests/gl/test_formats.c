@@ -41,18 +41,55 @@ static void check_texel(uint32_t internal, uint32_t format, uint32_t type, size_
 START_TEST(test_texels)
 {
 	static const uint8_t rgba[4] = { 100, 150, 200, 90 };
-	static const uint16_t halves[4] = { 0x3800, 0x3c00, 0x0000, 0x3400 }; /* 0.5 1 0 0.25 */
 
 	check_texel(GL_RED, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RED, (uint8_t[]){ 100, 0, 0, 255 });
-	check_texel(GL_RG16F, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RG, (uint8_t[]){ 100, 150, 0, 255 });
 	check_texel(GL_RG, GL_RG, GL_UNSIGNED_BYTE, 2, rgba, GL_RG, (uint8_t[]){ 100, 150, 0, 255 });
 	check_texel(GL_RGBA4, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 102, 153, 204, 85 });
 	check_texel(GL_RGB5_A1, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 99, 148, 197, 0 });
 	check_texel(GL_R3_G3_B2, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGB, (uint8_t[]){ 109, 146, 170, 255 });
-	check_texel(GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, halves, GL_RGBA, (uint8_t[]){ 128, 255, 0, 64 });
 	/* 0.2122, 0.3050 and 0.5776 of linear light; alpha is no light */
 	check_texel(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 32, 78, 147, 90 });
 	check_texel(GL_COMPRESSED_RGB, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGB, (uint8_t[]){ 99, 150, 206, 255 });
+}
+END_TEST
+
+/* One texel of a format of numbers as the scene shows it, and as it is copied over another one (sec. 3.8.2). */
+static void check_numbers(uint32_t internal, uint32_t type, const void *pixel, const float wanted[4])
+{
+	const size_t n = type == GL_FLOAT ? 16 : 8;
+	uint8_t two[32];
+	struct gl gl = begin();
+	struct scene *s;
+
+	memset(two, 0, sizeof(two));
+	memcpy(two, pixel, n);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, internal, 2, 1, 0, GL_RGBA, type, 2 * n, two);
+	gl_call(&gl, "glTexSubImage2D", "eiiiiieeb", GL_TEXTURE_2D, 0, 1, 0, 1, 1, GL_RGBA, type, n, pixel);
+	draw(&gl);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 1);
+	ck_assert_uint_eq(s->textures[0]->floats, 1);
+	for (unsigned i = 0; i < 2; i++)
+		ck_assert_floats(4, (const float *)(const void *)s->textures[0]->texels + 4 * i, wanted[0], wanted[1], wanted[2], wanted[3]);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+
+/* ARB_texture_float, EXT_packed_float, EXT_texture_shared_exponent, EXT_texture_snorm. */
+START_TEST(test_numbers)
+{
+	static const uint16_t halves[4] = { 0x3800, 0xbc00, 0x4200, 0x3400 }; /* 0.5 -1 3 0.25 */
+	static const float numbers[4] = { 0.1f, 1.3f, 10, -0.25f };
+
+	check_numbers(GL_RGBA32F, GL_FLOAT, numbers, (float[]){ 0.1f, 1.3f, 10, -0.25f });
+	check_numbers(GL_INTENSITY32F_ARB, GL_FLOAT, numbers, (float[]){ 0.1f, 0.1f, 0.1f, 0.1f });
+	check_numbers(GL_RGBA16F, GL_HALF_FLOAT, halves, (float[]){ 0.5f, -1, 3, 0.25f });
+	check_numbers(GL_RGBA16F, GL_FLOAT, numbers, (float[]){ 0.0999756f, 1.299805f, 10, -0.25f });
+	check_numbers(GL_R11F_G11F_B10F, GL_FLOAT, numbers, (float[]){ 0.0996094f, 1.296875f, 10, 1 });
+	check_numbers(GL_RGB9_E5, GL_FLOAT, numbers, (float[]){ 0.09375f, 1.3125f, 10, 1 });
+	check_numbers(GL_RGBA8_SNORM, GL_FLOAT, numbers, (float[]){ 13 / 127.0f, 1, 1, -32 / 127.0f });
+	check_numbers(GL_LUMINANCE_ALPHA16F_ARB, GL_HALF_FLOAT, halves, (float[]){ 0.5f, 0.5f, 0.5f, 0.25f });
 }
 END_TEST
 
@@ -269,4 +306,4 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_numbers, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)

@@ -59,6 +59,55 @@ static void formats(void)
 	}
 }
 
+/* Texels beyond [0,1]: what they are multiplied with, and filtered, is not clamped. */
+static void numbers(void)
+{
+	static const int internal[] = { GL_RGBA32F, GL_RGBA16F, GL_RGB16F, GL_LUMINANCE32F_ARB, GL_INTENSITY16F_ARB, GL_RG32F,
+		                        GL_LUMINANCE_ALPHA16F_ARB, GL_R11F_G11F_B10F, GL_RGB9_E5, GL_RGBA8_SNORM, GL_RGB16_SNORM, GL_ALPHA32F_ARB };
+	float texels[8][8][4];
+
+	for (int i = 0; i < 256; i++)
+		texels[i / 32][i / 4 % 8][i % 4] = (float)(i * 37 % 101) / 30 - 0.4f;
+	glColor4f(0.4f, 0.3f, 0.2f, 0.6f);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+	for (int i = 0; i < 12; i++) {
+		texture();
+		glTexImage2D(GL_TEXTURE_2D, 0, internal[i], 8, 8, 0, GL_RGBA, GL_FLOAT, texels);
+		panel(i % 4 * 16, i / 4 * 16, 15, 0.01f, 0.98f);
+	}
+	glDisable(GL_BLEND);
+}
+
+/* The same filtered, with a border and generated levels; an addition that is clamped, and an interpolation that is not. */
+static void filtered_numbers(void)
+{
+	static const int internal[] = { GL_RGBA32F, GL_RGB16F, GL_LUMINANCE32F_ARB, GL_RGBA16_SNORM };
+	const float border[4] = { 2, -1, 3, 1 }, constant[4] = { 0.9f, 0.5f, 0.1f, 0.3f };
+	float texels[8][8][4];
+
+	for (int i = 0; i < 256; i++)
+		texels[i / 32][i / 4 % 8][i % 4] = (float)(i * 29 % 97) / 40 - 0.3f;
+	glColor4f(0.4f, 0.3f, 0.2f, 1);
+	for (int i = 0; i < 12; i++) {
+		texture();
+		glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+		glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border);
+		glTexImage2D(GL_TEXTURE_2D, 0, internal[i % 4], 8, 8, 0, GL_RGBA, GL_FLOAT, texels);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, i / 4 == 2 ? 1 : 0);
+		glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, i / 4 == 1 ? GL_ADD : GL_MODULATE);
+		if (i / 4 == 2) {
+			glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
+			glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_INTERPOLATE);
+			glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, constant);
+		}
+		panel(i % 4 * 16, i / 4 * 16, 15, -0.3f, 1.28f);
+	}
+}
+
 static void blocks(void)
 {
 	static const unsigned formats[] = { GL_COMPRESSED_RGB_S3TC_DXT1_EXT, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT,
@@ -332,7 +381,7 @@ static void trail(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { formats, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
+	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
 		                              depth_environments, combine4, walls, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
