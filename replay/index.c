@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
-#include <zlib.h>
 
 #include "base/err.h"
 #include "base/folder.h"
@@ -20,7 +19,7 @@
 #include "replay/replay.h"
 #include "replay/snapshot.h"
 
-#define MAGIC "RELIDX2\n" /* the number changes with this file's form */
+#define MAGIC "RELIDX3\n" /* the number changes with this file's form */
 #define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
 #define MAX_BLOB ((uint64_t)1 << 40)
@@ -42,12 +41,6 @@ struct checkpoint {
 	uint64_t frame;
 	struct trace_place place;
 	uint64_t name[2], bytes; /* of the snapshot */
-};
-
-/* A blob that waits for a checkpoint to be worth its bytes. */
-struct staged {
-	struct blob blob;
-	char *packed;
 };
 
 struct frame_end {
@@ -72,9 +65,12 @@ struct index {
 	size_t n_signatures;
 	double build_s;
 	uint64_t saved, added; /* bytes of the state that was looked at last, and those of them that are new */
-	struct staged *staged; /* its new blobs */
+	uint64_t most; /* new ones that a checkpoint is worth */
+	struct blob *staged; /* its new blobs: written behind the others, which they join if it is */
 	size_t n_staged, room_staged;
 	struct table waiting; /* low half of a name -> number of its staged blob + 1 */
+	char *packed; /* room for one */
+	size_t room_packed;
 };
 
 static int out_of_memory(const struct index *index)
@@ -138,7 +134,7 @@ static int is_kept(const struct index *index, const uint64_t name[2])
 	if (find_blob(index, name))
 		return 1;
 	for (; (number = (uintptr_t)table_find(&index->waiting, key)); key++)
-		if (memcmp(index->staged[number - 1].blob.name, name, 16) == 0)
+		if (memcmp(index->staged[number - 1].name, name, 16) == 0)
 			return 1;
 	return 0;
 }
@@ -152,51 +148,52 @@ static int have_blob(void *user, const uint64_t name[2], uint64_t n)
 	return kept;
 }
 
-/* Pack a blob that is not there yet, and keep it for write_staged. */
+/* Pack a blob that is not there yet, and write it behind those staged before. */
 static int stage_blob(void *user, const uint64_t name[2], const void *data, size_t n)
 {
 	struct index *index = user;
-	struct staged s = { { { name[0], name[1] }, 0, 0 }, NULL };
+	struct blob blob = { { name[0], name[1] }, index->end + index->added, 0 };
 	uint64_t key = name[0];
 
 	index->saved += n;
-	if (!index->file || is_kept(index, name))
+	if (!index->file || index->added > index->most || is_kept(index, name))
 		return 0;
+	if (pack_room(n) > index->room_packed) {
+		free(index->packed);
+		index->room_packed = pack_room(n);
+		index->packed = malloc(index->room_packed);
+		index->room_packed *= index->packed != NULL;
+	}
 	while (table_find(&index->waiting, key))
 		key++;
-	s.packed = malloc(pack_room(n) + 1);
-	if (!s.packed || pack_blob(data, n, s.packed, &s.blob.packed) ||
-	    grow(&index->staged, &index->room_staged, index->n_staged, sizeof(s)) ||
-	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1))) {
-		free(s.packed);
+	if (!index->packed || pack_blob(data, n, index->packed, &blob.packed) ||
+	    grow(&index->staged, &index->room_staged, index->n_staged, sizeof(blob)) ||
+	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1)))
 		return out_of_memory(index);
-	}
-	index->staged[index->n_staged++] = s;
-	index->added += s.blob.packed;
+	index->staged[index->n_staged++] = blob;
+	index->added += blob.packed;
+	if (fwrite(index->packed, 1, blob.packed, index->file) != blob.packed)
+		lose_file(index);
 	return 0;
 }
 
+/* What is written next goes over what is staged. */
 static void drop_staged(struct index *index)
 {
-	while (index->n_staged)
-		free(index->staged[--index->n_staged].packed);
+	if (index->n_staged && index->file && fseeko(index->file, (off_t)index->end, SEEK_SET))
+		lose_file(index);
+	index->n_staged = 0;
 	table_free(&index->waiting);
 }
 
-static int write_staged(struct index *index)
+static int keep_staged(struct index *index)
 {
 	int rc = 0;
 
-	for (size_t i = 0; i < index->n_staged && index->file && !rc; i++) {
-		struct blob *blob = &index->staged[i].blob;
-
-		blob->offset = index->end;
-		if (fwrite(index->staged[i].packed, 1, blob->packed, index->file) != blob->packed)
-			lose_file(index);
-		else
-			rc = add_blob(index, blob);
-		index->end += blob->packed;
-	}
+	for (size_t i = 0; i < index->n_staged && index->file && !rc; i++)
+		rc = add_blob(index, &index->staged[i]);
+	index->end += index->added;
+	index->n_staged = 0;
 	return rc;
 }
 
@@ -346,23 +343,18 @@ static int is_current(const char *path, const struct header *found, const struct
 
 static uint8_t *read_toc(FILE *file, const struct header *h)
 {
-	uint8_t *packed = h->toc_packed < MAX_BLOB ? malloc(h->toc_packed + 1) : NULL, *data = NULL;
+	char *packed = h->toc_packed < MAX_BLOB ? malloc(h->toc_packed + 1) : NULL, *data = NULL;
 	XXH128_hash_t hash;
-	uLongf n = h->toc_bytes;
 
 	if (!packed || pread(fileno(file), packed, h->toc_packed, (off_t)h->toc_offset) != (ssize_t)h->toc_packed)
 		goto done;
 	hash = XXH3_128bits(packed, h->toc_packed);
-	if (hash.low64 != h->toc_hash[0] || hash.high64 != h->toc_hash[1] || h->toc_bytes > MAX_BLOB)
-		goto done;
-	data = malloc(h->toc_bytes + 1);
-	if (data && (uncompress(data, &n, packed, h->toc_packed) != Z_OK || n != h->toc_bytes)) {
-		free(data);
-		data = NULL;
-	}
+	if (hash.low64 == h->toc_hash[0] && hash.high64 == h->toc_hash[1] && h->toc_bytes <= MAX_BLOB)
+		data = unpack_blob(packed, h->toc_packed, h->toc_bytes);
 done:
-	free(packed);
-	return data;
+	if (data != packed)
+		free(packed);
+	return (uint8_t *)data;
 }
 
 /* @return 1 opened; 0 none is there, or it is stale or damaged (said) */
@@ -400,12 +392,13 @@ static int add_checkpoint(struct index *index, struct replay *rp)
 {
 	struct snapshot_blobs blobs = blobs_of(index);
 	struct checkpoint c = { .frame = replay_frame(rp) };
-	uint64_t read = trace_reader_offset(replay_reader(rp));
+	uint64_t most = trace_reader_offset(replay_reader(rp)) + ALWAYS_BYTES;
 	struct bytes state = { .n = 0 };
 	XXH128_hash_t hash;
 	int rc;
 
 	index->saved = index->added = 0;
+	index->most = most > index->end ? most - index->end : 0;
 	if (!trace_reader_place(replay_reader(rp), &c.place))
 		return 0;
 	rc = snapshot_save(replay_exec(rp), &blobs, &state);
@@ -416,10 +409,8 @@ static int add_checkpoint(struct index *index, struct replay *rp)
 		c.bytes = state.n;
 		rc = stage_blob(index, c.name, state.data, state.n);
 	}
-	if (rc == 0 && index->end + index->added <= read + ALWAYS_BYTES)
-		rc = write_staged(index);
-	else if (rc == 0)
-		rc = 1;
+	if (rc == 0)
+		rc = index->added <= index->most ? keep_staged(index) : 1;
 	if (rc == 0 && index->file) {
 		if (grow(&index->checkpoints, &index->room_checkpoints, index->n_checkpoints, sizeof(c)))
 			rc = out_of_memory(index);
@@ -446,6 +437,15 @@ static int add_frame(struct index *index, struct replay *rp)
 static uint64_t spacing(const struct index *index)
 {
 	return index->saved / 4 > SPACING_BYTES ? index->saved / 4 : SPACING_BYTES;
+}
+
+/*
+ * Calls before which there is no checkpoint: a byte of the state takes as long to restore as a byte and a quarter of calls to replay
+ * (medians of recordings of eight programs).
+ */
+static uint64_t soonest(const struct index *index)
+{
+	return index->saved + index->saved / 4;
 }
 
 /* The first one: how large is the state that it would keep? */
@@ -475,9 +475,11 @@ static int scan(struct index *index, struct replay *rp)
 			uint64_t offset = index->frames[index->n_frames - 1].offset;
 
 			rc = measured++ ? 0 : measure(index, rp);
-			if (!rc && (index->n_checkpoints || offset >= spacing(index)))
+			next = soonest(index);
+			if (!rc && (index->n_checkpoints || offset >= next)) {
 				rc = add_checkpoint(index, rp);
-			next = index->n_checkpoints || offset >= spacing(index) ? offset + spacing(index) : spacing(index);
+				next = offset + spacing(index);
+			}
 		}
 		if (rc)
 			return rc;
@@ -492,15 +494,14 @@ static int write_toc(struct index *index)
 	struct header *h = &index->header;
 	struct bytes toc = { .n = 0 };
 	XXH128_hash_t hash;
-	uint8_t *packed = NULL;
-	uLongf n;
+	char *packed = NULL;
+	size_t n;
 	int rc = ERR_SYSTEM;
 
 	undelta(index->frames, index->n_frames, -1);
 	put_toc(index, &toc);
 	undelta(index->frames, index->n_frames, 1);
-	n = compressBound(toc.n);
-	if (toc.failed || !(packed = malloc(n)) || compress2(packed, &n, toc.data, toc.n, Z_BEST_SPEED) != Z_OK) {
+	if (toc.failed || !(packed = malloc(pack_room(toc.n))) || pack_blob((const char *)toc.data, toc.n, packed, &n)) {
 		rc = out_of_memory(index);
 		goto done;
 	}
@@ -511,7 +512,8 @@ static int write_toc(struct index *index)
 	h->toc_hash[0] = hash.low64;
 	h->toc_hash[1] = hash.high64;
 	if (fwrite(packed, 1, n, index->file) == n && fseek(index->file, 0, SEEK_SET) == 0 &&
-	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0)
+	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0 &&
+	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped there */
 		rc = 0;
 	else
 		lose_file(index);
@@ -600,13 +602,15 @@ static void forget(struct index *index)
 {
 	drop_staged(index);
 	free(index->staged);
+	free(index->packed);
 	free(index->blobs);
 	free(index->checkpoints);
 	free(index->frames);
 	free(index->signatures);
 	table_free(&index->known);
 	index->staged = NULL;
-	index->room_staged = 0;
+	index->packed = NULL;
+	index->room_staged = index->room_packed = 0;
 	index->blobs = NULL;
 	index->checkpoints = NULL;
 	index->frames = NULL;

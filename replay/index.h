@@ -8,8 +8,9 @@
  * differs, the hash of all of it.
  *
  * The file: a header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a
- * table of contents with a checksum. Checkpoints are snapshots (snapshot.h), themselves blobs. They come every MiB of calls, less often where the
- * state is large or changes so much that the index would outgrow the trace.
+ * table of contents with a checksum, packed alike. Checkpoints are snapshots (snapshot.h), themselves blobs. They come every MiB of
+ * calls, not before one is restored in less time than the calls take, and less often where the state is large or changes so much
+ * that the index would outgrow the trace.
  */
 #ifndef REPLAY_INDEX_H
 #define REPLAY_INDEX_H

@@ -205,9 +205,10 @@ static void put_list(struct saver *s, struct gls_list *list)
 	s->out = out;
 	if (own.failed && !s->err)
 		s->err = err_report(ERR_SYSTEM, s->x->path, "out of memory");
-	put_blob(s, own.data, own.n);
-	if (!s->blobs->count && !s->err) {
+	if (!s->blobs->count)
 		find_name(own.data, own.n, list->name);
+	put_named_blob(s, list->name, own.data, own.n);
+	if (!s->blobs->count && !s->err) {
 		list->bytes = own.n;
 		list->held = s->held - before;
 	}
@@ -232,11 +233,12 @@ static void put_texture(struct saver *s, struct gls_texture *t)
 	bytes_put(s->out, &raw, LEVELS_BEGIN);
 	bytes_put(s->out, (const char *)&raw + LEVELS_END, sizeof(raw) - LEVELS_END);
 	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++) {
-		struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS], kept = *level;
+		struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS], kept;
+		if (memcmp(level, &none, sizeof(none)) == 0)
+			continue;
+		kept = *level;
 		kept.texels = NULL;
 		memset(kept.hash, 0, sizeof(kept.hash));
-		if (!level->texels && memcmp(&kept, &none, sizeof(kept)) == 0)
-			continue;
 		bytes_put_u64(s->out, i);
 		bytes_put(s->out, &kept, sizeof(kept));
 		bytes_put_u64(s->out, level->texels != NULL);

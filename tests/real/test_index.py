@@ -37,6 +37,15 @@ for trace in traces:
     check(found["checkpoints"] > 0, f"{trace.name}: has checkpoints: {found}")
     check(found["bytes"] < found["trace_bytes"] + (512 << 10), f"{trace.name}: the index does not outgrow the trace: {found}")
 
+    check(index_of(trace).stat().st_size == found["bytes"], f"{trace.name}: there is nothing behind the index: {found}")
+
+# A state that would take longer to restore than the calls take that lead to it is not kept.
+if (TRACES / "xss-lament.trace").exists():
+    large = SCRATCH / "xss-lament.trace"
+    shutil.copy(TRACES / large.name, large)
+    found, _ = facts(large, "--check")
+    check(found["checkpoints"] == 0, f"textures of 9 MiB, set by 11 MiB of calls: {found}")
+
 # A frame looks the same whether all before it were executed or a checkpoint was restored.
 trace = traces[-1]
 last = facts(trace)[0]["frames"] - 1
@@ -55,7 +64,7 @@ if (last - near) % 7 == 0:
 # Another trace under the same name, damage, and what is no index: noticed and made anew.
 good = index_of(live).read_bytes()
 for what, data in (("its middle", good[:len(good) // 2] + b"\0" * 64 + good[len(good) // 2 + 64:]),
-                   ("its end", good[:-40]), ("its head", b"RELIDX2\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
+                   ("its end", good[:-40]), ("its head", b"RELIDX3\n" + bytes(200) + good[208:]), ("all of it", b"no index"),
                    ("everything", b"")):
     index_of(live).write_bytes(data)
     done = must(relume("render", live, "-f", "399", "-o", SCRATCH / "x.#.exr"))
