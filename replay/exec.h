@@ -331,7 +331,7 @@ struct gls_exec {
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
 	unsigned list_depth;
-	uint64_t nested_ops, nested_frame; /* operations that lists called by lists ran in that frame (list.c) */
+	uint64_t repeated, repeated_frame; /* what calls made of themselves in that frame: gls_is_beyond_measure */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 	int fronts;                   /* 1: what front buffers show is looked at */
@@ -404,6 +404,14 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st);
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 void gls_enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int on);
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
+/**
+ * A list that calls the next one twice, and so on, or itself, runs longer than anybody waits, in a driver too; so do instances without
+ * end. What a few calls make of themselves may come to so much a frame for each call recorded so far that no program comes near it.
+ * @param n    more of it: operations that a list called by a list runs, instances
+ * @param why  what to count the call as where it is too much
+ * @return 1 where it is too much
+ */
+int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why);
 void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read);
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st);
 void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n);

@@ -6,42 +6,38 @@
 
 #include "replay/exec.h"
 
-enum { MAX_INSTANCES = 1 << 16 }; /* more in one draw come from a damaged recording */
-
-/* 1 where there is something to draw so often. */
-static int check_instances(struct gls_exec *x, struct gls_state *st, int64_t instances)
+/* How often to draw; 0 where it is an error, or more than a recording means (counted). */
+static int64_t count_instances(struct gls_exec *x, struct gls_state *st, int64_t instances)
 {
 	if (instances < 0)
 		gls_error(x, st, GL_INVALID_VALUE);
-	else if (instances > MAX_INSTANCES)
-		gls_unsupported(x, "draws of more than 65536 instances");
-	return instances >= 0 && instances <= MAX_INSTANCES;
+	return instances > 0 && !gls_is_beyond_measure(x, (uint64_t)instances, "draws of instances without end") ? instances : 0;
 }
 
 static void draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count, int64_t instances)
 {
-	for (int64_t i = 0; check_instances(x, st, instances) && i < instances; i++)
+	for (int64_t n = count_instances(x, st, instances); n > 0; n--)
 		gls_draw_arrays(x, st, mode, first, count);
 }
 
-static void draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t count, const struct trace_value *indices,
-                          int64_t instances, int32_t base)
+static void draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t count, uint32_t type,
+                          const struct trace_value *indices, int64_t instances, int32_t base)
 {
-	for (int64_t i = 0; check_instances(x, st, instances) && i < instances; i++)
-		gls_draw_elements(x, st, arg_u(c, 0), count, arg_u(c, 2), indices, base);
+	for (int64_t n = count_instances(x, st, instances); n > 0; n--)
+		gls_draw_elements(x, st, arg_u(c, 0), count, type, indices, base);
 }
 
 GLS_HANDLER(glDrawArraysInstanced, ARRAY) { draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2), arg_i(c, 3)); }
 GLS_HANDLER(glDrawArraysInstancedBaseInstance, ARRAY) { draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2), arg_i(c, 3)); }
-GLS_HANDLER(glDrawElementsInstanced, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg(c, 3), arg_i(c, 4), 0); }
-GLS_HANDLER(glDrawElementsInstancedBaseInstance, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg(c, 3), arg_i(c, 4), 0); }
+GLS_HANDLER(glDrawElementsInstanced, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0); }
+GLS_HANDLER(glDrawElementsInstancedBaseInstance, ARRAY) { draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), 0); }
 GLS_HANDLER(glDrawElementsInstancedBaseVertex, ARRAY)
 {
-	draw_elements(x, st, c, arg_i(c, 1), arg(c, 3), arg_i(c, 4), (int32_t)arg_i(c, 5));
+	draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), (int32_t)arg_i(c, 5));
 }
 GLS_HANDLER(glDrawElementsInstancedBaseVertexBaseInstance, ARRAY)
 {
-	draw_elements(x, st, c, arg_i(c, 1), arg(c, 3), arg_i(c, 4), (int32_t)arg_i(c, 5));
+	draw_elements(x, st, c, arg_i(c, 1), arg_u(c, 2), arg(c, 3), arg_i(c, 4), (int32_t)arg_i(c, 5));
 }
 
 /* ---- parameters in memory ---- */
@@ -90,8 +86,7 @@ static void draw_indirect(struct gls_exec *x, struct gls_state *st, const struct
 			continue;
 		}
 		indices.i = (int64_t)word[2] * (arg_u(c, 1) == GL_UNSIGNED_BYTE ? 1 : arg_u(c, 1) == GL_UNSIGNED_SHORT ? 2 : 4);
-		for (uint32_t k = 0; check_instances(x, st, word[1]) && k < word[1]; k++)
-			gls_draw_elements(x, st, arg_u(c, 0), word[0], arg_u(c, 1), &indices, (int32_t)word[3]);
+		draw_elements(x, st, c, word[0], arg_u(c, 1), &indices, word[1], (int32_t)word[3]);
 	}
 }
 

@@ -12,8 +12,8 @@
 #include "replay/exec.h"
 
 #define MAX_PACKED 16
-#define NESTED_OPS (1u << 16)
-#define NESTED_OPS_A_CALL 128
+#define REPEATED (1u << 16)
+#define REPEATED_A_CALL 128
 
 /* ---- keeping calls ---- */
 
@@ -230,23 +230,19 @@ static void run_with_pixels(struct gls_exec *x, struct gls_state *st, const stru
 	st->client.unpack = unpack;
 }
 
-/*
- * A list that calls the next one twice, and so on, or itself, runs longer than anybody waits, in a driver too. Lists called by lists may
- * run so many operations a frame for each call recorded so far that no program comes near it.
- */
-static int is_beyond_measure(struct gls_exec *x, uint32_t n)
+int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why)
 {
-	if (x->list_depth == 0)
-		return 0;
-	if (x->nested_frame != x->frame) {
-		x->nested_frame = x->frame;
-		x->nested_ops = 0;
+	uint64_t most = REPEATED + REPEATED_A_CALL * x->call->number;
+
+	if (x->repeated_frame != x->frame) {
+		x->repeated_frame = x->frame;
+		x->repeated = 0;
 	}
-	if (x->nested_ops > NESTED_OPS + NESTED_OPS_A_CALL * x->call->number) {
-		gls_unsupported(x, "lists that call lists without end");
+	if (x->repeated > most || n > most - x->repeated) {
+		gls_unsupported(x, why);
 		return 1;
 	}
-	x->nested_ops += n;
+	x->repeated += n;
 	return 0;
 }
 
@@ -264,7 +260,7 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	effect = gls_effect_of(x, st, list);
 	ops = effect ? effect->ops : list->ops;
 	n = effect ? effect->n : list->n;
-	if (n == 0 || is_beyond_measure(x, n))
+	if (n == 0 || (x->list_depth > 0 && gls_is_beyond_measure(x, n, "lists that call lists without end")))
 		return;
 	c = call_of_list(x);
 	if (x->list_depth++ == 0)

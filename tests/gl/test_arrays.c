@@ -354,5 +354,30 @@ START_TEST(test_mapped_again)
 }
 END_TEST
 
-GL_TESTS("arrays", test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
+/* Instances are draws; a damaged recording's without end are counted and not drawn. */
+START_TEST(test_instances)
+{
+	uint32_t commands[4 * 64];
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < 64; i++)
+		memcpy(commands + 4 * i, ((uint32_t[4]){ 3, 60000, 0, 0 }), 16);
+	client_arrays(&gl);
+	gl_call(&gl, "glDrawArraysInstanced", "eiii", GL_TRIANGLES, 0, 3, 1000);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glMultiDrawArraysIndirect", "ebii", GL_TRIANGLES, sizeof(commands), commands, 64, 16);
+	ck_assert_uint_eq(gl_unsupported(&gl), 63);
+	gl_call(&gl, "glDrawArraysInstanced", "eiii", GL_TRIANGLES, 0, 3, INT32_MAX);
+	ck_assert_uint_eq(gl_unsupported(&gl), 64);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 61000);
+	scene_release(&s);
+	gl_call(&gl, "glDrawArraysInstanced", "eiii", GL_TRIANGLES, 0, 3, 60000);
+	ck_assert_uint_eq(gl_unsupported(&gl), 64);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("arrays", test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)
