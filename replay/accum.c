@@ -101,7 +101,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 		for (uint32_t i = 0; i < 4 * width; i++) {
 			float v = (float)d->accum[4 * (((size_t)a->y0 + y) * d->accum_width + (size_t)a->x0) + i] / ONE * value;
 
-			v = v <= 0 ? 0 : v >= 1 ? 1 : v;
+			v = v > 0 ? v < 1 ? v : 1 : 0;
 			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? from_linear(v) : v) * 255 + 0.5f);
 		}
 	if (texels)

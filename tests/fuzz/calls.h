@@ -56,6 +56,9 @@ struct calls_painter {
 	void *user;
 };
 
+/* Pictures that have little to do with the scenes, for what becomes of pictures. */
+extern const struct calls_painter calls_grey;
+
 /**
  * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
  * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).

@@ -186,8 +186,9 @@ START_TEST(test_no_numbers)
 	gl_call(&gl, "glPixelTransferi", "ei", GL_MAP_STENCIL, 1);
 	gl_call(&gl, "glDrawPixels", "iieeb", 4, 1, GL_COLOR_INDEX, GL_FLOAT, sizeof(wild), wild);
 	gl_call(&gl, "glDrawPixels", "iieeb", 4, 4, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, sizeof(wild), wild);
+	gl_call(&gl, "glAccum", "ef", GL_RETURN, (double)NAN);
 	s = gl_swap(&gl);
-	ck_assert_uint_eq(s->n_rectangles, 3);
+	ck_assert_uint_eq(s->n_rectangles, 4);
 	ck_assert_mem_eq(s->textures[s->rectangles[0].texture]->texels, ((float[4]){ 0, 1, 0, 1 }), 16);
 	ck_assert_mem_eq(s->textures[s->rectangles[1].texture]->texels, ((uint8_t[4]){ 0, 0, 0, 0 }), 4);
 	scene_release(&s);
