@@ -7,7 +7,7 @@
 #include "replay/texture.h"
 
 #define MAX_SIZE 16384
-#define MAX_TEXELS ((int64_t)1 << 29) /* of an image: so many, of four bytes each, llvmpipe (Mesa 22.3) refuses */
+#define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */
 
 /* ---- client formats, tables 3.5 and 3.6 ---- */
 
@@ -662,6 +662,7 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 {
 	struct gls_level *l = &t->levels[face][level];
 	uint32_t base = gls_base_format(internal_format);
+	int64_t least = border == 1 ? 2 : 0;
 	size_t bytes;
 
 	if (t->target == GLS_TEXTURE_1D)
@@ -671,12 +672,12 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		gls_unsupported(x, "textures of this internal format");
 		return NULL;
 	}
-	if (width < 0 || height < 0 || depth < 0 || width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 ||
-	    (border != 0 && border != 1)) {
+	if (width < least || height < (t->target == GLS_TEXTURE_1D ? 0 : least) || depth < (t->target == GLS_TEXTURE_3D ? least : 0) ||
+	    width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 || (border != 0 && border != 1)) {
 		gls_error(x, st, GL_INVALID_VALUE);
 		return NULL;
 	}
-	if (width * height * depth >= MAX_TEXELS) {
+	if (width * height * depth * gls_texel_bytes(internal_format) >= MAX_BYTES) {
 		gls_error(x, st, GL_OUT_OF_MEMORY);
 		return NULL;
 	}

@@ -541,6 +541,8 @@ static uint32_t count_levels(const struct gls_texture *t, unsigned face)
 	w = base->width - 2 * base->border;
 	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
 	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
+	if (!w || !h || !d)
+		return 0; /* nothing but borders */
 	for (n = 1; t->parameters.base_level + n < GLS_MAX_LEVELS && t->parameters.base_level + n <= t->parameters.max_level && (w > 1 || h > 1 || d > 1); n++) {
 		w = half(w);
 		h = half(h);

@@ -10,7 +10,7 @@
 #include "replay/snapshot.h"
 
 #define MAX_FRAMES 8
-#define MAX_ITEMS 64
+#define MAX_ITEMS 256
 #define MAX_BLOB 16384
 
 static const int64_t EXTREME_INTS[] = { -1, INT32_MAX, INT32_MIN, 0x7FFF, 0x8000, 0xFFFF, 0x10000, UINT32_MAX, 0x1000000, 4096, 2048, 1024, 100,

@@ -231,10 +231,37 @@ START_TEST(test_largest)
 
 	gl_call(&gl, "glTexStorage3D", "eieiii", GL_TEXTURE_3D, 1, GL_RGBA8, 1024, 1024, 512);
 	ck_assert_uint_eq(gl_error(&gl), GL_OUT_OF_MEMORY);
+	gl_call(&gl, "glTexStorage2D", "eieii", GL_TEXTURE_2D, 1, GL_RGBA32F, 16384, 8192);
+	ck_assert_uint_eq(gl_error(&gl), GL_OUT_OF_MEMORY);
 	gl_call(&gl, "glTexStorage2D", "eieii", GL_TEXTURE_2D, 1, GL_RGBA8, 16384, 16384);
 	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
 	gl_close(&gl);
 }
 END_TEST
 
-GL_TESTS("textures", test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
+/* Sec. 3.8.1: an image is at least as large as its borders; one that is no larger has no texels. */
+START_TEST(test_borders_only)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA8, 4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA8, 1, 4, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glTexImage3D", "eieiiiieep", GL_TEXTURE_3D, 0, GL_RGBA8, 4, 4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, GL_RGBA8, 4, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("textures", test_borders_only, test_pushed_parameters, test_samplers, test_formats, test_unpack, test_completeness, test_sub_image_and_content, test_largest, test_texgen)
