@@ -64,8 +64,8 @@ struct index {
 	uint8_t *signatures;
 	size_t n_signatures;
 	double build_s;
-	uint64_t saved, added; /* bytes of the state that was looked at last, and those of them that are new */
-	uint64_t most; /* new ones that a checkpoint is worth */
+	uint64_t added; /* bytes of the state that was looked at last that are new */
+	uint64_t most;  /* such that a checkpoint is worth */
 	struct blob *staged; /* its new blobs: written behind the others, which they join if it is */
 	size_t n_staged, room_staged;
 	struct table waiting; /* low half of a name -> number of its staged blob + 1 */
@@ -139,13 +139,9 @@ static int is_kept(const struct index *index, const uint64_t name[2])
 	return 0;
 }
 
-static int have_blob(void *user, const uint64_t name[2], uint64_t n)
+static int have_blob(void *user, const uint64_t name[2])
 {
-	struct index *index = user;
-	int kept = is_kept(index, name);
-
-	index->saved += kept ? n : 0;
-	return kept;
+	return is_kept(user, name);
 }
 
 /* Pack a blob that is not there yet, and write it behind those staged before. */
@@ -155,7 +151,6 @@ static int stage_blob(void *user, const uint64_t name[2], const void *data, size
 	struct blob blob = { { name[0], name[1] }, index->end + index->added, 0 };
 	uint64_t key = name[0];
 
-	index->saved += n;
 	if (!index->file || index->added > index->most || is_kept(index, name))
 		return 0;
 	if (pack_room(n) > index->room_packed) {
@@ -397,7 +392,7 @@ static int add_checkpoint(struct index *index, struct replay *rp)
 	XXH128_hash_t hash;
 	int rc;
 
-	index->saved = index->added = 0;
+	index->added = 0;
 	index->most = most > index->end ? most - index->end : 0;
 	if (!trace_reader_place(replay_reader(rp), &c.place))
 		return 0;
@@ -433,39 +428,39 @@ static int add_frame(struct index *index, struct replay *rp)
 	return 0;
 }
 
-/* How far apart checkpoints stand: looking at a large state takes its time as well. */
-static uint64_t spacing(const struct index *index)
+/* How far apart checkpoints stand at least: looking at a large state takes its time as well. */
+static uint64_t spacing(uint64_t state_bytes)
 {
-	return index->saved / 4 > SPACING_BYTES ? index->saved / 4 : SPACING_BYTES;
+	return state_bytes / 4 > SPACING_BYTES ? state_bytes / 4 : SPACING_BYTES;
 }
 
 /*
- * Calls before which there is no checkpoint: a byte of the state takes as long to restore as a byte and a quarter of calls to replay
- * (medians of recordings of eight programs).
+ * Calls since the last checkpoint before which there is no other: a byte that the state has grown by takes as long to restore as a
+ * byte and a quarter of calls to replay (medians of recordings of eight programs).
  */
-static uint64_t soonest(const struct index *index)
+static uint64_t soonest(uint64_t grown_bytes)
 {
-	return index->saved + index->saved / 4;
+	return grown_bytes + grown_bytes / 4;
 }
 
-/* The first one: how large is the state that it would keep? */
-static int measure(struct index *index, struct replay *rp)
+/* How large is the state that a checkpoint would keep? */
+static int measure(struct replay *rp, uint64_t *bytes)
 {
-	const struct snapshot_blobs scale = { .count = &index->saved };
+	const struct snapshot_blobs scale = { .count = bytes };
 	struct bytes state = { .n = 0 };
 	int rc;
 
-	index->saved = 0;
+	*bytes = 0;
 	rc = snapshot_save(replay_exec(rp), &scale, &state);
-	index->saved += state.n;
+	*bytes += state.n;
 	free(state.data);
 	return rc < 0 ? rc : 0;
 }
 
 static int scan(struct index *index, struct replay *rp)
 {
-	uint64_t next = SPACING_BYTES; /* where a checkpoint is due */
-	int measured = 0;
+	uint64_t next = SPACING_BYTES; /* where a checkpoint may be due */
+	uint64_t last = 0, kept = 0, bytes; /* where the last one was, the bytes of its state; those of the state now */
 	struct scene *none;
 	int rc;
 
@@ -474,11 +469,13 @@ static int scan(struct index *index, struct replay *rp)
 		if (!rc && index->file && index->frames[index->n_frames - 1].offset >= next) {
 			uint64_t offset = index->frames[index->n_frames - 1].offset;
 
-			rc = measured++ ? 0 : measure(index, rp);
-			next = soonest(index);
-			if (!rc && (index->n_checkpoints || offset >= next)) {
+			rc = measure(rp, &bytes);
+			next = last + soonest(bytes > kept ? bytes - kept : 0);
+			if (!rc && offset >= next) {
 				rc = add_checkpoint(index, rp);
-				next = offset + spacing(index);
+				last = offset;
+				kept = bytes;
+				next = offset + spacing(bytes);
 			}
 		}
 		if (rc)

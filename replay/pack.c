@@ -19,7 +19,7 @@ static int is_worth_packing(const char *data, size_t n)
 	char packed[SAMPLE_BYTES + SAMPLE_BYTES / 6 + 32]; /* snappy_max_compressed_length */
 	size_t n_packed = sizeof(packed);
 
-	return n < 4 * SAMPLE_BYTES || snappy_compress(data + n / 2, SAMPLE_BYTES, packed, &n_packed) != SNAPPY_OK ||
+	return n < 16 * SAMPLE_BYTES || snappy_compress(data + n / 2, SAMPLE_BYTES, packed, &n_packed) != SNAPPY_OK ||
 	       n_packed <= SAMPLE_BYTES / 8 * 7;
 }
 

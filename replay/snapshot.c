@@ -192,7 +192,9 @@ static void put_list(struct saver *s, struct gls_list *list)
 	struct bytes own = { .n = 0 }, *out = s->out;
 	uint64_t before = s->held;
 
-	if (list->held && s->blobs->have && s->blobs->have(s->blobs->user, list->name, list->held)) {
+	if (list->held && (s->blobs->count || (s->blobs->have && s->blobs->have(s->blobs->user, list->name)))) {
+		if (s->blobs->count)
+			*s->blobs->count += list->held;
 		s->held += list->held;
 		bytes_put_u64(s->out, list->bytes);
 		bytes_put(s->out, list->name, sizeof(list->name));

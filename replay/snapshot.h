@@ -21,11 +21,8 @@
 struct snapshot_blobs {
 	/** Keep bytes under their name (XXH3-128). @return 0 or ERR_* (reported) */
 	int (*put)(void *user, const uint64_t name[2], const void *data, size_t n);
-	/**
-	 * NULL, or: 1 where the blob of that name and those put just before it, which it names, are kept already; they have
-	 * `n` bytes together.
-	 */
-	int (*have)(void *user, const uint64_t name[2], uint64_t n);
+	/** NULL, or: 1 where the blob of that name and those put just before it, which it names, are kept already. */
+	int (*have)(void *user, const uint64_t name[2]);
 	/** The n bytes of a name; free with free(). NULL: they are not there, or not what the name says (reported) */
 	uint8_t *(*get)(void *user, const uint64_t name[2], size_t n);
 	void *user;
