@@ -24,13 +24,14 @@
 #define NO_DEPTH 2.0f
 struct pack {
 	packu order, instance, primitive;
-	packf b1, b2, depth;
+	packf b1, b2, depth, steps; /* steps: depth in steps of 2^-24, as it is compared */
 	packi counts;
 };
 
-/* Faces that wait until there are sixteen of them: numbers in the mesh. */
+/* Faces that wait, numbers in the mesh: sixteen are drawn as soon as as many others are here, whose vertices are on their way meanwhile. */
+#define PENDING_FULL 32
 struct pending {
-	uint n, primitive[24], vertex[3][24];
+	uint n, primitive[PENDING_FULL + 8], vertex[3][PENDING_FULL + 8];
 };
 
 struct tile {
@@ -59,23 +60,20 @@ struct candidate {
 
 /* --- fragments --- */
 
-/* Depth in steps of 2^-24, as it is compared. */
-WIDE_VECTORS static inline packf depth_steps(packf depth)
+/* What rint does to numbers from 0 to 2^24; PoCL's own takes twenty instructions. From 2^23 on they have no fraction. */
+WIDE_VECTORS static inline packf round_steps(packf x)
 {
-	return rint(depth * 16777215.0f);
+	return select((x + 0x1p23f) - 0x1p23f, x, x >= 0x1p23f);
 }
 
-/* Which of these pixels a candidate at this depth takes. */
-WIDE_VECTORS static inline packi find_better(const struct tile *t, const struct pack *p, packi covered, packf depth, uint order)
+/* No branches: which pixels take a candidate cannot be foretold. */
+WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct pack *p, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
-	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(order) < p->order : (packu)(order) > p->order;
-	const packf steps = depth_steps(depth), nearest = depth_steps(p->depth);
+	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(c.order) < p->order : (packu)(c.order) > p->order;
+	const packf steps = round_steps(depth * 16777215.0f);
+	const packi better = covered & ((steps < p->steps) | ((steps == p->steps) & before));
 
-	return covered & ((steps < nearest) | ((steps == nearest) & before));
-}
-
-WIDE_VECTORS static inline void keep_nearest(struct pack *p, packi better, packf b1, packf b2, packf depth, struct candidate c)
-{
+	p->steps = select(p->steps, steps, better);
 	p->order = select(p->order, (packu)(c.order), better);
 	p->instance = select(p->instance, (packu)(c.instance), better);
 	p->primitive = select(p->primitive, (packu)(c.primitive), better);
@@ -143,7 +141,7 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 #define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
 /* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole triangle's. */
-WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, int x, int y, packi at)
+WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, uint x, uint y, packi at)
 {
 	packf rounded;
 
@@ -153,8 +151,8 @@ WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int
 		const long value = ((const long *)&s->value[i])[lane];
 		const packi step_x = LANE_INT(s->step_x[1 + i], lane), step_y = LANE_INT(s->step_y[1 + i], lane);
 
-		rounded = convert_float16((long16)(value) + (convert_long16(BLOCK_Y + BLOCK * y) * convert_long16(step_y) +
-		                                             convert_long16(BLOCK_X + BLOCK * x) * convert_long16(step_x)) * 256);
+		rounded = convert_float16((long16)(value) + (convert_long16(BLOCK_Y + BLOCK * (int)y) * convert_long16(step_y) +
+		                                             convert_long16(BLOCK_X + BLOCK * (int)x) * convert_long16(step_x)) * 256);
 	}
 	return rounded * LANE_FLOAT(s->inverse, lane);
 }
@@ -176,24 +174,19 @@ WIDE_VECTORS static inline packf clamp_depth(packf depth)
 }
 
 /* What one triangle of a batch covers of a block. at: its edges there. corner: NULL, or the three of a part of one. */
-WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, int x, int y, packi covered, const packi *at,
+WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, uint x, uint y, packi covered, const packi *at,
                                            const struct clip_corner *const *corner, struct candidate c)
 {
 	const int exact = t->mode != CAMERA_COLUMN && LANE_INT(s->exact, lane);
 	struct pack *p = &t->packs[y][x];
 	packf depth, b1, b2;
-	packi better;
 
-	if (exact) {
-		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), t->plane_y[y],
-		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x], (packf)(LANE_FLOAT(s->origin, lane)))));
-		better = find_better(t, p, covered, depth, c.order);
-		if (!any_pack(better))
-			return;
-	}
 	b1 = weight_at(s, lane, 0, x, y, at[1]);
 	b2 = weight_at(s, lane, 1, x, y, at[2]);
-	if (!exact)
+	if (exact)
+		depth = clamp_depth(fma((packf)(LANE_FLOAT(s->along_y, lane)), t->plane_y[y],
+		                        fma((packf)(LANE_FLOAT(s->along_x, lane)), t->plane_x[x], (packf)(LANE_FLOAT(s->origin, lane)))));
+	else
 		depth = clamp_depth(LANE_FLOAT(s->z, lane) + (b1 * LANE_FLOAT(s->along_b1, lane) + b2 * LANE_FLOAT(s->along_b2, lane)));
 	if (corner)
 		weigh_in_volume(corner, &b1, &b2);
@@ -201,36 +194,29 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 		keep_in_columns(t, x, y, covered, &b1, &b2, &depth, c);
 		return;
 	}
-	if (!exact) {
-		better = find_better(t, p, covered, depth, c.order);
-		if (!any_pack(better))
-			return;
-	}
-	t->changed = 1;
-	keep_nearest(p, better, b1, b2, depth, c);
+	keep_nearest(t, p, covered, b1, b2, depth, c);
 }
 
 /* All that one triangle of a batch covers. */
 WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane, const struct clip_corner *const *corner,
                                               struct candidate c)
 {
-	const int x_first = LANE_INT(s->x_first, lane) / BLOCK, x_last = LANE_INT(s->x_last, lane) / BLOCK;
-	const int y_first = LANE_INT(s->y_first, lane) / BLOCK, y_last = LANE_INT(s->y_last, lane) / BLOCK;
-	const packi x0 = BLOCK_X + BLOCK * x_first, y0 = BLOCK_Y + BLOCK * y_first;
+	const uint x_first = (uint)LANE_INT(s->x_first, lane) / BLOCK, x_last = (uint)LANE_INT(s->x_last, lane) / BLOCK;
+	const uint y_first = (uint)LANE_INT(s->y_first, lane) / BLOCK, y_last = (uint)LANE_INT(s->y_last, lane) / BLOCK;
+	const packi x0 = BLOCK_X + BLOCK * (int)x_first, y0 = BLOCK_Y + BLOCK * (int)y_first;
 	const packi step_x[3] = { LANE_INT(s->step_x[0], lane), LANE_INT(s->step_x[1], lane), LANE_INT(s->step_x[2], lane) };
 	const packi step_y[3] = { LANE_INT(s->step_y[0], lane), LANE_INT(s->step_y[1], lane), LANE_INT(s->step_y[2], lane) };
 	packi row[3] = { LANE_INT(s->whole[0], lane) + x0 * step_x[0] + y0 * step_y[0],
 		         LANE_INT(s->whole[1], lane) + x0 * step_x[1] + y0 * step_y[1],
 		         LANE_INT(s->whole[2], lane) + x0 * step_x[2] + y0 * step_y[2] };
 
-	for (int y = y_first; y <= y_last; y++) {
+	for (uint y = y_first; y <= y_last; y++) {
 		packi at[3] = { row[0], row[1], row[2] };
 
-		for (int x = x_first; x <= x_last; x++) {
+		for (uint x = x_first; x <= x_last; x++) {
 			const packi covered = (at[0] | at[1] | at[2] | t->off_x[x] | t->off_y[y]) >= 0;
 
-			if (any_pack(covered))
-				draw_block(t, s, lane, x, y, covered, at, corner, c);
+			draw_block(t, s, lane, x, y, covered, at, corner, c);
 			at[0] += BLOCK * step_x[0];
 			at[1] += BLOCK * step_x[1];
 			at[2] += BLOCK * step_x[2];
@@ -285,6 +271,7 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
 
 	for (int i = 0; i < 3; i++)
 		vertex[i] = instance->vertex_first + select((packu)(pending->vertex[i][0]), vload16(0, pending->vertex[i]), there);
+	t->changed = 1;
 	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
 	clipped = pack_bits(there & ~placed);
 	for (uint lanes = batch_set_up(t->view, t->x, t->y, instance->flags, &v, there & placed, &batch); lanes; lanes &= lanes - 1) {
@@ -301,21 +288,34 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
 		draw_clipped(t, instance->flags, corner, c);
 	}
 	pending->n -= n;
-	if (pending->n) {
-		vstore8(vload8(2, pending->primitive), 0, pending->primitive);
+	for (uint k = 0; 8 * k < pending->n; k++) {
+		vstore8(vload8(k + 2, pending->primitive), k, pending->primitive);
 		for (int i = 0; i < 3; i++)
-			vstore8(vload8(2, pending->vertex[i]), 0, pending->vertex[i]);
+			vstore8(vload8(k + 2, pending->vertex[i]), k, pending->vertex[i]);
 	}
 }
 
-static inline void add_faces(struct pending *pending, __global const struct face8 *faces)
+/* A block of faces of an instance waits now; the first sixteen are drawn where that is enough. */
+static inline void add_faces(struct tile *t, uint index, __global const struct face8 *faces)
 {
+	const uint vertex_first = t->instances[index].vertex_first;
+	struct pending *pending = &t->pending;
 	const uint n = pending->n;
+
 
 	vstore8(vload8(0, faces->primitive), 0, pending->primitive + n);
 	for (int i = 0; i < 3; i++)
 		vstore8(vload8(0, faces->vertex[i]), 0, pending->vertex[i] + n);
+	for (int i = 0; i < 3; i++)
+		for (int lane = 0; lane < 8; lane++) {
+			const size_t vertex = vertex_first + faces->vertex[i][lane];
+
+			PREFETCH(t->window + vertex);
+			PREFETCH(t->clip + 4 * vertex);
+		}
 	pending->n = n + popcount(lane_bits(vload8(0, faces->primitive) != SCENE_NONE));
+	if (pending->n >= PENDING_FULL)
+		draw_pending(t, index);
 }
 
 /* --- traversal --- */
@@ -366,9 +366,11 @@ struct entry {
 	uint child, count;
 };
 
-/* Push what of a node the tile may see, so that what reaches farthest before the far plane is popped first. */
-static inline uint push_children(const struct frustum8 *f, __global const struct node8 *node, struct entry *stack, uint depth)
+/* Push what of a node the tile may see, so that what reaches farthest before the far plane is popped first. nodes, faces: the instance's. */
+static inline uint push_children(const struct frustum8 *f, __global const struct node8 *nodes, __global const struct face8 *faces,
+                                 uint index, struct entry *stack, uint depth)
 {
+	__global const struct node8 *node = &nodes[index];
 	const uint bottom = depth;
 	float8 reach;
 
@@ -382,6 +384,14 @@ static inline uint push_children(const struct frustum8 *f, __global const struct
 		stack[place].reach = r;
 		stack[place].child = node->child[lane];
 		stack[place].count = node->count[lane];
+		if (node->count[lane]) {
+			PREFETCH(faces[node->child[lane]].vertex[0]);
+			PREFETCH(faces[node->child[lane]].vertex[2]);
+		} else {
+			for (int i = 0; i < 6; i += 2)
+				PREFETCH(nodes[node->child[lane]].lo[0] + 8 * i);
+			PREFETCH(nodes[node->child[lane]].child);
+		}
 	}
 	return depth;
 }
@@ -404,10 +414,10 @@ static inline void walk_blas(struct tile *t, uint index)
 
 	for (;;) {
 		if (entry.count == 0)
-			depth = push_children(&f, &nodes[entry.child], stack, depth);
+			depth = push_children(&f, nodes, faces, entry.child, stack, depth);
 		for (uint i = 0; i < entry.count; i++)
-			add_faces(&t->pending, &faces[entry.child + i]);
-		while (t->pending.n >= 16 || (t->pending.n && !depth))
+			add_faces(t, index, &faces[entry.child + i]);
+		while (t->pending.n && !depth)
 			draw_pending(t, index);
 		if (t->changed) {
 			const float before = t->z_far;
@@ -471,11 +481,8 @@ static inline void walk_screen(struct tile *t, uint index)
 
 			if (node->count[lane] == 0)
 				stack[depth++] = node->child[lane];
-			for (uint i = 0; i < node->count[lane]; i++) {
-				add_faces(&t->pending, &t->faces[instance->triangle8_first + node->child[lane] + i]);
-				if (t->pending.n >= 16)
-					draw_pending(t, index);
-			}
+			for (uint i = 0; i < node->count[lane]; i++)
+				add_faces(t, index, &t->faces[instance->triangle8_first + node->child[lane] + i]);
 		}
 	}
 	while (t->pending.n)
@@ -523,6 +530,15 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 #define STORE_FIRST_LAST(a, b) (packu)(a.s01, b.s23, a.s45, b.s67, a.s89, b.sab, a.scd, b.sef)
 #define STORE_LAST_FIRST(a, b) (packu)(a.s23, b.s01, a.s67, b.s45, a.sab, b.s89, a.sef, b.scd)
 
+/* Past the caches where that can be: no other pixel of the tile is asked for what stands here, and lines are not read before. */
+static inline void store_four(uint4 value, __global uint *to, int aligned)
+{
+	if (aligned)
+		STREAM(value, (__global uint4 *)to);
+	else
+		vstore4(value, 0, to);
+}
+
 /* A block whose pixels all lie in the view's rectangle: a fragment's six numbers, four fragments a row. */
 WIDE_VECTORS static inline void store_block(const struct tile *t, int x, int y, __global uint *counts)
 {
@@ -536,12 +552,14 @@ WIDE_VECTORS static inline void store_block(const struct tile *t, int x, int y, 
 	const packu count = select((packu)(0), (packu)(1), p->order != SCENE_NONE);
 	const size_t pixel = (size_t)(t->y + BLOCK * y) * t->width + (size_t)(t->x + BLOCK * x);
 
+	const int aligned = ((pixel | t->width) & 3) == 0;
+
 	for (int row = 0; row < BLOCK; row++) {
-		__global uint4 *fragments = (__global uint4 *)(t->fragments + pixel + (size_t)row * t->width);
+		const size_t first = pixel + (size_t)row * t->width;
 
 		for (int i = 0; i < 6; i++)
-			vstore4(((const uint4 *)&out[i])[row], i, (__global uint *)fragments);
-		vstore4(((const uint4 *)&count)[row], 0, counts + pixel + (size_t)row * t->width);
+			store_four(((const uint4 *)&out[i])[row], (__global uint *)(t->fragments + first) + 4 * i, aligned);
+		store_four(((const uint4 *)&count)[row], counts + first, aligned);
 	}
 }
 
@@ -579,6 +597,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;
 			p->depth = NO_DEPTH;
+			p->steps = NO_DEPTH * 16777216.0f;
 		}
 }
 

@@ -24,6 +24,26 @@
 #endif
 #endif
 
+/* Let what stands at p come near: it is read soon. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_prefetch)
+#define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
+#endif
+#endif
+#ifndef PREFETCH
+#define PREFETCH(p)
+#endif
+
+/* *p = value, aligned, which is not read soon. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_nontemporal_store)
+#define STREAM(value, p) __builtin_nontemporal_store(value, p)
+#endif
+#endif
+#ifndef STREAM
+#define STREAM(value, p) (*(p) = (value))
+#endif
+
 /* One bit a lane. */
 static inline uint lane_bits(int8 mask)
 {
