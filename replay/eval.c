@@ -10,6 +10,7 @@
 #include "replay/exec.h"
 
 #define MAX_ORDER 30
+#define POINTS_A_REPEAT 64 /* that count as much as an operation of a list (gls_is_beyond_measure) */
 #define N_TARGETS 9 /* of each dimension, in the order of their tokens */
 
 /* A map: points[u][v][size] for Map2, points[u][size] for Map1. order[0] == 0: not defined, which is GL's constant. */
@@ -361,13 +362,13 @@ static void begin(struct gls_exec *x, struct gls_state *st, uint32_t primitive)
 	gls_glBegin(x, st, &call);
 }
 
-/* Is there something to draw, of a size that can be held? */
-static int mesh_fits(struct gls_exec *x, double across, double along)
+/* Is there something to draw, of a size that can be held? A mesh may have 2^20 points, those of a frame four times as many. */
+static int mesh_fits(struct gls_exec *x, int64_t across, int64_t along)
 {
-	if (!x->want)
+	if (!x->want || across <= 0 || along <= 0)
 		return 0;
-	if (across * along <= GLS_MAX_PENDING_VERTICES)
-		return 1;
+	if ((double)across * (double)along <= GLS_MAX_PENDING_VERTICES)
+		return !gls_is_beyond_measure(x, (uint64_t)(across * along) / POINTS_A_REPEAT, "evaluated meshes without end");
 	gls_unsupported(x, "evaluated meshes of more than 2^20 points");
 	return 0;
 }
@@ -380,7 +381,7 @@ GLS_HANDLER(glEvalMesh1, STATE)
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (!mesh_fits(x, (double)(arg_i32(c, 2) - arg_i32(c, 1)), 1))
+	if (!mesh_fits(x, arg_i32(c, 2) - arg_i32(c, 1) + 1, 1))
 		return;
 	begin(x, st, mode == GL_POINT ? GL_POINTS : GL_LINE_STRIP);
 	for (int64_t i = arg_i32(c, 1); i <= arg_i32(c, 2); i++)
@@ -398,7 +399,7 @@ GLS_HANDLER(glEvalMesh2, STATE)
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	if (!mesh_fits(x, fabs((double)(i2 - i1)) + 1, fabs((double)(j2 - j1)) + 1))
+	if (!mesh_fits(x, i2 - i1 + 1, j2 - j1 + 1))
 		return;
 	for (int64_t j = j1; j <= j2 - (mode == GL_FILL); j++) {
 		begin(x, st, mode == GL_POINT ? GL_POINTS : mode == GL_LINE ? GL_LINE_STRIP : GL_TRIANGLE_STRIP);

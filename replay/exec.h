@@ -407,7 +407,7 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
 /**
  * A list that calls the next one twice, and so on, or itself, runs longer than anybody waits, in a driver too; so do instances without
  * end. What a few calls make of themselves may come to so much a frame for each call recorded so far that no program comes near it.
- * @param n    more of it: operations that a list called by a list runs, instances
+ * @param n    more of it: operations that a list called by a list runs, instances, some points of evaluated meshes
  * @param why  what to count the call as where it is too much
  * @return 1 where it is too much
  */

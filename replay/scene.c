@@ -437,11 +437,17 @@ static uint32_t looks_at(const struct scene_material *m)
 
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface);
 
-/* 1 where a clear leaves nothing of the depths that a surface held. */
-static int clears_depth(const struct gls_surface *d, const struct scene_clear *clear)
+/* 1 where a clear's scissor leaves nothing out. */
+static int covers(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
-	       (uint32_t)clear->scissor[3] >= d->height && (!d->depth_bits || clear->buffers & 2);
+	       (uint32_t)clear->scissor[3] >= d->height;
+}
+
+/* 1 where it leaves nothing of the depths that a surface held. */
+static int clears_depth(const struct gls_surface *d, const struct scene_clear *clear)
+{
+	return covers(d, clear) && (!d->depth_bits || clear->buffers & 2);
 }
 
 /* 1 where it leaves nothing of the colours either. */
@@ -478,10 +484,14 @@ static void free_frame(struct gls_frame *f);
 static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 {
 	struct gls_frame *old = d->frame, *f = make_frame(x);
+	uint32_t first = old->out->n_clears;
 
 	if (!f)
 		return;
-	for (uint32_t i = 0; i < old->out->n_clears; i++) {
+	/* Nothing looked at the stencil buffer in between: what counts is from the last clear of all of it on. */
+	while (first > 0 && !(covers(d, &old->out->clears[--first]) && clears_stencil(d, &old->out->clears[first])))
+		;
+	for (uint32_t i = first; i < old->out->n_clears; i++) {
 		struct scene_clear clear = old->out->clears[i];
 
 		clear.before_instance = 0;

@@ -90,6 +90,9 @@ START_TEST(test_errors)
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
 	gl_call(&gl, "glEvalMesh1", "eii", GL_FILL, 0, 1);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	for (int i = 0; i < 6; i++) /* four times 2^20 points, and no more */
+		gl_call(&gl, "glEvalMesh2", "eiiii", GL_LINE, 1, 1024, 1, 1024);
+	ck_assert_uint_eq(gl_unsupported(&gl), 2);
 	gl_call(&gl, "glEvalMesh1", "epp", GL_LINE, (uint64_t)INT64_MAX - 1, (uint64_t)INT64_MAX); /* a damaged recording's: it ends */
 	gl_call(&gl, "glEvalMesh2", "epppp", GL_LINE, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX, (uint64_t)INT64_MAX);
 	gl_close(&gl);
