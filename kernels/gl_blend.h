@@ -90,4 +90,55 @@ static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, st
 	return v4((float)out.c[0] / 255.0f, (float)out.c[1] / 255.0f, (float)out.c[2] / 255.0f, (float)out.c[3] / 255.0f);
 }
 
+/* --- Frame buffers of floats: the same, without rounding ---------------------------------------------------------- */
+
+static inline struct vec4 blend_float_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
+{
+	struct vec4 one = v4(1.0f, 1.0f, 1.0f, 1.0f);
+	float f;
+
+	switch (factor) {
+	case GL_ZERO: return v4(0.0f, 0.0f, 0.0f, 0.0f);
+	case GL_SRC_COLOR: return s;
+	case GL_ONE_MINUS_SRC_COLOR: return v4_sub(one, s);
+	case GL_DST_COLOR: return d;
+	case GL_ONE_MINUS_DST_COLOR: return v4_sub(one, d);
+	case GL_SRC_ALPHA: return v4(s.w, s.w, s.w, s.w);
+	case GL_ONE_MINUS_SRC_ALPHA: return v4_sub(one, v4(s.w, s.w, s.w, s.w));
+	case GL_DST_ALPHA: return v4(d.w, d.w, d.w, d.w);
+	case GL_ONE_MINUS_DST_ALPHA: return v4_sub(one, v4(d.w, d.w, d.w, d.w));
+	case GL_CONSTANT_COLOR: return c;
+	case GL_ONE_MINUS_CONSTANT_COLOR: return v4_sub(one, c);
+	case GL_CONSTANT_ALPHA: return v4(c.w, c.w, c.w, c.w);
+	case GL_ONE_MINUS_CONSTANT_ALPHA: return v4_sub(one, v4(c.w, c.w, c.w, c.w));
+	case GL_SRC_ALPHA_SATURATE:
+		f = M_MIN(s.w, 1.0f - d.w);
+		return v4(f, f, f, 1.0f);
+	default: return one;
+	}
+}
+
+static inline float blend_float_equation(uint32_t equation, float s, float fs, float d, float fd)
+{
+	switch (equation) {
+	case GL_FUNC_SUBTRACT: return s * fs - d * fd;
+	case GL_FUNC_REVERSE_SUBTRACT: return d * fd - s * fs;
+	case GL_MIN: return M_MIN(s, d);
+	case GL_MAX: return M_MAX(s, d);
+	default: return s * fs + d * fd;
+	}
+}
+
+static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	struct vec4 c = v4_load(m->blend_color);
+	struct vec4 fs = blend_float_factor(m->blend_src_rgb, s, d, c), fd = blend_float_factor(m->blend_dst_rgb, s, d, c);
+	struct vec4 as = blend_float_factor(m->blend_src_alpha, s, d, c), ad = blend_float_factor(m->blend_dst_alpha, s, d, c);
+
+	return v4(blend_float_equation(m->blend_equation_rgb, s.x, fs.x, d.x, fd.x),
+	          blend_float_equation(m->blend_equation_rgb, s.y, fs.y, d.y, fd.y),
+	          blend_float_equation(m->blend_equation_rgb, s.z, fs.z, d.z, fd.z),
+	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
+}
+
 #endif

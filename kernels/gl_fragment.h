@@ -519,12 +519,15 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 	}
 	if (m->color_sum || (m->lighting && m->separate_specular))
 		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);
-	color = v4_clamp01(color);
+	if (!(m->unclamped & 1u))
+		color = v4_clamp01(color);
 	if (m->fog) {
 		float f = fog_factor;
 
-		color = v4_clamp01(v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
-		                      color.z * f + m->fog_color[2] * (1.0f - f), color.w));
+		color = v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
+		           color.z * f + m->fog_color[2] * (1.0f - f), color.w);
+		if (!(m->unclamped & 1u))
+			color = v4_clamp01(color);
 	}
 	return color;
 }

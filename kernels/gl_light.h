@@ -133,9 +133,9 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 		}
 	}
 	primary.w = diffuse.w;
-	out.color = v4_clamp01(primary);
 	secondary.w = 0.0f;
-	out.secondary = v4_clamp01(secondary);
+	out.color = m->unclamped & 2u ? primary : v4_clamp01(primary);
+	out.secondary = m->unclamped & 2u ? secondary : v4_clamp01(secondary);
 	return out;
 }
 

@@ -26,6 +26,14 @@ static inline int pixel_compare(uint32_t func, uint32_t a, uint32_t b)
 	}
 }
 
+/* Numbers that stand in the order of floats. */
+static inline uint32_t pixel_order(float x)
+{
+	uint32_t bits = M_BITS(x + 0.0f); /* so there is one zero */
+
+	return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
 static inline uint32_t pixel_bits_mask(uint32_t bits)
 {
 	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
@@ -112,6 +120,8 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 {
 	if (!m->blend && !m->logic_op)
 		return s;
+	if (m->floats)
+		return blend_floats(m, s, d);
 	d = v4(pixel_stored(d.x), pixel_stored(d.y), pixel_stored(d.z), pixel_stored(d.w));
 	if (m->logic_op) /* takes blending's place (sec. 4.1.10) */
 		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
@@ -164,7 +174,8 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	    (m->depth_test && m->depth_func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_DEPTH))
 		pixel->unknown |= PIXEL_UNKNOWN_TEST;
 	/* llvmpipe compares alpha in the frame buffer's precision. */
-	if (m->alpha_test && !pixel_compare(m->alpha_func, blend_round(s->gl[3]), blend_round(m->alpha_ref)))
+	if (m->alpha_test && !pixel_compare(m->alpha_func, m->floats ? pixel_order(s->gl[3]) : blend_round(s->gl[3]),
+	                                    m->floats ? pixel_order(m->alpha_ref) : blend_round(m->alpha_ref)))
 		return 0;
 	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are llvmpipe's, of four. */
 	if (m->samples_off >> pixel_sample(bits) & 1u ||
@@ -350,7 +361,7 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 		for (uint32_t c = 0u; c < 4u; c++) {
 			if (!(clear->color_mask >> c & 1u))
 				continue;
-			pixel->gl[c] = pixel_settle(clamp01(clear->color[c]));
+			pixel->gl[c] = clear->floats ? clear->color[c] : pixel_settle(clamp01(clear->color[c]));
 			if (c < 3u)
 				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = pixel->gl[c];
 		}

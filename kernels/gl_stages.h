@@ -376,9 +376,9 @@ static inline float stage_coverage(const struct point *p)
 	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
 }
 
-/* What of a bitmap or pixel rectangle lies under a fragment, as its texel's four bytes. */
-static inline uint32_t stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
-                                         uint32_t *kind)
+/* What of a bitmap or pixel rectangle lies under a fragment: its texel. */
+static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
+                                                       uint32_t *kind)
 {
 	struct vec4 a = v4_load(p->vertex[0]->color[1]);
 	struct vec4 c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
@@ -389,11 +389,15 @@ static inline uint32_t stage_pixel_group(const struct tables *t, const struct po
 	*kind = (uint32_t)(a.w + 0.5f);
 	column = M_MIN(column, (float)(image->width - 1u));
 	row = M_MIN(row, (float)(image->height - 1u));
-	return t->texels[image->level_first[0] + (uint32_t)row * image->width + (uint32_t)column];
+	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
 }
 
-static inline struct vec4 stage_texel_color(uint32_t texel)
+static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32_t kind)
 {
+	uint32_t texel = *group;
+
+	if (kind == SCENE_FLOAT_PIXELS)
+		return v4(M_FLOAT(group[0]), M_FLOAT(group[1]), M_FLOAT(group[2]), M_FLOAT(group[3]));
 	return v4((float)(texel & 255u) / 255.0f, (float)(texel >> 8 & 255u) / 255.0f, (float)(texel >> 16 & 255u) / 255.0f,
 	          (float)(texel >> 24) / 255.0f);
 }
@@ -421,7 +425,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	struct vec4 color;
 	float coverage;
 	int clipped = 0, uncovered;
-	uint32_t group = 0u, kind = 0u;
+	GLOBAL const uint32_t *group = t->texels;
+	uint32_t kind = 0u;
 
 	if (n_slots && (!stage_dimmed(arriving, n_slots, n, item) || !(out->flags & SHADED_THERE)))
 		return;
@@ -449,7 +454,7 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	}
 	if (p.geometry->flags & GEOMETRY_PIXELS) {
 		group = stage_pixel_group(t, &p, &f, &kind);
-		if (kind == SCENE_BITMAP && !group) {
+		if (kind == SCENE_BITMAP && !*group) {
 			out->flags = 0u;
 			return;
 		}
@@ -462,8 +467,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	} else {
 		lit = from_vertices = point_lit_from_vertices(&p);
 	}
-	if (kind == SCENE_COLOR_PIXELS)
-		lit.color = stage_texel_color(group);
+	if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)
+		lit.color = stage_texel_color(group, kind);
 	color = point_finish(t, &p, &coat, &lit);
 	color = v4(pixel_settle(color.x), pixel_settle(color.y), pixel_settle(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
@@ -476,9 +481,9 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = f.depth;
 	if (kind == SCENE_DEPTH_PIXELS)
-		out->depth = clamp01(M_FLOAT(group));
+		out->depth = clamp01(M_FLOAT(*group));
 	if (kind == SCENE_STENCIL_PIXELS) {
-		out->depth = (float)(group & 255u);
+		out->depth = (float)(*group & 255u);
 		out->flags = SHADED_THERE | SHADED_STENCIL;
 		return;
 	}

@@ -48,8 +48,12 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye),
 		                    back ? v3_scale(normal, -1.0f) : normal, tables_face(t, g, v, back), tables_color(t, g, v),
 		                    back, seen);
-	lit.color = vertex_clamp(tables_color(t, g, v), g->attributes & 2u);
-	lit.secondary = vertex_clamp(tables_secondary(t, g, v), g->attributes & 4u);
+	lit.color = tables_color(t, g, v);
+	lit.secondary = tables_secondary(t, g, v);
+	if (!(m->unclamped & 2u)) {
+		lit.color = vertex_clamp(lit.color, g->attributes & 2u);
+		lit.secondary = vertex_clamp(lit.secondary, g->attributes & 4u);
+	}
 	lit.lights = 0u;
 	return lit;
 }

@@ -60,6 +60,8 @@ static void init_attribs(struct gls_attribs *a)
 {
 	for (unsigned i = 0; i < 4; i++)
 		a->current.attribute[GLS_ATTR_COLOR][i] = 1;
+	a->lighting.clamp = GL_TRUE;
+	a->color.clamp = GL_FIXED_ONLY;
 	a->current.attribute[GLS_ATTR_NORMAL][2] = 1;
 	a->current.attribute[GLS_ATTR_NORMAL][3] = 1;
 	a->current.attribute[GLS_ATTR_SECONDARY][3] = 1;

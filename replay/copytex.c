@@ -25,8 +25,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 					gls_level_stencil(l)[(size_t)(texel - l->texels) / l->texel_bytes] = p->stencil[from];
 				continue;
 			}
-			for (unsigned i = 0; i < 4; i++)
-				v[i] = (float)p->rgba[4 * from + i] / 255;
+			gls_picture_color(p, from, v);
 			gls_store_pixel(st, l->internal_format, v, texel);
 		}
 }

@@ -266,7 +266,7 @@ struct gls_picture {
 /* Something that is drawn to: what it held, and what happened to it since. All zero: black, and nothing happened. */
 struct gls_surface {
 	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
-	uint32_t samples, samples_from_below; /* as in struct scene */
+	uint32_t samples, samples_from_below, floats; /* as in struct scene */
 	struct gls_frame *frame;     /* owned: events; NULL: none */
 	struct gls_picture *picture; /* a reference: what it held before them, */
 	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
@@ -489,9 +489,13 @@ void gls_frame_stop_carrying(struct gls_exec *x);
 /** A frame was executed without being built: what it drew is not known. */
 void gls_frame_skip(struct gls_exec *x);
 void gls_surface_free(struct gls_surface *surface);
-/** A black one, far and 0. @return a reference; NULL: out of memory (reported) */
+/** A black one, far and 0; floats: its colours are there as floats, too. @return a reference; NULL: out of memory (reported) */
 struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
-                                     uint32_t alpha_bits, uint32_t samples);
+                                     uint32_t alpha_bits, uint32_t samples, uint32_t floats);
+/** The colour of a place in a picture. */
+void gls_picture_color(const struct scene_picture *p, size_t place, float out[4]);
+/** Kind of pixels that colours for what is drawn to should come as, so that none is clamped that need not be. */
+uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st);
 void gls_picture_release(struct gls_picture *picture);
 
 /* front.c: two buffers of a window */

@@ -20,6 +20,7 @@
 static void free_arrays(struct scene_picture *p)
 {
 	free(p->rgba);
+	free(p->colors);
 	free(p->depth);
 	free(p->stencil);
 }
@@ -43,7 +44,8 @@ static struct gls_picture *reference(struct gls_picture *p)
 }
 
 /* Black, far and 0. @return 0: out of memory, with whatever was allocated */
-static int make_arrays(struct scene_picture *p, uint32_t width, uint32_t height, uint32_t depth_bits, uint32_t alpha_bits)
+static int make_arrays(struct scene_picture *p, uint32_t width, uint32_t height, uint32_t depth_bits, uint32_t alpha_bits,
+                       uint32_t floats)
 {
 	size_t n = (size_t)width * height, room = n + !n;
 	uint32_t bits = depth_bits > 24 ? 24 : depth_bits, far = (1u << bits) - 1;
@@ -54,28 +56,31 @@ static int make_arrays(struct scene_picture *p, uint32_t width, uint32_t height,
 	p->rgba = calloc(room, 4);
 	p->depth = malloc(room * sizeof(*p->depth));
 	p->stencil = calloc(room, 1);
-	if (!p->rgba || !p->depth || !p->stencil)
+	p->colors = floats ? calloc(room, 4 * sizeof(*p->colors)) : NULL;
+	if (!p->rgba || !p->depth || !p->stencil || (floats && !p->colors))
 		return 0;
 	for (size_t i = 0; i < n; i++) {
 		p->depth[i] = far;
 		p->rgba[4 * i + 3] = alpha_bits ? 0 : 255;
+		if (floats)
+			p->colors[4 * i + 3] = alpha_bits ? 0 : 1;
 	}
 	return 1;
 }
 
 struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t depth_bits,
-                                     uint32_t alpha_bits, uint32_t samples)
+                                     uint32_t alpha_bits, uint32_t samples, uint32_t floats)
 {
 	struct gls_picture *p = calloc(1, sizeof(*p));
 	int good = p != NULL;
 
 	if (p) {
 		atomic_init(&p->refs, 1);
-		good = make_arrays(&p->picture, width, height, depth_bits, alpha_bits);
+		good = make_arrays(&p->picture, width, height, depth_bits, alpha_bits, floats);
 		if (samples > 1)
 			good &= (p->picture.samples = calloc(SCENE_SAMPLES, sizeof(*p->picture.samples))) != NULL;
 		for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
-			good &= make_arrays(&p->picture.samples[i], width, height, depth_bits, alpha_bits);
+			good &= make_arrays(&p->picture.samples[i], width, height, depth_bits, alpha_bits, floats);
 	}
 	if (!good) {
 		gls_picture_release(p);
@@ -85,10 +90,23 @@ struct gls_picture *gls_picture_make(struct gls_exec *x, uint32_t width, uint32_
 	return p;
 }
 
+void gls_picture_color(const struct scene_picture *p, size_t place, float out[4])
+{
+	for (unsigned i = 0; i < 4; i++)
+		out[i] = p->colors ? p->colors[4 * place + i] : (float)p->rgba[4 * place + i] / 255;
+}
+
+uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st)
+{
+	const struct gls_surface *s = gls_surface_of(x, st);
+
+	return s && s->floats ? SCENE_FLOAT_PIXELS : SCENE_COLOR_PIXELS;
+}
+
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
-	struct gls_picture *p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples);
+	struct gls_picture *p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples, s->floats);
 
 	if (!p || !s->width || !s->height)
 		return p;

@@ -30,7 +30,7 @@ GLS_HANDLER(glAlphaFunc, STATE)
 		return;
 	}
 	st->a.color.alpha_func = arg_u(c, 0);
-	st->a.color.alpha_ref = clamp01(arg_d(c, 1));
+	st->a.color.alpha_ref = arg_f(c, 1);
 }
 
 /* ---- stencil, sec. 4.1.5 ---- */
@@ -157,7 +157,22 @@ GLS_HANDLER(glBlendEquationSeparate, STATE) { blend_equation(x, st, arg_u(c, 0),
 GLS_HANDLER(glBlendColor, STATE)
 {
 	for (unsigned i = 0; i < 4; i++)
-		st->a.color.blend_color[i] = clamp01(arg_d(c, i));
+		st->a.color.blend_color[i] = arg_f(c, i);
+}
+
+/* ARB_color_buffer_float; colours that are read (CLAMP_READ_COLOR) go to the program alone. */
+GLS_HANDLER(glClampColor, STATE)
+{
+	uint32_t clamp = arg_u(c, 1);
+
+	if (clamp > GL_TRUE && clamp != GL_FIXED_ONLY)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else if (arg_u(c, 0) == GL_CLAMP_VERTEX_COLOR)
+		st->a.lighting.clamp = clamp;
+	else if (arg_u(c, 0) == GL_CLAMP_FRAGMENT_COLOR)
+		st->a.color.clamp = clamp;
+	else if (arg_u(c, 0) != GL_CLAMP_READ_COLOR)
+		gls_error(x, st, GL_INVALID_ENUM);
 }
 
 GLS_HANDLER(glLogicOp, STATE)
@@ -212,7 +227,7 @@ GLS_HANDLER(glReadBuffer, STATE) { st->a.pixel.read_buffer = arg_u(c, 0); }
 GLS_HANDLER(glClearColor, STATE)
 {
 	for (unsigned i = 0; i < 4; i++)
-		st->a.color.clear[i] = clamp01(arg_d(c, i));
+		st->a.color.clear[i] = arg_f(c, i);
 }
 
 GLS_HANDLER(glClearDepth, STATE) { st->a.depth.clear = clamp01(arg_d(c, 0)); }

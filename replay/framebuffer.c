@@ -93,7 +93,7 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 	uint32_t colors = colors_of(fb);
 	int any = 0;
 
-	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = 0;
+	s->depth_bits = s->stencil_bits = s->alpha_bits = s->samples = s->floats = 0;
 	s->samples_from_below = 1;
 	s->width = s->height = 16384;
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++) {
@@ -104,8 +104,10 @@ static int describe(const struct gls_share *share, struct gls_framebuffer *fb)
 		s->height = t.height < s->height ? t.height : s->height;
 		if (t.renderbuffer && t.renderbuffer->samples > s->samples)
 			s->samples = t.renderbuffer->samples;
-		if (i < DEPTH)
+		if (i < DEPTH) {
 			s->alpha_bits |= has_alpha(gls_base_format(t.format)) ? 8 : 0;
+			s->floats |= gls_format_is_float(t.format);
+		}
 		else if (i == DEPTH)
 			s->depth_bits = gls_format_depth_bits(t.format);
 		else
@@ -129,20 +131,26 @@ static struct scene_picture *held_by(const struct target *t)
 static void load_color(const struct target *t, struct scene_picture *p)
 {
 	const struct gls_level *l = t->level;
-	const uint8_t *from = t->renderbuffer ? held_by(t) ? held_by(t)->rgba : NULL : l->texels + l->texel_bytes * t->first;
+	const struct scene_picture *held = l ? NULL : held_by(t);
+	const uint8_t *from = l ? l->texels + l->texel_bytes * t->first : held ? held->rgba : NULL;
 	float v[4];
 
 	for (uint32_t y = 0; from && y < p->height; y++) {
-		uint8_t *to = p->rgba + 4 * (size_t)y * p->width;
+		size_t at = (size_t)y * t->width, to = (size_t)y * p->width;
 
-		if (!l || l->texel_bytes == 4) {
-			memcpy(to, from + 4 * (size_t)y * t->width, 4 * (size_t)p->width);
+		if (!p->colors && (!l || l->texel_bytes == 4)) {
+			memcpy(p->rgba + 4 * to, from + 4 * at, 4 * (size_t)p->width);
 			continue;
 		}
-		for (uint32_t x = 0; x < p->width; x++) {
-			gls_texel_load(l->texel_bytes, from + l->texel_bytes * ((size_t)y * t->width + x), v);
+		for (uint32_t x = 0; x < p->width; x++, at++, to++) {
+			if (l)
+				gls_texel_load(l->texel_bytes, from + l->texel_bytes * at, v);
+			else
+				gls_picture_color(held, at, v);
 			for (unsigned i = 0; i < 4; i++)
-				to[4 * x + i] = gls_byte(v[i]);
+				p->rgba[4 * to + i] = gls_byte(v[i]);
+			if (p->colors)
+				memcpy(p->colors + 4 * to, v, sizeof(v));
 		}
 	}
 }
@@ -213,7 +221,7 @@ static struct gls_picture *load(struct gls_exec *x, const struct gls_share *shar
 	for (int i = 0; i < N_GLS_ATTACHMENTS; i++)
 		if ((i >= DEPTH || i == color) && find_target(share, &fb->attached[i], &t) && is_missing(&t))
 			return NULL;
-	p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples);
+	p = gls_picture_make(x, s->width, s->height, s->depth_bits, s->alpha_bits, s->samples, s->floats);
 	if (!p)
 		return NULL;
 	load_sample(share, fb, color, 0, &p->picture);
@@ -228,7 +236,7 @@ static struct scene_picture *content_of(struct gls_exec *x, const struct target 
 	struct gls_renderbuffer *r = t->renderbuffer;
 
 	if (!r->content)
-		r->content = gls_picture_make(x, r->width, r->height, 24, 8, r->samples);
+		r->content = gls_picture_make(x, r->width, r->height, 24, 8, r->samples, gls_format_is_float(r->internal_format));
 	return held_by(t);
 }
 
@@ -239,15 +247,16 @@ static void store_color(struct gls_exec *x, const struct target *t, const struct
 
 	for (uint32_t y = 0; format && y < p->height; y++)
 		for (uint32_t i = 0; i < p->width; i++) {
-			const uint8_t *from = p->rgba + 4 * ((size_t)y * p->width + i);
 			size_t to = (size_t)y * t->width + i;
+			float v[4];
 
-			float v[4] = { (float)from[0] / 255, (float)from[1] / 255, (float)from[2] / 255, (float)from[3] / 255 };
-
+			gls_picture_color(p, (size_t)y * p->width + i, v);
 			if (t->level)
 				gls_format_store(format, v, t->level->texels + t->level->texel_bytes * (t->first + to));
 			else if (content)
 				gls_format_store_bytes(format, v, content->rgba + 4 * to);
+			if (content && content->colors)
+				gls_format_store(format, v, (uint8_t *)(content->colors + 4 * to));
 		}
 }
 
@@ -658,6 +667,8 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 		gls_error(x, st, r ? GL_INVALID_VALUE : GL_INVALID_OPERATION);
 		return;
 	}
+	if (samples > 1 && gls_format_is_float(format))
+		gls_unsupported(x, "floats of several samples a pixel: their means are clamped");
 	changes(x, st);
 	settle_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
@@ -683,21 +694,23 @@ struct blit {
 static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
 {
 	uint32_t width = (uint32_t)(b->from[2] - b->from[0]), height = (uint32_t)(b->from[3] - b->from[1]);
-	uint8_t *texels = gls_scratch(x, (size_t)width * height * 4);
+	size_t bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
+	uint8_t *texels = gls_scratch(x, (size_t)width * height * bytes);
 
 	for (uint32_t i = 0; texels && i < width * height; i++) {
 		int64_t px = b->from[0] + i % width, py = b->from[1] + i / width;
 		size_t at = (size_t)(py * p->width + px);
 		uint32_t stencil;
-		float depth;
+		float depth, v[4];
 
-		memset(texels + 4 * (size_t)i, 0, 4);
+		memset(texels + bytes * i, 0, bytes);
 		if (px < 0 || py < 0 || px >= p->width || py >= p->height)
 			continue;
 		stencil = p->stencil[at];
 		depth = p->depth_bits ? (float)p->depth[at] / (float)((1u << p->depth_bits) - 1) : 1;
-		memcpy(texels + 4 * (size_t)i, kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) :
-		                               kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, 4);
+		gls_picture_color(p, at, v);
+		memcpy(texels + bytes * i, kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) : kind == SCENE_FLOAT_PIXELS ? v :
+		                           kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, bytes);
 	}
 	if (texels)
 		gls_draw_rectangle_plainly(x, st, kind, b->left, b->low, width, height, b->zoom, texels);
@@ -732,7 +745,7 @@ GLS_HANDLER(glBlitFramebuffer, NOW)
 		return;
 	st->a.color.mask = 15;
 	if (mask & GL_COLOR_BUFFER_BIT)
-		blit_one(x, st, &b, SCENE_COLOR_PIXELS, p);
+		blit_one(x, st, &b, gls_color_pixels(x, st), p);
 	if (mask & GL_DEPTH_BUFFER_BIT)
 		blit_one(x, st, &b, SCENE_DEPTH_PIXELS, p);
 	if (mask & GL_STENCIL_BUFFER_BIT)

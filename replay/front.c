@@ -60,7 +60,7 @@ static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *fron
 
 	if (!rest)
 		return NULL;
-	p = gls_picture_make(x, back->width, back->height, back->depth_bits, back->alpha_bits, back->samples);
+	p = gls_picture_make(x, back->width, back->height, back->depth_bits, back->alpha_bits, back->samples, 0);
 	if (!p)
 		return NULL;
 	merge(&p->picture, colors, rest);

@@ -261,10 +261,8 @@ static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call 
 		fog->index = v[0];
 		break;
 	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
-		for (unsigned i = 0; i < 4; i++) {
-			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-			fog->color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
-		}
+		for (unsigned i = 0; i < 4; i++)
+			fog->color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
 		break;
 	case GL_FOG_COORD_SRC:
 		if (token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH)

@@ -86,7 +86,7 @@ void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, uint32_t kind,
 
 	if (!gls_is_drawn(x, st) || !width || !height)
 		return;
-	image = gls_texture_image_find(x, width, height, texels);
+	image = gls_texture_image_find(x, width, height, kind == SCENE_FLOAT_PIXELS ? 16 : 4, texels);
 	if (!image)
 		return;
 	memcpy(values, st->a.current.attribute, sizeof(values));
@@ -120,7 +120,7 @@ void gls_draw_rectangle_plainly(struct gls_exec *x, struct gls_state *st, uint32
 	st->a.depth.enabled = st->a.depth.write = kind == SCENE_DEPTH_PIXELS;
 	st->a.depth.func = GL_ALWAYS;
 	st->a.stencil.side[0].write_mask = 255;
-	if (kind != SCENE_COLOR_PIXELS)
+	if (kind != SCENE_COLOR_PIXELS && kind != SCENE_FLOAT_PIXELS)
 		st->a.color.mask = 0;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		st->a.texturing.units[u].enabled = 0;
@@ -213,6 +213,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	const uint8_t *data = gls_pixel_source(st, c, 4, &n);
 	uint8_t *texels;
 	int indices = format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX, rc;
+	uint32_t kind = kind_of(format);
 
 	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
 		gls_error(x, st, GL_INVALID_VALUE);
@@ -220,7 +221,9 @@ GLS_HANDLER(glDrawPixels, STATE)
 	}
 	if (!st->a.current.raster_valid || !data || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
 		return;
-	texels = gls_scratch(x, (size_t)width * height * 5);
+	if (kind == SCENE_COLOR_PIXELS && !indices)
+		kind = gls_color_pixels(x, st);
+	texels = gls_scratch(x, (size_t)width * height * (kind == SCENE_FLOAT_PIXELS ? 16 : 5));
 	if (!texels)
 		return;
 	if (format == GL_DEPTH_STENCIL) {
@@ -234,13 +237,14 @@ GLS_HANDLER(glDrawPixels, STATE)
 	}
 	if (!indices || gls_unpack_indices(st, format, type, data, n, width, height, texels)) {
 		rc = gls_unpack_pixels(x, st, format, type, width, height, 0, data, n,
-		                       format == GL_DEPTH_COMPONENT ? GL_DEPTH_COMPONENT : GL_RGBA, texels);
+		                       kind == SCENE_DEPTH_PIXELS ? GL_DEPTH_COMPONENT : kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA,
+		                       texels);
 		if (rc == -2 && st->client.unpack.buffer) /* nor is anything drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
 			gls_error(x, st, GL_INVALID_OPERATION);
 		if (rc == -1 || (rc == -2 && st->client.unpack.buffer))
 			return;
 	}
-	gls_draw_rectangle(x, st, kind_of(format), rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
+	gls_draw_rectangle(x, st, kind, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
 }
 
 /* A place of the screen as a texel of a copy; outside of it nothing is defined: 0. */
@@ -251,7 +255,7 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 	size_t from;
 	float v[4];
 
-	memset(texel, 0, 4);
+	memset(texel, 0, kind == SCENE_FLOAT_PIXELS ? 16 : 4);
 	if (x < 0 || y < 0 || x >= p->width || y >= p->height)
 		return;
 	from = (size_t)y * p->width + (size_t)x;
@@ -270,9 +274,8 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 		memcpy(texel, v, 4);
 		return;
 	}
-	for (unsigned i = 0; i < 4; i++)
-		v[i] = (float)p->rgba[4 * from + i] / 255;
-	gls_store_pixel(st, GL_RGBA, v, texel);
+	gls_picture_color(p, from, v);
+	gls_store_pixel(st, kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA, v, texel);
 }
 
 GLS_HANDLER(glCopyPixels, STATE)
@@ -282,6 +285,7 @@ GLS_HANDLER(glCopyPixels, STATE)
 	const float *at = st->a.current.raster_position;
 	const struct scene_picture *p;
 	uint8_t *texels;
+	size_t bytes;
 
 	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
 		gls_error(x, st, GL_INVALID_VALUE);
@@ -289,8 +293,11 @@ GLS_HANDLER(glCopyPixels, STATE)
 	}
 	if (!st->a.current.raster_valid || !width || !height || width > MAX_SIDE || height > MAX_SIDE || !x->want)
 		return;
+	if (kind == SCENE_COLOR_PIXELS)
+		kind = gls_color_pixels(x, st);
+	bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
 	p = gls_read_screen(x, st);
-	texels = p ? gls_scratch(x, (size_t)width * height * 5) : NULL;
+	texels = p ? gls_scratch(x, (size_t)width * height * (bytes + 1)) : NULL;
 	if (texels && arg_u(c, 4) == GL_DEPTH_STENCIL) {
 		uint8_t *stencil = texels + 4 * (size_t)width * height, value[4];
 
@@ -303,7 +310,7 @@ GLS_HANDLER(glCopyPixels, STATE)
 		return;
 	}
 	for (uint32_t i = 0; texels && i < width * height; i++)
-		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + 4 * (size_t)i);
+		copy_texel(st, p, kind, x0 + i % width, y0 + i / width, texels + bytes * i);
 	if (texels)
 		gls_draw_rectangle(x, st, kind, rintf(at[0]), rintf(at[1]), width, height, st->a.pixel.zoom, texels);
 }

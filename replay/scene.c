@@ -208,6 +208,27 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	return 1;
 }
 
+/* Numbers of the state are clamped for drawables that could hold no others (ARB_color_buffer_float). */
+static float clamped(float value, uint32_t unclamped)
+{
+	return unclamped ? value : value < 0 ? 0 : value > 1 ? 1 : value;
+}
+
+static void put_color(float out[4], const float color[4], uint32_t unclamped)
+{
+	for (unsigned i = 0; i < 4; i++)
+		out[i] = clamped(color[i], unclamped);
+}
+
+/* Bits as scene_material.unclamped. */
+static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surface *d)
+{
+	uint32_t fragments = d->floats && a->color.clamp != GL_TRUE;
+	uint32_t vertices = a->lighting.clamp == GL_FALSE || (a->lighting.clamp == GL_FIXED_ONLY && d->floats);
+
+	return fragments | vertices << 1;
+}
+
 /* Sec. 2.14.3: a material parameter that follows the current color shows the color of this draw. */
 static void track_color(const struct gls_lighting *l, struct scene_face *face, unsigned side, const float color[4])
 {
@@ -276,7 +297,7 @@ static void fill_fragment_state(const struct gls_state *st, const struct gls_tar
 
 	m->alpha_test = a->color.alpha_test;
 	m->alpha_func = b->alpha_func;
-	m->alpha_ref = b->alpha_ref;
+	m->alpha_ref = clamped(b->alpha_ref, unclamped_by(a, d) & 1);
 	m->stencil_test = a->stencil.enabled && d->stencil_bits;
 	m->stencil_front = a->stencil.side[0];
 	m->stencil_back = a->stencil.side[1];
@@ -290,9 +311,11 @@ static void fill_fragment_state(const struct gls_state *st, const struct gls_tar
 	m->blend_dst_rgb = b->dst_rgb;
 	m->blend_src_alpha = b->src_alpha;
 	m->blend_dst_alpha = b->dst_alpha;
-	memcpy(m->blend_color, b->blend_color, 16);
-	m->logic_op = b->logic_op_enabled ? b->logic_op : 0;
+	put_color(m->blend_color, b->blend_color, d->floats);
+	m->logic_op = b->logic_op_enabled && !d->floats ? b->logic_op : 0;
 	m->color_mask = target->colored ? b->mask : 0;
+	m->floats = d->floats;
+	m->unclamped = unclamped_by(a, d);
 }
 
 static void fill_raster_state(const struct gls_attribs *a, struct scene_material *m)
@@ -346,6 +369,7 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	struct gls_frame *f = target->surface->frame;
 	struct scene *s = f->out;
 	const struct gls_attribs *a = &st->a;
+	const uint32_t unclamped = unclamped_by(a, target->surface);
 	struct scene_unit units[GLS_MAX_UNITS];
 	struct scene_material m;
 
@@ -360,6 +384,8 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	m.first_provokes = a->lighting.first_provokes;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		m.unit_count += (uint32_t)fill_unit(x, f, st, u, &units[m.unit_count]);
+	for (unsigned i = 0; i < m.unit_count; i++)
+		put_color(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = intern_run(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
 	m.color_sum = a->fog.color_sum;
 	m.fog = a->fog.enabled;
@@ -368,7 +394,7 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	m.fog_density = a->fog.density;
 	m.fog_start = a->fog.start;
 	m.fog_end = a->fog.end;
-	memcpy(m.fog_color, a->fog.color, 16);
+	put_color(m.fog_color, a->fog.color, unclamped & 1);
 	fill_raster_state(a, &m);
 	m.polygon_stipple = fill_stipple(f, a);
 	fill_fragment_state(st, target, &m);
@@ -635,7 +661,8 @@ static void clear_on(struct gls_exec *x, const struct gls_target *target, struct
 	clear.buffers = buffers;
 	clear.color_mask = target->colored ? st->a.color.mask : 0;
 	fill_scissor(x, st, clear.scissor);
-	memcpy(clear.color, st->a.color.clear, 16);
+	put_color(clear.color, st->a.color.clear, d->floats);
+	clear.floats = d->floats;
 	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
 		clear.buffers &= ~2u;
 	clear.depth = st->a.depth.clear;
@@ -762,6 +789,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->stencil_bits = surface->stencil_bits;
 	s->alpha_bits = surface->alpha_bits;
 	s->samples = surface->samples;
+	s->floats = surface->floats;
 	s->samples_from_below = surface->samples_from_below;
 	if (!(f->cleared & 1))
 		s->needs_previous = 1;

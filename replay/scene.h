@@ -130,6 +130,8 @@ struct scene_material {
 	float blend_color[4];
 	uint32_t logic_op;   /* 0: off; else GL token */
 	uint32_t color_mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
+	uint32_t floats;     /* 1: into a drawable of floats: nothing is rounded to 8 bits */
+	uint32_t unclamped;  /* bits: colours that may leave [0,1] (ARB_color_buffer_float): 1 of fragments, 2 of vertices */
 
 	struct scene_surface surface;
 	uint32_t program; /* 1: the draw used a program object or ARB program; rendered as fixed function */
@@ -199,6 +201,7 @@ struct scene_instance {
 #define SCENE_COLOR_PIXELS 2u   /* fragments of the texels' colours */
 #define SCENE_DEPTH_PIXELS 3u   /* fragments of the texels' depth (a float each) and the current colour */
 #define SCENE_STENCIL_PIXELS 4u /* no fragments: values (an integer each) written under the stencil mask */
+#define SCENE_FLOAT_PIXELS 5u   /* as SCENE_COLOR_PIXELS, but that the texels are floats */
 struct scene_rectangle {
 	uint32_t kind;
 	uint32_t texture; /* scene.textures: one level, rows from the first (m = 0) on */
@@ -217,6 +220,7 @@ struct scene_clear {
 	uint32_t stencil;
 	uint32_t color_mask;   /* as in the material */
 	uint32_t stencil_mask; /* write mask */
+	uint32_t floats;       /* as in the material: the colour may be beyond [0,1] */
 };
 
 #ifndef __OPENCL_VERSION__
@@ -274,6 +278,7 @@ struct scene_picture {
 	uint32_t width, height;
 	uint32_t depth_bits; /* of the drawable, at most 24 */
 	uint8_t *rgba;    /* 4 bytes each; alpha is 255 where the drawable has none */
+	float *colors;    /* of a drawable of floats the same as 4 of them each, not clamped; else NULL */
 	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
 	uint8_t *stencil;
 	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does not hold */
@@ -287,6 +292,7 @@ struct scene {
 	uint32_t width, height; /* of the drawable; the frame's picture */
 	uint32_t depth_bits, stencil_bits, alpha_bits; /* of the drawable */
 	uint32_t samples; /* of a pixel; 0 counts as 1, more as SCENE_SAMPLES. Where they are: tracer/trace.c */
+	uint32_t floats;  /* 1: its colours are floats (ARB_color_buffer_float) */
 	uint32_t samples_from_below; /* 1: their rows count from the bottom, as llvmpipe has it in framebuffer objects */
 
 	/* Flat arrays, owned by the scene. */

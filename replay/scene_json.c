@@ -372,6 +372,7 @@ static void print_json(const struct scene *s, int vertices)
 	UINT(s, stencil_bits);
 	UINT(s, alpha_bits);
 	UINT(s, samples);
+	UINT(s, floats);
 	UINT(s, kd_tree);
 	UINT(s, n_primitives);
 	UINT(s, n_draws);

@@ -65,6 +65,7 @@ struct gls_lighting {
 	uint32_t local_viewer, two_side, separate_specular;
 	uint32_t shade_model;
 	uint32_t first_provokes; /* ARB_provoking_vertex: 1 FIRST_VERTEX_CONVENTION */
+	uint32_t clamp;          /* of vertices' colours (ARB_color_buffer_float): GL token FIXED_ONLY, or a boolean */
 	struct gls_light lights[GLS_MAX_LIGHTS];
 };
 
@@ -136,6 +137,7 @@ struct gls_color_buffer {
 	uint32_t mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
 	uint32_t draw_buffer;
 	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number */
+	uint32_t clamp; /* of fragments' colours, as gls_lighting.clamp */
 	float clear[4];
 };
 struct gls_accum {

@@ -192,6 +192,13 @@ static void expand(uint32_t base, const float color[4], float out[4])
 		out[0] = color[0];
 }
 
+uint32_t gls_format_is_float(uint32_t internal_format)
+{
+	const struct gls_format *f = gls_format_find(internal_format);
+
+	return f && f->numbers >= GLS_FLOAT;
+}
+
 uint32_t gls_texel_bytes(uint32_t internal_format)
 {
 	const struct gls_format *f = gls_format_find(internal_format);

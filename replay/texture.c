@@ -444,10 +444,8 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 		e->env_mode = token;
 		break;
 	case GL_TEXTURE_ENV_COLOR:
-		for (unsigned i = 0; i < 4; i++) {
-			float value = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-			e->env_color[i] = value < 0 ? 0 : value > 1 ? 1 : value;
-		}
+		for (unsigned i = 0; i < 4; i++)
+			e->env_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
 		break;
 	case GL_COMBINE_RGB:
 		e->combine_rgb = token;
@@ -636,13 +634,15 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 	return image;
 }
 
-struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, const uint8_t *texels)
+struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t texel_bytes,
+                                                 const uint8_t *texels)
 {
 	struct gls_texture t = { .target = GLS_TEXTURE_2D };
 	struct gls_texture_image *image;
 
 	t.levels[0][0] = (struct gls_level){ .width = width, .height = height, .depth = 1, .base_format = GL_RGBA,
-		                             .texel_bytes = 4, .texels = (uint8_t *)(uintptr_t)texels, .bytes = (size_t)width * height * 4 };
+		                             .texel_bytes = texel_bytes, .texels = (uint8_t *)(uintptr_t)texels,
+		                             .bytes = (size_t)width * height * texel_bytes };
 	image = build_image(x, &t, 1);
 	if (image)
 		image->used_frame = x->frame;

@@ -122,7 +122,8 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 uint32_t gls_texture_missing(const struct gls_texture *t);
 
 /** The image of plain RGBA texels (no texture object's), found by content. @return a reference, or NULL: out of memory */
-struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, const uint8_t *texels);
+struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t texel_bytes,
+                                                 const uint8_t *texels);
 
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
 const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);
@@ -159,6 +160,8 @@ uint32_t gls_base_format(uint32_t internal_format);
 /** Of a surface that such a texture or renderbuffer is attached to. */
 uint32_t gls_format_depth_bits(uint32_t internal_format);
 uint32_t gls_format_stencil_bits(uint32_t internal_format);
+/** 1: a drawable that such a texture or renderbuffer is attached to holds floats. */
+uint32_t gls_format_is_float(uint32_t internal_format);
 /** Of a texel: 4, or 16 where it is four floats. */
 uint32_t gls_texel_bytes(uint32_t internal_format);
 /** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */

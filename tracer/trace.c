@@ -421,7 +421,7 @@ static int clear_all(struct job *job, uint32_t *n_done)
 {
 	const struct segment *segment = job->prepared.segments;
 	struct scene_clear clear = { .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
-		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu };
+		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
 
 	for (*n_done = 0; job->prepared.n_segments && *n_done < segment->clear_count; ++*n_done) {
 		const struct scene_clear *next = &job->scene->clears[segment->clear_first + *n_done];
@@ -450,7 +450,7 @@ static void start_pixels(const struct job *job, const struct scene_picture *star
 		p->surface.order = SCENE_NONE;
 		p->unknown = start ? PIXEL_BEFORE : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 		for (int c = 0; c < 4 && start; c++)
-			p->gl[c] = (float)start->rgba[4 * (size_t)i + (size_t)c] / 255.0f;
+			p->gl[c] = start->colors ? start->colors[4 * (size_t)i + (size_t)c] : (float)start->rgba[4 * (size_t)i + (size_t)c] / 255.0f;
 		memcpy(p->shadowed, p->gl, sizeof(p->shadowed));
 		memcpy(p->direct, p->gl, sizeof(p->direct));
 		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
@@ -572,8 +572,12 @@ static int read_pixels(struct tracer *tr, enum buffer buffer, const struct scene
 	for (size_t i = 0; i < n && !err; i++) {
 		for (int c = 0; c < 4; c++)
 			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(pixels[i].gl[c]) * 255.0f);
+		if (picture->colors)
+			memcpy(picture->colors + 4 * i, pixels[i].gl, sizeof(pixels[i].gl));
 		if (!scene->alpha_bits)
 			picture->rgba[4 * i + 3] = 255;
+		if (!scene->alpha_bits && picture->colors)
+			picture->colors[4 * i + 3] = 1;
 		picture->depth[i] = scene->depth_bits > 24 ? pixels[i].depth >> 8 : pixels[i].depth; /* pictures have 24 at most */
 		picture->stencil[i] = (uint8_t)pixels[i].stencil;
 		picture->unknown += (pixels[i].unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;

@@ -345,10 +345,113 @@ static void several(void)
 	glDeleteTextures(2, tex);
 }
 
+/*
+ * Objects of floats: what is cleared, drawn, blended and copied beyond [0,1] stays so, but where the program asks for colours to be
+ * clamped. Shown dimmed, panel by panel.
+ */
+static void floats(void)
+{
+	static const int formats[2] = { GL_RGBA32F, GL_RGB16F };
+	static const float pixels[2][2][4] = { { { 3, -1, 0.5f, 1 }, { 0, 2, 4, 1 } }, { { 1.5f, 1.5f, 0, 1 }, { -2, 3, 0.25f, 1 } } };
+	const float fog[4] = { 2, 0.5f, -1, 1 };
+	unsigned object[2], target[2], held, copy;
+
+	glGenFramebuffers(2, object);
+	glGenTextures(2, target);
+	for (int i = 0; i < 2; i++) {
+		glBindTexture(GL_TEXTURE_2D, target[i]);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+		glTexImage2D(GL_TEXTURE_2D, 0, formats[i], 32, 32, 0, GL_RGBA, GL_FLOAT, NULL);
+		draw_to(object[i], 32, 32);
+		glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target[i], 0);
+		glMatrixMode(GL_PROJECTION);
+		glLoadIdentity();
+		glOrtho(0, 32, 0, 32, -10, 10);
+		glClearColor(2, -1, 0.5f, 3);
+		glClear(GL_COLOR_BUFFER_BIT);
+		glEnable(GL_BLEND);
+		glBlendFunc(GL_ONE, GL_ONE);
+		for (int k = 0; k < 3; k++)
+			panel(2, 2, 8, 0.7f, 0.9f, 0.3f, 0.5f);
+		glBlendColor(2, 0.5f, -1, 1);
+		glBlendFunc(GL_CONSTANT_COLOR, GL_ONE_MINUS_SRC_ALPHA);
+		panel(12, 2, 8, 0.9f, 0.8f, 0.7f, 0.6f);
+		glBlendEquation(GL_FUNC_REVERSE_SUBTRACT);
+		glBlendFunc(GL_DST_ALPHA, GL_SRC_ALPHA_SATURATE);
+		panel(22, 2, 8, 0.2f, 0.4f, 0.1f, 0.6f);
+		glBlendEquation(GL_MAX);
+		panel(2, 12, 8, 0.6f, 0.4f, 0.8f, 0.6f);
+		glBlendEquation(GL_FUNC_ADD);
+		glDisable(GL_BLEND);
+		glClampColor(GL_CLAMP_VERTEX_COLOR, GL_FALSE);
+		glEnable(GL_ALPHA_TEST);
+		glAlphaFunc(GL_GREATER, 1.5f);
+		panel(12, 12, 8, 3, -0.5f, 1.5f, 2);
+		panel(12, 16, 4, 1, 1, 1, 1.25f);
+		glDisable(GL_ALPHA_TEST);
+		glClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);
+		panel(22, 12, 4, 3, -0.5f, 1.5f, 2);
+		glClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_FIXED_ONLY);
+		glClampColor(GL_CLAMP_VERTEX_COLOR, GL_TRUE);
+		panel(26, 12, 4, 3, -0.5f, 1.5f, 2);
+		glEnable(GL_FOG);
+		glFogfv(GL_FOG_COLOR, fog);
+		glFogi(GL_FOG_MODE, GL_LINEAR);
+		glFogf(GL_FOG_START, -1);
+		glFogf(GL_FOG_END, 1);
+		panel(22, 16, 4, 0.2f, 0.4f, 0.6f, 1);
+		glDisable(GL_FOG);
+		glWindowPos2i(2, 22);
+		glPixelZoom(4, 4);
+		glPixelTransferf(GL_RED_SCALE, 1.5f);
+		glDrawPixels(2, 2, GL_RGBA, GL_FLOAT, pixels);
+		glPixelTransferf(GL_RED_SCALE, 1);
+		glPixelZoom(1, 1);
+		glWindowPos2i(12, 22);
+		glCopyPixels(2, 22, 8, 8, GL_COLOR);
+	}
+	/* what a renderbuffer holds is kept from one object to the other, and copied to a texture */
+	glGenRenderbuffers(1, &held);
+	glBindRenderbuffer(GL_RENDERBUFFER, held);
+	glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA16F, 32, 32);
+	draw_to(object[1], 32, 32);
+	glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, held);
+	glBindFramebuffer(GL_READ_FRAMEBUFFER, object[0]);
+	glBlitFramebuffer(0, 0, 32, 32, 0, 0, 32, 32, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	draw_to(object[1], 32, 32);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_ONE, GL_ONE);
+	panel(8, 8, 16, 0.25f, 0.25f, 0.5f, 0);
+	glDisable(GL_BLEND);
+	glGenTextures(1, &copy);
+	glBindTexture(GL_TEXTURE_2D, copy);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 0, 0, 32, 32, 0);
+	draw_to(0, 64, 48);
+	reset();
+	glEnable(GL_TEXTURE_2D);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+	glColor4f(0.3f, 0.3f, 0.3f, 1);
+	for (int i = 0; i < 3; i++) {
+		glBindTexture(GL_TEXTURE_2D, i < 2 ? target[i] : copy);
+		glBegin(GL_QUADS);
+		for (int k = 0; k < 4; k++) {
+			int u = k == 1 || k == 2, v = k >= 2;
+
+			glTexCoord2i(u, v);
+			glVertex2i(i % 2 * 32 + 32 * u, i / 2 * 32 + (i / 2 ? 16 : 32) * v);
+		}
+		glEnd();
+	}
+	glDisable(GL_TEXTURE_2D);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
-		                              more_sums, several };
+		                              more_sums, several, floats };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
