@@ -1,7 +1,7 @@
 /*
  * Display lists (GL 2.1 sec. 5.4).
  *
- * While a list is made its calls are kept, numbers packed. When it is whole, runs of Begin..End with nothing but vertex
+ * While a list is made its calls are kept, numbers of vertices packed. When it is whole, runs of Begin..End with nothing but vertex
  * attributes between are assembled into meshes once: such a list costs one instance per CallList. A run whose vertices need
  * an attribute that is only known when the list is called stays as calls.
  */
@@ -110,18 +110,19 @@ static int keep_ready(struct gls_list *list, struct gls_op *op, const struct cal
 /* unpack: the state that pixels in client memory are read with, which is that of the moment (sec. 5.4). */
 static int keep_call(struct gls_list *list, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
+	const int packs = gls_commands[command].kind == GLS_KIND_VERTEX;
 	struct gls_op *op = new_op(list);
 
 	if (!op)
 		return ERR_SYSTEM;
 	op->command = (uint16_t)command;
-	if (all_floats(c->args, c->n_args)) {
+	if (packs && all_floats(c->args, c->n_args)) {
 		op->form = GLS_OP_FLOATS;
 		op->n = c->n_args;
 		op->floats = pack_floats(&list->arena, c->args, op->n);
 		return op->floats ? 0 : ERR_SYSTEM;
 	}
-	if (c->n_args == 1 && c->args[0].type == TRACE_ARRAY && all_floats(c->args[0].items, c->args[0].count)) {
+	if (packs && c->n_args == 1 && c->args[0].type == TRACE_ARRAY && all_floats(c->args[0].items, c->args[0].count)) {
 		op->form = GLS_OP_FLOAT_ARRAY;
 		op->n = (uint32_t)c->args[0].count;
 		op->floats = pack_floats(&list->arena, c->args[0].items, op->n);
@@ -513,6 +514,14 @@ static void drop_redundant(struct gls_list *list)
 	list->n = n;
 }
 
+static int has_begin(const struct gls_list *list)
+{
+	for (uint32_t i = 0; i < list->n; i++)
+		if (is_command(&list->ops[i], gls_glBegin))
+			return 1;
+	return 0;
+}
+
 /* The same list with its runs assembled, in an arena of its own. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
@@ -603,7 +612,8 @@ GLS_HANDLER(glEndList, NOW)
 	}
 	st->list = NULL;
 	drop_redundant(list);
-	list = assemble(x, list);
+	if (has_begin(list))
+		list = assemble(x, list);
 	remove_list(st, st->list_name);
 	if (table_set(&st->share->lists, st->list_name, list)) {
 		gls_list_free(list);
