@@ -16,6 +16,7 @@
 
 #define MAX_OPS (1u << 16) /* of a list, with those inlined */
 #define MAX_NESTING 8      /* of lists inlined */
+#define MAX_LOOKED (4 * MAX_OPS) /* ops looked at, of lists that call lists that have none, or not many */
 #define MAX_PUSHES 32
 #define MAX_MADE 16        /* effects made of a list that changes all the time */
 
@@ -37,7 +38,7 @@ struct maker {
 	uint32_t n, room;
 	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* op + 1 that set it last, and nobody has read it since */
 	uint32_t push[MAX_PUSHES], depth, read; /* brackets that are open; the first `read` of them hold somebody who reads */
-	uint32_t most, nesting;
+	uint32_t most, nesting, looked;
 	int left, failed;
 };
 
@@ -170,13 +171,13 @@ static struct gls_list *called_by(const struct maker *m, const struct gls_op *op
 }
 
 /* Is there anything in a list after which the rest may mean anything? Such a list is called as it is. */
-static int leaves(const struct maker *m, const struct gls_list *list, uint32_t nesting)
+static int leaves(struct maker *m, const struct gls_list *list, uint32_t nesting)
 {
 	for (uint32_t i = 0; i < list->n; i++) {
 		enum action action = action_of(&list->ops[i]);
 		const struct gls_list *called = action == CALL ? called_by(m, &list->ops[i]) : NULL;
 
-		if (action == LEAVE || (action == CALL && (!called || nesting == MAX_NESTING || leaves(m, called, nesting + 1))))
+		if (++m->looked > MAX_LOOKED || action == LEAVE || (action == CALL && (!called || nesting == MAX_NESTING || leaves(m, called, nesting + 1))))
 			return 1;
 	}
 	return 0;
@@ -233,8 +234,10 @@ static void put_op(struct maker *m, const struct gls_op *op, uint32_t nesting)
 static void put_list(struct maker *m, const struct gls_list *list, uint32_t nesting)
 {
 	m->nesting = nesting > m->nesting ? nesting : m->nesting;
-	for (uint32_t i = 0; i < list->n && !m->failed; i++)
+	for (uint32_t i = 0; i < list->n && !m->failed; i++) {
+		m->failed = ++m->looked > MAX_LOOKED;
 		put_op(m, &list->ops[i], nesting);
+	}
 }
 
 static void make(struct gls_state *st, struct gls_list *list)

@@ -60,7 +60,8 @@ struct calls_painter {
 extern const struct calls_painter calls_grey;
 
 /**
- * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
+ * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap, or, in
+ * every fourth length of a sequence, at every other.
  * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).
  * @param painter  NULL: nobody makes pixels
  * @return 0; 1 where they are not

@@ -315,4 +315,22 @@ START_TEST(test_random)
 }
 END_TEST
 
-GL_TESTS("effect", test_text, test_full_stack, test_random)
+/* Lists that call lists a hundred times each, nine deep, and have next to nothing in them: it is soon given up what they leave behind. */
+START_TEST(test_lists_without_end)
+{
+	struct pair pair = pair_open();
+
+	for (unsigned list = 1; list < 10; list++) {
+		both(&pair, "glNewList", "ue", list, GL_COMPILE);
+		for (unsigned i = 0; i < 100 && list > 1; i++)
+			both(&pair, "glCallList", "u", list - 1);
+		both(&pair, "glEndList", "");
+	}
+	for (unsigned i = 0; i < 3; i++)
+		gl_call(&pair.gl[1], "glCallList", "u", 9u);
+	gl_close(&pair.gl[0]);
+	gl_close(&pair.gl[1]);
+}
+END_TEST
+
+GL_TESTS("effect", test_lists_without_end, test_text, test_full_stack, test_random)
