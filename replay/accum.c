@@ -121,6 +121,8 @@ GLS_HANDLER(glAccum, STATE)
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
+	if (!gls_renders(st))
+		return;
 	if (!x->want) {
 		d = op == GL_RETURN || st->draw_framebuffer ? NULL : gls_drawable_of(x, st);
 		if (d)
@@ -153,6 +155,8 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 	struct area area;
 	float to[4];
 
+	if (!gls_renders(st))
+		return;
 	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st)))
 		d->accum_missing = 1;
 	if (!x->want || !(d = open_buffer(x, st, &area)))

@@ -429,10 +429,15 @@ struct gls_share *gls_share_create(void);
 void gls_image_cache_free(struct gls_exec *x);
 
 /* scene.c: events of a surface. Without a scene under construction (x->want 0) nothing happens. */
-/** 1 where drawing and clearing reach the surface. */
+/** 1 where drawing and clearing reach a surface, or would if it were wanted: neither selection nor feedback (sec. 5.2, 5.3). */
+static inline int gls_renders(const struct gls_state *st)
+{
+	return st->render_mode == GL_RENDER && !st->rasterizer_discard;
+}
+/** 1 where they reach the surface. */
 static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state *st)
 {
-	return x->want && st->render_mode == GL_RENDER && !st->rasterizer_discard;
+	return x->want && gls_renders(st);
 }
 /**
  * Draw a mesh with the state as it is.

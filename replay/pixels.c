@@ -115,7 +115,10 @@ void gls_draw_rectangle_plainly(struct gls_exec *x, struct gls_state *st, uint32
                                 uint32_t height, const float zoom[2], const uint8_t *texels)
 {
 	struct gls_attribs saved = st->a;
+	uint32_t mode = st->render_mode, discard = st->rasterizer_discard;
 
+	st->render_mode = GL_RENDER; /* blits are no rendering: no mode holds them back */
+	st->rasterizer_discard = 0;
 	st->a.color.alpha_test = st->a.color.blend = st->a.color.logic_op_enabled = st->a.stencil.enabled = st->a.fog.enabled = 0;
 	st->a.depth.enabled = st->a.depth.write = kind == SCENE_DEPTH_PIXELS;
 	st->a.depth.func = GL_ALWAYS;
@@ -126,6 +129,8 @@ void gls_draw_rectangle_plainly(struct gls_exec *x, struct gls_state *st, uint32
 		st->a.texturing.units[u].enabled = 0;
 	gls_draw_rectangle(x, st, kind, left, low, width, height, zoom, texels);
 	st->a = saved;
+	st->render_mode = mode;
+	st->rasterizer_discard = discard;
 	st->dirty = GLS_DIRTY_ALL;
 }
 

@@ -448,10 +448,50 @@ static void floats(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
+/* Selection and feedback leave all buffers as they are, but move the raster position; blits are no rendering. */
+static void not_rendered(void)
+{
+	static const unsigned char bits[8] = { 255, 129, 165, 129, 165, 153, 129, 255 };
+	static const float pixels[2][2][3] = { { { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 0, 1 }, { 1, 1, 0 } } };
+	unsigned names[64];
+	float numbers[256];
+
+	glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+	glClearAccum(0.8f, 0.2f, 0.4f, 1);
+	glClear(GL_ACCUM_BUFFER_BIT);
+	panel(2, 2, 12, 1, 0.6f, 0, 1);
+	glSelectBuffer(64, names);
+	glFeedbackBuffer(256, GL_3D_COLOR, numbers);
+	for (int i = 0; i < 2; i++) {
+		glRenderMode(i ? GL_FEEDBACK : GL_SELECT);
+		glInitNames();
+		glPushName(7);
+		glColor3f(0.2f, 0.8f, 0.4f);
+		glRasterPos2i(20 + 20 * i, 4);
+		panel(8, 8, 40, 0, 1, 1, 1);
+		glBitmap(8, 8, 0, 0, 4, 24, bits);
+		glDrawPixels(2, 2, GL_RGB, GL_FLOAT, pixels);
+		glCopyPixels(2, 2, 8, 8, GL_COLOR);
+		glClearColor(0, 0, 0, 0);
+		glClearAccum(0, 0, 0, 0);
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
+		glAccum(GL_MULT, 0.5f);
+		glAccum(GL_RETURN, 0.5f);
+		glBlitFramebuffer(2, 2, 8, 8, 4 + 10 * i, 30, 10 + 10 * i, 36, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+		glRenderMode(GL_RENDER);
+		glBitmap(8, 8, 0, 0, 0, 0, bits);
+	}
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(44, 24, 12, 12);
+	glAccum(GL_RETURN, 1);
+	glDisable(GL_SCISSOR_TEST);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
-		                              more_sums, several, floats };
+		                              more_sums, several, floats,
+		                              not_rendered };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 
