@@ -1,6 +1,6 @@
 /*
  * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
- * occlude_packet.
+ * occlude_packet and intersect_packet.
  *
  * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. Both products are kept in two roundings, so that no box is
  * missed by rounding (far planes with p * i < 0 come nearer by what i is made larger; o * i gives that back). Which of a
@@ -81,13 +81,19 @@ static inline struct planes octant_planes(int octant)
 	return s;
 }
 
-/* Lanes that meet a node's box, all of one octant. bounds: the node's first float of that box. */
-static inline packi packet_meets(const struct packet *p, __global const float *bounds, struct planes s)
+/* How far boxes are looked at where the nearest hit is asked for: walk_end of kernels/walk.h. */
+static inline packf packet_end(const struct packet *p)
+{
+	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);
+}
+
+/* Lanes that meet a node's box before `end`, all of one octant. bounds: the node's first float of that box. */
+static inline packi packet_meets(const struct packet *p, packf end, __global const float *bounds, struct planes s)
 {
 	const packf enter = pack_max(pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
 	                             pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
 	const packf leave = pack_min(pack_min(fma(bounds[s.far_x], p->far_ix, p->far_x), fma(bounds[s.far_y], p->far_iy, p->far_y)),
-	                             pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), p->t_max));
+	                             pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), end));
 
 	return enter <= leave;
 }
@@ -107,6 +113,14 @@ static inline float least_of(packf x)
 	const float4 four = select(eight.hi, eight.lo, eight.lo < eight.hi);
 
 	return fmin(fmin(four.x, four.y), fmin(four.z, four.w));
+}
+
+static inline float sum_of(packf x)
+{
+	const float8 eight = x.lo + x.hi;
+	const float4 four = eight.lo + eight.hi;
+
+	return four.x + four.y + (four.z + four.w);
 }
 
 /* Bounds of what n packets' awake rays have: least values, and the least of what they are negated. */
@@ -176,13 +190,13 @@ static inline uint beam_meets(const struct beam *b, __global const struct node8 
 }
 
 /* The same whatever the octants. */
-static inline packi packet_meets_any(const struct packet *p, __global const struct node8 *node, uint side)
+static inline packi packet_meets_any(const struct packet *p, packf end, __global const struct node8 *node, uint side)
 {
 	const packf x0 = fma(node->lo[0][side], p->ix, p->near_x), x1 = fma(node->hi[0][side], p->ix, p->near_x);
 	const packf y0 = fma(node->lo[1][side], p->iy, p->near_y), y1 = fma(node->hi[1][side], p->iy, p->near_y);
 	const packf z0 = fma(node->lo[2][side], p->iz, p->near_z), z1 = fma(node->hi[2][side], p->iz, p->near_z);
 	const packf enter = pack_max(pack_max(pack_min(x0, x1), pack_min(y0, y1)), pack_max(pack_min(z0, z1), p->t_min));
-	const packf leave = pack_min(pack_min(pack_max(x0, x1), pack_max(y0, y1)), pack_min(pack_max(z0, z1), p->t_max));
+	const packf leave = pack_min(pack_min(pack_max(x0, x1), pack_max(y0, y1)), pack_min(pack_max(z0, z1), end));
 
 	return enter <= fma(leave, 1 + 6e-7f, p->slack);
 }
@@ -209,8 +223,8 @@ static inline int packet_octant(const struct packet *p, uint n)
 	return octant;
 }
 
-/* Moeller and Trumbore: lanes hit at t in t_min .. t_max. */
-static inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane)
+/* Moeller and Trumbore: lanes hit at t in t_min .. t_max, and where. */
+static inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane, packf *t_out, packf *b1, packf *b2)
 {
 	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
 	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];
@@ -226,6 +240,7 @@ static inline packi packet_triangle(const struct packet *p, __global const struc
 	const packf v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
 	const packf t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 
+	*t_out = t, *b1 = u, *b2 = v;
 	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
 	       (t >= p->t_min) & (t <= p->t_max);
 }

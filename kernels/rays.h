@@ -1,6 +1,6 @@
 /*
- * occlude_packet, occlude_wide, intersect_wide, and occlude and intersect _binary and _compressed: rays in eye space against a
- * top level and the instances' trees. Included by C and OpenCL C.
+ * occlude and intersect, each _packet, _wide, _binary and _compressed: rays in eye space against a top level and the instances'
+ * trees. Included by C and OpenCL C.
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
  * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate

@@ -1,7 +1,8 @@
 /*
- * occlude_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of sixteen that share one stack.
- * Where all have one octant, boxes are first asked eight at a time against the beam around all rays, those that it meets then one by
- * one by the packets. Where only a few rays of a packet go on, each does on its own against eight boxes at once. See kernels/rays.h.
+ * occlude_packet, intersect_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of sixteen that share
+ * one stack. Where all have one octant, boxes are first asked eight at a time against the beam around all rays, those that it meets
+ * then one by one by the packets. Where only a few rays of a packet go on, each does on its own against eight boxes at once. See
+ * kernels/rays.h.
  */
 #include "kernels/rays.h"
 #include "kernels/packet.h"
@@ -10,8 +11,14 @@
 /* Rays that go on one by one, against eight boxes at once: less work than all lanes against each box. */
 #define PACKET_FEW 2
 
-/* Lanes of a packet down a subtree one by one. @return those that hit; their t_max is -infinity now */
-static inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __global const struct node8 *nodes,
+/* What a packet's rays have hit, at their t_max: the nearest so far. Not kept where any hit will do: these rays' t_max is -infinity then. */
+struct found {
+	packf b1, b2;
+	packu instance, primitive;
+};
+
+/* Lanes of a packet down a subtree one by one. @return those that need no more: any hit will do, and they have it */
+INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint lanes, uint2 start, __global const struct node8 *nodes,
                        __global const struct triangle8 *triangles)
 {
 	uint done = 0;
@@ -25,12 +32,17 @@ static inline uint walk_lanes(struct packet *p, uint lanes, uint2 start, __globa
 		w.dx = ((const float *)&p->dx)[lane], w.dy = ((const float *)&p->dy)[lane], w.dz = ((const float *)&p->dz)[lane];
 		w.t_min = ((const float *)&p->t_min)[lane];
 		w.hit.t = ((const float *)&p->t_max)[lane];
-		w.hit.instance = w.hit.primitive = SCENE_NONE;
+		w.hit.instance = SCENE_NONE;
+		w.hit.primitive = any ? SCENE_NONE : ((const uint *)&found->primitive)[lane];
 		prepare(&w);
-		walk_subtree(&w, start, 0, 1, nodes, triangles);
-		if (w.hit.instance != SCENE_NONE) {
-			((float *)&p->t_max)[lane] = -INFINITY;
-			done |= 1u << lane;
+		walk_subtree(&w, start, 0, any, nodes, triangles);
+		if (w.hit.instance == SCENE_NONE)
+			continue;
+		((float *)&p->t_max)[lane] = any ? -INFINITY : w.hit.t;
+		done |= any ? 1u << lane : 0;
+		if (!any) {
+			((float *)&found->b1)[lane] = w.hit.b1, ((float *)&found->b2)[lane] = w.hit.b2;
+			((uint *)&found->primitive)[lane] = w.hit.primitive;
 		}
 	}
 	return done;
@@ -60,14 +72,79 @@ static inline uint existing_boxes(__global const struct node8 *node)
 	return lane_bits(vload8(0, node->lo[0]) <= vload8(0, node->hi[0]));
 }
 
-/* A subtree to be walked, and the lanes that meet it. */
+/* Those of some lanes that meet a box. octant -1: there are several. */
+WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int any, int octant, struct planes planes,
+                                     __global const struct node8 *node, uint box, ulong lanes)
+{
+	__global const float *bounds = (__global const float *)node;
+	ulong meet = 0;
+
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		if (lanes_of(lanes, k)) {
+			const packf end = any ? p[k].t_max : packet_end(&p[k]);
+
+			meet |= lanes_at(pack_bits(octant < 0 ? packet_meets_any(&p[k], end, node, box) :
+			                                        packet_meets(&p[k], end, bounds + box, planes)), k);
+		}
+	return meet;
+}
+
+/* A child of a node and the lanes that meet its box, or, where the nearest hit is asked for, that meet the node: the box is asked when
+ * the task is popped, as there may be nearer hits by then. */
 struct task {
-	uint child, count;
+	uint2 child; /* a node (y: 0) or a leaf of y blocks; at the top, of y instances */
+	uint node, box;
 	ulong lanes;
 };
 
-/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these */
-static inline ulong walk_few(struct packet *p, const struct task *task, ulong lanes, ulong *awake, __global const struct node8 *nodes,
+/* Push those of a node's children that `boxes` names and lanes meet: the nearest along a direction last, so that it is popped first; in
+ * any order where any hit will do. */
+WIDE_VECTORS INLINED uint push_children(struct task *stack, uint depth, const struct packet *p, int any, int octant,
+                                       struct planes planes, uint boxes, __global const struct node8 *all, uint index, ulong lanes,
+                                       const float *towards)
+{
+	__global const struct node8 *node = &all[index];
+	const uint bottom = depth;
+	float8 far = 0;
+
+	if (!any)
+		far = (vload8(0, node->lo[0]) + vload8(0, node->hi[0])) * towards[0] +
+		      (vload8(0, node->lo[1]) + vload8(0, node->hi[1])) * towards[1] +
+		      (vload8(0, node->lo[2]) + vload8(0, node->hi[2])) * towards[2];
+	for (; boxes; boxes &= boxes - 1) {
+		const uint box = popcount((boxes & -boxes) - 1);
+		const ulong meet = any ? lanes_meet(p, any, octant, planes, node, box, lanes) : lanes;
+		uint place = depth;
+
+		for (; !any && place > bottom && ((const float *)&far)[stack[place - 1].box] < ((const float *)&far)[box]; place--)
+			stack[place] = stack[place - 1];
+		stack[place].child = (uint2)(node->child[box], node->count[box]);
+		if (!any) {
+			stack[place].node = index;
+			stack[place].box = box;
+		}
+		stack[place].lanes = meet;
+		depth += meet != 0;
+	}
+	return depth;
+}
+
+/* Where the rays go, all in all. */
+static inline void mean_direction(const struct packet *p, float towards[3])
+{
+	packf x = 0, y = 0, z = 0;
+
+	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		const packi awake = p[k].t_min <= p[k].t_max;
+
+		x += select((packf)(0), p[k].dx, awake), y += select((packf)(0), p[k].dy, awake), z += select((packf)(0), p[k].dz, awake);
+	}
+	towards[0] = sum_of(x), towards[1] = sum_of(y), towards[2] = sum_of(z);
+}
+
+/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these; those that need
+ * no more are no longer awake */
+INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint2 start, ulong lanes, ulong *awake, __global const struct node8 *nodes,
                       __global const struct triangle8 *triangles)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
@@ -75,64 +152,70 @@ static inline ulong walk_few(struct packet *p, const struct task *task, ulong la
 
 		if (few == 0 || popcount(few) > PACKET_FEW)
 			continue;
-		*awake &= ~lanes_at(walk_lanes(&p[k], few, (uint2)(task->child, task->count), nodes, triangles), k);
+		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, few, start, nodes, triangles), k);
 		lanes &= ~lanes_at(few, k);
 	}
 	return lanes;
 }
 
-WIDE_VECTORS static inline uint push_node(const struct packet *p, int octant, struct planes planes, const struct beam *beam,
-                                   __global const struct node8 *node, ulong lanes, struct task *stack, uint depth)
-{
-	__global const float *bounds = (__global const float *)node;
-
-	for (uint boxes = octant < 0 ? existing_boxes(node) : beam_meets(beam, node, planes); boxes; boxes &= boxes - 1) {
-		const uint box = popcount((boxes & -boxes) - 1);
-		ulong meet = 0;
-
-		for (uint k = 0; k < RAYS_PACKETS; k++)
-			if (lanes_of(lanes, k))
-				meet |= lanes_at(pack_bits(octant < 0 ? packet_meets_any(&p[k], node, box) :
-				                                        packet_meets(&p[k], bounds + box, planes)), k);
-		stack[depth].child = node->child[box];
-		stack[depth].count = node->count[box];
-		stack[depth].lanes = meet;
-		depth += meet != 0;
-	}
-	return depth;
-}
-
-WIDE_VECTORS static inline void try_blocks(struct packet *p, __global const struct triangle8 *blocks, uint n, ulong lanes)
+WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, __global const struct triangle8 *blocks, uint n,
+                                    ulong lanes)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		for (uint i = 0; i < n && lanes_of(lanes, k); i++)
-			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++)
-				p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), packet_triangle(&p[k], &blocks[i], lane));
+			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++) {
+				const packu primitive = blocks[i].primitive[lane];
+				packf t, b1, b2;
+				packi hit = packet_triangle(&p[k], &blocks[i], lane, &t, &b1, &b2);
+
+				if (any) {
+					p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), hit);
+					continue;
+				}
+				hit &= (t < p[k].t_max) | (primitive < found[k].primitive);
+				if (!any_pack(hit))
+					continue;
+				p[k].t_max = select(p[k].t_max, t, hit);
+				found[k].b1 = select(found[k].b1, b1, hit), found[k].b2 = select(found[k].b2, b2, hit);
+				found[k].primitive = select(found[k].primitive, primitive, hit);
+			}
 }
 
-/* Walk one instance's tree with packets, of one octant or of several (-1). Rays that hit get a t_max of -infinity. */
-static inline void walk_blas(struct packet *p, int octant, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+/* Walk one instance's tree with packets, of one octant or of several (-1). */
+INLINED void walk_blas(struct packet *p, struct found *found, int any, int octant, __global const struct node8 *nodes,
+                      __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(octant);
-	struct task stack[RAYS_WIDE_STACK], task = { 0, 0, awake_lanes(p) };
-	ulong awake = task.lanes;
+	struct task stack[RAYS_WIDE_STACK];
+	ulong awake = awake_lanes(p), lanes = awake;
+	uint2 at = 0; /* a node (y: 0) or a leaf of y blocks */
 	struct beam beam;
+	float towards[3];
 	uint depth = 0;
 
 	if (octant >= 0)
 		beam = beam_around(p, RAYS_PACKETS, octant);
+	if (!any)
+		mean_direction(p, towards);
 	for (;;) {
-		const ulong lanes = walk_few(p, &task, task.lanes & awake, &awake, nodes, triangles);
-
-		if (lanes && task.count == 0) {
-			depth = push_node(p, octant, planes, &beam, &nodes[task.child], lanes, stack, depth);
-		} else if (lanes) {
-			try_blocks(p, &triangles[task.child], task.count, lanes);
+		lanes = walk_few(p, found, any, at, lanes, &awake, nodes, triangles);
+		if (lanes && at.y == 0)
+			depth = push_children(stack, depth, p, any, octant, planes,
+			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes, at.x,
+			                      lanes, towards);
+		else if (lanes)
+			try_blocks(p, found, any, &triangles[at.x], at.y, lanes);
+		if (any && lanes && at.y)
 			awake = awake_lanes(p);
-		}
-		if (!awake || depth == 0)
-			return;
-		task = stack[--depth];
+		do {
+			if (!awake || depth == 0)
+				return;
+			depth--;
+			lanes = stack[depth].lanes & awake;
+			if (!any && lanes)
+				lanes &= lanes_meet(p, any, octant, planes, &nodes[stack[depth].node], stack[depth].box, lanes);
+		} while (!lanes);
+		at = stack[depth].child;
 	}
 }
 
@@ -147,58 +230,86 @@ static inline packf far_shift(__global const struct instance *instance, const st
 	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
 }
 
-/* One instance's tree with the packets of `meets`. */
-static inline void walk_instance(struct packet *eye, uint meets, __global const struct instance *instance,
-                          __global const struct node8 *all_nodes, __global const struct triangle8 *all_triangles)
+/* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
+static inline void leave_instance(struct packet *eye, struct found *eye_found, const struct packet *p, const struct found *found,
+                           packf shift, uint index)
 {
+	const packf t = p->t_max + shift;
+	const packi nearer = (found->primitive != SCENE_NONE) &
+	                     ((eye_found->instance == SCENE_NONE) | (t < eye->t_max) | ((t == eye->t_max) & (index < eye_found->instance)));
+
+	eye->t_max = select(eye->t_max, t, nearer);
+	eye_found->b1 = select(eye_found->b1, found->b1, nearer), eye_found->b2 = select(eye_found->b2, found->b2, nearer);
+	eye_found->instance = select(eye_found->instance, (packu)(index), nearer);
+	eye_found->primitive = select(eye_found->primitive, found->primitive, nearer);
+}
+
+/* One instance's tree with the lanes of `meets`. */
+INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, ulong meets, uint index,
+                          __global const struct instance *instances, __global const struct node8 *all_nodes,
+                          __global const struct triangle8 *all_triangles)
+{
+	__global const struct instance *instance = &instances[index];
 	__global const struct node8 *nodes = all_nodes + instance->node8_first;
 	__global const struct triangle8 *triangles = all_triangles + instance->triangle8_first;
+	struct found found[RAYS_PACKETS];
 	struct packet p[RAYS_PACKETS];
-	packf shift;
+	packf shift[RAYS_PACKETS];
 	int octant;
 
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		const int met = lanes_of(meets, k) != 0;
+
 		packet_transform(&p[k], &eye[k], instance->obj_from_eye);
-		shift = far_shift(instance, &p[k]);
-		p[k].ox = fma(shift, p[k].dx, p[k].ox), p[k].oy = fma(shift, p[k].dy, p[k].oy);
-		p[k].oz = fma(shift, p[k].dz, p[k].oz);
+		shift[k] = far_shift(instance, &p[k]);
+		p[k].ox = fma(shift[k], p[k].dx, p[k].ox), p[k].oy = fma(shift[k], p[k].dy, p[k].oy);
+		p[k].oz = fma(shift[k], p[k].dz, p[k].oz);
 		packet_prepare(&p[k]);
-		p[k].t_min = meets >> k & 1 ? eye[k].t_min - shift : 1;
-		p[k].t_max = meets >> k & 1 ? eye[k].t_max - shift : -INFINITY;
+		p[k].t_min = met ? eye[k].t_min - shift[k] : 1;
+		p[k].t_max = met ? eye[k].t_max - shift[k] : -INFINITY;
 		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* others sleep, and do not spoil the beam */
+		if (any)
+			continue;
+		found[k].primitive = SCENE_NONE;
+		p[k].t_max += select((packf)(0), 3e-7f * eye[k].t_max, (shift[k] > 0) & (eye_found[k].instance != SCENE_NONE)); /* t + shift decides */
 	}
 	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
-		walk_blas(p, -1, nodes, triangles);
+		walk_blas(p, found, any, -1, nodes, triangles);
 	else
-		walk_blas(p, octant, nodes, triangles);
+		walk_blas(p, found, any, octant, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
-		if (meets >> k & 1)
+		if (!any)
+			leave_instance(&eye[k], &eye_found[k], &p[k], &found[k], shift[k], index);
+		else if (lanes_of(meets, k))
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
 }
 
-static inline void walk_top(struct packet *eye, __global const struct node8 *top, __global const uint *instance_list,
-                     __global const struct instance *instances, __global const struct node8 *nodes,
-                     __global const struct triangle8 *triangles)
+INLINED void walk_top(struct packet *eye, struct found *found, int any, __global const struct node8 *top,
+                     __global const uint *instance_list, __global const struct instance *instances,
+                     __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
-	uint stack[RAYS_WIDE_STACK], depth = 0;
+	const struct planes planes = octant_planes(0);
+	struct task stack[RAYS_WIDE_STACK];
+	ulong awake = awake_lanes(eye);
+	float towards[3];
+	uint depth;
 
-	stack[depth++] = 0;
-	while (depth) {
-		__global const struct node8 *node = &top[stack[--depth]];
+	if (!any)
+		mean_direction(eye, towards);
+	depth = push_children(stack, 0, eye, any, -1, planes, existing_boxes(top), top, 0, awake, towards);
+	while (depth && awake) {
+		const struct task task = stack[--depth];
+		const ulong left = task.lanes & awake;
+		const ulong lanes = any ? left : left & lanes_meet(eye, any, -1, planes, &top[task.node], task.box, left);
 
-		for (uint box = 0; box < 8 && node->lo[0][box] <= node->hi[0][box]; box++) {
-			uint meets = 0;
-
-			for (uint k = 0; k < RAYS_PACKETS; k++)
-				meets |= any_pack(packet_meets_any(&eye[k], node, box)) ? 1u << k : 0;
-			if (!meets)
-				continue;
-			if (node->count[box] == 0)
-				stack[depth++] = node->child[box];
-			for (uint i = 0; i < node->count[box]; i++)
-				walk_instance(eye, meets, &instances[instance_list[node->child[box] + i]], nodes, triangles);
-		}
+		if (lanes && task.child.y == 0)
+			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]), top, task.child.x, lanes,
+			                      towards);
+		for (uint i = 0; i < task.child.y && lanes; i++)
+			walk_instance(eye, found, any, lanes, instance_list[task.child.x + i], instances, nodes, triangles);
+		if (any)
+			awake = awake_lanes(eye);
 	}
 }
 
@@ -244,6 +355,17 @@ static inline uint load_rays(struct packet *p, __global const struct ray *rays, 
 	return pack_bits(finite);
 }
 
+static inline ulong load_packets(struct packet *p, __global const struct ray *rays, uint first, uint n)
+{
+	ulong lanes = 0;
+
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n), k);
+	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* the next item's; two fill a line */
+		LANES_PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
+	return lanes;
+}
+
 __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint top_first,
                              __global const struct node8 *top, __global const uint *instance_list,
                              __global const struct instance *instances, __global const struct node8 *nodes,
@@ -251,17 +373,45 @@ __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint 
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
-	ulong lanes = 0;
+	struct found nothing[RAYS_PACKETS];
+	ulong lanes;
 
 	if (first >= n_rays)
 		return;
-	for (uint k = 0; k < RAYS_PACKETS; k++)
-		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n_rays), k);
-	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* the next item's; two fill a line */
-		LANES_PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
-	walk_top(p, top + top_first, instance_list, instances, nodes, triangles);
+	lanes = load_packets(p, rays, first, n_rays);
+	walk_top(p, nothing, 1, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
 		occluded[first + i] = (uint)(lanes >> i) & 1u;
+}
+
+__kernel void intersect_packet(uint n_rays, __global const struct ray *rays, uint top_first,
+                               __global const struct node8 *top, __global const uint *instance_list,
+                               __global const struct instance *instances, __global const struct node8 *nodes,
+                               __global const struct triangle8 *triangles, __global struct hit *hits)
+{
+	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
+	struct packet p[RAYS_PACKETS];
+	struct found found[RAYS_PACKETS];
+
+	if (first >= n_rays)
+		return;
+	load_packets(p, rays, first, n_rays);
+	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		found[k].b1 = found[k].b2 = 0;
+		found[k].instance = found[k].primitive = SCENE_NONE;
+	}
+	walk_top(p, found, 0, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++) {
+		const struct found *f = &found[i / RAYS_PER_PACKET];
+		const uint lane = i % RAYS_PER_PACKET;
+		struct hit hit;
+
+		hit.instance = ((const uint *)&f->instance)[lane];
+		hit.t = hit.instance == SCENE_NONE ? rays[first + i].t_max : ((const float *)&p[i / RAYS_PER_PACKET].t_max)[lane];
+		hit.b1 = ((const float *)&f->b1)[lane], hit.b2 = ((const float *)&f->b2)[lane];
+		hit.primitive = ((const uint *)&f->primitive)[lane];
+		hits[first + i] = hit;
+	}
 }

@@ -19,7 +19,7 @@ static int measure(struct bench *b, enum accel_kind kind, size_t slot, struct ro
 	static const struct {
 		enum device_kernel camera, occlude, intersect;
 	} kernels[] = {
-		[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_wide },
+		[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_packet },
 		[FAMILY_BINARY] = { KERNEL_camera_wide, KERNEL_occlude_binary, KERNEL_intersect_binary },
 		[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed },
 	};

@@ -192,7 +192,8 @@ int bench_rays(struct bench *b, enum device_kernel kernel, enum bench_ray_kind k
 		ARG_BUFFER(binary ? s->triangles : compressed ? s->triangles8c : s->triangles8), ARG_BUFFER(s->results),
 	};
 	const double start = progress_clock_s();
-	int err = device_run(b->dev, kernel, kernel == KERNEL_occlude_packet ? (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM : n, args,
+	const int packet = kernel == KERNEL_occlude_packet || kernel == KERNEL_intersect_packet;
+	int err = device_run(b->dev, kernel, packet ? (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM : n, args,
 	                     sizeof(args) / sizeof(args[0]));
 
 	if (!err)

@@ -19,7 +19,8 @@
 	X(camera_compressed) /* the same, compressed nodes */ \
 	X(occlude_packet)   /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
 	X(occlude_wide)     /* the same, one ray a work item */ \
-	X(intersect_wide)   /* nearest hit, one ray a work item, 8-wide nodes */ \
+	X(intersect_packet) /* nearest hit, a packet a work item */ \
+	X(intersect_wide)   /* the same, one ray a work item */ \
 	X(occlude_binary)   /* one ray a work item, in numbers alone (GPUs): BVH2 */ \
 	X(intersect_binary) \
 	X(occlude_compressed) /* the same, compressed nodes */ \

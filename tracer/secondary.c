@@ -27,10 +27,10 @@ uint32_t transport_of(const struct tracer_options *options)
 /* Kernels for any hit and for the nearest, and what they walk. */
 static const struct {
 	enum device_kernel occlude, intersect;
-	uint32_t rays_per_item; /* of occlude */
+	uint32_t rays_per_item;
 	enum buffer top, nodes, triangles;
 } ray_kernels[N_DEVICE_FAMILIES] = {
-	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_wide, RAYS_PER_ITEM, BUFFER_TOP8, BUFFER_NODES8,
+	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_packet, RAYS_PER_ITEM, BUFFER_TOP8, BUFFER_NODES8,
 		             BUFFER_TRIANGLES8 },
 	[FAMILY_BINARY] = { KERNEL_occlude_binary, KERNEL_intersect_binary, 1, BUFFER_TOP2, BUFFER_NODES2, BUFFER_TRIANGLES },
 	[FAMILY_COMPRESSED] = { KERNEL_occlude_compressed, KERNEL_intersect_compressed, 1, BUFFER_TOP2, BUFFER_NODES8C,
@@ -44,7 +44,7 @@ static int trace_rays(struct job *job, const struct accel_space *space, enum buf
 	struct tracer *tr = job->tr;
 	enum device_family family = device_family(tr->dev);
 	uint32_t top = family == FAMILY_PACKETS ? space->top8_first : space->top2_first;
-	uint32_t rays_per_item = occlude ? ray_kernels[family].rays_per_item : 1;
+	uint32_t rays_per_item = ray_kernels[family].rays_per_item;
 	struct launch l = { .n = 0 };
 
 	add_uint(&l, &n);

@@ -6,7 +6,7 @@
 #include "kernels/compressed.h"
 #include "tracer/device.h"
 
-extern device_twin occlude_packet_c, occlude_wide_c, intersect_wide_c;
+extern device_twin occlude_packet_c, intersect_packet_c, occlude_wide_c, intersect_wide_c;
 extern device_twin occlude_binary_c, intersect_binary_c, occlude_compressed_c, intersect_compressed_c;
 
 /* What trees are made of. */
@@ -340,6 +340,13 @@ void occlude_packet_c(const void *const *args, size_t first, size_t last)
 	const struct args a = unpack(args, TREE_ROWS);
 
 	occlude(&a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
+}
+
+void intersect_packet_c(const void *const *args, size_t first, size_t last)
+{
+	const struct args a = unpack(args, TREE_ROWS);
+
+	intersect(&a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
 }
 
 void occlude_wide_c(const void *const *args, size_t first, size_t last)

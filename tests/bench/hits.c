@@ -183,8 +183,8 @@ static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind,
 			ARG_BUFFER(w->instances), ARG_BUFFER(w->nodes), ARG_BUFFER(w->triangles), ARG_BUFFER(any ? w->occluded : w->hits),
 		};
 
-		err = device_run(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_wide,
-		                 any ? (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM : n, args, sizeof(args) / sizeof(args[0]));
+		err = device_run(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_packet,
+		                 (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM, args, sizeof(args) / sizeof(args[0]));
 	}
 	if (!err)
 		err = device_read(dev, w->hits, 0, hits, n * sizeof(*hits));

@@ -78,7 +78,7 @@ static const struct {
 	const char *name;
 	enum device_kernel kernels[2];
 } ways[N_WAYS] = {
-	[PACKET] = { "packet", { KERNEL_occlude_packet, KERNEL_intersect_wide } },
+	[PACKET] = { "packet", { KERNEL_occlude_packet, KERNEL_intersect_packet } },
 	[WIDE] = { "wide", { KERNEL_occlude_wide, KERNEL_intersect_wide } },
 	[BINARY] = { "binary", { KERNEL_occlude_binary, KERNEL_intersect_binary } },
 	[COMPRESSED] = { "compressed", { KERNEL_occlude_compressed, KERNEL_intersect_compressed } },
@@ -115,7 +115,7 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 		};
 		const enum device_kernel kernel = ways[way].kernels[kind];
 
-		ck_assert_int_eq(device_run(dev, kernel, kernel == KERNEL_occlude_packet ? packets : n, args, 9), 0);
+		ck_assert_int_eq(device_run(dev, kernel, way == PACKET ? packets : n, args, 9), 0);
 	}
 	ck_assert_int_eq(device_read(dev, b[6], 0, out->occluded, sizeof(out->occluded)), 0);
 	ck_assert_int_eq(device_read(dev, b[7], 0, out->hits, sizeof(out->hits)), 0);
