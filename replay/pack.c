@@ -13,14 +13,14 @@ size_t pack_room(size_t n)
 	return snappy_max_compressed_length(n);
 }
 
-/* Does a piece from the middle lose an eighth at least? */
+/* Does a piece from the middle lose a quarter at least? */
 static int is_worth_packing(const char *data, size_t n)
 {
 	char packed[SAMPLE_BYTES + SAMPLE_BYTES / 6 + 32]; /* snappy_max_compressed_length */
 	size_t n_packed = sizeof(packed);
 
 	return n < 16 * SAMPLE_BYTES || snappy_compress(data + n / 2, SAMPLE_BYTES, packed, &n_packed) != SNAPPY_OK ||
-	       n_packed <= SAMPLE_BYTES / 8 * 7;
+	       n_packed <= SAMPLE_BYTES / 4 * 3;
 }
 
 int pack_blob(const char *data, size_t n, char *out, size_t *packed)
