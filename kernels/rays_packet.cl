@@ -17,6 +17,18 @@ struct found {
 	packu instance, primitive;
 };
 
+/* One ray of a packet, as kernels/walk.h has it. */
+static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
+{
+#define TAKE(row) w->row = ((const float *)&p->row)[lane]
+	TAKE(ox), TAKE(oy), TAKE(oz), TAKE(dx), TAKE(dy), TAKE(dz), TAKE(ix), TAKE(iy), TAKE(iz);
+	TAKE(far_ix), TAKE(far_iy), TAKE(far_iz), TAKE(near_x), TAKE(near_y), TAKE(near_z), TAKE(far_x), TAKE(far_y), TAKE(far_z);
+	TAKE(t_min);
+#undef TAKE
+	find_rows(w);
+	w->hit.t = ((const float *)&p->t_max)[lane];
+}
+
 /* Lanes of a packet down a subtree one by one. @return those that need no more: any hit will do, and they have it */
 INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint lanes, uint2 start, __global const struct node8 *nodes,
                        __global const struct triangle8 *triangles)
@@ -28,13 +40,9 @@ INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint lan
 		struct walk w;
 
 		lanes &= lanes - 1;
-		w.ox = ((const float *)&p->ox)[lane], w.oy = ((const float *)&p->oy)[lane], w.oz = ((const float *)&p->oz)[lane];
-		w.dx = ((const float *)&p->dx)[lane], w.dy = ((const float *)&p->dy)[lane], w.dz = ((const float *)&p->dz)[lane];
-		w.t_min = ((const float *)&p->t_min)[lane];
-		w.hit.t = ((const float *)&p->t_max)[lane];
+		take_lane(p, lane, &w);
 		w.hit.instance = SCENE_NONE;
 		w.hit.primitive = any ? SCENE_NONE : ((const uint *)&found->primitive)[lane];
-		prepare(&w);
 		walk_subtree(&w, start, 0, any, nodes, triangles);
 		if (w.hit.instance == SCENE_NONE)
 			continue;

@@ -38,6 +38,11 @@ static inline float invert(float d)
 	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
 }
 
+static inline void find_rows(struct walk *w)
+{
+	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
+}
+
 static inline void prepare(struct walk *w)
 {
 	float b;
@@ -47,7 +52,7 @@ static inline void prepare(struct walk *w)
 	b = -w->oy * w->iy, w->near_y = b - fabs(b) * 3e-7f, w->far_y = b + fabs(b) * 1.5e-6f;
 	b = -w->oz * w->iz, w->near_z = b - fabs(b) * 3e-7f, w->far_z = b + fabs(b) * 1.5e-6f;
 	w->far_ix = w->ix * (1 + 6e-7f), w->far_iy = w->iy * (1 + 6e-7f), w->far_iz = w->iz * (1 + 6e-7f);
-	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
+	find_rows(w);
 }
 
 /* Whether boxes can be told apart by their distances along the ray. */
