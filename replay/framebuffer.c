@@ -252,9 +252,9 @@ static void store_color(struct gls_exec *x, const struct target *t, const struct
 
 			gls_picture_color(p, (size_t)y * p->width + i, v);
 			if (t->level)
-				gls_format_store(format, v, t->level->texels + t->level->texel_bytes * (t->first + to));
+				gls_format_draw(format, v, t->level->texels + t->level->texel_bytes * (t->first + to));
 			else if (content)
-				gls_format_store_bytes(format, v, content->rgba + 4 * to);
+				(format->numbers ? gls_format_store_bytes : gls_format_draw)(format, v, content->rgba + 4 * to);
 			if (content && content->colors)
 				gls_format_store(format, v, (uint8_t *)(content->colors + 4 * to));
 		}

@@ -206,13 +206,23 @@ uint32_t gls_texel_bytes(uint32_t internal_format)
 	return f && f->numbers ? 16 : 4;
 }
 
+/* Few bits as eight: repeated as long as there is room. */
+static uint8_t widen(unsigned value, unsigned bits)
+{
+	unsigned v = value << (8 - bits);
+
+	for (unsigned n = bits; n < 8; n *= 2)
+		v |= v >> n;
+	return (uint8_t)v;
+}
+
 /* A number of 8 bits as one of fewer would read. */
 static uint8_t coarse(float value, unsigned bits)
 {
 	float steps = (float)((1u << bits) - 1);
 
 	value = value <= 0 || value != value ? 0 : value >= 1 ? 1 : value;
-	return gls_byte(floorf(value * steps + 0.5f) / steps);
+	return widen((unsigned)(value * steps + 0.5f), bits);
 }
 
 /* A float of so many bits of mantissa and five of exponent, of which the lowest has no leading one. */
@@ -235,7 +245,7 @@ static void hold(uint32_t numbers, float v[4])
 	case GLS_SNORM8:
 	case GLS_SNORM16:
 		for (unsigned i = 0; i < 4; i++)
-			v[i] = rintf((v[i] > -1 ? v[i] < 1 ? v[i] : 1 : -1) * steps) / steps;
+			v[i] = rintf((v[i] > -1 ? v[i] < 1 ? v[i] : 1 : -1) * steps) * (1 / steps);
 		break;
 	case GLS_HALF:
 		for (unsigned i = 0; i < 4; i++) {
@@ -289,6 +299,23 @@ void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *
 	expand(f->base, rgba, v);
 	hold(f->numbers, v);
 	memcpy(out, v, sizeof(v));
+}
+
+/* A number of 8 bits in fewer, as llvmpipe draws it: rounded only where there are four of them, or almost. */
+static uint8_t drawn(unsigned v, unsigned bits)
+{
+	return widen(bits > 4 ? v >> (8 - bits) : ((v >> bits) * ((1u << bits) - 1) + (1u << (7 - bits))) >> (8 - bits), bits);
+}
+
+void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *out)
+{
+	float v[4];
+
+	gls_format_store(f, rgba, out);
+	expand(f->base, rgba, v);
+	for (unsigned i = 0; i < 4 && f->bits[0]; i++)
+		if (f->bits[i] && f->bits[i] != 4)
+			out[i] = drawn(gls_byte(v[i]), f->bits[i]);
 }
 
 void gls_format_border(uint32_t internal_format, const float color[4], float out[4])

@@ -471,21 +471,24 @@ const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsi
  * is what lies at its centre, between two neighbours in each direction, in places of 1/256 texel, rounded after each step.
  */
 struct tap {
-	uint32_t first, second, weight; /* weight: of the second, 0 to 255 for [0,1) */
+	uint32_t first, second;
+	float weight; /* of the second, [0,1) */
 };
 
-static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from)
+/* exact: as floats are filtered; else in 1/256 texel */
+static struct tap tap_at(uint32_t i, uint32_t size, uint32_t from, int exact)
 {
-	int64_t place = (int64_t)rint((i + 0.5) / size * from * 256) - 128;
-	struct tap t = { place < 0 ? 0 : (uint32_t)(place / 256), 0, place < 0 ? 0 : (uint32_t)(place % 256) };
+	double place = (i + 0.5) / size * from;
+	double at = fmax((exact ? place : rint(place * 256) / 256) - 0.5, 0);
+	struct tap t = { (uint32_t)at, 0, (float)(at - floor(at)) };
 
 	t.second = t.first + 1 < from ? t.first + 1 : from - 1;
 	return t;
 }
 
-static float mix(float a, float b, uint32_t weight)
+static float mix(float a, float b, float weight)
 {
-	return a + (b - a) * (float)weight / 256;
+	return a + (b - a) * weight;
 }
 
 /* Texels as numbers: bytes of a colour (in linear light where they are encoded), its floats, or one depth. */
@@ -496,7 +499,7 @@ static void load_texel(const uint8_t *texel, int floats, const float *linear, fl
 		out[k] = linear && k < 3 ? linear[texel[k]] : (float)texel[k];
 }
 
-static void mix_texels(float a[4], const float b[4], uint32_t weight, int round)
+static void mix_texels(float a[4], const float b[4], float weight, int round)
 {
 	for (unsigned k = 0; k < 4; k++)
 		a[k] = round ? floorf(mix(a[k], b[k], weight) + 0.5f) : mix(a[k], b[k], weight);
@@ -553,20 +556,58 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 	}
 }
 
-static void generate_level(const struct gls_level *from, struct gls_level *to, const float *linear)
+/*
+ * What Mesa cannot draw to it averages as it is stored, two by two texels, of which the last are left out where their number is odd;
+ * integers are rounded down.
+ */
+static int is_averaged(const struct gls_format *f)
 {
-	const struct gls_format *format = gls_format_find(to->internal_format);
+	return (f->srgb && f->base != GL_RGB && f->base != GL_RGBA) || f->numbers == GLS_9E5 || f->block_bytes || f->s3tc;
+}
+
+static void average_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format)
+{
+	const uint32_t n[3] = { from->width > to->width ? 2 : 1, from->height > to->height ? 2 : 1, from->depth > to->depth ? 2 : 1 };
+	const uint32_t count = n[0] * n[1] * n[2];
+
+	for (size_t i = 0; i < gls_level_count(to); i++) {
+		const size_t x = i % to->width * n[0], y = i / to->width % to->height * n[1], z = i / to->width / to->height * n[2];
+		float sum[4] = { 0 }, v[4];
+
+		for (uint32_t k = 0; k < count; k++) {
+			size_t at = ((z + k / n[0] / n[1]) * from->height + y + k / n[0] % n[1]) * from->width + x + k % n[0];
+
+			gls_texel_load(from->texel_bytes, from->texels + from->texel_bytes * at, v);
+			for (unsigned c = 0; c < 4; c++)
+				sum[c] += v[c];
+		}
+		for (unsigned c = 0; c < 4; c++) {
+			v[c] = sum[c] / (float)count;
+			if (!format->numbers)
+				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* of eight texels the parts are eighths */
+		}
+		gls_format_store(format, v, to->texels + to->texel_bytes * i);
+	}
+}
+
+/* linear: what bytes of encoded colours are in linear light, else NULL */
+static void generate_level(const struct gls_level *from, struct gls_level *to, const struct gls_format *format, const float *linear)
+{
 	int floats = to->base_format == GL_DEPTH_COMPONENT ? 1 : format->numbers ? 4 : 0;
 
-	if (!floats && !linear && !format->bits[0] && !format->bits[3] && !format->s3tc && from->width == 2 * to->width &&
+	if (is_averaged(format)) {
+		average_level(from, to, format);
+		return;
+	}
+	if (!floats && !linear && !format->bits[0] && !format->bits[3] && from->width == 2 * to->width &&
 	    from->height == 2 * to->height && from->depth == 1) {
 		halve(from, to->width, to->height, to->texels);
 		return;
 	}
 	for (size_t i = 0; i < gls_level_count(to); i++) {
-		struct tap t[3] = { tap_at((uint32_t)(i % to->width), to->width, from->width),
-			            tap_at((uint32_t)(i / to->width % to->height), to->height, from->height),
-			            tap_at((uint32_t)(i / to->width / to->height), to->depth, from->depth) };
+		struct tap t[3] = { tap_at((uint32_t)(i % to->width), to->width, from->width, floats || linear),
+			            tap_at((uint32_t)(i / to->width % to->height), to->height, from->height, floats || linear),
+			            tap_at((uint32_t)(i / to->width / to->height), to->depth, from->depth, floats || linear) };
 		float v[4] = { 0 };
 
 		filter_texel(from, floats, linear, t, v);
@@ -575,7 +616,7 @@ static void generate_level(const struct gls_level *from, struct gls_level *to, c
 		if (floats == 1)
 			memcpy(to->texels + 4 * i, v, 4);
 		else
-			gls_format_store(format, v, to->texels + to->texel_bytes * i);
+			gls_format_draw(format, v, to->texels + to->texel_bytes * i);
 	}
 }
 
@@ -585,7 +626,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 	const struct gls_format *format = from && from->texels ? gls_format_find(from->internal_format) : NULL;
 	float linear[256];
 
-	for (unsigned i = 0; i < 256; i++)
+	for (unsigned i = 0; format && format->srgb && i < 256; i++)
 		linear[i] = gls_linear_from_srgb((float)i / 255) * 255;
 	for (uint32_t l = t->parameters.base_level + 1; format && l < GLS_MAX_LEVELS && l <= t->parameters.max_level; l++) {
 		struct gls_level *to = &t->levels[face][l];
@@ -611,8 +652,7 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 		to->depth = d;
 		to->texels = texels;
 		to->bytes = (size_t)w * h * d * to->texel_bytes;
-		/* what Mesa cannot draw to it averages as it is stored */
-		generate_level(from, to, format->srgb && !format->s3tc && (format->base == GL_RGB || format->base == GL_RGBA) ? linear : NULL);
+		generate_level(from, to, format, format->srgb ? linear : NULL);
 		from = to;
 	}
 }

@@ -166,7 +166,9 @@ uint32_t gls_format_is_float(uint32_t internal_format);
 uint32_t gls_texel_bytes(uint32_t internal_format);
 /** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
 void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
-/** The same in four bytes, whatever the format. */
+/** The same of a colour that was drawn. */
+void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *out);
+/** The same as gls_format_store in four bytes, whatever the format. */
 void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
 /** What a texel holds. */
 void gls_texel_load(uint32_t texel_bytes, const uint8_t *texel, float out[4]);

@@ -45,7 +45,7 @@ START_TEST(test_texels)
 	check_texel(GL_RED, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RED, (uint8_t[]){ 100, 0, 0, 255 });
 	check_texel(GL_RG, GL_RG, GL_UNSIGNED_BYTE, 2, rgba, GL_RG, (uint8_t[]){ 100, 150, 0, 255 });
 	check_texel(GL_RGBA4, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 102, 153, 204, 85 });
-	check_texel(GL_RGB5_A1, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 99, 148, 197, 0 });
+	check_texel(GL_RGB5_A1, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 99, 148, 198, 0 });
 	check_texel(GL_R3_G3_B2, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGB, (uint8_t[]){ 109, 146, 170, 255 });
 	/* 0.2122, 0.3050 and 0.5776 of linear light; alpha is no light */
 	check_texel(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, rgba, GL_RGBA, (uint8_t[]){ 32, 78, 147, 90 });

@@ -448,6 +448,29 @@ static void floats(void)
 	glDisable(GL_TEXTURE_2D);
 }
 
+/* Objects of few bits: what is drawn to them loses its low bits, and is rounded to four of them alone. */
+static void few_bits(void)
+{
+	static const int formats[4] = { GL_RGB5_A1, GL_RGBA4, GL_R3_G3_B2, GL_RGB565 };
+	unsigned object, target[4];
+
+	glGenFramebuffers(1, &object);
+	glGenTextures(4, target);
+	for (int i = 0; i < 4; i++) {
+		glBindTexture(GL_TEXTURE_2D, target[i]);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+		glTexImage2D(GL_TEXTURE_2D, 0, formats[i], 32, 24, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+		draw_to(object, 32, 24);
+		glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target[i], 0);
+		if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
+			for (int k = 0; k < 48; k++)
+				panel(k % 8 * 8, k / 8 * 8, 8, (float)(k * 5) / 255, (float)(k * 5 + 3) / 255, 1 - (float)(k * 5) / 255, (float)(k % 2));
+		draw_to(0, 64, 48);
+		show(target[i], i % 2 * 32, i / 2 * 24, 32, 24);
+	}
+}
+
 /* Selection and feedback leave all buffers as they are, but move the raster position; blits are no rendering. */
 static void not_rendered(void)
 {
@@ -491,7 +514,7 @@ int main(void)
 {
 	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
 		                              more_sums, several, floats,
-		                              not_rendered };
+		                              few_bits, not_rendered };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };
 

@@ -212,6 +212,27 @@ static void generated_levels(void)
 	}
 }
 
+/* The same of formats that Mesa may not be able to draw to; sizes are odd, so that it shows which texels count. */
+static void averaged_levels(void)
+{
+	static const int internal[12] = { GL_SLUMINANCE8, GL_SLUMINANCE8_ALPHA8, GL_RGB9_E5, GL_R3_G3_B2, GL_RGBA4, GL_LUMINANCE4_ALPHA4,
+		                          GL_RGBA8_SNORM, GL_LUMINANCE8_SNORM, GL_RGB5_A1, GL_RGBA2, GL_R11F_G11F_B10F, GL_RGB16F };
+	unsigned char texels[13 * 21 * 4];
+
+	for (int i = 0; i < 13 * 21 * 4; i++)
+		texels[i] = (unsigned char)(i * 2654435761u >> 9);
+	for (int i = 0; i < 12; i++) {
+		texture();
+		glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+		glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, GL_TRUE);
+		glTexImage2D(GL_TEXTURE_2D, 0, internal[i], 13, 21, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+		for (int level = 1; level < 3; level++) {
+			glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
+			panel(i % 4 * 16 + level * 8 - 8, i / 4 * 16, 7, 0.01f, 0.98f);
+		}
+	}
+}
+
 /* A cube's levels, faces seen straight on and askew. */
 static void cube_levels(void)
 {
@@ -381,7 +402,7 @@ static void trail(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points,
+	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points, averaged_levels,
 		                              depth_environments, combine4, walls, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
