@@ -273,11 +273,11 @@ static int check_snapshot(struct gls_exec *x)
 	return differ;
 }
 
-/* What replay.c does where a frame begins; of every fourth length of a sequence half of the frames are skipped. */
-static void begin_frame(struct gls_exec *x, size_t size)
+/* What replay.c does where a frame begins. */
+static void begin_frame(struct gls_exec *x, size_t size, const struct calls_painter *painter)
 {
 	x->frame_ended = 0;
-	x->want = size / CALLS_SLOT % 4 != 0 || x->frame % 2;
+	x->want = !painter || !painter->skips || size / CALLS_SLOT % 4 || x->frame % 2;
 	if (x->want)
 		gls_frame_stop_carrying(x);
 }
@@ -327,7 +327,7 @@ static void paint_nothing(void *user, const struct scene *scene)
 	(void)scene;
 }
 
-const struct calls_painter calls_grey = { .paint = paint_nothing, .supply = supply_grey };
+const struct calls_painter calls_grey = { .paint = paint_nothing, .supply = supply_grey, .skips = 1 };
 
 int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter)
 {
@@ -336,7 +336,7 @@ int calls_run(const uint8_t *data, size_t size, const struct calls_painter *pain
 	int wrong = 0;
 
 	if (c && !gls_exec_create(&x, "calls")) {
-		begin_frame(x, size);
+		begin_frame(x, size, painter);
 		x->supply = painter ? painter->supply : NULL;
 		x->supply_user = painter ? painter->user : NULL;
 		if (!make_current(x))
@@ -345,7 +345,7 @@ int calls_run(const uint8_t *data, size_t size, const struct calls_painter *pain
 					break;
 				if (x->frame_ended) {
 					wrong = end_frame(x, painter);
-					begin_frame(x, size);
+					begin_frame(x, size, painter);
 				}
 			}
 		if (!x->failed && !x->rewind && !wrong && !call(x, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))

@@ -53,6 +53,7 @@ size_t calls_used(const uint8_t *slot);
 struct calls_painter {
 	void (*paint)(void *user, const struct scene *scene); /* of each frame */
 	replay_supply *supply;                                /* for calls that read what was drawn */
+	int skips; /* 1: of every fourth length of a sequence every other frame is skipped */
 	void *user;
 };
 
@@ -60,8 +61,7 @@ struct calls_painter {
 extern const struct calls_painter calls_grey;
 
 /**
- * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap, or, in
- * every fourth length of a sequence, at every other.
+ * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
  * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).
  * @param painter  NULL: nobody makes pixels
  * @return 0; 1 where they are not
