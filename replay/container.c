@@ -12,6 +12,7 @@
 #include "base/err.h"
 
 #define PIECE_BYTES (1u << 20)
+#define READ_BYTES (64u << 10) /* of the file at once, at least */
 #define SMALL_BYTES (64u << 10) /* unpacked, below which chunks are delivered together */
 #define CHUNK_MAX_BYTES (64u << 20) /* unpacked; recorders write 1 MiB */
 
@@ -27,6 +28,7 @@ struct container {
 	int delivered; /* Brotli: some of it is read already */
 	uint8_t *packed, *unpacked;
 	size_t packed_room, unpacked_room;
+	size_t at, end; /* Snappy: bytes of `packed` that were read and not unpacked yet */
 	z_stream gzip;
 	BrotliDecoderState *brotli;
 	const uint8_t *brotli_next;
@@ -121,7 +123,7 @@ int container_open(struct container **out, const char *path)
 		                                                       : "is not a plain file");
 		goto fail;
 	}
-	setvbuf(c->file, NULL, _IOFBF, SMALL_BYTES);
+	setvbuf(c->file, NULL, _IONBF, 0); /* it is read in large pieces */
 	c->size = (uint64_t)info.st_size;
 	rc = detect(c);
 	if (rc)
@@ -201,6 +203,23 @@ static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t
 	return made;
 }
 
+/* Have n bytes of the file at packed + at. @return as many as there are, or n; 0 with *rc set: out of memory */
+static size_t have(struct container *c, size_t n, int *rc)
+{
+	size_t left = c->end - c->at;
+
+	if (left >= n)
+		return n;
+	if (reserve(&c->packed, &c->packed_room, n > READ_BYTES ? n : READ_BYTES)) {
+		*rc = ERR_SYSTEM;
+		return 0;
+	}
+	memmove(c->packed, c->packed + c->at, left);
+	c->at = 0;
+	c->end = left + fread(c->packed + left, 1, c->packed_room - left, c->file);
+	return c->end < n ? c->end : n;
+}
+
 /*
  * Unpack the chunk at c->offset behind what is unpacked already.
  * @param made  bytes of that; counts up
@@ -209,12 +228,14 @@ static size_t unpack_cut_block(const uint8_t *in, size_t n, uint8_t *out, size_t
  */
 static int add_chunk(struct container *c, size_t *made, const char **why)
 {
-	uint8_t head[4];
-	size_t length, unpacked, got = fread(head, 1, 4, c->file);
+	int rc = 0;
+	size_t length, unpacked, got = have(c, 4, &rc);
+	const uint8_t *head = c->packed + c->at;
+	const char *packed;
 
 	if (got < 4) {
 		c->cut = got > 0;
-		return 0;
+		return rc;
 	}
 	length = head[0] | (size_t)head[1] << 8 | (size_t)head[2] << 16 | (size_t)head[3] << 24;
 	if (length == 0)
@@ -223,11 +244,13 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 		c->cut = 1;
 		length = c->size - c->offset - 4;
 	}
-	if (reserve(&c->packed, &c->packed_room, length + 1))
-		return ERR_SYSTEM;
-	length = fread(c->packed, 1, length, c->file);
+	got = have(c, 4 + length, &rc);
+	if (rc)
+		return rc;
+	length = got - 4;
+	packed = (const char *)c->packed + c->at + 4;
 	*why = "no Snappy chunk";
-	if (snappy_uncompressed_length((const char *)c->packed, length, &unpacked) != SNAPPY_OK)
+	if (snappy_uncompressed_length(packed, length, &unpacked) != SNAPPY_OK)
 		return c->cut ? 0 : ERR_INPUT;
 	*why = "a chunk that claims to hold too much";
 	if (unpacked > CHUNK_MAX_BYTES)
@@ -236,10 +259,11 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 		return ERR_SYSTEM;
 	*why = "a Snappy chunk that does not unpack";
 	if (c->cut)
-		unpacked = unpack_cut_block(c->packed, length, c->unpacked + *made, unpacked);
-	else if (snappy_uncompress((const char *)c->packed, length, (char *)c->unpacked + *made, &unpacked) != SNAPPY_OK)
+		unpacked = unpack_cut_block((const uint8_t *)packed, length, c->unpacked + *made, unpacked);
+	else if (snappy_uncompress(packed, length, (char *)c->unpacked + *made, &unpacked) != SNAPPY_OK)
 		return ERR_INPUT;
-	c->offset += 4 + length;
+	c->offset += got;
+	c->at += got;
 	*made += unpacked;
 	return 1;
 }
@@ -258,7 +282,7 @@ static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 	*data = c->unpacked;
 	*size = made;
 	if (rc == ERR_INPUT && made) /* what stands before the damage; the next call meets it again */
-		return fseeko(c->file, (off_t)c->offset, SEEK_SET) ? err_report(ERR_SYSTEM, c->path, "%s", strerror(errno)) : 1;
+		return 1;
 	c->ended = rc <= 0 || c->cut;
 	if (rc == ERR_INPUT)
 		return err_report(ERR_INPUT, c->path, "damaged at byte %llu: %s", (unsigned long long)c->offset, why);
@@ -374,6 +398,7 @@ int container_seek(struct container *c, uint64_t offset)
 	if (offset == 0)
 		offset = c->kind == CONTAINER_SNAPPY ? 2 : 0;
 	c->cut = c->ended = 0;
+	c->at = c->end = 0;
 	c->offset = offset;
 	if (fseeko(c->file, (off_t)offset, SEEK_SET))
 		return err_report(ERR_SYSTEM, c->path, "%s", strerror(errno));
