@@ -127,6 +127,31 @@ WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int 
 	return value;
 }
 
+/* Depths behind which nothing counts: of the tile's sixteen cells of 8 x 8 pixels, row by row, and of all of it. */
+struct batch_far {
+	packf cells;
+	float all;
+};
+
+/*
+ * Lanes that are behind wherever in the box they are. A plane's values at the box's corners bound those in it, rounding included.
+ * @param x, y  where the view looks in the tile's first pixel, as planes count
+ */
+WIDE_VECTORS static inline packi batch_hidden(const struct batch *s, const struct batch_far *far, float x, float y)
+{
+	const packf left = fma(s->along_x, x + convert_float16(s->x_first), s->origin);
+	const packf nearest = pack_min(left, fma(s->along_x, x + convert_float16(s->x_last), s->origin));
+	const packf low = fma(s->along_y, y - convert_float16(s->y_first), nearest);
+	const packf depth = pack_min(pack_min(low, fma(s->along_y, y - convert_float16(s->y_last), nearest)), (packf)(1));
+	const packi x0 = s->x_first >> 3, x1 = s->x_last >> 3, y0 = s->y_first >> 3, y1 = s->y_last >> 3;
+	const packf below = pack_max(pack_pick(far->cells, 4 * y0 + x0), pack_pick(far->cells, 4 * y0 + x1));
+	const packf above = pack_max(pack_pick(far->cells, 4 * y1 + x0), pack_pick(far->cells, 4 * y1 + x1));
+	const packf farthest = select(pack_max(below, above), (packf)(far->all), (x1 - x0 > 1) | (y1 - y0 > 1));
+
+	/* By some steps of depth, so that it is not a matter of order. */
+	return s->exact & (depth > farthest + 3e-7f);
+}
+
 /* Lanes where some pixel of the box is on the inner side of edge i, as far as its corners say. */
 WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
 {
@@ -135,13 +160,15 @@ WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
 }
 
 /*
+ * @param height  of the drawable
  * @param x, y    the tile's first pixel
  * @param flags   of the instance: which faces are culled
  * @param lanes   those that count, all ones each
+ * @param far     of the tile
  * @return one bit for each triangle that the tile may see
  */
-WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, int x, int y, uint flags, const struct batch_corners *v,
-                                             packi lanes, struct batch *out)
+WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, uint height, int x, int y, uint flags,
+                                             const struct batch_corners *v, packi lanes, const struct batch_far *far, struct batch *out)
 {
 	const struct clip_spot at = clip_spot(view, x, y);
 	const packi x_first = (min(min(v->x[0], v->x[1]), v->x[2]) + (255 - (int)at.x)) >> 8;
@@ -172,6 +199,8 @@ WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, i
 	out->small = convert_int16(size < (1l << 28));
 	out->inverse = 1.0f / convert_float16(size);
 	batch_depth(v, out);
+	lanes &= ~batch_hidden(out, far, clip_from_origin(view, x, view->sample[0]),
+	                       clip_from_origin(view, (int)height - 1 - y, -view->sample[1]));
 	return pack_bits(lanes);
 }
 

@@ -47,7 +47,8 @@ struct tile {
 	int x, y;      /* the first pixel */
 	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones where a pixel takes no fragments now */
 	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* where a view looks in the pixels, as planes count */
-	int changed;   /* a nearest fragment was replaced since z_far was set */
+	int changed;   /* a nearest fragment may have been replaced since far and z_far were set */
+	struct batch_far far;
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
 	struct pending pending;
 	struct pack packs[TILE_BLOCKS][TILE_BLOCKS];
@@ -57,6 +58,9 @@ struct tile {
 struct candidate {
 	uint order, instance, primitive;
 };
+
+#define LANE_INT(rows, lane) (((const int *)&(rows))[lane])
+#define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
 /* --- fragments --- */
 
@@ -82,15 +86,14 @@ WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct pack *
 	p->depth = select(p->depth, depth, better);
 }
 
-static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, const packf *b1, const packf *b2, const packf *depth,
-                                   struct candidate c)
+WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
 	for (int lane = 0; lane < 16; lane++) {
 		const size_t pixel = (size_t)(t->y + BLOCK * y + lane / BLOCK) * t->width + (size_t)(t->x + BLOCK * x + lane % BLOCK);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
 		int *count = (int *)&t->packs[y][x].counts + lane, place = *count;
 
-		if (!((const int *)&covered)[lane] || c.order < t->after[pixel])
+		if (!LANE_INT(covered, lane) || c.order < t->after[pixel])
 			continue;
 		while (place > 0 && column[place - 1].order > c.order)
 			place--;
@@ -104,41 +107,50 @@ static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, 
 		column[place].order = c.order;
 		column[place].instance = c.instance;
 		column[place].primitive = c.primitive;
-		column[place].b1 = ((const float *)b1)[lane];
-		column[place].b2 = ((const float *)b2)[lane];
-		column[place].depth = ((const float *)depth)[lane];
+		column[place].b1 = LANE_FLOAT(b1, lane);
+		column[place].b2 = LANE_FLOAT(b2, lane);
+		column[place].depth = LANE_FLOAT(depth, lane);
 	}
 }
 
-/* Move the far plane up to the farthest of the tile's nearest fragments. */
+/* The greatest number of each of sixteen vectors, which are overwritten. */
+WIDE_VECTORS static inline packf maxima(packf *v)
+{
+	for (int i = 0; i < 8; i++)
+		v[i] = pack_max((packf)(v[2 * i].lo, v[2 * i + 1].lo), (packf)(v[2 * i].hi, v[2 * i + 1].hi));
+	for (int i = 0; i < 4; i++)
+		v[i] = pack_max((packf)(v[2 * i].s012389ab, v[2 * i + 1].s012389ab), (packf)(v[2 * i].s4567cdef, v[2 * i + 1].s4567cdef));
+	for (int i = 0; i < 2; i++)
+		v[i] = pack_max((packf)(v[2 * i].s014589cd, v[2 * i + 1].s014589cd), (packf)(v[2 * i].s2367abef, v[2 * i + 1].s2367abef));
+	return pack_max((packf)(v[0].even, v[1].even), (packf)(v[0].odd, v[1].odd));
+}
+
+/* Find the farthest of the nearest fragments, of cells and of all, and move the far plane up to that. */
 WIDE_VECTORS static inline void shorten(struct tile *t)
 {
 	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
-	packf depth = 0;
+	packf cell[16];
 	float8 eight;
 	float4 four;
 	float2 two;
-	float farthest;
 
 	t->changed = 0;
-	if (!(range > 0))
-		return; /* the nearest depth is not the first along the ray */
-	for (int y = 0; y < TILE_BLOCKS; y++)
-		for (int x = 0; x < TILE_BLOCKS; x++)
-			depth = pack_max(depth, select(t->packs[y][x].depth, (packf)(0), t->off_x[x] | t->off_y[y]));
-	eight = lanes_max(depth.lo, depth.hi);
+	for (int i = 0; i < 16; i++) {
+		const struct pack *above = &t->packs[i / 4 * 2][i % 4 * 2], *below = above + TILE_BLOCKS;
+
+		cell[i] = pack_max(pack_max(above[0].depth, above[1].depth), pack_max(below[0].depth, below[1].depth));
+	}
+	t->far.cells = maxima(cell);
+	eight = lanes_max(t->far.cells.lo, t->far.cells.hi);
 	four = fmax(eight.lo, eight.hi);
 	two = fmax(four.lo, four.hi);
-	farthest = fmax(two.lo, two.hi);
-	/* A step more, for equal depths, and what rounding may do. */
-	if (farthest < NO_DEPTH)
-		t->z_far = fmin(2.0f * ((farthest - near) / range + 5e-7f) - 1.0f, 1.0f);
+	t->far.all = fmax(two.lo, two.hi);
+	/* Else the nearest depth is not the first along the ray. A step more, for equal depths, and what rounding may do. */
+	if (range > 0 && t->far.all < NO_DEPTH)
+		t->z_far = fmin(2.0f * ((t->far.all - near) / range + 5e-7f) - 1.0f, 1.0f);
 }
 
 /* --- coverage --- */
-
-#define LANE_INT(rows, lane) (((const int *)&(rows))[lane])
-#define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
 /* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole triangle's. */
 WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, uint x, uint y, packi at)
@@ -191,7 +203,7 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 	if (corner)
 		weigh_in_volume(corner, &b1, &b2);
 	if (t->mode == CAMERA_COLUMN) {
-		keep_in_columns(t, x, y, covered, &b1, &b2, &depth, c);
+		keep_in_columns(t, x, y, covered, b1, b2, depth, c);
 		return;
 	}
 	keep_nearest(t, p, covered, b1, b2, depth, c);
@@ -248,7 +260,8 @@ static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, 
 			((float *)&v.place_x[i])[lane] = from->place[0] - clip_origin(t->view);
 			((float *)&v.place_y[i])[lane] = from->place[1] - clip_origin(t->view);
 		}
-	for (uint lanes = batch_set_up(t->view, t->x, t->y, flags, &v, PACK_LANES < (int)polygon.n - 2, &batch); lanes; lanes &= lanes - 1) {
+	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, flags, &v, PACK_LANES < (int)polygon.n - 2, &t->far, &batch); lanes;
+	     lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		const struct clip_corner *corner[3] = { &polygon.corner[lane + 1], &polygon.corner[lane + 2], &polygon.corner[0] };
 
@@ -274,7 +287,8 @@ WIDE_VECTORS static inline void draw_pending(struct tile *t, uint index)
 	t->changed = 1;
 	placed = batch_load(t->view, (float)t->height, t->window, t->clip, vertex, &v);
 	clipped = pack_bits(there & ~placed);
-	for (uint lanes = batch_set_up(t->view, t->x, t->y, instance->flags, &v, there & placed, &batch); lanes; lanes &= lanes - 1) {
+	for (uint lanes = batch_set_up(t->view, t->height, t->x, t->y, instance->flags, &v, there & placed, &t->far, &batch); lanes;
+	     lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1), primitive = pending->primitive[lane];
 		const struct candidate c = { instance->primitive_first + primitive, index, primitive };
 
@@ -530,37 +544,59 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 #define STORE_FIRST_LAST(a, b) (packu)(a.s01, b.s23, a.s45, b.s67, a.s89, b.sab, a.scd, b.sef)
 #define STORE_LAST_FIRST(a, b) (packu)(a.s23, b.s01, a.s67, b.s45, a.sab, b.s89, a.sef, b.scd)
 
-/* Past the caches where that can be: no other pixel of the tile is asked for what stands here, and lines are not read before. */
-static inline void store_four(uint4 value, __global uint *to, int aligned)
+/* A block's fragments, six numbers each: of each row, its quarter of all six vectors one after the other. */
+WIDE_VECTORS static inline void lay_out(const struct pack *p, packu *out)
 {
-	if (aligned)
-		STREAM(value, (__global uint4 *)to);
-	else
-		vstore4(value, 0, to);
-}
-
-/* A block whose pixels all lie in the view's rectangle: a fragment's six numbers, four fragments a row. */
-WIDE_VECTORS static inline void store_block(const struct tile *t, int x, int y, __global uint *counts)
-{
-	const struct pack *p = &t->packs[y][x];
 	const packu b1 = as_uint16(p->b1), b2 = as_uint16(p->b2), depth = as_uint16(pack_min(p->depth, (packf)(1)));
 	const packu ids01 = STORE_LOW(p->order, p->instance), ids23 = STORE_HIGH(p->order, p->instance);
 	const packu first01 = STORE_LOW(p->primitive, b1), first23 = STORE_HIGH(p->primitive, b1);
 	const packu last01 = STORE_LOW(b2, depth), last23 = STORE_HIGH(b2, depth);
-	const packu out[6] = { STORE_FIRST(ids01, first01), STORE_FIRST_LAST(last01, ids01), STORE_LAST(first01, last01),
-		               STORE_FIRST(ids23, first23), STORE_FIRST_LAST(last23, ids23), STORE_LAST(first23, last23) };
-	const packu count = select((packu)(0), (packu)(1), p->order != SCENE_NONE);
+
+	out[0] = STORE_FIRST(ids01, first01);
+	out[1] = STORE_FIRST_LAST(last01, ids01);
+	out[2] = STORE_LAST(first01, last01);
+	out[3] = STORE_FIRST(ids23, first23);
+	out[4] = STORE_FIRST_LAST(last23, ids23);
+	out[5] = STORE_LAST(first23, last23);
+}
+
+/* Past the caches where that can be: nobody reads it soon, and it is not read before it is written. */
+static inline void store_pack(packu value, __global uint *to, int aligned)
+{
+	if (aligned)
+		STREAM(value, (__global packu *)to);
+	else
+		vstore16(value, 0, to);
+}
+
+/* Quarter i of four vectors goes to row i. */
+WIDE_VECTORS static inline void store_rows(packu a, packu b, packu c, packu d, __global uint *to, size_t stride, int aligned)
+{
+	const packu ab = (packu)(a.lo, b.lo), cd = (packu)(c.lo, d.lo), ab_high = (packu)(a.hi, b.hi), cd_high = (packu)(c.hi, d.hi);
+
+	store_pack((packu)(ab.s0123, ab.s89ab, cd.s0123, cd.s89ab), to, aligned);
+	store_pack((packu)(ab.s4567, ab.scdef, cd.s4567, cd.scdef), to + stride, aligned);
+	store_pack((packu)(ab_high.s0123, ab_high.s89ab, cd_high.s0123, cd_high.s89ab), to + 2 * stride, aligned);
+	store_pack((packu)(ab_high.s4567, ab_high.scdef, cd_high.s4567, cd_high.scdef), to + 3 * stride, aligned);
+}
+
+/* Two blocks side by side whose pixels all lie in the view's rectangle: three times sixteen numbers a row. */
+WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y, __global uint *counts)
+{
 	const size_t pixel = (size_t)(t->y + BLOCK * y) * t->width + (size_t)(t->x + BLOCK * x);
+	__global uint *fragments = (__global uint *)(t->fragments + pixel);
+	const int aligned = ((pixel | t->width) & 7) == 0;
+	packu left[6], right[6], count[2];
 
-	const int aligned = ((pixel | t->width) & 3) == 0;
-
-	for (int row = 0; row < BLOCK; row++) {
-		const size_t first = pixel + (size_t)row * t->width;
-
-		for (int i = 0; i < 6; i++)
-			store_four(((const uint4 *)&out[i])[row], (__global uint *)(t->fragments + first) + 4 * i, aligned);
-		store_four(((const uint4 *)&count)[row], counts + first, aligned);
-	}
+	lay_out(&t->packs[y][x], left);
+	lay_out(&t->packs[y][x + 1], right);
+	store_rows(left[0], left[1], left[2], left[3], fragments, 6 * t->width, aligned);
+	store_rows(left[4], left[5], right[0], right[1], fragments + 16, 6 * t->width, aligned);
+	store_rows(right[2], right[3], right[4], right[5], fragments + 32, 6 * t->width, aligned);
+	for (int i = 0; i < 2; i++)
+		count[i] = select((packu)(0), (packu)(1), t->packs[y][x + i].order != SCENE_NONE);
+	for (int row = 0; row < BLOCK; row++)
+		vstore8((uint8)(((const uint4 *)&count[0])[row], ((const uint4 *)&count[1])[row]), 0, counts + pixel + (size_t)row * t->width);
 }
 
 /* The pixels of the tile that lie in the view's rectangle, which ends before x1 and y1. */
@@ -569,21 +605,23 @@ static inline void store_tile(const struct tile *t, int x1, int y1, __global uin
 	const int width = min(CAMERA_TILE, x1 - t->x), height = min(CAMERA_TILE, y1 - t->y);
 
 	for (int y = 0; y < height; y += BLOCK)
-		for (int x = 0; x < width; x += BLOCK)
-			if (t->mode != CAMERA_COLUMN && x + BLOCK <= width && y + BLOCK <= height)
-				store_block(t, x / BLOCK, y / BLOCK, counts);
+		for (int x = 0; x < width; x += 2 * BLOCK)
+			if (t->mode != CAMERA_COLUMN && x + 2 * BLOCK <= width && y + BLOCK <= height)
+				store_blocks(t, x / BLOCK, y / BLOCK, counts);
 			else
-				for (int i = 0; i < BLOCK * BLOCK; i++)
-					if (x + i % BLOCK < width && y + i / BLOCK < height)
-						store_pixel(t, x + i % BLOCK, y + i / BLOCK, counts);
+				for (int i = 0; i < 2 * BLOCK * BLOCK; i++)
+					if (x + i % (2 * BLOCK) < width && y + i / (2 * BLOCK) < height)
+						store_pixel(t, x + i % (2 * BLOCK), y + i / (2 * BLOCK), counts);
 }
 
-WIDE_VECTORS static inline void clear_tile(struct tile *t)
+/* x1, y1: where the view's rectangle ends */
+WIDE_VECTORS static inline void clear_tile(struct tile *t, int x1, int y1)
 {
 	const float row = clip_from_origin(t->view, (int)t->height - 1 - t->y, -t->view->sample[1]);
 
 	t->changed = 0;
 	t->z_far = 1;
+	t->far.cells = t->far.all = NO_DEPTH;
 	t->pending.n = 0;
 	for (int i = 0; i < TILE_BLOCKS; i++) {
 		t->plane_x[i] = convert_float16(BLOCK_X + BLOCK * i) + clip_from_origin(t->view, t->x, t->view->sample[0]);
@@ -593,11 +631,14 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 		for (int x = 0; x < TILE_BLOCKS; x++) {
 			struct pack *p = &t->packs[y][x];
 
-			p->counts = 0;
 			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;
-			p->depth = NO_DEPTH;
-			p->steps = NO_DEPTH * 16777216.0f;
+			/* Beyond the rectangle nothing is farther than what is there. */
+			p->depth = select((packf)(0), (packf)(NO_DEPTH), (BLOCK_X + BLOCK * x < x1 - t->x) & (BLOCK_Y + BLOCK * y < y1 - t->y));
+			if (t->mode == CAMERA_COLUMN)
+				p->counts = 0;
+			else
+				p->steps = NO_DEPTH * 16777216.0f;
 		}
 }
 
@@ -630,7 +671,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.mode = mode;
 	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
 	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;
-	clear_tile(&t);
+	clear_tile(&t, r.x1, r.y1);
 	if (view->tlas_count) {
 		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),
 		            fmin((float)r.x1, viewport[0] + viewport[2]), fmin((float)r.y1, viewport[1] + viewport[3]));

@@ -94,7 +94,7 @@ static inline struct frustum8 frustum8_from(struct frustum f, int far)
 static inline uint frustum8_meets(const struct frustum8 *f, __global const struct node8 *node, float8 *reach)
 {
 	__global const float *rows = (__global const float *)node;
-	int8 outside = (vload8(0, node->child) | vload8(0, node->count)) == 0;
+	int8 outside = vload8(0, node->lo[0]) > vload8(0, node->hi[0]); /* nothing there */
 
 	for (int i = 0; i < FRUSTUM8_PLANES; i++) {
 		*reach = fma((float8)(f->a[i]), vload8(0, rows + f->x[i]), fma((float8)(f->b[i]), vload8(0, rows + f->y[i]),

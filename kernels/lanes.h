@@ -15,6 +15,9 @@
 #if __has_builtin(__builtin_ia32_cvtd2mask512)
 #define LANES_MASK16 1
 #endif
+#if __has_builtin(__builtin_ia32_permvarsf512)
+#define LANES_PERMUTE16 1
+#endif
 #endif
 
 /* LANES_PORTABLE: for interpreters of kernels, which know the language and no compiler's own functions. */
@@ -122,6 +125,20 @@ static inline uint pack_bits(packi mask)
 	return (ushort)__builtin_ia32_cvtd2mask512(mask);
 #else
 	return lane_bits(mask.lo) | lane_bits(mask.hi) << 8;
+#endif
+}
+
+/* table[index & 15], lane by lane. */
+WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
+{
+#ifdef LANES_PERMUTE16
+	return __builtin_ia32_permvarsf512(table, index);
+#else
+	packf out;
+
+	for (int lane = 0; lane < 16; lane++)
+		((float *)&out)[lane] = ((const float *)&table)[((const int *)&index)[lane] & 15];
+	return out;
 #endif
 }
 
