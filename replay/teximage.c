@@ -823,7 +823,7 @@ static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const
 {
 	for (int64_t z = 0; z < size[2]; z++)
 		if (gls_decompress(internal_format, (uint32_t)size[0], (uint32_t)size[1], data + (size_t)z * (n / (size_t)size[2]),
-		                   n / (size_t)size[2], texels + 4 * (size_t)(z * size[0] * size[1]))) {
+		                   n / (size_t)size[2], texels + gls_texel_bytes(internal_format) * (size_t)(z * size[0] * size[1]))) {
 			gls_unsupported(x, "compressed images of this format");
 			return -1;
 		}
@@ -875,7 +875,7 @@ static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const
 		}
 	if (!size[0] || !size[1] || !size[2])
 		return;
-	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * 4);
+	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
 	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
 		place(l, at, size, texels);
 	gls_texture_changed(t);

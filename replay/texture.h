@@ -103,7 +103,7 @@ void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t widt
 /** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of an internal format. */
 void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t *out);
 
-/** Whatever the client's format was, a block-compressed image as texels; texcompress.c. @return 0; -1: too few bytes */
+/** Whatever the client's format was, a block-compressed image as texels of the internal format; texcompress.c. @return 0; -1: too few bytes */
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
 
 /** The object whose level a call names, or NULL (error set; proxies: NULL and no error). */

@@ -166,8 +166,31 @@ static struct scene *show_block(struct gl *gl, uint32_t internal, int width, int
 	return gl_swap(gl);
 }
 
+/* Channels of their own (ARB_texture_compression_rgtc): 8 levels, or 6 and both ends; signed ones are numbers from -1 to 1. */
+START_TEST(test_rgtc)
+{
+	/* texels 0..3 of the first row are codes 0 1 2 6 */
+	static const uint8_t blocks[16] = { 0xf0, 0x10, 0x88, 0x0c, 0, 0, 0, 0, 0x10, 0x70, 0x88, 0x0c, 0, 0, 0, 0 };
+	struct gl gl = begin();
+	struct scene *s = show_block(&gl, GL_COMPRESSED_RG_RGTC2, 4, 4, 16, blocks);
+
+	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[]){ 240, 16, 0, 255, 16, 112, 0, 255, 208, 35, 0, 255, 80, 0, 0, 255 }), 16);
+	scene_release(&s);
+	s = show_block(&gl, GL_COMPRESSED_SIGNED_LUMINANCE_LATC1_EXT, 4, 4, 8, blocks);
+	for (unsigned i = 0; i < 4; i++) {
+		static const float l[4] = { -16 / 127.0f, 16 / 127.0f, -10 / 127.0f, -1 };
+
+		ck_assert_floats(4, (const float *)(const void *)s->textures[0]->texels + 4 * i, l[i], l[i], l[i], 1);
+	}
+	scene_release(&s);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_close(&gl);
+}
+END_TEST
+
 START_TEST(test_s3tc)
 {
+	/* what lies between is in 1/256 of the way, rounded down, and the middle rounded up: llvmpipe's numbers */
 	/* red 31 and blue 31; texels 0..3 of the first row are codes 0 1 2 3, all others code 0 */
 	static const uint8_t four[8] = { 0x00, 0xf8, 0x1f, 0x00, 0xe4, 0, 0, 0 }, three[8] = { 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
 	static const uint8_t dxt3[16] = { 0x10, 0x32, 0, 0, 0, 0, 0, 0, 0x1f, 0x00, 0x00, 0xf8, 0xe4, 0, 0, 0 };
@@ -176,18 +199,18 @@ START_TEST(test_s3tc)
 	struct scene *s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 4, 4, 8, four);
 	const uint8_t *t = s->textures[0]->texels;
 
-	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 255, 255, 170, 0, 85, 255, 85, 0, 170, 255, 255, 0, 0, 255 }), 20);
+	ck_assert_mem_eq(t, ((uint8_t[]){ 255, 0, 0, 255, 0, 0, 255, 255, 170, 0, 84, 255, 85, 0, 169, 255, 255, 0, 0, 255 }), 20);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT1_EXT, 4, 4, 8, three);
 	t = s->textures[0]->texels;
-	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 255, 0, 0, 255, 127, 0, 127, 255, 0, 0, 0, 0 }), 16);
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 255, 255, 0, 0, 255, 128, 0, 128, 255, 0, 0, 0, 0 }), 16);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 3, 2, 8, three); /* cut off: three texels of two rows */
 	ck_assert_uint_eq(s->textures[0]->n_bytes, 24);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT3_EXT, 4, 4, 16, dxt3);
 	t = s->textures[0]->texels;
-	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 0, 255, 0, 0, 17, 85, 0, 170, 34, 170, 0, 85, 51 }), 16);
+	ck_assert_mem_eq(t, ((uint8_t[]){ 0, 0, 255, 0, 255, 0, 0, 17, 84, 0, 170, 34, 169, 0, 85, 51 }), 16);
 	scene_release(&s);
 	s = show_block(&gl, GL_COMPRESSED_RGBA_S3TC_DXT5_EXT, 4, 4, 16, dxt5); /* codes 0 1 2 6: 70, 0, 6/7 and 2/7 of 70 */
 	t = s->textures[0]->texels;
@@ -306,4 +329,4 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_numbers, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_numbers, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)

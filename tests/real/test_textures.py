@@ -3,7 +3,7 @@
 was rasterized."""
 from helpers import check_alone, check_same_pictures, finish
 
-FRAMES = ("formats", "numbers", "filtered numbers", "blocks", "swizzles", "wraps", "depth and stencil", "generated levels", "cube levels", "points", "averaged levels",
+FRAMES = ("formats", "numbers", "filtered numbers", "blocks", "channels", "swizzles", "wraps", "depth and stencil", "generated levels", "cube levels", "points", "averaged levels",
           "depth environments", "combine4", "walls", *("trail",) * 5)
 trace, _ = check_same_pictures("textures", FRAMES)
 # frames that show what earlier ones left: these are carried along as one scene when they are not asked for

@@ -129,6 +129,33 @@ static void blocks(void)
 	glDisable(GL_BLEND);
 }
 
+/* Blocks of one channel or two; the last of each kind filtered, and a part of it given anew. */
+static void channels(void)
+{
+	static const unsigned formats[9] = { GL_COMPRESSED_RED_RGTC1, GL_COMPRESSED_SIGNED_RED_RGTC1, GL_COMPRESSED_LUMINANCE_LATC1_EXT,
+		                             GL_COMPRESSED_SIGNED_LUMINANCE_LATC1_EXT, GL_COMPRESSED_RG_RGTC2, GL_COMPRESSED_SIGNED_RG_RGTC2,
+		                             GL_COMPRESSED_LUMINANCE_ALPHA_LATC2_EXT, GL_COMPRESSED_SIGNED_LUMINANCE_ALPHA_LATC2_EXT,
+		                             0x8837 /* COMPRESSED_LUMINANCE_ALPHA_3DC_ATI, which glext.h lacks */ };
+	unsigned char bytes[64];
+
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (unsigned i = 0; i < 12; i++) {
+		unsigned format = i < 9 ? formats[i] : formats[(i - 9) * 3 + 1], block = i < 9 ? i < 4 ? 8 : 16 : i < 10 ? 8 : 16;
+
+		for (unsigned k = 0; k < 4 * block; k++) /* any bits are blocks */
+			bytes[k] = (unsigned char)((k * 2654435761u + i * 40503u) >> 11);
+		texture();
+		glCompressedTexImage2D(GL_TEXTURE_2D, 0, format, 8, 8, 0, (int)(4 * block), bytes);
+		if (i >= 9) {
+			glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+			glCompressedTexSubImage2D(GL_TEXTURE_2D, 0, 4, 0, 4, 8, format, (int)(2 * block), bytes + 5);
+		}
+		panel((int)i % 4 * 16, (int)i / 4 * 16, 16, 0, 1);
+	}
+	glDisable(GL_BLEND);
+}
+
 static void swizzles(void)
 {
 	static const int swizzle[4][4] = { { GL_BLUE, GL_RED, GL_GREEN, GL_ONE }, { GL_ALPHA, GL_ZERO, GL_ONE, GL_RED },
@@ -402,7 +429,7 @@ static void trail(void)
 
 int main(void)
 {
-	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points, averaged_levels,
+	static void (*const frames[])(void) = { formats, numbers, filtered_numbers, blocks, channels, swizzles, wraps, depth_and_stencil, generated_levels, cube_levels, points, averaged_levels,
 		                              depth_environments, combine4, walls, trail, trail, trail, trail, trail };
 
 	for (int i = 0; i < 64; i++)
