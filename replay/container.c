@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "base/err.h"
+#include "replay/hash.h"
 
 #define PIECE_BYTES (1u << 20)
 #define READ_BYTES (64u << 10) /* of the file at once, at least */
@@ -29,6 +30,7 @@ struct container {
 	uint8_t *packed, *unpacked;
 	size_t packed_room, unpacked_room;
 	size_t at, end; /* Snappy: bytes of `packed` that were read and not unpacked yet */
+	XXH3_state_t *hash; /* of all that was read of the file; NULL: nobody wants it, or it was not read in order */
 	z_stream gzip;
 	BrotliDecoderState *brotli;
 	const uint8_t *brotli_next;
@@ -145,6 +147,7 @@ void container_close(struct container **c)
 		inflateEnd(&(*c)->gzip);
 	if ((*c)->brotli)
 		BrotliDecoderDestroyInstance((*c)->brotli);
+	XXH3_freeState((*c)->hash);
 	free((*c)->packed);
 	free((*c)->unpacked);
 	free((*c)->path);
@@ -217,6 +220,8 @@ static size_t have(struct container *c, size_t n, int *rc)
 	memmove(c->packed, c->packed + c->at, left);
 	c->at = 0;
 	c->end = left + fread(c->packed + left, 1, c->packed_room - left, c->file);
+	if (c->hash)
+		XXH3_128bits_update(c->hash, c->packed + left, c->end - left);
 	return c->end < n ? c->end : n;
 }
 
@@ -397,6 +402,8 @@ int container_seek(struct container *c, uint64_t offset)
 {
 	if (offset == 0)
 		offset = c->kind == CONTAINER_SNAPPY ? 2 : 0;
+	XXH3_freeState(c->hash);
+	c->hash = NULL;
 	c->cut = c->ended = 0;
 	c->at = c->end = 0;
 	c->offset = offset;
@@ -405,6 +412,31 @@ int container_seek(struct container *c, uint64_t offset)
 	if ((c->kind == CONTAINER_GZIP && !restart_gzip(c)) || (c->kind == CONTAINER_BROTLI && !restart_brotli(c)))
 		return err_report(ERR_SYSTEM, c->path, "out of memory");
 	return 0;
+}
+
+int container_hash_begin(struct container *c)
+{
+	if (c->kind != CONTAINER_SNAPPY || !(c->hash = XXH3_createState()))
+		return 0; /* container_hash_end reads it once more */
+	XXH3_128bits_reset(c->hash);
+	return hash_file(c->path, c->offset + (c->end - c->at), c->hash);
+}
+
+int container_hash_end(struct container *c, uint64_t out[2])
+{
+	XXH128_hash_t hash;
+	int rc = 0;
+
+	if (!c->hash)
+		return hash_whole(c->path, out);
+	do
+		c->at = c->end = 0;
+	while (have(c, 1, &rc));
+	hash = XXH3_128bits_digest(c->hash);
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+	c->ended = 1;
+	return rc;
 }
 
 int container_is_cut(const struct container *c)

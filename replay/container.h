@@ -32,6 +32,14 @@ int container_seek(struct container *c, uint64_t offset);
 /** 1 where the file ended within a chunk or stream: what could be unpacked of it was delivered. */
 int container_is_cut(const struct container *c);
 
+/**
+ * Hash the file as hash_whole does, with the bytes as they are read from now on where they come in order: of Snappy chunks of which
+ * none was sought. At the end, the rest of the file is read, and nothing more can be delivered.
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int container_hash_begin(struct container *c);
+int container_hash_end(struct container *c, uint64_t out[2]);
+
 uint64_t container_offset(const struct container *c); /* bytes of the file used so far */
 uint64_t container_size(const struct container *c);   /* of the file */
 

@@ -26,3 +26,22 @@ int hash_file(const char *path, uint64_t limit, XXH3_state_t *state)
 		close(file);
 	return rc;
 }
+
+int hash_whole(const char *path, uint64_t out[2])
+{
+	XXH3_state_t *state = XXH3_createState();
+	XXH128_hash_t hash;
+	int rc = state ? 0 : err_report(ERR_SYSTEM, path, "out of memory");
+
+	if (!rc) {
+		XXH3_128bits_reset(state);
+		rc = hash_file(path, UINT64_MAX, state);
+	}
+	if (!rc) {
+		hash = XXH3_128bits_digest(state);
+		out[0] = hash.low64;
+		out[1] = hash.high64;
+	}
+	XXH3_freeState(state);
+	return rc;
+}

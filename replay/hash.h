@@ -13,4 +13,7 @@
  */
 int hash_file(const char *path, uint64_t limit, XXH3_state_t *state);
 
+/** The XXH3-128 of all of a file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
+int hash_whole(const char *path, uint64_t out[2]);
+
 #endif

@@ -286,25 +286,6 @@ static int get_toc(struct index *index, const void *data, size_t n)
 
 /* --- The trace that it is of --------------------------------------------------------------------------------------- */
 
-static int hash_whole(const char *path, uint64_t out[2])
-{
-	XXH3_state_t *state = XXH3_createState();
-	XXH128_hash_t hash;
-	int rc = state ? 0 : err_report(ERR_SYSTEM, path, "out of memory");
-
-	if (!rc) {
-		XXH3_128bits_reset(state);
-		rc = hash_file(path, UINT64_MAX, state);
-	}
-	if (!rc) {
-		hash = XXH3_128bits_digest(state);
-		out[0] = hash.low64;
-		out[1] = hash.high64;
-	}
-	XXH3_freeState(state);
-	return rc;
-}
-
 static int describe_trace(const char *path, const char *hash, struct header *header)
 {
 	struct stat info;
@@ -573,11 +554,13 @@ static int make(struct index *index, struct replay *fresh)
 		         "makes it again");
 	rc = fresh ? 0 : replay_open(&rp, index->trace);
 	if (!rc)
+		rc = trace_reader_hash_begin(replay_reader(rp));
+	if (!rc)
 		rc = scan(index, rp);
 	if (!rc)
 		rc = trace_reader_signatures(replay_reader(rp), &index->signatures, &index->n_signatures);
 	if (!rc)
-		rc = hash_whole(index->trace, index->header.whole_hash);
+		rc = trace_reader_hash_end(replay_reader(rp), index->header.whole_hash);
 	if (!rc && index->file)
 		rc = write_toc(index);
 	if (!fresh)

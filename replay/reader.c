@@ -1205,6 +1205,16 @@ int trace_reader_is_cut(const struct trace_reader *r)
 	return r->cut;
 }
 
+int trace_reader_hash_begin(struct trace_reader *r)
+{
+	return container_hash_begin(r->container);
+}
+
+int trace_reader_hash_end(struct trace_reader *r, uint64_t out[2])
+{
+	return container_hash_end(r->container, out);
+}
+
 uint64_t trace_reader_offset(const struct trace_reader *r)
 {
 	return container_offset(r->container);

@@ -78,6 +78,10 @@ int trace_reader_property_at(const struct trace_reader *r, size_t i, const char 
 /** 1 once the end has been met inside an event or chunk. */
 int trace_reader_is_cut(const struct trace_reader *r);
 
+/** Hash the file by the way, as container_hash_begin and container_hash_end do. */
+int trace_reader_hash_begin(struct trace_reader *r);
+int trace_reader_hash_end(struct trace_reader *r, uint64_t out[2]);
+
 /** Bytes of the file read so far, and its size. */
 uint64_t trace_reader_offset(const struct trace_reader *r);
 uint64_t trace_reader_size(const struct trace_reader *r);

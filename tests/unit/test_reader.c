@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 #include <zlib.h>
 
 #include "base/err.h"
@@ -332,6 +333,43 @@ START_TEST(test_numbers_over_pieces)
 }
 END_TEST
 
+/* The file's hash is the same however far it was read, in order or not, and whatever stands behind its chunks. */
+START_TEST(test_hash)
+{
+	static uint8_t file[8 * 32768];
+	struct bytes b = { .n = 0 };
+	struct trace_place begin = { .piece = UINT64_MAX };
+	struct trace_reader *r;
+	const struct call *c;
+	const char *path;
+	uint64_t got[2];
+	XXH128_hash_t hash;
+	size_t n;
+
+	put_header(&b);
+	put_numbers(&b);
+	n = pack_snappy(&b, 100, file);
+	memset(file + n, 0, 4); /* where the chunks end */
+	for (n += 4; n < sizeof(file); n++)
+		file[n] = (uint8_t)(n / 7);
+	path = write_file(file, n);
+	hash = XXH3_128bits(file, n);
+	for (unsigned calls = 0; calls <= 80; calls += 16) {
+		ck_assert_int_eq(trace_reader_open(&r, path), 0);
+		ck_assert_int_eq(trace_reader_place(r, &begin), 1);
+		ck_assert_int_eq(trace_reader_hash_begin(r), 0);
+		for (unsigned i = 0; i < calls; i++)
+			trace_reader_next(r, &c);
+		if (calls == 48)
+			ck_assert_int_eq(trace_reader_seek(r, &begin, NULL, 0), 0);
+		ck_assert_int_eq(trace_reader_hash_end(r, got), 0);
+		ck_assert(got[0] == hash.low64 && got[1] == hash.high64);
+		trace_reader_close(&r);
+	}
+	unlink(path_of("trace"));
+}
+END_TEST
+
 START_TEST(test_gzip)
 {
 	struct bytes b = { .n = 0 };
@@ -483,6 +521,7 @@ int main(void)
 	tcase_add_test(tcase, test_pieces);
 	tcase_add_test(tcase, test_numbers);
 	tcase_add_test(tcase, test_numbers_over_pieces);
+	tcase_add_test(tcase, test_hash);
 	tcase_add_test(tcase, test_gzip);
 	tcase_add_test(tcase, test_cut);
 	tcase_add_test(tcase, test_damaged_chunk);
