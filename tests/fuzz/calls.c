@@ -113,10 +113,19 @@ static uint32_t token_of(uint32_t v, const struct calls_group *group)
 	return v < 0xF800 ? group->values[v % group->n] : calls_groups[0].values[v % calls_groups[0].n];
 }
 
+/* Some numbers of a parameter that may be a token are tokens. */
+static int is_token(char letter, uint32_t v, const struct calls_group *group)
+{
+	return letter != 'e' && letter != 'm' && group != calls_groups && v >> 8 >= 192 && v >> 8 < 224;
+}
+
 static struct trace_value scalar_of(char letter, uint32_t v, const struct calls_group *group)
 {
 	int64_t i;
 
+	if (is_token(letter, v, group))
+		return letter == 'f' || letter == 'd' ? (struct trace_value){ .type = TRACE_FLOAT, .f = (float)token_of(v, group) }
+		                                      : (struct trace_value){ .type = TRACE_ENUM, .i = token_of(v, group) };
 	switch (letter) {
 	case 'e':
 		return (struct trace_value){ .type = TRACE_ENUM, .i = token_of(v, group) };
@@ -139,7 +148,7 @@ static struct trace_value array_of(struct calls *c, unsigned i, char letter, uin
 	uint32_t random = v, n = v >> 8 < 224 ? 1 + (v >> 8) % 16 : v % MAX_ITEMS;
 
 	for (uint32_t k = 0; k < n; k++)
-		c->items[i][k] = scalar_of(letter, k ? calls_draw(&random, 65536) : v & 255, group);
+		c->items[i][k] = scalar_of(letter, k ? calls_draw(&random, 65536) : is_token(letter, v, group) ? v : v & 255, group);
 	return (struct trace_value){ .type = TRACE_ARRAY, .count = n, .items = c->items[i] };
 }
 

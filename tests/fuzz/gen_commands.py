@@ -23,6 +23,10 @@ OTHERS = {"memcpy": "pbi", "eglChooseConfig": "pIIiI", "eglGetConfigAttrib": "pp
           "OSMesaCreateContext": "ep", "OSMesaCreateContextExt": "eiiip", "OSMesaCreateContextAttribs": "Ip", "OSMesaDestroyContext": "p",
           "OSMesaMakeCurrent": "ppeii"}
 MOST_PARAMS = 15
+# Numbers that may be tokens, as the registry does not say: values of parameters, of which these groups hold most.
+VALUED = ("glTexParameter", "glSamplerParameter", "glTexEnv", "glTexGen", "glFog", "glLightModel", "glPointParameter")
+VALUES = ("TextureMinFilter", "TextureMagFilter", "TextureWrapMode", "TextureEnvMode", "TextureGenMode", "FogMode",
+          "LightModelColorControl", "DepthFunction", "BlendingFactor", "PixelFormat", "TextureUnit")
 
 
 def letter(param):
@@ -36,6 +40,12 @@ def letter(param):
     return {"e": "E", "f": "F", "d": "D", "i": "I", "u": "I", "m": "I"}.get(SCALARS.get(base), "p")
 
 
+def group_of(command, param, values):
+    if param.group in values:
+        return param.group
+    return "values" if command.startswith(VALUED) and param.name in ("param", "params") else ""
+
+
 def main(out, sources):
     known, values = {}, {}
     for file_name in ("gl.xml", "glx.xml"):
@@ -45,6 +55,7 @@ def main(out, sources):
                 values.setdefault(group, set()).add(enum.value & 0xFFFFFFFF)
             if not enum.bits:
                 values.setdefault("", set()).add(enum.value & 0xFFFFFFFF)
+    values["values"] = set().union(*(values[group] for group in VALUES))
     handlers = gen.read_handlers(sources)
     chapters = {name: number for number, source in enumerate(sources) for name in gen.read_handlers([source])}
     commands = {}
@@ -53,7 +64,7 @@ def main(out, sources):
             commands[name] = (OTHERS[name], [""] * len(OTHERS[name]), chapters[name])
         elif name in known and (name in handlers or known[name].alias in handlers):
             params = known[name].params[:MOST_PARAMS]
-            commands[name] = ("".join(map(letter, params)), [p.group if p.group in values else "" for p in params],
+            commands[name] = ("".join(map(letter, params)), [group_of(name, p, values) for p in params],
                               chapters[name if name in handlers else known[name].alias])
     numbers = {}
     for name in commands:

@@ -10,8 +10,8 @@
 #include "tests/fuzz/kept.h"
 #include "tracer/feed.h"
 
-#define N_PARTS 4
-#define N_RANDOM 15
+#define N_PARTS 8
+#define N_RANDOM 8
 #define CALLS_A_RUN 200
 
 enum { TWIN, KERNELS, N_DEVICES };
