@@ -423,16 +423,25 @@ static inline void walk_blas(struct tile *t, uint index)
 	__global const struct node8 *nodes = t->nodes + instance->node8_first;
 	__global const struct face8 *faces = t->faces + instance->triangle8_first;
 	struct frustum8 f = instance_frustum(t, instance);
-	struct entry stack[RAYS_WIDE_STACK], entry = { 0, 0, 0 };
+	struct entry stack[RAYS_WIDE_STACK], entry = { 0, 0, 0 }, leaf = { 0, 0, 0 };
 	uint depth = 0;
 
 	for (;;) {
-		if (entry.count == 0)
+		if (entry.count == 0) {
 			depth = push_children(&f, nodes, faces, entry.child, stack, depth);
-		for (uint i = 0; i < entry.count; i++)
-			add_faces(t, index, &faces[entry.child + i]);
-		while (t->pending.n && !depth)
-			draw_pending(t, index);
+		} else {
+			/* A leaf's faces are on their way for as long as another leaf's are added. */
+			for (uint i = 0; i < leaf.count; i++)
+				add_faces(t, index, &faces[leaf.child + i]);
+			leaf = entry;
+		}
+		if (!depth) {
+			for (uint i = 0; i < leaf.count; i++)
+				add_faces(t, index, &faces[leaf.child + i]);
+			leaf.count = 0;
+			while (t->pending.n)
+				draw_pending(t, index);
+		}
 		if (t->changed) {
 			const float before = t->z_far;
 
@@ -595,8 +604,15 @@ WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y,
 	store_rows(right[2], right[3], right[4], right[5], fragments + 32, 6 * t->width, aligned);
 	for (int i = 0; i < 2; i++)
 		count[i] = select((packu)(0), (packu)(1), t->packs[y][x + i].order != SCENE_NONE);
-	for (int row = 0; row < BLOCK; row++)
-		vstore8((uint8)(((const uint4 *)&count[0])[row], ((const uint4 *)&count[1])[row]), 0, counts + pixel + (size_t)row * t->width);
+	for (int row = 0; row < BLOCK; row++) {
+		const uint8 both = (uint8)(((const uint4 *)&count[0])[row], ((const uint4 *)&count[1])[row]);
+		__global uint *to = counts + pixel + (size_t)row * t->width;
+
+		if (aligned)
+			STREAM(both, (__global uint8 *)to);
+		else
+			vstore8(both, 0, to);
+	}
 }
 
 /* The pixels of the tile that lie in the view's rectangle, which ends before x1 and y1. */
