@@ -789,14 +789,26 @@ void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, in
 
 GLS_HANDLER(glDrawArrays, ARRAY) { gls_draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2)); }
 
-GLS_HANDLER(glMultiDrawArrays, ARRAY)
+/* The mode of draw i: the same for all, or of an array whose places are so many bytes apart (IBM_multimode_draw_arrays). */
+static uint32_t mode_of(const struct call *c, uint64_t i, int64_t stride)
+{
+	uint64_t n, place = i * ((uint64_t)stride / 4);
+	const struct trace_value *modes = arg_items(c, 0, &n);
+
+	return !modes ? arg_u(c, 0) : stride >= 0 && place < n ? (uint32_t)gls_value_int(&modes[place]) : GL_POLYGON + 1;
+}
+
+static void multi_draw_arrays(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride)
 {
 	uint64_t n_first, n_count;
 	const struct trace_value *first = arg_items(c, 1, &n_first), *count = arg_items(c, 2, &n_count);
 
 	for (uint64_t i = 0; i < n_first && i < n_count; i++)
-		gls_draw_arrays(x, st, arg_u(c, 0), gls_value_int(&first[i]), gls_value_int(&count[i]));
+		gls_draw_arrays(x, st, mode_of(c, i, stride), gls_value_int(&first[i]), gls_value_int(&count[i]));
 }
+
+GLS_HANDLER(glMultiDrawArrays, ARRAY) { multi_draw_arrays(x, st, c, 0); }
+GLS_HANDLER(glMultiModeDrawArraysIBM, ARRAY) { multi_draw_arrays(x, st, c, arg_i(c, 4)); }
 
 /* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
 static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
@@ -885,23 +897,25 @@ GLS_HANDLER(glDrawRangeElementsBaseVertex, ARRAY)
 	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), (int32_t)arg_i(c, 6));
 }
 
-static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct trace_value *base, uint64_t n_base)
+static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride, const struct trace_value *base,
+                                uint64_t n_base)
 {
 	uint64_t n_count, n_indices;
 	const struct trace_value *count = arg_items(c, 1, &n_count), *indices = arg_items(c, 3, &n_indices);
 
 	for (uint64_t i = 0; i < n_count && i < n_indices; i++)
-		gls_draw_elements(x, st, arg_u(c, 0), gls_value_int(&count[i]), arg_u(c, 2), &indices[i],
+		gls_draw_elements(x, st, mode_of(c, i, stride), gls_value_int(&count[i]), arg_u(c, 2), &indices[i],
 		                  i < n_base ? (int32_t)gls_value_int(&base[i]) : 0);
 }
 
-GLS_HANDLER(glMultiDrawElements, ARRAY) { multi_draw_elements(x, st, c, NULL, 0); }
+GLS_HANDLER(glMultiDrawElements, ARRAY) { multi_draw_elements(x, st, c, 0, NULL, 0); }
+GLS_HANDLER(glMultiModeDrawElementsIBM, ARRAY) { multi_draw_elements(x, st, c, arg_i(c, 5), NULL, 0); }
 GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
 {
 	uint64_t n;
 	const struct trace_value *base = arg_items(c, 5, &n);
 
-	multi_draw_elements(x, st, c, base, n);
+	multi_draw_elements(x, st, c, 0, base, n);
 }
 
 /* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */

@@ -354,6 +354,40 @@ START_TEST(test_mapped_again)
 }
 END_TEST
 
+/* IBM_multimode_draw_arrays: each draw has a mode, and modes are some bytes apart; one that is not there draws nothing. */
+START_TEST(test_modes)
+{
+	static const float positions[4][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } };
+	static const uint8_t indices[2] = { 3, 1 };
+	const uint32_t modes[3] = { GL_TRIANGLES, GL_LINES, GL_POINTS }, first[3] = { 0, 1, 0 }, count[3] = { 3, 2, 1 };
+	const struct trace_value blob = { .type = TRACE_BLOB, .count = 2, .blob = indices };
+	struct trace_value args[6];
+	struct call_sig sig = { .name = "glMultiModeDrawElementsIBM", .n_args = 6 };
+	struct call call = { .sig = &sig, .args = args, .n_args = 6 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	sig.command = gls_command_find(sig.name);
+	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
+	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(positions), positions);
+	gl_call(&gl, "glMultiModeDrawArraysIBM", "UUUii", 3, modes, 3, first, 3, count, 3, 8);
+	for (unsigned i = 0; i < 6; i++)
+		args[i] = (struct trace_value){ .type = TRACE_UINT, .u = i == 2 ? GL_UNSIGNED_BYTE : i == 4 ? 1 : 4 };
+	args[0] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &(struct trace_value){ .type = TRACE_UINT, .u = GL_LINES } };
+	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &(struct trace_value){ .type = TRACE_UINT, .u = 2 } };
+	args[3] = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = &blob };
+	ck_assert_int_eq(gls_exec_call(gl.x, &call), 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 3);
+	ck_assert_uint_eq(s->meshes[s->instances[0].mesh]->kind, SCENE_TRIANGLES);
+	ck_assert_uint_eq(s->meshes[s->instances[1].mesh]->kind, SCENE_POINTS);
+	ck_assert_uint_eq(s->meshes[s->instances[2].mesh]->kind, SCENE_LINES);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Instances are draws; a damaged recording's without end are counted and not drawn. */
 START_TEST(test_instances)
 {
@@ -379,5 +413,5 @@ START_TEST(test_instances)
 }
 END_TEST
 
-GL_TESTS("arrays", test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
+GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)

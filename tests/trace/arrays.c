@@ -30,6 +30,7 @@ int main(void)
 	static const unsigned short indices[4] = { 2, 1, 0, 65535 };
 	static const float interleaved[3][6] = { { 1, 0, 0, -1, -1, 0 }, { 0, 1, 0, 1, -1, 0 }, { 0, 0, 1, 0, 1, 0 } };
 	static const int first[2] = { 0, 0 }, counts[2] = { 3, 2 };
+	static const unsigned modes[3] = { GL_TRIANGLES, GL_TRIANGLE_FAN, GL_QUADS }; /* apart by 8 bytes, and by 4 */
 	const void *const many[2] = { indices, indices + 1 };
 	unsigned buffer;
 
@@ -43,6 +44,9 @@ int main(void)
 	glDrawRangeElements(GL_TRIANGLES, 0, 2, 3, GL_UNSIGNED_SHORT, indices);
 	glMultiDrawArrays(GL_TRIANGLES, first, counts, 2);
 	glMultiDrawElements(GL_LINES, (const GLsizei[]){ 2, 2 }, GL_UNSIGNED_SHORT, many, 2);
+	((PFNGLMULTIMODEDRAWARRAYSIBMPROC)glXGetProcAddress((const GLubyte *)"glMultiModeDrawArraysIBM"))(modes, first, counts, 2, 8);
+	((PFNGLMULTIMODEDRAWELEMENTSIBMPROC)glXGetProcAddress((const GLubyte *)"glMultiModeDrawElementsIBM"))(
+		modes, (const GLsizei[]){ 2, 1 }, GL_UNSIGNED_SHORT, many, 2, 4);
 	glBegin(GL_TRIANGLES);
 	glArrayElement(1);
 	glEnd();
