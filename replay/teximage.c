@@ -945,6 +945,68 @@ GLS_HANDLER(glClearTexImage, NOW)
 	}
 }
 
+/* Of a texture's level the image that place z lies in, and which slice of it that is. NULL: there is none. */
+static struct gls_level *slice_of(struct gls_texture *t, int64_t level, int64_t z, size_t *slice)
+{
+	int cube = t && t->target == GLS_TEXTURE_CUBE;
+	struct gls_level *l;
+
+	if (!t || level < 0 || level >= GLS_MAX_LEVELS || z < 0 || (cube && z > 5))
+		return NULL;
+	l = &t->levels[cube ? z : 0][level];
+	*slice = cube ? 0 : (size_t)z;
+	return l->texels && *slice < l->depth ? l : NULL;
+}
+
+static int is_inside(const struct gls_level *l, int64_t x, int64_t y, int64_t width, int64_t height)
+{
+	return x >= 0 && y >= 0 && x <= l->width && y <= l->height && width <= l->width - x && height <= l->height - y;
+}
+
+/* ARB_copy_image, NV_copy_image: texels from one level to another as they are, slice by slice. */
+static void copy_image(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_texture *from = table_find(&st->share->textures, arg_u(c, 0)), *to = table_find(&st->share->textures, arg_u(c, 6));
+	int64_t width = arg_i(c, 12), height = arg_i(c, 13);
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	if (arg_u(c, 1) == GL_RENDERBUFFER || arg_u(c, 7) == GL_RENDERBUFFER) {
+		gls_unsupported(x, "copies of renderbuffers");
+		return;
+	}
+	gls_texture_settle(x, st, from);
+	gls_texture_settle(x, st, to);
+	for (int64_t z = 0; z < arg_i(c, 14); z++) {
+		size_t slice[2];
+		struct gls_level *a = slice_of(from, arg_i(c, 2), arg_i(c, 5) + z, &slice[0]);
+		struct gls_level *b = slice_of(to, arg_i(c, 8), arg_i(c, 11) + z, &slice[1]);
+
+		if (!a || !b || width < 0 || height < 0 || !is_inside(a, arg_i(c, 3), arg_i(c, 4), width, height) ||
+		    !is_inside(b, arg_i(c, 9), arg_i(c, 10), width, height)) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		if (a->internal_format != b->internal_format) {
+			gls_unsupported(x, "copies between internal formats");
+			return;
+		}
+		for (int64_t y = 0; y < height; y++) {
+			size_t i = (slice[0] * a->height + (size_t)(arg_i(c, 4) + y)) * a->width + (size_t)arg_i(c, 3);
+			size_t k = (slice[1] * b->height + (size_t)(arg_i(c, 10) + y)) * b->width + (size_t)arg_i(c, 9);
+
+			memmove(b->texels + b->texel_bytes * k, a->texels + a->texel_bytes * i, b->texel_bytes * (size_t)width);
+			if (gls_level_stencil(b))
+				memmove(gls_level_stencil(b) + k, gls_level_stencil(a) + i, (size_t)width);
+		}
+		b->missing = b->missing ? b->missing : a->missing;
+		gls_texture_changed(to);
+	}
+}
+
+GLS_HANDLER(glCopyImageSubData, NOW) { copy_image(x, st, c); }
+GLS_HANDLER(glCopyImageSubDataNV, NOW) { copy_image(x, st, c); }
+
 GLS_HANDLER(glGenerateMipmap, STATE)
 {
 	unsigned face;

@@ -93,6 +93,48 @@ START_TEST(test_numbers)
 }
 END_TEST
 
+static void copy_image(struct gl *gl, uint32_t from, uint32_t to, int x, int width)
+{
+	gl_call(gl, "glCopyImageSubData", "ueiiiiueiiiiiii", from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, x, 1, 0, width, 1, 1);
+}
+
+/* ARB_copy_image: texels as they are, between textures and within one; places beyond an image are errors. */
+START_TEST(test_copy_image)
+{
+	static const uint8_t bytes[4] = { 10, 20, 30, 40 };
+	struct gl gl = begin();
+	struct scene *s;
+
+	for (uint32_t name = 1; name < 4; name++) {
+		gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, name);
+		gl_call(&gl, "glTexParameteri", "eee", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, name < 3 ? GL_ALPHA : GL_ALPHA32F_ARB, 2, 2, 0, GL_ALPHA, GL_UNSIGNED_BYTE,
+		        (size_t)4, bytes);
+	}
+	gl_call(&gl, "glBindTexture", "eu", GL_TEXTURE_2D, 2u);
+	draw(&gl);
+	copy_image(&gl, 1, 2, 0, 2);
+	draw(&gl);
+	copy_image(&gl, 2, 2, 1, 1); /* 10 where 20 was */
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	draw(&gl);
+	copy_image(&gl, 1, 2, 1, 2);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	copy_image(&gl, 1, 7, 0, 1);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	copy_image(&gl, 1, 3, 0, 1);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_textures, 3);
+	ck_assert_mem_eq(s->textures[0]->texels, ((uint8_t[]){ 0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30, 0, 0, 0, 40 }), 16);
+	ck_assert_mem_eq(s->textures[1]->texels, ((uint8_t[]){ 0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 10, 0, 0, 0, 20 }), 16);
+	ck_assert_mem_eq(s->textures[2]->texels, ((uint8_t[]){ 0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 10, 0, 0, 0, 10 }), 16);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Sec. 3.6.4: images are skipped in three dimensions only. */
 START_TEST(test_skipped_images)
 {
@@ -329,4 +371,4 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_numbers, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
