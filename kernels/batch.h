@@ -47,7 +47,7 @@ struct batch {
 	(packf)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se, a.sf, b.se, b.sf)
 
 /* Sixteen of a table's entries of four numbers, turned into rows. */
-WIDE_VECTORS static inline void batch_gather(__global const float *table, packu index, packf *row)
+WIDE_VECTORS INLINED void batch_gather(__global const float *table, packu index, packf *row)
 {
 	const packf a = (packf)(vload4(index.s0, table), vload4(index.s4, table), vload4(index.s8, table), vload4(index.sc, table));
 	const packf b = (packf)(vload4(index.s1, table), vload4(index.s5, table), vload4(index.s9, table), vload4(index.sd, table));
@@ -167,7 +167,7 @@ WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
  * @param far     of the tile
  * @return one bit for each triangle that the tile may see
  */
-WIDE_VECTORS static inline uint batch_set_up(__global const struct view *view, uint height, int x, int y, uint flags,
+WIDE_VECTORS INLINED uint batch_set_up(__global const struct view *view, uint height, int x, int y, uint flags,
                                              const struct batch_corners *v, packi lanes, const struct batch_far *far, struct batch *out)
 {
 	const struct clip_spot at = clip_spot(view, x, y);

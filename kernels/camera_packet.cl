@@ -316,7 +316,6 @@ static inline void add_faces(struct tile *t, uint index, __global const struct f
 	struct pending *pending = &t->pending;
 	const uint n = pending->n;
 
-
 	vstore8(vload8(0, faces->primitive), 0, pending->primitive + n);
 	for (int i = 0; i < 3; i++)
 		vstore8(vload8(0, faces->vertex[i]), 0, pending->vertex[i] + n);
