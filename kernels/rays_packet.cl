@@ -6,7 +6,7 @@
  *
  * Tried on a processor with AVX-512, and left: rays sorted by octant or finer over 256 to 16384 of them (a twentieth less time at best,
  * sorting not counted); nodes and leaves prefetched when they are pushed (nothing); misses seen before the quotient of the triangle test
- * (a tenth more: nobody foresees the branch); two single rays at once in sixteen lanes (up to a third more); eight-wide trees of least
+ * (a tenth more: nobody foresees the branch); two single rays at once in sixteen lanes (up to two fifths more); eight-wide trees of least
  * cost as compress.c makes them, and leaves of fewer triangles (nothing, and up to a fifth more: leaves come from memory).
  */
 #include "kernels/rays.h"
