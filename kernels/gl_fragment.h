@@ -48,12 +48,16 @@ static inline struct vec3 point_corner(const struct point *p, int i)
 	return e[3] == 1.0f ? v3_load(e) : v3_scale(v3_load(e), 1.0f / e[3]);
 }
 
-/* The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. */
+/*
+ * The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. Length 0 where
+ * there is none: no area, or corners that are no numbers.
+ */
 static inline struct vec3 point_plane_normal(const struct point *p)
 {
 	struct vec3 a = point_corner(p, 0);
+	struct vec3 n = v3_normalize(v3_cross(v3_sub(point_corner(p, 1), a), v3_sub(point_corner(p, 2), a)));
 
-	return v3_normalize(v3_cross(v3_sub(point_corner(p, 1), a), v3_sub(point_corner(p, 2), a)));
+	return v3_dot(n, n) > 0.0f ? n : v3(0.0f, 0.0f, 0.0f);
 }
 
 /* (x, y, w) of a clip-space vertex: lines through the eye, which clipping does not disturb. */

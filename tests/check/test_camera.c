@@ -192,9 +192,27 @@ static void compare_fragment(const struct fragment *a, const struct fragment *b,
 	              pixel / WIDTH, b->b1, b->b2, b->depth, a->b1, a->b2, a->depth);
 }
 
-static void compare(const struct result *want, const struct result *got, uint32_t mode, const char *what)
+/* Is this the fragment of a triangle seen edge-on, nearer than any vertex of it (camera.h)? */
+static int stands_out(const struct frame *f, const struct fragment *n)
+{
+	const struct instance *instance = &f->s->instances[n->instance];
+	const uint32_t *v = f->s->mesh_list[f->s->scene_instances[n->instance].mesh]->index + 3 * (size_t)n->primitive;
+	float nearest = 1;
+
+	for (int i = 0; i < 3; i++) {
+		const struct window_vertex *w = &f->window[instance->vertex_first + v[i]];
+
+		if (!(w->w_inv > 0))
+			return 0;
+		nearest = fminf(nearest, w->z);
+	}
+	return n->depth < nearest - 1e-5f;
+}
+
+static void compare(const struct frame *f, const struct result *want, const struct result *got, uint32_t mode, const char *what)
 {
 	const uint32_t stride = mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
+	uint32_t n_standing_out = 0;
 
 	for (uint32_t i = 0; i < PIXELS; i++) {
 		ck_assert_msg(want->counts[i] == got->counts[i], "%s: pixel %u %u: %u fragments, the twin has %u (first order %d, depth %g)", what,
@@ -202,9 +220,15 @@ static void compare(const struct result *want, const struct result *got, uint32_
 		              want->fragments[i * stride].depth);
 		if (want->counts[i] == GUARD_WORD)
 			continue;
+		if (mode != CAMERA_COLUMN && want->counts[i] && want->fragments[i].order != got->fragments[i].order &&
+		    stands_out(f, want->fragments[i].depth < got->fragments[i].depth ? &want->fragments[i] : &got->fragments[i])) {
+			n_standing_out++;
+			continue;
+		}
 		for (uint32_t k = 0; k < (mode == CAMERA_COLUMN ? want->counts[i] : 1); k++)
 			compare_fragment(&want->fragments[i * stride + k], &got->fragments[i * stride + k], i, what);
 	}
+	ck_assert_msg(n_standing_out <= 2, "%s: %u pixels differ by triangles seen edge-on", what, n_standing_out);
 }
 
 START_TEST(kernels_agree_with_twins)
@@ -232,7 +256,7 @@ START_TEST(kernels_agree_with_twins)
 					         i & 2 ? "a sample" : "centres", mode);
 					run(&f, reference, kernel, mode, &want);
 					run(&f, dev, kernel, mode, &got);
-					compare(&want, &got, mode, what);
+					compare(&f, &want, &got, mode, what);
 					run(&f, dev, kernel, mode, &again);
 					ck_assert_msg(memcmp(&got, &again, sizeof(got)) == 0, "%s: two runs differ", what);
 				}
@@ -274,11 +298,11 @@ START_TEST(boxes_lose_nothing)
 					}
 			}
 			run(&f, dev, KERNEL_camera_wide, mode, &want);
-			compare(&want, &got, mode, "boxes");
+			compare(&f, &want, &got, mode, "boxes");
 			run(&f, dev, KERNEL_camera_compressed, mode, &got);
-			compare(&want, &got, mode, "compressed boxes");
+			compare(&f, &want, &got, mode, "compressed boxes");
 			run(&f, dev, KERNEL_camera_packet, mode, &got);
-			compare(&want, &got, mode, "boxes in rows");
+			compare(&f, &want, &got, mode, "boxes in rows");
 			memcpy(a->nodes2, nodes, a->n_nodes2 * sizeof(*nodes));
 			memcpy(a->top2, top, a->n_top2 * sizeof(*top));
 			free(nodes);
@@ -311,7 +335,7 @@ START_TEST(trees_change_nothing)
 					random_scene_rebuild(f.s, (enum accel_kind)kind);
 					run(&f, dev, kernel, mode, &got);
 					snprintf(what, sizeof(what), "tree of kind %d", kind);
-					compare(&want, &got, mode, what);
+					compare(&f, &want, &got, mode, what);
 				}
 			}
 		free_frame(&f);
