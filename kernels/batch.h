@@ -188,10 +188,10 @@ WIDE_VECTORS INLINED uint batch_set_up(__global const struct view *view, uint he
 		lanes &= ~clockwise;
 	if (!any_pack(lanes))
 		return 0;
-	out->x_first = max(x_first, 0);
-	out->x_last = min(x_last, CAMERA_TILE - 1);
-	out->y_first = max(y_first, 0);
-	out->y_last = min(y_last, CAMERA_TILE - 1);
+	out->x_first = max(x_first, (packi)(0));
+	out->x_last = min(x_last, (packi)(CAMERA_TILE - 1));
+	out->y_first = max(y_first, (packi)(0));
+	out->y_last = min(y_last, (packi)(CAMERA_TILE - 1));
 	batch_edge(v, 0, 1, 2, clockwise, at, out);
 	out->value[0] = batch_edge(v, 1, 2, 0, clockwise, at, out);
 	out->value[1] = batch_edge(v, 2, 0, 1, clockwise, at, out);
