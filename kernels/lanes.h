@@ -27,7 +27,7 @@
 #endif
 #endif
 
-/* Let what stands at p come near: it is read soon. */
+/* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL leaves it out. */
 #if defined(__has_builtin) && !defined(LANES_PORTABLE)
 #if __has_builtin(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
@@ -80,16 +80,6 @@ static inline float8 lanes_max(float8 x, float8 y)
 {
 	return select(y, x, x > y);
 }
-
-/* Memory that will be read soon: what the language's own prefetch does is up to the device, and PoCL leaves it out. */
-#if defined(__has_builtin) && !defined(LANES_PORTABLE)
-#if __has_builtin(__builtin_prefetch)
-#define LANES_PREFETCH(address) __builtin_prefetch(address)
-#endif
-#endif
-#ifndef LANES_PREFETCH
-#define LANES_PREFETCH(address)
-#endif
 
 /* Sixteen lanes in one register where there is one: the compiler would rather halve them. */
 #if defined(__AVX512F__) && defined(__has_attribute)

@@ -375,7 +375,7 @@ static inline ulong load_packets(struct packet *p, __global const struct ray *ra
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n), k);
 	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* the next item's; two fill a line */
-		LANES_PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
+		PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
 	return lanes;
 }
 
