@@ -26,18 +26,19 @@ LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(addprefix capture/,wrap.c maps.c resolve.c context.c frame.c skip.c readback.c font.c arrays.c content.c mirror.c watch.c runs.c memory.c sink.c writer.c reference.c)
-RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/sizes.c) \
+RECORDER_SRC := $(wildcard capture/gl/*.c capture/write/*.c)
+RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c) \
 	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
 VISUAL_SRC := diff/visual.c
-COMMAND_SRC := relume.c $(wildcard base/*.c farm/*.c replay/*.c tracer/*.c kernels/ref/*.c) $(filter-out $(VISUAL_SRC),$(wildcard diff/*.c)) \
-	$(filter-out $(RECORDER_SRC),$(wildcard capture/*.c))
+REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format scene look kernels/ref tracer tracer/* farm)) \
+	$(filter-out $(VISUAL_SRC),$(wildcard diff/*.c diff/*/*.c))
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/dispatch.c $(BUILD)/gen/page.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
 # The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
-OIIO_OBJ := $(addprefix $(BUILD)/,diff/oiio.o tracer/image.o base/err.o)
+OIIO_OBJ := $(addprefix $(BUILD)/,diff/pictures/oiio.o tracer/image/image.o base/err.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
@@ -85,25 +86,25 @@ $(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
 # The recorder lives in other people's programs: no sanitizer of ours, nothing shown but the commands of GL, Snappy and its
 # C++ inside, no symbol of its own that the program could replace.
 RECORDER_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -I$(BUILD)/recorder/gen -fvisibility=hidden
-$(BUILD)/librelume.so: $(RECORDER_OBJ) capture/exports.map
-	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/exports.map \
+$(BUILD)/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map
+	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/gen/exports.map \
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
 # The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
 SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen
-$(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/exports.map $(BUILD)/relume
+$(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map $(BUILD)/relume
 	@mkdir -p $(@D)
 	$(Q)cp $(BUILD)/relume $(@D)/relume
-	$(Q)$(CC) $(CPPFLAGS) $(SANITIZED_CFLAGS) -fsanitize=$* -shared -Wl,-Bsymbolic -Wl,--version-script=capture/exports.map -o $@ \
-		$(RECORDER_SRC) capture/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks) -l:libsnappy.a -lstdc++ -ldl -pthread
+	$(Q)$(CC) $(CPPFLAGS) $(SANITIZED_CFLAGS) -fsanitize=$* -shared -Wl,-Bsymbolic -Wl,--version-script=capture/gen/exports.map -o $@ \
+		$(RECORDER_SRC) capture/format/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks) -l:libsnappy.a -lstdc++ -ldl -pthread
 
 $(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O1 -g -fsanitize=$* -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
-$(BUILD)/recorder/gen/stamp: capture/gen.py capture/registry.py capture/overlay.txt | $(BUILD)/deps
+$(BUILD)/recorder/gen/stamp: capture/gen/gen.py capture/gen/registry.py capture/gen/overlay.txt | $(BUILD)/deps
 	@mkdir -p $(@D)
-	$(Q)$(PYTHON) -B capture/gen.py capture/overlay.txt $(@D)
+	$(Q)$(PYTHON) -B capture/gen/gen.py capture/gen/overlay.txt $(@D)
 	@touch $@
 
 $(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks): $(BUILD)/recorder/gen/stamp ;
@@ -120,33 +121,33 @@ GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h
 $(COMMAND_OBJ) $(TESTS:=.o): | $(GENERATED_H)
 $(GENERATED_H): | $(BUILD)/deps
 
-$(BUILD)/gen/gl_tokens.h: replay/gen.py capture/registry.py
+$(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
 
-# Names the layout of the state machine: checkpoints of another one are not read (replay/snapshot.h).
-$(BUILD)/gen/layout.h: replay/snapshot.c replay/state.h replay/exec.h replay/texture.h replay/scene.h
+# Names the layout of the state machine: checkpoints of another one are not read (replay/index/snapshot.h).
+$(BUILD)/gen/layout.h: replay/index/snapshot.c replay/machine/state.h replay/machine/exec.h replay/gl/texture/texture.h scene/scene.h
 	@mkdir -p $(@D)
 	$(Q)echo "#define SNAPSHOT_LAYOUT \"$$(cat $^ | md5sum | cut -d ' ' -f 1)\"" >$@
 
 # Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
-$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/overlay.txt capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
-	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt capture/overlay.txt $(sort $(wildcard replay/*.c))
+$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/gen/overlay.txt capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt capture/gen/overlay.txt $(sort $(REPLAY_SRC))
 
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<
 
 # Kernels travel as text inside the command.
-KERNELS := $(wildcard kernels/*.cl)
+KERNELS := $(wildcard kernels/*/*.cl)
 $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS)
 -include $(BUILD)/gen/kernels.dep
 
 # The report's page, as one string of C.
-$(BUILD)/gen/page.c: diff/page.html
+$(BUILD)/gen/page.c: diff/report/page.html
 	@mkdir -p $(@D)
-	$(Q)(echo '#include "diff/report.h"'; echo 'const char report_page[] ='; \
+	$(Q)(echo '#include "diff/report/report.h"'; echo 'const char report_page[] ='; \
 		sed 's/[\\"]/\\&/g; s/.*/"&\\n"/' $<; echo ';') >$@
 
 # Rebuilt when flags change. Nothing is compiled before what it needs is installed.
@@ -183,7 +184,7 @@ $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lglut -lGLU -lGL -lm
 
 # Tests are linked with everything of the command but its main function, and with the bridge itself.
-$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/diff/oiio.o
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/pictures/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/diff/pictures/oiio.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
@@ -341,7 +342,7 @@ show-replay: all
 DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
 FUZZ_TARGETS := replay calls
-FUZZ_SRC := $(wildcard base/*.c replay/*.c) capture/sizes.c capture/ref.c tests/fuzz/calls.c tests/fuzz/stream.c
+FUZZ_SRC := $(wildcard base/*.c scene/*.c) $(REPLAY_SRC) capture/format/sizes.c capture/format/ref.c tests/fuzz/calls.c tests/fuzz/stream.c
 FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/gen/dispatch.o $(BUILD)/fuzz/objects/gen/fuzz_commands.o
 FUZZ_CFLAGS := $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -MMD -MP -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
@@ -355,8 +356,8 @@ $(BUILD)/fuzz/objects/gen/%.o: $(BUILD)/gen/%.c | $(BUILD)/deps.fuzz
 $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(FUZZ_OBJ)
 	$(Q)clang -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS)
 
-$(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/registry.py $(wildcard replay/*.c) | $(GENERATED_H)
-	$(Q)$(PYTHON) -B $< $@ $(sort $(wildcard replay/*.c))
+$(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B $< $@ $(sort $(REPLAY_SRC))
 
 .PHONY: fuzz fuzz-keep
 fuzz: all $(HELPERS) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)

@@ -10,18 +10,18 @@
 
 int record_main(int argc, char **argv);  /* capture/record.c */
 int info_main(int argc, char **argv);    /* replay/info.c */
-int index_main(int argc, char **argv);   /* replay/index_main.c */
-int dump_main(int argc, char **argv);    /* replay/dump.c */
-int scene_main(int argc, char **argv);   /* replay/scene_json.c */
-int trim_main(int argc, char **argv);    /* replay/trim.c */
-int repair_main(int argc, char **argv);  /* replay/repair.c */
+int index_main(int argc, char **argv);   /* replay/index/index_main.c */
+int dump_main(int argc, char **argv);    /* replay/trace/dump.c */
+int scene_main(int argc, char **argv);   /* scene/json.c */
+int trim_main(int argc, char **argv);    /* replay/trace/trim.c */
+int repair_main(int argc, char **argv);  /* replay/trace/repair.c */
 int export_main(int argc, char **argv);  /* replay/export.c */
-int render_main(int argc, char **argv);  /* tracer/render.c */
+int render_main(int argc, char **argv);  /* tracer/render/render.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* tracer/devices.c */
-int bench_main(int argc, char **argv);   /* tracer/bench.c */
+int bench_main(int argc, char **argv);   /* tracer/bench/bench.c */
 int raster_main(int argc, char **argv);  /* diff/raster.c */
 int diff_main(int argc, char **argv);    /* diff/diff.c */
-int approve_main(int argc, char **argv); /* diff/approve.c */
+int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
 
 #endif

@@ -10,7 +10,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "base/frames.h"
-#include "diff/oiio.h"
+#include "diff/pictures/oiio.h"
 
 /* As the file has it. */
 

@@ -7,7 +7,7 @@
 #ifndef DIFF_RULES_H
 #define DIFF_RULES_H
 
-#include "diff/score.h"
+#include "diff/score/score.h"
 
 struct score_rules; /* opaque */
 

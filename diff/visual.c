@@ -4,7 +4,7 @@
  * SAMPLES", as a trace's relume:bits marker has them, it gets configurations with just these bits, or its own where there is none.
  *
  * And what it reads of a window with several samples a pixel is what the window shows, their mean: glReadPixels need not give that
- * (capture/reference.c).
+ * (capture/gl/reference.c).
  */
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

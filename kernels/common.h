@@ -7,7 +7,7 @@
 #ifndef KERNELS_COMMON_H
 #define KERNELS_COMMON_H
 
-#include "replay/scene.h"
+#include "scene/scene.h"
 #include "kernels/shared.h"
 
 #ifdef __OPENCL_VERSION__

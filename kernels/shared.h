@@ -1,6 +1,6 @@
 /*
  * Structs that the host and the kernels share, beside those of scene.h. Included by C and by OpenCL C 1.2: plain
- * structs of 4-byte fields, no pointers. Sizes are asserted on the host (tracer/device.c).
+ * structs of 4-byte fields, no pointers. Sizes are asserted on the host (tracer/device/device.c).
  *
  * Terms
  *   order      number of a primitive in the frame's draw order (scene.h)
@@ -15,14 +15,14 @@
 typedef ushort uint16_t;
 #define SHARED_SIZE(type, bytes)
 /* A function that is compiled into each kernel that calls it, wherever constants make it another one there. Interpreters of
- * kernels (LANES_PORTABLE, kernels/lanes.h) do not know compilers' own words. */
+ * kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know compilers' own words. */
 #ifdef LANES_PORTABLE
 #define INLINED static inline
 #else
 #define INLINED __attribute__((always_inline)) static inline
 #endif
 #else
-#include "replay/scene.h"
+#include "scene/scene.h"
 #define SHARED_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #endif
 
@@ -91,7 +91,7 @@ SHARED_SIZE(struct node8, 256);
  * An eight-wide node in 80 bytes, five loads of a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs
  * through compressed wide BVHs"): the children's boxes on a grid of 8 bits an axis over the node's own, each at least as large as
  * the one it stands for. Slot s holds the child that lies farthest along the diagonal whose bits are s (bit a set: along +a), so
- * that a ray meets slots about in the order of s ^ its octant, with nothing to sort. kernels/compressed.h reads it.
+ * that a ray meets slots about in the order of s ^ its octant, with nothing to sort. kernels/rays/compressed.h reads it.
  */
 struct node8c {
 	float origin[3];    /* lower corner of the grid */
@@ -320,7 +320,7 @@ SHARED_SIZE(struct frame_pixel, 124);
 
 /*
  * Planes of a finished picture, as the kernel compose leaves them: the top row first, one kind as halves, the other as floats.
- * Names in tracer/compose.c.
+ * Names in tracer/frame/compose.c.
  */
 #define COMPOSE_BEAUTY 0u /* R G B A */
 #define COMPOSE_GL 4u     /* R G B A */
@@ -352,7 +352,7 @@ SHARED_SIZE(struct compose_request, 152);
 /* Pixels of a work item of compose_packet. */
 #define COMPOSE_PACKET 8u
 
-/* Fragments of a work item of shade_packet, rays of one of shadow_ray_packet: a block of the list (tracer/trace.c) where each pixel
+/* Fragments of a work item of shade_packet, rays of one of shadow_ray_packet: a block of the list (tracer/frame/trace.c) where each pixel
  * has one. And triangles that it keeps, by their numbers: neighbours mostly have numbers close together. */
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u

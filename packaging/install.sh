@@ -30,7 +30,7 @@ place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
 place 644 capture/relume.h include/relume.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
-place 644 diff/score.schema.json share/relume/score.schema.json
+place 644 diff/score/score.schema.json share/relume/score.schema.json
 place 644 README.md share/doc/relume/README.md
 for page in "$build"/pages/man/*.1; do
 	place 644 "$page" "share/man/man1/${page##*/}"

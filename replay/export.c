@@ -11,7 +11,7 @@
 #include "base/frames.h"
 #include "base/part.h"
 #include "base/verbs.h"
-#include "replay/gltf.h"
+#include "scene/gltf.h"
 #include "replay/replay.h"
 
 static void print_help(void)

@@ -6,12 +6,12 @@ usage: gen.py OUT tokens                               the enums
 
 A handler is a line of the form GLS_HANDLER(glName, KIND) at the start of a line in replay/*.c. A command without one takes the
 handler of the command that the registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
-Which commands do nothing but draw, or end a frame, is said by the lines "draws" and "ends" of capture/overlay.txt.
+Which commands do nothing but draw, or end a frame, is said by the lines "draws" and "ends" of capture/gen/overlay.txt.
 """
 import re
 import sys
 
-sys.path.insert(0, "capture")
+sys.path.insert(0, "capture/gen")
 import registry  # noqa: E402
 
 
@@ -89,7 +89,7 @@ def dispatch(out, overlay, capture_overlay, sources):
 
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
     lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */",
-             '#include "replay/exec.h"', ""]
+             '#include "replay/machine/exec.h"', ""]
     lines += [f"gls_handler gls_{name};" for name in sorted(handlers)]
     lines += ["", "const struct gls_command gls_commands[] = {"]
     for name in names:

@@ -7,7 +7,7 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
-#include "replay/json.h"
+#include "base/json.h"
 #include "replay/replay.h"
 
 #define TOP_CALLS 20

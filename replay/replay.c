@@ -7,10 +7,10 @@
 #include <xxhash.h>
 
 #include "base/err.h"
-#include "replay/exec.h"
-#include "replay/hash.h"
-#include "replay/index.h"
-#include "replay/reader.h"
+#include "replay/machine/exec.h"
+#include "replay/trace/hash.h"
+#include "replay/index/index.h"
+#include "replay/trace/reader.h"
 
 #define HASHED_BYTES ((uint64_t)1 << 20)
 #define FEW_FRAMES 8 /* that are rather executed than looked for in the index */

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "replay/scene.h"
+#include "scene/scene.h"
 
 struct replay;
 
@@ -37,7 +37,7 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 
 /**
  * Come to a frame, forwards or backwards, so that replay_next_frame finishes that one. Long ways go by the trace's index
- * (replay/index.h), which is made where there is none.
+ * (replay/index/index.h), which is made where there is none.
  * @return 1; 0 the trace has no such frame; ERR_* as replay_next_frame
  */
 int replay_seek(struct replay *rp, uint64_t frame);

@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
-#include "tracer/device.h"
+#include "tracer/device/device.h"
 
 static const char help[] =
 	"usage: relume devices [--json]\n"

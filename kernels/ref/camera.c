@@ -1,13 +1,13 @@
-/* C twins of camera_packet, camera_wide and camera_compressed: one pixel at a time, as kernels/camera.h says. */
-#include "kernels/camera.h"
+/* C twins of camera_packet, camera_wide and camera_compressed: one pixel at a time, as kernels/camera/camera.h says. */
+#include "kernels/camera/camera.h"
 
 #include <math.h>
 
-#include "kernels/compressed.h"
-#include "kernels/gl_clip.h"
-#include "kernels/rays.h"
+#include "kernels/rays/compressed.h"
+#include "kernels/gl/clip.h"
+#include "kernels/rays/rays.h"
 #include "kernels/shared.h"
-#include "tracer/device.h"
+#include "tracer/device/device.h"
 
 extern device_twin camera_packet_c, camera_wide_c, camera_compressed_c;
 

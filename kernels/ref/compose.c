@@ -1,6 +1,6 @@
-/* C twins of kernels/compose.cl and compose_packet.cl. */
-#include "kernels/gl_compose.h"
-#include "tracer/device.h"
+/* C twins of kernels/frame/compose.cl and compose_packet.cl. */
+#include "kernels/frame/compose.h"
+#include "tracer/device/device.h"
 
 extern device_twin compose_c, compose_packet_c, add_pass_c;
 

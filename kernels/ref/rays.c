@@ -1,10 +1,10 @@
-/* C twins of the occlude and intersect kernels: one ray at a time, as kernels/rays.h says. */
-#include "kernels/rays.h"
+/* C twins of the occlude and intersect kernels: one ray at a time, as kernels/rays/rays.h says. */
+#include "kernels/rays/rays.h"
 
 #include <math.h>
 
-#include "kernels/compressed.h"
-#include "tracer/device.h"
+#include "kernels/rays/compressed.h"
+#include "tracer/device/device.h"
 
 extern device_twin occlude_packet_c, intersect_packet_c, occlude_wide_c, intersect_wide_c;
 extern device_twin occlude_binary_c, intersect_binary_c, occlude_compressed_c, intersect_compressed_c;

@@ -1,6 +1,6 @@
-/* C twins of kernels/resolve.cl. */
-#include "kernels/gl_stages.h"
-#include "tracer/device.h"
+/* C twins of kernels/frame/resolve.cl. */
+#include "kernels/gl/stages.h"
+#include "tracer/device/device.h"
 
 extern device_twin clear_c, resolve_c, merge_samples_c;
 

@@ -1,6 +1,6 @@
-/* C twins of kernels/scan.cl. */
-#include "kernels/scan.h"
-#include "tracer/device.h"
+/* C twins of kernels/frame/scan.cl. */
+#include "kernels/frame/scan.h"
+#include "tracer/device/device.h"
 
 extern device_twin scan_sum_c, scan_place_c;
 

@@ -1,6 +1,6 @@
-/* C twins of kernels/secondary.cl and shadow_packet.cl. */
-#include "kernels/gl_secondary.h"
-#include "tracer/device.h"
+/* C twins of kernels/frame/secondary.cl and shadow_packet.cl. */
+#include "kernels/frame/secondary.h"
+#include "tracer/device/device.h"
 
 extern device_twin shadow_ray_c, shadow_ray_packet_c, hit_ray_c, ao_ray_c, shadow_sum_c, shadow_start_c, shadow_walk_c,
 	gather_paths_c, leave_c, sky_ray_c, want_lights_c, shade_hit_c, credit_c, ao_shade_c;

@@ -1,6 +1,6 @@
-/* C twins of kernels/shade.cl and shade_packet.cl. */
-#include "kernels/gl_stages.h"
-#include "tracer/device.h"
+/* C twins of kernels/frame/shade.cl and shade_packet.cl. */
+#include "kernels/gl/stages.h"
+#include "tracer/device/device.h"
 
 extern device_twin gather_c, shade_c, shade_packet_c;
 

@@ -1,6 +1,6 @@
-/* C twin of kernels/vertex.cl. */
-#include "kernels/gl_vertex.h"
-#include "tracer/device.h"
+/* C twin of kernels/frame/vertex.cl. */
+#include "kernels/gl/vertex.h"
+#include "tracer/device/device.h"
 
 extern device_twin vertex_c;
 

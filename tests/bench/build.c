@@ -19,7 +19,7 @@
 #include "base/progress.h"
 #include "tests/bench/embree_build.h"
 #include "tests/bench/hall_mesh.h"
-#include "tracer/bvh.h"
+#include "tracer/accel/bvh.h"
 
 #define LEAF_MAX 4
 #define MAX_REPEATS 99

@@ -29,8 +29,8 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "kernels/rays.h"
-#include "tracer/bench.h"
+#include "kernels/rays/rays.h"
+#include "tracer/bench/bench.h"
 
 #define ROUNDING 32
 #define N_SCENES 4

@@ -12,8 +12,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "tracer/accel.h"
-#include "tracer/device.h"
+#include "tracer/accel/accel.h"
+#include "tracer/device/device.h"
 
 #define MESHES 3
 #define INSTANCES 6

@@ -4,8 +4,8 @@
  */
 #include <stdlib.h>
 
-#include "kernels/gl_blend.h"
-#include "replay/scene.h"
+#include "kernels/gl/blend.h"
+#include "scene/scene.h"
 #include "tests/case.h"
 
 #define SIDE 256

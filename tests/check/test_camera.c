@@ -1,7 +1,7 @@
 /* The camera kernels against their C twins, and the twins against all triangles one by one. */
 #include "tests/check/random_scene.h"
 
-#include "kernels/camera.h"
+#include "kernels/camera/camera.h"
 #include "tests/case.h"
 
 #define WIDTH 75 /* not a multiple of a tile */

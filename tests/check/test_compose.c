@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/gl_tables.h"
+#include "kernels/gl/tables.h"
 #include "tests/case.h"
-#include "tracer/device.h"
+#include "tracer/device/device.h"
 
 #define WIDTH 13u
 #define HEIGHT 7u

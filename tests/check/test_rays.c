@@ -1,7 +1,7 @@
 /* The occlude and intersect kernels against their C twins, and the twins against all triangles one by one. */
 #include "tests/check/random_scene.h"
 
-#include "kernels/rays.h"
+#include "kernels/rays/rays.h"
 #include "tests/case.h"
 
 #define N_RAYS 4099 /* not a multiple of a packet */

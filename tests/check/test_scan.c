@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/scan.h"
+#include "kernels/frame/scan.h"
 #include "tests/case.h"
-#include "tracer/scan.h"
+#include "tracer/frame/scan.h"
 
 #define MOST (SCAN_CHUNK * SCAN_CHUNK * SCAN_CHUNK + 3)
 #define GUARD 16

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/exec.h"
-#include "replay/snapshot.h"
+#include "replay/machine/exec.h"
+#include "replay/index/snapshot.h"
 
 #define MAX_FRAMES 8
 #define MAX_ITEMS 256

@@ -62,7 +62,7 @@ extern const struct calls_painter calls_grey;
 
 /**
  * Execute the calls in a state machine of their own, with one context current at the start; scenes are built at each swap.
- * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/snapshot.h).
+ * After each frame the state is saved, loaded and saved again: both are the same bytes (replay/index/snapshot.h).
  * @param painter  NULL: nobody makes pixels
  * @return 0; 1 where they are not
  */

@@ -1,5 +1,5 @@
 /*
- * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/trace.md), put into a
+ * libFuzzer's target for reader and state machine: the input is a trace's logical stream (see capture/format/trace.md), put into a
  * Snappy container and replayed with the scenes of its first frames, or of every other one. Links no tracer: a frame that needs pixels goes without.
  * Most changes are to its calls (stream.h), the others to its bytes.
  */

@@ -1,5 +1,5 @@
 /*
- * A trace's logical stream (capture/trace.md) taken apart into calls and put together otherwise: what libFuzzer needs to come past
+ * A trace's logical stream (capture/format/trace.md) taken apart into calls and put together otherwise: what libFuzzer needs to come past
  * the reader with real recordings. Signatures are defined anew where they are first used, so that calls may go anywhere.
  *
  * A call is written whole, its return right behind its beginning; what stood between the two comes after it.

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "replay/container.h"
-#include "replay/reader.h"
+#include "replay/trace/container.h"
+#include "replay/trace/reader.h"
 #include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/stream.h"

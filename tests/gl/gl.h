@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/exec.h"
+#include "replay/machine/exec.h"
 #include "replay/replay.h"
 #include "tests/case.h"
 

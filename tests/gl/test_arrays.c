@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "base/err.h"
-#include "replay/bytes.h"
-#include "replay/snapshot.h"
+#include "replay/index/bytes.h"
+#include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
 
 static const float square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };

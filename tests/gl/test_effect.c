@@ -1,10 +1,10 @@
 /*
- * What a display list leaves behind in frames that are skipped (replay/effect.c): the same state and the same errors, to the
+ * What a display list leaves behind in frames that are skipped (replay/gl/geometry/effect.c): the same state and the same errors, to the
  * last bit, as the list itself leaves behind in frames that are built.
  */
 #include <math.h>
 
-#include "replay/snapshot.h"
+#include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
 
 #define N_LISTS 6

@@ -1,6 +1,6 @@
 /* Evaluators: curves, surfaces, grids and meshes (GL 2.1 sec. 5.1). */
 #include "base/err.h"
-#include "replay/snapshot.h"
+#include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
 
 static const float arc[9] = { 0, 0, 0, 1, 2, 0, 2, 0, 0 };

@@ -1,7 +1,7 @@
 /* Matrices, stacks, viewport, clip planes, lights' places (GL 2.1 sec. 2.11, 2.12, 2.14). */
 #include <math.h>
 
-#include "replay/mat4.h"
+#include "base/mat4.h"
 #include "tests/gl/gl.h"
 
 static const float *modelview(struct gl *gl)

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("RELUME_BUILD", ROOT / "build"))
 RELUME = os.environ.get("RELUME", str(BUILD / "relume"))
 SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
-SCHEMA = json.loads((ROOT / "diff/score.schema.json").read_text())
+SCHEMA = json.loads((ROOT / "diff/score/score.schema.json").read_text())
 AS_SHOWN = ("--mode", "gl", "--encoding", "display")
 GATES = ("V", "R1", "R2", "R3", "R4", "R5", "E1", "E2", "P")
 

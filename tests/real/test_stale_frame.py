@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 RELUME = os.environ["RELUME"]
-HEADER = struct.Struct("<IIIQQ")  # kind, width, height, frame, packed bytes: capture/ref.h
+HEADER = struct.Struct("<IIIQQ")  # kind, width, height, frame, packed bytes: capture/format/ref.h
 FRAMES = 24  # glxgears turns by the clock: on a fast machine neighbouring frames are nearly the same picture
 STALE, SHOWN = FRAMES - 1, 1
 

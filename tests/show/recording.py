@@ -31,7 +31,7 @@ class Recording:
 
 
 def list_references(path):
-    """The frames of a .ref file (capture/ref.h), and whether they have depth."""
+    """The frames of a .ref file (capture/format/ref.h), and whether they have depth."""
     frames, depth = [], False
     if not path.exists():
         return frames, depth

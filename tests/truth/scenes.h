@@ -9,10 +9,10 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "replay/scene.h"
-#include "tracer/device.h"
-#include "tracer/image.h"
-#include "tracer/trace.h"
+#include "scene/scene.h"
+#include "tracer/device/device.h"
+#include "tracer/image/image.h"
+#include "tracer/frame/trace.h"
 
 #define TRUTH_MAX 8
 

@@ -1,4 +1,4 @@
-/* Rules (tracer/look.h): files that are wrong, what rules match, and what they make of a picture. */
+/* Rules (look/look.h): files that are wrong, what rules match, and what they make of a picture. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
-#include "tracer/look.h"
+#include "look/look.h"
 
 #define SIZE 32
 

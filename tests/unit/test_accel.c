@@ -1,9 +1,9 @@
 /* Trees: every item in one leaf, boxes around what is below, depth bounded; and meshes kept across frames by content. */
 #include "tests/check/random_scene.h"
 
-#include "kernels/compressed.h"
+#include "kernels/rays/compressed.h"
 #include "tests/case.h"
-#include "tracer/bvh.h"
+#include "tracer/accel/bvh.h"
 
 #define N 70000
 #define CUT_MAX 20000 /* triangles for trees that cut space */

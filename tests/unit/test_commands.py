@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-CAPTURE = ROOT / "capture"
+CAPTURE = ROOT / "capture/gen"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(CAPTURE))
 import registry  # noqa: E402

@@ -3,9 +3,9 @@
 #include <half.h>
 #include <math.h>
 
-#include "kernels/gl_compose.h"
+#include "kernels/frame/compose.h"
 #include "tests/case.h"
-#include "tracer/image.h"
+#include "tracer/image/image.h"
 
 START_TEST(test_halves)
 {

@@ -9,7 +9,7 @@
 
 #include "kernels/shared.h"
 #include "tests/case.h"
-#include "tracer/device.h"
+#include "tracer/device/device.h"
 
 /* A second queue that took the kernels for GPUs on a CPU would be several times slower, and nobody would see why. */
 START_TEST(test_shared_device_takes_the_same_kernels)

@@ -15,7 +15,7 @@ import zlib
 import jsonschema
 
 RELUME = os.environ.get("RELUME", "build/relume")
-SCHEMA = json.loads((pathlib.Path(__file__).resolve().parent.parent.parent / "diff/score.schema.json").read_text())
+SCHEMA = json.loads((pathlib.Path(__file__).resolve().parent.parent.parent / "diff/score/score.schema.json").read_text())
 WIDTH, HEIGHT = 48, 40
 
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diff/score.h"
+#include "diff/score/score.h"
 #include "tests/case.h"
 
 enum { WIDTH = 160, HEIGHT = 120, N = WIDTH * HEIGHT };

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "tests/case.h"
-#include "tracer/grove.h"
+#include "tracer/accel/blas_cache.h"
 
 #define THREADS 4
 #define KEYS 50

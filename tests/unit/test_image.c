@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "tests/case.h"
-#include "tracer/image.h"
+#include "tracer/image/image.h"
 
 static char folder[] = "/tmp/test_image.XXXXXX";
 

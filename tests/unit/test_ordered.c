@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "diff/ordered.h"
+#include "diff/report/ordered.h"
 #include "tests/case.h"
 
 enum { N = 200, FAILS_AT = 90 };

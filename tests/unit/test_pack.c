@@ -1,5 +1,5 @@
 /* replay/pack: what is packed comes back, and what does not pack is kept as it is. */
-#include "replay/pack.h"
+#include "replay/index/pack.h"
 
 #include <stdint.h>
 #include <stdlib.h>

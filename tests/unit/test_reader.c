@@ -1,5 +1,5 @@
 /* replay/reader: traces written here byte by byte, whole, cut and damaged. */
-#include "replay/reader.h"
+#include "replay/trace/reader.h"
 
 #include <snappy-c.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "capture/ref.h"
+#include "capture/format/ref.h"
 #include "tests/case.h"
 
 enum { WIDTH = 5, HEIGHT = 3, PIXEL_BYTES = WIDTH * HEIGHT * 4, N_FRAMES = 4 };

@@ -2,7 +2,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include "capture/sizes.h"
+#include "capture/format/sizes.h"
 #include "tests/case.h"
 
 static const struct pixel_layout initial = { .alignment = 4 };

@@ -11,8 +11,8 @@
 #include <xxhash.h>
 
 #include "tests/case.h"
-#include "tracer/store.h"
-#include "tracer/tree.h"
+#include "tracer/accel/blas_store.h"
+#include "tracer/accel/tree.h"
 
 #define N 6000
 

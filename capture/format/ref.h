@@ -1,0 +1,60 @@
+/*
+ * Reference frames: what the recorded program itself showed, read back just before each frame's end.
+ *
+ * File NAME.ref beside NAME.trace, little-endian:
+ *   magic   8 bytes "RELREF1\n"
+ *   record* u32 kind, u32 width, u32 height, u64 frame, u64 packed_bytes, then packed_bytes of one raw Snappy block
+ * kind 1: colour, RGBA, 8 bits each; of a window with several samples a pixel their mean, as it is shown.
+ * kind 2: window depth, one float each, [0,1]; of several samples what glReadPixels gives.
+ * Rows run from the bottom row up, as GL delivers them, without padding. Frames ascend; a frame's records follow
+ * each other. A file cut at any byte is valid up to the last whole record.
+ */
+#ifndef CAPTURE_FORMAT_REF_H
+#define CAPTURE_FORMAT_REF_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define REF_MAGIC "RELREF1\n"
+
+enum ref_kind { REF_COLOR = 1, REF_DEPTH = 2 };
+
+struct ref_entry {
+	enum ref_kind kind;
+	uint32_t width, height;
+	uint64_t frame;
+	uint64_t offset, packed_bytes; /* of the Snappy block in the file */
+};
+
+struct ref_file {
+	void *stream; /* private */
+	char *path;
+	struct ref_entry *entries; /* all whole records, in file order */
+	size_t n_entries;
+};
+
+/**
+ * Open a reference file and list its records (pixels are not read yet).
+ * @param ref  all zero; filled on success; close with ref_close
+ * @return 0, ERR_INPUT (reported: missing, or not such a file) or ERR_SYSTEM (reported)
+ */
+int ref_open(struct ref_file *ref, const char *path);
+void ref_close(struct ref_file *ref);
+
+/** The record of a frame, or NULL. */
+const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind, uint64_t frame);
+
+/**
+ * Read one record's pixels. Several threads may do so at once.
+ * @param out  receives a buffer of width * height * 4 bytes (RGBA8, or float), bottom row first; caller frees with free()
+ * @return 0, ERR_INPUT (reported: the block does not decode to that size) or ERR_SYSTEM (reported)
+ */
+int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out);
+
+/**
+ * Write the records of some frames as a file of their own, whose frames count from 0. The file appears when it is whole.
+ * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
+ */
+int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path);
+
+#endif

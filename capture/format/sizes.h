@@ -1,0 +1,54 @@
+/*
+ * How much memory an argument points to: one function for each form that Khronos' registry leaves to the reader (COMPSIZE).
+ * Calls no GL and knows no state, so the recorder, the replay and the tests share it.
+ */
+#ifndef CAPTURE_FORMAT_SIZES_H
+#define CAPTURE_FORMAT_SIZES_H
+
+#include <stddef.h>
+#include <string.h>
+
+/** How pixels lie in memory (GL 2.1 sec. 3.6.1, table 3.1). All zero but alignment 4 is GL's initial state. */
+struct pixel_layout {
+	int row_length, image_height, skip_rows, skip_pixels, skip_images, alignment;
+};
+
+/** Values of a vector parameter or query by its name (GL_POSITION: 4); 1 for what is not known. */
+long count_of_pname(unsigned pname);
+
+/** Bytes of one element of a type (GL_FLOAT: 4); 0 for what is no type. Packed pixel types count as a whole pixel. */
+long type_bytes(unsigned type);
+
+/** Bytes of one pixel; 0 where format and type do not say (GL_BITMAP: less than a byte). */
+long image_pixel_bytes(unsigned format, unsigned type);
+
+/**
+ * Bytes from the pointer to the end of the last pixel that GL reads.
+ * @param dims  1 to 3: what the call has (rows skipped and images skipped count only from 2 and 3 on)
+ * @return 0 where there are no pixels, or format, type or layout are no such thing
+ */
+long image_bytes(const struct pixel_layout *layout, int dims, unsigned format, unsigned type, int width, int height,
+                 int depth);
+
+/** Bytes of glCallLists' list names. */
+long call_lists_bytes(int n, unsigned type);
+
+/** Values of glClearBuffer*v for a buffer. */
+long clear_buffer_count(unsigned buffer);
+
+/** Values of one- and two-dimensional evaluator maps' control points, strides included (GL 2.1 sec. 5.1). */
+long map1_count(unsigned target, int stride, int order);
+long map2_count(unsigned target, int ustride, int uorder, int vstride, int vorder);
+
+/** Bytes of a text with a length beside it that may say "to its NUL" by being 0 (marker), or below 0 (debug text). */
+static inline long marker_bytes(int length, const void *text)
+{
+	return length > 0 || !text ? length : (long)strlen(text);
+}
+
+static inline long debug_text_bytes(int length, const void *text)
+{
+	return length >= 0 || !text ? length : (long)strlen(text);
+}
+
+#endif

@@ -1,0 +1,56 @@
+/*
+ * One recorded call: what the trace holds, in memory. The grammar of the file is in trace.md.
+ *
+ * A call owns nothing: its name and signature live as long as the reader, its values until the next call is read.
+ */
+#ifndef CAPTURE_FORMAT_TRACE_H
+#define CAPTURE_FORMAT_TRACE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum trace_type { /* the tags of the format */
+	TRACE_NULL, TRACE_FALSE, TRACE_TRUE, TRACE_SINT, TRACE_UINT, TRACE_FLOAT, TRACE_DOUBLE, TRACE_STRING,
+	TRACE_BLOB, TRACE_ENUM, TRACE_BITMASK, TRACE_ARRAY, TRACE_STRUCT, TRACE_OPAQUE, TRACE_REPR, TRACE_WSTRING,
+	N_TRACE_TYPES,
+	TRACE_NONE = -1 /* an argument that was not recorded */
+};
+
+struct trace_value {
+	enum trace_type type;
+	const void *sig; /* ENUM, BITMASK, STRUCT: the reader's signature (names), else NULL */
+	uint64_t count;  /* STRING, BLOB: bytes; ARRAY, STRUCT, WSTRING: elements; REPR: 2 */
+	union {
+		uint64_t u;  /* UINT, BITMASK, OPAQUE */
+		int64_t i;   /* SINT, ENUM */
+		float f;
+		double d;
+		const char *str;                  /* STRING: NUL-terminated beyond its count */
+		const uint8_t *blob;
+		const struct trace_value *items;  /* ARRAY, STRUCT members, REPR (human, machine) */
+		const uint32_t *wide;
+	};
+};
+
+struct call_sig {
+	uint64_t id;
+	const char *name;
+	uint32_t n_args;
+	const char **arg_names;
+	int32_t command; /* index in the generated command table, -1: unknown there */
+};
+
+enum { CALL_FAKE = 1 }; /* flag bit 0: made up by the recorder; executed like any other */
+
+struct call {
+	uint64_t number; /* ordinal of its ENTER event, from 0 */
+	uint64_t thread;
+	const struct call_sig *sig;
+	uint32_t flags;
+	int incomplete;  /* the file ended before the call returned */
+	uint32_t n_args; /* at least sig->n_args; unrecorded ones are TRACE_NONE */
+	const struct trace_value *args;
+	struct trace_value ret; /* TRACE_NONE for void calls */
+};
+
+#endif

@@ -1,0 +1,73 @@
+/* Runs inside the traced program. */
+#include "capture/gl/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+enum { PAGE = 4096 };
+
+/* Where a sandbox forbids process_vm_readv, the same by a file. */
+static ssize_t copy_by_file(void *to, const void *from, size_t bytes)
+{
+	int fd = open("/proc/self/mem", O_RDONLY | O_CLOEXEC);
+	ssize_t n = fd < 0 ? -1 : pread(fd, to, bytes, (off_t)(uintptr_t)from);
+
+	if (fd >= 0)
+		close(fd);
+	return n;
+}
+
+/* One kernel copy; returns the bytes copied, 0 at an unreadable start. */
+static size_t copy(void *to, const void *from, size_t bytes)
+{
+	struct iovec local = { to, bytes }, remote = { (void *)from, bytes };
+	ssize_t n = process_vm_readv(getpid(), &local, 1, &remote, 1, 0);
+
+	if (n < 0 && errno != EFAULT)
+		n = copy_by_file(to, from, bytes);
+	return n > 0 ? (size_t)n : 0;
+}
+
+size_t memory_read(void *to, const void *from, size_t bytes)
+{
+	size_t done = 0, lost = 0;
+	int saved = errno;
+
+	while (done < bytes) {
+		size_t page;
+
+		done += copy((char *)to + done, (const char *)from + done, bytes - done);
+		if (done == bytes)
+			break;
+		/* The page at `done` is not there: zeros, and on with the next one. */
+		page = PAGE - (((uintptr_t)from + done) & (PAGE - 1));
+		if (page > bytes - done)
+			page = bytes - done;
+		memset((char *)to + done, 0, page);
+		done += page;
+		lost += page;
+	}
+	errno = saved;
+	return lost;
+}
+
+size_t memory_text_bytes(const char *text)
+{
+	char part[PAGE / 16]; /* pieces end where pages do: one is readable as a whole or not at all */
+	size_t bytes = 0;
+
+	for (;;) {
+		size_t n = sizeof(part) - (((uintptr_t)text + bytes) & (sizeof(part) - 1)), length;
+
+		if (memory_read(part, text + bytes, n))
+			return bytes;
+		length = strnlen(part, n);
+		bytes += length;
+		if (length < n)
+			return bytes;
+	}
+}

@@ -1,0 +1,83 @@
+/*
+ * Runs inside the traced program. Begin..End runs: what was drawn before is written as a call of a display list.
+ *
+ * The calls from glBegin to glEnd are kept as plain records and written when the run is whole. A run whose bytes were drawn
+ * before becomes a display list that only the trace has, and from then on a single glCallList. What comes next is guessed
+ * (the run that followed the last one in the frame before), so that each call of a static scene costs the comparison of its
+ * arguments with those in the guessed run, and nothing is copied or hashed.
+ *
+ * A record is a word (command, bytes of arguments in the upper half) and the arguments as C has them, packed one after the
+ * other and padded to four bytes; struct command's `shape` says what they are.
+ */
+#ifndef CAPTURE_WRITE_RUNS_H
+#define CAPTURE_WRITE_RUNS_H
+
+#include <stdint.h>
+#include <string.h>
+
+struct runs_table; /* of one context; NULL is an empty one */
+
+enum { RUNS_MAX_ARGUMENTS = 64 }; /* bytes of one call's arguments; GL's longest has 36 */
+
+extern __thread struct runs_thread {
+	int open;              /* a run is being kept */
+	const uint8_t *expect; /* the record that the next call should be; NULL: nothing is expected */
+	uint8_t *at, *end;     /* where the next record goes where it is not as expected; RUNS_MAX_ARGUMENTS fit behind `end` */
+} runs_self __attribute__((tls_model("initial-exec"), visibility("hidden")));
+
+/** glBegin. 1 where the run is kept, and glBegin must not be written now. */
+int runs_begin(unsigned mode);
+/** glEnd. 1 where it ended a run that was kept; all of it is written. */
+int runs_end(void);
+/** Edge flags were set: lists are made no more in this context (their vertices would need flags known only when called). */
+void runs_edge_flag_set(void);
+/**
+ * glColorMaterial. Where the back face alone follows the colour, lists are made no more: Mesa lights back faces otherwise where the
+ * colour is a vertex's than where it is constant (22.3.6), and the colour that a program sets before glBegin is the former where
+ * vertices are pending, the latter where a list is called.
+ */
+void runs_color_material(unsigned face);
+/** The program began or ended a list of its own, or deleted some. */
+void runs_list_state(void);
+void runs_lists_used(unsigned first, long count);
+
+void runs_free(struct runs_table **table);
+
+/** Leave the guessed run; what was as guessed is copied. 0: there was no room, as below. */
+int runs_diverge(void);
+/** More room. 0: there is none, the run has been written as far as it goes and is no longer kept. */
+int runs_grow(void);
+
+/** 1 where this thread keeps a run. */
+static inline int runs_open(void)
+{
+	return runs_self.open;
+}
+
+/** A call inside the run. `bytes` is best known at compile time. Returns 0 where the run is kept no more: write the call. */
+static inline __attribute__((always_inline)) int runs_put(unsigned command, const void *arguments, unsigned bytes)
+{
+	uint32_t word = command | bytes << 16, padded = (bytes + 3) & ~3u;
+
+	if (__builtin_expect(runs_self.expect != NULL, 1)) {
+		uint32_t expected;
+
+		memcpy(&expected, runs_self.expect, sizeof(expected));
+		if (__builtin_expect(expected == word && memcmp(runs_self.expect + 4, arguments, bytes) == 0, 1)) {
+			runs_self.expect += 4 + padded;
+			return 1;
+		}
+		if (!runs_diverge())
+			return 0;
+	}
+	if (runs_self.at >= runs_self.end && !runs_grow())
+		return 0;
+	if (bytes & 3)
+		memset(runs_self.at + padded, 0, 4);
+	memcpy(runs_self.at, &word, sizeof(word));
+	memcpy(runs_self.at + 4, arguments, bytes);
+	runs_self.at += 4 + padded;
+	return 1;
+}
+
+#endif

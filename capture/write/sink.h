@@ -1,0 +1,50 @@
+/*
+ * Runs inside the traced program. Where the trace goes: chunks of plain bytes in, packed chunks in the file.
+ *
+ * A chunk that is full is handed to a thread, which packs and writes it while the program goes on. At the end of a frame the
+ * rest is handed over before the program's buffers are swapped and waited for after that, so that a frame whose swap has
+ * returned is in the kernel's hands, and packing costs no time where the swap takes longer. Little data is packed and written
+ * on the spot: waking a thread would take longer.
+ *
+ * One caller at a time (the writer's lock). Errors stay: from the first on nothing more is written, and what is not whole in
+ * the file is cut off. Every function keeps errno.
+ */
+#ifndef CAPTURE_WRITE_SINK_H
+#define CAPTURE_WRITE_SINK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SINK_CHUNK = 1 << 20 };
+
+struct sink_state {
+	const char *path;  /* "" before there is a file */
+	int error;         /* errno of what went wrong; 0: nothing */
+	const char *what;  /* in words */
+	uint64_t bytes;    /* in the file */
+};
+
+/**
+ * Create NAME.trace, or NAME.1.trace and so on where that is there: the first process that calls GL gets the name asked for.
+ * @return the first chunk to fill, SINK_CHUNK bytes; NULL where there is no file (sink_state says why)
+ */
+uint8_t *sink_open(const char *name);
+
+/** The first `bytes` of the chunk are complete. Returns the chunk to fill next. */
+uint8_t *sink_hand_over(size_t bytes);
+
+/** As sink_hand_over, and all is in the file when it returns. */
+uint8_t *sink_write(size_t bytes);
+
+struct sink_state sink_state(void);
+
+/** In the child of a fork: the file is the parent's. What the parent handed over must have been waited for (sink_write). */
+void sink_leave(void);
+
+/**
+ * Write all of `data` at an offset, without raising SIGXFSZ.
+ * @return 0 or an errno; part of the data may be in the file then
+ */
+int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset);
+
+#endif

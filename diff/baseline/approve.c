@@ -1,0 +1,340 @@
+/* relume approve: make traced frames the ones that later frames are compared with. */
+#include "base/verbs.h"
+
+#include <getopt.h>
+#include <inttypes.h>
+#include <pwd.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/frames.h"
+#include "diff/baseline/baseline.h"
+#include "diff/score/gates.h"
+#include "diff/report/output.h"
+#include "diff/pictures/set.h"
+
+struct options {
+	const char *traced, *dir, *by, *reason;
+	struct frame_list frames;
+	int hashes, dry_run;
+};
+
+static void print_help(FILE *out)
+{
+	fputs("usage: relume approve [OPTIONS] TRACED BASELINE\n"
+	      "\n"
+	      "Approve traced frames: 'relume diff --baseline BASELINE' compares later ones with them.\n"
+	      "What changes is printed frame by frame.\n"
+	      "\n"
+	      "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
+	      "BASELINE  a folder; each device has a folder of its own in it\n"
+	      "\n"
+	      "  -f, --frames LIST  frames to approve, as in 10-60 or 1-500x5; default: all\n"
+	      "      --hashes       keep only the hashes of the channels: small, but only the same device can be compared\n"
+	      "      --by NAME      who approves (default: the user)\n"
+	      "      --reason TEXT  why\n"
+	      "  -n, --dry-run      print what would change, and change nothing\n"
+	      "  -h, --help         this text\n"
+	      "\n"
+	      "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
+	      out);
+}
+
+/** @return 0 go on, 1 help was printed, or ERR_* (reported) */
+static int parse_options(int argc, char **argv, struct options *o)
+{
+	enum { OPT_HASHES = 256, OPT_BY, OPT_REASON };
+	static const struct option known[] = {
+		{ "frames", required_argument, NULL, 'f' },   { "hashes", no_argument, NULL, OPT_HASHES },
+		{ "by", required_argument, NULL, OPT_BY },    { "reason", required_argument, NULL, OPT_REASON },
+		{ "dry-run", no_argument, NULL, 'n' },        { "help", no_argument, NULL, 'h' },
+		{ NULL, 0, NULL, 0 },
+	};
+	int c, err = 0;
+
+	optind = 1;
+	while (!err && (c = getopt_long(argc, argv, "f:nh", known, NULL)) != -1) {
+		switch (c) {
+		case 'f':
+			frame_list_free(&o->frames);
+			err = frame_list_parse(optarg, &o->frames);
+			break;
+		case OPT_HASHES: o->hashes = 1; break;
+		case OPT_BY: o->by = optarg; break;
+		case OPT_REASON: o->reason = optarg; break;
+		case 'n': o->dry_run = 1; break;
+		case 'h':
+			print_help(stdout);
+			return 1;
+		default:
+			err = ERR_USAGE; /* getopt has said why */
+		}
+	}
+	if (err)
+		return err;
+	if (argc - optind != 2)
+		return err_report(ERR_USAGE, NULL, "relume approve takes TRACED and BASELINE; 'relume approve --help' explains");
+	o->traced = argv[optind];
+	o->dir = argv[optind + 1];
+	return 0;
+}
+
+static const char *user_name(const char *by)
+{
+	const struct passwd *entry = by ? NULL : getpwuid(getuid());
+
+	return by ? by : entry ? entry->pw_name : "unknown";
+}
+
+static void format_day(char *out, size_t size)
+{
+	const char *epoch = getenv("SOURCE_DATE_EPOCH");
+	time_t now = epoch ? (time_t)strtoll(epoch, NULL, 10) : time(NULL);
+	struct tm day;
+
+	strftime(out, size, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &day));
+}
+
+/* A variant in the making: what is approved already, and what is new. Strings are owned. */
+struct update {
+	const struct options *options;
+	char *folder;
+	struct baseline_variant variant; /* its texts are borrowed, its frames owned */
+	uint32_t n_new, n_changed, n_same;
+};
+
+static void free_update(struct update *u)
+{
+	for (uint32_t i = 0; i < u->variant.n_frames; i++) {
+		free(u->variant.frames[i].file);
+		free(u->variant.frames[i].channels);
+	}
+	free(u->variant.frames);
+	free(u->folder);
+}
+
+/** Begin with what is approved for this device. */
+static int begin_update(struct update *u, const struct baseline *b, const char *device)
+{
+	int own = baseline_variant_of(b, device);
+	const struct baseline_variant *old = own >= 0 ? b->variants[own] : NULL;
+
+	u->folder = baseline_folder(b->dir, device);
+	u->variant.frames = calloc((old ? old->n_frames : 0) + 1, sizeof(*u->variant.frames));
+	if (!u->folder || !u->variant.frames)
+		return err_report(ERR_SYSTEM, b->dir, "out of memory");
+	for (uint32_t i = 0; old && i < old->n_frames; i++) {
+		struct baseline_frame *f = &u->variant.frames[u->variant.n_frames++];
+
+		*f = old->frames[i];
+		f->file = f->file ? strdup(f->file) : NULL;
+		f->channels = strdup(f->channels);
+		if (!f->channels || (old->frames[i].file && !f->file))
+			return err_report(ERR_SYSTEM, b->dir, "out of memory");
+	}
+	return 0;
+}
+
+/** Say how a frame's picture changes, where the approved one is stored. */
+static void print_change(const struct update *u, const struct baseline_frame *old, const struct image *img)
+{
+	struct score_picture was = { 0 }, now = { 0 };
+	struct image image = { 0 };
+	char path[4096];
+
+	snprintf(path, sizeof(path), "%s/%s", u->folder, old->file ? old->file : "");
+	if (!old->file || image_read_exr(&image, path) != 0) {
+		puts("only hashes were approved");
+		return;
+	}
+	if (score_picture_from_image(&image, "beauty", &was) == 0 && score_picture_from_image(img, "beauty", &now) == 0 &&
+	    was.width == now.width && was.height == now.height) {
+		const size_t n = (size_t)was.width * was.height;
+		size_t count = 0;
+		int worst = 0;
+
+		for (size_t i = 0; i < n; i++) {
+			int d = gate_code_difference(was.rgb + 3 * i, now.rgb + 3 * i);
+
+			count += d > 0;
+			worst = d > worst ? d : worst;
+		}
+		printf("%zu of %zu pixels show it, by %d/255 at most\n", count, n, worst);
+	} else {
+		puts("another size, or no colours");
+	}
+	score_picture_free(&was);
+	score_picture_free(&now);
+	image_free(&image);
+}
+
+/** Copy a file under a temporary name, then rename it. */
+static int copy_file(const char *from, const char *to)
+{
+	struct output_file file;
+	FILE *in = fopen(from, "rb");
+	char block[65536];
+	size_t n;
+	int err;
+
+	if (!in)
+		return err_report(ERR_INPUT, from, "cannot be read");
+	if (output_open(&file, to) != 0) {
+		fclose(in);
+		return ERR_SYSTEM;
+	}
+	while ((n = fread(block, 1, sizeof(block), in)) > 0)
+		fwrite(block, 1, n, file.stream);
+	err = ferror(in) ? err_report(ERR_INPUT, from, "cannot be read whole") : 0;
+	fclose(in);
+	if (err) {
+		output_close(&file, 0);
+		return err;
+	}
+	return output_close(&file, 1);
+}
+
+static int approve_frame(struct update *u, const struct set_entry *entry, const struct image *img, char *channels)
+{
+	struct baseline_frame *f = baseline_find(&u->variant, entry->frame), *grown;
+	char name[64], path[4200];
+	int same = f && strcmp(f->channels, channels) == 0 && !!f->file == !u->options->hashes;
+
+	if (same) {
+		u->n_same++;
+		free(channels);
+		return 0;
+	}
+	if (f && strcmp(f->channels, channels) == 0) {
+		printf("frame %" PRIu64 ": %s\n", entry->frame, f->file ? "keeps only its hashes" : "is stored, too");
+		u->n_changed++;
+	} else if (f) {
+		printf("frame %" PRIu64 ": changed: ", entry->frame);
+		print_change(u, f, img);
+		u->n_changed++;
+	} else {
+		printf("frame %" PRIu64 ": new\n", entry->frame);
+		u->n_new++;
+		grown = realloc(u->variant.frames, (u->variant.n_frames + 1) * sizeof(*grown));
+		if (!grown) {
+			free(channels);
+			return err_report(ERR_SYSTEM, u->folder, "out of memory");
+		}
+		u->variant.frames = grown;
+		/* keep them sorted, for baseline_find */
+		uint32_t at = u->variant.n_frames++;
+
+		for (; at > 0 && grown[at - 1].frame > entry->frame; at--)
+			grown[at] = grown[at - 1];
+		f = &grown[at];
+		*f = (struct baseline_frame){ .frame = entry->frame };
+	}
+	free(f->channels);
+	f->channels = channels;
+	f->width = img->width;
+	f->height = img->height;
+	snprintf(name, sizeof(name), "frame.%04" PRIu64 ".exr", entry->frame);
+	snprintf(path, sizeof(path), "%s/%s", u->folder, name);
+	if (u->options->hashes) {
+		if (f->file && !u->options->dry_run)
+			unlink(path);
+		free(f->file);
+		f->file = NULL;
+		return 0;
+	}
+	if (!f->file && !(f->file = strdup(name)))
+		return err_report(ERR_SYSTEM, u->folder, "out of memory");
+	return u->options->dry_run ? 0 : copy_file(entry->path, path);
+}
+
+static const char *attribute_or(const struct image *img, const char *name, const char *otherwise)
+{
+	const char *text = image_attribute(img, name);
+
+	return text ? text : otherwise;
+}
+
+/** The first frame gives device and provenance; all others must come from the same device and trace. */
+static int approve_all(const struct options *o, struct set *set, const struct baseline *b)
+{
+	struct update u = { .options = o };
+	char device[256] = "", trace[256] = "", version[256] = "", settings[600] = "", day[32];
+	int err = 0;
+
+	for (size_t i = 0; !err && i < set->n_entries; i++) {
+		const struct set_entry *entry = &set->entries[i];
+		struct image img = { 0 };
+		char *channels = NULL;
+
+		if (!frame_list_contains(&o->frames, entry->frame))
+			continue;
+		if (!entry->path)
+			err = err_report(ERR_USAGE, set->name, "these are reference frames; approve traced ones");
+		if (!err)
+			err = set_read(set, entry, &img);
+		if (!err && !image_attribute(&img, "relume:device"))
+			err = err_report(ERR_INPUT, entry->path, "not a traced frame: there is no attribute relume:device");
+		if (!err && !u.folder) {
+			snprintf(device, sizeof(device), "%s", image_attribute(&img, "relume:device"));
+			snprintf(trace, sizeof(trace), "%s", attribute_or(&img, "relume:trace", ""));
+			snprintf(version, sizeof(version), "%s", attribute_or(&img, "relume:version", ""));
+			snprintf(settings, sizeof(settings), "%s, encoding %s, channels %s", attribute_or(&img, "relume:settings", "?"),
+			         attribute_or(&img, "relume:encoding", "linear"), attribute_or(&img, "relume:aov", "all"));
+			err = begin_update(&u, b, device);
+			if (!err && !o->dry_run)
+				err = folder_make(u.folder);
+		}
+		if (!err && (strcmp(device, image_attribute(&img, "relume:device")) != 0 ||
+		             strcmp(trace, attribute_or(&img, "relume:trace", "")) != 0))
+			err = err_report(ERR_USAGE, entry->path, "this frame is of another device or trace than the first one");
+		if (!err && !(channels = baseline_hash_channels(&img)))
+			err = err_report(ERR_SYSTEM, entry->path, "out of memory");
+		if (!err)
+			err = approve_frame(&u, entry, &img, channels);
+		image_free(&img);
+	}
+	if (!err && !u.folder)
+		err = err_report(ERR_USAGE, set->name, "none of the frames asked for is there");
+	if (!err) {
+		format_day(day, sizeof(day));
+		u.variant.device = device;
+		u.variant.trace = trace;
+		u.variant.relume = version;
+		u.variant.settings = settings;
+		u.variant.approved_by = (char *)user_name(o->by);
+		u.variant.approved_at = day;
+		u.variant.reason = (char *)(o->reason ? o->reason : "");
+		printf("%s: %u new, %u changed, %u as approved before%s\n", u.folder, u.n_new, u.n_changed, u.n_same,
+		       o->dry_run ? "; nothing was written" : "");
+		if (!o->dry_run && u.n_new + u.n_changed > 0)
+			err = baseline_write(u.folder, &u.variant);
+	}
+	free_update(&u);
+	return err;
+}
+
+int approve_main(int argc, char **argv)
+{
+	struct options o = { 0 };
+	struct set set = { 0 };
+	struct baseline baseline = { 0 };
+	int err = parse_options(argc, argv, &o);
+
+	if (err > 0)
+		return 0;
+	if (!err)
+		err = set_open(o.traced, &set);
+	if (!err)
+		err = baseline_open(o.dir, &baseline);
+	if (!err)
+		err = approve_all(&o, &set, &baseline);
+	baseline_close(&baseline);
+	set_free(&set);
+	frame_list_free(&o.frames);
+	return -err;
+}

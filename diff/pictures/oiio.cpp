@@ -1,0 +1,213 @@
+#include "diff/pictures/oiio.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+extern "C" {
+#include "base/err.h"
+}
+
+namespace {
+
+/* Large enough for any frame, small enough that a lying header cannot take all memory. */
+constexpr int64_t MAX_PIXELS = int64_t(1) << 28;
+constexpr int MAX_CHANNELS = 256;
+
+/* Debian package fonts-dejavu-core. */
+constexpr const char *FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+bool is_integer(const OIIO::TypeDesc &format)
+{
+	return !format.is_floating_point();
+}
+
+/** Copy channel `from` of interleaved pixels into a new channel of the image. */
+bool add_channel(struct image *img, const char *name, bool full_float, const std::vector<float> &pixels, int n_channels,
+                 int from)
+{
+	float *plane = image_add_channel(img, name, full_float);
+	const size_t n = size_t(img->width) * img->height;
+
+	if (!plane)
+		return false;
+	for (size_t i = 0; i < n; i++)
+		plane[i] = pixels[i * size_t(n_channels) + size_t(from)];
+	return true;
+}
+
+/** Channels of one part; `prefix` (a part's name and a dot, or nothing) goes before their names. */
+int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, const std::vector<float> &pixels,
+             const char *path)
+{
+	const auto full_float_at = [&spec](int c) { return spec.channelformat(c) != OIIO::TypeDesc::HALF; };
+	const bool full_float = full_float_at(0);
+	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
+
+	if (grey) {
+		for (const char *name : { "R", "G", "B" })
+			if (!add_channel(img, name, full_float, pixels, spec.nchannels, 0))
+				return ERR_SYSTEM;
+		if (spec.nchannels == 2 && !add_channel(img, "A", full_float, pixels, 2, 1))
+			return ERR_SYSTEM;
+	}
+	for (int c = 0; !grey && c < spec.nchannels; c++) {
+		const std::string name = prefix + std::string(spec.channel_name(c));
+
+		if (name.empty() || name.size() >= sizeof(img->channels[0].name))
+			return err_report(ERR_INPUT, path, "channel %d has no usable name", c);
+		if (!image_channel(img, name.c_str()) && !add_channel(img, name.c_str(), full_float_at(c), pixels, spec.nchannels, c))
+			return ERR_SYSTEM;
+	}
+	return 0;
+}
+
+int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
+{
+	for (const char *name : { "relume:frame", "relume:encoding", "relume:trace", "relume:device" }) {
+		const std::string text = spec.get_string_attribute(name);
+
+		if (!text.empty() && image_set_attribute(img, name, "%s", text.c_str()) != 0)
+			return ERR_SYSTEM;
+	}
+	if (!image_attribute(img, "relume:encoding"))
+		return image_set_attribute(img, "relume:encoding", "%s", is_integer(spec.format) ? "display" : "linear");
+	return 0;
+}
+
+/**
+ * What goes before the channels of a part: nothing for the first one and for parts whose channels carry their layer
+ * already; a part that is named as a layer gives it its name.
+ */
+std::string prefix_of(const OIIO::ImageSpec &spec, int part)
+{
+	const std::string name = spec.get_string_attribute("oiio:subimagename");
+
+	if (part == 0 || name.empty() || spec.channel_name(0).find('.') != std::string::npos)
+		return "";
+	return name + ".";
+}
+
+int read_image(struct image *img, const char *path)
+{
+	OIIO::ImageSpec config;
+
+	/* Numbers as stored: colour of transparent pixels must not be multiplied down. */
+	config.attribute("oiio:UnassociatedAlpha", 1);
+	auto in = OIIO::ImageInput::open(path, &config);
+	if (!in)
+		return err_report(ERR_INPUT, path, "%s", OIIO::geterror().c_str());
+	const OIIO::ImageSpec first = in->spec();
+	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are other pictures */
+
+	for (int part = 0; in->seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
+		const OIIO::ImageSpec spec = in->spec();
+
+		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
+		    int64_t(spec.width) * spec.height > MAX_PIXELS)
+			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
+			                  spec.height, spec.depth, spec.nchannels);
+		if (spec.deep)
+			return err_report(ERR_INPUT, path, "part %d is deep: several samples a pixel are no picture yet", part);
+		if (spec.width != first.width || spec.height != first.height)
+			return err_report(ERR_INPUT, path, "part %d is of another size than the first one", part);
+		std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+		if (!in->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+			return err_report(ERR_INPUT, path, "%s", in->geterror().c_str());
+		img->width = uint32_t(spec.width);
+		img->height = uint32_t(spec.height);
+		int err = add_part(img, spec, prefix_of(spec, part), pixels, path);
+		if (err)
+			return err;
+	}
+	return add_attributes(img, first);
+}
+
+int encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+               size_t *out_bytes)
+{
+	std::vector<unsigned char> bytes;
+	OIIO::Filesystem::IOVecOutput proxy(bytes);
+	auto png = OIIO::ImageOutput::create("memory.png", &proxy);
+	OIIO::ImageSpec spec(int(width), int(height), channels, OIIO::TypeDesc::UINT8);
+
+	spec.attribute("png:compressionLevel", level);
+	spec.attribute("oiio:UnassociatedAlpha", 1);
+	if (!png || !png->open("memory.png", spec) || !png->write_image(OIIO::TypeDesc::UINT8, pixels) || !png->close())
+		return err_report(ERR_SYSTEM, NULL, "PNG: %s",
+		                  png ? png->geterror().c_str() : OIIO::geterror().c_str());
+	*out = static_cast<uint8_t *>(malloc(bytes.size() ? bytes.size() : 1));
+	if (!*out)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	memcpy(*out, bytes.data(), bytes.size());
+	*out_bytes = bytes.size();
+	return 0;
+}
+
+} // namespace
+
+int oiio_read(struct image *img, const char *path)
+{
+	try {
+		int err = read_image(img, path);
+
+		if (err)
+			image_free(img);
+		return err;
+	} catch (const std::exception &e) {
+		image_free(img);
+		return err_report(ERR_SYSTEM, path, "%s", e.what());
+	}
+}
+
+int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+                    size_t *out_bytes)
+{
+	try {
+		return encode_png(pixels, width, height, channels, level, out, out_bytes);
+	} catch (const std::exception &e) {
+		return err_report(ERR_SYSTEM, NULL, "PNG: %s", e.what());
+	}
+}
+
+int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
+                   const uint8_t rgb[3])
+{
+	try {
+		OIIO::ImageBuf buf(OIIO::ImageSpec(int(width), int(height), 3, OIIO::TypeDesc::UINT8), pixels);
+		const float color[3] = { rgb[0] / 255.0f, rgb[1] / 255.0f, rgb[2] / 255.0f };
+
+		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, FONT, color) ? 0 : ERR_SYSTEM;
+	} catch (const std::exception &) {
+		return ERR_SYSTEM;
+	}
+}
+
+int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
+{
+	try {
+		const OIIO::ImageSpec codes(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
+		OIIO::ImageBuf pics[2];
+
+		for (int i = 0; i < 2; i++) {
+			OIIO::ImageBuf wrapped(codes, const_cast<uint8_t *>(i ? b : a));
+
+			/* it wants floats of its own */
+			if (!pics[i].copy(wrapped, OIIO::TypeDesc::FLOAT))
+				return err_report(ERR_SYSTEM, NULL, "Yee's metric: %s", pics[i].geterror().c_str());
+		}
+		OIIO::ImageBufAlgo::CompareResults results;
+
+		*count = OIIO::ImageBufAlgo::compare_Yee(pics[0], pics[1], results);
+		return 0;
+	} catch (const std::exception &e) {
+		return err_report(ERR_SYSTEM, NULL, "Yee's metric: %s", e.what());
+	}
+}

@@ -1,0 +1,60 @@
+/*
+ * Foreign images: the one bridge to OpenImageIO, which has no C interface. Nothing else includes its headers.
+ */
+#ifndef DIFF_PICTURES_OIIO_H
+#define DIFF_PICTURES_OIIO_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "tracer/image/image.h"
+
+/**
+ * Read any image OpenImageIO knows (first level, data window only; of OpenEXR all parts, a part's name being the layer of
+ * its channels, of other formats the first picture).
+ *
+ * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
+ *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute
+ *             relume:encoding = "display"; half and float formats as they are, "linear". Names longer than
+ *             image.h's limit are an error, as are pictures above 2^28 pixels.
+ * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
+ */
+int oiio_read(struct image *img, const char *path);
+
+/**
+ * Encode 8-bit pixels as PNG in memory.
+ * @param pixels    [height][width][channels], top row first, display codes
+ * @param channels  1 grey, 3 RGB, 4 RGBA (alpha not multiplied in)
+ * @param level     zlib's, 1 (fast) .. 9
+ * @param out       receives a buffer; caller frees with free()
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+                    size_t *out_bytes);
+
+/**
+ * Yee's perceptual metric (compare_Yee, as idiff -p), on codes: how many pixels look different.
+ * @param count  receives the number
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count);
+
+/**
+ * Draw text into RGB pixels.
+ * @param pixels  [height][width][3]; changed in place; what falls outside is cut
+ * @param x, y    left end of the text's base line, from the top left corner
+ * @param size    height of the letters in pixels
+ * @return 0, or ERR_SYSTEM where no font is installed (not reported: the caller decides whether labels matter)
+ */
+int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
+                   const uint8_t rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

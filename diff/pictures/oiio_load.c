@@ -1,0 +1,70 @@
+/*
+ * OpenImageIO and the hundreds of libraries behind it, loaded when the first picture needs them: linked with the command,
+ * they are most of the time that a short run takes. The bridge itself is oiio.cpp, in relume-oiio.so.
+ */
+#include "diff/pictures/oiio.h"
+
+#include <dlfcn.h>
+#include <limits.h>
+#include <pthread.h>
+
+#include "base/beside.h"
+#include "base/err.h"
+
+static struct {
+	pthread_once_t once;
+	int whole; /* all functions are there; else the reason was reported */
+	__typeof__(oiio_read) *read;
+	__typeof__(oiio_encode_png) *encode_png;
+	__typeof__(oiio_compare_yee) *compare_yee;
+	__typeof__(oiio_draw_text) *draw_text;
+} bridge = { .once = PTHREAD_ONCE_INIT };
+
+static void load(void)
+{
+	char path[PATH_MAX];
+	void *library;
+
+	if (beside_find("relume-oiio.so", path, sizeof(path)))
+		return;
+	library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+	if (!library) {
+		err_report(ERR_SYSTEM, path, "cannot be loaded: %s", dlerror());
+		return;
+	}
+	*(void **)&bridge.read = dlsym(library, "oiio_read");
+	*(void **)&bridge.encode_png = dlsym(library, "oiio_encode_png");
+	*(void **)&bridge.compare_yee = dlsym(library, "oiio_compare_yee");
+	*(void **)&bridge.draw_text = dlsym(library, "oiio_draw_text");
+	bridge.whole = bridge.read && bridge.encode_png && bridge.compare_yee && bridge.draw_text;
+	if (!bridge.whole)
+		err_report(ERR_SYSTEM, path, "is of another version of Relume");
+}
+
+static int loaded(void)
+{
+	pthread_once(&bridge.once, load);
+	return bridge.whole;
+}
+
+int oiio_read(struct image *img, const char *path)
+{
+	return loaded() ? bridge.read(img, path) : ERR_SYSTEM;
+}
+
+int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
+                    size_t *out_bytes)
+{
+	return loaded() ? bridge.encode_png(pixels, width, height, channels, level, out, out_bytes) : ERR_SYSTEM;
+}
+
+int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
+{
+	return loaded() ? bridge.compare_yee(a, b, width, height, count) : ERR_SYSTEM;
+}
+
+int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
+                   const uint8_t rgb[3])
+{
+	return loaded() ? bridge.draw_text(pixels, width, height, x, y, size, text, rgb) : ERR_SYSTEM;
+}

@@ -1,0 +1,316 @@
+#include "diff/pictures/set.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "base/err.h"
+#include "base/frames.h"
+#include "diff/pictures/oiio.h"
+
+void set_free(struct set *set)
+{
+	for (size_t i = 0; i < set->n_entries; i++)
+		free(set->entries[i].path);
+	free(set->entries);
+	free(set->name);
+	free(set->trace);
+	if (set->ref.stream)
+		ref_close(&set->ref);
+	*set = (struct set){ 0 };
+}
+
+/** Add an entry; `path` is copied. */
+static int add_entry(struct set *set, uint64_t frame, const char *path)
+{
+	struct set_entry *grown = realloc(set->entries, (set->n_entries + 1) * sizeof(*grown));
+	char *copy = NULL;
+
+	if (!grown)
+		return err_report(ERR_SYSTEM, set->name, "out of memory");
+	set->entries = grown;
+	if (path && !(copy = strdup(path)))
+		return err_report(ERR_SYSTEM, set->name, "out of memory");
+	grown[set->n_entries++] = (struct set_entry){ frame, copy };
+	return 0;
+}
+
+static const char *extension_of(const char *path)
+{
+	const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+
+	return dot ? dot + 1 : "";
+}
+
+static int is_image_name(const char *path)
+{
+	static const char *const known[] = { "exr", "png", "jpg", "jpeg", "tif", "tiff", "bmp", "tga", "ppm", "pgm",
+	                                     "hdr", "webp", "dpx" };
+
+	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+		if (strcasecmp(extension_of(path), known[i]) == 0)
+			return 1;
+	return 0;
+}
+
+static int is_digit(char c)
+{
+	return c >= '0' && c <= '9';
+}
+
+/** The last number in a file name before its extension; 0 where there is none. */
+static int number_of_name(const char *name, uint64_t *frame)
+{
+	const char *end = strrchr(name, '.'), *start;
+
+	if (!end)
+		end = name + strlen(name);
+	while (end > name && !is_digit(end[-1]))
+		end--;
+	for (start = end; start > name && is_digit(start[-1]); start--)
+		;
+	if (start == end || end - start > 18)
+		return 0;
+	*frame = strtoull(start, NULL, 10);
+	return 1;
+}
+
+/** The frame that makes the pattern expand to this path; 0 where none does. */
+static int number_by_pattern(const char *pattern, const char *path, uint64_t *frame)
+{
+	for (const char *p = path; *p; p++) {
+		char expanded[4096];
+
+		if (!is_digit(*p) || (p > path && is_digit(p[-1])))
+			continue;
+		*frame = strtoull(p, NULL, 10);
+		if (strlen(path) < sizeof(expanded) - 32 &&
+		    frame_pattern_expand(pattern, *frame, expanded, sizeof(expanded)) == 0 && strcmp(expanded, path) == 0)
+			return 1;
+	}
+	return 0;
+}
+
+static int compare_entries(const void *a, const void *b)
+{
+	const struct set_entry *x = a, *y = b;
+
+	return (x->frame > y->frame) - (x->frame < y->frame);
+}
+
+static int sort_entries(struct set *set)
+{
+	if (set->n_entries == 0)
+		return err_report(ERR_INPUT, set->name, "there is no numbered image");
+	qsort(set->entries, set->n_entries, sizeof(*set->entries), compare_entries);
+	for (size_t i = 1; i < set->n_entries; i++)
+		if (set->entries[i].frame == set->entries[i - 1].frame)
+			return err_report(ERR_USAGE, set->name, "two images of frame %" PRIu64 ", %s and %s; name one "
+			                  "series by a pattern such as DIR/NAME.####.exr", set->entries[i].frame,
+			                  set->entries[i - 1].path, set->entries[i].path);
+	return 0;
+}
+
+/** List the images of a folder; `pattern` NULL takes all that have a number. */
+static int open_folder(struct set *set, const char *folder, const char *pattern)
+{
+	DIR *dir = opendir(folder[0] ? folder : ".");
+	int err = 0;
+
+	if (!dir)
+		return err_report(ERR_INPUT, folder, "%s", strerror(errno));
+	for (struct dirent *file; !err && (file = readdir(dir));) {
+		const char *slash = folder[0] && folder[strlen(folder) - 1] != '/' ? "/" : "";
+		char path[4096];
+		uint64_t frame;
+
+		if (file->d_name[0] == '.' || (!pattern && !is_image_name(file->d_name)))
+			continue;
+		if (snprintf(path, sizeof(path), "%s%s%s", folder, slash, file->d_name) >= (int)sizeof(path))
+			continue;
+		if (pattern ? number_by_pattern(pattern, path, &frame) : number_of_name(file->d_name, &frame))
+			err = add_entry(set, frame, path);
+	}
+	closedir(dir);
+	return err ? err : sort_entries(set);
+}
+
+static int open_pattern(struct set *set, const char *pattern)
+{
+	const char *slash = strrchr(pattern, '/');
+	char *folder = slash ? strndup(pattern, (size_t)(slash - pattern) + 1) : strdup("");
+	int err;
+
+	if (!folder)
+		return err_report(ERR_SYSTEM, pattern, "out of memory");
+	if (frame_pattern_has_number(folder))
+		err = err_report(ERR_USAGE, pattern, "the frame number must be in the file's name, not in a folder's");
+	else
+		err = open_folder(set, folder, pattern);
+	free(folder);
+	return err;
+}
+
+static int open_ref(struct set *set, const char *path)
+{
+	int err = ref_open(&set->ref, path);
+
+	for (size_t i = 0; !err && i < set->ref.n_entries; i++)
+		if (set->ref.entries[i].kind == REF_COLOR)
+			err = add_entry(set, set->ref.entries[i].frame, NULL);
+	if (!err && set->n_entries == 0)
+		err = err_report(ERR_INPUT, path, "there is no colour frame in it");
+	if (!err)
+		qsort(set->entries, set->n_entries, sizeof(*set->entries), compare_entries);
+	return err;
+}
+
+/** NAME.ref beside NAME.trace. */
+static int open_trace(struct set *set, const char *trace)
+{
+	const char *extension = extension_of(trace);
+	size_t stem = strlen(trace) - (extension[0] ? strlen(extension) + 1 : 0);
+	char path[4096];
+	struct stat st;
+
+	if (snprintf(path, sizeof(path), "%.*s.ref", (int)stem, trace) >= (int)sizeof(path))
+		return err_report(ERR_USAGE, trace, "the file name is too long");
+	if (stat(path, &st) != 0)
+		return err_report(ERR_INPUT, trace, "there are no reference frames beside it (%s); record with --ref color,depth, "
+		                  "or make them with 'relume raster' and name the images here", path);
+	free(set->name);
+	set->name = strdup(path);
+	set->trace = strdup(trace);
+	if (!set->name || !set->trace)
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	return open_ref(set, path);
+}
+
+/** A file is a reference file by its first bytes, whatever its name. */
+static int is_ref(const char *path)
+{
+	char magic[8] = { 0 };
+	FILE *f = fopen(path, "rb");
+	size_t n = f ? fread(magic, 1, sizeof(magic), f) : 0;
+
+	if (f)
+		fclose(f);
+	return n == sizeof(magic) && memcmp(magic, REF_MAGIC, sizeof(magic)) == 0;
+}
+
+int set_open(const char *where, struct set *out)
+{
+	struct stat st;
+	uint64_t frame = 0;
+	int err;
+
+	out->name = strdup(where);
+	if (!out->name)
+		return err_report(ERR_SYSTEM, where, "out of memory");
+	if (stat(where, &st) != 0) {
+		if (errno == ENOENT && frame_pattern_has_number(where))
+			err = open_pattern(out, where);
+		else
+			err = err_report(ERR_INPUT, where, "%s", strerror(errno));
+	} else if (S_ISDIR(st.st_mode)) {
+		err = open_folder(out, where, NULL);
+	} else if (is_ref(where)) {
+		err = open_ref(out, where);
+	} else if (strcasecmp(extension_of(where), "ref") == 0) {
+		err = err_report(ERR_INPUT, where, "not a file of reference frames");
+	} else if (is_image_name(where)) {
+		const char *slash = strrchr(where, '/');
+
+		number_of_name(slash ? slash + 1 : where, &frame);
+		out->is_single = 1;
+		err = add_entry(out, frame, where);
+	} else {
+		err = open_trace(out, where);
+	}
+	if (err)
+		set_free(out);
+	return err;
+}
+
+const struct set_entry *set_find(const struct set *set, uint64_t frame)
+{
+	struct set_entry key = { .frame = frame };
+
+	if (set->n_entries == 0)
+		return NULL;
+	return bsearch(&key, set->entries, set->n_entries, sizeof(key), compare_entries);
+}
+
+/** Put one record's pixels into the image, turned upside down: top row first. */
+static int add_record(const struct set *set, enum ref_kind kind, uint64_t frame, struct image *img)
+{
+	const struct ref_entry *entry = ref_find(&set->ref, kind, frame);
+	float *planes[3] = { NULL };
+	void *pixels = NULL;
+	int err;
+
+	if (kind == REF_DEPTH && (!entry || entry->width != img->width || entry->height != img->height))
+		return 0; /* depth was not recorded */
+	if (!entry)
+		return err_report(ERR_INPUT, set->name, "frame %" PRIu64 " has no colour", frame);
+	img->width = entry->width;
+	img->height = entry->height;
+	err = ref_read(&set->ref, entry, &pixels);
+	if (err)
+		return err;
+	for (int c = 0; c < (kind == REF_COLOR ? 3 : 1); c++) {
+		planes[c] = image_add_channel(img, kind == REF_COLOR ? (const char[]){ "RGB"[c], 0 } : "gl.depth", 1);
+		if (!planes[c])
+			goto fail;
+	}
+	for (size_t y = 0; y < img->height; y++) {
+		for (size_t x = 0; x < img->width; x++) {
+			size_t to = y * img->width + x, from = (img->height - 1 - y) * img->width + x;
+
+			if (kind == REF_DEPTH)
+				memcpy(&planes[0][to], (const char *)pixels + from * sizeof(float), sizeof(float));
+			else
+				for (int c = 0; c < 3; c++)
+					planes[c][to] = (float)((const uint8_t *)pixels)[4 * from + (size_t)c] / 255;
+		}
+	}
+	free(pixels);
+	return 0;
+fail:
+	free(pixels);
+	return ERR_SYSTEM;
+}
+
+/** 1 where an OpenEXR file is tiled, deep or of several parts (version field, bits 9, 11 and 12): what image.h does not read. */
+static int is_foreign_exr(const char *path)
+{
+	uint8_t head[8] = { 0 };
+	FILE *f = fopen(path, "rb");
+	size_t n = f ? fread(head, 1, sizeof(head), f) : 0;
+
+	if (f)
+		fclose(f);
+	return n == sizeof(head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
+}
+
+int set_read(const struct set *set, const struct set_entry *entry, struct image *img)
+{
+	int err;
+
+	if (entry->path)
+		return strcasecmp(extension_of(entry->path), "exr") == 0 && !is_foreign_exr(entry->path)
+			? image_read_exr(img, entry->path) : oiio_read(img, entry->path);
+	err = add_record(set, REF_COLOR, entry->frame, img);
+	if (!err)
+		err = add_record(set, REF_DEPTH, entry->frame, img);
+	if (!err)
+		err = image_set_attribute(img, "relume:encoding", "display");
+	if (err)
+		image_free(img);
+	return err;
+}

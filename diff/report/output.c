@@ -1,0 +1,493 @@
+#include "diff/report/output.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+
+int output_open(struct output_file *file, const char *path)
+{
+	*file = (struct output_file){ .path = strdup(path) };
+	if (!file->path || asprintf(&file->temporary, "%s.%ld.tmp", path, (long)getpid()) < 0) {
+		file->temporary = NULL;
+		err_report(ERR_SYSTEM, path, "out of memory");
+		goto fail;
+	}
+	file->stream = fopen(file->temporary, "wb");
+	if (!file->stream) {
+		err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+		goto fail;
+	}
+	return 0;
+fail:
+	free(file->path);
+	free(file->temporary);
+	*file = (struct output_file){ 0 };
+	return ERR_SYSTEM;
+}
+
+int output_close(struct output_file *file, int keep)
+{
+	int err = 0;
+
+	if (!file->stream)
+		return 0;
+	if ((ferror(file->stream) | fclose(file->stream)) && keep)
+		err = err_report(ERR_SYSTEM, file->path, "cannot be written whole: %s", strerror(errno));
+	else if (keep && rename(file->temporary, file->path) != 0)
+		err = err_report(ERR_SYSTEM, file->path, "%s", strerror(errno));
+	if (!keep || err)
+		unlink(file->temporary);
+	free(file->path);
+	free(file->temporary);
+	*file = (struct output_file){ 0 };
+	return err;
+}
+
+void output_order(const struct output_run *run, size_t *out)
+{
+	size_t n = 0;
+
+	for (int passed = 0; passed < 2; passed++)
+		for (size_t i = 0; i < run->n_scores; i++)
+			if ((run->scores[i].outcome == SCORE_FRAME_PASSED) == passed) /* what did not pass is of interest */
+				out[n++] = i;
+}
+
+void output_gate_text(const struct score_gate *gate, const struct score_gate_info *info, char *out, size_t size)
+{
+	size_t used = 0;
+
+	out[0] = '\0';
+	for (int f = 0; gate->state != SCORE_NOT_MEASURED && f < info->n_figures && used < size; f++) {
+		/* a figure that holds is left out where the note says what else is wrong */
+		if (gate->state == SCORE_FAILED && gate->note[0] && gate->value[f] == gate->bar[f])
+			continue;
+		const char *unit = info->figures[f].unit, *space = unit[0] ? " " : "";
+		int n = snprintf(out + used, size - used, "%s%s %.6g%s%s (bar %s %.6g%s%s)", f ? ", " : "",
+		                 info->figures[f].name, gate->value[f], space, unit,
+		                 info->figures[f].at_least ? ">=" : "<=", gate->bar[f], space, unit);
+
+		used += n > 0 ? (size_t)n : 0;
+	}
+	if (used < size && gate->note[0])
+		snprintf(out + used, size - used, "%s%s", used ? "; " : "", gate->note);
+}
+
+/** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame". */
+static void output_blame_text(const struct score_blame *b, char *out, size_t size)
+{
+	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
+
+	if (b->draw && b->call && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", %s (call %" PRIu64 ")", b->call, b->call_number);
+	if (b->draw && b->list && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", list %u", b->list);
+	if (b->draw && b->has_program && n < size)
+		n += (size_t)snprintf(out + n, size - n, " with a program object");
+	if (b->draw && b->texture && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", texture %016" PRIx64, b->texture);
+	if (b->is_approved && n < size)
+		snprintf(out + n, size - n, ", in the approved frame,");
+}
+
+static int is_compared(const struct score *s)
+{
+	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
+		s->outcome == SCORE_FRAME_NEW;
+}
+
+static int has_warning(const struct score *s)
+{
+	for (int g = 0; g < N_GATES; g++)
+		if (s->gates[g].state == SCORE_WARNED)
+			return 1;
+	return 0;
+}
+
+const struct score *output_first_wrong(const struct output_run *run)
+{
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (run->scores[i].outcome == SCORE_FRAME_FAILED || run->scores[i].outcome == SCORE_FRAME_MISSING)
+			return &run->scores[i];
+	return NULL;
+}
+
+static void print_failure(const struct score *s, FILE *out)
+{
+	char text[512];
+
+	for (int g = 0; g < N_GATES; g++) {
+		if (s->gates[g].state < SCORE_WARNED)
+			continue;
+		output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
+		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
+	}
+	if (s->outcome == SCORE_FRAME_FLAKY)
+		fprintf(out, "          known to be flaky: %s\n", s->flaky_reason);
+	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
+		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
+
+		output_blame_text(&s->blame[b], text, sizeof(text));
+		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixels\n", text, share, s->blamed_pixels);
+	}
+}
+
+/** Value of a gate's figure in a column, "-" where it was not measured, "!" behind it where it failed. */
+static void print_figure(const struct score *s, enum score_gate_id g, int figure, FILE *out)
+{
+	char text[32] = "- ";
+
+	if (s->gates[g].state != SCORE_NOT_MEASURED)
+		snprintf(text, sizeof(text), "%.4g%c", s->gates[g].value[figure],
+		         s->gates[g].state == SCORE_FAILED ? '!' : ' ');
+	fprintf(out, " %9s", text);
+}
+
+void output_table(const struct output_run *run, FILE *out)
+{
+	size_t *order = malloc((run->n_scores ? run->n_scores : 1) * sizeof(*order));
+
+	if (!order) {
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		return;
+	}
+	output_order(run, order);
+	fprintf(out, "%7s %-10s %9s %9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "frame", "outcome", "fidelity", "R1 %", "R2 %",
+	        "R3 px", "R4 IoU", "R5 px", "E1 px", "E2 px", "P FLIP", "beauty");
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[order[i]];
+
+		fprintf(out, "%7" PRIu64 " %-10s", s->frame, score_outcome_names[s->outcome]);
+		if (is_compared(s)) {
+			if (run->reference)
+				fprintf(out, " %8.3f%%", 100 * s->fidelity);
+			else
+				fprintf(out, " %9s", "- ");
+			print_figure(s, GATE_R1, 0, out);
+			print_figure(s, GATE_R2, 0, out);
+			print_figure(s, GATE_R3, 0, out);
+			print_figure(s, GATE_R4, 0, out);
+			print_figure(s, GATE_R5, 0, out);
+			print_figure(s, GATE_E1, 0, out);
+			print_figure(s, GATE_E2, 0, out);
+			print_figure(s, GATE_P, 0, out);
+			if (isnan(s->info.beauty_flip))
+				fprintf(out, " %9s", "- ");
+			else
+				fprintf(out, " %8.4g ", s->info.beauty_flip);
+		}
+		fputc('\n', out);
+		if (s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY || has_warning(s))
+			print_failure(s, out);
+	}
+	free(order);
+
+	/* How it was measured: notes of the first frame that was compared, where gates were not measured or by other means. */
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[i];
+
+		if (!is_compared(s))
+			continue;
+		if (s->gates[GATE_V].state != SCORE_PASSED)
+			continue;
+		for (int g = 0; g < N_GATES; g++)
+			if (s->gates[g].state == SCORE_NOT_MEASURED)
+				fprintf(out, "not measured: %s %s: %s\n", score_gates[g].name, score_gates[g].title,
+				        s->gates[g].note);
+		if (s->gates[GATE_R4].state != SCORE_NOT_MEASURED)
+			fprintf(out, "R4 %s: %s\n", score_gates[GATE_R4].title, s->gates[GATE_R4].note);
+		break;
+	}
+	output_summary(run, out);
+}
+
+void output_summary(const struct output_run *run, FILE *out)
+{
+	const struct score *worst = NULL;
+
+	fprintf(out, "%zu frame%s:", run->n_scores, run->n_scores == 1 ? "" : "s");
+	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
+		if (run->counts[o] || o == SCORE_FRAME_PASSED)
+			fprintf(out, "%s %" PRIu64 " %s", n++ ? "," : "", run->counts[o], score_outcome_names[o]);
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[i];
+
+		if (is_compared(s) && (!worst || s->fidelity < worst->fidelity))
+			worst = s;
+	}
+	if (worst && run->reference)
+		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
+	if (output_first_wrong(run))
+		fprintf(out, "; first wrong frame %" PRIu64, output_first_wrong(run)->frame);
+	fputc('\n', out);
+}
+
+/* JSON. */
+
+void output_json_string(const char *text, FILE *out)
+{
+	fputc('"', out);
+	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
+		/* "<" is written as an escape too, so that the text may stand inside an HTML script */
+		if (*p == '"' || *p == '\\')
+			fprintf(out, "\\%c", *p);
+		else if (*p < 0x20 || *p == '<')
+			fprintf(out, "\\u%04x", *p);
+		else
+			fputc(*p, out);
+	}
+	fputc('"', out);
+}
+
+static void json_number(const char *name, double value, FILE *out)
+{
+	if (isfinite(value))
+		fprintf(out, "\"%s\": %.9g", name, value);
+	else
+		fprintf(out, "\"%s\": null", name);
+}
+
+static void json_gate(const struct score_gate *gate, const struct score_gate_info *info, FILE *out)
+{
+	fprintf(out, "\"%s\": {\"title\": \"%s\", \"state\": \"%s\", \"figures\": [", info->name, info->title,
+	        score_state_names[gate->state]);
+	for (int f = 0; gate->state != SCORE_NOT_MEASURED && f < info->n_figures; f++) {
+		fprintf(out, "%s{\"name\": \"%s\", \"unit\": \"%s\", ", f ? ", " : "", info->figures[f].name,
+		        info->figures[f].unit);
+		json_number("value", gate->value[f], out);
+		fputs(", ", out);
+		json_number("bar", gate->bar[f], out);
+		fprintf(out, ", \"bound\": \"%s\"}", info->figures[f].at_least ? "at least" : "at most");
+	}
+	fputs("], \"note\": ", out);
+	output_json_string(gate->note, out);
+	fputc('}', out);
+}
+
+static void json_score(const struct score *s, FILE *out)
+{
+	fprintf(out, "    {\"frame\": %" PRIu64 ", \"outcome\": \"%s\", \"width\": %u, \"height\": %u, ", s->frame,
+	        score_outcome_names[s->outcome], s->width, s->height);
+	fputs("\"layer\": ", out);
+	output_json_string(s->layer, out);
+	fputs(", ", out);
+	json_number("fidelity", s->fidelity, out);
+	fprintf(out, ", \"failing_pixels\": %" PRIu64 ", \"worst_code\": %u,\n     \"gates\": {", s->failing_pixels, s->worst);
+	for (int g = 0; g < N_GATES; g++) {
+		fputs(g ? ",\n       " : "", out);
+		json_gate(&s->gates[g], &score_gates[g], out);
+	}
+	fputs("},\n     \"info\": {", out);
+	json_number("gl_psnr_db", s->info.gl_psnr_db, out);
+	fputs(", ", out);
+	json_number("gl_ssim", s->info.gl_ssim, out);
+	fputs(", ", out);
+	json_number("gl_rmse", s->info.gl_rmse, out);
+	fputs(", ", out);
+	json_number("gl_mrse", s->info.gl_mrse, out);
+	fputs(", ", out);
+	json_number("gl_yee", s->info.gl_yee, out);
+	fputs(", ", out);
+	json_number("beauty_flip", s->info.beauty_flip, out);
+	fputs(", ", out);
+	json_number("beauty_psnr_db", s->info.beauty_psnr_db, out);
+	fputs(", ", out);
+	json_number("beauty_ms_ssim", s->info.beauty_ms_ssim, out);
+	fputs(", ", out);
+	json_number("beauty_ciede_p95", s->info.beauty_ciede_p95, out);
+	fputs(", \"effect_share\": {", out);
+	for (int e = 0; e < N_SCORE_EFFECTS; e++) {
+		fputs(e ? ", " : "", out);
+		json_number(score_effect_names[e], s->info.effect_share[e], out);
+	}
+	fprintf(out, "}},\n     \"blamed_pixels\": %" PRIu64 ", ", s->blamed_pixels);
+	if (s->flaky_reason) {
+		fputs("\"flaky_reason\": ", out);
+		output_json_string(s->flaky_reason, out);
+		fputs(", ", out);
+	}
+	fputs("\"blame\": [", out);
+	for (uint32_t b = 0; b < s->n_blame; b++) {
+		const struct score_blame *by = &s->blame[b];
+
+		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", b ? ", " : "",
+		        by->draw, by->pixels, by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
+		if (by->call)
+			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->call, by->call_number,
+			        by->has_program ? "true" : "false");
+		if (by->call && by->list)
+			fprintf(out, ", \"list\": %u", by->list);
+		if (by->call && by->texture)
+			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->texture);
+		fputc('}', out);
+	}
+	fputs("]}", out);
+}
+
+void output_json_stream(const struct output_run *run, FILE *out)
+{
+	fputs("{\"format\": \"relume-diff\", \"version\": 1,\n \"reference\": ", out);
+	output_json_string(run->reference ? run->reference : "", out);
+	fputs(", \"traced\": ", out);
+	output_json_string(run->traced, out);
+	fputs(", \"baseline\": ", out);
+	output_json_string(run->baseline ? run->baseline : "", out);
+	fputs(",\n \"name\": ", out);
+	output_json_string(run->name, out);
+	fputs(", \"command\": ", out);
+	output_json_string(run->command, out);
+	fputs(", \"channel\": ", out);
+	output_json_string(run->options->channel ? run->options->channel : "", out);
+	fprintf(out, ", \"seconds\": %.3f,", run->seconds);
+	if (output_first_wrong(run))
+		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", output_first_wrong(run)->frame);
+	fputs("\n \"counts\": {", out);
+	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
+		fprintf(out, "%s\"%s\": %" PRIu64, o ? ", " : "", score_outcome_names[o], run->counts[o]);
+	fputs("},\n \"frames\": [", out);
+	for (size_t i = 0; i < run->n_scores; i++) {
+		fputs(i ? ",\n" : "\n", out);
+		json_score(&run->scores[i], out);
+	}
+	fputs("\n ]}\n", out);
+}
+
+int output_json(const struct output_run *run, const char *path)
+{
+	struct output_file file;
+
+	if (strcmp(path, "-") == 0) {
+		output_json_stream(run, stdout);
+		return fflush(stdout) == 0 ? 0 : err_report(ERR_SYSTEM, "standard output", "%s", strerror(errno));
+	}
+	if (output_open(&file, path) != 0)
+		return ERR_SYSTEM;
+	output_json_stream(run, file.stream);
+	return output_close(&file, 1);
+}
+
+/* JUnit. */
+
+void output_escaped(const char *text, FILE *out)
+{
+	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
+		switch (*p) {
+		case '&': fputs("&amp;", out); break;
+		case '<': fputs("&lt;", out); break;
+		case '>': fputs("&gt;", out); break;
+		case '"': fputs("&quot;", out); break;
+		default: fputc(*p < 0x20 ? ' ' : *p, out); /* other control characters are no XML at all */
+		}
+	}
+}
+
+static void junit_case(const struct score *s, FILE *out)
+{
+	fprintf(out, "    <testcase classname=\"relume.diff\" name=\"frame %" PRIu64 "\"", s->frame);
+	switch (s->outcome) {
+	case SCORE_FRAME_PASSED:
+		fputs("/>\n", out);
+		return;
+	case SCORE_FRAME_FAILED:
+		break;
+	case SCORE_FRAME_FLAKY:
+		fputs(">\n      <skipped message=\"", out);
+		output_escaped(s->flaky_reason, out);
+		fputs("\"/>\n    </testcase>\n", out);
+		return;
+	case SCORE_FRAME_UNREADABLE:
+		fputs(">\n      <error message=\"unreadable\"/>\n    </testcase>\n", out);
+		return;
+	default:
+		fprintf(out, ">\n      <failure message=\"%s\"/>\n    </testcase>\n",
+		        s->outcome == SCORE_FRAME_MISSING ? "there is no traced frame"
+		        : s->outcome == SCORE_FRAME_NEW ? "there is no approved frame" : "there is no reference");
+		return;
+	}
+	fputs(">\n      <failure message=\"", out);
+	for (int g = 0, n = 0; g < N_GATES; g++)
+		if (s->gates[g].state == SCORE_FAILED)
+			fprintf(out, "%s%s %s", n++ ? ", " : "", score_gates[g].name, score_gates[g].title);
+	fputs("\">", out);
+	for (int g = 0; g < N_GATES; g++) {
+		char text[512];
+
+		if (s->gates[g].state != SCORE_FAILED)
+			continue;
+		output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+		fprintf(out, "%s ", score_gates[g].name);
+		output_escaped(text, out);
+		fputc('\n', out);
+	}
+	fputs("</failure>\n    </testcase>\n", out);
+}
+
+int output_junit(const struct output_run *run, const char *path)
+{
+	uint64_t errors = run->counts[SCORE_FRAME_UNREADABLE];
+	uint64_t skipped = run->counts[SCORE_FRAME_FLAKY];
+	uint64_t failures = run->n_scores - run->counts[SCORE_FRAME_PASSED] - errors - skipped;
+	struct output_file file;
+
+	if (output_open(&file, path) != 0)
+		return ERR_SYSTEM;
+	fprintf(file.stream, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"relume diff ");
+	output_escaped(run->traced, file.stream);
+	fprintf(file.stream, "\" tests=\"%zu\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"%" PRIu64
+	        "\" time=\"%.3f\">\n", run->n_scores, failures, errors, skipped, run->seconds);
+	for (size_t i = 0; i < run->n_scores; i++)
+		junit_case(&run->scores[i], file.stream);
+	fputs("  </testsuite>\n</testsuites>\n", file.stream);
+	return output_close(&file, 1);
+}
+
+/* Annotations. */
+
+/** Text as the value of a workflow command: %, CR and LF are escaped. */
+static void annotation_text(const char *text, FILE *out)
+{
+	for (const char *p = text; *p; p++) {
+		if (*p == '%')
+			fputs("%25", out);
+		else if (*p == '\n')
+			fputs("%0A", out);
+		else if (*p == '\r')
+			fputs("%0D", out);
+		else
+			fputc(*p, out);
+	}
+}
+
+void output_annotations(const struct output_run *run, FILE *out)
+{
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[i];
+		const char *kind = s->outcome == SCORE_FRAME_FLAKY || s->outcome == SCORE_FRAME_PASSED ? "warning" : "error";
+		char text[512];
+
+		if (s->outcome == SCORE_FRAME_PASSED && !has_warning(s))
+			continue;
+		fprintf(out, "::%s title=relume diff%%3A frame %" PRIu64 " %s::", kind, s->frame,
+		        s->outcome == SCORE_FRAME_PASSED ? "warns" : score_outcome_names[s->outcome]);
+		annotation_text(run->traced, out);
+		for (int g = 0; g < N_GATES; g++) {
+			if (s->gates[g].state < SCORE_WARNED)
+				continue;
+			output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+			fprintf(out, "%%0A%s %s: ", score_gates[g].name, score_gates[g].title);
+			annotation_text(text, out);
+		}
+		if (s->n_blame) {
+			output_blame_text(&s->blame[0], text, sizeof(text));
+			fputs("%0A", out);
+			annotation_text(text, out);
+		}
+		fputc('\n', out);
+	}
+}

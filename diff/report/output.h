@@ -1,0 +1,71 @@
+/*
+ * What a comparison came to, written for people (a table) and for machines (JSON, JUnit XML).
+ */
+#ifndef DIFF_REPORT_OUTPUT_H
+#define DIFF_REPORT_OUTPUT_H
+
+#include <stdio.h>
+
+#include "diff/score/score.h"
+#include "diff/rules.h"
+
+/* A whole comparison. */
+struct output_run {
+	const char *reference, *traced; /* as the user named them; reference NULL: only approved frames */
+	const char *baseline;           /* folder of approved frames, NULL: none */
+	const char *name;               /* of the recording, as configurations match it */
+	const char *command;            /* the command line that made this */
+	const struct score_options *options; /* of the command line */
+	const struct score_rules *settings;     /* NULL: none */
+	struct score *scores;           /* sorted by frame */
+	size_t n_scores;
+	uint64_t counts[N_SCORE_OUTCOMES];
+	double seconds;
+};
+
+/** A file that appears under its name only when it is whole. */
+struct output_file {
+	FILE *stream;
+	char *path, *temporary;
+};
+
+/** Create a file beside its final name. @return 0 or ERR_SYSTEM (reported) */
+int output_open(struct output_file *file, const char *path);
+/** Close and rename (`keep` 1) or remove it; `keep` 0 is also the failure path. @return 0 or ERR_SYSTEM (reported) */
+int output_close(struct output_file *file, int keep);
+
+/** Indices of scores: those that did not pass first, each part by frame. out has n_scores elements. */
+void output_order(const struct output_run *run, size_t *out);
+
+/** The table: what did not pass first, with its figures beside the bars, then a line for each frame, then a summary. */
+void output_table(const struct output_run *run, FILE *out);
+
+/** One line: counts by outcome and the worst frame. */
+void output_summary(const struct output_run *run, FILE *out);
+
+/** The gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
+void output_gate_text(const struct score_gate *gate, const struct score_gate_info *info, char *out, size_t size);
+
+/**
+ * JSON: every figure and bar. Numbers that were not measured or are infinite are null.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int output_json(const struct output_run *run, const char *path);
+void output_json_stream(const struct output_run *run, FILE *out);
+
+/** Text as a JSON string, quotes included; may stand inside an HTML script. */
+void output_json_string(const char *text, FILE *out);
+
+/** JUnit XML: a suite with one case for each frame. @return 0 or ERR_SYSTEM (reported) */
+int output_junit(const struct output_run *run, const char *path);
+
+/** Workflow commands: one ::error line for each frame that did not pass, one ::warning line for each that warns. */
+void output_annotations(const struct output_run *run, FILE *out);
+
+/** The first frame, by number, that failed or is missing; NULL where none did. */
+const struct score *output_first_wrong(const struct output_run *run);
+
+/** Text with the characters that XML and HTML give a meaning replaced. */
+void output_escaped(const char *text, FILE *out);
+
+#endif

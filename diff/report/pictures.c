@@ -1,0 +1,226 @@
+#include "diff/report/pictures.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+#define DIFFERENCE_GAIN 8
+
+const char *const picture_names[N_PICTURES] = {
+	"reference", "compared", "beauty", "difference", "flip", "failing", "shadow", "relight", "reflect", "refract", "albedo",
+	"normal", "depth", "id",
+};
+
+int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out)
+{
+	const char *layers[] = { channel ? channel : "gl", "gl", "beauty" };
+	int err = ERR_INPUT;
+
+	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]); i++)
+		err = score_picture_from_image(img, layers[i], out);
+	return err;
+}
+
+int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
+                       struct picture_frame *out)
+{
+	const struct set_entry *r = set_find(ref, frame), *t = set_find(traced, frame);
+	const char *channel;
+	int err = r && t ? 0 : ERR_INPUT;
+
+	if (!err)
+		err = set_read(ref, r, &out->ref_image);
+	if (!err)
+		err = set_read(traced, t, &out->image);
+	if (!err)
+		err = score_rules_for_frame(run->settings, run->name, frame, run->options, out->ref_image.width,
+		                         out->ref_image.height, &out->settings);
+	channel = out->settings.options.channel;
+	if (!err)
+		err = picture_take_reference(&out->ref_image, channel, &out->ref);
+	if (!err)
+		err = score_picture_from_image(&out->image, channel ? channel : "gl", &out->compared);
+	if (err == ERR_INPUT && out->ref.rgb && !channel) {
+		out->is_beauty = 1;
+		err = score_picture_from_image(&out->image, "beauty", &out->compared);
+	}
+	out->ref.ignore = out->settings.ignore;
+	if (!err && out->ref.width == out->compared.width && out->ref.height == out->compared.height)
+		err = score_make_maps(&out->ref, &out->compared, &out->settings.options, &out->maps);
+	return err;
+}
+
+void picture_frame_free(struct picture_frame *frame)
+{
+	score_maps_free(&frame->maps);
+	score_rules_frame_free(&frame->settings);
+	score_picture_free(&frame->compared);
+	score_picture_free(&frame->ref);
+	image_free(&frame->image);
+	image_free(&frame->ref_image);
+}
+
+static int is_one_color(const uint8_t *rgb, size_t n)
+{
+	for (size_t i = 1; i < n; i++)
+		if (memcmp(rgb, rgb + 3 * i, 3) != 0)
+			return 0;
+	return 1;
+}
+
+static void fill_difference(const struct picture_frame *f, uint8_t *rgb, size_t n)
+{
+	for (size_t i = 0; i < 3 * n; i++) {
+		int d = DIFFERENCE_GAIN * abs(f->ref.rgb[i] - f->compared.rgb[i]);
+
+		rgb[i] = (uint8_t)(d < 255 ? d : 255);
+	}
+}
+
+static int fill_flip(const struct picture_frame *f, uint8_t *rgb, size_t n)
+{
+	float *error = malloc((n ? n : 1) * sizeof(*error));
+	double mean;
+	int err = error ? flip_compare(f->ref.rgb, f->compared.rgb, f->ref.width, f->ref.height, error, &mean)
+	                : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	for (size_t i = 0; !err && i < n; i++)
+		flip_magma(error[i], rgb + 3 * i);
+	free(error);
+	return err;
+}
+
+static void fill_failing(const struct picture_frame *f, uint8_t *rgb, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		for (int c = 0; c < 3; c++)
+			rgb[3 * i + (size_t)c] = f->ref.rgb[3 * i + (size_t)c] / 3;
+		if (f->maps.band[i])
+			rgb[3 * i + 2] = (uint8_t)(rgb[3 * i + 2] + 110);
+		if (f->maps.failing[i])
+			memcpy(rgb + 3 * i, (uint8_t[]){ 255, 40, 30 }, 3);
+	}
+}
+
+static void fill_normal(const float *const planes[3], uint8_t *rgb, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		for (int c = 0; c < 3; c++) {
+			float v = 127.5f + 127.5f * planes[c][i];
+
+			rgb[3 * i + (size_t)c] = (uint8_t)(v > 0 ? v < 255 ? v : 255 : 0);
+		}
+}
+
+/* Grey from black (far, and the background) to white (near), linear between the frame's own extremes. */
+static void fill_depth(const float *depth, uint8_t *rgb, size_t n)
+{
+	float lo = 1, hi = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		if (depth[i] < lo)
+			lo = depth[i];
+		if (depth[i] < 1 && depth[i] > hi)
+			hi = depth[i];
+	}
+	for (size_t i = 0; i < n; i++) {
+		float v = depth[i] < 1 ? hi > lo ? 255 - 215 * (depth[i] - lo) / (hi - lo) : 255 : 0;
+
+		memset(rgb + 3 * i, (int)(v > 0 ? v < 255 ? v : 255 : 0), 3);
+	}
+}
+
+static void fill_id(const float *id, uint8_t *rgb, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		/* Knuth's multiplicative hash: neighbours in number are far apart in colour. */
+		uint32_t h = (uint32_t)(id[i] > 0 && id[i] < 1e9f ? id[i] : 0) * 2654435761u;
+
+		rgb[3 * i] = h ? (uint8_t)(64 + (h >> 24) % 192) : 0;
+		rgb[3 * i + 1] = h ? (uint8_t)(64 + (h >> 16) % 192) : 0;
+		rgb[3 * i + 2] = h ? (uint8_t)(64 + (h >> 8) % 192) : 0;
+	}
+}
+
+/** A colour layer of the traced frame; `effect` layers that show nothing are left out. */
+static int make_layer(const struct picture_frame *f, const char *layer, int effect, uint8_t **rgb)
+{
+	struct score_picture picture = { 0 };
+	int err = score_picture_from_image(&f->image, layer, &picture);
+
+	if (err)
+		return err == ERR_INPUT ? 0 : err;
+	if (effect && is_one_color(picture.rgb, (size_t)picture.width * picture.height)) {
+		score_picture_free(&picture);
+		return 0;
+	}
+	*rgb = picture.rgb;
+	return 0;
+}
+
+static int make_copy(const struct score_picture *picture, uint8_t **rgb)
+{
+	const size_t n = (size_t)picture->width * picture->height;
+
+	*rgb = malloc(n ? 3 * n : 1);
+	if (!*rgb)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	memcpy(*rgb, picture->rgb, 3 * n);
+	return 0;
+}
+
+/** Pictures that are computed into a fresh buffer. */
+static int make_map(const struct picture_frame *f, enum picture_kind kind, uint8_t **rgb)
+{
+	const size_t n = (size_t)f->image.width * f->image.height;
+	const float *normal[3] = { image_channel(&f->image, "N.X"), image_channel(&f->image, "N.Y"),
+	                           image_channel(&f->image, "N.Z") };
+	uint8_t *out;
+	int err = 0;
+
+	if ((kind <= PICTURE_FAILING && !f->maps.failing) || (kind == PICTURE_DEPTH && !f->compared.depth) ||
+	    (kind == PICTURE_ID && !f->compared.id) ||
+	    (kind == PICTURE_NORMAL && !(normal[0] && normal[1] && normal[2])))
+		return 0;
+	out = malloc(n ? 3 * n : 1);
+	if (!out)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	switch (kind) {
+	case PICTURE_DIFFERENCE: fill_difference(f, out, n); break;
+	case PICTURE_FLIP: err = fill_flip(f, out, n); break;
+	case PICTURE_FAILING: fill_failing(f, out, n); break;
+	case PICTURE_NORMAL: fill_normal(normal, out, n); break;
+	case PICTURE_DEPTH: fill_depth(f->compared.depth, out, n); break;
+	default: fill_id(f->compared.id, out, n);
+	}
+	if (err) {
+		free(out);
+		return err;
+	}
+	*rgb = out;
+	return 0;
+}
+
+int picture_make(const struct picture_frame *f, enum picture_kind kind, uint8_t **rgb, uint32_t *width,
+                 uint32_t *height)
+{
+	*rgb = NULL;
+	*width = f->image.width;
+	*height = f->image.height;
+	switch (kind) {
+	case PICTURE_REFERENCE:
+		*width = f->ref.width;
+		*height = f->ref.height;
+		return make_copy(&f->ref, rgb);
+	case PICTURE_COMPARED: return make_copy(&f->compared, rgb);
+	case PICTURE_BEAUTY: return f->is_beauty ? 0 : make_layer(f, "beauty", 0, rgb);
+	case PICTURE_SHADOW: return make_layer(f, "shadow", 1, rgb);
+	case PICTURE_RELIGHT: return make_layer(f, "relight", 1, rgb);
+	case PICTURE_REFLECT: return make_layer(f, "reflect", 1, rgb);
+	case PICTURE_REFRACT: return make_layer(f, "refract", 1, rgb);
+	case PICTURE_ALBEDO: return make_layer(f, "albedo", 1, rgb);
+	default: return make_map(f, kind, rgb);
+	}
+}

@@ -1,0 +1,61 @@
+/*
+ * Pictures for people of what was compared: the layers of a traced frame, and maps of where it differs.
+ */
+#ifndef DIFF_REPORT_PICTURES_H
+#define DIFF_REPORT_PICTURES_H
+
+#include "diff/report/output.h"
+#include "diff/score/score.h"
+#include "diff/pictures/set.h"
+#include "diff/rules.h"
+
+enum picture_kind {
+	PICTURE_REFERENCE,  /* as recorded */
+	PICTURE_COMPARED,   /* the compared layer: gl, or what --channel names */
+	PICTURE_BEAUTY,
+	PICTURE_DIFFERENCE, /* per channel, 8 times */
+	PICTURE_FLIP,       /* compared layer against reference, on the map magma */
+	PICTURE_FAILING,    /* red: fails R1, R1b or R2; blue: edge band; over a dimmed reference */
+	PICTURE_SHADOW, PICTURE_RELIGHT, PICTURE_REFLECT, PICTURE_REFRACT,
+	PICTURE_ALBEDO, PICTURE_NORMAL,
+	PICTURE_DEPTH,      /* window depth, its range stretched over grey; near is bright */
+	PICTURE_ID,         /* one colour for each draw */
+	N_PICTURES
+};
+
+/** Short names, for file and programs: "reference", "compared", "beauty", ... */
+extern const char *const picture_names[N_PICTURES];
+
+/* One frame with all that pictures are made of. */
+struct picture_frame {
+	struct image ref_image, image;
+	struct score_picture ref, compared;
+	struct score_maps maps; /* empty where the sizes differ */
+	struct score_rules_frame settings;
+	int is_beauty;          /* 1: the compared layer is the beauty, for want of gl; it makes one picture, not two */
+};
+
+/**
+ * Read one frame of both sets.
+ * @param run      for what is compared and ignored
+ * @param out      all zero; free with picture_frame_free, also on failure
+ * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
+ */
+int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, const struct output_run *run,
+                       struct picture_frame *out);
+void picture_frame_free(struct picture_frame *frame);
+
+/** The reference as it is compared: layer `channel` if it has it, else gl, else its plain colours. */
+int picture_take_reference(const struct image *img, const char *channel, struct score_picture *out);
+
+/**
+ * Make one picture.
+ * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where the frame has nothing
+ *                       to show for it (no such channels, or one colour all over for an effect)
+ * @param width, height  receive its size: the reference's, or the traced frame's where the sizes differ
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int picture_make(const struct picture_frame *frame, enum picture_kind kind, uint8_t **rgb, uint32_t *width,
+                 uint32_t *height);
+
+#endif

@@ -1,0 +1,246 @@
+#include "diff/report/report.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "diff/pictures/oiio.h"
+#include "diff/report/ordered.h"
+#include "diff/report/pictures.h"
+
+/* Where the data goes in the page. */
+#define DATA_MARKER "/*DATA*/"
+#define PICTURES_MARKER "<!--PICTURES-->"
+
+enum { PASSED_SAMPLE = 12, PNG_LEVEL = 6, THUMBNAIL = 80, BLAMED = 3, BLAME_SIZE = 200 };
+#define PICTURE_BUDGET ((size_t)64 << 20)
+
+static void write_base64(const uint8_t *bytes, size_t n, FILE *out)
+{
+	static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+	for (size_t i = 0; i < n; i += 3) {
+		uint32_t v = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) |
+			(i + 2 < n ? bytes[i + 2] : 0u);
+		char text[4] = { digits[v >> 18], digits[v >> 12 & 63], i + 1 < n ? digits[v >> 6 & 63] : '=',
+		                 i + 2 < n ? digits[v & 63] : '=' };
+
+		fwrite(text, 1, sizeof(text), out);
+	}
+}
+
+static void write_png(const char *name, const uint8_t *png, size_t bytes, FILE *out, size_t *used)
+{
+	fprintf(out, "%s\n\"%s\": \"data:image/png;base64,", *used ? "," : "", name);
+	write_base64(png, bytes, out);
+	fputs("\"", out);
+	*used += bytes / 3 * 4;
+}
+
+/** Encode a picture and write it; rgb is freed. */
+static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_t height, FILE *out, size_t *used)
+{
+	uint8_t *png;
+	size_t bytes;
+	int err = oiio_encode_png(rgb, width, height, 3, PNG_LEVEL, &png, &bytes);
+
+	free(rgb);
+	if (err)
+		return err;
+	write_png(name, png, bytes, out, used);
+	free(png);
+	return 0;
+}
+
+/** What a blamed draw did: its surroundings in the reference, in the traced frame, and what fails, side by side. */
+static int write_blame(const struct picture_frame *frame, const struct score_blame *blame, unsigned number, FILE *out,
+                       size_t *used)
+{
+	enum { MARGIN = 12, GAP = 4, SIDES = 3 };
+	static const enum picture_kind kinds[SIDES] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_FAILING };
+	const uint32_t x0 = blame->x0 > MARGIN ? blame->x0 - MARGIN : 0, y0 = blame->y0 > MARGIN ? blame->y0 - MARGIN : 0;
+	uint32_t w = blame->x1 + MARGIN + 1 - x0, h = blame->y1 + MARGIN + 1 - y0;
+	uint8_t *out_rgb;
+	char name[16];
+
+	w = x0 + w > frame->ref.width ? frame->ref.width - x0 : w;
+	h = y0 + h > frame->ref.height ? frame->ref.height - y0 : h;
+	w = w < BLAME_SIZE ? w : BLAME_SIZE;
+	h = h < BLAME_SIZE ? h : BLAME_SIZE;
+
+	const uint32_t width = SIDES * w + (SIDES - 1) * GAP;
+
+	out_rgb = calloc((size_t)width * h, 3);
+	if (!out_rgb)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t k = 0; k < SIDES; k++) {
+		uint32_t full_width, full_height;
+		uint8_t *rgb;
+		int err = picture_make(frame, kinds[k], &rgb, &full_width, &full_height);
+
+		if (err) {
+			free(out_rgb);
+			return err;
+		}
+		for (uint32_t y = 0; rgb && y < h; y++)
+			memcpy(out_rgb + 3 * ((size_t)y * width + k * (w + GAP)), rgb + 3 * ((size_t)(y0 + y) * full_width + x0),
+			       3 * (size_t)w);
+		free(rgb);
+	}
+	snprintf(name, sizeof(name), "blame %u", number);
+	return write_picture(name, out_rgb, width, h, out, used);
+}
+
+/** The compared layer, small, for the list. */
+static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t *used)
+{
+	const uint32_t width = frame->compared.width, height = frame->compared.height;
+	const uint32_t step = width / THUMBNAIL > 1 ? width / THUMBNAIL : 1, w = width / step, h = height / step;
+	uint8_t *rgb = malloc(3 * (size_t)w * h + 1);
+
+	if (!rgb)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t y = 0; y < h; y++)
+		for (uint32_t x = 0; x < w; x++)
+			for (uint32_t c = 0; c < 3; c++) {
+				uint32_t sum = 0;
+
+				for (uint32_t v = 0; v < step; v++)
+					for (uint32_t u = 0; u < step; u++)
+						sum += frame->compared.rgb[3 * ((size_t)(y * step + v) * width + x * step + u) + c];
+				rgb[3 * ((size_t)y * w + x) + c] = (uint8_t)((sum + step * step / 2) / (step * step));
+			}
+	return write_picture("thumbnail", rgb, w, h, out, used);
+}
+
+/**
+ * One frame's pictures as a block of JSON that the page reads when the frame is looked at, and only then. Without
+ * `whole`, only the thumbnail. *used: what they take.
+ */
+static int write_pictures(struct set *ref, struct set *traced, const struct score *s, const struct output_run *run,
+                          int whole, FILE *out, size_t *used)
+{
+	struct picture_frame frame = { 0 };
+	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
+
+	*used = 0;
+	if (err)
+		goto fail;
+	fprintf(out, "<script type=\"application/json\" id=\"p%" PRIu64 "\">{", s->frame);
+	err = write_thumbnail(&frame, out, used);
+	for (int kind = 0; whole && !err && kind < N_PICTURES; kind++) {
+		uint8_t *rgb;
+		uint32_t width, height;
+
+		err = picture_make(&frame, (enum picture_kind)kind, &rgb, &width, &height);
+		if (!err && rgb)
+			err = write_picture(picture_names[kind], rgb, width, height, out, used);
+	}
+	for (unsigned b = 0; whole && !err && frame.maps.failing && b < s->n_blame && b < BLAMED; b++)
+		err = write_blame(&frame, &s->blame[b], b, out, used);
+	fputs("}</script>\n", out);
+fail:
+	picture_frame_free(&frame);
+	/* a frame that cannot be read has been scored as such: the page goes on without its pictures */
+	return err == ERR_INPUT ? 0 : err;
+}
+
+static int was_compared(const struct score *s)
+{
+	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
+		s->outcome == SCORE_FRAME_NEW;
+}
+
+/* Whose pictures come in which order: frames that did not pass first. */
+struct pictures {
+	const struct output_run *run;
+	struct set *ref, *traced;
+	const struct score **scores;
+	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
+	size_t n;
+};
+
+/** All others than samples, and what is beyond the budget, have a thumbnail. */
+static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
+{
+	const struct pictures *p = context;
+
+	return write_pictures(p->ref, p->traced, p->scores[i], p->run, p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
+}
+
+static int write_all_pictures(const struct output_run *run, struct set *ref, struct set *traced, FILE *out)
+{
+	struct pictures p = { .run = run, .ref = ref, .traced = traced };
+	uint64_t n_passed = run->counts[SCORE_FRAME_PASSED], seen = 0;
+	int err;
+
+	p.scores = calloc(run->n_scores + 1, sizeof(*p.scores));
+	p.is_sample = calloc(run->n_scores + 1, sizeof(*p.is_sample));
+	if (!p.scores || !p.is_sample) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto fail;
+	}
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (was_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED) {
+			p.is_sample[p.n] = 1;
+			p.scores[p.n++] = &run->scores[i];
+		}
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (run->scores[i].outcome == SCORE_FRAME_PASSED) {
+			/* the k-th sample is taken at place k * n / SAMPLE */
+			p.is_sample[p.n] = n_passed <= PASSED_SAMPLE || seen * PASSED_SAMPLE % n_passed < PASSED_SAMPLE;
+			p.scores[p.n++] = &run->scores[i];
+			seen++;
+		}
+	err = ordered_write(p.n, make_pictures, &p, out);
+fail:
+	free(p.scores);
+	free(p.is_sample);
+	return err;
+}
+
+static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
+{
+	const char *marker = strstr(report_page, DATA_MARKER), *place = strstr(marker, PICTURES_MARKER), *rest;
+	struct output_file file;
+	int err;
+
+	if (output_open(&file, path) != 0)
+		return ERR_SYSTEM;
+	fwrite(report_page, 1, (size_t)(marker - report_page), file.stream);
+	fputs("const run = ", file.stream);
+	output_json_stream(run, file.stream);
+	fputs(";\n", file.stream);
+	rest = marker + strlen(DATA_MARKER);
+	fwrite(rest, 1, (size_t)(place - rest), file.stream);
+	err = write_all_pictures(run, ref, traced, file.stream);
+	fputs(place + strlen(PICTURES_MARKER), file.stream);
+	if (err) {
+		output_close(&file, 0);
+		return err;
+	}
+	return output_close(&file, 1);
+}
+
+int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir)
+{
+	char path[PATH_MAX];
+	int compared = 0;
+	int err = folder_make(dir);
+
+	if (err)
+		return err;
+	for (size_t i = 0; i < run->n_scores; i++)
+		compared |= was_compared(&run->scores[i]);
+	if (snprintf(path, sizeof(path), "%s/index.html", dir) >= (int)sizeof(path))
+		return err_report(ERR_SYSTEM, dir, "the name is too long");
+	err = write_page(run, ref, traced, path);
+	if (err || !compared)
+		return err;
+	if (snprintf(path, sizeof(path), "%s/sheet.png", dir) >= (int)sizeof(path))
+		return err_report(ERR_SYSTEM, dir, "the name is too long");
+	return sheet_write(run, ref, traced, path);
+}

@@ -1,0 +1,154 @@
+/* The contact sheet: one row for each of a few frames, one column for each picture, labels above. */
+#include "diff/report/report.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "diff/pictures/oiio.h"
+#include "diff/report/pictures.h"
+
+enum { COLUMNS = 4, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
+
+static const enum picture_kind columns[COLUMNS] = { PICTURE_REFERENCE, PICTURE_COMPARED, PICTURE_BEAUTY,
+                                                    PICTURE_DIFFERENCE };
+
+struct sheet {
+	uint8_t *rgb;
+	uint32_t width, height;       /* of the sheet */
+	uint32_t cell_w, cell_h;      /* of one picture in it */
+};
+
+static void draw_text(struct sheet *sheet, uint32_t x, uint32_t y, const char *text, int warn)
+{
+	static const uint8_t colors[2][3] = { { 220, 220, 220 }, { 255, 120, 100 } };
+
+	/* Without a font the pictures still say what they say. */
+	oiio_draw_text(sheet->rgb, sheet->width, sheet->height, (int)x, (int)(y + LABEL - 6), LETTERS, text, colors[warn]);
+}
+
+/** Copy a picture into a cell, shrunk by means of whole boxes where it is larger. */
+static void draw_picture(struct sheet *sheet, uint32_t left, uint32_t top, const uint8_t *rgb, uint32_t width,
+                         uint32_t height)
+{
+	uint32_t w = width < sheet->cell_w ? width : sheet->cell_w, h = height < sheet->cell_h ? height : sheet->cell_h;
+
+	for (uint32_t y = 0; y < h; y++) {
+		for (uint32_t x = 0; x < w; x++) {
+			uint32_t x0 = (uint32_t)((uint64_t)x * width / w), x1 = (uint32_t)((uint64_t)(x + 1) * width / w);
+			uint32_t y0 = (uint32_t)((uint64_t)y * height / h), y1 = (uint32_t)((uint64_t)(y + 1) * height / h);
+			uint32_t sum[3] = { 0 }, count = (x1 - x0) * (y1 - y0);
+			uint8_t *to = sheet->rgb + 3 * ((size_t)(top + y) * sheet->width + left + x);
+
+			for (uint32_t v = y0; v < y1; v++)
+				for (uint32_t u = x0; u < x1; u++)
+					for (int c = 0; c < 3; c++)
+						sum[c] += rgb[3 * ((size_t)v * width + u) + (size_t)c];
+			for (int c = 0; c < 3; c++)
+				to[c] = (uint8_t)((sum[c] + count / 2) / count);
+		}
+	}
+}
+
+/** Up to MAX_ROWS compared frames: the failed ones with the lowest fidelity first, then passed ones evenly spread. */
+static size_t choose_frames(const struct output_run *run, const struct score *out[MAX_ROWS])
+{
+	size_t n = 0, passed = 0, seen = 0;
+
+	for (; n < MAX_ROWS; n++) {
+		const struct score *worst = NULL;
+
+		for (size_t i = 0; i < run->n_scores; i++) {
+			const struct score *s = &run->scores[i];
+			int taken = 0;
+
+			for (size_t k = 0; k < n; k++)
+				taken |= out[k] == s;
+			if (s->outcome == SCORE_FRAME_FAILED && !taken && (!worst || s->fidelity < worst->fidelity))
+				worst = s;
+		}
+		if (!worst)
+			break;
+		out[n] = worst;
+	}
+	passed = run->counts[SCORE_FRAME_PASSED];
+	for (size_t i = 0, first = n, rows = MAX_ROWS - n; i < run->n_scores && n < MAX_ROWS; i++) {
+		if (run->scores[i].outcome != SCORE_FRAME_PASSED)
+			continue;
+		if (seen * rows >= (n - first) * passed)
+			out[n++] = &run->scores[i];
+		seen++;
+	}
+	return n;
+}
+
+static int draw_row(struct sheet *sheet, size_t row, const struct score *s, const struct output_run *run,
+                    struct set *ref, struct set *traced)
+{
+	struct picture_frame frame = { 0 };
+	uint32_t top = GAP + (uint32_t)row * (sheet->cell_h + LABEL + GAP);
+	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
+
+	for (int c = 0; !err && c < COLUMNS; c++) {
+		uint32_t left = GAP + (uint32_t)c * (sheet->cell_w + GAP), width, height;
+		const char *name = columns[c] == PICTURE_REFERENCE ? "raster"
+			: columns[c] == PICTURE_COMPARED ? s->layer : picture_names[columns[c]];
+		char text[96];
+		uint8_t *rgb;
+
+		err = picture_make(&frame, columns[c], &rgb, &width, &height);
+		if (err || !rgb)
+			continue;
+		if (c == 0)
+			snprintf(text, sizeof(text), "%s, frame %" PRIu64, name, s->frame);
+		else if (columns[c] == PICTURE_DIFFERENCE)
+			snprintf(text, sizeof(text), "difference x 8: %s, %.2f %%", score_outcome_names[s->outcome],
+			         100 * s->fidelity);
+		else
+			snprintf(text, sizeof(text), "%s", name);
+		draw_text(sheet, left, top, text, columns[c] == PICTURE_DIFFERENCE && s->outcome == SCORE_FRAME_FAILED);
+		draw_picture(sheet, left, top + LABEL, rgb, width, height);
+		free(rgb);
+	}
+	picture_frame_free(&frame);
+	return err == ERR_INPUT ? 0 : err;
+}
+
+int sheet_write(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
+{
+	const struct score *rows[MAX_ROWS];
+	size_t n_rows = choose_frames(run, rows), bytes;
+	struct sheet sheet = { .cell_w = 1, .cell_h = 1 };
+	struct output_file file;
+	uint8_t *png = NULL;
+	int err = 0;
+
+	for (size_t i = 0; i < n_rows; i++) {
+		/* the largest frame, shrunk to MAX_CELL with its shape kept */
+		double scale = rows[i]->width > MAX_CELL ? (double)MAX_CELL / rows[i]->width : 1;
+		uint32_t w = (uint32_t)(rows[i]->width * scale), h = (uint32_t)(rows[i]->height * scale);
+
+		sheet.cell_w = w > sheet.cell_w ? w : sheet.cell_w;
+		sheet.cell_h = h > sheet.cell_h ? h : sheet.cell_h;
+	}
+	sheet.width = GAP + COLUMNS * (sheet.cell_w + GAP);
+	sheet.height = GAP + (uint32_t)n_rows * (sheet.cell_h + LABEL + GAP);
+	sheet.rgb = malloc(3 * (size_t)sheet.width * sheet.height);
+	if (!sheet.rgb)
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	memset(sheet.rgb, 40, 3 * (size_t)sheet.width * sheet.height);
+	for (size_t i = 0; !err && i < n_rows; i++)
+		err = draw_row(&sheet, i, rows[i], run, ref, traced);
+	if (!err)
+		err = oiio_encode_png(sheet.rgb, sheet.width, sheet.height, 3, 6, &png, &bytes);
+	if (!err)
+		err = output_open(&file, path);
+	if (!err) {
+		fwrite(png, 1, bytes, file.stream);
+		err = output_close(&file, 1);
+	}
+	free(png);
+	free(sheet.rgb);
+	return err;
+}

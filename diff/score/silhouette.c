@@ -1,0 +1,150 @@
+/* Gate R4: which pixels are covered at all, whatever their colour. */
+#include "diff/score/gates.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+#define BAR_IOU 0.999
+#define BAR_BLOB 4
+
+/* A pixel is covered where it differs from the background by more than HIGH, not covered up to LOW: fog or blending
+ * that fades into the background must not flip between the two by rounding. */
+enum { COVER_LOW = 2, COVER_HIGH = 4 };
+
+/** The most frequent colour among pixels of `chosen` (NULL: all), packed; 0 where there is no such pixel. */
+static int find_background(const uint8_t *rgb, const uint8_t *chosen, size_t n, uint8_t color[3], int *found)
+{
+	uint32_t *counts = calloc(1 << 24, sizeof(*counts)), most = 0;
+
+	if (!counts)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < n; i++) {
+		const uint8_t *p = rgb + 3 * i;
+		uint32_t *count = &counts[p[0] << 16 | p[1] << 8 | p[2]];
+
+		if (chosen && !chosen[i])
+			continue;
+		if (++*count > most) {
+			most = *count;
+			memcpy(color, p, 3);
+		}
+	}
+	free(counts);
+	*found = most > 0;
+	return 0;
+}
+
+/** Size of the largest group of marked pixels that touch, corners included. Clears the marks. */
+static int largest_blob(uint8_t *marks, int width, int height, uint64_t *largest)
+{
+	const size_t n = (size_t)width * (size_t)height;
+	uint32_t *stack = malloc((n ? n : 1) * sizeof(*stack));
+
+	if (!stack)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	*largest = 0;
+	for (size_t start = 0; start < n; start++) {
+		size_t top = 0;
+		uint64_t size = 0;
+
+		if (!marks[start])
+			continue;
+		marks[start] = 0;
+		stack[top++] = (uint32_t)start;
+		while (top) {
+			int x = (int)(stack[--top] % (uint32_t)width), y = (int)(stack[top] / (uint32_t)width);
+
+			size++;
+			for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < height; v++) {
+				for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < width; u++) {
+					size_t i = (size_t)v * (size_t)width + (size_t)u;
+
+					if (marks[i]) {
+						marks[i] = 0; /* each pixel is pushed once: the stack holds n */
+						stack[top++] = (uint32_t)i;
+					}
+				}
+			}
+		}
+		*largest = size > *largest ? size : *largest;
+	}
+	free(stack);
+	return 0;
+}
+
+/** Depth of the background: what the traced frame holds where nothing was drawn; GL's default where all is covered. */
+static float background_depth(const struct score_picture *traced, size_t n)
+{
+	for (size_t i = 0; traced->id && i < n; i++)
+		if (traced->id[i] == 0)
+			return traced->depth[i];
+	return 1;
+}
+
+/* How surely a pixel shows more than the background: 0 not, 1 maybe, 2 surely. */
+static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth, const uint8_t *background)
+{
+	int d = background ? gate_code_difference(pic->rgb + 3 * i, background) : 0;
+
+	if (use_depth && pic->depth[i] != far_depth)
+		return 2;
+	return d > COVER_HIGH ? 2 : d > COVER_LOW ? 1 : 0;
+}
+
+int gate_silhouette(const struct score_picture *ref, const struct score_picture *traced,
+                    const struct score_options *options, struct score *s)
+{
+	const size_t n = (size_t)ref->width * ref->height;
+	const int use_depth = ref->depth && traced->depth;
+	const float far_depth = use_depth ? background_depth(traced, n) : 1;
+	uint8_t *marks = calloc(n ? n : 1, 1);
+	uint8_t background[2][3];
+	uint64_t both = 0, unmatched = 0, largest = 0;
+	int found[2], err = ERR_SYSTEM;
+
+	if (!marks) {
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto fail;
+	}
+	/* The background's colour, on each side, where the traced frame drew nothing. */
+	for (size_t i = 0; i < n; i++)
+		marks[i] = traced->id ? traced->id[i] == 0 : use_depth ? traced->depth[i] == far_depth : 1;
+	err = find_background(ref->rgb, marks, n, background[0], &found[0]);
+	if (!err)
+		err = find_background(traced->rgb, marks, n, background[1], &found[1]);
+	if (err)
+		goto fail;
+	if (!use_depth && !found[0]) {
+		gate_note(s, GATE_R4, "depth is not on both sides, and every pixel is covered");
+		goto fail;
+	}
+
+	for (size_t i = 0; i < n; i++) {
+		marks[i] = 0;
+		if (gate_ignores(ref, i))
+			continue;
+		int a = coverage(ref, i, use_depth, far_depth, found[0] ? background[0] : NULL);
+		int b = coverage(traced, i, use_depth, far_depth, found[1] ? background[1] : NULL);
+
+		marks[i] = (a == 2 && b == 0) || (a == 0 && b == 2);
+		unmatched += marks[i];
+		both += a && b;
+	}
+	err = largest_blob(marks, (int)ref->width, (int)ref->height, &largest);
+	if (err)
+		goto fail;
+	gate_measure(options, s, GATE_R4, 0, both + unmatched ? (double)both / (double)(both + unmatched) : 1, BAR_IOU);
+	gate_measure(options, s, GATE_R4, 1, (double)largest, BAR_BLOB);
+	gate_note(s, GATE_R4, "%s; %" PRIu64 " px covered, %" PRIu64 " unmatched",
+	     use_depth ? "from depth and colour"
+	               : ref->depth ? "no gl.depth in the frame: from difference to the background colour"
+	                            : "no depth reference: from difference to the background colour",
+	     both + unmatched, unmatched);
+fail:
+	free(marks);
+	return err;
+}

@@ -1,0 +1,374 @@
+/*
+ * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See kernels/camera/camera.h.
+ */
+#include "kernels/camera/camera.h"
+#include "kernels/rays/compressed.h"
+#include "kernels/camera/coverage.h"
+
+/* A pixel on its way. */
+struct pixel {
+	__global const struct view *view;
+	__global const struct instance *instances;
+	__global const struct node2 *nodes;
+	__global const struct node8c *compressed; /* instead of nodes */
+	__global const struct triangle *triangles;
+	__global const struct window_vertex *window;
+	__global const float *clip;
+	__global struct fragment *out; /* the pixel's column, or its nearest */
+	uint mode, height, after;
+	int x, y;
+	float3 o, d;
+	float d_scale, near_w, far_w, t_max;
+	uint count, steps;
+	struct fragment nearest;
+};
+
+static inline void shorten(struct pixel *p, float depth)
+{
+	const float near = p->view->depth_range[0], range = p->view->depth_range[1] - near;
+	const float u = (depth - near) / range + 4e-7f;
+	const float w = (1.0f - u) * p->near_w + u * p->far_w - 1e-6f * p->near_w;
+
+	/* Where the range is turned round the nearest depth is not the first along the ray. */
+	if (range > 0 && w * p->near_w > 0)
+		p->t_max = fmin(p->t_max, u * p->d_scale / (p->near_w * w));
+}
+
+static inline void keep_nearest(struct pixel *p, const struct fragment *f)
+{
+	const uint steps = convert_uint(rint(f->depth * 16777215.0f));
+
+	if (p->count && (steps > p->steps || (steps == p->steps && (p->mode == CAMERA_NEAREST_LESS
+	                                                                   ? f->order > p->nearest.order
+	                                                                   : f->order < p->nearest.order))))
+		return;
+	p->nearest = *f;
+	p->steps = steps;
+	p->count = 1;
+	shorten(p, f->depth);
+}
+
+static inline void keep_in_column(struct pixel *p, const struct fragment *f)
+{
+	uint place = p->count;
+
+	if (f->order < p->after)
+		return;
+	while (place > 0 && p->out[place - 1].order > f->order)
+		place--;
+	/* A triangle may lie in several leaves. */
+	if (place == CAMERA_COLUMN_MAX || (place > 0 && p->out[place - 1].order == f->order))
+		return;
+	if (p->count < CAMERA_COLUMN_MAX)
+		p->count++;
+	for (uint i = p->count - 1; i > place; i--)
+		p->out[i] = p->out[i - 1];
+	p->out[place] = *f;
+}
+
+static inline void try_triangle(struct pixel *p, uint index, __global const struct instance *instance,
+                         __global const struct triangle *triangle)
+{
+	const uint first = instance->vertex_first;
+	const uint i0 = first + triangle->vertex[0], i1 = first + triangle->vertex[1], i2 = first + triangle->vertex[2];
+	const struct window_vertex v0 = p->window[i0], v1 = p->window[i1], v2 = p->window[i2];
+	const int exact = p->mode != CAMERA_COLUMN;
+	struct fragment f;
+	int covered;
+
+	f.order = instance->primitive_first + triangle->primitive;
+	f.instance = index;
+	f.primitive = triangle->primitive;
+	if (v0.w_inv > 0 && v1.w_inv > 0 && v2.w_inv > 0) {
+		covered = coverage_placed(v0, v1, v2, instance->flags, clip_spot(p->view, p->x, p->y), &f.b1, &f.b2, &f.depth);
+		if (covered && exact) {
+			const struct vec4 clip[3] = { v4_load(p->clip + 4 * i0), v4_load(p->clip + 4 * i1), v4_load(p->clip + 4 * i2) };
+			const float z[3] = { v0.z, v1.z, v2.z };
+
+			f.depth = coverage_depth(p->view, p->height, 0, clip, z, p->x, p->y, f.depth);
+		}
+	} else {
+		covered = coverage_clipped(p->view, p->clip, p->height, i0, i1, i2, instance->flags, exact, p->x, p->y, &f.b1, &f.b2,
+		                           &f.depth);
+		f.primitive |= FRAGMENT_PERSPECTIVE;
+	}
+	if (!covered)
+		return;
+	if (p->mode == CAMERA_COLUMN)
+		keep_in_column(p, &f);
+	else
+		keep_nearest(p, &f);
+}
+
+static inline float3 invert(float3 d)
+{
+	return 1.0f / select(copysign((float3)(1e-20f), d), d, fabs(d) > 1e-20f);
+}
+
+/* Whether the ray meets a box, widened by pad, and where. */
+static inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, float t_max, float *enter)
+{
+	const float3 t0 = (lo - pad - o) * inverse, t1 = (hi + pad - o) * inverse;
+	const float3 first = fmin(t0, t1), last = fmax(t0, t1);
+
+	*enter = fmax(fmax(first.x, first.y), fmax(first.z, 0.0f));
+	/* A little more, for rounding in t; an empty side has lo > hi. */
+	return lo.x <= hi.x && *enter <= fmin(fmin(last.x, last.y), fmin(last.z, t_max)) * 1.00001f;
+}
+
+/* The same for one side of a binary node. */
+static inline int meets_side(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
+                      float *enter)
+{
+	return meets_box((float3)(node->lo[side][0], node->lo[side][1], node->lo[side][2]),
+	                 (float3)(node->hi[side][0], node->hi[side][1], node->hi[side][2]), o, inverse, pad, t_max, enter);
+}
+
+static inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
+{
+	__global const struct instance *instance = &p->instances[index];
+	__global const struct node2 *nodes = p->nodes + instance->node2_first;
+	uint stack[BVH_MAX_DEPTH + 1], depth = 0, child = 0;
+
+	for (;;) {
+		__global const struct node2 *node = &nodes[child];
+		float enter0, enter1;
+		int hit0 = meets_side(node, 0, o, inverse, instance->pad, p->t_max, &enter0);
+		int hit1 = meets_side(node, 1, o, inverse, instance->pad, p->t_max, &enter1);
+		const uint first = hit0 && hit1 && enter1 < enter0;
+
+		for (uint i = 0; i < 2; i++) {
+			const uint side = first ^ i;
+
+			if (!(side ? hit1 : hit0) || node->count[side] == 0)
+				continue;
+			for (uint k = 0; k < node->count[side]; k++)
+				try_triangle(p, index, instance, &p->triangles[instance->triangle_first + node->child[side] + k]);
+		}
+		hit0 = hit0 && node->count[0] == 0;
+		hit1 = hit1 && node->count[1] == 0;
+		if (hit0 && hit1) {
+			stack[depth++] = node->child[!first];
+			child = node->child[first];
+		} else if (hit0 || hit1) {
+			child = node->child[hit1];
+		} else if (depth) {
+			child = stack[--depth];
+		} else {
+			return;
+		}
+	}
+}
+
+/* Whether a box, widened by pad, is over or under a place of the window. */
+static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
+{
+	return all(at >= lo - pad) && all(at <= hi + pad);
+}
+
+/*
+ * Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: o is where the view looks in the
+ * window, a point.
+ */
+static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse, int is_screen)
+{
+	__global const struct instance *instance = &p->instances[index];
+	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
+	uint2 stack[NODE8C_MAX_DEPTH], group = (uint2)(0, 0); /* a node, and which of its nodes are still to be walked */
+	uint depth = 0;
+
+	for (;;) {
+		__global const struct node8c *node = &p->compressed[instance->node8c_first + group.x];
+		uint near, first;
+
+		for (uint i = 8; i-- > 0;) {
+			const uint slot = i ^ octant;
+			float lo[3], hi[3], enter;
+			uint count;
+
+			if (!node8c_box(node, slot, lo, hi))
+				continue;
+			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), o.xy, instance->pad) :
+			                !meets_box((float3)(lo[0], lo[1], lo[2]), (float3)(hi[0], hi[1], hi[2]), o, inverse, instance->pad,
+			                           p->t_max, &enter))
+				continue;
+			count = node8c_child(node, slot, &first);
+			group.y |= count ? 0u : 1u << i;
+			for (uint k = 0; k < count; k++)
+				try_triangle(p, index, instance, &p->triangles[instance->triangle8c_first + first + k]);
+		}
+		if (!group.y) {
+			if (depth == 0)
+				return;
+			group = stack[--depth];
+		}
+		near = 31 - clz(group.y);
+		group.y &= ~(1u << near);
+		if (group.y)
+			stack[depth++] = group;
+		node8c_child(&p->compressed[instance->node8c_first + group.x], near ^ octant, &first);
+		group = (uint2)(first, 0);
+	}
+}
+
+INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
+{
+	__global const float *m = p->instances[index].obj_from_eye;
+	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
+	const float3 o = (float3)(dot(r0, p->o) + m[3], dot(r1, p->o) + m[7], dot(r2, p->o) + m[11]);
+	const float3 inverse = invert((float3)(dot(r0, p->d), dot(r1, p->d), dot(r2, p->d)));
+
+	if (is_compressed)
+		walk_compressed(p, index, o, inverse, 0);
+	else
+		walk_binary(p, index, o, inverse);
+}
+
+INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
+                      __global const uint *instance_list)
+{
+	const float3 inverse = invert(p->d);
+	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
+	float enter;
+
+	stack[depth++] = 0;
+	while (depth) {
+		__global const struct node2 *node = &top[stack[--depth]];
+
+		for (uint side = 0; side < 2; side++) {
+			if (!meets_side(node, side, p->o, inverse, 0, p->t_max, &enter))
+				continue;
+			if (node->count[side] == 0)
+				stack[depth++] = node->child[side];
+			for (uint i = 0; i < node->count[side]; i++)
+				walk_blas(p, instance_list[node->child[side] + i], is_compressed);
+		}
+	}
+}
+
+/* Where the view looks in the pixel, pixels. */
+static inline float2 pixel_spot(const struct pixel *p)
+{
+	return (float2)((float)p->x, (float)p->y) + 0.5f + (float2)((float)p->view->sample[0], (float)p->view->sample[1]) * 0.00390625f;
+}
+
+static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
+{
+	__global const struct instance *instance = &p->instances[index];
+	__global const struct node2 *nodes = p->nodes + instance->node2_first;
+	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
+
+	stack[depth++] = 0;
+	while (depth) {
+		__global const struct node2 *node = &nodes[stack[--depth]];
+
+		for (uint side = 0; side < 2; side++) {
+			if (!is_below(vload2(0, node->lo[side]), vload2(0, node->hi[side]), at, instance->pad))
+				continue;
+			if (node->count[side] == 0)
+				stack[depth++] = node->child[side];
+			for (uint i = 0; i < node->count[side]; i++)
+				try_triangle(p, index, instance, &p->triangles[instance->triangle_first + node->child[side] + i]);
+		}
+	}
+}
+
+/* Geometry in window space: where the view looks is a point. */
+INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
+{
+	const float2 at = pixel_spot(p);
+
+	if (is_compressed)
+		walk_compressed(p, index, (float3)(at, 0), (float3)(1), 1);
+	else
+		walk_screen_binary(p, index, at);
+}
+
+/* 0 where the pixel has no ray: outside of the viewport, or the projection has no inverse. */
+static inline int make_ray(struct pixel *p)
+{
+	__global const float *m = p->view->inverse, *viewport = p->view->viewport;
+	const float px = pixel_spot(p).x, py = pixel_spot(p).y;
+	const float x = 2.0f * (px - viewport[0]) / viewport[2] - 1.0f;
+	const float y = 2.0f * (py - viewport[1]) / viewport[3] - 1.0f;
+	const float4 near = vload4(0, m) * x + vload4(1, m) * y + (vload4(3, m) - vload4(2, m));
+	const float4 far = vload4(0, m) * x + vload4(1, m) * y + (vload4(3, m) + vload4(2, m));
+
+	p->o = near.xyz / near.w;
+	p->d = far.xyz * near.w - near.xyz * far.w;
+	p->d_scale = fmax(fabs(p->d.x), fmax(fabs(p->d.y), fabs(p->d.z)));
+	p->d /= p->d_scale;
+	p->near_w = near.w;
+	p->far_w = far.w;
+	p->t_max = 1e30f;
+	return px >= viewport[0] && px < viewport[0] + viewport[2] && py >= viewport[1] && py < viewport[1] + viewport[3] &&
+	       isfinite(p->o.x + p->o.y + p->o.z) && isfinite(p->d.x + p->d.y + p->d.z);
+}
+
+/*
+ * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
+ */
+INLINED void do_pixel(int is_compressed, uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                      __global const struct instance *instances, __global const struct node2 *top,
+                      __global const uint *instance_list, __global const struct node2 *nodes,
+                      __global const struct node8c *compressed, __global const struct triangle *triangles,
+                      __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
+                      __global struct fragment *fragments, __global uint *counts)
+{
+	__global const struct view *view = &views[view_index];
+	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
+	                                                   view->scissor[3], width, height);
+	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0);
+	struct pixel p;
+	uint pixel;
+
+	if (item >= camera_wide_items(r))
+		return;
+	p.view = view;
+	p.instances = instances;
+	p.nodes = nodes;
+	p.compressed = compressed;
+	p.triangles = triangles;
+	p.window = window;
+	p.clip = clip;
+	p.mode = mode;
+	p.height = height;
+	p.x = r.x0 + (int)(item % columns);
+	p.y = r.y0 + (int)(item / columns);
+	pixel = (uint)p.y * width + (uint)p.x;
+	p.after = mode == CAMERA_COLUMN ? after[pixel] : 0;
+	p.out = fragments + (mode == CAMERA_COLUMN ? (size_t)pixel * CAMERA_COLUMN_MAX : pixel);
+	p.count = p.steps = 0;
+	p.nearest.order = p.nearest.instance = p.nearest.primitive = SCENE_NONE;
+	p.nearest.b1 = p.nearest.b2 = 0;
+	p.nearest.depth = 1;
+	if (view->tlas_count && make_ray(&p))
+		walk_top(&p, is_compressed, top + view->tlas_first, instance_list);
+	for (uint i = 0; i < view->screen_count; i++)
+		walk_screen(&p, view->screen_first + i, is_compressed);
+	if (mode != CAMERA_COLUMN)
+		*p.out = p.nearest;
+	counts[pixel] = p.count;
+}
+
+__kernel void camera_wide(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                          __global const struct instance *instances, __global const struct node2 *top,
+                          __global const uint *instance_list, __global const struct node2 *nodes,
+                          __global const struct triangle *triangles, __global const struct window_vertex *window,
+                          __global const float *clip, __global const uint *after, __global struct fragment *fragments,
+                          __global uint *counts)
+{
+	do_pixel(0, view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
+	         fragments, counts);
+}
+
+__kernel void camera_compressed(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
+                                __global const struct instance *instances, __global const struct node2 *top,
+                                __global const uint *instance_list, __global const struct node8c *nodes,
+                                __global const struct triangle *triangles, __global const struct window_vertex *window,
+                                __global const float *clip, __global const uint *after, __global struct fragment *fragments,
+                                __global uint *counts)
+{
+	do_pixel(1, view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
+	         fragments, counts);
+}

@@ -1,0 +1,391 @@
+/*
+ * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view volume.
+ *
+ * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out from its
+ * first corner. New corners are snapped to 1/256 pixel like all others, so that edges and depth of what leaves the window are
+ * those of its parts: over a wall that reaches from the horizon to behind the viewer the difference can be seen.
+ */
+#ifndef KERNELS_GL_CLIP_H
+#define KERNELS_GL_CLIP_H
+
+#include "kernels/common.h"
+
+/* Beyond this many pixels a window coordinate is not kept in 1/256 pixel. */
+#define CLIP_SAFE_PIXELS 16384.0f
+#define CLIP_PLANES 6
+#define CLIP_MAX_CORNERS 9 /* a triangle's, and one for each plane */
+#define CLIP_MAX_CUTS (2 * CLIP_PLANES)
+
+#ifdef __OPENCL_VERSION__
+typedef long clip_area;
+#else
+typedef int64_t clip_area;
+#endif
+
+/*
+ * How new corners came about, in this order: corner 3 + i lies at t[i] between corners from[i] and to[i]; 0 to 2 are the
+ * triangle's. What is interpolated as Mesa does it goes the same way.
+ */
+struct clip_cuts {
+	uint32_t n, from[CLIP_MAX_CUTS], to[CLIP_MAX_CUTS];
+	float t[CLIP_MAX_CUTS];
+};
+
+/* A corner of what is left of a triangle. */
+struct clip_corner {
+	struct vec4 clip;
+	uint32_t number;             /* 0 to 2: the triangle's, else see struct clip_cuts */
+	float b1, b2;                /* weights of the triangle's vertices 1 and 2, in the volume */
+	float place[2];              /* in pixels, not snapped, y from the top */
+	struct window_vertex window;
+};
+
+struct clip_polygon {
+	uint32_t n; /* corners; 0: nothing is left */
+	struct clip_corner corner[CLIP_MAX_CORNERS];
+	struct clip_cuts cuts;
+};
+
+/* --- The window -------------------------------------------------------------------------------------------------- */
+
+/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
+static inline void clip_place(GLOBAL const struct view *view, struct vec4 clip, float height, float *place)
+{
+	float w_inv = 1.0f / clip.w;
+
+	place[0] = M_FMA(view->viewport[2] * 0.5f, clip.x * w_inv, view->viewport[0] + view->viewport[2] * 0.5f);
+	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
+}
+
+/* A place in the window, 1/256 pixel, y from the bottom. */
+struct clip_spot {
+	clip_area x, y;
+};
+
+/* Where a view looks in a pixel. */
+static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t x, int32_t y)
+{
+	struct clip_spot at;
+
+	at.x = (clip_area)x * 256 + 128 + view->sample[0];
+	at.y = (clip_area)y * 256 + 128 + view->sample[1];
+	return at;
+}
+
+/*
+ * Planes count pixels from the first one's centre, as llvmpipe does, but where a pixel has several samples (none of which is its
+ * centre): from the window's corner.
+ */
+static inline float clip_origin(GLOBAL const struct view *view)
+{
+	return view->sample[0] | view->sample[1] ? 0.0f : 0.5f;
+}
+
+/* What is linear over a triangle of the window; x and y count pixels from clip_origin, y from the top. */
+struct clip_plane {
+	float origin, along_x, along_y;
+};
+
+/* Twice the signed area of three places. */
+static inline float clip_place_area(const float *px, const float *py)
+{
+	return (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
+}
+
+/* So thin that only its snapped form, which is what was covered, says anything. */
+static inline int clip_is_sliver(float area)
+{
+	return !(M_ABS(area) > 1.0e-6f);
+}
+
+/*
+ * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two edges. Places
+ * are not snapped and count from clip_origin.
+ */
+struct clip_edges {
+	int turned; /* 1: vertices 0 and 1 have changed places */
+	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: the first one's place */
+};
+
+/* Of a value at each vertex the first vertex's and the second's, chosen and not looked up: arrays then need no memory. */
+static inline float clip_first(const struct clip_edges *e, const float *value)
+{
+	return e->turned ? value[1] : value[0];
+}
+
+static inline float clip_second(const struct clip_edges *e, const float *value)
+{
+	return e->turned ? value[0] : value[1];
+}
+
+static inline struct clip_edges clip_edges_of(const float *px, const float *py)
+{
+	struct clip_edges e;
+
+	e.turned = clip_place_area(px, py) < 0.0f;
+	e.x = clip_first(&e, px);
+	e.y = clip_first(&e, py);
+	e.dx01 = e.x - clip_second(&e, px);
+	e.dy01 = e.y - clip_second(&e, py);
+	e.dx20 = px[2] - e.x;
+	e.dy20 = py[2] - e.y;
+	e.one_over_area = 1.0f / (e.dx01 * e.dy20 - e.dx20 * e.dy01);
+	return e;
+}
+
+/* The plane through a value at each vertex: in llvmpipe's order of operations, through the first one. */
+static inline struct clip_plane clip_plane_through(const struct clip_edges *e, const float *value)
+{
+	const float first = clip_first(e, value), v01 = first - clip_second(e, value), v20 = value[2] - first;
+	struct clip_plane out;
+
+	out.along_x = v01 * (e->dy20 * e->one_over_area) - v20 * (e->dy01 * e->one_over_area);
+	out.along_y = v20 * (e->dx01 * e->one_over_area) - v01 * (e->dx20 * e->one_over_area);
+	out.origin = first - (out.along_x * e->x + out.along_y * e->y);
+	return out;
+}
+
+static inline float clip_plane_at(const struct clip_plane *p, float x, float y)
+{
+	return M_FMA(p->along_y, y, M_FMA(p->along_x, x, p->origin));
+}
+
+/* From clip_origin to where a view looks in a pixel, along one axis. sample: of the view; negative for y. */
+static inline float clip_from_origin(GLOBAL const struct view *view, int32_t pixel, int32_t sample)
+{
+	return (float)pixel + (0.5f - clip_origin(view)) + (float)sample * 0.00390625f;
+}
+
+/* A plane's value where a view looks in a pixel; y from the bottom. */
+static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struct view *view, float height, int32_t x, int32_t y)
+{
+	return clip_plane_at(p, clip_from_origin(view, x, view->sample[0]),
+	                     clip_from_origin(view, (int32_t)height - 1 - y, -view->sample[1]));
+}
+
+/* The planes that a point lies beyond, a bit each in the order in which they cut. */
+static inline uint32_t clip_outside(struct vec4 c)
+{
+	return (!(c.x <= c.w) ? 1u : 0u) | (!(c.x + c.w >= 0.0f) ? 2u : 0u) | (!(c.y <= c.w) ? 4u : 0u) |
+	       (!(c.y + c.w >= 0.0f) ? 8u : 0u) | (!(c.z + c.w >= 0.0f) ? 16u : 0u) | (!(c.z <= c.w) ? 32u : 0u);
+}
+
+static inline int clip_is_safe(const float *place)
+{
+	return M_ABS(place[0]) < CLIP_SAFE_PIXELS && M_ABS(place[1]) < CLIP_SAFE_PIXELS;
+}
+
+/*
+ * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned over.
+ */
+static inline struct window_vertex clip_snap(const float *place, float z, float w_inv, float height)
+{
+	struct window_vertex out;
+
+	out.x = (int32_t)M_RINT((place[0] - 0.5f) * 256.0f) + 128;
+	out.y = (int32_t)height * 256 - ((int32_t)M_RINT((place[1] - 0.5f) * 256.0f) + 128);
+	out.z = z;
+	out.w_inv = w_inv;
+	return out;
+}
+
+/* A vertex of the program's in the window; all 0 where it lies outside of the view volume. */
+static inline struct window_vertex clip_window(GLOBAL const struct view *view, struct vec4 clip, float height)
+{
+	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / clip.w, place[2];
+	struct window_vertex none;
+
+	none.x = none.y = 0;
+	none.z = none.w_inv = 0.0f;
+	clip_place(view, clip, height, place);
+	if (!(clip.w > 0.0f) || clip_outside(clip) || !clip_is_safe(place))
+		return none;
+	return clip_snap(place, M_FMA((far - near) * 0.5f, clip.z * w_inv, (far + near) * 0.5f), w_inv, height);
+}
+
+/* --- Cutting ----------------------------------------------------------------------------------------------------- */
+
+static inline float clip_distance(struct vec4 c, uint32_t plane)
+{
+	switch (plane) {
+	case 0: return c.w - c.x;
+	case 1: return c.x + c.w;
+	case 2: return c.w - c.y;
+	case 3: return c.y + c.w;
+	case 4: return c.z + c.w;
+	default: return c.w - c.z;
+	}
+}
+
+static inline float clip_between(float from, float to, float t)
+{
+	return from + t * (to - from);
+}
+
+/* The new corner of a cut. */
+static inline struct clip_corner clip_cut(const struct clip_corner *pool, const struct clip_cuts *cuts, uint32_t cut)
+{
+	const struct clip_corner *from = &pool[cuts->from[cut]], *to = &pool[cuts->to[cut]];
+	const float t = cuts->t[cut];
+	struct clip_corner out;
+
+	out.clip = v4(clip_between(from->clip.x, to->clip.x, t), clip_between(from->clip.y, to->clip.y, t),
+	              clip_between(from->clip.z, to->clip.z, t), clip_between(from->clip.w, to->clip.w, t));
+	out.number = 3u + cut;
+	out.b1 = clip_between(from->b1, to->b1, t);
+	out.b2 = clip_between(from->b2, to->b2, t);
+	return out;
+}
+
+/* A new corner in the window; unlike vertices it is not placed with fused multiplications. @return 0: it has no place */
+static inline int clip_place_new(GLOBAL const struct view *view, float height, struct clip_corner *c)
+{
+	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / c->clip.w;
+
+	c->place[0] = c->clip.x * w_inv * (view->viewport[2] * 0.5f) + (view->viewport[0] + view->viewport[2] * 0.5f);
+	c->place[1] = c->clip.y * w_inv * (-view->viewport[3] * 0.5f) + (height - (view->viewport[1] + view->viewport[3] * 0.5f));
+	if (!(c->clip.w > 0.0f) || !clip_is_safe(c->place))
+		return 0;
+	c->window = clip_snap(c->place, c->clip.z * w_inv * ((far - near) * 0.5f) + (far + near) * 0.5f, w_inv, height);
+	return 1;
+}
+
+/* What the view volume leaves of a triangle. Its parts are corners k - 1, k and 0 for k from 2 on. */
+static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1, struct vec4 c2,
+                                 struct clip_polygon *out)
+{
+	struct clip_corner pool[3 + CLIP_MAX_CUTS];
+	struct clip_cuts *cuts = &out->cuts;
+	uint32_t lists[2][CLIP_MAX_CORNERS + 1], n = 3u, now = 0u;
+	uint32_t outside0 = clip_outside(c0), outside1 = clip_outside(c1), outside2 = clip_outside(c2);
+
+	out->n = cuts->n = 0u;
+	if (outside0 & outside1 & outside2)
+		return;
+	for (uint32_t i = 0u; i < 3u; i++) {
+		pool[i].clip = i == 0u ? c0 : i == 1u ? c1 : c2;
+		pool[i].number = i;
+		pool[i].b1 = i == 1u ? 1.0f : 0.0f;
+		pool[i].b2 = i == 2u ? 1.0f : 0.0f;
+		lists[0][i] = i;
+	}
+	for (uint32_t plane = 0u; plane < CLIP_PLANES; plane++) {
+		uint32_t n_left = 0u, last = lists[now][0];
+		float d_last = clip_distance(pool[last].clip, plane);
+
+		if (!((outside0 | outside1 | outside2) >> plane & 1u))
+			continue;
+		lists[now][n] = last;
+		for (uint32_t i = 1u; i <= n; i++) {
+			uint32_t next = lists[now][i];
+			float d = clip_distance(pool[next].clip, plane);
+			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
+
+			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) < 1.0e30f))
+				return; /* no numbers, or rounding has made it cross a plane again and again */
+			if (d_last >= 0.0f)
+				lists[!now][n_left++] = last;
+			if (crosses) {
+				/* from the corner that is nearer to the plane */
+				int from_next = d < 0.0f ? -d < d_last : !(-d_last < d);
+
+				cuts->from[cuts->n] = from_next ? next : last;
+				cuts->to[cuts->n] = from_next ? last : next;
+				cuts->t[cuts->n] = from_next ? d / (d - d_last) : -d_last / (d - d_last);
+				pool[3u + cuts->n] = clip_cut(pool, cuts, cuts->n);
+				lists[!now][n_left++] = 3u + cuts->n++;
+			}
+			last = next;
+			d_last = d;
+		}
+		n = n_left;
+		now = !now;
+		if (n < 3u || n > CLIP_MAX_CORNERS)
+			return;
+	}
+	for (uint32_t i = 0u; i < n; i++) {
+		struct clip_corner *c = &out->corner[i];
+
+		*c = pool[lists[now][i]];
+		if (lists[now][i] < 3u) {
+			clip_place(view, c->clip, height, c->place);
+			c->window = clip_window(view, c->clip, height);
+			if (!(c->window.w_inv > 0.0f))
+				return;
+		} else if (!clip_place_new(view, height, c)) {
+			return;
+		}
+	}
+	out->n = n;
+}
+
+/* --- Its parts --------------------------------------------------------------------------------------------------- */
+
+/* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated from. */
+struct clip_setup {
+	struct clip_corner corner[3];
+	float px[3], py[3]; /* their places, from clip_origin */
+	struct clip_edges edges;
+	struct clip_plane w_inv;
+	struct clip_cuts cuts;
+};
+
+/*
+ * Weights of the triangle's vertices 1 and 2 in the volume, from weights on the screen in a part of it.
+ * b1, b2: of the part's corners 1 and 2
+ */
+static inline void clip_weights(const struct clip_corner *v0, const struct clip_corner *v1, const struct clip_corner *v2, float b1,
+                                float b2, float *out1, float *out2)
+{
+	float p0 = (1.0f - b1 - b2) * v0->window.w_inv, p1 = b1 * v1->window.w_inv, p2 = b2 * v2->window.w_inv;
+	float sum = p0 + p1 + p2;
+
+	*out1 = (p0 * v0->b1 + p1 * v1->b1 + p2 * v2->b1) / sum;
+	*out2 = (p0 * v0->b2 + p1 * v1->b2 + p2 * v2->b2) / sum;
+}
+
+static inline int clip_inside(struct window_vertex a, struct window_vertex b, int sign, struct clip_spot at)
+{
+	clip_area dx = (clip_area)sign * (b.x - a.x), dy = (clip_area)sign * (b.y - a.y);
+	clip_area e = dx * (at.y - a.y) - dy * (at.x - a.x);
+
+	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+}
+
+/* 1 where a part covers a place (kernels/camera/camera.h). */
+static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, struct clip_spot at)
+{
+	clip_area area = (clip_area)(v1.x - v0.x) * (v2.y - v0.y) - (clip_area)(v2.x - v0.x) * (v1.y - v0.y);
+	int sign = area > 0 ? 1 : -1;
+
+	return area != 0 && clip_inside(v0, v1, sign, at) && clip_inside(v1, v2, sign, at) && clip_inside(v2, v0, sign, at);
+}
+
+/*
+ * The plane of a triangle's depth. corner: NULL, or its three corners where it is part of one that was cut; else clip[] and the
+ * windows' z. @return 0: a sliver
+ */
+static inline int clip_depth_plane(GLOBAL const struct view *view, float height, const struct clip_corner *const *corner,
+                                   const struct vec4 *clip, const float *z, struct clip_plane *plane)
+{
+	float px[3], py[3], place[2];
+	struct clip_edges edges;
+
+	for (int i = 0; i < 3; i++) {
+		if (corner) {
+			place[0] = corner[i]->place[0];
+			place[1] = corner[i]->place[1];
+		} else {
+			clip_place(view, clip[i], height, place);
+		}
+		px[i] = place[0] - clip_origin(view);
+		py[i] = place[1] - clip_origin(view);
+	}
+	if (clip_is_sliver(clip_place_area(px, py)))
+		return 0;
+	edges = clip_edges_of(px, py);
+	*plane = clip_plane_through(&edges, z);
+	return 1;
+}
+
+#endif

@@ -1,0 +1,388 @@
+/*
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run side by side for GL's own
+ * colours and for each step from them to the beauty (struct shaded). All follow the decisions of the first.
+ *
+ * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; one that
+ * is written without being read stays as it is.
+ */
+#ifndef KERNELS_GL_PIXEL_H
+#define KERNELS_GL_PIXEL_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+#include "kernels/gl/blend.h"
+
+static inline int pixel_compare(uint32_t func, uint32_t a, uint32_t b)
+{
+	switch (func) {
+	case GL_NEVER: return 0;
+	case GL_LESS: return a < b;
+	case GL_EQUAL: return a == b;
+	case GL_LEQUAL: return a <= b;
+	case GL_GREATER: return a > b;
+	case GL_NOTEQUAL: return a != b;
+	case GL_GEQUAL: return a >= b;
+	default: return 1;
+	}
+}
+
+/* Numbers that stand in the order of floats. */
+static inline uint32_t pixel_order(float x)
+{
+	uint32_t bits = M_BITS(x + 0.0f); /* so there is one zero */
+
+	return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+static inline uint32_t pixel_bits_mask(uint32_t bits)
+{
+	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
+}
+
+/*
+ * Depth as a buffer of so many bits holds it, rounded to even as Mesa has it; more than 24 bits are those of the number itself
+ * (the last one is always 0, and all of them for 1).
+ */
+static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
+{
+	depth = clamp01(depth);
+	if (bits > 24u)
+		return depth < 1.0f ? (uint32_t)(depth * 2147483648.0f) << 1 : 0xffffffffu;
+	return (uint32_t)M_RINT(depth * (float)pixel_bits_mask(bits));
+}
+
+/* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */
+
+static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t ref, uint32_t write_mask, uint32_t bits)
+{
+	uint32_t top = pixel_bits_mask(bits), out = value;
+
+	switch (op) {
+	case GL_ZERO: out = 0u; break;
+	case GL_REPLACE: out = ref & top; break;
+	case GL_INCR: out = value < top ? value + 1u : top; break;
+	case GL_DECR: out = value ? value - 1u : 0u; break;
+	case GL_INCR_WRAP: out = (value + 1u) & top; break;
+	case GL_DECR_WRAP: out = (value - 1u) & top; break;
+	case GL_INVERT: out = ~value & top; break;
+	default: break;
+	}
+	return (value & ~write_mask) | (out & write_mask);
+}
+
+/* --- Logic operation (sec. 4.1.10) -------------------------------------------------------------------------------- */
+
+static inline float pixel_logic(uint32_t op, float source, float destination)
+{
+	uint32_t s = (uint32_t)M_RINT(source * 255.0f), d = (uint32_t)M_RINT(destination * 255.0f), out = s;
+
+	switch (op) {
+	case GL_CLEAR: out = 0u; break;
+	case GL_AND: out = s & d; break;
+	case GL_AND_REVERSE: out = s & ~d; break;
+	case GL_AND_INVERTED: out = ~s & d; break;
+	case GL_NOOP: out = d; break;
+	case GL_XOR: out = s ^ d; break;
+	case GL_OR: out = s | d; break;
+	case GL_NOR: out = ~(s | d); break;
+	case GL_EQUIV: out = ~(s ^ d); break;
+	case GL_INVERT: out = ~d; break;
+	case GL_OR_REVERSE: out = s | ~d; break;
+	case GL_COPY_INVERTED: out = ~s; break;
+	case GL_OR_INVERTED: out = ~s | d; break;
+	case GL_NAND: out = ~(s & d); break;
+	case GL_SET: out = 255u; break;
+	default: break; /* COPY */
+	}
+	return (float)(out & 255u) / 255.0f;
+}
+
+/* --- One colour into one place ------------------------------------------------------------------------------------ */
+
+static inline float pixel_stored(float x)
+{
+	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
+}
+
+/*
+ * A number on the verge between two of 8 bits, moved off it to the side that the frame buffer's rounding takes: by at most 0.04 of
+ * their distance, so that the half floats and the encoding of a picture cannot turn it over. 0.3 is 76.5, and 76 for Mesa.
+ */
+static inline float pixel_settle(float x)
+{
+	float codes = clamp01(x) * 255.0f, code = M_RINT(codes), rest = codes - code;
+
+	return M_ABS(rest) > 0.46f ? (code + (rest > 0.0f ? 0.46f : -0.46f)) / 255.0f : x;
+}
+
+/* What of a source colour ends in the frame buffer over a destination; the mask is the caller's. */
+static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	if (!m->blend && !m->logic_op)
+		return s;
+	if (m->floats)
+		return blend_floats(m, s, d);
+	d = v4(pixel_stored(d.x), pixel_stored(d.y), pixel_stored(d.z), pixel_stored(d.w));
+	if (m->logic_op) /* takes blending's place (sec. 4.1.10) */
+		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
+		          pixel_logic(m->logic_op, s.z, d.z), pixel_logic(m->logic_op, s.w, d.w));
+	return blend_colors(m, s, d);
+}
+
+/*
+ * Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16, and of one with several samples a pixel the
+ * number of the one that is drawn, from 1 on, << 24. With PIXEL_FOLLOWS colours go where the first sample's tests let them, and no
+ * test is made: so llvmpipe (22.3.6) draws what is drawn without multisampling to a frame buffer with samples.
+ */
+#define PIXEL_FOLLOWS 0x80000000u
+
+static inline int pixel_is_sampled(uint32_t bits)
+{
+	return (bits >> 24 & 127u) != 0u;
+}
+
+/* Of the sample that is drawn, from 0 on. */
+static inline uint32_t pixel_sample(uint32_t bits)
+{
+	return pixel_is_sampled(bits) ? (bits >> 24 & 127u) - 1u : 0u;
+}
+
+static inline uint32_t pixel_depth_bits(uint32_t bits)
+{
+	return bits & 255u;
+}
+
+static inline uint32_t pixel_stencil_bits(uint32_t bits)
+{
+	return bits >> 8 & 255u;
+}
+
+static inline uint32_t pixel_alpha_bits(uint32_t bits)
+{
+	return bits >> 16 & 255u;
+}
+
+/* Tests of sec. 4.1.4 to 4.1.6, with what they leave in stencil and depth buffer. @return 1: the fragment is drawn */
+static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
+                              GLOBAL struct frame_pixel *pixel, uint32_t bits)
+{
+	uint32_t steps = pixel_depth_steps(s->depth, pixel_depth_bits(bits));
+	int use_stencil = m->stencil_test && pixel_stencil_bits(bits), pass;
+	GLOBAL const struct scene_stencil *stencil = s->flags & SHADED_FRONT ? &m->stencil_front : &m->stencil_back;
+
+	if ((use_stencil && stencil->func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_STENCIL) ||
+	    (m->depth_test && m->depth_func != GL_ALWAYS && pixel->unknown & PIXEL_UNKNOWN_DEPTH))
+		pixel->unknown |= PIXEL_UNKNOWN_TEST;
+	/* llvmpipe compares alpha in the frame buffer's precision. */
+	if (m->alpha_test && !pixel_compare(m->alpha_func, m->floats ? pixel_order(s->gl[3]) : blend_round(s->gl[3]),
+	                                    m->floats ? pixel_order(m->alpha_ref) : blend_round(m->alpha_ref)))
+		return 0;
+	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are llvmpipe's, of four. */
+	if (m->samples_off >> pixel_sample(bits) & 1u ||
+	    (m->alpha_to_coverage && !(s->gl[3] > 0.25f * (float)pixel_sample(bits))))
+		return 0;
+	if (use_stencil &&
+	    !pixel_compare(stencil->func, stencil->ref & stencil->compare_mask, pixel->stencil & stencil->compare_mask)) {
+		pixel->stencil = pixel_stencil_apply(stencil->fail, pixel->stencil, stencil->ref, stencil->write_mask,
+		                                     pixel_stencil_bits(bits));
+		return 0;
+	}
+	pass = !m->depth_test || !pixel_depth_bits(bits) || pixel_compare(m->depth_func, steps, pixel->depth);
+	if (use_stencil)
+		pixel->stencil = pixel_stencil_apply(pass ? stencil->zpass : stencil->zfail, pixel->stencil, stencil->ref,
+		                                     stencil->write_mask, pixel_stencil_bits(bits));
+	if (pass && m->depth_test && m->depth_write && pixel_depth_bits(bits)) {
+		pixel->depth = steps;
+		pixel->depth_exact = s->depth;
+		pixel->unknown &= ~PIXEL_UNKNOWN_DEPTH;
+	}
+	return pass;
+}
+
+static inline void pixel_store(GLOBAL float *out, struct vec3 color, uint32_t mask)
+{
+	if (mask & 1u)
+		out[0] = color.x;
+	if (mask & 2u)
+		out[1] = color.y;
+	if (mask & 4u)
+		out[2] = color.z;
+}
+
+/* One part of a fragment's colour over the same part of the pixel. */
+static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL const float *source, float source_alpha,
+                              float alpha, GLOBAL float *destination, int opaque)
+{
+	struct vec4 s = v4(source[0], source[1], source[2], source_alpha);
+
+	if (!opaque)
+		s = pixel_source(m, s, v4(destination[0], destination[1], destination[2], alpha));
+	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
+}
+
+/* Whether a fragment reaches the colour of a pixel; what the first sample decides is kept for others that follow it. */
+static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
+                               uint32_t bits)
+{
+	if (bits & PIXEL_FOLLOWS)
+		return (s->flags & SHADED_DRAWN) != 0u;
+	if (!pixel_tests(m, s, pixel, bits))
+		return 0;
+	s->flags |= SHADED_DRAWN;
+	return 1;
+}
+
+/* One fragment through all operations. `draw`: its draw number. */
+static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
+                              GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
+                              uint32_t bits)
+{
+	struct vec4 gl, old_gl;
+	uint32_t mask = m->color_mask;
+	float alpha, opacity;
+
+	if (s->flags & SHADED_STENCIL && bits & PIXEL_FOLLOWS)
+		return;
+	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: nothing but the mask counts (sec. 4.3.1) */
+		uint32_t write = m->stencil_front.write_mask & pixel_bits_mask(pixel_stencil_bits(bits));
+
+		pixel->stencil = (pixel->stencil & ~write) | ((uint32_t)s->depth & write);
+		return;
+	}
+	if (!(s->flags & SHADED_THERE) || !pixel_passes(m, s, pixel, bits) || !(mask & 15u))
+		return;
+	old_gl = v4_load(pixel->gl);
+	alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f;
+	opacity = m->alpha_to_one ? 1.0f : s->gl[3];
+	gl = pixel_source(m, v4(s->gl[0], s->gl[1], s->gl[2], opacity), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
+	pixel_store(pixel->gl, v3(gl.x, gl.y, gl.z), mask);
+	pixel_part(m, s->shadowed, opacity, alpha, pixel->shadowed, 0);
+	pixel_part(m, s->direct, opacity, alpha, pixel->direct, 0);
+	pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, 0);
+	/* What is seen through glass is traced; blending would show it once more. */
+	pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, m->surface.transmit > 0.0f);
+	if (mask & 8u)
+		pixel->gl[3] = gl.w;
+	pixel->id = draw;
+	if (m->blend && !m->logic_op)
+		pixel->layers++;
+	else if ((mask & 7u) == 7u && !m->logic_op) {
+		pixel->layers = 0u;
+		pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
+	}
+	/* A blended film without depth is no surface, unless there is nothing else. */
+	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
+		pixel->surface = *f;
+		v3_store(pixel->albedo, v3_load(s->albedo));
+	}
+}
+
+/* --- Samples into pixels ------------------------------------------------------------------------------------------ */
+
+/*
+ * A channel of four samples as one number: the mean of what each holds in 8 bits, rounded, in the order of operations in which
+ * Mesa (22.3.6) resolves (util_make_fs_msaa_resolve). Where all hold the same it is the first one's number, as it stands.
+ */
+static inline float pixel_average(const float *samples)
+{
+	float sum = 0.0f, first = M_RINT(clamp01(samples[0]) * 255.0f);
+	int same = 1;
+
+	for (int i = 0; i < 4; i++) {
+		float code = M_RINT(clamp01(samples[i]) * 255.0f);
+
+		same &= code == first;
+		sum += code * (1.0f / 255.0f);
+	}
+	return same ? samples[0] : pixel_stored(sum * 0.25f);
+}
+
+/* A part's mean: as far off the resolved colour as the samples' parts are off their colours, so that equals stay equal. */
+static inline float pixel_average_part(float gl, const float *gls, const float *parts)
+{
+	float off = (parts[0] - gls[0]) + (parts[1] - gls[1]) + (parts[2] - gls[2]) + (parts[3] - gls[3]);
+
+	return M_MAX(gl + 0.25f * off, 0.0f);
+}
+
+/*
+ * Four samples of a pixel into one: colours and parts their means, albedo that of what was drawn; depth and stencil are the
+ * first sample's. The surface is that of the first sample that has one.
+ */
+static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
+                               GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,
+                               GLOBAL struct frame_pixel *out)
+{
+	GLOBAL const struct frame_pixel *from[4];
+	float gls[4], parts[4];
+	struct vec3 albedo = v3(0.0f, 0.0f, 0.0f);
+	uint32_t surface = 4u, drawn = 0u, unknown = 0u;
+
+	*out = *first;
+	from[0] = first;
+	from[1] = second;
+	from[2] = third;
+	from[3] = fourth;
+	for (uint32_t i = 0u; i < 4u; i++) {
+		unknown |= from[i]->unknown;
+		if (from[i]->id == 0u)
+			continue;
+		surface = surface < 4u ? surface : i;
+		albedo = v3_add(albedo, v3_load(from[i]->albedo));
+		drawn++;
+	}
+	for (uint32_t c = 0u; c < 4u; c++) {
+		float gl;
+
+		for (uint32_t i = 0u; i < 4u; i++)
+			gls[i] = from[i]->gl[c];
+		gl = pixel_average(gls);
+		for (uint32_t part = 0u; part < 4u && c < 3u; part++) {
+			for (uint32_t i = 0u; i < 4u; i++)
+				parts[i] = part == 0u ? from[i]->shadowed[c] : part == 1u ? from[i]->direct[c] :
+				           part == 2u ? from[i]->mirrored[c] : from[i]->beauty[c];
+			*(part == 0u ? &out->shadowed[c] : part == 1u ? &out->direct[c] : part == 2u ? &out->mirrored[c] : &out->beauty[c]) =
+				pixel_average_part(gl, gls, parts);
+		}
+		out->gl[c] = gl;
+	}
+	out->unknown = unknown;
+	if (drawn == 0u)
+		return;
+	v3_store(out->albedo, v3_scale(albedo, 1.0f / (float)drawn));
+	out->surface = from[surface]->surface;
+	out->layers = from[surface]->layers;
+	out->id = from[surface]->id;
+}
+
+static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)
+{
+	if (clear->buffers & 1u) {
+		for (uint32_t c = 0u; c < 4u; c++) {
+			if (!(clear->color_mask >> c & 1u))
+				continue;
+			pixel->gl[c] = clear->floats ? clear->color[c] : pixel_settle(clamp01(clear->color[c]));
+			if (c < 3u)
+				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = pixel->gl[c];
+		}
+		if ((clear->color_mask & 7u) == 7u) {
+			pixel->id = 0u;
+			pixel->layers = 0u;
+			pixel->surface.order = SCENE_NONE;
+			pixel->unknown &= ~(PIXEL_UNKNOWN_COLOR | PIXEL_BEFORE);
+		}
+	}
+	if (clear->buffers & 2u) {
+		pixel->depth = pixel_depth_steps(clear->depth, pixel_depth_bits(bits));
+		pixel->depth_exact = clamp01(clear->depth);
+		pixel->unknown &= ~PIXEL_UNKNOWN_DEPTH;
+	}
+	if (clear->buffers & 4u) {
+		uint32_t top = pixel_bits_mask(pixel_stencil_bits(bits)), mask = clear->stencil_mask;
+
+		pixel->stencil = (pixel->stencil & ~mask) | (clear->stencil & top & mask);
+		pixel->unknown &= (mask & top) == top ? ~PIXEL_UNKNOWN_STENCIL : ~0u;
+	}
+}
+
+#endif

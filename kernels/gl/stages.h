@@ -1,0 +1,511 @@
+/*
+ * One work item of each shading kernel. The .cl files and the C twins are thin wrappers around these.
+ *
+ * Fragments come from the camera kernels sparsely (so many slots a pixel) and are gathered into a dense list, pixel by
+ * pixel, each pixel's in draw order; all that follows works on the list.
+ */
+#ifndef KERNELS_GL_STAGES_H
+#define KERNELS_GL_STAGES_H
+
+#include "kernels/camera/camera.h"
+#include "kernels/common.h"
+#include "kernels/gl/fragment.h"
+#include "kernels/gl/pixel.h"
+#include "kernels/gl/userclip.h"
+
+/* Pixel number of a work item in a rectangle. */
+static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, uint32_t item)
+{
+	uint32_t columns = (uint32_t)(r.x1 - r.x0);
+
+	return ((uint32_t)r.y0 + item / columns) * width + (uint32_t)r.x0 + item % columns;
+}
+
+/* gather: a pixel's fragments to their place in the list; where the column goes on next time. */
+static inline void gather_item(GLOBAL const struct fragment *sparse, GLOBAL const uint32_t *counts, uint32_t slots,
+                               GLOBAL const uint32_t *first, GLOBAL struct fragment *list, GLOBAL uint32_t *pixels,
+                               GLOBAL uint32_t *after, uint32_t pixel)
+{
+	uint32_t n = counts[pixel];
+
+	for (uint32_t i = 0u; i < n; i++) {
+		list[first[pixel] + i] = sparse[pixel * slots + i];
+		pixels[first[pixel] + i] = pixel;
+	}
+	after[pixel] = n == slots ? sparse[pixel * slots + n - 1u].order + 1u : SCENE_NONE;
+}
+
+/* Shares of the material's lights that arrive at the item. */
+static inline void stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
+{
+	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++)
+		seen[slot] = v3(1.0f, 1.0f, 1.0f);
+	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++)
+		seen[slot] = v3_load(arriving + (slot * n + item) * 3u);
+}
+
+/* 1 where any of them is dimmed. */
+static inline int stage_dimmed(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item)
+{
+	int dimmed = 0;
+
+	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++) {
+		struct vec3 share = v3_load(arriving + (slot * n + item) * 3u);
+
+		dimmed |= (share.x < 1.0f) | (share.y < 1.0f) | (share.z < 1.0f);
+	}
+	return dimmed;
+}
+
+/* Lights of the list that a ray must be sent to. Expanded lines and points take no shadows. */
+static inline uint32_t stage_wanted(const struct point *p, uint32_t lights)
+{
+	return p->geometry->flags & GEOMETRY_EXPANDED ? 0u : (lights & 255u) * SHADED_WANTS(0);
+}
+
+static inline int stage_stippled_away(const struct tables *t, const struct point *p, uint32_t x, uint32_t y)
+{
+	uint32_t stipple = p->material->polygon_stipple;
+
+	if (stipple == SCENE_NONE || p->geometry->flags & GEOMETRY_EXPANDED)
+		return 0;
+	return !(t->stipples[stipple * 32u + (y & 31u)] >> (31u - (x & 31u)) & 1u);
+}
+
+/* 1 where a line's pixel is none of those that are drawn (GEOMETRY_LINE). row: from the top */
+static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
+{
+	GLOBAL const float *drawn = p->vertex[0]->secondary[1];
+
+	return p->geometry->flags & GEOMETRY_LINE && ((float)x < drawn[0] || (float)row < drawn[1] || (float)row > drawn[2]);
+}
+
+/* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
+static inline float stage_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
+{
+	const float first = clip_first(e, z), dz01 = first - clip_second(e, z), dz20 = z[2] - first;
+	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
+	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
+	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
+	                          M_ABS((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
+
+	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
+}
+
+/*
+ * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
+ * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners. What is no
+ * line stays as it is. y from the top.
+ * Under multisampling all of its direction counts, and llvmpipe takes the ends half a pixel off where they are, but not the places
+ * that it asks for.
+ */
+static inline void stage_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
+                              struct fragment *f)
+{
+	GLOBAL const struct view *view;
+	float x, y, middle_x, middle_y;
+	struct point p;
+	struct vec4 a, b, c;
+	int second[3];
+	float dx, dy, one_over_area, along_x, along_y, share;
+
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	if (!(p.geometry->flags & GEOMETRY_LINE))
+		return;
+	view = &views[p.geometry->view];
+	x = clip_from_origin(view, (int32_t)pixel_x, view->sample[0]);
+	y = clip_from_origin(view, (int32_t)pixel_y, -view->sample[1]);
+	middle_x = clip_from_origin(view, (int32_t)pixel_x, 0);
+	middle_y = clip_from_origin(view, (int32_t)pixel_y, 0);
+	a = b = v4_load(p.vertex[0]->color[1]);
+	for (int i = 0; i < 3; i++) {
+		c = v4_load(p.vertex[i]->color[1]);
+		second[i] = c.w > 0.5f;
+		if (second[i])
+			b = c;
+		else
+			a = c;
+	}
+	dx = a.x - b.x;
+	dy = a.y - b.y;
+	one_over_area = 1.0f / (dx * dx + dy * dy);
+	if (view->sample[0] | view->sample[1]) {
+		/* as it is */
+	} else if (M_ABS(dx) >= M_ABS(dy)) {
+		dx *= 1.0f + (dy / dx) * (dy / dx);
+		dy = 0.0f;
+	} else {
+		dy *= 1.0f + (dx / dy) * (dx / dy);
+		dx = 0.0f;
+	}
+	along_x = (a.z - b.z) * dx * one_over_area;
+	along_y = (a.z - b.z) * dy * one_over_area;
+	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, a.z - (along_x * (a.x - 0.5f) + along_y * (a.y - 0.5f)))));
+	share = -(dx * one_over_area * (middle_x - (a.x - 0.5f)) + dy * one_over_area * (middle_y - (a.y - 0.5f)));
+	f->b1 = f->b2 = 0.0f;
+	if (second[0])
+		share = 1.0f - share;
+	if (second[1] == second[0])
+		f->b2 = share;
+	else
+		f->b1 = share;
+}
+
+/*
+ * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices; llvmpipe takes attributes and
+ * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from clip
+ * coordinates; of what leaves the view volume (cut), from the part that covers the pixel. @return 0: a line, a sliver
+ */
+static inline int stage_setup(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
+                              uint32_t x, uint32_t y, uint32_t height, int cut, struct clip_setup *setup)
+{
+	struct clip_polygon polygon;
+	uint32_t part = 2u;
+	float w_inv[3];
+
+	if (p->geometry->flags & GEOMETRY_LINE)
+		return 0;
+	if (cut) {
+		clip_triangle(view, (float)height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip), v4_load(p->vertex[2]->clip),
+		              &polygon);
+		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
+		                                        polygon.corner[0].window, clip_spot(view, (int32_t)x, (int32_t)y)))
+			part++;
+		if (part >= polygon.n)
+			return 0;
+		setup->cuts = polygon.cuts;
+	} else {
+		setup->cuts.n = 0u;
+	}
+	for (uint32_t i = 0u; i < 3u; i++) {
+		struct clip_corner *c = &setup->corner[i];
+
+		if (cut) {
+			*c = polygon.corner[i == 2u ? 0u : part - 1u + i];
+		} else {
+			c->clip = v4_load(p->vertex[i]->clip);
+			c->number = i;
+			c->b1 = i == 1u ? 1.0f : 0.0f;
+			c->b2 = i == 2u ? 1.0f : 0.0f;
+			if (p->geometry->flags & GEOMETRY_SMOOTH_LINE) {
+				c->place[0] = p->vertex[i]->size[0];
+				c->place[1] = p->vertex[i]->size[1];
+			} else {
+				clip_place(view, c->clip, (float)height, c->place);
+			}
+			c->window = windows[p->geometry->vertex_first + p->number[i]];
+		}
+		w_inv[i] = c->window.w_inv;
+		setup->px[i] = c->place[0] - clip_origin(view);
+		setup->py[i] = c->place[1] - clip_origin(view);
+	}
+	if (clip_is_sliver(clip_place_area(setup->px, setup->py)))
+		return 0;
+	setup->edges = clip_edges_of(setup->px, setup->py);
+	setup->w_inv = clip_plane_through(&setup->edges, w_inv);
+	return 1;
+}
+
+/* What the fragments of a triangle share, found for the first of them and kept for those that follow it in the list. */
+struct stage_kept {
+	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
+	struct point p;               /* but for its weights */
+	float w_inv[3];
+	int have_setup, have_lit;
+	struct clip_setup setup;
+	struct clip_plane depth;
+	float offset;                 /* of polygons; 0: none */
+	struct point_kept sampling;
+	struct vec3 seen[SCENE_MAX_LIGHTS]; /* of lights, where its vertices were lit again */
+	struct lit lit[3];
+};
+
+/* The triangle of a fragment. Not kept: what is cut to the view, as other pixels may lie in other parts of it. */
+static inline void stage_keep(const struct tables *t, GLOBAL const struct view *views, GLOBAL const struct window_vertex *windows,
+                              uint32_t x, uint32_t y, uint32_t height, uint32_t bits, int needs_depth, const struct fragment *f,
+                              int keeps, struct stage_kept *kept)
+{
+	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
+
+	if (keeps && kept->instance == f->instance && kept->primitive == f->primitive)
+		return;
+	kept->instance = cut ? SCENE_NONE : f->instance;
+	kept->primitive = f->primitive;
+	kept->p = point_of_triangle(t, windows, f, kept->w_inv);
+	kept->have_lit = kept->have_setup = 0;
+	point_keep_nothing(&kept->sampling);
+	if (needs_depth || kept->p.material->unit_count)
+		kept->have_setup = stage_setup(&views[kept->p.geometry->view], windows, &kept->p, x, y, height, cut, &kept->setup);
+	if (needs_depth && kept->have_setup) {
+		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
+
+		kept->depth = clip_plane_through(&kept->setup.edges, z);
+		kept->offset = kept->p.material->polygon_offset & 4u && !(kept->p.geometry->flags & GEOMETRY_EXPANDED) ?
+		                       stage_offset(kept->p.material, &kept->setup.edges, z, bits) : 0.0f;
+	}
+}
+
+/* The vertices lit again; what lights show to a fragment they mostly show to the next one too. */
+static inline void stage_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct stage_kept *kept)
+{
+	int same = keeps && kept->have_lit;
+
+	for (uint32_t i = 0u; i < SCENE_MAX_LIGHTS; i++) {
+		same &= seen[i].x == kept->seen[i].x && seen[i].y == kept->seen[i].y && seen[i].z == kept->seen[i].z;
+		kept->seen[i] = seen[i];
+	}
+	if (!same)
+		point_light_corners(t, &kept->p, seen, kept->lit);
+	kept->have_lit = 1;
+}
+
+/*
+ * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place where the
+ * view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
+ */
+static inline void stage_unsnap(GLOBAL const struct view *view, const struct stage_kept *kept, uint32_t x, uint32_t y, uint32_t height,
+                                struct fragment *f)
+{
+	const struct clip_setup *setup = &kept->setup;
+	float px[3], py[3], area = clip_place_area(setup->px, setup->py);
+
+	f->depth = clamp01(clip_plane_in(&kept->depth, view, (float)height, (int32_t)x, (int32_t)y) + kept->offset);
+	for (uint32_t i = 0u; i < 3u; i++) {
+		px[i] = setup->px[i] - clip_from_origin(view, (int32_t)x, 0);
+		py[i] = setup->py[i] - clip_from_origin(view, (int32_t)(height - 1u - y), 0);
+	}
+	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
+	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
+	if (f->primitive & FRAGMENT_PERSPECTIVE)
+		clip_weights(&setup->corner[0], &setup->corner[1], &setup->corner[2], f->b1, f->b2, &f->b1, &f->b2);
+}
+
+/*
+ * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
+ * What is not lit by GL shows its colour as it is.
+ */
+static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct coat *coat,
+                                         const struct vec3 *seen)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	struct light_list list = point_lights(p);
+	struct vec3 n = point_normal(p), at = point_position(p), sum = v3(0.0f, 0.0f, 0.0f);
+	struct vec4 c;
+	struct lit lit;
+
+	if (!point_takes_light(p)) {
+		lit = point_lit_from_vertices(p);
+		c = point_finish(t, p, coat, &lit);
+		return v3_add(v3(c.x, c.y, c.z), v3_load(m->surface.emission));
+	}
+	for (uint32_t i = 0u; i < list.count; i++) {
+		GLOBAL const struct scene_light *light = &t->lights[list.first + i];
+		struct vec3 to_light;
+		float strength = light_strength(light, at, &to_light), cosine = v3_dot(n, to_light);
+
+		if (cosine > 0.0f)
+			sum = v3_add(sum, v3_mul(v3_scale(v3_load(light->diffuse), strength * cosine), seen[i]));
+	}
+	c = point_albedo(t, p, coat);
+	sum = v3_add(v3_mul(sum, v3(c.x, c.y, c.z)), v3_load(m->surface.emission));
+	return m->lighting ? v3_add(v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission), sum) : sum;
+}
+
+/* Lights of the list that stage_radiance can be lit by. */
+static inline uint32_t stage_radiant_lights(const struct tables *t, const struct point *p)
+{
+	struct light_list list = point_lights(p);
+	struct vec3 n = point_normal(p), at = point_position(p), to_light;
+	uint32_t lights = 0u;
+
+	if (!point_takes_light(p))
+		return 0u;
+	for (uint32_t i = 0u; i < list.count; i++)
+		if (light_strength(&t->lights[list.first + i], at, &to_light) > 0.0f &&
+		    v3_dot(n, to_light) > 0.0f)
+			lights |= 1u << i;
+	return lights;
+}
+
+/* Lights that must be asked for before a point can be lit. from_vertices: those that light its vertices (struct lit) */
+static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport, uint32_t from_vertices)
+{
+	if (transport == TRANSPORT_PATH)
+		return stage_radiant_lights(t, p);
+	if (transport == TRANSPORT_RELIGHT && !p->material->surface.relit)
+		return from_vertices | point_lit_here(t, p, (const struct vec3 *)0).lights;
+	return p->material->surface.relit ? point_lit_here(t, p, (const struct vec3 *)0).lights : from_vertices;
+}
+
+static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 color)
+{
+	v3_store(out->direct, color);
+	v3_store(out->mirrored, color);
+	v3_store(out->beauty, color);
+}
+
+/* What is added to GL's own lighting: `color` in its place, from the way of lighting. */
+static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct coat *coat,
+                                      uint32_t transport, const struct vec3 *seen, struct vec4 color)
+{
+	struct lit lit;
+
+	if (transport == TRANSPORT_PATH)
+		return stage_radiance(t, p, coat, seen);
+	if (transport == TRANSPORT_RELIGHT || p->material->surface.relit) {
+		lit = point_lit_here(t, p, seen);
+		color = point_finish(t, p, coat, &lit);
+	}
+	return v3_add(v3(color.x, color.y, color.z), v3_load(p->material->surface.emission));
+}
+
+/*
+ * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw module has it
+ * (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any attribute; of a
+ * point all pixels whose centres its circle holds.
+ */
+static inline float stage_coverage(const struct point *p)
+{
+	struct vec4 c;
+
+	if (!(p->geometry->flags & (GEOMETRY_SMOOTH_LINE | GEOMETRY_SMOOTH_POINT)))
+		return 1.0f;
+	c = point_mix(p, v4_load(p->vertex[0]->color[1]), v4_load(p->vertex[1]->color[1]), v4_load(p->vertex[2]->color[1]));
+	if (p->geometry->flags & GEOMETRY_SMOOTH_LINE)
+		return clamp01(c.y - M_ABS(c.x)) * clamp01(c.w - M_ABS(c.z));
+	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
+}
+
+/* What of a bitmap or pixel rectangle lies under a fragment: its texel. */
+static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
+                                                       uint32_t *kind)
+{
+	struct vec4 a = v4_load(p->vertex[0]->color[1]);
+	struct vec4 c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
+	                                 v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
+	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(a.z + 0.5f)];
+	float column = M_MAX(M_FLOOR(c.x), 0.0f), row = M_MAX(M_FLOOR(c.y), 0.0f);
+
+	*kind = (uint32_t)(a.w + 0.5f);
+	column = M_MIN(column, (float)(image->width - 1u));
+	row = M_MIN(row, (float)(image->height - 1u));
+	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
+}
+
+static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32_t kind)
+{
+	uint32_t texel = *group;
+
+	if (kind == SCENE_FLOAT_PIXELS)
+		return v4(M_FLOAT(group[0]), M_FLOAT(group[1]), M_FLOAT(group[2]), M_FLOAT(group[3]));
+	return v4((float)(texel & 255u) / 255.0f, (float)(texel >> 8 & 255u) / 255.0f, (float)(texel >> 16 & 255u) / 255.0f,
+	          (float)(texel >> 24) / 255.0f);
+}
+
+/*
+ * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
+ * n_slots > 0 gives fragments that asked their colour with what arrives of the lights. transport: TRANSPORT_*.
+ * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
+ * or nothing (kept->instance SCENE_NONE).
+ */
+static inline void shade_item(const struct tables *t, GLOBAL const struct view *views,
+                              GLOBAL const struct window_vertex *windows, GLOBAL struct fragment *fragments,
+                              GLOBAL const uint32_t *pixels, uint32_t width, uint32_t height, uint32_t bits,
+                              GLOBAL const float *arriving, uint32_t n_slots, uint32_t transport, uint32_t n,
+                              GLOBAL struct shaded *shaded, uint32_t item, int keeps, struct stage_kept *kept)
+{
+	struct fragment f;
+	GLOBAL const struct view *view;
+	GLOBAL struct shaded *out = &shaded[item];
+	uint32_t x, y;
+	struct vec3 seen[SCENE_MAX_LIGHTS];
+	struct point p;
+	struct coat coat;
+	struct lit from_vertices, lit;
+	struct vec4 color;
+	float coverage;
+	int clipped = 0, uncovered;
+	GLOBAL const uint32_t *group = t->texels;
+	uint32_t kind = 0u;
+
+	if (n_slots && (!stage_dimmed(arriving, n_slots, n, item) || !(out->flags & SHADED_THERE)))
+		return;
+	stage_seen(arriving, n_slots, n, item, seen);
+	f = fragments[item];
+	x = pixels[item] % width;
+	y = pixels[item] / width;
+	stage_keep(t, views, windows, x, y, height, bits, !n_slots, &f, keeps, kept);
+	p = kept->p;
+	view = &views[p.geometry->view];
+	if (!n_slots) {
+		clipped = userclip_outside(view, windows, &p, (int32_t)x, (int32_t)y, (float)height);
+		if (kept->have_setup)
+			stage_unsnap(view, kept, x, y, height, &f);
+		else
+			stage_line(t, views, x, height - 1u - y, &f);
+		fragments[item] = f;
+	}
+	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
+	coverage = stage_coverage(&p);
+	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
+	if (!n_slots && (clipped || stage_undrawn(&p, x, height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
+		out->flags = 0u;
+		return;
+	}
+	if (p.geometry->flags & GEOMETRY_PIXELS) {
+		group = stage_pixel_group(t, &p, &f, &kind);
+		if (kind == SCENE_BITMAP && !*group) {
+			out->flags = 0u;
+			return;
+		}
+	}
+	point_coat(t, &p, view, kept->have_setup ? &kept->setup : (const struct clip_setup *)0,
+	           keeps ? &kept->sampling : (struct point_kept *)0, x, y, height, &coat);
+	if (n_slots && !p.material->surface.relit) {
+		stage_keep_lit(t, seen, keeps, kept);
+		lit = from_vertices = point_lit_between(&p, kept->lit);
+	} else {
+		lit = from_vertices = point_lit_from_vertices(&p);
+	}
+	if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)
+		lit.color = stage_texel_color(group, kind);
+	color = point_finish(t, &p, &coat, &lit);
+	color = v4(pixel_settle(color.x), pixel_settle(color.y), pixel_settle(color.z), color.w);
+	v3_store(out->shadowed, v3(color.x, color.y, color.z));
+	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
+	if (n_slots)
+		return;
+	color.w *= coverage;
+	v4_store(out->gl, color);
+	color = point_albedo_of(t, &p, &coat, from_vertices);
+	v3_store(out->albedo, v3(color.x, color.y, color.z));
+	out->depth = f.depth;
+	if (kind == SCENE_DEPTH_PIXELS)
+		out->depth = clamp01(M_FLOAT(*group));
+	if (kind == SCENE_STENCIL_PIXELS) {
+		out->depth = (float)(*group & 255u);
+		out->flags = SHADED_THERE | SHADED_STENCIL;
+		return;
+	}
+	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport, from_vertices.lights));
+}
+
+/* --- Pixels ------------------------------------------------------------------------------------------------------ */
+
+/* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
+static inline void resolve_item(const struct tables *t, GLOBAL const struct fragment *fragments,
+                                GLOBAL struct shaded *shaded, GLOBAL const uint32_t *first,
+                                GLOBAL const uint32_t *counts, uint32_t bits, GLOBAL struct frame_pixel *frame,
+                                uint32_t pixel)
+{
+	for (uint32_t i = first[pixel]; i < first[pixel] + counts[pixel]; i++) {
+		GLOBAL const struct geometry *g = &t->geometries[fragments[i].instance];
+		uint32_t draw = g->draw;
+
+		if (g->primitive_draw != SCENE_NONE)
+			draw += t->indices[g->primitive_draw + FRAGMENT_PRIMITIVE(fragments[i])];
+		pixel_draw(&t->materials[g->material], &shaded[i], &fragments[i], draw, &frame[pixel], bits);
+	}
+}
+
+#endif

@@ -1,0 +1,150 @@
+/* GL's vertex stage (GL 2.1 chapter 2): one vertex of one instance to eye, clip and window space, lit, with its texture
+ * coordinates generated and transformed. */
+#ifndef KERNELS_GL_VERTEX_H
+#define KERNELS_GL_VERTEX_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+#include "kernels/gl/clip.h"
+#include "kernels/gl/light.h"
+#include "kernels/gl/tables.h"
+
+static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
+                                            struct vec3 n)
+{
+	GLOBAL const float *r = g->normal_matrix;
+	struct vec3 eye = v3(r[0] * n.x + r[1] * n.y + r[2] * n.z, r[4] * n.x + r[5] * n.y + r[6] * n.z,
+	                     r[8] * n.x + r[9] * n.y + r[10] * n.z);
+
+	float length2 = v3_dot(eye, eye);
+
+	/* Mesa's vertex programs know no denormal numbers: so short a normal has length 0, and becomes infinite. */
+	if (m->normalize && length2 > 0.0f && length2 < 1.17549435e-38f)
+		return v3(eye.x * M_FLOAT(0x7f800000u), eye.y * M_FLOAT(0x7f800000u), eye.z * M_FLOAT(0x7f800000u));
+	return m->normalize ? v3_normalize(eye) : eye;
+}
+
+/*
+ * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where vertices
+ * carry the colour, and 0 where it is the current one.
+ */
+static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t carried)
+{
+	if (carried)
+		c = v4(c.x < 1.0f ? c.x : 1.0f, c.y < 1.0f ? c.y : 1.0f, c.z < 1.0f ? c.z : 1.0f, c.w < 1.0f ? c.w : 1.0f);
+	return v4_clamp01(c);
+}
+
+/* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
+static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
+                                      GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back,
+                                      const struct vec3 *seen)
+{
+	GLOBAL const struct scene_material *m = &t->materials[g->material];
+	struct vec3 normal = v3_load(vertex->normal);
+	struct lit lit;
+
+	if (m->lighting)
+		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye),
+		                    back ? v3_scale(normal, -1.0f) : normal, tables_face(t, g, v, back), tables_color(t, g, v),
+		                    back, seen);
+	lit.color = tables_color(t, g, v);
+	lit.secondary = tables_secondary(t, g, v);
+	if (!(m->unclamped & 2u)) {
+		lit.color = vertex_clamp(lit.color, g->attributes & 2u);
+		lit.secondary = vertex_clamp(lit.secondary, g->attributes & 4u);
+	}
+	lit.lights = 0u;
+	return lit;
+}
+
+/* Texture coordinate generation, sec. 2.11.4; `u` the unit vector from the eye to the vertex, `n` the eye normal. */
+static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32_t c, float given, struct vec4 obj,
+                                    struct vec4 eye, struct vec3 u, struct vec3 n)
+{
+	struct vec3 r = v3_sub(u, v3_scale(n, 2.0f * v3_dot(n, u)));
+	float m;
+
+	switch (unit->gen_mode[c]) {
+	case GL_OBJECT_LINEAR:
+		return v4_dot(v4_load(unit->gen_object_plane[c]), obj);
+	case GL_EYE_LINEAR:
+		return v4_dot(v4_load(unit->gen_eye_plane[c]), eye);
+	case GL_SPHERE_MAP:
+		m = 2.0f * M_SQRT(r.x * r.x + r.y * r.y + (r.z + 1.0f) * (r.z + 1.0f));
+		return (c == 0u ? r.x : r.y) / m + 0.5f;
+	case GL_REFLECTION_MAP:
+		return c == 0u ? r.x : c == 1u ? r.y : r.z;
+	case GL_NORMAL_MAP:
+		return c == 0u ? n.x : c == 1u ? n.y : n.z;
+	default:
+		return given;
+	}
+}
+
+static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const struct geometry *g,
+                                          GLOBAL const struct scene_unit *unit, uint32_t v, struct vec4 obj,
+                                          struct vec4 eye, struct vec3 n)
+{
+	struct vec4 c = tables_texcoord(t, g, v, unit->unit);
+	struct vec3 u = v3_normalize(eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) :
+	                                             v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w));
+
+	c = v4(vertex_generate(unit, 0u, c.x, obj, eye, u, n), vertex_generate(unit, 1u, c.y, obj, eye, u, n),
+	       vertex_generate(unit, 2u, c.z, obj, eye, u, n), vertex_generate(unit, 3u, c.w, obj, eye, u, n));
+	return m4_mul(unit->matrix, c);
+}
+
+/* Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. */
+static inline float vertex_point_size(GLOBAL const struct scene_material *m, struct vec4 eye)
+{
+	float d = M_SQRT(eye.x * eye.x + eye.y * eye.y + eye.z * eye.z);
+	float fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
+	float size = m->point_size;
+
+	if (fade != 1.0f && fade > 0.0f)
+		size *= M_SQRT(1.0f / fade);
+	return M_MIN(M_MAX(size, m->point_size_min), m->point_size_max);
+}
+
+/*
+ * The vertex stage: vertex `item` of the frame. `owner[item]` is its instance.
+ */
+static inline void vertex_item(const struct tables *t, GLOBAL const struct view *views, GLOBAL const uint32_t *owner,
+                               uint32_t height, uint32_t item, GLOBAL struct shaded_vertex *vertices,
+                               GLOBAL struct window_vertex *windows, GLOBAL float *clips, GLOBAL float *texcoords)
+{
+	GLOBAL const struct geometry *g = &t->geometries[owner[item]];
+	GLOBAL const struct scene_material *m = &t->materials[g->material];
+	GLOBAL const struct view *view = &views[g->view];
+	GLOBAL struct shaded_vertex *out = &vertices[item];
+	uint32_t v = item - g->vertex_first;
+	struct vec4 obj = v4_load(t->attributes + g->position + v * 4u);
+	struct vec4 eye = m4_mul(g->eye_from_obj, obj), clip = m4_mul(g->clip_from_obj, obj);
+	struct vec3 normal = vertex_eye_normal(g, m, tables_normal(t, g, v));
+	struct lit front, back;
+
+	v4_store(out->eye, eye);
+	v4_store(out->clip, clip);
+	v4_store(clips + item * 4u, clip);
+	v3_store(out->normal, normal);
+	windows[item] = clip_window(view, clip, (float)height);
+
+	front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
+	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;
+	v4_store(out->color[0], front.color);
+	v4_store(out->color[1], back.color);
+	v4_store(out->secondary[0], front.secondary);
+	v4_store(out->secondary[1], back.secondary);
+	out->lit[0] = front.lights;
+	out->lit[1] = back.lights;
+	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
+	out->size[0] = vertex_point_size(m, eye);
+	out->size[1] = 0.0f;
+
+	for (uint32_t i = 0u; i < m->unit_count; i++)
+		v4_store(texcoords + (g->texcoord_first + v * m->unit_count + i) * 4u,
+		         vertex_texcoord(t, g, &t->units[m->unit_first + i], v, obj, eye, normal));
+}
+
+#endif

@@ -1,0 +1,145 @@
+/*
+ * What a comparison of eight lanes says (a set lane has all bits). OpenCL C only. The language has any() and no way to
+ * get at all eight bits; where the compiler and the processor have one instruction for it, that is used.
+ */
+#ifndef KERNELS_RAYS_LANES_H
+#define KERNELS_RAYS_LANES_H
+
+#if defined(__has_builtin) && defined(__AVX__)
+#if __has_builtin(__builtin_ia32_movmskps256)
+#define LANES_MOVEMASK 1
+#endif
+#endif
+
+#if defined(__has_builtin) && defined(__AVX512DQ__)
+#if __has_builtin(__builtin_ia32_cvtd2mask512)
+#define LANES_MASK16 1
+#endif
+#if __has_builtin(__builtin_ia32_permvarsf512)
+#define LANES_PERMUTE16 1
+#endif
+#endif
+
+/* LANES_PORTABLE: for interpreters of kernels, which know the language and no compiler's own functions. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_reduce_or)
+#define LANES_REDUCE 1
+#endif
+#endif
+
+/* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL leaves it out. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_prefetch)
+#define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
+#endif
+#endif
+#ifndef PREFETCH
+#define PREFETCH(p)
+#endif
+
+/* *p = value, aligned, which is not read soon. */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if __has_builtin(__builtin_nontemporal_store)
+#define STREAM(value, p) __builtin_nontemporal_store(value, p)
+#endif
+#endif
+#ifndef STREAM
+#define STREAM(value, p) (*(p) = (value))
+#endif
+
+/* One bit a lane. */
+static inline uint lane_bits(int8 mask)
+{
+#ifdef LANES_MOVEMASK
+	return (uint)__builtin_ia32_movmskps256(as_float8(mask));
+#else
+	const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+	const int4 four = bits.lo | bits.hi;
+	const int2 two = four.lo | four.hi;
+
+	return (uint)(two.lo | two.hi);
+#endif
+}
+
+static inline int any_lane(int8 mask)
+{
+#ifdef LANES_REDUCE
+	return __builtin_reduce_or(mask) != 0;
+#else
+	return lane_bits(mask) != 0;
+#endif
+}
+
+/* Minimum and maximum as the processor has them, one instruction: where x is a NaN the result is y. */
+static inline float8 lanes_min(float8 x, float8 y)
+{
+	return select(y, x, x < y);
+}
+
+static inline float8 lanes_max(float8 x, float8 y)
+{
+	return select(y, x, x > y);
+}
+
+/* Sixteen lanes in one register where there is one: the compiler would rather halve them. */
+#if defined(__AVX512F__) && defined(__has_attribute)
+#if __has_attribute(min_vector_width)
+#define WIDE_VECTORS __attribute__((min_vector_width(512)))
+#endif
+#endif
+#ifndef WIDE_VECTORS
+#define WIDE_VECTORS
+#endif
+
+/* Rows of a packet: sixteen rays. Processors with eight lanes do them as two halves, which hides latency as well. */
+typedef float16 packf;
+typedef int16 packi;
+typedef uint16 packu;
+#define PACK_LANES ((packi)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+
+static inline int any_pack(packi mask)
+{
+#ifdef LANES_MASK16
+	return (ushort)__builtin_ia32_cvtd2mask512(mask) != 0;
+#elif defined(LANES_REDUCE)
+	return __builtin_reduce_or(mask) != 0;
+#else
+	return any_lane(mask.lo | mask.hi);
+#endif
+}
+
+/* One bit a lane. */
+static inline uint pack_bits(packi mask)
+{
+#ifdef LANES_MASK16
+	return (ushort)__builtin_ia32_cvtd2mask512(mask);
+#else
+	return lane_bits(mask.lo) | lane_bits(mask.hi) << 8;
+#endif
+}
+
+/* table[index & 15], lane by lane. */
+WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
+{
+#ifdef LANES_PERMUTE16
+	return __builtin_ia32_permvarsf512(table, index);
+#else
+	packf out;
+
+	for (int lane = 0; lane < 16; lane++)
+		((float *)&out)[lane] = ((const float *)&table)[((const int *)&index)[lane] & 15];
+	return out;
+#endif
+}
+
+static inline packf pack_min(packf x, packf y)
+{
+	return select(y, x, x < y);
+}
+
+static inline packf pack_max(packf x, packf y)
+{
+	return select(y, x, x > y);
+}
+
+#endif

@@ -1,0 +1,248 @@
+/*
+ * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
+ * occlude_packet and intersect_packet.
+ *
+ * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. Both products are kept in two roundings, so that no box is
+ * missed by rounding (far planes with p * i < 0 come nearer by what i is made larger; o * i gives that back). Which of a
+ * box's planes is met first depends on the signs of d alone; a packet whose rays differ in signs tries both orders. A ray
+ * sleeps where t_max is below t_min.
+ */
+#ifndef KERNELS_RAYS_PACKET_H
+#define KERNELS_RAYS_PACKET_H
+
+#include "scene/scene.h"
+#include "kernels/shared.h"
+#include "kernels/rays/rays.h"
+#include "kernels/rays/lanes.h"
+
+/* Sixteen rays in the space of the tree they walk. */
+struct packet {
+	packf ox, oy, oz, dx, dy, dz;
+	packf ix, iy, iz;                      /* 1/d, finite */
+	packf far_ix, far_iy, far_iz;          /* the same rounded away from 0 */
+	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
+	packf far_x, far_y, far_z;             /* and up, to far planes */
+	packf t_min, t_max, slack;             /* slack: what rounding may do to any of these */
+};
+
+static inline packf pack_invert(packf d)
+{
+	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
+}
+
+/* Fill in what follows from o and d. */
+static inline void packet_prepare(struct packet *p)
+{
+	const packf ix = pack_invert(p->dx), iy = pack_invert(p->dy), iz = pack_invert(p->dz);
+	const packf bx = -p->ox * ix, by = -p->oy * iy, bz = -p->oz * iz;
+
+	p->ix = ix, p->iy = iy, p->iz = iz;
+	p->far_ix = ix * (1 + 6e-7f), p->far_iy = iy * (1 + 6e-7f), p->far_iz = iz * (1 + 6e-7f);
+	p->near_x = bx - fabs(bx) * 3e-7f, p->near_y = by - fabs(by) * 3e-7f, p->near_z = bz - fabs(bz) * 3e-7f;
+	p->slack = 2.5e-6f * pack_max(pack_max(fabs(bx), fabs(by)), fabs(bz));
+	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
+}
+
+/* Lanes whose distances to boxes are numbers. */
+static inline packi packet_in_range(const struct packet *p)
+{
+	return (fabs(p->ox * p->ix) < RAYS_RANGE) & (fabs(p->oy * p->iy) < RAYS_RANGE) & (fabs(p->oz * p->iz) < RAYS_RANGE);
+}
+
+/* o and d moved from eye to object space. */
+static inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
+{
+	p->ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
+	p->oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
+	p->oz = fma(m[10], eye->oz, fma(m[9], eye->oy, fma(m[8], eye->ox, m[11])));
+	p->dx = fma(m[2], eye->dz, fma(m[1], eye->dy, m[0] * eye->dx));
+	p->dy = fma(m[6], eye->dz, fma(m[5], eye->dy, m[4] * eye->dx));
+	p->dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
+}
+
+/* Per lane, 1 bit each: the signs of the directions. */
+static inline packi packet_octants(const struct packet *p)
+{
+	return (as_int16(p->ix) >> 31 & 1) | (as_int16(p->iy) >> 31 & 2) | (as_int16(p->iz) >> 31 & 4);
+}
+
+/* Where in a node8 the rows lie of the planes that an octant meets first and last. */
+struct planes {
+	uint near_x, near_y, near_z, far_x, far_y, far_z;
+};
+
+static inline struct planes octant_planes(int octant)
+{
+	struct planes s;
+
+	s.near_x = octant & 1 ? 24 : 0, s.far_x = 24 - s.near_x;
+	s.near_y = octant & 2 ? 32 : 8, s.far_y = 40 - s.near_y;
+	s.near_z = octant & 4 ? 40 : 16, s.far_z = 56 - s.near_z;
+	return s;
+}
+
+/* How far boxes are looked at where the nearest hit is asked for: walk_end of kernels/rays/walk.h. */
+static inline packf packet_end(const struct packet *p)
+{
+	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);
+}
+
+/* Lanes that meet a node's box before `end`, all of one octant. bounds: the node's first float of that box. */
+static inline packi packet_meets(const struct packet *p, packf end, __global const float *bounds, struct planes s)
+{
+	const packf enter = pack_max(pack_max(fma(bounds[s.near_x], p->ix, p->near_x), fma(bounds[s.near_y], p->iy, p->near_y)),
+	                             pack_max(fma(bounds[s.near_z], p->iz, p->near_z), p->t_min));
+	const packf leave = pack_min(pack_min(fma(bounds[s.far_x], p->far_ix, p->far_x), fma(bounds[s.far_y], p->far_iy, p->far_y)),
+	                             pack_min(fma(bounds[s.far_z], p->far_iz, p->far_z), end));
+
+	return enter <= leave;
+}
+
+/*
+ * What the rays of a packet of one octant have in common: per axis the corner of their origins that lets them enter a box first, the
+ * one that lets them leave it last, and least and greatest 1/d. A box that all of it misses no ray meets (interval arithmetic:
+ * Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"): eight boxes are asked at once, whatever the number of rays.
+ */
+struct beam {
+	float near_o[3], far_o[3], least[3], greatest[3], t_min, t_max;
+};
+
+static inline float least_of(packf x)
+{
+	const float8 eight = lanes_min(x.lo, x.hi);
+	const float4 four = select(eight.hi, eight.lo, eight.lo < eight.hi);
+
+	return fmin(fmin(four.x, four.y), fmin(four.z, four.w));
+}
+
+static inline float sum_of(packf x)
+{
+	const float8 eight = x.lo + x.hi;
+	const float4 four = eight.lo + eight.hi;
+
+	return four.x + four.y + (four.z + four.w);
+}
+
+/* Bounds of what n packets' awake rays have: least values, and the least of what they are negated. */
+struct bounds {
+	packf least, opposite;
+};
+
+static inline void bounds_add(struct bounds *b, packf x, packi awake)
+{
+	b->least = pack_min(b->least, select((packf)(INFINITY), x, awake));
+	b->opposite = pack_min(b->opposite, select((packf)(INFINITY), -x, awake));
+}
+
+static inline struct beam beam_around(const struct packet *p, uint n, int octant)
+{
+	struct bounds bounds[8];
+	struct beam b;
+
+	for (int i = 0; i < 8; i++)
+		bounds[i].least = bounds[i].opposite = INFINITY;
+	for (uint k = 0; k < n; k++) {
+		const packi awake = p[k].t_min <= p[k].t_max;
+
+		bounds_add(&bounds[0], p[k].ox, awake), bounds_add(&bounds[1], p[k].oy, awake), bounds_add(&bounds[2], p[k].oz, awake);
+		bounds_add(&bounds[3], p[k].ix, awake), bounds_add(&bounds[4], p[k].iy, awake), bounds_add(&bounds[5], p[k].iz, awake);
+		bounds_add(&bounds[6], p[k].t_min, awake), bounds_add(&bounds[7], p[k].t_max, awake);
+	}
+	for (int axis = 0; axis < 3; axis++) {
+		const float least = least_of(bounds[axis].least), greatest = -least_of(bounds[axis].opposite);
+
+		b.near_o[axis] = octant >> axis & 1 ? least : greatest;
+		b.far_o[axis] = octant >> axis & 1 ? greatest : least;
+		b.least[axis] = least_of(bounds[3 + axis].least);
+		b.greatest[axis] = -least_of(bounds[3 + axis].opposite);
+	}
+	b.t_min = least_of(bounds[6].least);
+	b.t_max = -least_of(bounds[7].opposite);
+	return b;
+}
+
+static inline float8 beam_enters(const struct beam *b, int axis, float8 plane)
+{
+	const float8 d = plane - b->near_o[axis];
+
+	return lanes_min(d * b->least[axis], d * b->greatest[axis]);
+}
+
+static inline float8 beam_leaves(const struct beam *b, int axis, float8 plane)
+{
+	const float8 d = plane - b->far_o[axis];
+
+	return lanes_max(d * b->least[axis], d * b->greatest[axis]);
+}
+
+/* One bit for each of a node's boxes that rays of the beam may meet. All is rounded in proportion to itself. */
+static inline uint beam_meets(const struct beam *b, __global const struct node8 *node, struct planes s)
+{
+	__global const float *rows = (__global const float *)node;
+	const float8 x = beam_enters(b, 0, vload8(0, rows + s.near_x)), y = beam_enters(b, 1, vload8(0, rows + s.near_y));
+	const float8 z = beam_enters(b, 2, vload8(0, rows + s.near_z));
+	const float8 u = beam_leaves(b, 0, vload8(0, rows + s.far_x)), v = beam_leaves(b, 1, vload8(0, rows + s.far_y));
+	const float8 w = beam_leaves(b, 2, vload8(0, rows + s.far_z));
+	const float8 enter = lanes_max(lanes_max(x, y), lanes_max(z, b->t_min));
+	const float8 leave = lanes_min(lanes_min(u, v), lanes_min(w, b->t_max));
+
+	return lane_bits(enter <= fma(fabs(leave), 2e-6f, leave));
+}
+
+/* The same whatever the octants. */
+static inline packi packet_meets_any(const struct packet *p, packf end, __global const struct node8 *node, uint side)
+{
+	const packf x0 = fma(node->lo[0][side], p->ix, p->near_x), x1 = fma(node->hi[0][side], p->ix, p->near_x);
+	const packf y0 = fma(node->lo[1][side], p->iy, p->near_y), y1 = fma(node->hi[1][side], p->iy, p->near_y);
+	const packf z0 = fma(node->lo[2][side], p->iz, p->near_z), z1 = fma(node->hi[2][side], p->iz, p->near_z);
+	const packf enter = pack_max(pack_max(pack_min(x0, x1), pack_min(y0, y1)), pack_max(pack_min(z0, z1), p->t_min));
+	const packf leave = pack_min(pack_min(pack_max(x0, x1), pack_max(y0, y1)), pack_min(pack_max(z0, z1), end));
+
+	return enter <= fma(leave, 1 + 6e-7f, p->slack);
+}
+
+/* The octant of all lanes of n packets that are awake; -1: there are several. */
+static inline int packet_octant(const struct packet *p, uint n)
+{
+	packi all = -1, some = 0;
+	int octant = 0;
+
+	for (uint k = 0; k < n; k++) {
+		const packi awake = p[k].t_min <= p[k].t_max, octants = packet_octants(&p[k]);
+
+		all &= octants | ~awake;
+		some |= octants & awake;
+	}
+	for (int bit = 1; bit < 8; bit <<= 1) {
+		const int set = any_pack((some & bit) != 0), clear = any_pack((all & bit) == 0);
+
+		if (set && clear)
+			return -1;
+		octant |= set ? bit : 0;
+	}
+	return octant;
+}
+
+/* Moeller and Trumbore: lanes hit at t in t_min .. t_max, and where. */
+static inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane, packf *t_out, packf *b1, packf *b2)
+{
+	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
+	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];
+	const packf px = fma(p->dy, e2z, -(p->dz * e2y));
+	const packf py = fma(p->dz, e2x, -(p->dx * e2z));
+	const packf pz = fma(p->dx, e2y, -(p->dy * e2x));
+	const packf inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
+	const packf sx = p->ox - block->v0[0][lane], sy = p->oy - block->v0[1][lane], sz = p->oz - block->v0[2][lane];
+	const packf u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
+	const packf qx = fma(sy, e1z, -(sz * e1y));
+	const packf qy = fma(sz, e1x, -(sx * e1z));
+	const packf qz = fma(sx, e1y, -(sy * e1x));
+	const packf v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
+	const packf t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
+
+	*t_out = t, *b1 = u, *b2 = v;
+	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
+	       (t >= p->t_min) & (t <= p->t_max);
+}
+
+#endif

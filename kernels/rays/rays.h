@@ -1,0 +1,59 @@
+/*
+ * occlude and intersect, each _packet, _wide, _binary and _compressed: rays in eye space against a top level and the instances'
+ * trees. Included by C and OpenCL C.
+ *
+ * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
+ * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
+ * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing; nor do rays of which o / d, part by part, has no
+ * place in RAYS_RANGE (d of next to nothing counts as 1e-20), in eye space or an instance's: boxes could not be told apart.
+ *
+ * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
+ * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth
+ * of it. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|, where shift max|d| >
+ * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest hit
+ * of several instances is the one whose t + shift, rounded, is least.
+ *
+ * Arguments of all, in this order
+ *    0  uint n_rays
+ *    1  const struct ray rays[]
+ *    2  uint top_first            accel_space.top8_first; _binary and _compressed: top2_first
+ *    3  const struct node8 top[]  accel.top8; _binary and _compressed: accel.top2, struct node2
+ *    4  const uint instance_list[]
+ *    5  const struct instance instances[]
+ *    6  const struct node8 nodes[]          accel.nodes8; _binary: accel.nodes2; _compressed: accel.nodes8c
+ *    7  const struct triangle8 triangles[]  accel.triangles8; _binary: accel.triangles, struct triangle; _compressed:
+ *                                           accel.triangles8c, the same
+ *    8  occlude: uint occluded[]  1 where anything is hit, else 0
+ *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
+ *                                 same t that of the lowest instance, there of the lowest primitive: it depends on
+ *                                 no tree
+ *
+ * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
+ * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
+ */
+#ifndef KERNELS_RAYS_RAYS_H
+#define KERNELS_RAYS_RAYS_H
+
+#include "scene/scene.h"
+#include "kernels/shared.h"
+
+/* Rays in a packet, packets of a work item. */
+#define RAYS_PER_PACKET 16u
+#define RAYS_PACKETS 4u
+#define RAYS_PER_ITEM (RAYS_PACKETS * RAYS_PER_PACKET)
+
+/* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
+#define RAYS_EDGE_SLACK 1e-6f
+
+#define RAYS_RANGE 1e38f
+
+/* How much farther than the nearest hit boxes are looked at, as a share of its t. */
+#define RAYS_END_SLACK 4e-6f
+
+/* From how many radii on a ray is moved. */
+#define RAYS_FAR 64.0f
+
+/* Entries of a stack over an eight-wide tree: seven siblings a level. */
+#define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)
+
+#endif

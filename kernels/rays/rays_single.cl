@@ -1,0 +1,298 @@
+/*
+ * occlude_binary, intersect_binary, occlude_compressed, intersect_compressed: one ray a work item and nothing wider than a number,
+ * for devices that run many work items in step (GPUs). See kernels/rays/rays.h.
+ *
+ * Both walk the binary top level. Below it, *_binary goes down the binary tree to a leaf, then through its triangles ("while-while",
+ * Aila and Laine 2009, "Understanding the efficiency of ray traversal on GPUs"); *_compressed walks eight-wide nodes of 80 bytes in the
+ * order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are private: of the room they have for the deepest tree
+ * a ray touches only the few entries that it needs.
+ */
+#include "kernels/rays/rays.h"
+#include "kernels/rays/walk.h"
+
+/* Moeller and Trumbore; of equally near hits that of the lowest primitive stays. */
+static inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance)
+{
+	const float e1x = triangle->e1[0], e1y = triangle->e1[1], e1z = triangle->e1[2];
+	const float e2x = triangle->e2[0], e2y = triangle->e2[1], e2z = triangle->e2[2];
+	const float px = fma(w->dy, e2z, -(w->dz * e2y));
+	const float py = fma(w->dz, e2x, -(w->dx * e2z));
+	const float pz = fma(w->dx, e2y, -(w->dy * e2x));
+	const float inverse = 1.0f / fma(e1z, pz, fma(e1y, py, e1x * px));
+	const float sx = w->ox - triangle->v0[0], sy = w->oy - triangle->v0[1], sz = w->oz - triangle->v0[2];
+	const float u = fma(sz, pz, fma(sy, py, sx * px)) * inverse;
+	const float qx = fma(sy, e1z, -(sz * e1y));
+	const float qy = fma(sz, e1x, -(sx * e1z));
+	const float qz = fma(sx, e1y, -(sy * e1x));
+	const float v = fma(w->dz, qz, fma(w->dy, qy, w->dx * qx)) * inverse;
+	const float t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
+
+	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
+	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive))) {
+		w->hit.t = t;
+		w->hit.b1 = u;
+		w->hit.b2 = v;
+		w->hit.instance = instance;
+		w->hit.primitive = triangle->primitive;
+	}
+}
+
+/* --- Binary trees ------------------------------------------------------------------------------------------------- */
+
+/* Whether the ray meets a box, and where it enters. An empty one has lo > hi. */
+static inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *enter)
+{
+	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x), far_x = fma(w->ix < 0 ? lo.x : hi.x, w->far_ix, w->far_x);
+	const float near_y = fma(w->iy < 0 ? hi.y : lo.y, w->iy, w->near_y), far_y = fma(w->iy < 0 ? lo.y : hi.y, w->far_iy, w->far_y);
+	const float near_z = fma(w->iz < 0 ? hi.z : lo.z, w->iz, w->near_z), far_z = fma(w->iz < 0 ? lo.z : hi.z, w->far_iz, w->far_z);
+
+	*enter = fmax(fmax(near_x, near_y), fmax(near_z, w->t_min));
+	return lo.x <= hi.x && *enter <= fmin(fmin(far_x, far_y), fmin(far_z, walk_end(w)));
+}
+
+/* The next subtree that is not behind what was hit meanwhile. @return 0: there is none */
+static inline int pop(const struct walk *w, const struct entry *stack, uint *depth, struct entry *entry)
+{
+	do {
+		if (*depth == 0)
+			return 0;
+		*entry = stack[--*depth];
+	} while (entry->enter > walk_end(w));
+	return 1;
+}
+
+/* On to the next leaf, the nearer child first. @return 0: there is none */
+static inline int next_leaf(const struct walk *w, __global const struct node2 *nodes, struct entry *stack, uint *depth,
+                     struct entry *entry)
+{
+	while (entry->count == 0) {
+		__global const float4 *row = (__global const float4 *)&nodes[entry->child];
+		const float4 a = row[0], b = row[1], c = row[2];
+		const uint4 d = as_uint4(row[3]); /* child[2], count[2] */
+		struct entry left, right;
+		const int meets_left = meets_box(w, a.xyz, (float3)(b.zw, c.x), &left.enter);
+		const int meets_right = meets_box(w, (float3)(a.w, b.xy), c.yzw, &right.enter);
+
+		left.child = d.x, left.count = d.z;
+		right.child = d.y, right.count = d.w;
+		if (meets_left && meets_right) {
+			const int swap = right.enter < left.enter;
+
+			stack[*depth] = swap ? left : right;
+			++*depth;
+			*entry = swap ? right : left;
+		} else if (meets_left || meets_right) {
+			*entry = meets_left ? left : right;
+		} else if (!pop(w, stack, depth, entry)) {
+			return 0;
+		}
+	}
+	return 1;
+}
+
+static inline void walk_binary(struct walk *w, uint index, int any, __global const struct node2 *nodes,
+                        __global const struct triangle *triangles)
+{
+	struct entry stack[BVH_MAX_DEPTH], entry;
+	uint depth = 0;
+
+	entry.enter = w->t_min;
+	entry.child = entry.count = 0;
+	while (next_leaf(w, nodes, stack, &depth, &entry)) {
+		for (uint i = 0; i < entry.count; i++) {
+			try_single(w, &triangles[entry.child + i], index);
+			if (any && w->hit.instance != SCENE_NONE)
+				return;
+		}
+		if (!pop(w, stack, &depth, &entry))
+			return;
+	}
+}
+
+/* --- Compressed trees --------------------------------------------------------------------------------------------- */
+
+/* Where the planes of a node's grid are along the ray's axis: at `byte` times step from `near` or `far`. */
+struct grid_axis {
+	float near, near_step, far, far_step;
+};
+
+/* Slack as for other boxes, of what is added up: the grid's origin, and the ray's. */
+static inline struct grid_axis grid_axis(float origin, uint exponent, float i, float near, float far)
+{
+	const float step = as_float(exponent << 23) * i, at = origin * i;
+	struct grid_axis axis;
+
+	axis.near = fma(origin, i, near) - fabs(at) * 4e-7f;
+	axis.near_step = step;
+	axis.far = fma(origin, i, far) + fabs(at) * 1.6e-6f;
+	axis.far_step = step * (1 + 6e-7f);
+	return axis;
+}
+
+static inline float byte_of(uint word, uint k)
+{
+	return convert_float(word >> 8 * k & 255u);
+}
+
+/*
+ * Which of a node's children the ray meets.
+ * @param octant     bit a set: the ray goes up along a
+ * @param triangles  receives a bit for each triangle of the leaves that it meets, from triangle_first on
+ * @param head       receives the node's first children: x nodes, y triangles
+ * @return a bit for each node that it meets, at slot ^ octant, the last one the nearest, and from bit 8 on which slots are nodes
+ */
+static inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node, uint *triangles, uint2 *head)
+{
+	__global const uint4 *row = (__global const uint4 *)node;
+	const uint4 a = row[0], b = row[1], c = row[2], d = row[3], e = row[4];
+	const struct grid_axis x = grid_axis(as_float(a.x), a.w & 255u, w->ix, w->near_x, w->far_x);
+	const struct grid_axis y = grid_axis(as_float(a.y), a.w >> 8 & 255u, w->iy, w->near_y, w->far_y);
+	const struct grid_axis z = grid_axis(as_float(a.z), a.w >> 16 & 255u, w->iz, w->near_z, w->far_z);
+	const uint2 near_x = w->ix < 0 ? d.zw : c.xy, far_x = w->ix < 0 ? c.xy : d.zw;
+	const uint2 near_y = w->iy < 0 ? e.xy : c.zw, far_y = w->iy < 0 ? c.zw : e.xy;
+	const uint2 near_z = w->iz < 0 ? e.zw : d.xy, far_z = w->iz < 0 ? d.xy : e.zw;
+	const uint is_node = a.w >> 24;
+	uint hits = 0;
+
+	*triangles = 0;
+	*head = b.xy;
+	for (uint slot = 0; slot < 8; slot++) {
+		const uint k = slot & 3u;
+		const float enter = fmax(fmax(fma(byte_of(slot < 4 ? near_x.x : near_x.y, k), x.near_step, x.near),
+		                              fma(byte_of(slot < 4 ? near_y.x : near_y.y, k), y.near_step, y.near)),
+		                         fmax(fma(byte_of(slot < 4 ? near_z.x : near_z.y, k), z.near_step, z.near), w->t_min));
+		const float leave = fmin(fmin(fma(byte_of(slot < 4 ? far_x.x : far_x.y, k), x.far_step, x.far),
+		                              fma(byte_of(slot < 4 ? far_y.x : far_y.y, k), y.far_step, y.far)),
+		                         fmin(fma(byte_of(slot < 4 ? far_z.x : far_z.y, k), z.far_step, z.far), walk_end(w)));
+		const uint meta = (slot < 4 ? b.z : b.w) >> 8 * k & 255u;
+
+		if (enter <= leave) {
+			hits |= (is_node >> slot & 1u) << (slot ^ octant);
+			*triangles |= meta ? ((2u << (meta >> 5 & 3u)) - 1u) << (meta & 31u) : 0u;
+		}
+	}
+	return hits | is_node << 8;
+}
+
+static inline void walk_compressed(struct walk *w, uint index, int any, __global const struct node8c *nodes,
+                            __global const struct triangle *triangles)
+{
+	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
+	uint2 stack[NODE8C_MAX_DEPTH]; /* nodes that were met with others: where they begin, what meet_compressed says */
+	uint depth = 0, child = 0;
+
+	for (;;) {
+		uint bits, near, slot;
+		uint2 first, group; /* first: the node's children, x nodes, y triangles */
+
+		group.y = meet_compressed(w, octant, &nodes[child], &bits, &first);
+		group.x = first.x;
+		while (bits) {
+			try_single(w, &triangles[first.y + popcount((bits & -bits) - 1)], index);
+			bits &= bits - 1;
+			if (any && w->hit.instance != SCENE_NONE)
+				return;
+		}
+		if (!(group.y & 255u)) {
+			if (depth == 0)
+				return;
+			group = stack[--depth];
+		}
+		near = 31 - clz(group.y & 255u);
+		slot = near ^ octant;
+		group.y &= ~(1u << near);
+		if (group.y & 255u)
+			stack[depth++] = group;
+		child = group.x + popcount(group.y >> 8 & ((1u << slot) - 1u));
+	}
+}
+
+/* --- Rays --------------------------------------------------------------------------------------------------------- */
+
+/*
+ * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone. While an
+ * instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again, which costs less than
+ * the registers.
+ */
+INLINED struct hit walk_ray(__global const struct ray *ray, int any, int is_compressed, __global const struct node2 *top,
+                            __global const uint *instance_list, __global const struct instance *instances,
+                            __global const struct node2 *binary, __global const struct node8c *compressed,
+                            __global const struct triangle *triangles)
+{
+	struct entry stack[BVH_MAX_DEPTH], entry;
+	struct walk eye;
+	uint depth = 0;
+
+	if (!walk_start(&eye, ray))
+		return eye.hit;
+	entry.enter = eye.t_min;
+	entry.child = entry.count = 0;
+	while (next_leaf(&eye, top, stack, &depth, &entry)) {
+		for (uint i = 0; i < entry.count; i++) {
+			const uint index = instance_list[entry.child + i];
+			__global const struct instance *instance = &instances[index];
+			struct hit hit = eye.hit;
+			struct walk w;
+			const float shift = walk_enter(&w, &eye, instance);
+
+			if (is_compressed)
+				walk_compressed(&w, index, any, compressed + instance->node8c_first, triangles + instance->triangle8c_first);
+			else
+				walk_binary(&w, index, any, binary + instance->node2_first, triangles + instance->triangle_first);
+			walk_start(&eye, ray);
+			eye.hit = hit;
+			walk_leave(&eye, &w, shift);
+			if (any && eye.hit.instance != SCENE_NONE)
+				return eye.hit;
+		}
+		if (!pop(&eye, stack, &depth, &entry))
+			break;
+	}
+	return eye.hit;
+}
+
+__kernel void occlude_binary(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
+                             __global const uint *instance_list, __global const struct instance *instances,
+                             __global const struct node2 *nodes, __global const struct triangle *triangles,
+                             __global uint *occluded)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		occluded[i] = walk_ray(&rays[i], 1, 0, top + top_first, instance_list, instances, nodes, 0, triangles).instance !=
+		              SCENE_NONE;
+}
+
+__kernel void intersect_binary(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
+                               __global const uint *instance_list, __global const struct instance *instances,
+                               __global const struct node2 *nodes, __global const struct triangle *triangles,
+                               __global struct hit *hits)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		hits[i] = walk_ray(&rays[i], 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
+}
+
+__kernel void occlude_compressed(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
+                                 __global const uint *instance_list, __global const struct instance *instances,
+                                 __global const struct node8c *nodes, __global const struct triangle *triangles,
+                                 __global uint *occluded)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		occluded[i] = walk_ray(&rays[i], 1, 1, top + top_first, instance_list, instances, 0, nodes, triangles).instance !=
+		              SCENE_NONE;
+}
+
+__kernel void intersect_compressed(uint n_rays, __global const struct ray *rays, uint top_first,
+                                   __global const struct node2 *top, __global const uint *instance_list,
+                                   __global const struct instance *instances, __global const struct node8c *nodes,
+                                   __global const struct triangle *triangles, __global struct hit *hits)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		hits[i] = walk_ray(&rays[i], 0, 1, top + top_first, instance_list, instances, 0, nodes, triangles);
+}

@@ -1,0 +1,73 @@
+/*
+ * occlude_wide, intersect_wide: one ray a work item against eight boxes or eight triangles at once. See kernels/rays/rays.h.
+ */
+#include "kernels/rays/rays.h"
+#include "kernels/rays/wide.h"
+
+static inline void walk_instance(struct walk *eye, uint index, int any, __global const struct instance *instances,
+                          __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+{
+	__global const struct instance *instance = &instances[index];
+	struct walk w;
+	const float shift = walk_enter(&w, eye, instance);
+
+	walk_subtree(&w, (uint2)(0, 0), index, any, nodes + instance->node8_first, triangles + instance->triangle8_first);
+	walk_leave(eye, &w, shift);
+}
+
+static inline struct hit walk_ray(__global const struct ray *ray, int any, __global const struct node8 *top,
+                           __global const uint *instance_list, __global const struct instance *instances,
+                           __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+{
+	struct entry stack[RAYS_WIDE_STACK];
+	uint depth = 0;
+	struct walk w;
+
+	if (!walk_start(&w, ray))
+		return w.hit;
+	stack[depth].enter = w.t_min;
+	stack[depth].child = stack[depth].count = 0;
+	depth++;
+	while (depth) {
+		const struct entry entry = stack[--depth];
+
+		if (entry.enter > walk_end(&w))
+			continue;
+		if (entry.count == 0) {
+			float8 enter;
+			const uint bits = meet_boxes(&w, &top[entry.child], &enter);
+
+			depth = push_boxes(stack, depth, bits, &enter, any, &top[entry.child]);
+			continue;
+		}
+		for (uint i = 0; i < entry.count; i++) {
+			walk_instance(&w, instance_list[entry.child + i], any, instances, nodes, triangles);
+			if (any && w.hit.instance != SCENE_NONE)
+				return w.hit;
+		}
+	}
+	return w.hit;
+}
+
+__kernel void occlude_wide(uint n_rays, __global const struct ray *rays, uint top_first,
+                           __global const struct node8 *top, __global const uint *instance_list,
+                           __global const struct instance *instances, __global const struct node8 *nodes,
+                           __global const struct triangle8 *triangles, __global uint *occluded)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		occluded[i] = walk_ray(&rays[i], 1, top + top_first, instance_list, instances, nodes, triangles).instance !=
+		              SCENE_NONE;
+}
+
+__kernel void intersect_wide(uint n_rays, __global const struct ray *rays, uint top_first,
+                             __global const struct node8 *top, __global const uint *instance_list,
+                             __global const struct instance *instances, __global const struct node8 *nodes,
+                             __global const struct triangle8 *triangles, __global struct hit *hits)
+{
+	const uint i = (uint)get_global_id(0);
+
+	if (i < n_rays)
+		hits[i] = walk_ray(&rays[i], 0, top + top_first, instance_list, instances, nodes, triangles);
+}

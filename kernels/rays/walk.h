@@ -1,0 +1,127 @@
+/*
+ * One ray on its way through trees, whatever these are made of: into an instance's object space and back. OpenCL C only;
+ * included by the kernels that trace one ray a work item.
+ */
+#ifndef KERNELS_RAYS_WALK_H
+#define KERNELS_RAYS_WALK_H
+
+#include "scene/scene.h"
+#include "kernels/shared.h"
+#include "kernels/rays/rays.h"
+
+/* A ray in the space of the tree it walks; boxes as in kernels/rays/packet.h. */
+struct walk {
+	float ox, oy, oz, dx, dy, dz;
+	float ix, iy, iz, far_ix, far_iy, far_iz, near_x, near_y, near_z, far_x, far_y, far_z;
+	uint row_x, row_y, row_z; /* the float of a node8 where the planes met first begin */
+	float t_min;
+	struct hit hit; /* hit.t: the ray's end so far */
+};
+
+/*
+ * How far boxes are looked at: a little beyond the nearest hit so far, as what rounding makes of a triangle's t may lie before its
+ * box. Else which of two nearly equal hits counts would depend on the tree.
+ */
+static inline float walk_end(const struct walk *w)
+{
+	return fma(fabs(w->hit.t), RAYS_END_SLACK, w->hit.t);
+}
+
+/* A subtree to be walked. */
+struct entry {
+	float enter;
+	uint child, count;
+};
+
+static inline float invert(float d)
+{
+	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
+}
+
+static inline void find_rows(struct walk *w)
+{
+	w->row_x = w->ix < 0 ? 24 : 0, w->row_y = w->iy < 0 ? 32 : 8, w->row_z = w->iz < 0 ? 40 : 16;
+}
+
+static inline void prepare(struct walk *w)
+{
+	float b;
+
+	w->ix = invert(w->dx), w->iy = invert(w->dy), w->iz = invert(w->dz);
+	b = -w->ox * w->ix, w->near_x = b - fabs(b) * 3e-7f, w->far_x = b + fabs(b) * 1.5e-6f;
+	b = -w->oy * w->iy, w->near_y = b - fabs(b) * 3e-7f, w->far_y = b + fabs(b) * 1.5e-6f;
+	b = -w->oz * w->iz, w->near_z = b - fabs(b) * 3e-7f, w->far_z = b + fabs(b) * 1.5e-6f;
+	w->far_ix = w->ix * (1 + 6e-7f), w->far_iy = w->iy * (1 + 6e-7f), w->far_iz = w->iz * (1 + 6e-7f);
+	find_rows(w);
+}
+
+/* Whether boxes can be told apart by their distances along the ray. */
+static inline int in_range(const struct walk *w)
+{
+	return fabs(w->ox * w->ix) < RAYS_RANGE && fabs(w->oy * w->iy) < RAYS_RANGE && fabs(w->oz * w->iz) < RAYS_RANGE;
+}
+
+/* A ray in eye space that has hit nothing. @return 0 where it hits nothing by definition */
+static inline int walk_start(struct walk *w, __global const struct ray *ray)
+{
+	w->ox = ray->o[0], w->oy = ray->o[1], w->oz = ray->o[2];
+	w->dx = ray->d[0], w->dy = ray->d[1], w->dz = ray->d[2];
+	w->t_min = ray->t_min;
+	w->hit.t = ray->t_max;
+	w->hit.b1 = w->hit.b2 = 0;
+	w->hit.instance = w->hit.primitive = SCENE_NONE;
+	if (!(w->t_min <= w->hit.t) || !isfinite(w->ox) || !isfinite(w->oy) || !isfinite(w->oz) || !isfinite(w->dx) ||
+	    !isfinite(w->dy) || !isfinite(w->dz))
+		return 0;
+	prepare(w);
+	return in_range(w);
+}
+
+/* How far along the ray its walk through an instance starts. */
+static inline float walk_shift(__global const struct instance *instance, const struct walk *w)
+{
+	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
+	const float length = fmax(fmax(fabs(w->dx), fabs(w->dy)), fabs(w->dz));
+	const float shift = fma(cz, w->dz, fma(cy, w->dy, cx * w->dx)) / fma(w->dz, w->dz, fma(w->dy, w->dy, w->dx * w->dx)) -
+	                    instance->radius / length;
+
+	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
+}
+
+/* The ray in an instance's object space. @return by how much it was moved along itself */
+static inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance)
+{
+	__global const float *m = instance->obj_from_eye;
+	float shift;
+
+	w->ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
+	w->oy = fma(m[6], eye->oz, fma(m[5], eye->oy, fma(m[4], eye->ox, m[7])));
+	w->oz = fma(m[10], eye->oz, fma(m[9], eye->oy, fma(m[8], eye->ox, m[11])));
+	w->dx = fma(m[2], eye->dz, fma(m[1], eye->dy, m[0] * eye->dx));
+	w->dy = fma(m[6], eye->dz, fma(m[5], eye->dy, m[4] * eye->dx));
+	w->dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
+	shift = walk_shift(instance, w);
+	w->ox = fma(shift, w->dx, w->ox), w->oy = fma(shift, w->dy, w->oy), w->oz = fma(shift, w->dz, w->oz);
+	w->t_min = eye->t_min - shift;
+	w->hit.t = eye->hit.t - shift;
+	if (shift > 0 && eye->hit.instance != SCENE_NONE)
+		w->hit.t += 3e-7f * eye->hit.t; /* t + shift decides */
+	w->hit.b1 = w->hit.b2 = 0;
+	w->hit.instance = w->hit.primitive = SCENE_NONE;
+	prepare(w);
+	if (!in_range(w))
+		w->hit.t = -INFINITY;
+	return shift;
+}
+
+/* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
+static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
+{
+	w->hit.t += shift;
+	if (w->hit.instance != SCENE_NONE &&
+	    (eye->hit.instance == SCENE_NONE || w->hit.t < eye->hit.t ||
+	     (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))
+		eye->hit = w->hit;
+}
+
+#endif

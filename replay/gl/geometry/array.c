@@ -1,0 +1,978 @@
+/* Vertex arrays and buffer objects (GL 2.1 sec. 2.8, 2.9). */
+#include <stdlib.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "replay/machine/exec.h"
+
+/* ---- buffer objects ---- */
+
+struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name)
+{
+	return name ? table_find(&st->share->buffers, name) : NULL;
+}
+
+static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
+{
+	struct gls_buffer *b = gls_buffer_find(st, name);
+
+	if (b || !name)
+		return b;
+	b = calloc(1, sizeof(*b));
+	if (!b || table_set(&st->share->buffers, name, b)) {
+		free(b);
+		gls_out_of_memory(x, sizeof(*b));
+		return NULL;
+	}
+	b->version = ++x->versions;
+	return b;
+}
+
+/* Where the name of the buffer bound to a target is kept; NULL: a target that no draw looks at. */
+static uint32_t *binding(struct gls_state *st, uint32_t target)
+{
+	switch (target) {
+	case GL_ARRAY_BUFFER:
+		return &st->client.array_buffer;
+	case GL_ELEMENT_ARRAY_BUFFER:
+		return &st->client.element_buffer;
+	case GL_COPY_READ_BUFFER:
+		return &st->client.copy_read_buffer;
+	case GL_COPY_WRITE_BUFFER:
+		return &st->client.copy_write_buffer;
+	case GL_DRAW_INDIRECT_BUFFER:
+		return &st->client.indirect_buffer;
+	case GL_PIXEL_UNPACK_BUFFER:
+		return &st->client.unpack.buffer;
+	case GL_PIXEL_PACK_BUFFER:
+		return &st->client.pack.buffer;
+	default:
+		return NULL;
+	}
+}
+
+static struct gls_buffer *bound_buffer(struct gls_exec *x, struct gls_state *st, uint32_t target)
+{
+	uint32_t *name = binding(st, target);
+	struct gls_buffer *b;
+
+	if (!name) {
+		gls_unsupported(x, "buffer targets of later GL");
+		return NULL;
+	}
+	b = gls_buffer_find(st, *name);
+	if (!b)
+		gls_error(x, st, GL_INVALID_OPERATION);
+	return b;
+}
+
+GLS_HANDLER(glBindBuffer, CLIENT)
+{
+	uint32_t *name = binding(st, arg_u(c, 0));
+
+	if (!name) {
+		gls_unsupported(x, "buffer targets of later GL");
+		return;
+	}
+	*name = arg_u(c, 1);
+	make_buffer(x, st, *name);
+}
+
+/* x->maps holds the buffers that are mapped, each under the one address where it is. */
+static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
+{
+	if (b && b->mapped)
+		table_remove(&x->maps, b->mapped);
+	if (b)
+		b->mapped = 0;
+}
+
+GLS_HANDLER(glDeleteBuffers, CLIENT)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, 1, &n);
+
+	for (uint64_t i = 0; i < n; i++) {
+		uint32_t name = (uint32_t)gls_value_int(&names[i]);
+		struct gls_buffer *b = name ? table_remove(&st->share->buffers, name) : NULL;
+		if (!b)
+			continue;
+		unmap_buffer(x, b);
+		free(b->data);
+		free(b);
+		if (st->client.array_buffer == name)
+			st->client.array_buffer = 0;
+		if (st->client.element_buffer == name)
+			st->client.element_buffer = 0;
+		if (st->client.unpack.buffer == name)
+			st->client.unpack.buffer = 0;
+		if (st->client.copy_read_buffer == name)
+			st->client.copy_read_buffer = 0;
+		if (st->client.copy_write_buffer == name)
+			st->client.copy_write_buffer = 0;
+		if (st->client.indirect_buffer == name)
+			st->client.indirect_buffer = 0;
+		for (unsigned a = 0; a < N_GLS_ARRAYS; a++)
+			if (st->client.arrays[a].buffer == name)
+				st->client.arrays[a].buffer = 0;
+	}
+}
+
+static void set_data(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+	int64_t size = arg_i(c, 1);
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 2, &n);
+	uint8_t *data;
+
+	if (!b)
+		return;
+	if (size < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (size > INT32_MAX) {
+		gls_unsupported(x, "buffers of 2 GiB and more");
+		return;
+	}
+	data = calloc(1, size ? (size_t)size : 1);
+	if (!data) {
+		gls_out_of_memory(x, (size_t)size);
+		return;
+	}
+	if (bytes)
+		memcpy(data, bytes, n < (size_t)size ? n : (size_t)size);
+	free(b->data);
+	b->data = data;
+	b->bytes = (size_t)size;
+	b->version = ++x->versions;
+}
+
+GLS_HANDLER(glBufferData, CLIENT) { set_data(x, st, c); }
+GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
+
+static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)
+{
+	if (!bytes || offset >= b->bytes)
+		return;
+	memcpy(b->data + offset, bytes, n < b->bytes - offset ? n : b->bytes - offset);
+	b->version = ++x->versions;
+}
+
+GLS_HANDLER(glBufferSubData, CLIENT)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 3, &n);
+
+	if (b && (arg_i(c, 1) < 0 || arg_i(c, 2) < 0 || (uint64_t)arg_i(c, 1) + (uint64_t)arg_i(c, 2) > b->bytes))
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (b)
+		write_buffer(x, b, (uint64_t)arg_i(c, 1), bytes, n < (size_t)arg_i(c, 2) ? n : (size_t)arg_i(c, 2));
+}
+
+/* ARB_copy_buffer. */
+GLS_HANDLER(glCopyBufferSubData, CLIENT)
+{
+	struct gls_buffer *from = bound_buffer(x, st, arg_u(c, 0)), *to = bound_buffer(x, st, arg_u(c, 1));
+	int64_t read = arg_i(c, 2), write = arg_i(c, 3), n = arg_i(c, 4);
+
+	if (!from || !to)
+		return;
+	if (read < 0 || write < 0 || n < 0 || (uint64_t)read > from->bytes || (uint64_t)write > to->bytes ||
+	    (uint64_t)n > from->bytes - (uint64_t)read || (uint64_t)n > to->bytes - (uint64_t)write ||
+	    (from == to && read < write + n && write < read + n)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (n)
+		write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
+}
+
+static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)
+{
+	uint64_t address = (uint64_t)gls_value_int(&c->ret);
+
+	if (!b || !address || c->ret.type == TRACE_NONE)
+		return;
+	unmap_buffer(x, b);
+	unmap_buffer(x, table_find(&x->maps, address));
+	b->mapped = address;
+	b->map_offset = offset;
+	b->map_bytes = n;
+	if (table_set(&x->maps, address, b))
+		gls_out_of_memory(x, 0);
+}
+
+GLS_HANDLER(glMapBuffer, CLIENT)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+
+	if (b)
+		map_buffer(x, b, c, 0, b->bytes);
+}
+
+GLS_HANDLER(glMapBufferRange, CLIENT)
+{
+	map_buffer(x, bound_buffer(x, st, arg_u(c, 0)), c, (uint64_t)arg_i(c, 1), (uint64_t)arg_i(c, 2));
+}
+
+GLS_HANDLER(glUnmapBuffer, CLIENT)
+{
+	unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0)));
+}
+
+/* What the program wrote into a mapped buffer, as recorders tell it. */
+GLS_HANDLER(memcpy, WINDOW)
+{
+	uint64_t to = (uint64_t)arg_i(c, 0);
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 1, &n);
+
+	for (size_t i = 0; i < x->maps.room; i++) {
+		struct gls_buffer *b = x->maps.entries[i].value;
+		if (b && to >= b->mapped && to - b->mapped < b->map_bytes) {
+			uint64_t offset = to - b->mapped;
+			write_buffer(x, b, b->map_offset + offset, bytes, n < b->map_bytes - offset ? n : b->map_bytes - offset);
+			return;
+		}
+	}
+}
+
+/* ---- array pointers ---- */
+
+void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n)
+{
+	uint64_t hash = XXH3_64bits(data, n);
+
+	array->buffer = 0;
+	array->offset = 0;
+	if (array->version == hash && array->client_bytes == n)
+		return;
+	if (n > array->client_room) {
+		uint8_t *grown = realloc(array->client, n);
+		if (!grown) {
+			gls_out_of_memory(x, n);
+			return;
+		}
+		array->client = grown;
+		array->client_room = n;
+	}
+	if (n)
+		memcpy(array->client, data, n);
+	array->client_bytes = n;
+	array->version = hash;
+}
+
+static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, int32_t size,
+                        uint32_t type, int32_t stride, unsigned pointer)
+{
+	struct gls_array *array = &st->client.arrays[index];
+	const struct trace_value *v = arg(c, pointer);
+
+	if (stride < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	array->size = size;
+	array->type = type;
+	array->stride = stride;
+	array->normalized = index == GLS_ATTR_NORMAL || index == GLS_ATTR_COLOR || index == GLS_ATTR_SECONDARY;
+	if (v->type == TRACE_BLOB) {
+		gls_array_set_client(x, array, v->blob, v->count);
+	} else if (arg_is_offset(c, pointer)) {
+		array->buffer = st->client.array_buffer;
+		array->offset = (uint64_t)gls_value_int(v);
+		if (!array->buffer) { /* an address in the program: the bytes come before the draw, or were lost */
+			array->client_bytes = 0;
+			array->version = 0;
+		}
+	}
+}
+
+GLS_HANDLER(glVertexPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ARRAY_VERTEX, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
+}
+GLS_HANDLER(glNormalPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_NORMAL, 3, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
+}
+GLS_HANDLER(glColorPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_COLOR, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
+}
+GLS_HANDLER(glSecondaryColorPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_SECONDARY, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
+}
+GLS_HANDLER(glFogCoordPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_FOG_COORD, 1, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
+}
+GLS_HANDLER(glTexCoordPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, (int32_t)arg_i(c, 0), arg_u(c, 1),
+	            (int32_t)arg_i(c, 2), 3);
+}
+GLS_HANDLER(glEdgeFlagPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ARRAY_EDGE_FLAG, 1, GL_UNSIGNED_BYTE, (int32_t)arg_i(c, 0), 1);
+}
+GLS_HANDLER(glIndexPointer, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ARRAY_INDEX, 1, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
+}
+
+/* EXT_vertex_array: a count in front of the pointer. */
+GLS_HANDLER(glVertexPointerEXT, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ARRAY_VERTEX, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 4);
+}
+GLS_HANDLER(glNormalPointerEXT, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_NORMAL, 3, arg_u(c, 0), (int32_t)arg_i(c, 1), 3);
+}
+GLS_HANDLER(glColorPointerEXT, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_COLOR, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 4);
+}
+GLS_HANDLER(glTexCoordPointerEXT, CLIENT)
+{
+	set_pointer(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, (int32_t)arg_i(c, 0), arg_u(c, 1),
+	            (int32_t)arg_i(c, 2), 4);
+}
+
+GLS_HANDLER(glClientActiveTexture, CLIENT)
+{
+	uint32_t unit = arg_u(c, 0) - GL_TEXTURE0;
+
+	if (unit >= GLS_MAX_UNITS)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->client.active_texture = unit;
+}
+
+/* Table 2.5. Strides and offsets in bytes. */
+GLS_HANDLER(glInterleavedArrays, CLIENT)
+{
+	static const struct interleaved {
+		uint32_t format;
+		int tex, color, normal, vertex; /* components; 0: none */
+		uint32_t color_type;
+		unsigned color_at, normal_at, vertex_at, stride;
+	} formats[] = {
+		{ GL_V2F, 0, 0, 0, 2, 0, 0, 0, 0, 8 },
+		{ GL_V3F, 0, 0, 0, 3, 0, 0, 0, 0, 12 },
+		{ GL_C4UB_V2F, 0, 4, 0, 2, GL_UNSIGNED_BYTE, 0, 0, 4, 12 },
+		{ GL_C4UB_V3F, 0, 4, 0, 3, GL_UNSIGNED_BYTE, 0, 0, 4, 16 },
+		{ GL_C3F_V3F, 0, 3, 0, 3, GL_FLOAT, 0, 0, 12, 24 },
+		{ GL_N3F_V3F, 0, 0, 3, 3, 0, 0, 0, 12, 24 },
+		{ GL_C4F_N3F_V3F, 0, 4, 3, 3, GL_FLOAT, 0, 16, 28, 40 },
+		{ GL_T2F_V3F, 2, 0, 0, 3, 0, 0, 0, 8, 20 },
+		{ GL_T4F_V4F, 4, 0, 0, 4, 0, 0, 0, 16, 32 },
+		{ GL_T2F_C4UB_V3F, 2, 4, 0, 3, GL_UNSIGNED_BYTE, 8, 0, 12, 24 },
+		{ GL_T2F_C3F_V3F, 2, 3, 0, 3, GL_FLOAT, 8, 0, 20, 32 },
+		{ GL_T2F_N3F_V3F, 2, 0, 3, 3, 0, 0, 8, 20, 32 },
+		{ GL_T2F_C4F_N3F_V3F, 2, 4, 3, 3, GL_FLOAT, 8, 24, 36, 48 },
+		{ GL_T4F_C4F_N3F_V4F, 4, 4, 3, 4, GL_FLOAT, 16, 32, 44, 60 },
+	};
+	const struct interleaved *f = NULL;
+	const struct trace_value *v = arg(c, 2);
+	int32_t stride = (int32_t)arg_i(c, 1);
+
+	for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++)
+		if (formats[i].format == arg_u(c, 0))
+			f = &formats[i];
+	if (!f || stride < 0) {
+		gls_error(x, st, f ? GL_INVALID_VALUE : GL_INVALID_ENUM);
+		return;
+	}
+	const struct { unsigned index; int size; uint32_t type; unsigned at; } parts[] = {
+		{ GLS_ATTR_TEXCOORD + st->client.active_texture, f->tex, GL_FLOAT, 0 },
+		{ GLS_ATTR_COLOR, f->color, f->color_type, f->color_at },
+		{ GLS_ATTR_NORMAL, f->normal, GL_FLOAT, f->normal_at },
+		{ GLS_ARRAY_VERTEX, f->vertex, GL_FLOAT, f->vertex_at },
+	};
+	st->client.arrays[GLS_ARRAY_EDGE_FLAG].enabled = st->client.arrays[GLS_ARRAY_INDEX].enabled = 0;
+	st->client.arrays[GLS_ATTR_SECONDARY].enabled = st->client.arrays[GLS_ATTR_FOG_COORD].enabled = 0;
+	for (unsigned i = 0; i < 4; i++) {
+		struct gls_array *array = &st->client.arrays[parts[i].index];
+		array->enabled = parts[i].size != 0;
+		if (!parts[i].size)
+			continue;
+		array->size = parts[i].size;
+		array->type = parts[i].type;
+		array->stride = stride ? stride : (int32_t)f->stride;
+		array->normalized = parts[i].index == GLS_ATTR_NORMAL || parts[i].index == GLS_ATTR_COLOR;
+		if (v->type == TRACE_BLOB && v->count > parts[i].at) {
+			gls_array_set_client(x, array, v->blob + parts[i].at, v->count - parts[i].at);
+		} else if (arg_is_offset(c, 2)) {
+			array->buffer = st->client.array_buffer;
+			array->offset = (uint64_t)gls_value_int(v) + parts[i].at;
+		}
+	}
+}
+
+GLS_HANDLER(glLockArraysEXT, CLIENT)
+{
+	st->client.lock_first = arg_u(c, 0);
+	st->client.lock_count = arg_u(c, 1);
+}
+GLS_HANDLER(glUnlockArraysEXT, CLIENT) { st->client.lock_count = 0; }
+
+/* ---- reading elements ---- */
+
+/* An array's bytes as they are now. */
+struct source {
+	const uint8_t *bytes;
+	size_t n, stride, element;
+	uint64_t version;
+	const struct gls_array *array;
+};
+
+static size_t type_bytes(uint32_t type)
+{
+	switch (type) {
+	case GL_BYTE:
+	case GL_UNSIGNED_BYTE:
+		return 1;
+	case GL_SHORT:
+	case GL_UNSIGNED_SHORT:
+	case GL_HALF_FLOAT:
+		return 2;
+	case GL_INT:
+	case GL_UNSIGNED_INT:
+	case GL_FLOAT:
+		return 4;
+	case GL_DOUBLE:
+		return 8;
+	default:
+		return 0;
+	}
+}
+
+static unsigned components(const struct gls_array *array)
+{
+	return array->size == GL_BGRA ? 4 : array->size < 1 || array->size > 4 ? 0 : (unsigned)array->size;
+}
+
+static int open_source(struct gls_state *st, const struct gls_array *array, struct source *s)
+{
+	struct gls_buffer *b = gls_buffer_find(st, array->buffer);
+
+	*s = (struct source){ .array = array };
+	s->element = components(array) * type_bytes(array->type);
+	s->stride = array->stride ? (size_t)array->stride : s->element;
+	if (!array->buffer) {
+		s->bytes = array->client;
+		s->n = array->client_bytes;
+		s->version = array->version;
+	} else if (b && b->data && array->offset <= b->bytes) {
+		s->bytes = b->data + array->offset;
+		s->n = b->bytes - array->offset;
+		s->version = b->version;
+	}
+	return s->element && s->bytes && s->n >= s->element;
+}
+
+/* How many elements the bytes hold. */
+static uint64_t source_count(const struct source *s)
+{
+	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
+}
+
+static float half_to_float(uint16_t h)
+{
+	uint32_t sign = (uint32_t)(h & 0x8000) << 16, exponent = h >> 10 & 31, mantissa = h & 1023, bits;
+	float f;
+
+	if (exponent == 0) {
+		f = (float)mantissa / 16777216.0f;
+		return sign ? -f : f;
+	}
+	bits = sign | (exponent == 31 ? 0x7f800000u : (exponent + 112) << 23) | mantissa << 13;
+	memcpy(&f, &bits, 4);
+	return f;
+}
+
+static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized)
+{
+	int8_t i8;
+	int16_t i16;
+	uint16_t u16;
+	int32_t i32;
+	uint32_t u32;
+	float f;
+	double d;
+
+	switch (type) {
+	case GL_BYTE:
+		memcpy(&i8, p, 1);
+		return normalized ? (2.0f * i8 + 1) / 255.0f : i8;
+	case GL_UNSIGNED_BYTE:
+		return normalized ? *p / 255.0f : *p;
+	case GL_SHORT:
+		memcpy(&i16, p, 2);
+		return normalized ? (2.0f * i16 + 1) / 65535.0f : i16;
+	case GL_UNSIGNED_SHORT:
+		memcpy(&u16, p, 2);
+		return normalized ? u16 / 65535.0f : u16;
+	case GL_INT:
+		memcpy(&i32, p, 4);
+		return normalized ? (float)((2.0 * i32 + 1) / 4294967295.0) : (float)i32;
+	case GL_UNSIGNED_INT:
+		memcpy(&u32, p, 4);
+		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;
+	case GL_HALF_FLOAT:
+		memcpy(&u16, p, 2);
+		return half_to_float(u16);
+	case GL_DOUBLE:
+		memcpy(&d, p, 8);
+		return (float)d;
+	default:
+		memcpy(&f, p, 4);
+		return f;
+	}
+}
+
+/* Element i, missing components 0 0 0 1; beyond the end all of them. */
+static void read_element(const struct source *s, uint64_t i, float out[4])
+{
+	const struct gls_array *array = s->array;
+	unsigned n = components(array);
+	size_t size = type_bytes(array->type);
+	const uint8_t *p;
+
+	out[0] = out[1] = out[2] = 0;
+	out[3] = 1;
+	if (i >= source_count(s))
+		return;
+	p = s->bytes + i * s->stride;
+	if (array->type == GL_FLOAT) {
+		memcpy(out, p, n * sizeof(float));
+		return;
+	}
+	for (unsigned k = 0; k < n; k++)
+		out[k] = read_component(p + k * size, array->type, array->normalized);
+	if (array->size == GL_BGRA) {
+		float blue = out[0];
+		out[0] = out[2];
+		out[2] = blue;
+	}
+}
+
+/* ---- drawing ---- */
+
+struct sources {
+	struct source vertex, edge, attributes[N_GLS_ATTRIBUTES];
+	uint32_t given;
+	int has_edges;
+};
+
+/* @return the attributes that come from arrays */
+static uint32_t open_attributes(struct gls_state *st, struct sources *s)
+{
+	const struct gls_array *arrays = st->client.arrays;
+
+	memset(s, 0, sizeof(*s));
+	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+		if (arrays[a].enabled && open_source(st, &arrays[a], &s->attributes[a]))
+			s->given |= 1u << a;
+	return s->given;
+}
+
+/* @return 1 where there is something to draw from */
+static int open_sources(struct gls_exec *x, struct gls_state *st, struct sources *s)
+{
+	const struct gls_array *arrays = st->client.arrays;
+
+	open_attributes(st, s);
+	if (!arrays[GLS_ARRAY_VERTEX].enabled) {
+		if (st->program || st->arb_vertex_enabled)
+			gls_unsupported(x, "draws whose positions only a program can find");
+		return 0; /* nothing is drawn without it (sec. 2.8) */
+	}
+	if (!open_source(st, &arrays[GLS_ARRAY_VERTEX], &s->vertex)) {
+		gls_unsupported(x, "arrays whose contents the recording does not hold");
+		return 0;
+	}
+	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && open_source(st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
+	return 1;
+}
+
+/* What a draw is made of, in few bytes: draws with equal ones make equal meshes. */
+static uint64_t draw_key(const struct gls_state *st, const struct sources *s, uint32_t mode, uint64_t elements,
+                         uint64_t n_elements)
+{
+	uint64_t key[8 * (N_GLS_ATTRIBUTES + 2) + 4];
+	const struct source *all[N_GLS_ATTRIBUTES + 2];
+	unsigned n = 0, n_sources = 0;
+
+	key[n++] = (uint64_t)mode << 32 | (uint64_t)st->a.lighting.first_provokes << 31 | s->given;
+	key[n++] = elements;
+	key[n++] = n_elements;
+	key[n++] = s->has_edges ? 2 : st->a.current.edge_flag != 0;
+	all[n_sources++] = &s->vertex;
+	if (s->has_edges)
+		all[n_sources++] = &s->edge;
+	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+		if (s->given >> a & 1)
+			all[n_sources++] = &s->attributes[a];
+	for (unsigned i = 0; i < n_sources; i++) {
+		key[n++] = all[i]->version;
+		key[n++] = all[i]->n;
+		key[n++] = all[i]->stride;
+		key[n++] = (uint64_t)all[i]->array->type << 32 | (uint32_t)all[i]->array->size;
+		key[n++] = (uint64_t)all[i]->array->buffer << 32 | all[i]->array->normalized;
+		key[n++] = all[i]->array->offset;
+	}
+	return XXH3_64bits(key, n * sizeof(key[0]));
+}
+
+static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g, const struct sources *s,
+                      uint64_t element)
+{
+	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
+		gls_out_of_memory(x, 0);
+		return -1;
+	}
+	read_element(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
+	for (uint32_t given = s->given; given; given &= given - 1) {
+		unsigned a = (unsigned)__builtin_ctz(given);
+		read_element(&s->attributes[a], element, g->attribute[a] + 4 * (size_t)g->n_vertices);
+	}
+	g->edge[g->n_vertices] = st->a.current.edge_flag != 0;
+	if (s->has_edges) {
+		float flag[4];
+		read_element(&s->edge, element, flag);
+		g->edge[g->n_vertices] = flag[0] != 0;
+	}
+	g->n_vertices++;
+	return 0;
+}
+
+/* Read the vertices of a draw; elements NULL: count ones from first on. Each element becomes one vertex. */
+static int collect(struct gls_exec *x, const struct gls_state *st, const struct sources *s, uint32_t mode, uint32_t first,
+                   uint32_t count, const uint32_t *elements)
+{
+	struct gls_geometry *g = &x->compiling;
+	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
+	uint64_t n = source_count(&s->vertex);
+
+	gls_geometry_clear(g);
+	g->kind = gls_mode_kind(mode);
+	g->given = s->given;
+	if (gls_geometry_reserve(g, elements ? 1 : count, 0))
+		goto fail;
+	if (!elements) {
+		for (uint32_t i = 0; i < count; i++)
+			if (add_vertex(x, st, g, s, (uint64_t)first + i))
+				return -1;
+		if (gls_geometry_cut(g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
+			goto fail;
+		g->n_draws = 1;
+		return 0;
+	}
+	for (uint32_t i = 0; i < count; i++) {
+		lo = elements[i] < lo ? elements[i] : lo;
+		hi = elements[i] > hi ? elements[i] : hi;
+	}
+	if (count && hi >= n) {
+		gls_unsupported(x, "indices beyond the end of an array");
+		return -1;
+	}
+	/* Vertices in order of first use: the mesh does not depend on where in the arrays it lies. */
+	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
+	if (!cut)
+		return -1;
+	number = cut + count;
+	memset(number, 0xff, ((size_t)(hi - lo) + 1) * sizeof(*number));
+	for (uint32_t i = 0; i < count; i++) {
+		uint32_t *slot = &number[elements[i] - lo];
+		if (*slot == UINT32_MAX) {
+			*slot = g->n_vertices;
+			if (add_vertex(x, st, g, s, elements[i]))
+				return -1;
+		}
+		cut[i] = *slot;
+	}
+	if (gls_geometry_cut(g, mode, 0, count, cut, (int)st->a.lighting.first_provokes))
+		goto fail;
+	g->n_draws = 1;
+	return 0;
+fail:
+	gls_out_of_memory(x, 0);
+	return -1;
+}
+
+static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
+{
+	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
+
+	if (st->list) {
+		atomic_fetch_add(&mesh->refs, 1);
+		if (gls_list_append_mesh(x, st->list, &op) || st->list_mode == GL_COMPILE)
+			return;
+	}
+	gls_frame_add(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+}
+
+/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of memory (reported) */
+static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct sources *s, uint32_t mode, uint32_t first,
+                                  uint32_t count, const uint32_t *elements, int turned, uint64_t key)
+{
+	struct gls_mesh *mesh = table_find(&x->draws, key);
+
+	if (mesh || collect(x, st, s, mode, first, count, elements))
+		return mesh;
+	if (turned)
+		gls_geometry_turn_quads(&x->compiling);
+	mesh = gls_geometry_mesh(x, &x->compiling);
+	if (mesh && table_set(&x->draws, key, mesh))
+		gls_out_of_memory(x, 0);
+	gls_mesh_release(mesh); /* the cache's own reference stays */
+	return mesh;
+}
+
+/*
+ * Draw, or keep in the list being made.
+ * @param elements  [count], NULL: first ..; `identity` tells different ones apart (a hash, or version and offset)
+ */
+static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32_t first, uint32_t count,
+                 const uint32_t *elements, uint64_t identity)
+{
+	struct sources s;
+	struct gls_mesh *mesh;
+	uint64_t key;
+
+	if (!x->want && !st->list)
+		return;
+	if (!count || !open_sources(x, st, &s))
+		return;
+	if (!elements && (uint64_t)first + count > source_count(&s.vertex)) {
+		gls_unsupported(x, "draws beyond the end of an array");
+		return;
+	}
+	key = draw_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
+	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
+	if (mesh && mode == GL_QUADS && !elements && !st->list &&
+	    gls_quads_turn(st, mesh->mesh.position, mesh->mesh.vertex_count))
+		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
+	if (mesh)
+		put(x, st, mesh);
+}
+
+static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)
+{
+	if (!gls_mode_kind(mode))
+		gls_error(x, st, GL_INVALID_ENUM);
+	else if (count < 0)
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (count > 0x10000000)
+		gls_unsupported(x, "draws of more than 2^28 vertices");
+	else
+		return 1;
+	return 0;
+}
+
+void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count)
+{
+	if (first < 0 || first > UINT32_MAX)
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (check_mode(x, st, mode, count))
+		draw(x, st, mode, (uint32_t)first, (uint32_t)count, NULL, 0);
+}
+
+GLS_HANDLER(glDrawArrays, ARRAY) { gls_draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2)); }
+
+/* The mode of draw i: the same for all, or of an array whose places are so many bytes apart (IBM_multimode_draw_arrays). */
+static uint32_t mode_of(const struct call *c, uint64_t i, int64_t stride)
+{
+	uint64_t n, place = i * ((uint64_t)stride / 4);
+	const struct trace_value *modes = arg_items(c, 0, &n);
+
+	return !modes ? arg_u(c, 0) : stride >= 0 && place < n ? (uint32_t)gls_value_int(&modes[place]) : GL_POLYGON + 1;
+}
+
+static void multi_draw_arrays(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride)
+{
+	uint64_t n_first, n_count;
+	const struct trace_value *first = arg_items(c, 1, &n_first), *count = arg_items(c, 2, &n_count);
+
+	for (uint64_t i = 0; i < n_first && i < n_count; i++)
+		gls_draw_arrays(x, st, mode_of(c, i, stride), gls_value_int(&first[i]), gls_value_int(&count[i]));
+}
+
+GLS_HANDLER(glMultiDrawArrays, ARRAY) { multi_draw_arrays(x, st, c, 0); }
+GLS_HANDLER(glMultiModeDrawArraysIBM, ARRAY) { multi_draw_arrays(x, st, c, arg_i(c, 4)); }
+
+/* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
+static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
+{
+	return (client->restart && index == client->restart_index) ||
+	       (client->restart_fixed && index == 0xffffffffu >> (32 - 8 * bytes));
+}
+
+void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
+                       const struct trace_value *indices, int32_t base)
+{
+	struct gls_buffer *b = gls_buffer_find(st, st->client.element_buffer);
+	size_t size = type_bytes(type), n = 0;
+	const uint8_t *bytes = NULL;
+	uint64_t identity, offset = 0;
+	uint32_t *elements;
+	int64_t begin = 0;
+
+	if (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (!check_mode(x, st, mode, count) || count == 0 || (!x->want && !st->list))
+		return;
+	if (indices->type == TRACE_BLOB) {
+		bytes = indices->blob;
+		n = indices->count;
+		b = NULL;
+	} else if (b) {
+		offset = (uint64_t)gls_value_int(indices);
+		bytes = offset < b->bytes ? b->data + offset : NULL;
+		n = bytes ? b->bytes - offset : 0;
+	}
+	if (!bytes || n / size < (uint64_t)count) {
+		gls_unsupported(x, "indices that the recording does not hold");
+		return;
+	}
+	elements = x->elements;
+	if ((size_t)count > x->elements_room) {
+		elements = realloc(x->elements, (size_t)count * sizeof(*elements));
+		if (!elements) {
+			gls_out_of_memory(x, (size_t)count * sizeof(*elements));
+			return;
+		}
+		x->elements = elements;
+		x->elements_room = (size_t)count;
+	}
+	/* Where the indices come from a buffer, its version and the offset name them as well as a hash. */
+	if (b)
+		identity = XXH3_64bits((uint64_t[]){ b->version, offset, type, (uint64_t)base }, 32);
+	else
+		identity = XXH3_64bits_withSeed(bytes, (size_t)count * size, (uint64_t)type << 32 | (uint32_t)base);
+	for (int64_t i = 0; i < count; i++) {
+		uint16_t u16;
+		uint32_t u32 = bytes[(size_t)i * size];
+		if (size == 2) {
+			memcpy(&u16, bytes + 2 * i, 2);
+			u32 = u16;
+		} else if (size == 4) {
+			memcpy(&u32, bytes + 4 * i, 4);
+		}
+		if (is_restart(&st->client, u32, size)) {
+			draw(x, st, mode, 0, (uint32_t)(i - begin), elements + begin, identity + (uint64_t)begin);
+			begin = i + 1;
+		}
+		elements[i] = u32 + (uint32_t)base;
+	}
+	draw(x, st, mode, 0, (uint32_t)(count - begin), elements + begin, identity + (uint64_t)begin);
+}
+
+GLS_HANDLER(glPrimitiveRestartIndex, CLIENT) { st->client.restart_index = arg_u(c, 0); }
+GLS_HANDLER(glPrimitiveRestartIndexNV, CLIENT) { st->client.restart_index = arg_u(c, 0); }
+
+GLS_HANDLER(glDrawElements, ARRAY) { gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), 0); }
+GLS_HANDLER(glDrawRangeElements, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), 0);
+}
+GLS_HANDLER(glDrawElementsBaseVertex, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), (int32_t)arg_i(c, 4));
+}
+
+GLS_HANDLER(glDrawRangeElementsBaseVertex, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), (int32_t)arg_i(c, 6));
+}
+
+static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride, const struct trace_value *base,
+                                uint64_t n_base)
+{
+	uint64_t n_count, n_indices;
+	const struct trace_value *count = arg_items(c, 1, &n_count), *indices = arg_items(c, 3, &n_indices);
+
+	for (uint64_t i = 0; i < n_count && i < n_indices; i++)
+		gls_draw_elements(x, st, mode_of(c, i, stride), gls_value_int(&count[i]), arg_u(c, 2), &indices[i],
+		                  i < n_base ? (int32_t)gls_value_int(&base[i]) : 0);
+}
+
+GLS_HANDLER(glMultiDrawElements, ARRAY) { multi_draw_elements(x, st, c, 0, NULL, 0); }
+GLS_HANDLER(glMultiModeDrawElementsIBM, ARRAY) { multi_draw_elements(x, st, c, arg_i(c, 5), NULL, 0); }
+GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
+{
+	uint64_t n;
+	const struct trace_value *base = arg_items(c, 5, &n);
+
+	multi_draw_elements(x, st, c, 0, base, n);
+}
+
+/* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */
+
+static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args, uint32_t n)
+{
+	struct call c = *x->call;
+	uint32_t command = x->command;
+
+	c.args = args;
+	c.n_args = n;
+	x->command = (uint32_t)gls_command_find(name);
+	if (st->list && gls_list_append(x, st, &c) == 0 && st->list_mode == GL_COMPILE) {
+		x->command = command;
+		return;
+	}
+	gls_dispatch(x, &c, x->command);
+	x->command = command;
+}
+
+GLS_HANDLER(glArrayElement, CLIENT)
+{
+	static const char *const names[] = { "glNormal3fv", "glColor4fv", "glSecondaryColor3fv", "glFogCoordfv" };
+	struct trace_value numbers[4], args[2];
+	struct sources s;
+	float v[4];
+	int has_vertex;
+
+	/* Without positions it sets the current values only. */
+	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled != 0;
+	if (has_vertex ? !open_sources(x, st, &s) : !open_attributes(st, &s))
+		return;
+	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
+	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {
+		int is_vertex = a == N_GLS_ATTRIBUTES;
+		if (is_vertex ? !has_vertex : !(s.given >> a & 1))
+			continue;
+		read_element(is_vertex ? &s.vertex : &s.attributes[a], arg_u(c, 0), v);
+		for (unsigned i = 0; i < 4; i++)
+			numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
+		args[0] = (struct trace_value){ .type = TRACE_ENUM, .i = GL_TEXTURE0 + a - GLS_ATTR_TEXCOORD };
+		if (is_vertex)
+			put_call(x, st, "glVertex4fv", args + 1, 1);
+		else if (a >= GLS_ATTR_TEXCOORD)
+			put_call(x, st, "glMultiTexCoord4fv", args, 2);
+		else
+			put_call(x, st, names[a], args + 1, 1);
+	}
+}
+
+/* ---- share groups ---- */
+
+struct gls_share *gls_share_create(void)
+{
+	struct gls_share *share = calloc(1, sizeof(*share));
+
+	if (share)
+		share->refs = 1;
+	return share;
+}

@@ -1,0 +1,282 @@
+/*
+ * What a display list leaves behind when nothing is drawn.
+ *
+ * Frames that are skipped need of a list only its effect on the state. Most of what text and models are made of has none:
+ * meshes, matrices between PushMatrix and PopMatrix, textures and attributes that the next letter sets again. The effect of a
+ * list is the ops that remain, with those of the lists that it calls. It changes nothing, whatever the state it runs in,
+ * that the whole list would not change to the same bits; where that cannot be said, there is none, and the list itself runs.
+ *
+ * It holds while the lists and textures that it was made of do: their share group counts up when one of them goes (epoch).
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/machine/exec.h"
+#include "replay/gl/texture/texture.h"
+
+#define MAX_OPS (1u << 16) /* of a list, with those inlined */
+#define MAX_NESTING 8      /* of lists inlined */
+#define MAX_LOOKED (4 * MAX_OPS) /* ops looked at, of lists that call lists that have none, or not many */
+#define MAX_PUSHES 32
+#define MAX_MADE 16        /* effects made of a list that changes all the time */
+
+enum action {
+	KEEP,     /* reads or writes anything */
+	CHANGE,   /* the current matrix alone */
+	PUSH, POP,
+	BIND, CALL,
+	PASS,     /* attributes alone, kept */
+	DRAW,     /* a mesh: the attributes it sets alone */
+	LEAVE     /* what follows may mean anything else: the matrix stack, unit or edge flag may be others, Begin may be open */
+};
+
+struct maker {
+	struct gls_state *st;
+	const struct gls_op **ops;
+	uint8_t *action, *dead;
+	uint32_t *rest; /* of a DRAW: attributes that nobody has set again yet */
+	uint32_t n, room;
+	uint32_t last[N_GLS_ATTRIBUTES], bound[N_GLS_TEXTURE_TARGETS]; /* op + 1 that set it last, and nobody has read it since */
+	uint32_t push[MAX_PUSHES], depth, read; /* brackets that are open; the first `read` of them hold somebody who reads */
+	uint32_t most, nesting, looked;
+	int left, failed;
+};
+
+static enum action action_of(const struct gls_op *op)
+{
+	static const struct {
+		gls_handler *handler;
+		enum action action;
+	} known[] = {
+		{ gls_glTranslatef, CHANGE }, { gls_glCallList, CALL }, { gls_glBindTexture, BIND }, { gls_glPushMatrix, PUSH },
+		{ gls_glPopMatrix, POP }, { gls_glRotatef, CHANGE }, { gls_glScalef, CHANGE }, { gls_glMultMatrixf, CHANGE },
+		{ gls_glTranslated, CHANGE }, { gls_glRotated, CHANGE }, { gls_glScaled, CHANGE }, { gls_glMultMatrixd, CHANGE },
+		{ gls_glLoadIdentity, CHANGE }, { gls_glLoadMatrixf, CHANGE }, { gls_glLoadMatrixd, CHANGE },
+		{ gls_glMatrixMode, LEAVE }, { gls_glActiveTexture, LEAVE }, { gls_glPopAttrib, LEAVE },
+		{ gls_glEdgeFlag, LEAVE }, { gls_glEdgeFlagv, LEAVE },
+		{ gls_glMaterialf, KEEP }, { gls_glMaterialfv, KEEP }, { gls_glMateriali, KEEP }, { gls_glMaterialiv, KEEP },
+	};
+	const struct gls_command *k = &gls_commands[op->command];
+
+	if (op->form == GLS_OP_MESH)
+		return DRAW;
+	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+		if (k->handler == known[i].handler)
+			return known[i].action;
+	return k->kind == GLS_KIND_VERTEX ? PASS : k->kind == GLS_KIND_INSIDE ? LEAVE : KEEP;
+}
+
+static int make_room(struct maker *m)
+{
+	uint32_t room = m->room ? 2 * m->room : 256;
+	void *ops, *action, *dead, *rest;
+
+	if (m->n < m->room)
+		return 0;
+	if (m->n >= MAX_OPS)
+		return -1;
+	if ((ops = realloc(m->ops, room * sizeof(*m->ops))))
+		m->ops = ops;
+	if ((action = realloc(m->action, room)))
+		m->action = action;
+	if ((dead = realloc(m->dead, room)))
+		m->dead = dead;
+	if ((rest = realloc(m->rest, room * sizeof(*m->rest))))
+		m->rest = rest;
+	if (!ops || !action || !dead || !rest)
+		return -1;
+	m->room = room;
+	return 0;
+}
+
+/* Somebody reads whatever was set before. */
+static void read_all(struct maker *m)
+{
+	memset(m->last, 0, sizeof(m->last));
+	memset(m->bound, 0, sizeof(m->bound));
+	m->read = m->depth;
+}
+
+static void put_draw(struct maker *m, uint32_t at)
+{
+	const uint32_t sets = m->ops[at]->mesh->before | m->ops[at]->mesh->after;
+
+	m->rest[at] = sets;
+	m->dead[at] = !sets;
+	for (uint32_t rest = sets; rest; rest &= rest - 1) {
+		unsigned a = (unsigned)__builtin_ctz(rest);
+		uint32_t earlier = m->last[a];
+
+		if (earlier && !(m->rest[earlier - 1] &= ~(1u << a)))
+			m->dead[earlier - 1] = 1;
+		m->last[a] = at + 1;
+	}
+}
+
+/* A texture object that is there, bound to its own target: no error, and no object made. @return its target, or -1 */
+static int target_of(const struct maker *m, const struct gls_op *op)
+{
+	uint32_t token = op->form == GLS_OP_CALL && op->n == 2 ? (uint32_t)gls_value_int(&op->args[0]) : 0, name;
+	const struct gls_texture *t;
+	unsigned face;
+	int target;
+
+	if (token != GL_TEXTURE_1D && token != GL_TEXTURE_2D && token != GL_TEXTURE_3D && token != GL_TEXTURE_CUBE_MAP)
+		return -1;
+	target = gls_texture_target_of(token, &face);
+	name = (uint32_t)gls_value_int(&op->args[1]);
+	t = name ? table_find(&m->st->share->textures, name) : NULL;
+	return !name || (t && t->target == (uint32_t)target) ? target : -1;
+}
+
+static void put_bind(struct maker *m, uint32_t at)
+{
+	int target = target_of(m, m->ops[at]);
+
+	if (target < 0) {
+		read_all(m);
+		return;
+	}
+	if (m->bound[target])
+		m->dead[m->bound[target] - 1] = 1;
+	m->bound[target] = at + 1;
+}
+
+static void put_push(struct maker *m, uint32_t at)
+{
+	if (m->depth == MAX_PUSHES) {
+		m->failed = 1;
+		return;
+	}
+	m->push[m->depth++] = at;
+	m->most = m->depth > m->most ? m->depth : m->most;
+}
+
+static void put_pop(struct maker *m, uint32_t at)
+{
+	if (m->depth == 0)
+		return; /* of a bracket that began before the list: the changes before it may be dead as well, but stay */
+	m->depth--;
+	if (m->depth < m->read) {
+		m->read = m->depth;
+		return;
+	}
+	for (uint32_t i = m->push[m->depth]; i <= at; i++)
+		m->dead[i] |= m->action[i] == CHANGE || m->action[i] == PUSH || m->action[i] == POP;
+}
+
+static struct gls_list *called_by(const struct maker *m, const struct gls_op *op)
+{
+	return op->form == GLS_OP_CALL && op->n ? table_find(&m->st->share->lists, (uint32_t)gls_value_int(&op->args[0])) : NULL;
+}
+
+/* Is there anything in a list after which the rest may mean anything? Such a list is called as it is. */
+static int leaves(struct maker *m, const struct gls_list *list, uint32_t nesting)
+{
+	for (uint32_t i = 0; i < list->n; i++) {
+		enum action action = action_of(&list->ops[i]);
+		const struct gls_list *called = action == CALL ? called_by(m, &list->ops[i]) : NULL;
+
+		if (++m->looked > MAX_LOOKED || action == LEAVE || (action == CALL && (!called || nesting == MAX_NESTING || leaves(m, called, nesting + 1))))
+			return 1;
+	}
+	return 0;
+}
+
+static void put_list(struct maker *m, const struct gls_list *list, uint32_t nesting);
+
+static void put_op(struct maker *m, const struct gls_op *op, uint32_t nesting)
+{
+	enum action action = m->left ? KEEP : action_of(op);
+	struct gls_list *called;
+	uint32_t at = m->n;
+
+	if (action == CALL) {
+		called = called_by(m, op);
+		if (called && nesting < MAX_NESTING && !leaves(m, called, nesting + 1)) {
+			called->inlined = 1;
+			put_list(m, called, nesting + 1);
+			return;
+		}
+		action = LEAVE;
+	}
+	if (make_room(m)) {
+		m->failed = 1;
+		return;
+	}
+	m->n++;
+	m->ops[at] = op;
+	m->action[at] = (uint8_t)action;
+	m->dead[at] = 0;
+	switch (action) {
+	case DRAW:
+		put_draw(m, at);
+		break;
+	case BIND:
+		put_bind(m, at);
+		break;
+	case PUSH:
+		put_push(m, at);
+		break;
+	case POP:
+		put_pop(m, at);
+		break;
+	case KEEP:
+	case LEAVE:
+		read_all(m);
+		m->left |= action == LEAVE;
+		break;
+	default: /* CHANGE, PASS */
+		break;
+	}
+}
+
+static void put_list(struct maker *m, const struct gls_list *list, uint32_t nesting)
+{
+	m->nesting = nesting > m->nesting ? nesting : m->nesting;
+	for (uint32_t i = 0; i < list->n && !m->failed; i++) {
+		m->failed = ++m->looked > MAX_LOOKED;
+		put_op(m, &list->ops[i], nesting);
+	}
+}
+
+static void make(struct gls_state *st, struct gls_list *list)
+{
+	struct maker m = { .st = st };
+	struct gls_effect *e = &list->effect;
+
+	e->n = 0;
+	e->epoch = st->share->epoch + 1;
+	e->none = ++e->n_made > MAX_MADE;
+	if (!e->none)
+		put_list(&m, list, 0);
+	for (uint32_t i = 0; i < m.n && !m.failed; i++)
+		e->n += !m.dead[i];
+	free(e->ops);
+	e->ops = e->none || m.failed ? NULL : malloc((e->n + !e->n) * sizeof(*e->ops));
+	e->none |= !e->ops;
+	e->pushes = m.most;
+	e->nesting = m.nesting;
+	for (uint32_t i = 0, to = 0; i < m.n && !e->none; i++)
+		if (!m.dead[i])
+			e->ops[to++] = *m.ops[i];
+	free(m.ops);
+	free(m.action);
+	free(m.dead);
+	free(m.rest);
+}
+
+const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_state *st, struct gls_list *list)
+{
+	const struct gls_matrix_stack *stack = gls_current_stack(st);
+	const struct gls_effect *e = &list->effect;
+
+	if (x->want || st->begin_mode || !st->a.current.edge_flag || x->geometry.n_vertices)
+		return NULL;
+	if (e->epoch != st->share->epoch + 1) {
+		if (!list->skipped++)
+			return NULL; /* of what runs once it is not worth making */
+		make(st, list);
+	}
+	return e->none || stack->depth + e->pushes >= stack->max || x->list_depth + e->nesting >= GLS_MAX_LIST_NESTING ? NULL : e;
+}

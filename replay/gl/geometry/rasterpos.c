@@ -1,0 +1,202 @@
+/* The current raster position (GL 2.1 sec. 2.13): RasterPos takes a vertex's way to the window, WindowPos goes there at once. */
+#include <math.h>
+#include <string.h>
+
+#include "kernels/gl/vertex.h"
+#include "replay/machine/exec.h"
+#include "base/mat4.h"
+
+static void clamp_color(float out[4], struct vec4 c)
+{
+	const float v[4] = { c.x, c.y, c.z, c.w };
+
+	for (unsigned i = 0; i < 4; i++)
+		out[i] = v[i] > 0 ? v[i] < 1 ? v[i] : 1 : 0;
+}
+
+/* Colours as a vertex has them; always the front ones. */
+static void set_colors(struct gls_state *st, struct vec4 eye, struct vec3 normal)
+{
+	struct gls_current *c = &st->a.current;
+	const struct gls_lighting *l = &st->a.lighting;
+	struct scene_light lights[GLS_MAX_LIGHTS];
+	struct scene_material m = { .lighting = 1, .local_viewer = l->local_viewer, .separate_specular = l->separate_specular,
+		                    .front = l->face[0], .color_material = l->color_material ? l->color_material_face : 0,
+		                    .color_material_mode = l->color_material_mode };
+	struct light_list list = { .first = 0, .count = 0 };
+	struct lit lit;
+
+	clamp_color(c->raster_color, v4_load(c->attribute[GLS_ATTR_COLOR]));
+	clamp_color(c->raster_secondary, v4_load(c->attribute[GLS_ATTR_SECONDARY]));
+	if (!l->enabled)
+		return;
+	memcpy(m.light_model_ambient, l->model_ambient, 16);
+	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
+		if (l->lights[i].enabled)
+			lights[list.count++] = l->lights[i].value;
+	m.light_count = list.count;
+	lit = light_vertex(&m, lights, list, 0, eye, normal, &m.front, v4_load(c->attribute[GLS_ATTR_COLOR]), 0, NULL);
+	clamp_color(c->raster_color, lit.color);
+	clamp_color(c->raster_secondary, lit.secondary);
+}
+
+static void set_texcoords(struct gls_state *st, struct vec4 obj, struct vec4 eye, struct vec3 normal)
+{
+	struct vec3 u = v3_normalize(v3_scale(v3(eye.x, eye.y, eye.z), eye.w != 0 ? 1 / eye.w : 1));
+
+	for (unsigned i = 0; i < GLS_MAX_UNITS; i++) {
+		const struct gls_unit *unit = &st->a.texturing.units[i];
+		struct scene_unit gen = unit->value;
+		const float *given = st->a.current.attribute[GLS_ATTR_TEXCOORD + i];
+		float v[4];
+
+		for (unsigned k = 0; k < 4; k++) {
+			gen.gen_mode[k] = unit->gen_enabled >> k & 1 ? gen.gen_mode[k] : 0;
+			v[k] = vertex_generate(&gen, k, given[k], obj, eye, u, normal);
+		}
+		mat4_transform(st->a.current.raster_texcoord[i], st->texture[i].matrices[st->texture[i].depth], v);
+	}
+}
+
+/* Rows of the inverse transpose of the upper 3x3, applied to the current normal. */
+static struct vec3 eye_normal(const struct gls_state *st)
+{
+	float inverse[16];
+	const float *n = st->a.current.attribute[GLS_ATTR_NORMAL];
+	struct vec3 out;
+
+	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
+	out = v3(inverse[0] * n[0] + inverse[1] * n[1] + inverse[2] * n[2],
+	         inverse[4] * n[0] + inverse[5] * n[1] + inverse[6] * n[2],
+	         inverse[8] * n[0] + inverse[9] * n[1] + inverse[10] * n[2]);
+	if (st->a.transform.rescale_normal && !st->a.transform.normalize) {
+		float length = sqrtf(inverse[2] * inverse[2] + inverse[6] * inverse[6] + inverse[10] * inverse[10]);
+
+		out = length > 0 ? v3_scale(out, 1 / length) : out;
+	}
+	return st->a.transform.normalize ? v3_normalize(out) : out;
+}
+
+static int is_clipped(const struct gls_state *st, const float eye[4], const float clip[4])
+{
+	for (unsigned i = 0; i < 3; i++)
+		if (!(clip[i] <= clip[3] && clip[i] >= -clip[3]))
+			return 1;
+	for (unsigned i = 0; i < GLS_MAX_CLIP_PLANES; i++) {
+		const float *p = st->a.transform.clip_plane_eye[i];
+
+		if (st->a.transform.clip_plane_mask >> i & 1 &&
+		    p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] < 0)
+			return 1;
+	}
+	return clip[3] == 0;
+}
+
+static void raster_pos(struct gls_exec *x, struct gls_state *st, const float obj[4])
+{
+	struct gls_current *c = &st->a.current;
+	const float *rect = st->a.viewport.rect, *range = st->a.viewport.depth_range;
+	float eye[4], clip[4];
+	struct vec3 normal;
+
+	(void)x;
+	mat4_transform(eye, st->modelview.matrices[st->modelview.depth], obj);
+	mat4_transform(clip, st->projection.matrices[st->projection.depth], eye);
+	c->raster_valid = !is_clipped(st, eye, clip);
+	if (!c->raster_valid)
+		return;
+	for (unsigned i = 0; i < 2; i++)
+		c->raster_position[i] = rect[i] + rect[2 + i] * 0.5f * (clip[i] / clip[3] + 1);
+	c->raster_position[2] = (range[1] - range[0]) * 0.5f * (clip[2] / clip[3]) + (range[1] + range[0]) * 0.5f;
+	c->raster_position[3] = clip[3];
+	c->raster_distance = st->a.fog.coord_source == GL_FOG_COORD ? c->attribute[GLS_ATTR_FOG_COORD][0] : fabsf(eye[2]);
+	normal = eye_normal(st);
+	set_colors(st, v4_load(eye), normal);
+	set_texcoords(st, v4_load(obj), v4_load(eye), normal);
+}
+
+/* Sec. 2.13: no lighting, no generation of texture coordinates, no clipping. */
+static void window_pos(struct gls_state *st, const float at[4])
+{
+	struct gls_current *c = &st->a.current;
+	const float *range = st->a.viewport.depth_range;
+	float z = at[2] > 0 ? at[2] < 1 ? at[2] : 1 : 0;
+
+	c->raster_position[0] = at[0];
+	c->raster_position[1] = at[1];
+	c->raster_position[2] = range[0] + z * (range[1] - range[0]);
+	c->raster_position[3] = 1;
+	c->raster_valid = 1;
+	c->raster_distance = st->a.fog.coord_source == GL_FOG_COORD ? c->attribute[GLS_ATTR_FOG_COORD][0] : 0;
+	clamp_color(c->raster_color, v4_load(c->attribute[GLS_ATTR_COLOR]));
+	clamp_color(c->raster_secondary, v4_load(c->attribute[GLS_ATTR_SECONDARY]));
+	memcpy(c->raster_texcoord, c->attribute[GLS_ATTR_TEXCOORD], sizeof(c->raster_texcoord));
+}
+
+static void read_place(const struct call *c, unsigned n, float out[4])
+{
+	out[0] = out[1] = out[2] = 0;
+	out[3] = 1;
+	if (c->n_args == 1)
+		arg_floats(c, 0, out, n);
+	else
+		for (unsigned i = 0; i < n; i++)
+			out[i] = arg_f(c, i);
+}
+
+static void raster(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n)
+{
+	float at[4];
+
+	read_place(c, n, at);
+	raster_pos(x, st, at);
+}
+
+static void place(struct gls_state *st, const struct call *c, unsigned n)
+{
+	float at[4];
+
+	read_place(c, n, at);
+	window_pos(st, at);
+}
+
+GLS_HANDLER(glRasterPos2d, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2dv, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2f, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2fv, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2i, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2iv, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2s, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos2sv, STATE) { raster(x, st, c, 2); }
+GLS_HANDLER(glRasterPos3d, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3dv, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3f, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3fv, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3i, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3iv, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3s, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos3sv, STATE) { raster(x, st, c, 3); }
+GLS_HANDLER(glRasterPos4d, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4dv, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4f, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4fv, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4i, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4iv, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4s, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glRasterPos4sv, STATE) { raster(x, st, c, 4); }
+GLS_HANDLER(glWindowPos2d, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2dv, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2f, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2fv, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2i, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2iv, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2s, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos2sv, STATE) { place(st, c, 2); }
+GLS_HANDLER(glWindowPos3d, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3dv, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3f, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3fv, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3i, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3iv, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3s, STATE) { place(st, c, 3); }
+GLS_HANDLER(glWindowPos3sv, STATE) { place(st, c, 3); }

@@ -1,0 +1,74 @@
+/*
+ * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object): the arrays and the element buffer
+ * of the one that is bound are the context's own state; those of the others, 0 included, wait in a table. A buffer that is
+ * deleted is detached from the bound object alone; the others look its name up when they draw.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/machine/exec.h"
+
+void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS])
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
+		arrays[i].size = 4;
+		arrays[i].type = GL_FLOAT;
+	}
+}
+
+void gls_vertex_array_free(struct gls_vertex_array *object)
+{
+	for (unsigned i = 0; object && i < N_GLS_ARRAYS; i++)
+		free(object->arrays[i].client);
+	free(object);
+}
+
+static struct gls_vertex_array *find_or_make(struct gls_exec *x, struct gls_state *st, uint32_t name)
+{
+	struct gls_vertex_array *object = table_find(&st->vertex_arrays, name);
+
+	if (object)
+		return object;
+	object = calloc(1, sizeof(*object));
+	if (!object || table_set(&st->vertex_arrays, name, object)) {
+		free(object);
+		gls_out_of_memory(x, sizeof(*object));
+		return NULL;
+	}
+	gls_arrays_init(object->arrays);
+	return object;
+}
+
+void gls_vertex_array_bind(struct gls_exec *x, struct gls_state *st, uint32_t name)
+{
+	struct gls_client_attribs *now = &st->client;
+	struct gls_vertex_array *old, *object;
+
+	if (name == now->vertex_array || !(old = find_or_make(x, st, now->vertex_array)) || !(object = find_or_make(x, st, name)))
+		return;
+	memcpy(old->arrays, now->arrays, sizeof(old->arrays));
+	old->element_buffer = now->element_buffer;
+	memcpy(now->arrays, object->arrays, sizeof(now->arrays));
+	now->element_buffer = object->element_buffer;
+	memset(object, 0, sizeof(*object)); /* its memory is the context's now */
+	now->vertex_array = name;
+}
+
+GLS_HANDLER(glBindVertexArray, CLIENT) { gls_vertex_array_bind(x, st, arg_u(c, 0)); }
+GLS_HANDLER(glBindVertexArrayAPPLE, CLIENT) { gls_vertex_array_bind(x, st, arg_u(c, 0)); }
+
+GLS_HANDLER(glDeleteVertexArrays, CLIENT)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, 1, &n);
+
+	for (uint64_t i = 0; i < n; i++) {
+		uint32_t name = (uint32_t)gls_value_int(&names[i]);
+
+		if (!name)
+			continue;
+		if (name == st->client.vertex_array)
+			gls_vertex_array_bind(x, st, 0);
+		gls_vertex_array_free(table_remove(&st->vertex_arrays, name));
+	}
+}

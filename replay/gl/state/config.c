@@ -1,0 +1,126 @@
+/*
+ * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Recordings of
+ * our own say so when a context is first made current (capture/format/trace.md); in others it is taken from what the program asked of
+ * a configuration, or asked for. What nobody said stays as gls_state_init has it.
+ */
+#include "replay/machine/exec.h"
+
+enum { GLX_RGBA = 4, GLX_DOUBLEBUFFER = 5, GLX_STEREO = 6, GLX_USE_GL = 1 }; /* attributes without a value, visuals only */
+enum { GLX_ALPHA_SIZE = 11, GLX_DEPTH_SIZE = 12, GLX_STENCIL_SIZE = 13 };
+enum { EGL_ALPHA_SIZE = 0x3021, EGL_DEPTH_SIZE = 0x3025, EGL_STENCIL_SIZE = 0x3026, EGL_NONE = 0x3038 };
+
+/* An entry of x->configs: three counts of bits, each with bit 7 set where it is known. */
+enum { ALPHA = 0, DEPTH = 8, STENCIL = 16, KNOWN = 128 };
+
+/* What stands for a configuration: its address, or a visual's number. */
+static uint64_t key_of(const struct trace_value *v)
+{
+	while (v->type == TRACE_ARRAY && v->count)
+		v = &v->items[0];
+	if (v->type == TRACE_STRUCT && v->count > 1) /* XVisualInfo: visual, visualid, ... */
+		return (uint64_t)gls_value_int(&v->items[1]);
+	return (uint64_t)gls_value_int(v);
+}
+
+static void note(struct gls_exec *x, uint64_t key, unsigned what, uint64_t bits)
+{
+	uintptr_t known = (uintptr_t)table_find(&x->configs, key);
+
+	known = (known & ~((uintptr_t)255 << what)) | (uintptr_t)(KNOWN | (bits < 64 ? bits : 64)) << what;
+	if (key && table_set(&x->configs, key, (void *)known))
+		gls_out_of_memory(x, 16);
+}
+
+static int what_is(int64_t attribute)
+{
+	switch (attribute) {
+	case GLX_ALPHA_SIZE:
+	case EGL_ALPHA_SIZE:
+		return ALPHA;
+	case GLX_DEPTH_SIZE:
+	case EGL_DEPTH_SIZE:
+		return DEPTH;
+	case GLX_STENCIL_SIZE:
+	case EGL_STENCIL_SIZE:
+		return STENCIL;
+	default:
+		return -1;
+	}
+}
+
+/* Who asks for alpha gets eight bits of it, on every driver with true colours; who does not ask for any gets a visual without. */
+static uint64_t alpha_wanted(const struct call *c, unsigned i, int visual)
+{
+	uint64_t n;
+	const struct trace_value *list = arg_items(c, i, &n);
+
+	for (uint64_t k = 0; k < n; k++) {
+		int64_t attribute = gls_value_int(&list[k]);
+
+		if (attribute == 0 || attribute == EGL_NONE)
+			break;
+		if (visual && (attribute == GLX_RGBA || attribute == GLX_DOUBLEBUFFER || attribute == GLX_STEREO || attribute == GLX_USE_GL))
+			continue;
+		if (what_is(attribute) == ALPHA && k + 1 < n)
+			return gls_value_int(&list[k + 1]) > 0 ? 8 : 0;
+		k++;
+	}
+	return 0;
+}
+
+static void queried(struct gls_exec *x, const struct call *c)
+{
+	int what = what_is(arg_i(c, 2));
+	uint32_t value;
+
+	if (what >= 0 && arg_uints(c, 3, &value, 1) == 1)
+		note(x, key_of(arg(c, 1)), (unsigned)what, value);
+}
+
+void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config)
+{
+	uintptr_t known = (uintptr_t)table_find(&x->configs, key_of(config));
+
+	if (known >> ALPHA & KNOWN)
+		st->alpha_bits = known >> ALPHA & 127;
+	if (known >> DEPTH & KNOWN)
+		st->depth_bits = known >> DEPTH & 127;
+	if (known >> STENCIL & KNOWN)
+		st->stencil_bits = known >> STENCIL & 127;
+}
+
+GLS_HANDLER(glXChooseVisual, WINDOW)
+{
+	if (arg(c, 2)->type == TRACE_ARRAY) /* our own recorder leaves it out */
+		note(x, key_of(&c->ret), ALPHA, alpha_wanted(c, 2, 1));
+}
+
+GLS_HANDLER(glXChooseFBConfig, WINDOW)
+{
+	for (uint64_t i = 0; c->ret.type == TRACE_ARRAY && i < c->ret.count; i++)
+		if (alpha_wanted(c, 2, 0))
+			note(x, key_of(&c->ret.items[i]), ALPHA, 8);
+}
+
+/* The visual of a configuration has its bits. */
+GLS_HANDLER(glXGetVisualFromFBConfig, WINDOW)
+{
+	uintptr_t known = (uintptr_t)table_find(&x->configs, key_of(arg(c, 1)));
+
+	if (known && key_of(&c->ret) && table_set(&x->configs, key_of(&c->ret), (void *)known))
+		gls_out_of_memory(x, 16);
+}
+
+GLS_HANDLER(eglChooseConfig, WINDOW)
+{
+	uint64_t n;
+	const struct trace_value *configs = arg_items(c, 2, &n);
+
+	for (uint64_t i = 0; i < n; i++)
+		if (alpha_wanted(c, 1, 0))
+			note(x, key_of(&configs[i]), ALPHA, 8);
+}
+
+GLS_HANDLER(glXGetConfig, WINDOW) { queried(x, c); }
+GLS_HANDLER(glXGetFBConfigAttrib, WINDOW) { queried(x, c); }
+GLS_HANDLER(eglGetConfigAttrib, WINDOW) { queried(x, c); }

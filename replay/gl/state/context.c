@@ -1,0 +1,245 @@
+/* Contexts, drawables and frame ends: GLX 1.4 and EGL as far as a recording shows them; markers of our own recorder. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/machine/exec.h"
+
+#define MAX_CONTEXTS 4096
+
+static struct gls_context *find_context(struct gls_exec *x, uint64_t handle)
+{
+	for (size_t i = x->n_contexts; handle && i-- > 0;)
+		if (x->contexts[i]->handle == handle && !x->contexts[i]->destroyed)
+			return x->contexts[i];
+	return NULL;
+}
+
+static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, uint64_t share, const struct trace_value *config,
+                                          const char *api)
+{
+	struct gls_context *ctx, *other = find_context(x, share), **grown;
+
+	if (!handle)
+		return NULL;
+	if (x->n_contexts == MAX_CONTEXTS) {
+		gls_unsupported(x, "more than 4096 contexts");
+		return NULL;
+	}
+	ctx = calloc(1, sizeof(*ctx));
+	grown = realloc(x->contexts, (x->n_contexts + 1) * sizeof(*grown));
+	if (grown)
+		x->contexts = grown;
+	if (!ctx || !grown || gls_state_init(&ctx->state)) {
+		free(ctx);
+		gls_out_of_memory(x, sizeof(*ctx));
+		return NULL;
+	}
+	ctx->handle = handle;
+	ctx->share_handle = share;
+	ctx->api = api;
+	if (config)
+		gls_config_apply(x, &ctx->state, config);
+	if (other) {
+		ctx->state.share = other->state.share;
+		ctx->state.share->refs++;
+		ctx->shares = other->shares = 1;
+	} else {
+		ctx->state.share = gls_share_create();
+		if (!ctx->state.share) {
+			gls_out_of_memory(x, sizeof(struct gls_share));
+			gls_state_free(&ctx->state);
+			free(ctx);
+			return NULL;
+		}
+	}
+	x->contexts[x->n_contexts++] = ctx;
+	return ctx;
+}
+
+struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st)
+{
+	struct gls_drawable *d = table_find(&x->drawables, st->drawable);
+
+	if (d)
+		return d;
+	d = calloc(1, sizeof(*d));
+	if (!d || table_set(&x->drawables, st->drawable, d)) {
+		free(d);
+		gls_out_of_memory(x, sizeof(*d));
+		return NULL;
+	}
+	d->front.is_front = 1;
+	return d;
+}
+
+void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
+{
+	gls_flush(x);
+	if (x->thread < x->n_threads)
+		x->threads[x->thread] = ctx;
+	x->current = ctx;
+	x->st = ctx ? &ctx->state : NULL;
+	if (!ctx)
+		return;
+	ctx->state.drawable = drawable;
+	ctx->state.read_drawable = read;
+	ctx->state.ever_current = 1;
+	ctx->state.dirty = GLS_DIRTY_ALL;
+}
+
+/* A context that was made before the recording began. */
+static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, const char *api)
+{
+	struct gls_context *ctx = find_context(x, handle);
+
+	return ctx ? ctx : create_context(x, handle, 0, NULL, api);
+}
+
+static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
+                         const char *api)
+{
+	uint64_t handle = (uint64_t)arg_i(c, context);
+
+	if (c->ret.type != TRACE_NONE && gls_value_int(&c->ret) == 0)
+		return; /* it failed: the old one stays current */
+	gls_make_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable),
+	                 (uint64_t)arg_i(c, read));
+}
+
+static void destroy_context(struct gls_exec *x, const struct call *c, unsigned context)
+{
+	struct gls_context *ctx = find_context(x, (uint64_t)arg_i(c, context));
+
+	/* Current ones live on until they are released (GLX 1.4 sec. 3.3.7); the handle may come back for a new one. */
+	if (ctx)
+		ctx->destroyed = 1;
+}
+
+/* The frame of the drawable that is swapped ends, and with it the trace's frame. */
+static void swap(struct gls_exec *x, uint64_t drawable)
+{
+	gls_flush(x);
+	x->unswapped = 0;
+	x->swapped = table_find(&x->drawables, drawable) || !x->st ? drawable : x->st->drawable;
+	x->frame_ended = 1;
+}
+
+GLS_HANDLER(glXCreateContext, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
+}
+GLS_HANDLER(glXCreateNewContext, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), arg(c, 1), "GLX");
+}
+GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
+}
+GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
+GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
+GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "GLX"); }
+GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state between contexts"); }
+
+GLS_HANDLER(eglCreateContext, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "EGL");
+}
+GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
+GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
+GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(eglSwapBuffersWithDamageEXT, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(eglSwapBuffersWithDamageKHR, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW)
+{
+	swap(x, x->st ? x->st->drawable : 0);
+	x->unswapped = 1;
+}
+
+/* OSMesa draws into the program's memory: each context is its own drawable. */
+GLS_HANDLER(OSMesaCreateContext, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaCreateContextExt, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 4), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaCreateContextAttribs, WINDOW)
+{
+	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+}
+GLS_HANDLER(OSMesaDestroyContext, WINDOW) { destroy_context(x, c, 0); }
+GLS_HANDLER(OSMesaMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 0, "OSMesa"); }
+
+/* Contexts of other window systems, as apitrace records them. */
+GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
+GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, (uint64_t)gls_value_int(&c->ret), 0, NULL, "WGL"); }
+GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 1, "WGL"); }
+
+/* ---- markers of our recorder (capture/format/trace.md) and of rtMaterialEXT ---- */
+
+static void set_surface(struct gls_exec *x, struct gls_state *st, const char *text)
+{
+	struct scene_surface surface = { 0 };
+
+	if (sscanf(text, "mirror %f", &surface.reflect) == 1)
+		;
+	else if (sscanf(text, "glass %f %f", &surface.transmit, &surface.ior) >= 1)
+		;
+	else if (strncmp(text, "matte", 5) != 0) {
+		gls_unsupported(x, "a material that is neither mirror, glass nor matte");
+		return;
+	}
+	gls_flush(x);
+	st->surface = surface;
+	st->dirty |= GLS_DIRTY_MATERIAL;
+}
+
+GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
+{
+	const struct trace_value *v = arg(c, 1);
+	struct gls_drawable *drawable;
+	char text[128];
+	unsigned width, height, alpha, depth, stencil, srgb = 0, samples = 0, two_buffers = 1;
+	size_t n;
+
+	if (v->type != TRACE_STRING && v->type != TRACE_BLOB)
+		return;
+	n = v->count < sizeof(text) - 1 ? v->count : sizeof(text) - 1;
+	memcpy(text, v->type == TRACE_STRING ? v->str : (const char *)v->blob, n);
+	text[n] = 0;
+	if (strncmp(text, "relume:material ", 16) == 0)
+		set_surface(x, st, text + 16);
+	if (strcmp(text, "relume:kdtree") == 0)
+		st->kd_tree = 1;
+	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */
+	if (strncmp(text, "relume:bits", 11) == 0 &&
+	    sscanf(text, "relume:bits %u %u %u %u %u %u", &alpha, &depth, &stencil, &srgb, &samples, &two_buffers) >= 3 &&
+	    alpha <= 32 && depth <= 32 && stencil <= 8 && samples <= 64) {
+		gls_flush(x);
+		x->is_ours = 1;
+		st->alpha_bits = alpha;
+		st->depth_bits = depth;
+		st->stencil_bits = stencil;
+		st->srgb = srgb != 0;
+		st->samples = samples;
+		st->double_buffered = two_buffers != 0;
+		if (samples > 1 && samples != SCENE_SAMPLES)
+			gls_unsupported(x, "other than four samples a pixel: four are taken");
+		st->dirty |= GLS_DIRTY_ALL;
+	}
+	if (strncmp(text, "relume:drawable", 15) != 0 || sscanf(text, "relume:drawable %u %u", &width, &height) != 2 ||
+	    width > 65536 || height > 65536)
+		return;
+	drawable = gls_drawable_of(x, st);
+	if (drawable)
+		drawable->width = width, drawable->height = height, drawable->fixed = 1;
+}

@@ -1,0 +1,285 @@
+/* Lighting, materials, shading, fog (GL 2.1 sec. 2.14, 3.10). */
+#include <string.h>
+
+#include "replay/machine/exec.h"
+#include "base/mat4.h"
+
+/* ---- lights, sec. 2.14.2 ---- */
+
+static void set_light(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	uint32_t index = arg_u(c, 0) - GL_LIGHT0, pname = arg_u(c, 1);
+	const float *modelview = st->modelview.matrices[st->modelview.depth];
+	struct scene_light *light;
+	float v[4] = { 0, 0, 0, 0 };
+
+	if (index >= GLS_MAX_LIGHTS) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	light = &st->a.lighting.lights[index].value;
+	arg_floats(c, 2, v, 4);
+	switch (pname) {
+	case GL_AMBIENT:
+		memcpy(light->ambient, v, 16);
+		break;
+	case GL_DIFFUSE:
+		memcpy(light->diffuse, v, 16);
+		break;
+	case GL_SPECULAR:
+		memcpy(light->specular, v, 16);
+		break;
+	case GL_POSITION:
+		mat4_transform(light->position_eye, modelview, v);
+		break;
+	case GL_SPOT_DIRECTION: /* the upper left 3x3 */
+		for (int r = 0; r < 3; r++)
+			light->spot_direction_eye[r] = modelview[r] * v[0] + modelview[4 + r] * v[1] + modelview[8 + r] * v[2];
+		break;
+	case GL_SPOT_EXPONENT:
+		if (!(v[0] >= 0 && v[0] <= 128))
+			goto bad_value;
+		light->spot_exponent = v[0];
+		break;
+	case GL_SPOT_CUTOFF:
+		if (!(v[0] >= 0 && v[0] <= 90) && v[0] != 180)
+			goto bad_value;
+		light->spot_cutoff_deg = v[0];
+		break;
+	case GL_CONSTANT_ATTENUATION:
+	case GL_LINEAR_ATTENUATION:
+	case GL_QUADRATIC_ATTENUATION:
+		if (!(v[0] >= 0))
+			goto bad_value;
+		light->attenuation[pname - GL_CONSTANT_ATTENUATION] = v[0];
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+	return;
+bad_value:
+	gls_error(x, st, GL_INVALID_VALUE);
+}
+
+/* Integer colours are normalized (table 2.9); positions and the rest are not. */
+static void set_light_int(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	uint32_t pname = arg_u(c, 1);
+	struct trace_value numbers[4], args[3] = { *arg(c, 0), *arg(c, 1), { .type = TRACE_ARRAY } };
+	struct call as_floats = *c;
+	float v[4] = { 0 };
+	unsigned n = arg_floats(c, 2, v, 4);
+
+	for (unsigned i = 0; i < n; i++) {
+		numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
+		if (pname == GL_AMBIENT || pname == GL_DIFFUSE || pname == GL_SPECULAR)
+			numbers[i].f = (float)((2.0 * v[i] + 1) / 4294967295.0);
+	}
+	args[2].count = n;
+	args[2].items = numbers;
+	as_floats.n_args = 3;
+	as_floats.args = args;
+	set_light(x, st, &as_floats);
+}
+
+GLS_HANDLER(glLightf, STATE) { set_light(x, st, c); }
+GLS_HANDLER(glLightfv, STATE) { set_light(x, st, c); }
+GLS_HANDLER(glLighti, STATE) { set_light_int(x, st, c); }
+GLS_HANDLER(glLightiv, STATE) { set_light_int(x, st, c); }
+
+static void set_light_model(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	struct gls_lighting *l = &st->a.lighting;
+	float v[4] = { 0 };
+
+	arg_floats(c, 1, v, 4);
+	switch (arg_u(c, 0)) {
+	case GL_LIGHT_MODEL_AMBIENT:
+		for (unsigned i = 0; i < 4; i++)
+			l->model_ambient[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+		break;
+	case GL_LIGHT_MODEL_LOCAL_VIEWER:
+		l->local_viewer = v[0] != 0;
+		break;
+	case GL_LIGHT_MODEL_TWO_SIDE:
+		l->two_side = v[0] != 0;
+		break;
+	case GL_LIGHT_MODEL_COLOR_CONTROL:
+		if (v[0] != GL_SINGLE_COLOR && v[0] != GL_SEPARATE_SPECULAR_COLOR)
+			gls_error(x, st, GL_INVALID_ENUM);
+		else
+			l->separate_specular = v[0] == GL_SEPARATE_SPECULAR_COLOR;
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glLightModelf, STATE) { set_light_model(x, st, c, 0); }
+GLS_HANDLER(glLightModelfv, STATE) { set_light_model(x, st, c, 0); }
+GLS_HANDLER(glLightModeli, STATE) { set_light_model(x, st, c, 0); }
+GLS_HANDLER(glLightModeliv, STATE) { set_light_model(x, st, c, 1); }
+
+/* ---- materials, sec. 2.14.2; those that follow the current color cannot be set ---- */
+
+static int is_tracked(const struct gls_lighting *l, unsigned side, uint32_t parameter)
+{
+	if (!l->color_material || l->color_material_face == (side ? GL_FRONT : GL_BACK))
+		return 0;
+	return l->color_material_mode == parameter ||
+	       (l->color_material_mode == GL_AMBIENT_AND_DIFFUSE && (parameter == GL_AMBIENT || parameter == GL_DIFFUSE));
+}
+
+static void set_color(struct gls_state *st, unsigned side, uint32_t parameter, float *to, const float v[4])
+{
+	if (!is_tracked(&st->a.lighting, side, parameter))
+		memcpy(to, v, 16);
+}
+
+static void set_material(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	uint32_t face = arg_u(c, 0), pname = arg_u(c, 1);
+	float v[4] = { 0 };
+
+	if (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	arg_floats(c, 2, v, 4);
+	for (unsigned i = 0; i < 4 && normalized && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
+		v[i] = (float)((2.0 * v[i] + 1) / 4294967295.0);
+	if (pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	gls_before_material(x, st);
+	for (unsigned side = 0; side < 2; side++) {
+		struct scene_face *f = &st->a.lighting.face[side];
+		if (face == (side ? GL_FRONT : GL_BACK))
+			continue;
+		switch (pname) {
+		case GL_AMBIENT:
+			set_color(st, side, GL_AMBIENT, f->ambient, v);
+			break;
+		case GL_DIFFUSE:
+			set_color(st, side, GL_DIFFUSE, f->diffuse, v);
+			break;
+		case GL_AMBIENT_AND_DIFFUSE:
+			set_color(st, side, GL_AMBIENT, f->ambient, v);
+			set_color(st, side, GL_DIFFUSE, f->diffuse, v);
+			break;
+		case GL_SPECULAR:
+			set_color(st, side, GL_SPECULAR, f->specular, v);
+			break;
+		case GL_EMISSION:
+			set_color(st, side, GL_EMISSION, f->emission, v);
+			break;
+		case GL_SHININESS:
+			f->shininess = v[0];
+			break;
+		case GL_COLOR_INDEXES: /* colour index mode only */
+			break;
+		default:
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+	}
+}
+
+GLS_HANDLER(glMaterialf, INSIDE) { set_material(x, st, c, 0); }
+GLS_HANDLER(glMaterialfv, INSIDE) { set_material(x, st, c, 0); }
+GLS_HANDLER(glMateriali, INSIDE) { set_material(x, st, c, 1); }
+GLS_HANDLER(glMaterialiv, INSIDE) { set_material(x, st, c, 1); }
+
+GLS_HANDLER(glColorMaterial, STATE)
+{
+	uint32_t face = arg_u(c, 0), mode = arg_u(c, 1);
+
+	if ((face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK) ||
+	    (mode != GL_EMISSION && mode != GL_AMBIENT && mode != GL_DIFFUSE && mode != GL_SPECULAR &&
+	     mode != GL_AMBIENT_AND_DIFFUSE)) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	st->a.lighting.color_material_face = face;
+	st->a.lighting.color_material_mode = mode;
+	if (st->a.lighting.color_material)
+		gls_color_changed(st);
+}
+
+GLS_HANDLER(glShadeModel, STATE)
+{
+	uint32_t model = arg_u(c, 0);
+
+	if (model != GL_FLAT && model != GL_SMOOTH)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->a.lighting.shade_model = model;
+}
+
+/* ARB_provoking_vertex (GL 3.2 sec. 2.21): which vertex of a primitive gives it its colour under FLAT. */
+GLS_HANDLER(glProvokingVertex, STATE)
+{
+	uint32_t mode = arg_u(c, 0);
+
+	if (mode != GL_FIRST_VERTEX_CONVENTION && mode != GL_LAST_VERTEX_CONVENTION)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->a.lighting.first_provokes = mode == GL_FIRST_VERTEX_CONVENTION;
+}
+
+/* ---- fog, sec. 3.10 ---- */
+
+static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	struct gls_fog *fog = &st->a.fog;
+	float v[4] = { 0 };
+	uint32_t token;
+
+	arg_floats(c, 1, v, 4);
+	token = token_of_float(v[0]);
+	switch (arg_u(c, 0)) {
+	case GL_FOG_MODE:
+		if (token != GL_LINEAR && token != GL_EXP && token != GL_EXP2)
+			gls_error(x, st, GL_INVALID_ENUM);
+		else
+			fog->mode = token;
+		break;
+	case GL_FOG_DENSITY:
+		if (!(v[0] >= 0))
+			gls_error(x, st, GL_INVALID_VALUE);
+		else
+			fog->density = v[0];
+		break;
+	case GL_FOG_START:
+		fog->start = v[0];
+		break;
+	case GL_FOG_END:
+		fog->end = v[0];
+		break;
+	case GL_FOG_INDEX:
+		fog->index = v[0];
+		break;
+	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
+		for (unsigned i = 0; i < 4; i++)
+			fog->color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+		break;
+	case GL_FOG_COORD_SRC:
+		if (token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH)
+			gls_error(x, st, GL_INVALID_ENUM);
+		else
+			fog->coord_source = token;
+		break;
+	case GL_FOG_DISTANCE_MODE_NV:
+		if (token != GL_EYE_PLANE_ABSOLUTE_NV)
+			gls_unsupported(x, "fog distances other than the plane's");
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glFogf, STATE) { set_fog(x, st, c, 0); }
+GLS_HANDLER(glFogfv, STATE) { set_fog(x, st, c, 0); }
+GLS_HANDLER(glFogi, STATE) { set_fog(x, st, c, 0); }
+GLS_HANDLER(glFogiv, STATE) { set_fog(x, st, c, 1); }

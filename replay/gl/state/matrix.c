@@ -1,0 +1,254 @@
+/* Coordinate transformations (GL 2.1 sec. 2.11, 2.12). */
+#include <string.h>
+
+#include "replay/machine/exec.h"
+#include "base/mat4.h"
+
+struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
+{
+	switch (st->a.transform.matrix_mode) {
+	case GL_PROJECTION:
+		return &st->projection;
+	case GL_TEXTURE:
+		return &st->texture[st->a.texturing.active];
+	case GL_COLOR:
+		return &st->color_matrix;
+	default:
+		return &st->modelview;
+	}
+}
+
+/* The current matrix, about to change. */
+static float *change_matrix(struct gls_state *st)
+{
+	struct gls_matrix_stack *stack = gls_current_stack(st);
+
+	if (st->a.transform.matrix_mode == GL_PROJECTION)
+		st->dirty |= GLS_DIRTY_VIEW;
+	else if (st->a.transform.matrix_mode == GL_TEXTURE)
+		st->dirty |= GLS_DIRTY_MATERIAL;
+	return stack->matrices[stack->depth];
+}
+
+static void multiply(struct gls_state *st, const float m[16])
+{
+	float *top = change_matrix(st);
+
+	mat4_mul(top, top, m);
+}
+
+/* 16 numbers; missing ones leave the identity's. */
+static void read_matrix(const struct call *c, unsigned i, float m[16])
+{
+	memcpy(m, mat4_identity, 16 * sizeof(float));
+	arg_floats(c, i, m, 16);
+}
+
+GLS_HANDLER(glMatrixMode, MATRIX)
+{
+	uint32_t mode = arg_u(c, 0);
+
+	if (mode != GL_MODELVIEW && mode != GL_PROJECTION && mode != GL_TEXTURE && mode != GL_COLOR) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	st->a.transform.matrix_mode = mode;
+}
+
+GLS_HANDLER(glPushMatrix, MATRIX)
+{
+	struct gls_matrix_stack *stack = gls_current_stack(st);
+
+	if (stack->depth + 1 >= stack->max) {
+		gls_error(x, st, GL_STACK_OVERFLOW);
+		return;
+	}
+	memcpy(stack->matrices[stack->depth + 1], stack->matrices[stack->depth], 64);
+	stack->depth++;
+}
+
+GLS_HANDLER(glPopMatrix, MATRIX)
+{
+	struct gls_matrix_stack *stack = gls_current_stack(st);
+
+	if (stack->depth == 0) {
+		gls_error(x, st, GL_STACK_UNDERFLOW);
+		return;
+	}
+	change_matrix(st);
+	stack->depth--;
+}
+
+GLS_HANDLER(glLoadIdentity, MATRIX)
+{
+	memcpy(change_matrix(st), mat4_identity, 64);
+}
+
+GLS_HANDLER(glLoadMatrixf, MATRIX)
+{
+	read_matrix(c, 0, change_matrix(st));
+}
+
+GLS_HANDLER(glLoadMatrixd, MATRIX)
+{
+	read_matrix(c, 0, change_matrix(st));
+}
+
+GLS_HANDLER(glMultMatrixf, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	multiply(st, m);
+}
+
+GLS_HANDLER(glMultMatrixd, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	multiply(st, m);
+}
+
+GLS_HANDLER(glLoadTransposeMatrixf, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	mat4_transpose(change_matrix(st), m);
+}
+
+GLS_HANDLER(glLoadTransposeMatrixd, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	mat4_transpose(change_matrix(st), m);
+}
+
+GLS_HANDLER(glMultTransposeMatrixf, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	mat4_transpose(m, m);
+	multiply(st, m);
+}
+
+GLS_HANDLER(glMultTransposeMatrixd, MATRIX)
+{
+	float m[16];
+
+	read_matrix(c, 0, m);
+	mat4_transpose(m, m);
+	multiply(st, m);
+}
+
+static void translate(struct gls_state *st, float tx, float ty, float tz)
+{
+	float *m = change_matrix(st);
+
+	for (int r = 0; r < 4; r++)
+		m[12 + r] = m[r] * tx + m[4 + r] * ty + m[8 + r] * tz + m[12 + r];
+}
+
+static void scale(struct gls_state *st, float sx, float sy, float sz)
+{
+	float *m = change_matrix(st);
+
+	for (int r = 0; r < 4; r++) {
+		m[r] *= sx;
+		m[4 + r] *= sy;
+		m[8 + r] *= sz;
+	}
+}
+
+static void rotate(struct gls_state *st, float angle_deg, float rx, float ry, float rz)
+{
+	float m[16];
+
+	if (angle_deg == 0)
+		return;
+	mat4_rotation(m, angle_deg, rx, ry, rz);
+	multiply(st, m);
+}
+
+GLS_HANDLER(glTranslatef, MATRIX) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glTranslated, MATRIX) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glScalef, MATRIX) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glScaled, MATRIX) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glRotatef, MATRIX) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRotated, MATRIX) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+
+GLS_HANDLER(glFrustum, MATRIX)
+{
+	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
+	float m[16];
+
+	if (n <= 0 || f <= 0 || n == f || l == r || t == b) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	mat4_frustum(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
+	multiply(st, m);
+}
+
+GLS_HANDLER(glOrtho, MATRIX)
+{
+	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
+	float m[16];
+
+	if (n == f || l == r || t == b) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	mat4_ortho(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
+	multiply(st, m);
+}
+
+/* ---- viewport and clip planes ---- */
+
+GLS_HANDLER(glViewport, STATE)
+{
+	float *rect = st->a.viewport.rect;
+	struct gls_drawable *drawable = gls_drawable_of(x, st);
+
+	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	for (unsigned i = 0; i < 4; i++)
+		rect[i] = (float)arg_i(c, i);
+	/* The only record of the window's size in traces of other recorders; see trace.md. */
+	if (drawable && !drawable->fixed && !st->draw_framebuffer && rect[0] >= 0 && rect[1] >= 0) {
+		if (rect[0] + rect[2] > (float)drawable->width && rect[0] + rect[2] <= 16384)
+			drawable->width = (uint32_t)(rect[0] + rect[2]);
+		if (rect[1] + rect[3] > (float)drawable->height && rect[1] + rect[3] <= 16384)
+			drawable->height = (uint32_t)(rect[1] + rect[3]);
+	}
+}
+
+static float clamp01(double value)
+{
+	return (float)(value < 0 ? 0 : value > 1 ? 1 : value);
+}
+
+GLS_HANDLER(glDepthRange, STATE)
+{
+	st->a.viewport.depth_range[0] = clamp01(arg_d(c, 0));
+	st->a.viewport.depth_range[1] = clamp01(arg_d(c, 1));
+}
+
+GLS_HANDLER(glClipPlane, STATE)
+{
+	uint32_t plane = arg_u(c, 0) - GL_CLIP_PLANE0;
+	float equation[4] = { 0 }, inverse[16];
+
+	if (plane >= GLS_MAX_CLIP_PLANES) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	arg_floats(c, 1, equation, 4);
+	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
+	mat4_transform_plane(st->a.transform.clip_plane_eye[plane], equation, inverse);
+}

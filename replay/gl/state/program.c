@@ -1,0 +1,29 @@
+/*
+ * Later things that a program of the fixed-function age may use beside it: shaders, several draw buffers. Draws with programs are rendered as fixed function and counted.
+ */
+#include "replay/machine/exec.h"
+
+GLS_HANDLER(glUseProgram, STATE) { st->program = arg_u(c, 0); }
+GLS_HANDLER(glUseProgramObjectARB, STATE) { st->program = arg_u(c, 0); }
+
+/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
+GLS_HANDLER(glDrawBuffers, STATE)
+{
+	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE, also = 0;
+	unsigned n = arg_uints(c, 1, list, 16);
+
+	for (unsigned i = 0; i < n; i++) {
+		int is_pair = (buffer == GL_BACK_LEFT && list[i] == GL_FRONT_LEFT) || (buffer == GL_FRONT_LEFT && list[i] == GL_BACK_LEFT);
+
+		if (is_pair && !st->draw_framebuffer)
+			buffer = GL_FRONT_AND_BACK;
+		else if (buffer == GL_NONE)
+			buffer = list[i];
+		else if (list[i] >= GL_COLOR_ATTACHMENT0 && list[i] - GL_COLOR_ATTACHMENT0 < GLS_ATTACHMENT_DEPTH)
+			also |= 1u << (list[i] - GL_COLOR_ATTACHMENT0);
+		else if (list[i] != GL_NONE)
+			gls_unsupported(x, "more than one colour buffer of a window at a time");
+	}
+	st->a.color.draw_buffer = buffer;
+	st->a.color.also_drawn = st->draw_framebuffer ? also : 0;
+}

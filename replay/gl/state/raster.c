@@ -1,0 +1,135 @@
+/* Rasterization state: points, lines, polygons (GL 2.1 sec. 3.3 - 3.5). */
+#include <math.h>
+#include <string.h>
+
+#include "replay/gl/texture/texture.h"
+
+GLS_HANDLER(glPointSize, STATE)
+{
+	if (!(arg_f(c, 0) > 0))
+		gls_error(x, st, GL_INVALID_VALUE);
+	else
+		st->a.point.size = arg_f(c, 0);
+}
+
+static void set_point_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_point *point = &st->a.point;
+	float v[3] = { 0 };
+
+	arg_floats(c, 1, v, 3);
+	switch (arg_u(c, 0)) {
+	case GL_POINT_SIZE_MIN:
+	case GL_POINT_SIZE_MAX:
+	case GL_POINT_FADE_THRESHOLD_SIZE:
+		if (!(v[0] >= 0)) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		*(arg_u(c, 0) == GL_POINT_SIZE_MIN   ? &point->size_min
+		  : arg_u(c, 0) == GL_POINT_SIZE_MAX ? &point->size_max
+		                                     : &point->fade_threshold) = v[0];
+		break;
+	case GL_POINT_DISTANCE_ATTENUATION:
+		memcpy(point->attenuation, v, sizeof(v));
+		break;
+	case GL_POINT_SPRITE_COORD_ORIGIN:
+		point->sprite_origin = token_of_float(v[0]);
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glPointParameterf, STATE) { set_point_parameter(x, st, c); }
+GLS_HANDLER(glPointParameterfv, STATE) { set_point_parameter(x, st, c); }
+GLS_HANDLER(glPointParameteri, STATE) { set_point_parameter(x, st, c); }
+GLS_HANDLER(glPointParameteriv, STATE) { set_point_parameter(x, st, c); }
+
+GLS_HANDLER(glLineWidth, STATE)
+{
+	if (!(arg_f(c, 0) > 0))
+		gls_error(x, st, GL_INVALID_VALUE);
+	else
+		st->a.line.width = arg_f(c, 0);
+}
+
+GLS_HANDLER(glLineStipple, STATE)
+{
+	int64_t factor = arg_i(c, 0);
+
+	st->a.line.stipple_factor = (uint32_t)(factor < 1 ? 1 : factor > 256 ? 256 : factor);
+	st->a.line.stipple_pattern = arg_u(c, 1) & 0xffff;
+}
+
+GLS_HANDLER(glCullFace, STATE)
+{
+	uint32_t face = arg_u(c, 0);
+
+	if (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->a.polygon.cull_face = face;
+}
+
+GLS_HANDLER(glFrontFace, STATE)
+{
+	uint32_t face = arg_u(c, 0);
+
+	if (face != GL_CW && face != GL_CCW)
+		gls_error(x, st, GL_INVALID_ENUM);
+	else
+		st->a.polygon.front_face = face;
+}
+
+GLS_HANDLER(glPolygonMode, STATE)
+{
+	uint32_t face = arg_u(c, 0), mode = arg_u(c, 1);
+
+	if ((mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) ||
+	    (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (face != GL_BACK)
+		st->a.polygon.mode[0] = mode;
+	if (face != GL_FRONT)
+		st->a.polygon.mode[1] = mode;
+}
+
+GLS_HANDLER(glPolygonOffset, STATE)
+{
+	st->a.polygon.offset_factor = arg_f(c, 0);
+	st->a.polygon.offset_units = arg_f(c, 1);
+}
+
+GLS_HANDLER(glPolygonOffsetEXT, STATE) /* the bias is in units of depth, not of its resolution */
+{
+	st->a.polygon.offset_factor = arg_f(c, 0);
+	st->a.polygon.offset_units = arg_f(c, 1) * 16777215.0f;
+}
+
+/* 32 rows of 32 bits from row 0 (the lowest) up; bit 31 is the leftmost pixel (sec. 3.5.2). */
+GLS_HANDLER(glPolygonStipple, STATE)
+{
+	uint32_t bytes[128];
+	size_t n_blob;
+	const uint8_t *blob = gls_pixel_source(st, c, 0, &n_blob);
+	unsigned n = arg_uints(c, 0, bytes, 128);
+
+	for (unsigned i = 0; i < 128 && blob && n_blob >= 128; i++, n = 128)
+		bytes[i] = blob[i];
+	if (n < 128) {
+		gls_unsupported(x, "stipples beyond what the recording holds");
+		return;
+	}
+	for (unsigned row = 0; row < 32; row++)
+		st->a.polygon_stipple[row] = (bytes[4 * row] & 255) << 24 | (bytes[4 * row + 1] & 255) << 16 |
+		                             (bytes[4 * row + 2] & 255) << 8 | (bytes[4 * row + 3] & 255);
+}
+
+GLS_HANDLER(glSampleCoverage, STATE)
+{
+	st->a.multisample.coverage_value = fminf(fmaxf(arg_f(c, 0), 0), 1);
+	st->a.multisample.coverage_invert = arg_i(c, 1) != 0;
+}

@@ -1,0 +1,169 @@
+/*
+ * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept here as pixels. Values are 16 bits, 32767 for 1, cut off
+ * towards 0, as Mesa has them. As Mesa has it, too, a drawable that can hold sRGB colours is summed up in linear light.
+ *
+ * Where a frame is not built, sums are missing from then on until all of the buffer is loaded or cleared.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/machine/exec.h"
+
+#define ONE 32767.0f
+
+struct area {
+	int64_t x0, y0, x1, y1;
+};
+
+/* The drawable, its buffer in its present size, and what of it the scissor lets through. NULL: none, or out of memory */
+static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
+{
+	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st);
+	const int32_t *r = st->a.scissor.rect;
+
+	if (!d || !d->width || !d->height)
+		return NULL;
+	if (!d->accum || d->accum_width != d->width || d->accum_height != d->height) {
+		free(d->accum);
+		d->accum = calloc((size_t)d->width * d->height, 4 * sizeof(*d->accum));
+		if (!d->accum) {
+			gls_out_of_memory(x, (size_t)d->width * d->height * 8);
+			return NULL;
+		}
+		d->accum_width = d->width;
+		d->accum_height = d->height;
+	}
+	*area = (struct area){ 0, 0, d->width, d->height };
+	if (!st->a.scissor.enabled)
+		return d;
+	area->x0 = r[0] > 0 ? r[0] : 0;
+	area->y0 = r[1] > 0 ? r[1] : 0;
+	area->x1 = (int64_t)r[0] + r[2] < area->x1 ? (int64_t)r[0] + r[2] : area->x1;
+	area->y1 = (int64_t)r[1] + r[3] < area->y1 ? (int64_t)r[1] + r[3] : area->y1;
+	return d;
+}
+
+static int is_whole(const struct gls_drawable *d, const struct area *a)
+{
+	return !a->x0 && !a->y0 && a->x1 == d->width && a->y1 == d->height;
+}
+
+static int16_t clamp16(float v)
+{
+	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
+}
+
+/* IEC 61966-2-1: between 0 and 1 as stored and linear. */
+static float to_linear(float v)
+{
+	return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
+}
+
+static float from_linear(float v)
+{
+	return v <= 0.0031308f ? v * 12.92f : 1.055f * powf(v, 1 / 2.4f) - 0.055f;
+}
+
+/* What a stored byte of a component (3: alpha) counts. */
+static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
+{
+	float v = (float)byte / 255;
+
+	return st->srgb && component < 3 ? to_linear(v) : v;
+}
+
+/* Each value of the area becomes itself times `scale`, plus `offset`, plus the colour there times `factor`. */
+static void change(const struct gls_state *st, struct gls_drawable *d, const struct area *a, float scale,
+                   const float offset[4], const struct scene_picture *p, float factor)
+{
+	for (int64_t y = a->y0; y < a->y1; y++)
+		for (int64_t x = a->x0; x < a->x1; x++) {
+			size_t at = 4 * ((size_t)y * d->accum_width + (size_t)x);
+
+			for (unsigned c = 0; c < 4; c++) {
+				float v = (float)clamp16((float)d->accum[at + c] * scale) + offset[c];
+
+				if (p && x < p->width && y < p->height)
+					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)y * p->width + (size_t)x) + c], c) * factor * ONE);
+				d->accum[at + c] = clamp16(v);
+			}
+		}
+}
+
+/* RETURN: fragments that the scissor and the colour mask alone touch. */
+static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a, float value)
+{
+	uint32_t width = (uint32_t)(a->x1 - a->x0), height = (uint32_t)(a->y1 - a->y0);
+	uint8_t *texels = gls_scratch(x, (size_t)width * height * 4);
+
+	for (uint32_t y = 0; texels && y < height; y++)
+		for (uint32_t i = 0; i < 4 * width; i++) {
+			float v = (float)d->accum[4 * (((size_t)a->y0 + y) * d->accum_width + (size_t)a->x0) + i] / ONE * value;
+
+			v = v > 0 ? v < 1 ? v : 1 : 0;
+			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? from_linear(v) : v) * 255 + 0.5f);
+		}
+	if (texels)
+		gls_draw_rectangle_plainly(x, st, SCENE_COLOR_PIXELS, (float)a->x0, (float)a->y0, width, height,
+		                           (float[2]){ 1, 1 }, texels);
+}
+
+GLS_HANDLER(glAccum, STATE)
+{
+	uint32_t op = arg_u(c, 0);
+	float value = arg_f(c, 1), none[4] = { 0 }, every[4];
+	const struct scene_picture *p = NULL;
+	struct area area;
+	struct gls_drawable *d;
+
+	if (op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (!gls_renders(st))
+		return;
+	if (!x->want) {
+		d = op == GL_RETURN || st->draw_framebuffer ? NULL : gls_drawable_of(x, st);
+		if (d)
+			d->accum_missing = 1;
+		return;
+	}
+	if (!(d = open_buffer(x, st, &area)) || area.x0 >= area.x1 || area.y0 >= area.y1)
+		return;
+	if ((op == GL_ACCUM || op == GL_LOAD) && !(p = gls_read_screen(x, st)))
+		return;
+	if (op == GL_LOAD && is_whole(d, &area))
+		d->accum_missing = 0;
+	for (unsigned i = 0; i < 4; i++)
+		every[i] = (float)clamp16(value * ONE);
+	if (op == GL_RETURN && d->accum_missing && x->supply)
+		x->rewind = 1;
+	else if (op == GL_RETURN)
+		give_back(x, st, d, &area, value);
+	else if (op == GL_ADD)
+		change(st, d, &area, 1, every, NULL, 0);
+	else if (op == GL_MULT)
+		change(st, d, &area, value, none, NULL, 0);
+	else
+		change(st, d, &area, op == GL_ACCUM, none, p, value);
+}
+
+void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
+{
+	struct gls_drawable *d = NULL;
+	struct area area;
+	float to[4];
+
+	if (!gls_renders(st))
+		return;
+	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st)))
+		d->accum_missing = 1;
+	if (!x->want || !(d = open_buffer(x, st, &area)))
+		return;
+	for (unsigned i = 0; i < 4; i++)
+		to[i] = (float)clamp16(st->a.accum.clear[i] * ONE);
+	change(st, d, &area, 0, to, NULL, 0);
+	if (is_whole(d, &area))
+		d->accum_missing = 0;
+}

@@ -1,0 +1,117 @@
+/*
+ * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with a swap
+ * is what the back buffer holds; one that ends without is what is drawn to at its end, be it the front buffer.
+ *
+ * The two have colours of their own, and share depth and stencil. As long as nobody draws to the front buffer or reads it, it
+ * costs a reference to what the last swap put there. From then until the next swap both are surfaces that get every event: with
+ * colours where DrawBuffer says so, and else with what it does to depth and stencil. What the front buffer shows of earlier
+ * events is made only when the replay has started again for it (x->fronts, feedback.c).
+ */
+#include <string.h>
+
+#include "replay/machine/exec.h"
+
+static int is_front(uint32_t buffer)
+{
+	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_LEFT || buffer == GL_FRONT_AND_BACK;
+}
+
+static int is_front_alone(uint32_t buffer)
+{
+	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT;
+}
+
+static uint32_t drawn_in_window(const struct gls_state *st)
+{
+	const struct gls_framebuffer *window = st->draw_framebuffer ? table_find(&st->share->framebuffers, 0) : NULL;
+
+	return window ? window->draw_buffer : st->a.color.draw_buffer;
+}
+
+int gls_front_is_drawn(const struct gls_state *st)
+{
+	return st->double_buffered && is_front(drawn_in_window(st));
+}
+
+int gls_front_is_read(const struct gls_state *st)
+{
+	return st->double_buffered && !st->read_framebuffer && (is_front_alone(st->a.pixel.read_buffer) || st->a.pixel.read_buffer == GL_LEFT);
+}
+
+static int has_same_start(const struct gls_surface *a, const struct gls_surface *b)
+{
+	return a->picture == b->picture && a->before == b->before && a->skipped == b->skipped && !a->carried && !b->carried;
+}
+
+static void merge(struct scene_picture *to, const struct scene_picture *colors, const struct scene_picture *rest)
+{
+	size_t n = (size_t)to->width * to->height;
+
+	memcpy(to->rgba, colors->rgba, 4 * n);
+	memcpy(to->depth, rest->depth, n * sizeof(*to->depth));
+	memcpy(to->stencil, rest->stencil, n);
+}
+
+/* The colours that the front buffer has had, over depth and stencil as the back buffer's events leave them. */
+static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *front, struct gls_surface *back)
+{
+	const struct scene_picture *colors = gls_surface_read(x, front), *rest = colors ? gls_surface_read(x, back) : NULL;
+	struct gls_picture *p;
+
+	if (!rest)
+		return NULL;
+	p = gls_picture_make(x, back->width, back->height, back->depth_bits, back->alpha_bits, back->samples, 0);
+	if (!p)
+		return NULL;
+	merge(&p->picture, colors, rest);
+	for (int i = 0; i < SCENE_SAMPLES && p->picture.samples; i++)
+		merge(&p->picture.samples[i], colors->samples ? &colors->samples[i] : colors, rest->samples ? &rest->samples[i] : rest);
+	return p;
+}
+
+struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d)
+{
+	struct gls_surface *back = &d->surface, *front = &d->front;
+	struct gls_picture *start = NULL;
+	int known;
+
+	if (d->parted)
+		return front;
+	known = has_same_start(front, back) && !gls_frame_events(back);
+	d->parted = 1;
+	if (known)
+		return front;
+	if (x->fronts && !(start = start_of(x, front, back)))
+		return front; /* x->rewind or x->failed says why */
+	gls_surface_free(front);
+	front->picture = start;
+	front->skipped = !start && x->supply;
+	front->carried = 0;
+	return front;
+}
+
+void gls_front_swapped(struct gls_drawable *d)
+{
+	gls_surface_free(&d->front);
+	d->parted = 0;
+	gls_surface_share(&d->front, &d->surface);
+}
+
+unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_target out[2])
+{
+	struct gls_surface *surface = gls_surface_of(x, st);
+	uint32_t buffer = st->a.color.draw_buffer;
+	struct gls_drawable *d;
+
+	if (!surface)
+		return 0;
+	out[0] = (struct gls_target){ surface, buffer != GL_NONE };
+	if (st->draw_framebuffer || !st->double_buffered)
+		return 1;
+	d = gls_drawable_of(x, st);
+	if (!d->parted && !is_front(buffer))
+		return 1;
+	out[0].colored = buffer != GL_NONE && !is_front_alone(buffer);
+	out[1] = (struct gls_target){ gls_front_part(x, d), is_front(buffer) };
+	return 2;
+}

@@ -1,0 +1,107 @@
+/* relume index: make, describe or check the index of a trace. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/err.h"
+#include "base/verbs.h"
+#include "replay/index/index.h"
+#include "base/json.h"
+#include "replay/replay.h"
+
+static const char help[] =
+	"usage: relume index [OPTIONS] TRACE\n"
+	"\n"
+	"Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on first need\n"
+	"anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
+	"TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n"
+	"\n"
+	"      --force   make it anew even where it is current\n"
+	"      --check   compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where\n"
+	"                they differ)\n"
+	"  -j, --json    as JSON\n"
+	"  -h, --help    this text\n";
+
+static uint64_t file_bytes(const char *path)
+{
+	struct stat info;
+
+	return stat(path, &info) ? 0 : (uint64_t)info.st_size;
+}
+
+static void print_text(const char *trace, const struct index_facts *f)
+{
+	uint64_t bytes = file_bytes(trace);
+
+	printf("trace        %s\n", trace);
+	printf("index        %s\n", f->path ? f->path : "kept nowhere");
+	printf("frames       %" PRIu64 "%s\n", f->frames, f->damaged ? ", then the trace is damaged" : "");
+	printf("calls        %" PRIu64 "\n", f->calls);
+	printf("checkpoints  %" PRIu64 ", of %" PRIu64 " things kept once each\n", f->checkpoints, f->blobs);
+	printf("bytes        %" PRIu64 ", %.2f %% of the trace's\n", f->bytes,
+	       bytes ? 100.0 * (double)f->bytes / (double)bytes : 0.0);
+	if (f->build_s > 0)
+		printf("made in      %.3f s\n", f->build_s);
+}
+
+static void print_json(const char *trace, const struct index_facts *f)
+{
+	struct json j = { .out = stdout };
+
+	json_begin(&j, '{');
+	json_key_string(&j, "trace", trace);
+	json_key_string(&j, "index", f->path ? f->path : "");
+	json_key_uint(&j, "frames", f->frames);
+	json_key_uint(&j, "calls", f->calls);
+	json_key_uint(&j, "damaged", (uint64_t)f->damaged);
+	json_key_uint(&j, "checkpoints", f->checkpoints);
+	json_key_uint(&j, "blobs", f->blobs);
+	json_key_uint(&j, "bytes", f->bytes);
+	json_key_uint(&j, "trace_bytes", file_bytes(trace));
+	json_key_uint(&j, "build_us", (uint64_t)(f->build_s * 1e6));
+	json_end(&j, '}');
+	putchar('\n');
+}
+
+int index_main(int argc, char **argv)
+{
+	static const struct option options[] = {
+		{ "force", no_argument, NULL, 'F' }, { "check", no_argument, NULL, 'c' }, { "json", no_argument, NULL, 'j' },
+		{ "help", no_argument, NULL, 'h' },  { 0 },
+	};
+	enum index_mode mode = INDEX_KEEP;
+	struct index *index = NULL;
+	struct index_facts facts;
+	struct replay *rp = NULL;
+	int check = 0, json = 0, opt, rc;
+
+	while ((opt = getopt_long(argc, argv, "jh", options, NULL)) != -1) {
+		switch (opt) {
+		case 'F': mode = INDEX_FORCE; break;
+		case 'c': check = 1; break;
+		case 'j': json = 1; break;
+		case 'h': fputs(help, stdout); return 0;
+		default: return -ERR_USAGE;
+		}
+	}
+	if (argc - optind != 1)
+		return -err_report(ERR_USAGE, NULL, "index takes one trace; 'relume help index' says more");
+	rc = replay_open(&rp, argv[optind]);
+	if (!rc)
+		rc = index_open(&index, argv[optind], replay_trace_hash(rp), mode, rp);
+	if (!rc) {
+		facts = index_facts(index);
+		if (json)
+			print_json(argv[optind], &facts);
+		else
+			print_text(argv[optind], &facts);
+		if (check)
+			rc = index_check(index);
+	}
+	index_close(&index);
+	replay_close(&rp);
+	return -rc;
+}

@@ -1,0 +1,52 @@
+/*
+ * The GL state machine between two frames, as bytes: what an index keeps so that a replay can begin in the middle.
+ *
+ * Structs of the state are kept as they lie in memory, pointers apart, so that whatever is added to one is kept by itself;
+ * what a pointer leads to is written by hand. A struct with pointers that changes its size does not compile until snapshot.c
+ * has been looked at, and a test compares states restored with states replayed, byte by byte. Big things (texels, buffers,
+ * lists, meshes) are blobs that are kept once by content.
+ *
+ * Why not a stream of calls that rebuilds the state: it would have to be executed at every seek, cannot say all that the
+ * state holds (errors, versions of buffers, meshes of lists), and what it forgets nobody notices.
+ *
+ * A snapshot can be read by the build that wrote it alone: see snapshot_layout.
+ */
+#ifndef REPLAY_INDEX_SNAPSHOT_H
+#define REPLAY_INDEX_SNAPSHOT_H
+
+#include "replay/index/bytes.h"
+#include "replay/machine/exec.h"
+
+/* Where blobs are kept. */
+struct snapshot_blobs {
+	/** Keep bytes under their name (XXH3-128). @return 0 or ERR_* (reported) */
+	int (*put)(void *user, const uint64_t name[2], const void *data, size_t n);
+	/** NULL, or: 1 where the blob of that name and those put just before it, which it names, are kept already. */
+	int (*have)(void *user, const uint64_t name[2]);
+	/** The n bytes of a name; free with free(). NULL: they are not there, or not what the name says (reported) */
+	uint8_t *(*get)(void *user, const uint64_t name[2], size_t n);
+	void *user;
+	uint64_t *count; /* not NULL: blobs are neither named nor kept, their bytes are added to this */
+};
+
+/** Changes whenever snapshots of another build could not be read by this one. */
+uint64_t snapshot_layout(void);
+
+/**
+ * Save the state as it is between two frames.
+ * @return 0; 1 where there is something that cannot be saved just now (a Begin without End, a list that is being made);
+ *         ERR_SYSTEM (reported)
+ */
+int snapshot_save(struct gls_exec *x, const struct snapshot_blobs *blobs, struct bytes *out);
+
+/** What the byte at a place of a snapshot of this state belongs to ("state of context 0, byte 812"). A static string. */
+const char *snapshot_place(struct gls_exec *x, size_t at);
+
+/**
+ * Bring a state machine to a saved state.
+ * @param x  as gls_exec_create made it
+ * @return 0, ERR_INPUT (reported: no snapshot, or a blob is missing or damaged) or ERR_SYSTEM (reported); then destroy x
+ */
+int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const uint8_t *data, size_t n);
+
+#endif

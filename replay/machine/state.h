@@ -1,0 +1,322 @@
+/*
+ * The state of one GL context, grouped as the state tables of the GL 2.1 specification group it (chapter 6).
+ *
+ * Tokens are kept as the numbers GL gives them (build/gen/gl_tokens.h). Matrices as scene.h says. Object names are kept as
+ * names, not as pointers: what a name means is looked up in the share group when it is used.
+ */
+#ifndef REPLAY_MACHINE_STATE_H
+#define REPLAY_MACHINE_STATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene/scene.h"
+#include "replay/machine/table.h"
+
+#define GLS_MAX_UNITS SCENE_MAX_UNITS
+#define GLS_MAX_LIGHTS SCENE_MAX_LIGHTS
+#define GLS_MAX_CLIP_PLANES SCENE_MAX_CLIP_PLANES
+#define GLS_MAX_MATRICES 32
+#define GLS_MAX_TEXTURE_MATRICES 10
+#define GLS_MAX_ATTRIB_DEPTH 16
+#define GLS_MAX_GENERIC 16
+
+/* Vertex attributes; the conventional ones are those of scene_current. */
+enum gls_attribute {
+	GLS_ATTR_NORMAL, GLS_ATTR_COLOR, GLS_ATTR_SECONDARY, GLS_ATTR_FOG_COORD, GLS_ATTR_TEXCOORD,
+	N_GLS_ATTRIBUTES = GLS_ATTR_TEXCOORD + GLS_MAX_UNITS
+};
+/* The same as bits of scene_mesh.attributes: 1 << attribute. */
+
+/* Tables 6.5, 6.6: current values. attribute[][4]: normal uses 3, the fog coordinate 1. */
+struct gls_current {
+	float attribute[N_GLS_ATTRIBUTES][4];
+	uint32_t edge_flag;
+	float index;
+	/* current raster position (sec. 2.13) */
+	float raster_position[4]; /* window coordinates and clip w */
+	float raster_distance, raster_color[4], raster_secondary[4], raster_texcoord[GLS_MAX_UNITS][4];
+	uint32_t raster_valid;
+};
+
+/* Table 6.8: transformation (the stacks themselves are no attribute group). */
+struct gls_transform {
+	uint32_t matrix_mode;
+	uint32_t normalize, rescale_normal;
+	uint32_t clip_plane_mask;
+	float clip_plane_eye[GLS_MAX_CLIP_PLANES][4];
+};
+
+struct gls_viewport {
+	float rect[4];
+	float depth_range[2];
+};
+
+/* Tables 6.9, 6.10, 6.11. */
+struct gls_light {
+	uint32_t enabled;
+	struct scene_light value; /* index and radius filled in once */
+};
+struct gls_lighting {
+	uint32_t enabled;
+	uint32_t color_material, color_material_face, color_material_mode;
+	struct scene_face face[2]; /* front, back */
+	float model_ambient[4];
+	uint32_t local_viewer, two_side, separate_specular;
+	uint32_t shade_model;
+	uint32_t first_provokes; /* ARB_provoking_vertex: 1 FIRST_VERTEX_CONVENTION */
+	uint32_t clamp;          /* of vertices' colours (ARB_color_buffer_float): GL token FIXED_ONLY, or a boolean */
+	struct gls_light lights[GLS_MAX_LIGHTS];
+};
+
+/* Table 6.8, fog. */
+struct gls_fog {
+	uint32_t enabled, mode, coord_source, color_sum;
+	float density, start, end, color[4], index;
+};
+
+/* Tables 6.12, 6.13: rasterization. */
+struct gls_point {
+	float size, size_min, size_max, fade_threshold, attenuation[3];
+	uint32_t smooth, sprite, sprite_origin;
+};
+struct gls_line {
+	float width;
+	uint32_t smooth, stipple, stipple_pattern, stipple_factor;
+};
+struct gls_polygon {
+	uint32_t cull, cull_face, front_face, mode[2], smooth;
+	uint32_t offset_point, offset_line, offset_fill;
+	float offset_factor, offset_units;
+	uint32_t stipple;
+};
+struct gls_multisample {
+	uint32_t enabled, alpha_to_coverage, alpha_to_one, coverage;
+	float coverage_value;
+	uint32_t coverage_invert;
+};
+
+/* Tables 6.14 - 6.18: texturing. */
+enum gls_texture_target {
+	GLS_TEXTURE_1D, GLS_TEXTURE_2D, GLS_TEXTURE_3D, GLS_TEXTURE_CUBE, GLS_TEXTURE_RECTANGLE, N_GLS_TEXTURE_TARGETS
+};
+struct gls_unit {
+	uint32_t enabled;                       /* bits 1 << gls_texture_target */
+	uint32_t bound[N_GLS_TEXTURE_TARGETS];  /* names; 0: the default texture */
+	uint32_t gen_enabled;                   /* bits 1 << (s t r q) */
+	uint32_t sampler;                       /* name of a sampler object; 0: the texture's own parameters */
+	struct scene_unit value;                /* env_*, combine_*, source_*, operand_*, scale_*, gen_*, coord_replace */
+	float lod_bias;
+};
+struct gls_texturing {
+	uint32_t active; /* unit */
+	struct gls_unit units[GLS_MAX_UNITS];
+};
+
+/* Tables 6.19 - 6.21: per-fragment operations and the framebuffer. */
+struct gls_scissor {
+	uint32_t enabled;
+	int32_t rect[4];
+};
+struct gls_stencil {
+	uint32_t enabled, two_side, active_face; /* the latter two: EXT_stencil_two_side */
+	struct scene_stencil side[2];            /* front, back */
+	uint32_t clear;
+};
+struct gls_depth {
+	uint32_t enabled, func, write;
+	float clear;
+};
+struct gls_color_buffer {
+	uint32_t alpha_test, alpha_func;
+	float alpha_ref;
+	uint32_t blend, equation_rgb, equation_alpha, src_rgb, dst_rgb, src_alpha, dst_alpha;
+	float blend_color[4];
+	uint32_t logic_op_enabled, index_logic_op_enabled, logic_op;
+	uint32_t dither;
+	uint32_t mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
+	uint32_t draw_buffer;
+	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number */
+	uint32_t clamp; /* of fragments' colours, as gls_lighting.clamp */
+	float clear[4];
+};
+struct gls_accum {
+	float clear[4];
+};
+
+/* Table 6.25: pixel transfer. */
+struct gls_pixel {
+	float scale[4], bias[4], depth_scale, depth_bias;
+	int32_t index_shift, index_offset;
+	uint32_t map_color, map_stencil;
+	float zoom[2];
+	uint32_t read_buffer;
+};
+
+/* Table 6.26: a pixel map; no attribute group holds them. Initially one element, 0 (sec. 3.6.3). */
+#define GLS_MAX_PIXEL_MAP 256
+enum { N_GLS_PIXEL_MAPS = 10 }; /* in the order of their tokens, PIXEL_MAP_I_TO_I first */
+struct gls_pixel_map {
+	uint32_t size; /* 0 stands for the initial one */
+	float values[GLS_MAX_PIXEL_MAP];
+};
+
+struct gls_evaluator {
+	uint32_t map1, map2; /* bits of enabled maps, GL_MAP1_COLOR_4 is bit 0 */
+	uint32_t auto_normal;
+	float grid1[2], grid2[4];
+	int32_t grid1_segments, grid2_segments[2];
+};
+
+struct gls_hint {
+	uint32_t fog, perspective, point, line, polygon, mipmap;
+};
+
+/* All that PushAttrib can save: one sub-struct per group of table 6.1 ff. */
+struct gls_attribs {
+	struct gls_current current;
+	struct gls_transform transform;
+	struct gls_viewport viewport;
+	struct gls_lighting lighting;
+	struct gls_fog fog;
+	struct gls_point point;
+	struct gls_line line;
+	struct gls_polygon polygon;
+	uint32_t polygon_stipple[32];
+	struct gls_multisample multisample;
+	struct gls_texturing texturing;
+	struct gls_scissor scissor;
+	struct gls_stencil stencil;
+	struct gls_depth depth;
+	struct gls_color_buffer color;
+	struct gls_accum accum;
+	struct gls_pixel pixel;
+	struct gls_evaluator evaluator;
+	struct gls_hint hint;
+	uint32_t list_base;
+};
+
+/* Table 6.23: pixel storage. */
+struct gls_pixel_store {
+	int32_t swap_bytes, lsb_first, row_length, image_height, skip_rows, skip_pixels, skip_images, alignment;
+	uint32_t buffer; /* bound pixel pack or unpack buffer */
+};
+
+/* Tables 6.6, 6.7: vertex arrays. */
+struct gls_array {
+	uint32_t enabled;
+	int32_t size;
+	uint32_t type;
+	int32_t stride;    /* as given; 0: tight */
+	uint32_t buffer;   /* name of the array buffer bound when the pointer was given, 0: client memory */
+	uint64_t offset;   /* in the buffer */
+	uint32_t normalized;
+	uint8_t *client;   /* owned copy of the client memory that the trace holds */
+	size_t client_bytes, client_room;
+	uint64_t version;  /* changes with the contents of `client` */
+};
+enum gls_array_index {
+	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, N_GLS_ARRAYS
+};
+struct gls_client_attribs {
+	struct gls_pixel_store pack, unpack;
+	struct gls_array arrays[N_GLS_ARRAYS]; /* 0 .. N_GLS_ATTRIBUTES-1: as gls_attribute */
+	uint32_t active_texture;               /* client active unit */
+	uint32_t vertex_array;                 /* name of the object whose arrays these are; 0: none */
+	uint32_t array_buffer, element_buffer, copy_read_buffer, copy_write_buffer, indirect_buffer;
+	uint32_t lock_first, lock_count;
+	uint32_t restart, restart_fixed, restart_index; /* primitives begin anew at an index: NV_primitive_restart, GL 3.1 */
+};
+
+/* A vertex array object that is not bound (all 0 while it is: struct gls_client_attribs has it then). */
+struct gls_vertex_array {
+	struct gls_array arrays[N_GLS_ARRAYS];
+	uint32_t element_buffer;
+};
+
+struct gls_matrix_stack {
+	float matrices[GLS_MAX_MATRICES][16];
+	unsigned depth, max; /* depth: index of the current one */
+};
+
+/* Of a texture or sampler object (table 6.16). */
+struct gls_texture_parameters {
+	uint32_t wrap_s, wrap_t, wrap_r, min_filter, mag_filter;
+	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
+	uint32_t base_level, max_level, generate_mipmap;
+	uint32_t compare_mode, compare_func, depth_mode;
+	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
+};
+struct gls_saved_texture {
+	uint32_t there, name; /* there: 0 where nothing was ever set of the object */
+	struct gls_texture_parameters parameters;
+};
+
+struct gls_saved_attribs {
+	uint32_t mask;
+	struct gls_attribs attribs;
+	struct gls_saved_texture textures[GLS_MAX_UNITS][N_GLS_TEXTURE_TARGETS]; /* all 0 but for TEXTURE_BIT */
+};
+struct gls_saved_client {
+	uint32_t mask;
+	struct gls_client_attribs client; /* client memory is not saved: the trace gives it again at the draw */
+};
+
+/* What changed since a draw last looked: bits of gls_state.dirty. */
+enum { GLS_DIRTY_MATERIAL = 1, GLS_DIRTY_VIEW = 2, GLS_DIRTY_ALL = 3 };
+
+struct gls_share;
+
+struct gls_state {
+	uint32_t error; /* first one since GetError; 0: none */
+	uint32_t dirty;
+	struct gls_attribs a;
+	struct gls_client_attribs client;
+
+	struct gls_matrix_stack modelview, projection, color_matrix, texture[GLS_MAX_UNITS];
+	struct gls_saved_attribs *attrib_stack; /* [GLS_MAX_ATTRIB_DEPTH], owned */
+	struct gls_saved_client *client_stack;  /* [GLS_MAX_ATTRIB_DEPTH], owned */
+	unsigned attrib_depth, client_depth;
+	struct table vertex_arrays; /* name (0: none bound) -> struct gls_vertex_array, owned */
+
+	struct gls_pixel_map pixel_maps[N_GLS_PIXEL_MAPS];
+	struct gls_maps *maps; /* evaluators' (eval.c), owned; NULL: none was ever defined */
+	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
+	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
+	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
+	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
+	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
+	struct gls_share *share;
+	struct scene_surface surface;  /* what the program said through rtMaterialEXT */
+	uint32_t kd_tree;              /* 1: it has called rtBuildKdTreeEXT */
+
+	/* list being compiled */
+	struct gls_list *list;
+	uint32_t list_name, list_mode;
+
+	/* drawable */
+	uint64_t drawable, read_drawable;
+	uint32_t ever_current;
+	uint32_t alpha_bits, depth_bits, stencil_bits, samples, double_buffered;
+	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
+};
+
+/** A context as GL hands it out (all initial values of chapter 6); width and height of the first drawable may be 0. */
+int gls_state_init(struct gls_state *st);
+void gls_state_free(struct gls_state *st);
+void gls_maps_free(struct gls_maps *maps);
+struct bytes;
+struct cursor;
+/** A context's maps in a snapshot, and out of one: NULL there is as good as here. */
+void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
+/** @return NULL: there are none, or in->failed: no such bytes, or no memory for them. The caller owns it. */
+struct gls_maps *gls_maps_load(struct cursor *in);
+
+/** Record a GL error of the program (sec. 2.5): the first one sticks. */
+static inline void gls_set_error(struct gls_state *st, uint32_t error)
+{
+	if (!st->error)
+		st->error = error;
+}
+
+#endif

@@ -1,0 +1,31 @@
+/*
+ * Hash tables from 64-bit keys to pointers, open addressing. All zero is a valid empty table. Values are not owned; a
+ * NULL value is an empty place.
+ */
+#ifndef REPLAY_MACHINE_TABLE_H
+#define REPLAY_MACHINE_TABLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct table_entry {
+	uint64_t key;
+	void *value;
+};
+struct table {
+	struct table_entry *entries; /* [room], room a power of two */
+	size_t n, room;
+};
+
+/** The value of a key, or NULL. */
+void *table_find(const struct table *t, uint64_t key);
+
+/** Set a key's value (not NULL). @return 0 or ERR_SYSTEM (reported) */
+int table_set(struct table *t, uint64_t key, void *value);
+
+/** @return the value that was there, or NULL */
+void *table_remove(struct table *t, uint64_t key);
+
+void table_free(struct table *t);
+
+#endif

@@ -1,0 +1,46 @@
+/*
+ * The bytes inside a trace's container: Snappy chunks, gzip or Brotli, delivered piece by piece.
+ */
+#ifndef REPLAY_TRACE_CONTAINER_H
+#define REPLAY_TRACE_CONTAINER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct container;
+
+/** @return 0, ERR_INPUT (reported: missing, not a file, empty, plainly something else) or ERR_SYSTEM (reported) */
+int container_open(struct container **out, const char *path);
+void container_close(struct container **c);
+
+/**
+ * The next piece of the logical stream.
+ * @param data, size  receive it; valid until the next call. 1 byte at least
+ * @return 1; 0 at the end; ERR_INPUT (reported) where the container is damaged; ERR_SYSTEM
+ */
+int container_next(struct container *c, const uint8_t **data, size_t *size);
+
+/** Where in the file the piece last delivered begins; UINT64_MAX where one cannot start there (gzip, Brotli). */
+uint64_t container_piece(const struct container *c);
+
+/**
+ * Go on from such a place, or (offset 0) from the beginning.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int container_seek(struct container *c, uint64_t offset);
+
+/** 1 where the file ended within a chunk or stream: what could be unpacked of it was delivered. */
+int container_is_cut(const struct container *c);
+
+/**
+ * Hash the file as hash_whole does, with the bytes as they are read from now on where they come in order: of Snappy chunks of which
+ * none was sought. At the end, the rest of the file is read, and nothing more can be delivered.
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int container_hash_begin(struct container *c);
+int container_hash_end(struct container *c, uint64_t out[2]);
+
+uint64_t container_offset(const struct container *c); /* bytes of the file used so far */
+uint64_t container_size(const struct container *c);   /* of the file */
+
+#endif

@@ -1,0 +1,204 @@
+/* relume dump: a trace's calls as text, in the manner of `apitrace dump`. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/frames.h"
+#include "base/verbs.h"
+#include "replay/trace/reader.h"
+
+static void print_help(void)
+{
+	puts("usage: relume dump [OPTIONS] TRACE\n"
+	     "\n"
+	     "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n"
+	     "\n"
+	     "  -c, --calls LIST  only these calls: \"100\", \"0-50\", \"0-1000x10\", or several with commas\n"
+	     "  -h, --help        this text");
+}
+
+static void print_string(FILE *out, const char *s, uint64_t n)
+{
+	fputc('"', out);
+	for (uint64_t i = 0; i < n; i++) {
+		unsigned char ch = (unsigned char)s[i];
+		if (ch == '"' || ch == '\\')
+			fprintf(out, "\\%c", ch);
+		else if (ch == '\n')
+			fputs("\\n", out);
+		else if (ch == '\r')
+			fputs("\\r", out);
+		else if (ch == '\t')
+			fputs("\\t", out);
+		else if (ch < 0x20 || ch == 0x7f)
+			fprintf(out, "\\x%02x", ch);
+		else
+			fputc(ch, out);
+	}
+	fputc('"', out);
+}
+
+static void print_bitmask(FILE *out, const struct trace_value *v)
+{
+	const struct trace_bitmask_sig *sig = v->sig;
+	uint64_t left = v->u;
+	int first = 1;
+
+	for (uint32_t i = 0; i < sig->n; i++) {
+		if (sig->values[i] == 0 ? v->u != 0 || !first : (left & sig->values[i]) != sig->values[i])
+			continue;
+		fprintf(out, "%s%s", first ? "" : " | ", sig->names[i]);
+		left &= ~sig->values[i];
+		first = 0;
+	}
+	if (left || first)
+		fprintf(out, left || v->u ? "%s0x%" PRIx64 : "%s%" PRIu64, first ? "" : " | ", left);
+}
+
+static void print_value(FILE *out, const struct trace_value *v)
+{
+	const struct trace_struct_sig *s;
+	const char *name;
+
+	switch (v->type) {
+	case TRACE_NONE:
+		fputc('?', out);
+		break;
+	case TRACE_NULL:
+		fputs("NULL", out);
+		break;
+	case TRACE_FALSE:
+	case TRACE_TRUE:
+		fputs(v->type == TRACE_TRUE ? "true" : "false", out);
+		break;
+	case TRACE_SINT:
+		fprintf(out, "%" PRId64, v->i);
+		break;
+	case TRACE_UINT:
+		fprintf(out, "%" PRIu64, v->u);
+		break;
+	case TRACE_FLOAT:
+		fprintf(out, "%.9g", (double)v->f);
+		break;
+	case TRACE_DOUBLE:
+		fprintf(out, "%.17g", v->d);
+		break;
+	case TRACE_STRING:
+		print_string(out, v->str, v->count);
+		break;
+	case TRACE_BLOB:
+		fprintf(out, "blob(%" PRIu64 ")", v->count);
+		break;
+	case TRACE_ENUM:
+		name = trace_enum_name(v);
+		if (name)
+			fputs(name, out);
+		else
+			fprintf(out, "%" PRId64, v->i);
+		break;
+	case TRACE_BITMASK:
+		print_bitmask(out, v);
+		break;
+	case TRACE_ARRAY:
+		fputc('{', out);
+		for (uint64_t i = 0; i < v->count; i++) {
+			fputs(i ? ", " : "", out);
+			print_value(out, &v->items[i]);
+		}
+		fputc('}', out);
+		break;
+	case TRACE_STRUCT:
+		s = v->sig;
+		fputc('{', out);
+		for (uint64_t i = 0; i < v->count; i++) {
+			fprintf(out, "%s%s = ", i ? ", " : "", s->members[i]);
+			print_value(out, &v->items[i]);
+		}
+		fputc('}', out);
+		break;
+	case TRACE_OPAQUE:
+		fprintf(out, "0x%" PRIx64, v->u);
+		break;
+	case TRACE_REPR:
+		print_value(out, &v->items[0]);
+		break;
+	default:
+		fprintf(out, "wide(%" PRIu64 ")", v->count);
+	}
+}
+
+static void print_call(FILE *out, const struct call *c)
+{
+	fprintf(out, "%" PRIu64 " ", c->number);
+	if (c->thread)
+		fprintf(out, "@%" PRIu64 " ", c->thread);
+	fprintf(out, "%s(", c->sig->name);
+	for (uint32_t i = 0; i < c->n_args; i++) {
+		fprintf(out, "%s%s%s", i ? ", " : "", i < c->sig->n_args ? c->sig->arg_names[i] : "",
+		        i < c->sig->n_args ? " = " : "");
+		print_value(out, &c->args[i]);
+	}
+	fputc(')', out);
+	if (c->ret.type != TRACE_NONE) {
+		fputs(" = ", out);
+		print_value(out, &c->ret);
+	}
+	if (c->flags & CALL_FAKE)
+		fputs(" // fake", out);
+	if (c->incomplete)
+		fputs(" // incomplete", out);
+	fputc('\n', out);
+}
+
+int dump_main(int argc, char **argv)
+{
+	static const struct option options[] = {
+		{ "calls", required_argument, NULL, 'c' }, { "help", no_argument, NULL, 'h' }, { 0 },
+	};
+	struct frame_list calls = { 0 };
+	struct trace_reader *reader = NULL;
+	const struct call *call;
+	uint64_t last;
+	int opt, rc;
+
+	while ((opt = getopt_long(argc, argv, "c:h", options, NULL)) != -1) {
+		switch (opt) {
+		case 'c':
+			frame_list_free(&calls);
+			rc = frame_list_parse(optarg, &calls);
+			if (rc)
+				return -rc;
+			break;
+		case 'h':
+			print_help();
+			return 0;
+		default:
+			return -ERR_USAGE;
+		}
+	}
+	if (argc - optind != 1) {
+		rc = err_report(ERR_USAGE, NULL, "dump takes one trace; 'relume help dump' says more");
+		goto done;
+	}
+	rc = trace_reader_open(&reader, argv[optind]);
+	if (rc)
+		goto done;
+	last = frame_list_last(&calls);
+	while ((rc = trace_reader_next(reader, &call)) == 1) {
+		if (frame_list_contains(&calls, call->number))
+			print_call(stdout, call);
+		/* Calls come in the order they returned: those of other threads may still be on their way. */
+		if (last < UINT64_MAX && call->number > last + 1024)
+			break;
+	}
+	if (rc == 1)
+		rc = 0;
+	if (fflush(stdout) || ferror(stdout))
+		rc = err_report(ERR_SYSTEM, NULL, "standard output cannot be written");
+done:
+	trace_reader_close(&reader);
+	frame_list_free(&calls);
+	return -rc;
+}

@@ -1,0 +1,19 @@
+/* Bytes of a file into a hash: what a trace is known by, and whether it is still the same. */
+#ifndef REPLAY_TRACE_HASH_H
+#define REPLAY_TRACE_HASH_H
+
+#include <stdint.h>
+#include <xxhash.h>
+
+/**
+ * Hash a file from its begin, in small pieces.
+ * @param limit  bytes at most
+ * @param state  XXH3-128, begun by the caller, who may go on with it
+ * @return 0 or ERR_INPUT (reported)
+ */
+int hash_file(const char *path, uint64_t limit, XXH3_state_t *state);
+
+/** The XXH3-128 of all of a file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
+int hash_whole(const char *path, uint64_t out[2]);
+
+#endif

@@ -1,0 +1,92 @@
+/*
+ * Reads apitrace's traces (formats 0 .. 6) call by call, in a stream: memory does not grow with the file.
+ *
+ * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in which
+ * they returned. A call and all it points to are the reader's, valid until the next trace_reader_next; signatures live as
+ * long as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call that is whole.
+ */
+#ifndef REPLAY_TRACE_READER_H
+#define REPLAY_TRACE_READER_H
+
+#include "capture/format/trace.h"
+
+struct trace_reader;
+
+/* What trace_value.sig points to. */
+struct trace_enum_sig {
+	uint32_t n;
+	const char **names;
+	int64_t *values;
+};
+struct trace_bitmask_sig {
+	uint32_t n;
+	const char **names;
+	uint64_t *values;
+};
+struct trace_struct_sig {
+	const char *name;
+	uint32_t n;
+	const char **members;
+};
+
+/**
+ * Open a trace and read its header.
+ * @return 0, ERR_INPUT (reported: missing, a folder, empty, a picture, not a trace, of a newer format) or ERR_SYSTEM
+ */
+int trace_reader_open(struct trace_reader **out, const char *path);
+void trace_reader_close(struct trace_reader **r);
+
+/**
+ * The next call.
+ * @param call  receives it; NULL unless 1 is returned
+ * @return 1; 0 at the end (a file that ends within an event is warned about once); ERR_INPUT (reported with the byte and
+ *         the call) where the bytes make no sense; ERR_SYSTEM. After 0 or an error every further call returns the same.
+ */
+int trace_reader_next(struct trace_reader *r, const struct call **call);
+
+/** A place between two calls, to come back to. */
+struct trace_place {
+	uint64_t piece;       /* in the file: begin of the container's piece that holds it; UINT64_MAX: no place to start at */
+	uint64_t piece_start; /* bytes of the unpacked stream before that piece */
+	uint64_t offset;      /* bytes of the unpacked stream before the place */
+	uint64_t number;      /* of the next call */
+};
+
+/** Where the reader is. @return 1; 0 where a call that was entered has not returned yet: one cannot come back here */
+int trace_reader_place(const struct trace_reader *r, struct trace_place *place);
+
+/**
+ * Signatures are defined where they are met first. All that the reader has met so far, as bytes.
+ * @param out, n  receive them; free with free()
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int trace_reader_signatures(const struct trace_reader *r, uint8_t **out, size_t *n);
+
+/**
+ * Go on from a place, forwards or backwards.
+ * @param signatures  of a reader of the same file that had come at least as far
+ * @return 0; ERR_INPUT (reported: the bytes are no signatures, or the file has no such place); ERR_SYSTEM
+ */
+int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, const uint8_t *signatures, size_t n);
+
+/** A property of the header ("process.name"), or NULL. */
+const char *trace_reader_property(const struct trace_reader *r, const char *name);
+
+/** The i-th property. @return 1, or 0 where there are no more */
+int trace_reader_property_at(const struct trace_reader *r, size_t i, const char **name, const char **value);
+
+/** 1 once the end has been met inside an event or chunk. */
+int trace_reader_is_cut(const struct trace_reader *r);
+
+/** Hash the file by the way, as container_hash_begin and container_hash_end do. */
+int trace_reader_hash_begin(struct trace_reader *r);
+int trace_reader_hash_end(struct trace_reader *r, uint64_t out[2]);
+
+/** Bytes of the file read so far, and its size. */
+uint64_t trace_reader_offset(const struct trace_reader *r);
+uint64_t trace_reader_size(const struct trace_reader *r);
+
+/** Name of an ENUM's value, or NULL where the signature has none. */
+const char *trace_enum_name(const struct trace_value *v);
+
+#endif

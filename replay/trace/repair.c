@@ -1,0 +1,100 @@
+/* relume repair: what is whole of a trace that was cut or damaged, as a trace of its own. */
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "base/err.h"
+#include "base/verbs.h"
+#include "replay/machine/exec.h"
+#include "replay/trace/reader.h"
+#include "replay/trace/trace_out.h"
+
+static const char help[] =
+	"usage: relume repair -o NEW TRACE\n"
+	"\n"
+	"Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: every call up\n"
+	"to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. What follows\n"
+	"damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes readable but\n"
+	"changes what they say goes unnoticed, as recordings hold no checksums.\n"
+	"\n"
+	"  -o, --output FILE  the recording to write; it appears when it is whole\n"
+	"  -h, --help         this text\n"
+	"\n"
+	"Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n";
+
+struct saved {
+	uint64_t calls, frames;
+	uint64_t bytes; /* of the unpacked stream, to the end of the last call that is kept */
+};
+
+/* @return 0 at the end of what can be read, or ERR_SYSTEM */
+static int save_calls(struct trace_reader *r, struct trace_out *out, struct saved *saved)
+{
+	struct trace_place place;
+	const struct call *call;
+	int rc;
+
+	while ((rc = trace_reader_next(r, &call)) == 1) {
+		if (call->incomplete)
+			continue;
+		rc = trace_out_call(out, call);
+		if (rc)
+			return rc;
+		trace_reader_place(r, &place);
+		saved->calls++;
+		saved->frames += call->sig->command >= 0 && gls_commands[call->sig->command].drawing == GLS_ENDS;
+		saved->bytes = place.offset;
+	}
+	return rc == ERR_SYSTEM ? rc : 0;
+}
+
+static int repair(const char *path, const char *new)
+{
+	struct saved saved = { 0 };
+	struct trace_reader *r = NULL;
+	struct trace_out *out = NULL;
+	struct trace_place end;
+	uint64_t unread, unfinished;
+	int rc = trace_reader_open(&r, path);
+
+	if (!rc)
+		rc = trace_out_open(&out, new, path, r);
+	if (!rc)
+		rc = save_calls(r, out, &saved);
+	if (!rc && saved.calls == 0)
+		rc = err_report(ERR_INPUT, path, "no call of it is whole; there is nothing to save");
+	if (!rc)
+		rc = trace_out_finish(&out, NULL);
+	if (!rc) {
+		trace_reader_place(r, &end);
+		unread = trace_reader_size(r) - trace_reader_offset(r);
+		unfinished = end.number > saved.calls ? end.number - saved.calls : 0;
+		printf("kept  %" PRIu64 " calls, %" PRIu64 " frames, %" PRIu64 " bytes unpacked\n", saved.calls, saved.frames, saved.bytes);
+		printf("lost  %" PRIu64 " calls that had not returned, %" PRIu64 " bytes unpacked, and %" PRIu64 " of the file's %" PRIu64
+		       " bytes that cannot be read\n",
+		       unfinished, end.offset - saved.bytes, unread, trace_reader_size(r));
+	}
+	trace_out_drop(&out);
+	trace_reader_close(&r);
+	return rc;
+}
+
+int repair_main(int argc, char **argv)
+{
+	static const struct option options[] = {
+		{ "output", required_argument, NULL, 'o' }, { "help", no_argument, NULL, 'h' }, { 0 },
+	};
+	const char *new = NULL;
+	int opt;
+
+	while ((opt = getopt_long(argc, argv, "o:h", options, NULL)) != -1) {
+		switch (opt) {
+		case 'o': new = optarg; break;
+		case 'h': fputs(help, stdout); return 0;
+		default: return -ERR_USAGE;
+		}
+	}
+	if (argc - optind != 1 || !new)
+		return -err_report(ERR_USAGE, NULL, "repair takes one trace and -o with the file to write; 'relume help repair' says more");
+	return -repair(argv[optind], new);
+}

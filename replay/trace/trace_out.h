@@ -1,0 +1,41 @@
+/*
+ * Writes calls that a reader delivered as a new trace: format 6 in Snappy chunks of 1 MiB (capture/format/trace.md), whatever the
+ * trace that they come from was packed in.
+ *
+ * Calls are numbered anew from 0, in the order in which they are handed over, and stand whole: what came with a call's return is
+ * written with its arguments, as the reader has put it together. Stack traces are not kept. The file appears under its name when
+ * it is finished (base/part.h).
+ *
+ * The recorder has a writer of its own (capture/write/writer.h), for the calls of a running program: it encodes values of C out of
+ * generated tables, where this one encodes values that know their type, with names from the trace.
+ */
+#ifndef REPLAY_TRACE_TRACE_OUT_H
+#define REPLAY_TRACE_TRACE_OUT_H
+
+#include "replay/trace/reader.h"
+
+struct trace_out;
+
+/**
+ * Begin a trace, with the properties of the one that is read.
+ * @return 0, ERR_USAGE (reported: both are one file) or ERR_SYSTEM (reported)
+ */
+int trace_out_open(struct trace_out **out, const char *path, const char *from_path, const struct trace_reader *from);
+
+/**
+ * Write a call. Signatures are known by their address: those of one reader, which must live as long as the writer.
+ * @return 0 or ERR_SYSTEM (reported: the disk, memory); then every further call returns the same
+ */
+int trace_out_call(struct trace_out *o, const struct call *call);
+
+/**
+ * Finish the file and give it its name. Closes the writer in any case.
+ * @param bytes  receives the size of the file; may be NULL
+ * @return 0 or ERR_SYSTEM (reported; no file is left)
+ */
+int trace_out_finish(struct trace_out **out, uint64_t *bytes);
+
+/** Give up: no file is left. */
+void trace_out_drop(struct trace_out **out);
+
+#endif

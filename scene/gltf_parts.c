@@ -1,0 +1,506 @@
+#include "scene/gltf_parts.h"
+
+#include <math.h>
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "base/mat4.h"
+
+/* Append one item to a growing array; its number, or SCENE_NONE out of memory. */
+#define PUSH(g, array, value) \
+	(grow((g), (void **)&(g)->array, (g)->n_##array, sizeof(*(g)->array)) ? SCENE_NONE : ((g)->array[(g)->n_##array] = (value), (g)->n_##array++))
+
+static int grow(struct gltf *g, void **items, uint32_t n, size_t size)
+{
+	void *grown;
+
+	if (g->failed || (n & (n - 1)) || n == 1u << 31)
+		return g->failed; /* room is the next power of two */
+	grown = realloc(*items, (n ? 2 * (size_t)n : 1) * size);
+	if (!grown)
+		return g->failed = 1;
+	*items = grown;
+	return 0;
+}
+
+/* Room for a piece, at a multiple of 4 bytes; NULL out of memory. Valid until the next call. */
+static void *put_piece(struct gltf *g, size_t n, uint32_t target, uint32_t *number)
+{
+	size_t at = (g->n_bytes + 3) & ~(size_t)3;
+
+	if (at + n > g->room) {
+		size_t room = at + n + g->room;
+		uint8_t *grown = realloc(g->bytes, room);
+		if (!grown) {
+			g->failed = 1;
+			return NULL;
+		}
+		g->bytes = grown;
+		g->room = room;
+	}
+	memset(g->bytes + g->n_bytes, 0, at - g->n_bytes);
+	g->n_bytes = at + n;
+	*number = PUSH(g, pieces, ((struct gltf_piece){ at, n, target }));
+	return g->failed ? NULL : g->bytes + at;
+}
+
+/* The piece made last needs fewer bytes. */
+static void shrink_piece(struct gltf *g, uint32_t piece, size_t n)
+{
+	g->pieces[piece].n_bytes = n;
+	g->n_bytes = g->pieces[piece].offset + n;
+}
+
+/* ---- numbers ---- */
+
+float gltf_linear(float v)
+{
+	v = v < 0 ? 0 : v > 1 ? 1 : v;
+	return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
+}
+
+static float determinant(const float m[16])
+{
+	return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) + m[8] * (m[1] * m[6] - m[5] * m[2]);
+}
+
+/* Whether a matrix is a translation, rotation and scale: columns at right angles, none zero, last row 0 0 0 1. */
+static int is_trs(const float m[16])
+{
+	if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+		return 0;
+	for (int i = 0; i < 3; i++) {
+		const float *a = m + 4 * i, *b = m + 4 * ((i + 1) % 3);
+		float aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+		float ab = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+		if (!(aa > 0) || !isfinite(aa) || ab * ab > 1e-8f * aa * bb)
+			return 0;
+	}
+	return isfinite(m[12]) && isfinite(m[13]) && isfinite(m[14]);
+}
+
+/* All vertices have w = 1, so that a node's matrix can move them. */
+static int is_affine(const struct scene_mesh *m)
+{
+	for (uint32_t v = 0; v < m->vertex_count; v++)
+		if (m->position[4 * v + 3] != 1)
+			return 0;
+	return 1;
+}
+
+void gltf_normalise(float v[3])
+{
+	float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+
+	if (length > 0 && isfinite(length)) {
+		for (int i = 0; i < 3; i++)
+			v[i] /= length;
+	} else {
+		v[0] = v[1] = 0;
+		v[2] = 1;
+	}
+}
+
+/* ---- vertices ---- */
+
+static uint32_t put_accessor(struct gltf *g, uint32_t piece, uint32_t component, uint32_t count, const char *type)
+{
+	return PUSH(g, accessors, ((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
+}
+
+/* Positions, in object space or baked into eye space; a vertex at infinity or behind becomes NaN, for put_indices to see. */
+static uint32_t put_positions(struct gltf *g, const struct scene_mesh *m, const float *baked)
+{
+	uint32_t piece, number;
+	float *out = put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece);
+	struct gltf_accessor *a;
+
+	if (!out)
+		return SCENE_NONE;
+	for (uint32_t v = 0; v < m->vertex_count; v++) {
+		float p[4];
+		memcpy(p, m->position + 4 * (size_t)v, sizeof(p));
+		if (baked)
+			mat4_transform(p, baked, m->position + 4 * (size_t)v);
+		for (int i = 0; i < 3; i++)
+			out[3 * (size_t)v + i] = p[3] > 0 && isfinite(p[i] / p[3]) ? p[i] / p[3] : NAN;
+	}
+	number = put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC3");
+	if (number == SCENE_NONE)
+		return SCENE_NONE;
+	a = &g->accessors[number];
+	a->has_bounds = 1;
+	for (int i = 0; i < 3; i++)
+		a->min[i] = INFINITY, a->max[i] = -INFINITY;
+	out = (float *)(void *)(g->bytes + g->pieces[piece].offset);
+	for (uint32_t v = 0; v < m->vertex_count; v++)
+		for (int i = 0; i < 3; i++) {
+			a->min[i] = fminf(a->min[i], out[3 * (size_t)v + i]);
+			a->max[i] = fmaxf(a->max[i], out[3 * (size_t)v + i]);
+		}
+	return number;
+}
+
+static uint32_t put_normals(struct gltf *g, const struct scene_mesh *m, const float current[4], const float *baked)
+{
+	uint32_t piece;
+	float *out = put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece), inverse[16];
+
+	if (!out)
+		return SCENE_NONE;
+	if (baked)
+		mat4_invert(inverse, baked);
+	for (uint32_t v = 0; v < m->vertex_count; v++) {
+		const float *n = m->normal ? m->normal + 3 * (size_t)v : current;
+		float object[4] = { n[0], n[1], n[2], 0 }, eye[4];
+		if (baked)
+			mat4_transform_plane(eye, object, inverse); /* GL 2.1 sec. 2.11.3 */
+		memcpy(out + 3 * (size_t)v, baked ? eye : object, 12);
+		gltf_normalise(out + 3 * (size_t)v);
+	}
+	return put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC3");
+}
+
+static uint32_t put_colors(struct gltf *g, const struct scene_mesh *m)
+{
+	uint32_t piece;
+	float *out = put_piece(g, (size_t)m->vertex_count * 16, GLTF_VERTICES, &piece);
+
+	if (!out)
+		return SCENE_NONE;
+	for (size_t i = 0; i < 4 * (size_t)m->vertex_count; i++) {
+		float c = fminf(fmaxf(m->color[i], 0), 1);
+		out[i] = i % 4 == 3 ? c : gltf_linear(c);
+	}
+	return put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC4");
+}
+
+/* Texture coordinates after the texture matrix; those of a rectangle texture count texels (ARB_texture_rectangle). */
+static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const struct scene_unit *u, const float current[4])
+{
+	const struct scene_texture *t = g->s->textures[u->texture];
+	float size[2] = { 1, 1 };
+	uint32_t piece;
+	float *out = put_piece(g, (size_t)m->vertex_count * 8, GLTF_VERTICES, &piece);
+
+	if (!out)
+		return SCENE_NONE;
+	if (t->target == GL_TEXTURE_RECTANGLE) {
+		size[0] = (float)t->width;
+		size[1] = (float)t->height;
+	}
+	for (uint32_t v = 0; v < m->vertex_count; v++) {
+		float p[4];
+		mat4_transform(p, u->matrix, m->texcoord[u->unit] ? m->texcoord[u->unit] + 4 * (size_t)v : current);
+		for (int i = 0; i < 2; i++)
+			out[2 * (size_t)v + i] = isfinite(p[i] / p[3]) ? p[i] / p[3] / size[i] : 0;
+	}
+	return put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC2");
+}
+
+/*
+ * The primitives all of whose vertices are finite; the others are counted. Triangles with one corner twice cover nothing
+ * and are left out. `flipped` turns triangles over.
+ */
+static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t position, int flipped)
+{
+	uint32_t piece, n = 0, k = (uint32_t)m->kind;
+	uint32_t *out = put_piece(g, (size_t)m->primitive_count * k * 4, GLTF_INDICES, &piece);
+	const float *p;
+
+	if (!out)
+		return SCENE_NONE;
+	p = (const float *)(const void *)(g->bytes + g->pieces[g->accessors[position].piece].offset);
+	for (uint32_t i = 0; i < m->primitive_count; i++) {
+		const uint32_t *v = m->index + (size_t)i * k;
+		int finite = 1;
+		for (uint32_t c = 0; c < k; c++)
+			for (int axis = 0; axis < 3; axis++)
+				finite &= isfinite(p[3 * (size_t)v[c] + axis]) != 0;
+		if (!finite) {
+			g->losses->infinite += k;
+			continue;
+		}
+		if (k == 3 && (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]))
+			continue;
+		for (uint32_t c = 0; c < k; c++)
+			out[n++] = v[flipped && c ? k - c : c];
+	}
+	shrink_piece(g, piece, (size_t)n * 4);
+	return n ? put_accessor(g, piece, GL_UNSIGNED_INT, n, "SCALAR") : SCENE_NONE;
+}
+
+/* Vertices that are part of no primitive may be what is not finite; glTF wants numbers. */
+static void mend_positions(struct gltf *g, uint32_t position)
+{
+	const struct gltf_accessor *a = &g->accessors[position];
+	float *p = (float *)(void *)(g->bytes + g->pieces[a->piece].offset);
+
+	for (size_t i = 0; i < 3 * (size_t)a->count; i++)
+		if (!isfinite(p[i]))
+			p[i] = a->min[i % 3];
+}
+
+/* ---- materials ---- */
+
+/* Four floats as a colour of four bytes. */
+static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
+{
+	const float *v = (const float *)(const void *)t->texels;
+
+	for (size_t i = 0; i < 4 * n; i++)
+		out[i] = (uint8_t)(v[i] > 0 ? v[i] < 1 ? v[i] * 255 + 0.5f : 255 : 0);
+}
+
+/* Level 0 as PNG. */
+static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
+{
+	uint32_t w = t->width + 2 * t->border, piece;
+	size_t texels = (size_t)w * (t->height + 2 * t->border);
+	uint8_t *clamped = t->floats ? malloc(4 * texels) : NULL;
+	const uint8_t *first = (clamped ? clamped : t->texels) + 4 * ((size_t)t->border * w + t->border);
+	png_image png = { .version = PNG_IMAGE_VERSION, .width = t->width, .height = t->height, .format = PNG_FORMAT_RGBA };
+	png_alloc_size_t n = PNG_IMAGE_PNG_SIZE_MAX(png);
+	void *out = put_piece(g, n, 0, &piece);
+	int wrong;
+
+	if (clamped)
+		clamp_texels(t, texels, clamped);
+	wrong = !out || (t->floats && !clamped) || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL);
+	free(clamped);
+	if (wrong) {
+		g->failed = 1;
+		return SCENE_NONE;
+	}
+	shrink_piece(g, piece, n);
+	return piece;
+}
+
+/* The number of a unit's texture with its sampler; its picture is stored once. */
+static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
+{
+	struct gltf_sampled s = { u->texture, SCENE_NONE, u->wrap_s, u->wrap_t, u->min_filter, u->mag_filter };
+
+	for (uint32_t i = 0; i < g->n_sampled; i++) {
+		if (g->sampled[i].texture != s.texture)
+			continue;
+		s.piece = g->sampled[i].piece;
+		if (memcmp(&g->sampled[i], &s, sizeof(s)) == 0)
+			return i;
+	}
+	if (s.piece == SCENE_NONE)
+		s.piece = put_image(g, g->s->textures[s.texture]);
+	return PUSH(g, sampled, s);
+}
+
+/* The unit that glTF can show: the first with a 2D image and coordinates of its own. NULL: none. */
+static const struct scene_unit *shown_unit(struct gltf *g, const struct scene_material *m)
+{
+	const struct scene_unit *found = NULL;
+
+	for (uint32_t i = 0; i < m->unit_count && !found; i++) {
+		const struct scene_unit *u = &g->s->units[m->unit_first + i];
+		uint32_t target = g->s->textures[u->texture]->target, depth = g->s->textures[u->texture]->base_format;
+		if ((target != GL_TEXTURE_2D && target != GL_TEXTURE_RECTANGLE) || depth == GL_DEPTH_COMPONENT)
+			continue;
+		if (u->gen_mode[0] || u->gen_mode[1])
+			g->losses->texgen++;
+		else
+			found = u;
+	}
+	g->losses->more_units += m->unit_count > 1;
+	return found;
+}
+
+static uint32_t put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
+                         int vertex_colors)
+{
+	struct gltf_look look;
+	const struct scene_face *f = &m->front;
+	float base[4] = { 1, 1, 1, 1 };
+
+	memset(&look, 0, sizeof(look)); /* looks are compared by their bytes */
+	if (m->lighting && !m->color_material)
+		memcpy(base, f->diffuse, sizeof(base));
+	else if (!vertex_colors)
+		memcpy(base, color, sizeof(base));
+	for (int i = 0; i < 3; i++) {
+		look.base[i] = gltf_linear(base[i]);
+		look.emissive[i] = m->lighting ? gltf_linear(f->emission[i]) : 0;
+	}
+	look.base[3] = fminf(fmaxf(base[3], 0), 1);
+	look.unlit = !m->lighting;
+	look.roughness = powf(2 / (fmaxf(f->shininess, 0) + 2), 0.25f);
+	if (f->specular[0] + f->specular[1] + f->specular[2] == 0)
+		look.roughness = 1;
+	if (m->surface.reflect > 0 || m->surface.transmit > 0)
+		look.roughness = 0;
+	look.metallic = fminf(m->surface.reflect, 1);
+	look.transmission = fminf(m->surface.transmit, 1);
+	look.ior = look.transmission > 0 && m->surface.ior >= 1 ? m->surface.ior : 1;
+	look.blend = m->blend != 0;
+	look.mask = !look.blend && m->alpha_test && (m->alpha_func == GL_GREATER || m->alpha_func == GL_GEQUAL);
+	look.cutoff = look.mask ? m->alpha_ref : 0;
+	look.double_sided = !m->cull_face;
+	look.texture = unit ? put_sampled(g, unit) : SCENE_NONE;
+	g->losses->blended += look.blend && (m->blend_src_rgb != GL_SRC_ALPHA || m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA);
+	g->losses->fogged += m->fog != 0;
+	for (uint32_t i = 0; i < g->n_looks; i++)
+		if (memcmp(&g->looks[i], &look, sizeof(look)) == 0)
+			return i;
+	return PUSH(g, looks, look);
+}
+
+/* ---- parts ---- */
+
+static int writes_color(const struct scene_material *m)
+{
+	return (m->color_mask & 7) && m->cull_face != GL_FRONT_AND_BACK;
+}
+
+/* The glTF mesh of an instance: one made before where all that goes into it is the same. */
+static uint32_t put_part(struct gltf *g, uint32_t number)
+{
+	const struct scene_instance *in = &g->s->instances[number];
+	const struct scene_mesh *m = g->s->meshes[in->mesh];
+	const struct scene_material *mat = &g->s->materials[in->material];
+	const struct scene_current *cur = &g->s->currents[in->current];
+	int as_node = is_trs(in->modelview) && is_affine(m);
+	const float *baked = as_node ? NULL : in->modelview;
+	struct gltf_part p = { .mesh = in->mesh, .material = in->material, .current = in->current, .baked = as_node ? SCENE_NONE : number,
+		          .normal = SCENE_NONE, .color = SCENE_NONE, .texcoord = SCENE_NONE };
+	const struct scene_unit *unit;
+	int vertex_colors;
+
+	/* A node's mirroring matrix turns front faces over in glTF (sec. 3.7.4), but not in GL, which looks at the window. */
+	p.flipped = (mat->front_face == GL_CW) != (as_node && determinant(in->modelview) < 0);
+	for (uint32_t i = 0; i < g->n_parts; i++)
+		if (memcmp(&g->parts[i], &p, offsetof(struct gltf_part, position)) == 0)
+			return i;
+	unit = shown_unit(g, mat);
+	p.position = put_positions(g, m, baked);
+	if (p.position == SCENE_NONE)
+		return SCENE_NONE;
+	p.index = put_indices(g, m, p.position, m->kind == SCENE_TRIANGLES && p.flipped);
+	if (p.index == SCENE_NONE)
+		return SCENE_NONE;
+	mend_positions(g, p.position);
+	if (mat->lighting)
+		p.normal = put_normals(g, m, cur->normal, baked);
+	vertex_colors = m->color && (!mat->lighting || mat->color_material);
+	if (vertex_colors)
+		p.color = put_colors(g, m);
+	if (unit)
+		p.texcoord = put_texcoords(g, m, unit, cur->texcoord[unit->unit]);
+	p.look = put_look(g, mat, unit, cur->color, vertex_colors);
+	return PUSH(g, parts, p);
+}
+
+/* ---- nodes ---- */
+
+/* A perspective (1) or parallel (2) projection along -z, as Frustum and Ortho make them; 0: anything else. */
+int gltf_camera_kind(const float p[16])
+{
+	if (p[11] == -1 && p[15] == 0 && p[0] > 0 && p[5] > 0 && p[10] < -1)
+		return 1;
+	return p[11] == 0 && p[15] == 1 && p[0] > 0 && p[5] > 0 && p[10] < 0 ? 2 : 0;
+}
+
+static void put_instances(struct gltf *g, struct gltf_space *space)
+{
+	double middle[3] = { 0 }, weight = 0;
+
+	for (uint32_t i = 0; i < g->s->n_instances && !g->failed; i++) {
+		const struct scene_instance *in = &g->s->instances[i];
+		const struct gltf_accessor *a;
+		uint32_t part;
+		if (g->s->views[in->view].space != space->space)
+			continue;
+		if (!writes_color(&g->s->materials[in->material])) {
+			g->losses->no_color++;
+			continue;
+		}
+		part = put_part(g, i);
+		if (part == SCENE_NONE || PUSH(g, nodes, ((struct gltf_node){ GLTF_INSTANCE, i, part })) == SCENE_NONE)
+			continue;
+		space->n_primitives += g->s->meshes[in->mesh]->primitive_count;
+		a = &g->accessors[g->parts[part].position];
+		weight += a->count;
+		for (int k = 0; k < 3; k++) {
+			float box[4] = { (a->min[0] + a->max[0]) / 2, (a->min[1] + a->max[1]) / 2, (a->min[2] + a->max[2]) / 2, 1 }, eye[4];
+			mat4_transform(eye, g->parts[part].baked == SCENE_NONE ? in->modelview : mat4_identity, box);
+			middle[k] += (double)eye[k] * a->count;
+		}
+	}
+	for (int k = 0; k < 3; k++)
+		space->middle[k] = weight > 0 ? (float)(middle[k] / weight) : 0;
+}
+
+/* One camera for each projection of a space. */
+static void put_cameras(struct gltf *g, const struct gltf_space *space)
+{
+	for (uint32_t v = 0; v < g->s->n_views; v++) {
+		const struct scene_view *view = &g->s->views[v];
+		int seen = 0;
+		for (uint32_t i = space->node_first; i < g->n_nodes; i++)
+			seen |= g->nodes[i].kind == GLTF_CAMERA &&
+			        memcmp(g->s->views[g->nodes[i].index].projection, view->projection, sizeof(view->projection)) == 0;
+		if (view->space == space->space && !seen && gltf_camera_kind(view->projection))
+			PUSH(g, nodes, ((struct gltf_node){ GLTF_CAMERA, v, SCENE_NONE }));
+	}
+}
+
+/* Every light that something in the space is lit by, once. */
+static void put_lights(struct gltf *g, const struct gltf_space *space)
+{
+	uint32_t first = g->n_nodes;
+
+	for (uint32_t i = 0; i < g->s->n_instances; i++) {
+		const struct scene_instance *in = &g->s->instances[i];
+		const struct scene_material *m = &g->s->materials[in->material];
+		if (g->s->views[in->view].space != space->space || !m->lighting)
+			continue;
+		for (uint32_t l = m->light_first; l < m->light_first + m->light_count; l++) {
+			int seen = 0;
+			for (uint32_t k = first; k < g->n_nodes; k++)
+				seen |= memcmp(&g->s->lights[g->nodes[k].index], &g->s->lights[l], sizeof(g->s->lights[l])) == 0;
+			if (!seen)
+				PUSH(g, nodes, ((struct gltf_node){ GLTF_LIGHT, l, SCENE_NONE }));
+		}
+	}
+}
+
+void gltf_gather(struct gltf *g, const struct scene *s, struct gltf_losses *losses)
+{
+	*g = (struct gltf){ .s = s, .losses = losses };
+	*losses = (struct gltf_losses){ 0 };
+	for (uint32_t v = 0; v < s->n_views && !g->failed; v++) {
+		struct gltf_space space = { .space = s->views[v].space, .node_first = g->n_nodes };
+		int seen = 0;
+		for (uint32_t i = 0; i < v; i++)
+			seen |= s->views[i].space == space.space;
+		if (seen)
+			continue;
+		put_instances(g, &space);
+		if (!space.n_primitives)
+			continue;
+		put_cameras(g, &space);
+		put_lights(g, &space);
+		space.node_count = g->n_nodes - space.node_first;
+		PUSH(g, spaces, space);
+	}
+}
+
+void gltf_free(struct gltf *g)
+{
+	free(g->bytes);
+	free(g->pieces);
+	free(g->accessors);
+	free(g->looks);
+	free(g->sampled);
+	free(g->parts);
+	free(g->nodes);
+	free(g->spaces);
+}

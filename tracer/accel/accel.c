@@ -1,0 +1,481 @@
+#include "tracer/accel/accel.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "tracer/accel/bvh.h"
+#include "tracer/accel/soup.h"
+#include "tracer/accel/tlas.h"
+
+/*
+ * Trees are fitted to a mesh that moves from so many triangles on (below, building is as quick), as long as they cost at most so
+ * much more than when they were built.
+ */
+#define REFIT_TRIANGLES 256
+#define REFIT_COST 1.25
+/* Frames that a BLAS nobody used stays in the pools, and which share of them such ones may be: closing gaps moves all that follows. */
+#define KEEP_FRAMES 16
+#define UNUSED_SHARE 0.5
+
+/* Smaller ones each worker makes for itself: that is as quick as waiting for another one. */
+#define SHARE_TRIANGLES 256
+
+/* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
+struct blas {
+	uint64_t hash[2];
+	enum accel_kind kind;
+	int baked; /* of this frame only */
+	uint64_t last_use;
+	uint64_t fitted; /* frame in which its tree was fitted to another mesh */
+	size_t first[N_BOTTOM_PARTS];
+	struct bottom bottom; /* its parts are in the pools, not here */
+};
+
+struct accel_cache {
+	struct blas *entries;
+	size_t n, capacity;
+	size_t capacities[N_BOTTOM_PARTS]; /* of the pools */
+	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
+	size_t table_size;
+	uint64_t frame;
+};
+
+/* One of the pools of struct accel. */
+struct part {
+	void **items;
+	size_t *n;
+};
+
+static struct part part_of(struct accel *a, int part)
+{
+	const struct part parts[N_BOTTOM_PARTS] = {
+		[BOTTOM_NODES2] = { (void **)&a->nodes2, &a->n_nodes2 },
+		[BOTTOM_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
+		[BOTTOM_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
+		[BOTTOM_TRIANGLES8] = { (void **)&a->triangles8, &a->n_triangles8 },
+		[BOTTOM_FACES8] = { (void **)&a->faces8, &a->n_faces8 },
+		[BOTTOM_NODES8C] = { (void **)&a->nodes8c, &a->n_nodes8c },
+		[BOTTOM_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
+	};
+
+	return parts[part];
+}
+
+static int out_of_memory(void)
+{
+	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+}
+
+/* Make room for `more` items behind the first `n`. */
+static int grow_array(void **array, size_t *capacity, size_t n, size_t more, size_t item_bytes)
+{
+	size_t wanted = n + more;
+	void *grown;
+
+	if (wanted <= *capacity)
+		return 0;
+	wanted += wanted / 2;
+	grown = realloc(*array, wanted * item_bytes);
+	if (!grown)
+		return out_of_memory();
+	*array = grown;
+	*capacity = wanted;
+	return 0;
+}
+#define GROW(array, capacity, n, more) grow_array((void **)&(array), &(capacity), n, more, sizeof(*(array)))
+
+int accel_create(struct accel **out)
+{
+	struct accel *accel = calloc(1, sizeof(*accel));
+
+	if (accel)
+		accel->cache = calloc(1, sizeof(*accel->cache));
+	if (!accel || !accel->cache) {
+		free(accel);
+		return out_of_memory();
+	}
+	accel->wide = ACCEL_ROWS;
+	*out = accel;
+	return 0;
+}
+
+void accel_destroy(struct accel **accel)
+{
+	struct accel *a = *accel;
+
+	*accel = NULL;
+	if (!a)
+		return;
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		free(*part_of(a, part).items);
+	free(a->top2);
+	free(a->top8);
+	free(a->instance_list);
+	free(a->spaces);
+	free(a->cache->entries);
+	free(a->cache->table);
+	free(a->cache);
+	free(a);
+}
+
+struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part)
+{
+	const struct part pool = part_of((struct accel *)accel, part);
+
+	return (struct accel_pool){ *pool.items, *pool.n, accel->same[part] };
+}
+
+void accel_copied(struct accel *accel)
+{
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		accel->same[part] = *part_of(accel, part).n;
+}
+
+/* --- finding BLASes --- */
+
+static size_t table_slot(const struct accel_cache *cache, const uint64_t hash[2])
+{
+	return (size_t)(hash[0] ^ hash[1] * 0x9e3779b97f4a7c15u) & (cache->table_size - 1);
+}
+
+static void table_insert(struct accel_cache *cache, uint32_t entry)
+{
+	size_t slot = table_slot(cache, cache->entries[entry].hash);
+
+	while (cache->table[slot] != SCENE_NONE)
+		slot = (slot + 1) & (cache->table_size - 1);
+	cache->table[slot] = entry;
+}
+
+static int table_rebuild(struct accel_cache *cache)
+{
+	size_t size = 64;
+
+	while (size < 4 * cache->n)
+		size *= 2;
+	if (size > cache->table_size) {
+		uint32_t *table = realloc(cache->table, size * sizeof(*table));
+
+		if (!table)
+			return out_of_memory();
+		cache->table = table;
+		cache->table_size = size;
+	}
+	memset(cache->table, 0xff, cache->table_size * sizeof(*cache->table));
+	for (size_t i = 0; i < cache->n; i++)
+		if (!cache->entries[i].baked)
+			table_insert(cache, (uint32_t)i);
+	return 0;
+}
+
+static struct blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2], enum accel_kind kind)
+{
+	if (!cache->table_size)
+		return NULL;
+	for (size_t slot = table_slot(cache, hash);; slot = (slot + 1) & (cache->table_size - 1)) {
+		uint32_t entry = cache->table[slot];
+
+		if (entry == SCENE_NONE)
+			return NULL;
+		if (cache->entries[entry].kind == kind && memcmp(cache->entries[entry].hash, hash, 2 * sizeof(*hash)) == 0)
+			return &cache->entries[entry];
+	}
+}
+
+/* Move a BLAS down to the ends of what is kept, and these up by it. */
+static void move_down(struct accel *accel, struct blas *blas, size_t ends[N_BOTTOM_PARTS])
+{
+	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
+		const size_t bytes = bottom_item_bytes[part], n = blas->bottom.n[part];
+		char *items = *part_of(accel, part).items;
+
+		if (n && blas->first[part] != ends[part]) {
+			memmove(items + ends[part] * bytes, items + blas->first[part] * bytes, n * bytes);
+			accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
+		}
+		blas->first[part] = ends[part];
+		ends[part] += n;
+	}
+}
+
+/* Is there much that was not used for a while? */
+static int much_is_unused(const struct accel *accel)
+{
+	const struct accel_cache *cache = accel->cache;
+	size_t unused = 0;
+
+	for (size_t i = 0; i < cache->n; i++)
+		if (cache->entries[i].last_use + KEEP_FRAMES < cache->frame)
+			unused += cache->entries[i].bottom.n[BOTTOM_TRIANGLES];
+	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
+}
+
+/* Take out what was not used for a while where that is much, and what was baked for the last frame; close the gaps. */
+static int drop_unused(struct accel *accel)
+{
+	struct accel_cache *cache = accel->cache;
+	const int drop = much_is_unused(accel);
+	size_t n = 0, ends[N_BOTTOM_PARTS] = { 0 };
+
+	for (size_t i = 0; i < cache->n; i++) {
+		struct blas b = cache->entries[i];
+
+		if (b.baked || (drop && b.last_use + KEEP_FRAMES < cache->frame))
+			continue;
+		move_down(accel, &b, ends);
+		cache->entries[n++] = b;
+	}
+	if (n == cache->n)
+		return 0;
+	cache->n = n;
+	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
+		*part_of(accel, part).n = ends[part];
+		accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
+	}
+	accel->generation++;
+	return table_rebuild(cache);
+}
+
+/* --- building BLASes --- */
+
+/* Copy a bottom level to the ends of the pools. */
+static int append(struct accel *accel, const struct bottom *bottom, struct blas *blas)
+{
+	int err = 0;
+
+	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++) {
+		const struct part pool = part_of(accel, part);
+		const size_t bytes = bottom_item_bytes[part];
+
+		blas->first[part] = *pool.n;
+		err = grow_array(pool.items, &accel->cache->capacities[part], *pool.n, bottom->n[part], bytes);
+		if (!err && bottom->n[part])
+			memcpy((char *)*pool.items + *pool.n * bytes, bottom->parts[part], bottom->n[part] * bytes);
+	}
+	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++)
+		*part_of(accel, part).n += bottom->n[part];
+	blas->bottom = *bottom;
+	memset(blas->bottom.parts, 0, sizeof(blas->bottom.parts));
+	return err;
+}
+
+/* By what a mesh of the same triangles with other vertices is known; 0 0 where no tree is to be fitted to it. */
+static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
+{
+	XXH128_hash_t hash;
+
+	out[0] = out[1] = 0;
+	if (soup->n < REFIT_TRIANGLES || soup->n != mesh->primitive_count || !soup->bounded)
+		return;
+	hash = XXH3_128bits(mesh->index, 3 * (size_t)mesh->primitive_count * sizeof(*mesh->index));
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+}
+
+/*
+ * The tree to fit to a mesh that nobody has seen: one of the same triangles, not used in this frame, used last before. Where there are
+ * several, meshes find theirs in the order in which they were first drawn, each its own. NULL: there is none.
+ */
+static struct blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
+{
+	struct blas *best = NULL;
+
+	if (!(topology[0] | topology[1]))
+		return NULL;
+	for (size_t i = 0; i < cache->n; i++) {
+		struct blas *b = &cache->entries[i];
+
+		if (b->kind == kind && b->bottom.topology[0] == topology[0] && b->bottom.topology[1] == topology[1] && b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
+			best = b;
+	}
+	if (best)
+		best->fitted = cache->frame;
+	return best;
+}
+
+/* The tree of a mesh whose vertices have moved. *out is empty where it is better built. */
+static int refit(const struct accel *accel, const struct blas *moved, const struct soup *soup, struct tree *out)
+{
+	const struct triangle *triangles = accel->triangles + moved->first[BOTTOM_TRIANGLES];
+	const size_t n = moved->bottom.n[BOTTOM_TRIANGLES];
+	struct tree old = { accel->nodes2 + moved->first[BOTTOM_NODES2], malloc(n * sizeof(*old.order)),
+		            (uint32_t)moved->bottom.n[BOTTOM_NODES2], (uint32_t)n };
+	int err;
+
+	if (!old.order)
+		return out_of_memory();
+	for (uint32_t i = 0; i < old.n_order; i++)
+		old.order[i] = triangles[i].primitive; /* none was left out */
+	err = tree_refit(&old, soup, REFIT_COST * moved->bottom.built_cost, out);
+	free(old.order);
+	return err;
+}
+
+/* What a BLAS is asked for. */
+struct order {
+	const struct scene_mesh *mesh;
+	const float (*positions)[4];
+	int baked, of_frame; /* of_frame: the mesh lives for this frame only */
+	enum accel_kind kind;
+};
+
+/*
+ * A tree for a soup: fitted, found or built. What moves gets a binned tree, quick to build, and is not kept on disk.
+ * @param own  receives 1 where it depends on what this accel saw before
+ */
+static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct bottom *bottom, struct tree *out,
+                     int *own)
+{
+	struct blas *moved = find_moved(accel->cache, order->kind, bottom->topology);
+	int err = moved ? refit(accel, moved, soup, out) : 0;
+
+	*own = moved != NULL;
+	if (err)
+		return err;
+	if (out->nodes) {
+		bottom->built_cost = moved->bottom.built_cost;
+		accel->n_fitted++;
+		return 0;
+	}
+	accel->n_made++;
+	err = tree_make(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
+	if (!err && (bottom->topology[0] | bottom->topology[1]))
+		bottom->built_cost = bvh_cost(out->nodes, out->n_nodes);
+	return err;
+}
+
+/* @param out, own  as of find_tree; *out to be freed, also after an error */
+static int make_bottom(struct accel *accel, const struct order *order, struct bottom *out, int *own)
+{
+	struct soup soup;
+	struct tree tree = { NULL };
+	int err = soup_make(order->mesh, order->positions, &soup);
+
+	if (!err && !order->of_frame)
+		find_topology(order->mesh, &soup, out->topology);
+	if (!err)
+		err = find_tree(accel, &soup, order, out, &tree, own);
+	if (!err)
+		err = bottom_make(&soup, &tree, accel->wide, out);
+	tree_free(&tree);
+	soup_free(&soup);
+	return err;
+}
+
+/* Into the pools, from what all workers share or for this one alone. */
+static int place_bottom(struct accel *accel, const struct order *order, struct blas *blas)
+{
+	struct grove *grove = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->grove;
+	const struct grove_key key = { { order->mesh->hash[0], order->mesh->hash[1] }, order->kind, accel->wide };
+	const struct bottom *shared = NULL;
+	struct bottom bottom = { .n = { 0 } };
+	int own = 0, err = grove ? grove_take(grove, &key, &shared) : 0;
+
+	if (err)
+		return err;
+	if (!shared) {
+		err = make_bottom(accel, order, &bottom, &own);
+		if (grove && (err || own))
+			grove_abandon(grove, &key);
+		else if (grove)
+			shared = grove_give(grove, &key, &bottom);
+	}
+	if (!err)
+		err = append(accel, shared ? shared : &bottom, blas);
+	if (shared)
+		grove_release(grove, shared);
+	bottom_free(&bottom);
+	return err;
+}
+
+static int build_blas(struct accel *accel, const struct order *order, struct blas **out)
+{
+	struct accel_cache *cache = accel->cache;
+	struct blas blas = { .baked = order->baked, .kind = order->kind };
+	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
+
+	memcpy(blas.hash, order->mesh->hash, sizeof(blas.hash));
+	if (!err)
+		err = place_bottom(accel, order, &blas);
+	if (err)
+		return err;
+	accel->generation++;
+	*out = &cache->entries[cache->n];
+	cache->entries[cache->n++] = blas;
+	if (order->baked)
+		return 0;
+	if (4 * cache->n > cache->table_size)
+		return table_rebuild(cache);
+	table_insert(cache, (uint32_t)(cache->n - 1));
+	return 0;
+}
+
+/* Does its mesh live for one frame only? */
+static int is_of_frame(const struct instance *instance)
+{
+	return (instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)) != 0;
+}
+
+static enum accel_kind accel_kind_of(const struct accel *accel, const struct instance *instance)
+{
+	return is_of_frame(instance) ? ACCEL_BVH : accel->kind;
+}
+
+/* The BLAS of one instance; its places go into the instance and its box, in BLAS space, to *box. */
+static int place_instance(struct accel *accel, const struct scene_mesh *mesh, const float (*eye_vertices)[4],
+                          struct instance *instance, struct bvh_box *box)
+{
+	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
+	const struct order order = { mesh, baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position, baked,
+		                     is_of_frame(instance), accel_kind_of(accel, instance) };
+	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash, order.kind);
+	int err = 0;
+
+	if (mesh->kind != SCENE_TRIANGLES)
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of lines or points was not expanded");
+	if (!blas)
+		err = build_blas(accel, &order, &blas);
+	if (err)
+		return err;
+	blas->last_use = accel->cache->frame;
+	instance->node2_first = (uint32_t)blas->first[BOTTOM_NODES2];
+	instance->node8_first = (uint32_t)blas->first[BOTTOM_NODES8];
+	instance->triangle_first = (uint32_t)blas->first[BOTTOM_TRIANGLES];
+	instance->triangle8_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8];
+	instance->node8c_first = (uint32_t)blas->first[BOTTOM_NODES8C];
+	instance->triangle8c_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8C];
+	*box = blas->bottom.box;
+	instance->radius = 0;
+	for (int a = 0; a < 3; a++) {
+		instance->centre[a] = 0.5f * (box->lo[a] + box->hi[a]);
+		instance->radius += 0.5f * (box->hi[a] - box->lo[a]);
+	}
+	return 0;
+}
+
+int accel_build_frame(struct accel *accel, const struct scene *scene, const struct scene_mesh *const *extra,
+                      const float (*eye_vertices)[4], struct instance *instances, uint32_t n, struct view *views,
+                      const struct accel_space **spaces, uint32_t *n_spaces)
+{
+	struct bvh_box *boxes = malloc((n + 1) * sizeof(*boxes));
+	int err = 0;
+
+	if (!boxes)
+		return out_of_memory();
+	accel->cache->frame++;
+	err = drop_unused(accel);
+	for (uint32_t i = 0; i < n && !err; i++) {
+		const struct scene_mesh *mesh = extra && extra[i] ? extra[i]
+			: scene->meshes[scene->instances[instances[i].scene_instance].mesh];
+
+		err = place_instance(accel, mesh, eye_vertices, &instances[i], &boxes[i]);
+	}
+	if (!err)
+		err = tops_build(accel, scene, instances, n, boxes, views);
+	free(boxes);
+	*spaces = accel->spaces;
+	*n_spaces = (uint32_t)accel->n_spaces;
+	return err;
+}

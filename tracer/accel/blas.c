@@ -1,0 +1,138 @@
+#include "tracer/accel/blas.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "scene/scene.h"
+
+const size_t bottom_item_bytes[N_BOTTOM_PARTS] = {
+	[BOTTOM_NODES2] = sizeof(struct node2),   [BOTTOM_TRIANGLES] = sizeof(struct triangle),
+	[BOTTOM_NODES8] = sizeof(struct node8),   [BOTTOM_TRIANGLES8] = sizeof(struct triangle8),
+	[BOTTOM_FACES8] = sizeof(struct face8),
+	[BOTTOM_NODES8C] = sizeof(struct node8c), [BOTTOM_TRIANGLES8C] = sizeof(struct triangle),
+};
+
+/* Room for n items of a part, none of them set. @return NULL: there is none (reported) */
+static void *make_part(struct bottom *bottom, enum bottom_part part, size_t n)
+{
+	bottom->n[part] = n;
+	bottom->parts[part] = malloc(n * bottom_item_bytes[part] + 1);
+	if (!bottom->parts[part])
+		err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+	return bottom->parts[part];
+}
+
+/* A part turned out to have fewer items. */
+static void cut_part(struct bottom *bottom, enum bottom_part part, size_t n)
+{
+	void *less = realloc(bottom->parts[part], n * bottom_item_bytes[part] + 1);
+
+	bottom->parts[part] = less ? less : bottom->parts[part];
+	bottom->n[part] = n;
+}
+
+static void set_triangle8(struct triangle8 *out, const struct triangle *triangles, uint32_t n)
+{
+	memset(out, 0, sizeof(*out));
+	for (uint32_t lane = 0; lane < 8; lane++) {
+		out->primitive[lane] = SCENE_NONE;
+		if (lane >= n)
+			continue;
+		for (int a = 0; a < 3; a++) {
+			out->v0[a][lane] = triangles[lane].v0[a];
+			out->e1[a][lane] = triangles[lane].e1[a];
+			out->e2[a][lane] = triangles[lane].e2[a];
+		}
+		out->primitive[lane] = triangles[lane].primitive;
+	}
+}
+
+static void set_face8(struct face8 *out, const struct triangle *triangles, uint32_t n)
+{
+	memset(out, 0, sizeof(*out));
+	for (uint32_t lane = 0; lane < 8; lane++) {
+		out->primitive[lane] = lane < n ? triangles[lane].primitive : SCENE_NONE;
+		for (int i = 0; i < 3 && lane < n; i++)
+			out->vertex[i][lane] = triangles[lane].vertex[i];
+	}
+}
+
+/* The eight-wide tree in rows. */
+static int make_rows(const struct tree *tree, struct bottom *bottom)
+{
+	const struct triangle *triangles = bottom->parts[BOTTOM_TRIANGLES];
+	uint32_t *first = malloc(2 * ((size_t)tree->n_order + 1) * sizeof(*first)), *count = first + tree->n_order + 1;
+	struct node8 *nodes = make_part(bottom, BOTTOM_NODES8, tree->n_nodes);
+	uint32_t n_nodes, n_blocks;
+	struct triangle8 *blocks;
+	struct face8 *faces;
+	int err = nodes ? 0 : ERR_SYSTEM;
+
+	if (!first)
+		err = err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
+	if (!err)
+		err = bvh_collapse8(tree->nodes, tree->n_nodes, BVH_BLOCKS, nodes, &n_nodes, first, count, &n_blocks);
+	if (err)
+		goto done;
+	cut_part(bottom, BOTTOM_NODES8, n_nodes);
+	blocks = make_part(bottom, BOTTOM_TRIANGLES8, n_blocks);
+	faces = make_part(bottom, BOTTOM_FACES8, n_blocks);
+	err = blocks && faces ? 0 : ERR_SYSTEM;
+	for (uint32_t i = 0; i < n_blocks && !err; i++) {
+		set_triangle8(&blocks[i], triangles + first[i], count[i]);
+		set_face8(&faces[i], triangles + first[i], count[i]);
+	}
+done:
+	free(first);
+	return err;
+}
+
+static int make_compressed(const struct tree *tree, struct bottom *bottom)
+{
+	struct node8c *nodes = make_part(bottom, BOTTOM_NODES8C, BVH_COMPRESSED_NODES(tree->n_nodes, tree->n_order));
+	struct triangle *triangles = make_part(bottom, BOTTOM_TRIANGLES8C, tree->n_order);
+	uint32_t n_nodes;
+	int err = nodes && triangles ? 0 : ERR_SYSTEM;
+
+	if (!err)
+		err = bvh_compress8(tree->nodes, tree->n_nodes, bottom->parts[BOTTOM_TRIANGLES], tree->n_order, nodes, &n_nodes, triangles);
+	if (!err)
+		cut_part(bottom, BOTTOM_NODES8C, n_nodes);
+	return err;
+}
+
+int bottom_make(const struct soup *soup, const struct tree *tree, unsigned wide, struct bottom *out)
+{
+	struct node2 *nodes = make_part(out, BOTTOM_NODES2, tree->n_nodes);
+	struct triangle *triangles = make_part(out, BOTTOM_TRIANGLES, tree->n_order);
+	int err = nodes && triangles ? 0 : ERR_SYSTEM;
+
+	if (err)
+		return err;
+	out->box = soup->box;
+	memcpy(nodes, tree->nodes, tree->n_nodes * sizeof(*nodes));
+	for (uint32_t i = 0; i < tree->n_order; i++)
+		triangles[i] = soup->triangles[tree->order[i]];
+	if (wide & ACCEL_ROWS)
+		err = make_rows(tree, out);
+	if (!err && wide & ACCEL_COMPRESSED)
+		err = make_compressed(tree, out);
+	return err;
+}
+
+void bottom_free(struct bottom *bottom)
+{
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		free(bottom->parts[part]);
+	*bottom = (struct bottom){ .n = { 0 } };
+}
+
+size_t bottom_bytes(const struct bottom *bottom)
+{
+	size_t bytes = 0;
+
+	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+		bytes += bottom->n[part] * bottom_item_bytes[part];
+	return bytes;
+}

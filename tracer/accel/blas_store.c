@@ -1,0 +1,250 @@
+#include "tracer/accel/blas_store.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/kept.h"
+#include "base/part.h"
+#include "tracer/accel/tree.h"
+
+#define SUFFIX ".tree"
+/* How much more is written before the folder is counted again, and how full it is afterwards, as shares of its bound. */
+#define COUNT_SHARE 16
+#define FULL_SHARE(most) ((most) / 4 * 3)
+
+/* A file's content: this, nodes, order. */
+struct counts {
+	uint32_t n_nodes, n_order;
+};
+
+struct store {
+	char folder[PATH_MAX - 96];
+	uint64_t most, added; /* added: bytes since the folder was counted last */
+	int counted, lost;    /* lost: nothing can be written */
+	pthread_mutex_t lock; /* of what is written, and of the fields above */
+};
+
+int store_open(const char *folder, uint64_t most, struct store **out)
+{
+	struct store *store = calloc(1, sizeof(*store));
+
+	*out = NULL;
+	if (!store)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (folder ? snprintf(store->folder, sizeof(store->folder), "%s", folder) >= (int)sizeof(store->folder)
+	           : !folder_cached("trees", store->folder, sizeof(store->folder))) {
+		free(store);
+		return folder ? err_report(ERR_SYSTEM, folder, "the name is too long") : 0;
+	}
+	store->most = most;
+	pthread_mutex_init(&store->lock, NULL);
+	*out = store;
+	return 0;
+}
+
+void store_close(struct store **store)
+{
+	if (*store)
+		pthread_mutex_destroy(&(*store)->lock);
+	free(*store);
+	*store = NULL;
+}
+
+static void path_of(const struct store *store, const struct store_key *key, char path[PATH_MAX])
+{
+	snprintf(path, PATH_MAX, "%s/%016llx%016llx-%u-%u" SUFFIX, store->folder, (unsigned long long)key->hash[0],
+	         (unsigned long long)key->hash[1], key->kind, key->version);
+}
+
+static size_t bytes_of(struct counts n)
+{
+	return sizeof(n) + n.n_nodes * sizeof(struct node2) + n.n_order * sizeof(uint32_t);
+}
+
+/* Of all that the content depends on: nodes of another layout or byte order are other ones. */
+static void hash_key(const struct store_key *key, uint64_t out[2])
+{
+	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
+	const XXH128_hash_t hash = XXH3_128bits(all, sizeof(all));
+
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+}
+
+/* --- Reading ------------------------------------------------------------------------------------------------------- */
+
+/* A file's content as a tree. @return 0: it is none */
+static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree *out)
+{
+	struct counts counts;
+
+	if (n < sizeof(counts))
+		return 0;
+	memcpy(&counts, bytes, sizeof(counts));
+	if (n != bytes_of(counts))
+		return 0;
+	*out = (struct tree){ malloc(counts.n_nodes * sizeof(*out->nodes) + 1), malloc(counts.n_order * sizeof(*out->order) + 1),
+		              counts.n_nodes, counts.n_order };
+	if (!out->nodes || !out->order)
+		return 0;
+	bytes += sizeof(counts);
+	memcpy(out->nodes, bytes, counts.n_nodes * sizeof(*out->nodes));
+	memcpy(out->order, bytes + counts.n_nodes * sizeof(*out->nodes), counts.n_order * sizeof(*out->order));
+	return tree_is_sound(out, n_triangles);
+}
+
+int store_load(struct store *store, const struct store_key *key, struct tree *out)
+{
+	char path[PATH_MAX];
+	uint64_t hash[2];
+	void *bytes;
+	size_t n;
+	int found;
+
+	path_of(store, key, path);
+	hash_key(key, hash);
+	*out = (struct tree){ NULL };
+	if (!kept_read(path, hash, &bytes, &n))
+		return 0;
+	found = unpack(bytes, n, key->n_triangles, out);
+	free(bytes);
+	if (found)
+		utimensat(AT_FDCWD, path, NULL, 0); /* used just now; where that is not allowed, nothing is removed either */
+	else
+		tree_free(out);
+	return found;
+}
+
+/* --- Keeping the bound --------------------------------------------------------------------------------------------- */
+
+struct kept {
+	struct timespec used;
+	uint64_t bytes;
+	char name[96];
+};
+
+static int compare_kept(const void *a, const void *b)
+{
+	const struct kept *x = a, *y = b;
+
+	if (x->used.tv_sec != y->used.tv_sec)
+		return x->used.tv_sec < y->used.tv_sec ? -1 : 1;
+	return (x->used.tv_nsec > y->used.tv_nsec) - (x->used.tv_nsec < y->used.tv_nsec);
+}
+
+static int is_tree(const char *name)
+{
+	const size_t n = strlen(name), end = strlen(SUFFIX);
+
+	return n > end && n < sizeof(((struct kept *)0)->name) && strcmp(name + n - end, SUFFIX) == 0;
+}
+
+/* The files of the folder. @return how many, in an array of the caller's; 0 also where memory is short */
+static size_t list_kept(DIR *dir, struct kept **out)
+{
+	size_t n = 0, room = 0;
+	struct dirent *entry;
+
+	*out = NULL;
+	while ((entry = readdir(dir))) {
+		struct stat info;
+
+		if (!is_tree(entry->d_name) || fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) || !S_ISREG(info.st_mode))
+			continue;
+		if (n == room) {
+			struct kept *grown = realloc(*out, (room = 2 * room + 64) * sizeof(*grown));
+
+			if (!grown)
+				return 0;
+			*out = grown;
+		}
+		(*out)[n].used = info.st_mtim;
+		(*out)[n].bytes = (uint64_t)info.st_size;
+		memcpy((*out)[n++].name, entry->d_name, strlen(entry->d_name) + 1);
+	}
+	return n;
+}
+
+/* Count the folder, and remove what was unused for longest where it holds more than it may. Others may do the same. */
+static void keep_bound(struct store *store)
+{
+	DIR *dir = opendir(store->folder);
+	uint64_t bytes = 0;
+	struct kept *kept;
+	size_t n;
+
+	if (!dir)
+		return;
+	n = list_kept(dir, &kept);
+	for (size_t i = 0; i < n; i++)
+		bytes += kept[i].bytes;
+	if (bytes > store->most) {
+		qsort(kept, n, sizeof(*kept), compare_kept);
+		for (size_t i = 0; i < n && bytes > FULL_SHARE(store->most); i++) {
+			unlinkat(dirfd(dir), kept[i].name, 0);
+			bytes -= kept[i].bytes;
+		}
+	}
+	store->added = 0;
+	store->counted = 1;
+	free(kept);
+	closedir(dir);
+}
+
+/* --- Writing ------------------------------------------------------------------------------------------------------- */
+
+/* @return 0; the errno that says why not; -1 (reported) */
+static int save(struct store *store, const char *path, const struct store_key *key, const struct tree *tree)
+{
+	const struct counts counts = { tree->n_nodes, tree->n_order };
+	char *bytes = malloc(bytes_of(counts));
+	uint64_t hash[2];
+	int failed;
+
+	if (!bytes)
+		return ENOMEM;
+	memcpy(bytes, &counts, sizeof(counts));
+	memcpy(bytes + sizeof(counts), tree->nodes, tree->n_nodes * sizeof(*tree->nodes));
+	memcpy(bytes + sizeof(counts) + tree->n_nodes * sizeof(*tree->nodes), tree->order, tree->n_order * sizeof(*tree->order));
+	if (!store->counted) {
+		part_sweep(path);
+		keep_bound(store);
+	}
+	hash_key(key, hash);
+	failed = kept_write(path, hash, bytes, bytes_of(counts));
+	free(bytes);
+	return failed;
+}
+
+void store_save(struct store *store, const struct store_key *key, const struct tree *tree)
+{
+	const uint64_t bytes = bytes_of((struct counts){ tree->n_nodes, tree->n_order });
+	char path[PATH_MAX];
+	int failed;
+
+	if (bytes > store->most / 4)
+		return; /* many others would go for it */
+	path_of(store, key, path);
+	pthread_mutex_lock(&store->lock);
+	if (!store->lost) {
+		failed = save(store, path, key, tree);
+		if (failed > 0)
+			err_warn(store->folder, "trees of meshes are not kept there: %s", strerror(failed));
+		store->lost = failed != 0;
+		store->added += bytes;
+		if (!failed && store->added > store->most / COUNT_SHARE)
+			keep_bound(store);
+	}
+	pthread_mutex_unlock(&store->lock);
+}

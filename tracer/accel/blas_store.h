@@ -1,0 +1,45 @@
+/*
+ * Trees of meshes on disk: a folder of files, one per tree, that any number of threads, processes and machines share.
+ *
+ * Files appear whole and carry a checksum (base/kept.h): one that is cut, damaged, of another version or another machine's
+ * byte order is as good as none, and is written again. A file's time is that of its last use; where the folder grows
+ * beyond its bound those unused for longest go. Each process counts what it adds, so that several may exceed the bound by
+ * a sixteenth each, for a while.
+ *
+ * Nothing here ever fails a run: where the folder cannot be written (no right, no space), one warning says so and no more is
+ * written.
+ */
+#ifndef TRACER_ACCEL_BLAS_STORE_H
+#define TRACER_ACCEL_BLAS_STORE_H
+
+#include <stdint.h>
+
+struct store;
+struct tree;
+
+/* What a tree is found by. */
+struct store_key {
+	uint64_t hash[2]; /* of the mesh */
+	uint32_t version; /* of the builders */
+	uint32_t kind;    /* which builder */
+	uint32_t n_triangles;
+};
+
+#define STORE_BYTES (2ull << 30) /* what the folder may hold where nothing else is asked for */
+
+/**
+ * @param folder  made when something is to be written into it; NULL: "trees" in the user's cache folder (base/folder.h)
+ * @param most    bytes that the folder may hold
+ * @param out     receives the store, to be closed with store_close; NULL where folder is NULL and the user has none
+ * @return 0 or ERR_SYSTEM (reported): out of memory, or a name that is too long
+ */
+int store_open(const char *folder, uint64_t most, struct store **out);
+void store_close(struct store **store);
+
+/** Find a tree that the kernels can walk. @return 1: *out is it, to be freed with tree_free; 0: there is none, *out is empty */
+int store_load(struct store *store, const struct store_key *key, struct tree *out);
+
+/** Keep a tree. */
+void store_save(struct store *store, const struct store_key *key, const struct tree *tree);
+
+#endif

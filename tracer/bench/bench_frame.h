@@ -1,0 +1,18 @@
+/* relume bench TRACE: what each kernel of one frame takes. */
+#ifndef TRACER_BENCH_BENCH_FRAME_H
+#define TRACER_BENCH_BENCH_FRAME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/device/device.h"
+#include "tracer/frame/trace.h"
+
+/**
+ * Render a frame of a recording 1 + n times and print the means of the last n: the whole, each kernel, copies, and what is
+ * neither (the host's own work: trees, matrices, composing). Each kernel is waited for.
+ * @return 0 or ERR_* (reported)
+ */
+int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum tracer_mode mode, size_t n, int json);
+
+#endif

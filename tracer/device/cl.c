@@ -1,0 +1,496 @@
+#include "tracer/device/cl.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "tracer/device/cl_program.h"
+#include "tracer/device/kernels.h"
+
+/* Not in the core header: what the ICD loader says when no driver is installed. */
+#define CL_PLATFORM_NOT_FOUND (-1001)
+
+#define MAX_PLATFORMS 16
+#define MAX_DEVICES 64
+
+/*
+ * Work items in a group. A driver runs a group's items in a loop: small groups cost a call each, large ones leave cores
+ * without work at the end of a launch.
+ */
+#define GROUP_CPU 8
+#define GROUP_GPU 64
+
+/* What all that were shared from one device have in common. */
+struct cl_common {
+	pthread_mutex_t lock;
+	unsigned refs;
+	cl_device_id root, id; /* id: root, or a sub-device of it */
+	cl_context context;
+	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
+	struct cl_keeping keeping;
+	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
+};
+
+struct cl_device {
+	struct cl_common *common;
+	cl_command_queue queue;
+	cl_kernel kernels[N_DEVICE_KERNELS]; /* of its own: arguments are part of a kernel object */
+	int cpu;
+};
+
+struct cl_buffer {
+	cl_mem mem;
+	size_t bytes;
+};
+
+static const char *error_name(cl_int code)
+{
+	static const struct {
+		cl_int code;
+		const char *name;
+	} names[] = {
+#define NAME(x) { x, #x }
+		NAME(CL_DEVICE_NOT_FOUND), NAME(CL_DEVICE_NOT_AVAILABLE), NAME(CL_COMPILER_NOT_AVAILABLE),
+		NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE), NAME(CL_OUT_OF_RESOURCES), NAME(CL_OUT_OF_HOST_MEMORY),
+		NAME(CL_BUILD_PROGRAM_FAILURE), NAME(CL_DEVICE_PARTITION_FAILED), NAME(CL_INVALID_VALUE),
+		NAME(CL_INVALID_PLATFORM), NAME(CL_INVALID_DEVICE), NAME(CL_INVALID_CONTEXT),
+		NAME(CL_INVALID_COMMAND_QUEUE), NAME(CL_INVALID_MEM_OBJECT), NAME(CL_INVALID_BUILD_OPTIONS),
+		NAME(CL_INVALID_PROGRAM), NAME(CL_INVALID_PROGRAM_EXECUTABLE), NAME(CL_INVALID_KERNEL_NAME),
+		NAME(CL_INVALID_KERNEL), NAME(CL_INVALID_ARG_INDEX), NAME(CL_INVALID_ARG_VALUE),
+		NAME(CL_INVALID_ARG_SIZE), NAME(CL_INVALID_KERNEL_ARGS), NAME(CL_INVALID_WORK_GROUP_SIZE),
+		NAME(CL_INVALID_GLOBAL_WORK_SIZE), NAME(CL_INVALID_BUFFER_SIZE), NAME(CL_INVALID_OPERATION),
+		NAME(CL_INVALID_DEVICE_PARTITION_COUNT), NAME(CL_PLATFORM_NOT_FOUND),
+#undef NAME
+	};
+
+	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
+		if (names[i].code == code)
+			return names[i].name;
+	return "an unnamed OpenCL error";
+}
+
+int cl_report(cl_int code, const char *what)
+{
+	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
+}
+
+/*
+ * PoCL learns cores and memory from hwloc, and hwloc from /sys; in a chroot or container without it PoCL 3.1 ends the
+ * process ("Not enough memory to run on this device"). There, hwloc is told what sysconf knows.
+ */
+static void describe_machine(void)
+{
+	long cores = sysconf(_SC_NPROCESSORS_ONLN), pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
+	char text[96];
+
+	if (access("/sys/devices/system/cpu", F_OK) == 0 || cores < 1 || pages < 1 || page_bytes < 1)
+		return;
+	snprintf(text, sizeof(text), "numa:1(memory=%lld) core:%ld pu:1", (long long)pages * page_bytes, cores);
+	setenv("HWLOC_SYNTHETIC", text, 0);
+}
+
+/* Every device of every platform, in the drivers' order. */
+static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
+{
+	cl_platform_id platforms[MAX_PLATFORMS];
+	cl_uint n_platforms = 0, n_found;
+	cl_int code;
+
+	describe_machine();
+	code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
+
+	*n = 0;
+	if (code != CL_SUCCESS)
+		n_platforms = 0;
+	if (n_platforms > MAX_PLATFORMS)
+		n_platforms = MAX_PLATFORMS;
+	for (cl_uint i = 0; i < n_platforms; i++) {
+		n_found = 0;
+		if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR,
+		                   (cl_uint)(MAX_DEVICES - *n), ids + *n, &n_found) != CL_SUCCESS)
+			continue;
+		*n = *n + n_found < MAX_DEVICES ? *n + n_found : MAX_DEVICES;
+	}
+	if (*n == 0)
+		return err_report(ERR_SYSTEM, "OpenCL",
+		                  "there is no OpenCL device here; install the Debian package pocl-opencl-icd (CPU) or your "
+		                  "GPU's OpenCL driver, or use --device reference (slow)");
+	return 0;
+}
+
+static uint64_t device_bytes(cl_device_id id, cl_device_info what)
+{
+	cl_ulong bytes = 0;
+
+	clGetDeviceInfo(id, what, sizeof(bytes), &bytes, NULL);
+	return bytes;
+}
+
+static enum device_type type_of(cl_device_id id)
+{
+	cl_device_type type = 0;
+
+	clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+	return type & CL_DEVICE_TYPE_CPU ? DEVICE_CPU : type & CL_DEVICE_TYPE_GPU ? DEVICE_GPU : DEVICE_ACCELERATOR;
+}
+
+/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query, cl_amd_device_attribute_query). */
+static unsigned width_of(cl_device_id id)
+{
+	const cl_device_info of_gpu[] = { 0x4003 /* WARP_SIZE_NV */, 0x4043 /* WAVEFRONT_WIDTH_AMD */ };
+	cl_uint width = 0;
+
+	for (size_t i = 0; type_of(id) != DEVICE_CPU && i < sizeof(of_gpu) / sizeof(of_gpu[0]); i++)
+		if (clGetDeviceInfo(id, of_gpu[i], sizeof(width), &width, NULL) == CL_SUCCESS && width)
+			return width;
+	width = 0;
+	if (type_of(id) == DEVICE_CPU)
+		clGetDeviceInfo(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof(width), &width, NULL);
+	return width;
+}
+
+int cl_list(struct device_description **out, size_t *n)
+{
+	cl_device_id ids[MAX_DEVICES];
+	struct device_description *list;
+	int err = find_devices(ids, n);
+
+	if (err)
+		return err;
+	list = calloc(*n, sizeof(*list));
+	if (!list)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < *n; i++) {
+		cl_platform_id platform = NULL;
+		cl_uint units = 0;
+
+		clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof(list[i].name) - 1, list[i].name, NULL);
+		clGetDeviceInfo(ids[i], CL_DRIVER_VERSION, sizeof(list[i].driver) - 1, list[i].driver, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
+		if (platform)
+			clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof(list[i].platform) - 1, list[i].platform, NULL);
+		list[i].type = type_of(ids[i]);
+		list[i].units = units;
+		list[i].width = width_of(ids[i]);
+		list[i].memory_bytes = device_bytes(ids[i], CL_DEVICE_GLOBAL_MEM_SIZE);
+		list[i].buffer_bytes = device_bytes(ids[i], CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+	}
+	*out = list;
+	return 0;
+}
+
+/* A sub-device of so many units, so that a run uses no more cores than it was given. */
+static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
+{
+	const cl_device_partition_property counts[] = { CL_DEVICE_PARTITION_BY_COUNTS, threads,
+		                                        CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0 };
+	cl_uint units = 0;
+	cl_int code;
+
+	clGetDeviceInfo(dev->root, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
+	if (!cpu || threads == 0 || threads >= units)
+		return 0;
+	code = clCreateSubDevices(dev->root, counts, 1, &dev->id, NULL);
+	if (code == CL_SUCCESS)
+		return 0;
+	dev->id = dev->root;
+	return cl_report(code, "this device cannot be limited to fewer threads");
+}
+
+static void release_common(struct cl_common *c)
+{
+	unsigned refs;
+
+	if (!c)
+		return;
+	pthread_mutex_lock(&c->lock);
+	refs = --c->refs;
+	pthread_mutex_unlock(&c->lock);
+	if (refs)
+		return;
+	for (size_t i = 0; c->programs && i < n_kernel_files; i++)
+		if (c->programs[i])
+			clReleaseProgram(c->programs[i]);
+	free(c->programs);
+	if (c->context)
+		clReleaseContext(c->context);
+	if (c->id != c->root)
+		clReleaseDevice(c->id);
+	pthread_mutex_destroy(&c->lock);
+	free(c);
+}
+
+static struct cl_common *create_common(void)
+{
+	struct cl_common *c = calloc(1, sizeof(*c));
+
+	if (c)
+		c->programs = calloc(n_kernel_files + 1, sizeof(*c->programs));
+	if (!c || !c->programs) {
+		free(c);
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		return NULL;
+	}
+	pthread_mutex_init(&c->lock, NULL);
+	c->refs = 1;
+	return c;
+}
+
+static int open_queue(struct cl_device *dev)
+{
+	cl_int code;
+
+	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, 0, &code);
+	return dev->queue ? 0 : cl_report(code, "clCreateCommandQueue");
+}
+
+int cl_open(size_t number, unsigned threads, struct cl_device **out)
+{
+	cl_device_id ids[MAX_DEVICES];
+	struct cl_device *dev = NULL;
+	struct cl_common *common;
+	cl_int code;
+	size_t n;
+	int err = find_devices(ids, &n);
+
+	if (err)
+		return err;
+	if (number >= n)
+		return err_report(ERR_SYSTEM, "OpenCL", "device %zu is gone", number);
+	dev = calloc(1, sizeof(*dev));
+	if (!dev)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	common = dev->common = create_common();
+	if (!common) {
+		err = ERR_SYSTEM;
+		goto fail;
+	}
+	common->root = common->id = ids[number];
+	dev->cpu = type_of(common->root) == DEVICE_CPU;
+	common->memory_bytes = device_bytes(common->root, CL_DEVICE_GLOBAL_MEM_SIZE);
+	common->buffer_bytes = device_bytes(common->root, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+	err = limit_threads(common, dev->cpu, threads);
+	if (err)
+		goto fail;
+	common->context = clCreateContext(NULL, 1, &common->id, NULL, NULL, &code);
+	if (!common->context) {
+		err = cl_report(code, "clCreateContext");
+		goto fail;
+	}
+	err = open_queue(dev);
+	if (err)
+		goto fail;
+	*out = dev;
+	return 0;
+fail:
+	cl_close(&dev);
+	return err;
+}
+
+int cl_share(struct cl_device *dev, struct cl_device **out)
+{
+	struct cl_device *other = calloc(1, sizeof(*other));
+	int err;
+
+	if (!other)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	pthread_mutex_lock(&dev->common->lock);
+	dev->common->refs++;
+	pthread_mutex_unlock(&dev->common->lock);
+	other->common = dev->common;
+	other->cpu = dev->cpu;
+	err = open_queue(other);
+	if (err)
+		cl_close(&other);
+	*out = other;
+	return err;
+}
+
+void cl_close(struct cl_device **dev)
+{
+	struct cl_device *d = *dev;
+
+	*dev = NULL;
+	if (!d)
+		return;
+	for (size_t i = 0; i < N_DEVICE_KERNELS; i++)
+		if (d->kernels[i])
+			clReleaseKernel(d->kernels[i]);
+	if (d->queue)
+		clReleaseCommandQueue(d->queue);
+	release_common(d->common);
+	free(d);
+}
+
+/* Count a buffer of so many bytes. @return 0, or ERR_SYSTEM (reported: there is no room for it) */
+static int take_memory(struct cl_common *c, size_t bytes)
+{
+	uint64_t used;
+
+	if (bytes > c->buffer_bytes)
+		return err_report(ERR_SYSTEM, "OpenCL", "a buffer of %llu MiB is needed, and this device makes none of more than %llu: "
+		                  "choose another --device", (unsigned long long)bytes >> 20, (unsigned long long)c->buffer_bytes >> 20);
+	pthread_mutex_lock(&c->lock);
+	used = c->used_bytes + bytes;
+	if (used <= c->memory_bytes)
+		c->used_bytes = used;
+	pthread_mutex_unlock(&c->lock);
+	if (used <= c->memory_bytes)
+		return 0;
+	return err_report(ERR_SYSTEM, "OpenCL", "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
+	                  (unsigned long long)used >> 20, (unsigned long long)c->memory_bytes >> 20);
+}
+
+static void give_memory(struct cl_common *c, size_t bytes)
+{
+	pthread_mutex_lock(&c->lock);
+	c->used_bytes -= bytes;
+	pthread_mutex_unlock(&c->lock);
+}
+
+int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
+{
+	struct cl_buffer *b = *buffer;
+	char what[64];
+	cl_int code;
+
+	if (bytes == 0)
+		bytes = 16;
+	if (b && b->bytes >= bytes)
+		return 0;
+	if (!b)
+		b = *buffer = calloc(1, sizeof(*b));
+	if (!b)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (b->mem)
+		clReleaseMemObject(b->mem);
+	b->mem = NULL;
+	give_memory(dev->common, b->bytes);
+	b->bytes = 0;
+	if (take_memory(dev->common, bytes))
+		return ERR_SYSTEM;
+	b->mem = clCreateBuffer(dev->common->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
+	if (!b->mem) {
+		give_memory(dev->common, bytes);
+		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
+		return cl_report(code, what);
+	}
+	b->bytes = bytes;
+	return 0;
+}
+
+void cl_release(struct cl_device *dev, struct cl_buffer **buffer)
+{
+	if (*buffer && (*buffer)->mem)
+		clReleaseMemObject((*buffer)->mem);
+	if (*buffer)
+		give_memory(dev->common, (*buffer)->bytes);
+	free(*buffer);
+	*buffer = NULL;
+}
+
+int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes)
+{
+	cl_int code;
+
+	if (bytes == 0)
+		return 0;
+	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
+	return code == CL_SUCCESS ? 0 : cl_report(code, "writing a buffer");
+}
+
+int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes)
+{
+	cl_int code;
+
+	if (bytes == 0)
+		return 0;
+	code = clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
+	return code == CL_SUCCESS ? 0 : cl_report(code, "reading a buffer");
+}
+
+int cl_finish(struct cl_device *dev)
+{
+	cl_int code = clFinish(dev->queue);
+
+	return code == CL_SUCCESS ? 0 : cl_report(code, "clFinish");
+}
+
+static int build_program(struct cl_common *c, size_t file)
+{
+	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, &c->keeping, &c->programs[file]);
+}
+
+void cl_keep_programs(struct cl_device *dev, const char *folder, int always)
+{
+	pthread_mutex_lock(&dev->common->lock);
+	cl_program_keep(dev->common->root, folder, always, &dev->common->keeping);
+	pthread_mutex_unlock(&dev->common->lock);
+}
+
+unsigned cl_programs_found(struct cl_device *dev)
+{
+	unsigned n;
+
+	pthread_mutex_lock(&dev->common->lock);
+	n = dev->common->keeping.found;
+	pthread_mutex_unlock(&dev->common->lock);
+	return n;
+}
+
+static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const char *name)
+{
+	cl_int code;
+	int err;
+
+	for (size_t i = 0; i < n_kernel_places; i++) {
+		if (strcmp(kernel_places[i].kernel, name) != 0)
+			continue;
+		pthread_mutex_lock(&dev->common->lock);
+		err = build_program(dev->common, kernel_places[i].file);
+		pthread_mutex_unlock(&dev->common->lock);
+		if (err)
+			return err;
+		dev->kernels[kernel] = clCreateKernel(dev->common->programs[kernel_places[i].file], name, &code);
+		return dev->kernels[kernel] ? 0 : cl_report(code, name);
+	}
+	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
+}
+
+int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, size_t n_items,
+           const struct cl_arg *args, size_t n_args)
+{
+	const size_t local = dev->cpu ? GROUP_CPU : GROUP_GPU;
+	const size_t global = (n_items + local - 1) / local * local;
+	char what[96];
+	cl_int code = CL_SUCCESS;
+	int err;
+
+	if (n_items == 0)
+		return 0;
+	if (!dev->kernels[kernel]) {
+		err = make_kernel(dev, kernel, name);
+		if (err)
+			return err;
+	}
+	for (size_t i = 0; i < n_args && code == CL_SUCCESS; i++) {
+		if (args[i].buffer)
+			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, sizeof(cl_mem), &args[i].buffer->mem);
+		else
+			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, args[i].bytes, args[i].value);
+		if (code != CL_SUCCESS) {
+			snprintf(what, sizeof(what), "kernel %s, argument %zu", name, i);
+			return cl_report(code, what);
+		}
+	}
+	code = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel], 1, NULL, &global, &local, 0, NULL, NULL);
+	if (code != CL_SUCCESS) {
+		snprintf(what, sizeof(what), "kernel %s", name);
+		return cl_report(code, what);
+	}
+	return 0;
+}

@@ -1,0 +1,53 @@
+/*
+ * OpenCL 1.2 behind tracer/device/device.h: every clXxx call of the project is in cl.c and cl_program.c. For device.c alone.
+ *
+ * Errors are reported with OpenCL's own name for them.
+ */
+#ifndef TRACER_DEVICE_CL_H
+#define TRACER_DEVICE_CL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/device/device.h"
+
+struct cl_device;
+struct cl_buffer;
+
+/** Every OpenCL device. @param out  receives an array, free with free() @return 0, or ERR_SYSTEM (reported) */
+int cl_list(struct device_description **out, size_t *n);
+
+/**
+ * Open a device by its number in cl_list.
+ * @param threads compute threads where it is a CPU (a sub-device of so many units), 0: all
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int cl_open(size_t number, unsigned threads, struct cl_device **out);
+void cl_close(struct cl_device **dev);
+
+/** The same device with a queue of its own, for another thread; programs are compiled once for all. As cl_open. */
+int cl_share(struct cl_device *dev, struct cl_device **out);
+
+/* As device_keep_programs and device_programs_found. */
+void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
+unsigned cl_programs_found(struct cl_device *dev);
+
+/* As their namesakes in device.h. */
+int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
+void cl_release(struct cl_device *dev, struct cl_buffer **buffer);
+int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes);
+int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes);
+int cl_finish(struct cl_device *dev);
+
+/** One argument of cl_run: a buffer, or a value where it is NULL. */
+struct cl_arg {
+	const struct cl_buffer *buffer;
+	const void *value;
+	size_t bytes;
+};
+
+/** Queue a kernel; its program is compiled at its first use. @return 0 or ERR_SYSTEM (reported) */
+int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, size_t n_items,
+           const struct cl_arg *args, size_t n_args);
+
+#endif

@@ -1,0 +1,184 @@
+#include "tracer/device/cl_program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "base/kept.h"
+#include "tracer/device/kernels.h"
+
+/* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
+static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
+
+/* To be raised where the same text is to be compiled otherwise. */
+#define PROGRAM_VERSION 1
+
+/* Quotients and roots as IEEE 754 has them, where a device does not round them so unless it is asked to. */
+static const char *options_for(cl_device_id device)
+{
+	cl_device_fp_config rounding = 0;
+	cl_device_type type = 0;
+
+	clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof(type), &type, NULL);
+	clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof(rounding), &rounding, NULL);
+	return !(type & CL_DEVICE_TYPE_CPU) && rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+		       ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt" : "-cl-std=CL1.2";
+}
+
+/* --- Keeping ------------------------------------------------------------------------------------------------------- */
+
+static void platform_text(cl_device_id device, cl_platform_info what, char *text, size_t size)
+{
+	cl_platform_id platform = NULL;
+
+	memset(text, 0, size);
+	clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
+	if (platform)
+		clGetPlatformInfo(platform, what, size - 1, text, NULL);
+}
+
+void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping)
+{
+	char platform[128];
+
+	platform_text(device, CL_PLATFORM_NAME, platform, sizeof(platform));
+	keeping->folder[0] = '\0';
+	if (!always && strcmp(platform, "Portable Computing Language") == 0)
+		return;
+	if (snprintf(keeping->folder, sizeof(keeping->folder), "%s", folder) >= (int)sizeof(keeping->folder))
+		keeping->folder[0] = '\0';
+}
+
+/* Two hashes that have nothing in common. */
+static void mix(uint64_t key[2], const void *bytes, size_t n)
+{
+	key[0] = XXH3_64bits_withSeed(bytes, n, key[0]);
+	key[1] = XXH64(bytes, n, key[1]);
+}
+
+/* All that a compiled program depends on; and a name for the device, so that a new text or driver takes the old file's place. */
+static void name_program(cl_device_id device, const struct kernel_file *kernels, const struct cl_keeping *keeping,
+                         char path[PATH_MAX], uint64_t key[2])
+{
+	static const cl_device_info of_device[] = { CL_DEVICE_NAME, CL_DEVICE_VENDOR, CL_DEVICE_VERSION, CL_DRIVER_VERSION };
+	static const cl_platform_info of_platform[] = { CL_PLATFORM_NAME, CL_PLATFORM_VERSION };
+	const char *slash = strrchr(kernels->name, '/'), *base = slash ? slash + 1 : kernels->name;
+	const char *options = options_for(device);
+	uint64_t name = PROGRAM_VERSION;
+	char text[256];
+
+	key[0] = key[1] = PROGRAM_VERSION;
+	mix(key, prelude, sizeof(prelude));
+	mix(key, kernels->text, strlen(kernels->text) + 1);
+	mix(key, options, strlen(options) + 1);
+	for (size_t i = 0; i < sizeof(of_platform) / sizeof(of_platform[0]); i++) {
+		platform_text(device, of_platform[i], text, sizeof(text));
+		mix(key, text, sizeof(text));
+		if (of_platform[i] == CL_PLATFORM_NAME)
+			name = XXH3_64bits_withSeed(text, sizeof(text), name);
+	}
+	for (size_t i = 0; i < sizeof(of_device) / sizeof(of_device[0]); i++) {
+		memset(text, 0, sizeof(text));
+		clGetDeviceInfo(device, of_device[i], sizeof(text) - 1, text, NULL);
+		mix(key, text, sizeof(text));
+		if (of_device[i] == CL_DEVICE_NAME)
+			name = XXH3_64bits_withSeed(text, sizeof(text), name);
+	}
+	snprintf(path, PATH_MAX, "%s/%.*s-%016llx.program", keeping->folder, (int)strcspn(base, "."), base, (unsigned long long)name);
+}
+
+/* What an earlier run left. @return NULL: nothing that the driver takes */
+static cl_program find_program(cl_context context, cl_device_id device, const char *path, const uint64_t key[2])
+{
+	cl_program program = NULL;
+	cl_int code, status;
+	void *bytes;
+	size_t n;
+
+	if (!kept_read(path, key, &bytes, &n))
+		return NULL;
+	program = clCreateProgramWithBinary(context, 1, &device, &n, (const unsigned char **)&bytes, &status, &code);
+	free(bytes);
+	if (program && (status != CL_SUCCESS || clBuildProgram(program, 1, &device, options_for(device), NULL, NULL) != CL_SUCCESS)) {
+		clReleaseProgram(program);
+		program = NULL;
+	}
+	return program;
+}
+
+static void leave_program(cl_program program, const char *path, const uint64_t key[2], struct cl_keeping *keeping)
+{
+	unsigned char *bytes = NULL;
+	size_t n = 0;
+	int failed = 0;
+
+	if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof(n), &n, NULL) != CL_SUCCESS || n == 0)
+		return;
+	bytes = malloc(n);
+	if (bytes && clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof(bytes), &bytes, NULL) == CL_SUCCESS)
+		failed = kept_write(path, key, bytes, n);
+	free(bytes);
+	if (failed > 0)
+		err_warn(keeping->folder, "compiled kernels are not kept there: %s", strerror(failed));
+	if (failed)
+		keeping->folder[0] = '\0';
+}
+
+/* --- Building ------------------------------------------------------------------------------------------------------ */
+
+static void report_build_log(cl_program program, cl_device_id device, const char *name)
+{
+	size_t bytes = 0;
+	char *log;
+
+	clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes);
+	log = calloc(1, bytes + 1);
+	if (log && clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) == CL_SUCCESS)
+		fprintf(stderr, "%s\n", log);
+	free(log);
+	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
+}
+
+static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, cl_program *out)
+{
+	const char *texts[] = { prelude, kernels->text };
+	cl_int code;
+
+	*out = clCreateProgramWithSource(context, 2, texts, NULL, &code);
+	if (!*out)
+		return cl_report(code, kernels->name);
+	code = clBuildProgram(*out, 1, &device, options_for(device), NULL, NULL);
+	if (code == CL_SUCCESS)
+		return 0;
+	if (code == CL_BUILD_PROGRAM_FAILURE)
+		report_build_log(*out, device, kernels->name);
+	else
+		cl_report(code, kernels->name);
+	clReleaseProgram(*out);
+	*out = NULL;
+	return ERR_SYSTEM;
+}
+
+int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out)
+{
+	const struct kernel_file *kernels = &kernel_files[file];
+	char path[PATH_MAX];
+	uint64_t key[2];
+	int err;
+
+	*out = NULL;
+	if (keeping->folder[0]) {
+		name_program(device, kernels, keeping, path, key);
+		*out = find_program(context, device, path, key);
+	}
+	if (*out) {
+		keeping->found++;
+		return 0;
+	}
+	err = build_program(context, device, kernels, out);
+	if (!err && keeping->folder[0])
+		leave_program(*out, path, key, keeping);
+	return err;
+}

@@ -1,0 +1,36 @@
+/*
+ * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left what the driver made of
+ * it. For cl.c alone, which lends its errors' names.
+ */
+#ifndef TRACER_DEVICE_CL_PROGRAM_H
+#define TRACER_DEVICE_CL_PROGRAM_H
+
+#include <CL/cl.h>
+#include <limits.h>
+#include <stddef.h>
+
+/* Where programs are kept. All zero: nowhere. */
+struct cl_keeping {
+	char folder[PATH_MAX - 96]; /* "": nowhere */
+	unsigned found;             /* programs that came from there */
+};
+
+/**
+ * Keep programs from now on. PoCL does that itself, and is left to it unless `always`.
+ * @param folder  copied; made when something is to be written into it; one whose name is too long is as good as none
+ */
+void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping);
+
+/**
+ * Make the program of one file of kernels.
+ * @param file     in kernel_files (tracer/device/kernels.h)
+ * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
+ * @param out      to be released by the caller
+ * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)
+ */
+int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out);
+
+/** Report an OpenCL error by its name. @return ERR_SYSTEM */
+int cl_report(cl_int code, const char *what);
+
+#endif

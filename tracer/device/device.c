@@ -1,0 +1,471 @@
+#include "tracer/device/device.h"
+
+#include <ctype.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "tracer/device/cl.h"
+
+#define MAX_ARGS 32
+#define MAX_THREADS 64
+
+/* The twins, kernels/ref/. */
+#define DECLARE_TWIN(name) extern device_twin name##_c;
+DEVICE_KERNELS(DECLARE_TWIN)
+
+static const struct {
+	const char *name;
+	device_twin *twin;
+} kernels[N_DEVICE_KERNELS] = {
+#define KERNEL_ENTRY(name) { #name, name##_c },
+	DEVICE_KERNELS(KERNEL_ENTRY)
+};
+
+struct device {
+	struct cl_device *cl; /* NULL: the reference device */
+	unsigned threads;     /* of the reference device */
+	enum device_family family;
+	atomic_int interrupted;
+	struct device_profile *profile; /* or NULL */
+	char name[320];
+};
+
+struct device_buffer {
+	struct cl_buffer *cl; /* or */
+	void *memory;         /* of the reference device */
+	size_t bytes;
+};
+
+int device_list(struct device_description **out, size_t *n)
+{
+	return cl_list(out, n);
+}
+
+static int contains(const char *text, const char *part)
+{
+	for (size_t n = strlen(part); *text; text++)
+		if (strncasecmp(text, part, n) == 0)
+			return 1;
+	return 0;
+}
+
+const char *device_type_name(enum device_type type)
+{
+	static const char *const names[N_DEVICE_TYPES] = { "cpu", "gpu", "accelerator" };
+
+	return names[type];
+}
+
+enum device_family device_type_family(enum device_type type)
+{
+	return type == DEVICE_CPU ? FAMILY_PACKETS : FAMILY_COMPRESSED;
+}
+
+/* The first device of a type; n: there is none. */
+static size_t find_type(const struct device_description *list, size_t n, const char *type)
+{
+	size_t i = 0;
+
+	while (i < n && strcasecmp(device_type_name(list[i].type), type) != 0)
+		i++;
+	return i;
+}
+
+/* The device a choice names: a number, a type, a part of a name, or NULL: the first GPU, else the first device. */
+static int choose(const struct device_description *list, size_t n, const char *choice, size_t *number)
+{
+	char *end;
+
+	*number = find_type(list, n, choice ? choice : "gpu");
+	if (*number < n)
+		return 0;
+	*number = 0;
+	if (!choice)
+		return 0;
+	if (isdigit((unsigned char)choice[0])) {
+		unsigned long value = strtoul(choice, &end, 10);
+
+		if (*end == '\0' && value < n) {
+			*number = value;
+			return 0;
+		}
+	}
+	for (; *number < n && choice[0]; ++*number)
+		if (contains(list[*number].name, choice))
+			return 0;
+	return err_report(ERR_USAGE, NULL, "there is no device '%s'; 'relume devices' lists them", choice);
+}
+
+static int open_cl(struct device *dev, const char *choice, unsigned threads)
+{
+	struct device_description *list = NULL;
+	size_t n, number;
+	int err = cl_list(&list, &n);
+
+	if (err)
+		return err;
+	err = choose(list, n, choice, &number);
+	if (!err)
+		err = cl_open(number, threads, &dev->cl);
+	if (!err)
+		snprintf(dev->name, sizeof(dev->name), "%s (%s %s)", list[number].name, list[number].platform,
+		         list[number].driver);
+	if (!err)
+		dev->family = device_type_family(list[number].type);
+	free(list);
+	return err;
+}
+
+static void open_reference(struct device *dev, unsigned threads)
+{
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+
+	dev->threads = threads ? threads : cores > 0 ? (unsigned)cores : 1;
+	if (dev->threads > MAX_THREADS)
+		dev->threads = MAX_THREADS;
+	dev->family = FAMILY_PACKETS;
+	snprintf(dev->name, sizeof(dev->name), "reference (C)");
+}
+
+int device_open(const char *choice, unsigned threads, struct device **out)
+{
+	struct device *dev = calloc(1, sizeof(*dev));
+	int err = 0;
+
+	if (!dev)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (choice && strcmp(choice, "reference") == 0)
+		open_reference(dev, threads);
+	else
+		err = open_cl(dev, choice, threads);
+	if (err) {
+		free(dev);
+		return err;
+	}
+	*out = dev;
+	return 0;
+}
+
+void device_close(struct device **dev)
+{
+	if (*dev && (*dev)->cl)
+		cl_close(&(*dev)->cl);
+	free(*dev);
+	*dev = NULL;
+}
+
+/* "0,1,2" for every OpenCL device. @return to be freed, or NULL (reported) */
+static char *name_all(void)
+{
+	struct device_description *list = NULL;
+	size_t n, at = 0;
+	char *text;
+
+	if (cl_list(&list, &n))
+		return NULL;
+	free(list);
+	text = malloc(8 * n + 8);
+	for (size_t i = 0; text && i < n; i++)
+		at += (size_t)sprintf(text + at, i ? ",%zu" : "%zu", i);
+	if (!text)
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+	return text;
+}
+
+int device_open_list(const char *choices, unsigned threads, struct device ***out, size_t *n)
+{
+	char *text = !choices ? NULL : strcmp(choices, "all") == 0 ? name_all() : strdup(choices), *save = NULL;
+	int err = choices && !text ? ERR_SYSTEM : 0;
+
+	*n = 0;
+	*out = calloc(1 + (choices ? strlen(text ? text : "") : 0), sizeof(**out));
+	if (!*out)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err && !text)
+		err = device_open(NULL, threads, &(*out)[(*n)++]);
+	for (char *name = text ? strtok_r(text, ",", &save) : NULL; !err && name; name = strtok_r(NULL, ",", &save))
+		err = device_open(name, threads, &(*out)[(*n)++]);
+	if (!err && *n == 0)
+		err = err_report(ERR_USAGE, NULL, "--device names none; 'relume devices' lists them");
+	free(text);
+	if (err)
+		device_close_list(out, n);
+	return err;
+}
+
+void device_close_list(struct device ***devices, size_t *n)
+{
+	for (size_t i = 0; *devices && i < *n; i++)
+		device_close(&(*devices)[i]);
+	free(*devices);
+	*devices = NULL;
+	*n = 0;
+}
+
+int device_share(struct device *dev, struct device **out)
+{
+	struct device *other = calloc(1, sizeof(*other));
+	int err = 0;
+
+	if (!other)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	other->threads = dev->threads;
+	other->family = dev->family;
+	memcpy(other->name, dev->name, sizeof(other->name));
+	if (dev->cl)
+		err = cl_share(dev->cl, &other->cl);
+	if (err) {
+		free(other);
+		return err;
+	}
+	*out = other;
+	return 0;
+}
+
+void device_interrupt(struct device *dev)
+{
+	atomic_store(&dev->interrupted, 1);
+}
+
+void device_resume(struct device *dev)
+{
+	atomic_store(&dev->interrupted, 0);
+}
+
+int device_is_interrupted(const struct device *dev)
+{
+	return atomic_load(&dev->interrupted);
+}
+
+const char *device_name(const struct device *dev)
+{
+	return dev->name;
+}
+
+enum device_family device_family(const struct device *dev)
+{
+	return dev->family;
+}
+
+void device_choose_family(struct device *dev, enum device_family family)
+{
+	dev->family = family;
+}
+
+static const char *const family_names[N_DEVICE_FAMILIES] = {
+#define FAMILY_NAME(name, word) #word,
+	DEVICE_FAMILIES(FAMILY_NAME)
+};
+
+const char *device_family_name(enum device_family family)
+{
+	return family_names[family];
+}
+
+int device_parse_family(const char *text, enum device_family *out)
+{
+	for (int i = 0; i < N_DEVICE_FAMILIES; i++)
+		if (strcmp(text, family_names[i]) == 0) {
+			*out = (enum device_family)i;
+			return 0;
+		}
+	return err_report(ERR_USAGE, NULL, "there is no family of kernels '%s'; there are packets, binary and compressed", text);
+}
+
+void device_keep_programs(struct device *dev, const char *folder, int always)
+{
+	if (dev->cl)
+		cl_keep_programs(dev->cl, folder, always);
+}
+
+unsigned device_programs_found(const struct device *dev)
+{
+	return dev->cl ? cl_programs_found(dev->cl) : 0;
+}
+
+int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)
+{
+	struct device_buffer *b = *buffer;
+
+	if (bytes == 0)
+		bytes = 16;
+	if (!b)
+		b = *buffer = calloc(1, sizeof(*b));
+	if (!b)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (dev->cl)
+		return cl_reserve(dev->cl, &b->cl, bytes);
+	if (b->bytes >= bytes)
+		return 0;
+	free(b->memory);
+	b->bytes = 0;
+	b->memory = calloc(1, bytes);
+	if (!b->memory)
+		return err_report(ERR_SYSTEM, NULL, "a buffer of %zu bytes: out of memory", bytes);
+	b->bytes = bytes;
+	return 0;
+}
+
+void device_release(struct device *dev, struct device_buffer **buffer)
+{
+	if (*buffer && dev->cl)
+		cl_release(dev->cl, &(*buffer)->cl);
+	if (*buffer)
+		free((*buffer)->memory);
+	free(*buffer);
+	*buffer = NULL;
+}
+
+/* --- Where the time goes ------------------------------------------------------------------------------------------- */
+
+static double clock_of(clockid_t clock)
+{
+	struct timespec t;
+
+	clock_gettime(clock, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* When something begins, as what had been spent by then; nothing where nobody asks. */
+static struct device_spent begin(const struct device *dev)
+{
+	struct device_spent s = { 0, 0, 0, 0 };
+
+	if (dev->profile)
+		s = (struct device_spent){ clock_of(CLOCK_MONOTONIC), clock_of(CLOCK_PROCESS_CPUTIME_ID), 0, 0 };
+	return s;
+}
+
+static void end(struct device_spent *sum, const struct device_spent *begun, uint64_t amount)
+{
+	sum->wall_s += clock_of(CLOCK_MONOTONIC) - begun->wall_s;
+	sum->cpu_s += clock_of(CLOCK_PROCESS_CPUTIME_ID) - begun->cpu_s;
+	sum->count++;
+	sum->amount += amount;
+}
+
+void device_set_profile(struct device *dev, struct device_profile *profile)
+{
+	dev->profile = profile;
+}
+
+const char *device_kernel_name(enum device_kernel kernel)
+{
+	return kernels[kernel].name;
+}
+
+/* --- Copies and launches ------------------------------------------------------------------------------------------- */
+
+int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
+{
+	struct device_spent begun = begin(dev);
+	int err = 0;
+
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
+	if (dev->cl)
+		err = cl_write(dev->cl, buffer->cl, offset, data, bytes);
+	else if (bytes)
+		memcpy((char *)buffer->memory + offset, data, bytes);
+	if (dev->profile)
+		end(&dev->profile->writes, &begun, bytes);
+	return err;
+}
+
+int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes)
+{
+	struct device_spent begun = begin(dev);
+	int err = 0;
+
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
+	if (dev->cl)
+		err = cl_read(dev->cl, buffer->cl, offset, data, bytes);
+	else if (bytes)
+		memcpy(data, (const char *)buffer->memory + offset, bytes);
+	if (dev->profile)
+		end(&dev->profile->reads, &begun, bytes);
+	return err;
+}
+
+/* A share of a launch on the reference device. Work items do not depend on each other. */
+struct share {
+	device_twin *twin;
+	const void *const *args;
+	size_t first, last;
+	pthread_t thread;
+};
+
+static void *run_share(void *arg)
+{
+	struct share *share = arg;
+
+	share->twin(share->args, share->first, share->last);
+	return NULL;
+}
+
+static int run_reference(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+                         size_t n_args)
+{
+	const void *pointers[MAX_ARGS];
+	struct share shares[MAX_THREADS];
+	unsigned n_started = 0;
+
+	for (size_t i = 0; i < n_args; i++)
+		pointers[i] = args[i].buffer ? args[i].buffer->memory : args[i].value;
+	for (unsigned i = 0; i < dev->threads; i++) {
+		shares[i] = (struct share){ kernels[kernel].twin, pointers, n_items * i / dev->threads,
+			                    n_items * (i + 1) / dev->threads, 0 };
+		/* The last share, and any that gets no thread, runs here. */
+		if (i + 1 < dev->threads && pthread_create(&shares[n_started].thread, NULL, run_share, &shares[i]) == 0)
+			n_started++;
+		else
+			run_share(&shares[i]);
+	}
+	for (unsigned i = 0; i < n_started; i++)
+		pthread_join(shares[i].thread, NULL);
+	return 0;
+}
+
+static int run_cl(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+                  size_t n_args)
+{
+	struct cl_arg cl_args[MAX_ARGS];
+
+	for (size_t i = 0; i < n_args; i++)
+		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
+	return cl_run(dev->cl, kernel, kernels[kernel].name, n_items, cl_args, n_args);
+}
+
+int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
+               size_t n_args)
+{
+	struct device_spent begun;
+	int err;
+
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
+	if (n_items == 0)
+		return 0;
+	if (n_args > MAX_ARGS)
+		return err_report(ERR_SYSTEM, kernels[kernel].name, "too many arguments");
+	begun = begin(dev);
+	err = dev->cl ? run_cl(dev, kernel, n_items, args, n_args) : run_reference(dev, kernel, n_items, args, n_args);
+	if (!err && dev->profile)
+		err = device_finish(dev);
+	if (dev->profile)
+		end(&dev->profile->kernels[kernel], &begun, n_items);
+	return err;
+}
+
+int device_finish(struct device *dev)
+{
+	return dev->cl ? cl_finish(dev->cl) : 0;
+}

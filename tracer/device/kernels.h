@@ -1,0 +1,25 @@
+/*
+ * The kernels' text, embedded by kernels/embed.py (build/gen/kernels.c).
+ */
+#ifndef TRACER_DEVICE_KERNELS_H
+#define TRACER_DEVICE_KERNELS_H
+
+#include <stddef.h>
+
+/* One .cl file with everything it includes in place: one OpenCL program. */
+struct kernel_file {
+	const char *name; /* path in the source tree */
+	const char *text;
+};
+extern const struct kernel_file kernel_files[];
+extern const size_t n_kernel_files;
+
+/* Where a kernel is defined. */
+struct kernel_place {
+	const char *kernel;
+	size_t file; /* in kernel_files */
+};
+extern const struct kernel_place kernel_places[];
+extern const size_t n_kernel_places;
+
+#endif

@@ -1,0 +1,122 @@
+#include "tracer/frame/compose.h"
+
+#include <string.h>
+
+#include "base/err.h"
+
+const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
+	                               "layers", NULL };
+
+/* Every channel that there is: its group, where the kernel leaves it, and whether as floats. */
+static const struct channel {
+	const char *group, *name;
+	int full;
+	uint32_t plane;
+} channels[] = {
+	{ "", "R", 0, COMPOSE_BEAUTY }, { "", "G", 0, COMPOSE_BEAUTY + 1 }, { "", "B", 0, COMPOSE_BEAUTY + 2 },
+	{ "", "A", 0, COMPOSE_BEAUTY + 3 },
+	{ "gl", "gl.R", 0, COMPOSE_GL }, { "gl", "gl.G", 0, COMPOSE_GL + 1 }, { "gl", "gl.B", 0, COMPOSE_GL + 2 },
+	{ "gl", "gl.A", 0, COMPOSE_GL + 3 }, { "gl", "gl.depth", 1, COMPOSE_DEPTH },
+	{ "shadow", "shadow.R", 0, COMPOSE_SHADOW }, { "shadow", "shadow.G", 0, COMPOSE_SHADOW + 1 },
+	{ "shadow", "shadow.B", 0, COMPOSE_SHADOW + 2 },
+	{ "relight", "relight.R", 0, COMPOSE_RELIGHT }, { "relight", "relight.G", 0, COMPOSE_RELIGHT + 1 },
+	{ "relight", "relight.B", 0, COMPOSE_RELIGHT + 2 },
+	{ "reflect", "reflect.R", 0, COMPOSE_REFLECT }, { "reflect", "reflect.G", 0, COMPOSE_REFLECT + 1 },
+	{ "reflect", "reflect.B", 0, COMPOSE_REFLECT + 2 },
+	{ "refract", "refract.R", 0, COMPOSE_REFRACT }, { "refract", "refract.G", 0, COMPOSE_REFRACT + 1 },
+	{ "refract", "refract.B", 0, COMPOSE_REFRACT + 2 },
+	{ "Z", "Z", 1, COMPOSE_Z },
+	{ "N", "N.X", 0, COMPOSE_NORMAL }, { "N", "N.Y", 0, COMPOSE_NORMAL + 1 }, { "N", "N.Z", 0, COMPOSE_NORMAL + 2 },
+	{ "P", "P.X", 1, COMPOSE_POSITION }, { "P", "P.Y", 1, COMPOSE_POSITION + 1 }, { "P", "P.Z", 1, COMPOSE_POSITION + 2 },
+	{ "albedo", "albedo.R", 0, COMPOSE_ALBEDO }, { "albedo", "albedo.G", 0, COMPOSE_ALBEDO + 1 },
+	{ "albedo", "albedo.B", 0, COMPOSE_ALBEDO + 2 },
+	{ "id", "id", 1, COMPOSE_ID },
+	{ "layers", "layers", 1, COMPOSE_LAYERS },
+};
+#define N_CHANNELS (sizeof(channels) / sizeof(channels[0]))
+
+int compose_wants(const char *aov, const char *group)
+{
+	size_t n = strlen(group);
+
+	if (!aov || n == 0)
+		return 1;
+	for (const char *at = aov; at; at = strchr(at, ',')) {
+		at += *at == ',';
+		if (strncmp(at, group, n) == 0 && (at[n] == ',' || at[n] == '\0'))
+			return 1;
+	}
+	return 0;
+}
+
+/* Which planes are wanted, one behind the other. @param halves, floats  receive how many */
+static struct compose_request request_of(const struct job *job, uint32_t *halves, uint32_t *floats)
+{
+	const struct tracer_options *options = job->options;
+	const char *aov = options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov;
+	struct compose_request r = { .width = job->width, .height = job->height, .n_passes = job->n_passes,
+		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS };
+
+	memset(r.half_plane, 0xff, sizeof(r.half_plane));
+	memset(r.float_plane, 0xff, sizeof(r.float_plane));
+	*halves = *floats = 0;
+	for (size_t i = 0; i < N_CHANNELS; i++) {
+		if (!compose_wants(aov, channels[i].group))
+			continue;
+		if (channels[i].full)
+			r.float_plane[channels[i].plane] = (*floats)++;
+		else
+			r.half_plane[channels[i].plane] = (*halves)++;
+	}
+	return r;
+}
+
+static int run_compose(struct job *job, const struct compose_request *r)
+{
+	struct tracer *tr = job->tr;
+	int packets = device_family(tr->dev) == FAMILY_PACKETS;
+	struct launch l = launch_with_tables(tr);
+
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_FRAME);
+	add(&l, tr, BUFFER_SUMS);
+	add_bytes(&l, r, sizeof(*r));
+	add_uint(&l, &job->n_pixels);
+	add(&l, tr, BUFFER_HALVES);
+	add(&l, tr, BUFFER_FLOATS);
+	return run(tr, packets ? KERNEL_compose_packet : KERNEL_compose,
+	           packets ? (job->n_pixels + COMPOSE_PACKET - 1) / COMPOSE_PACKET : job->n_pixels, &l);
+}
+
+/* One plane from the device into a channel of its own. */
+static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, struct image *img)
+{
+	struct tracer *tr = job->tr;
+	uint32_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane];
+	size_t bytes = job->n_pixels * (c->full ? sizeof(float) : sizeof(uint16_t));
+	void *plane;
+
+	if (place == SCENE_NONE)
+		return 0;
+	plane = c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name);
+	if (!plane)
+		return ERR_SYSTEM;
+	return device_read(tr->dev, tr->buffers[c->full ? BUFFER_FLOATS : BUFFER_HALVES], place * bytes, plane, bytes);
+}
+
+int compose_image(struct job *job, struct image *img)
+{
+	uint32_t halves, floats;
+	struct compose_request r = request_of(job, &halves, &floats);
+	int err = reserve(job->tr, BUFFER_HALVES, (size_t)halves * job->n_pixels, sizeof(uint16_t));
+
+	if (!err)
+		err = reserve(job->tr, BUFFER_FLOATS, (size_t)floats * job->n_pixels, sizeof(float));
+	if (!err)
+		err = reserve(job->tr, BUFFER_SUMS, 1, sizeof(float));
+	if (!err)
+		err = run_compose(job, &r);
+	for (size_t i = 0; i < N_CHANNELS && !err; i++)
+		err = fetch(job, &channels[i], &r, img);
+	return err;
+}

@@ -1,0 +1,259 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/frame/frame.h"
+
+/* --- Vertex stage ------------------------------------------------------------------------------------------------- */
+
+/* Run the vertex stage with room behind its results for what lines and points will become. */
+static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra_texcoords)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	size_t n = (size_t)p->n_vertices + extra_vertices;
+	struct launch l;
+	int err = reserve(tr, BUFFER_VERTICES, n, sizeof(struct shaded_vertex));
+
+	if (!err)
+		err = reserve(tr, BUFFER_WINDOWS, n, sizeof(struct window_vertex));
+	if (!err)
+		err = reserve(tr, BUFFER_CLIPS, n, 4 * sizeof(float));
+	if (!err)
+		err = reserve(tr, BUFFER_TEXCOORDS, (size_t)p->n_texcoords + extra_texcoords, 4 * sizeof(float));
+	if (err)
+		return err;
+	l = launch_with_tables(tr);
+	add(&l, tr, BUFFER_VIEWS);
+	add(&l, tr, BUFFER_OWNER);
+	add_uint(&l, &job->height);
+	add_uint(&l, &p->n_vertices);
+	add(&l, tr, BUFFER_VERTICES);
+	add(&l, tr, BUFFER_WINDOWS);
+	add(&l, tr, BUFFER_CLIPS);
+	add(&l, tr, BUFFER_TEXCOORDS);
+	return run(tr, KERNEL_vertex, p->n_vertices, &l);
+}
+
+static int upload_vertex_stage(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	int err = place_attributes(job);
+
+	if (!err)
+		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+	if (!err)
+		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = upload(tr, BUFFER_OWNER, p->owner, p->n_vertices, sizeof(*p->owner));
+	if (!err)
+		err = device_reserve(tr->dev, &tr->indices.buffer, sizeof(uint32_t));
+	return err;
+}
+
+/* --- Lines and points ---------------------------------------------------------------------------------------------- */
+
+/* Expand one instance's lines or points from what the vertex stage made of their vertices. */
+static int expand_instance(struct job *job, uint32_t i)
+{
+	const struct scene *scene = job->scene;
+	const struct prepared *p = &job->prepared;
+	const struct geometry *g = &p->geometries[i];
+	const struct scene_material *m = &scene->materials[g->material];
+	size_t n = g->vertex_count, n_coords = n * m->unit_count;
+	struct shaded_vertex *vertices = malloc((n + 1) * sizeof(*vertices));
+	float (*texcoords)[4] = malloc((n_coords + 1) * sizeof(*texcoords));
+	struct expand_input in = { .mesh = scene->meshes[scene->instances[p->instances[i].scene_instance].mesh],
+		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
+		                   .shape = p->shapes[i], .cull = p->culls[i], .height = job->height,
+		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .vertices = vertices,
+		                   .texcoords = (const float (*)[4])texcoords };
+	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;
+	int err = 0;
+
+	in.rectangles = first ? scene->rectangles + first - 1 : NULL;
+	if (!vertices || !texcoords)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err && n)
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		                  vertices, n * sizeof(*vertices));
+	if (!err && n_coords)
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_TEXCOORDS], g->texcoord_first * sizeof(*texcoords),
+		                  texcoords, n_coords * sizeof(*texcoords));
+	if (!err)
+		err = expand_primitives(&in, &job->expanded[i]);
+	free(vertices);
+	free(texcoords);
+	return err;
+}
+
+/* Put the new vertices behind the frame's own, where there is room. */
+static int upload_expanded(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	uint32_t vertex = p->n_vertices, texcoord = p->n_texcoords;
+	int err = 0;
+
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		const struct expanded *e = &job->expanded[i];
+		struct geometry *g = &p->geometries[i];
+
+		if (p->shapes[i] == PREPARED_FILLED)
+			continue;
+		job->extra[i] = &e->mesh;
+		g->flags |= GEOMETRY_EXPANDED;
+		if (job->scene->instances[p->instances[i].scene_instance].rectangle)
+			g->flags |= GEOMETRY_PIXELS;
+		if (p->shapes[i] == PREPARED_LINES)
+			g->flags |= job->scene->materials[g->material].line_smooth ? GEOMETRY_SMOOTH_LINE : GEOMETRY_LINE;
+		if (p->shapes[i] == PREPARED_POINTS && job->scene->materials[g->material].point_smooth &&
+		    !job->scene->materials[g->material].point_sprite)
+			g->flags |= GEOMETRY_SMOOTH_POINT;
+		g->vertex_first = p->instances[i].vertex_first = vertex;
+		g->vertex_count = e->n_vertices;
+		g->texcoord_first = texcoord;
+		if (e->n_vertices == 0)
+			continue;
+		err = device_write(tr->dev, tr->buffers[BUFFER_VERTICES], vertex * sizeof(*e->vertices), e->vertices,
+		                   e->n_vertices * sizeof(*e->vertices));
+		if (!err)
+			err = device_write(tr->dev, tr->buffers[BUFFER_WINDOWS], vertex * sizeof(*e->windows), e->windows,
+			                   e->n_vertices * sizeof(*e->windows));
+		for (uint32_t v = 0; v < e->n_vertices && !err; v++)
+			err = device_write(tr->dev, tr->buffers[BUFFER_CLIPS], (vertex + v) * 4 * sizeof(float),
+			                   e->vertices[v].clip, 4 * sizeof(float));
+		if (!err && e->n_texcoords)
+			err = device_write(tr->dev, tr->buffers[BUFFER_TEXCOORDS], texcoord * sizeof(*e->texcoords),
+			                   e->texcoords, e->n_texcoords * sizeof(*e->texcoords));
+		vertex += e->n_vertices;
+		texcoord += e->n_texcoords;
+	}
+	return err;
+}
+
+static int expand_all(struct job *job)
+{
+	struct prepared *p = &job->prepared;
+	uint32_t n_vertices = 0, n_texcoords = 0;
+	int err = 0;
+
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		if (p->shapes[i] == PREPARED_FILLED)
+			continue;
+		err = expand_instance(job, i);
+		n_vertices += job->expanded[i].n_vertices;
+		n_texcoords += job->expanded[i].n_texcoords;
+	}
+	if (!err && n_vertices) /* once more, with room: buffers that grow forget */
+		err = run_vertices(job, n_vertices, n_texcoords);
+	if (!err)
+		err = upload_expanded(job);
+	return err;
+}
+
+/* --- Trees ------------------------------------------------------------------------------------------------------ */
+
+/* Eye-space positions of the instances whose trees are built there; NULL in *out where there are none. */
+static int read_baked(struct job *job, float (**out)[4])
+{
+	struct prepared *p = &job->prepared;
+	int err = 0;
+
+	*out = NULL;
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		const struct geometry *g = &p->geometries[i];
+		struct shaded_vertex *vertices;
+
+		if (!(p->instances[i].flags & INSTANCE_BAKED) || g->vertex_count == 0)
+			continue;
+		if (!*out)
+			*out = calloc(p->n_vertices, sizeof(**out));
+		vertices = malloc(g->vertex_count * sizeof(*vertices));
+		if (!*out || !vertices) {
+			free(vertices);
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		}
+		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		                  vertices, g->vertex_count * sizeof(*vertices));
+		for (uint32_t v = 0; v < g->vertex_count; v++)
+			memcpy((*out)[g->vertex_first + v], vertices[v].eye, sizeof(**out));
+		free(vertices);
+	}
+	return err;
+}
+
+/* Order numbers run on through the frame's instances in draw order, whatever became of them. */
+static int number_primitives(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct prepared *p = &job->prepared;
+	uint32_t *next = calloc((size_t)scene->n_instances + 1, sizeof(*next)), total = 0;
+
+	if (!next)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		uint32_t from = p->instances[i].scene_instance;
+
+		next[from] += job->extra[i] ? job->extra[i]->primitive_count :
+		                              scene->meshes[scene->instances[from].mesh]->primitive_count;
+	}
+	for (uint32_t i = 0; i < scene->n_instances; i++) {
+		uint32_t count = next[i];
+
+		next[i] = total;
+		total += count;
+	}
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		uint32_t from = p->instances[i].scene_instance;
+
+		p->instances[i].primitive_first = next[from];
+		next[from] += job->extra[i] ? job->extra[i]->primitive_count :
+		                              scene->meshes[scene->instances[from].mesh]->primitive_count;
+	}
+	free(next);
+	return 0;
+}
+
+static int build_trees(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct prepared *p = &job->prepared;
+	struct scene scene = *job->scene; /* with a view for each segment */
+	float (*baked)[4];
+	int err = read_baked(job, &baked);
+
+	if (!err)
+		err = number_primitives(job);
+	tr->accel->kind = job->scene->kd_tree && !job->options->accel_asked ? ACCEL_KD : job->options->accel;
+	tr->accel->store = job->options->store;
+	scene.views = p->scene_views;
+	scene.n_views = p->n_views;
+	if (!err)
+		err = accel_build_frame(tr->accel, &scene, job->extra, (const float (*)[4])baked, p->instances,
+		                        p->n_instances, p->views, &job->spaces, &job->n_spaces);
+	free(baked);
+	if (!err)
+		err = upload(tr, BUFFER_INSTANCES, p->instances, p->n_instances, sizeof(*p->instances));
+	if (!err)
+		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+	if (!err)
+		err = place_indices(job);
+	if (!err)
+		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+	if (!err)
+		err = upload_trees(job);
+	return err;
+}
+
+int place_geometry(struct job *job)
+{
+	int err = upload_vertex_stage(job);
+
+	if (!err)
+		err = run_vertices(job, 0, 0);
+	if (!err)
+		err = expand_all(job);
+	return err ? err : build_trees(job);
+}

@@ -1,0 +1,41 @@
+/*
+ * A device buffer that keeps things found by content (vertex arrays, indices, texels) for as long as they fit: what a
+ * frame shares with the one before is not copied again.
+ */
+#ifndef TRACER_FRAME_POOL_H
+#define TRACER_FRAME_POOL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/device/device.h"
+
+struct pool_entry;
+
+struct pool {
+	struct device_buffer *buffer; /* 4-byte words */
+	size_t capacity, used;        /* words */
+	struct pool_entry *entries;   /* hash table, open addressing */
+	size_t n_entries, n_slots;
+};
+
+/* One thing that the frame needs. */
+struct pool_item {
+	uint64_t hash[2];
+	size_t words;
+	const void *object; /* handed to fill */
+	uint32_t place;     /* receives the index of its first word */
+};
+
+/** Write an item's words. */
+typedef void pool_fill(const void *object, uint32_t *words);
+
+/**
+ * Bring all of a frame's items into the buffer. Items placed for earlier frames may go.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, size_t n, pool_fill *fill);
+
+void pool_free(struct pool *pool, struct device *dev);
+
+#endif

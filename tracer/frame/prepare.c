@@ -1,0 +1,537 @@
+#include "tracer/frame/prepare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+#include "kernels/camera/camera.h"
+
+/* --- Matrices ---------------------------------------------------------------------------------------------------- */
+
+/* a b, in float, column by column, as Mesa multiplies its matrices: window positions then agree to the last bit. */
+static void multiply(const float a[16], const float b[16], float out[16])
+{
+	for (int row = 0; row < 4; row++)
+		for (int col = 0; col < 4; col++)
+			out[col * 4 + row] = a[row] * b[col * 4] + a[4 + row] * b[col * 4 + 1] +
+			                     a[8 + row] * b[col * 4 + 2] + a[12 + row] * b[col * 4 + 3];
+}
+
+/* Gauss and Jordan with full pivots, in double. @return 0 where there is no inverse */
+static int invert(const float m[16], double out[16])
+{
+	double a[4][8];
+
+	for (int row = 0; row < 4; row++)
+		for (int col = 0; col < 4; col++) {
+			a[row][col] = m[col * 4 + row];
+			a[row][4 + col] = row == col;
+		}
+	for (int col = 0; col < 4; col++) {
+		int best = col;
+		double scale;
+
+		for (int row = col + 1; row < 4; row++)
+			if (fabs(a[row][col]) > fabs(a[best][col]))
+				best = row;
+		if (!(fabs(a[best][col]) > 1e-30))
+			return 0;
+		for (int k = 0; k < 8; k++) {
+			double swap = a[col][k];
+
+			a[col][k] = a[best][k];
+			a[best][k] = swap;
+		}
+		scale = 1 / a[col][col];
+		for (int k = 0; k < 8; k++)
+			a[col][k] *= scale;
+		for (int row = 0; row < 4; row++) {
+			double factor = a[row][col];
+
+			if (row == col)
+				continue;
+			for (int k = 0; k < 8; k++)
+				a[row][k] -= factor * a[col][k];
+		}
+	}
+	for (int row = 0; row < 4; row++)
+		for (int col = 0; col < 4; col++)
+			out[col * 4 + row] = a[row][4 + col];
+	return 1;
+}
+
+/* Rows of the inverse transpose of the upper 3 x 3, rescaled as RESCALE_NORMAL wants (sec. 2.11.3). */
+static void normal_matrix(const float m[16], int rescale, float out[12])
+{
+	double a[3][3], cofactor[3][3], det, scale = 1, length = 0;
+
+	for (int row = 0; row < 3; row++)
+		for (int col = 0; col < 3; col++)
+			a[row][col] = m[col * 4 + row];
+	for (int row = 0; row < 3; row++)
+		for (int col = 0; col < 3; col++) {
+			int r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (col + 1) % 3, c2 = (col + 2) % 3;
+
+			cofactor[row][col] = a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1];
+		}
+	det = a[0][0] * cofactor[0][0] + a[0][1] * cofactor[0][1] + a[0][2] * cofactor[0][2];
+	if (det != 0)
+		scale = 1 / det;
+	if (rescale) {
+		/* the bottom row of the inverse is the last row of the transposed cofactors: their third column */
+		for (int row = 0; row < 3; row++)
+			length += cofactor[row][2] * scale * cofactor[row][2] * scale;
+		if (length > 0)
+			scale /= sqrt(length);
+	}
+	for (int row = 0; row < 3; row++) {
+		for (int col = 0; col < 3; col++)
+			out[row * 4 + col] = (float)(cofactor[row][col] * scale);
+		out[row * 4 + 3] = 0;
+	}
+}
+
+static void rows_from_columns(const float m[16], float rows[12])
+{
+	for (int row = 0; row < 3; row++)
+		for (int col = 0; col < 4; col++)
+			rows[row * 4 + col] = m[col * 4 + row];
+}
+
+static void identity_rows(float rows[12])
+{
+	memset(rows, 0, 12 * sizeof(*rows));
+	rows[0] = rows[5] = rows[10] = 1;
+}
+
+/* An affine inverse in rows; 0 where the matrix is projective or has none that floats can hold. */
+static int invert_affine(const float m[16], float rows[12])
+{
+	double inverse[16];
+	float columns[16], finite = 0;
+
+	if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1 || !invert(m, inverse))
+		return 0;
+	for (int i = 0; i < 16; i++) {
+		columns[i] = (float)inverse[i];
+		finite += 0 * columns[i];
+	}
+	rows_from_columns(columns, rows);
+	/* Almost flat: a ray in object space would have no accuracy left. */
+	for (int row = 0; row < 3; row++)
+		for (int col = 0; col < 3; col++)
+			if (fabsf(rows[row * 4 + col]) > 1e12f)
+				return 0;
+	return finite == 0;
+}
+
+/* --- Meshes ------------------------------------------------------------------------------------------------------ */
+
+#define FACE_WORDS (2 * sizeof(struct scene_face) / 4) /* front and back */
+
+void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometry *g)
+{
+	uint32_t n = mesh->vertex_count, at = base;
+
+	g->attributes = mesh->attributes;
+	g->position = at;
+	at += 4 * n;
+	g->normal = at;
+	at += mesh->normal ? 3 * n : 0;
+	g->color = at;
+	at += mesh->color ? 4 * n : 0;
+	g->secondary = at;
+	at += mesh->secondary ? 4 * n : 0;
+	g->fog_coord = at;
+	at += mesh->fog_coord ? n : 0;
+	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++) {
+		g->texcoord[unit] = at;
+		at += mesh->texcoord[unit] ? 4 * n : 0;
+	}
+	g->face = at;
+}
+
+size_t prepare_attribute_words(const struct scene_mesh *mesh)
+{
+	size_t each = 4 + (mesh->normal ? 3 : 0) + (mesh->color ? 4 : 0) + (mesh->secondary ? 4 : 0) +
+	              (mesh->fog_coord ? 1 : 0) + (mesh->face ? FACE_WORDS : 0);
+
+	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
+		each += mesh->texcoord[unit] ? 4 : 0;
+	return each * mesh->vertex_count;
+}
+
+static uint32_t *append(uint32_t *words, const float *values, size_t n)
+{
+	if (!values)
+		return words;
+	memcpy(words, values, n * sizeof(*words));
+	return words + n;
+}
+
+void prepare_fill_attributes(const void *object, uint32_t *words)
+{
+	const struct scene_mesh *mesh = object;
+	size_t n = mesh->vertex_count;
+
+	words = append(words, mesh->position, 4 * n);
+	words = append(words, mesh->normal, 3 * n);
+	words = append(words, mesh->color, 4 * n);
+	words = append(words, mesh->secondary, 4 * n);
+	words = append(words, mesh->fog_coord, n);
+	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
+		words = append(words, mesh->texcoord[unit], 4 * n);
+	append(words, (const float *)mesh->face, FACE_WORDS * n);
+}
+
+size_t prepare_index_words(const struct scene_mesh *mesh)
+{
+	return (size_t)mesh->primitive_count * ((size_t)mesh->kind + (mesh->primitive_draw ? 1 : 0));
+}
+
+void prepare_fill_indices(const void *object, uint32_t *words)
+{
+	const struct scene_mesh *mesh = object;
+	size_t n = (size_t)mesh->primitive_count * (size_t)mesh->kind;
+
+	memcpy(words, mesh->index, n * sizeof(*words));
+	if (mesh->primitive_draw)
+		memcpy(words + n, mesh->primitive_draw, mesh->primitive_count * sizeof(*words));
+}
+
+/* --- Instances --------------------------------------------------------------------------------------------------- */
+
+/*
+ * By how much an instance's boxes must grow so that no pixel is missed whose centre a snapped triangle covers: vertices
+ * move by up to 1/512 pixel on each axis. That step, at the farthest corner of the mesh's box, in object units; and a
+ * little for the rounding of large coordinates.
+ */
+static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, const struct instance *instance,
+                     const struct view *view)
+{
+	float lo[3] = { INFINITY, INFINITY, INFINITY }, hi[3] = { -INFINITY, -INFINITY, -INFINITY };
+	float farthest = 0, size = 0, eye = 0, shrink = 0;
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int a = 0; a < 3; a++) {
+			lo[a] = fminf(lo[a], mesh->position[4 * v + a]);
+			hi[a] = fmaxf(hi[a], mesh->position[4 * v + a]);
+		}
+	for (int corner = 0; corner < 8; corner++) {
+		float at[3], w = g->clip_from_obj[15];
+
+		for (int a = 0; a < 3; a++) {
+			at[a] = corner >> a & 1 ? hi[a] : lo[a];
+			w += g->clip_from_obj[4 * a + 3] * at[a];
+			size = fmaxf(size, fabsf(at[a]));
+		}
+		farthest = fmaxf(farthest, fabsf(w));
+	}
+	for (int a = 0; a < 3; a++) {
+		float x = view->inverse[a] / view->viewport[2], y = view->inverse[4 + a] / view->viewport[3];
+
+		eye += x * x + y * y;
+	}
+	for (int row = 0; row < 3; row++)
+		for (int col = 0; col < 3; col++)
+			shrink += instance->obj_from_eye[row * 4 + col] * instance->obj_from_eye[row * 4 + col];
+	return 2 * farthest * sqrtf(eye) / 256 * sqrtf(shrink) + 4e-6f * size;
+}
+
+/*
+ * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none
+ * themselves, so that all else is in front of them.
+ * @param skies  [n_instances], all 0; receives 1 for each
+ */
+static int find_skies(const struct scene *scene, uint8_t *skies)
+{
+	uint32_t *space = malloc((scene->n_views + (size_t)1) * sizeof(*space)); /* the first view with the same one */
+	uint8_t *deep = calloc(scene->n_views + (size_t)1, 1);
+
+	for (uint32_t v = 0; v < scene->n_views && space && deep; v++) {
+		space[v] = 0;
+		while (scene->views[space[v]].space != scene->views[v].space)
+			space[v]++;
+	}
+	for (uint32_t i = 0; i < scene->n_instances && space && deep; i++) {
+		const struct scene_instance *instance = &scene->instances[i];
+		const struct scene_material *m = &scene->materials[instance->material];
+
+		if (m->depth_test && m->depth_write)
+			deep[space[instance->view]] = 1;
+		skies[i] = !deep[space[instance->view]] && (m->color_mask & 7) && !m->stencil_test &&
+		           scene->views[instance->view].projection[11] != 0;
+	}
+	free(deep);
+	free(space);
+	return space && deep ? 0 : -1;
+}
+
+static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape)
+{
+	uint32_t flags = 0;
+	int draws_color = (m->color_mask & 7) != 0;
+
+	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
+		flags |= INSTANCE_OPAQUE;
+	if (m->depth_test && draws_color && shape == PREPARED_FILLED)
+		flags |= INSTANCE_SECONDARY;
+	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
+		flags |= INSTANCE_CULL_FRONT;
+	if (m->cull_face == GL_BACK || m->cull_face == GL_FRONT_AND_BACK)
+		flags |= INSTANCE_CULL_BACK;
+	if (m->front_face == GL_CW)
+		flags |= INSTANCE_FRONT_CW;
+	return flags;
+}
+
+static enum prepared_shape shape_of_mode(uint32_t mode)
+{
+	return mode == GL_LINE ? PREPARED_LINES : mode == GL_POINT ? PREPARED_POINTS : PREPARED_FILLED;
+}
+
+static void add_instance(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
+                         enum prepared_shape shape, uint32_t cull)
+{
+	const struct scene_instance *from = &scene->instances[index];
+	const struct scene_material *m = &scene->materials[from->material];
+	const struct scene_mesh *mesh = scene->meshes[from->mesh];
+	struct instance *instance = &p->instances[p->n_instances];
+	struct geometry *g = &p->geometries[p->n_instances];
+
+	p->shapes[p->n_instances] = shape;
+	multiply(scene->views[from->view].projection, from->modelview, g->clip_from_obj);
+	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
+	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
+	prepare_layout(mesh, 0, g);
+	g->material = from->material;
+	g->view = segment->view;
+	g->current = from->current;
+	g->draw = from->draw;
+	g->primitive_draw = SCENE_NONE;
+	g->vertex_first = p->n_vertices;
+	g->vertex_count = mesh->vertex_count;
+	g->texcoord_first = p->n_texcoords;
+	p->n_vertices += mesh->vertex_count;
+	p->n_texcoords += mesh->vertex_count * m->unit_count;
+
+	instance->flags = instance_flags(m, shape) | cull;
+	if (p->skies[index] && shape == PREPARED_FILLED)
+		instance->flags = (instance->flags & ~INSTANCE_SECONDARY) | INSTANCE_SKY;
+	instance->vertex_first = g->vertex_first;
+	instance->material = from->material;
+	instance->view = segment->view;
+	instance->draw = from->draw;
+	instance->scene_instance = index;
+	if (shape != PREPARED_FILLED) {
+		p->culls[p->n_instances] = instance->flags & (INSTANCE_CULL_FRONT | INSTANCE_CULL_BACK);
+		instance->flags = INSTANCE_SCREEN;
+		identity_rows(instance->eye_from_obj);
+		identity_rows(instance->obj_from_eye);
+		segment->screen_count++;
+	} else if (invert_affine(from->modelview, instance->obj_from_eye)) {
+		rows_from_columns(from->modelview, instance->eye_from_obj);
+	} else {
+		instance->flags |= INSTANCE_BAKED;
+		identity_rows(instance->eye_from_obj);
+		identity_rows(instance->obj_from_eye);
+	}
+	if (shape == PREPARED_FILLED && !(instance->flags & INSTANCE_BAKED))
+		instance->pad = box_pad(mesh, g, instance, &p->views[segment->view]);
+	else if (shape == PREPARED_FILLED) {
+		struct geometry baked = *g;
+
+		memcpy(baked.clip_from_obj, scene->views[from->view].projection, sizeof(baked.clip_from_obj));
+		instance->pad = box_pad(mesh, &baked, instance, &p->views[segment->view]);
+	} else {
+		instance->pad = 1.0f / 128; /* pixels */
+	}
+	p->n_instances++;
+	segment->instance_count++;
+	if (m->lighting && m->light_count > p->n_light_slots)
+		p->n_light_slots = m->light_count;
+	if (m->surface.relit && m->surface.light_count > p->n_light_slots)
+		p->n_light_slots = m->surface.light_count;
+	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
+	if (instance->flags & INSTANCE_SECONDARY)
+		p->has_veils |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
+		                m->surface.hidden;
+}
+
+/* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */
+static void add_shapes(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
+                       int screen)
+{
+	const struct scene_instance *from = &scene->instances[index];
+	const struct scene_material *m = &scene->materials[from->material];
+	enum scene_primitive kind = scene->meshes[from->mesh]->kind;
+	enum prepared_shape front = shape_of_mode(m->polygon_mode_front), back = shape_of_mode(m->polygon_mode_back);
+
+	if (kind != SCENE_TRIANGLES) {
+		if (screen)
+			add_instance(scene, p, segment, index, kind == SCENE_LINES ? PREPARED_LINES : PREPARED_POINTS, 0);
+		return;
+	}
+	if (front == back) {
+		if ((front != PREPARED_FILLED) == screen)
+			add_instance(scene, p, segment, index, front, 0);
+		return;
+	}
+	if ((front != PREPARED_FILLED) == screen)
+		add_instance(scene, p, segment, index, front, INSTANCE_CULL_BACK);
+	if ((back != PREPARED_FILLED) == screen)
+		add_instance(scene, p, segment, index, back, INSTANCE_CULL_FRONT);
+}
+
+/* --- Segments ---------------------------------------------------------------------------------------------------- */
+
+/* The camera mode that answers for a draw on its own. */
+static uint32_t draw_mode(const struct scene *scene, const struct scene_instance *instance)
+{
+	const struct scene_material *m = &scene->materials[instance->material];
+
+	if (scene->meshes[instance->mesh]->kind != SCENE_TRIANGLES || m->polygon_mode_front != GL_FILL ||
+	    m->polygon_mode_back != GL_FILL)
+		return CAMERA_COLUMN;
+	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
+	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
+	    (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
+		return CAMERA_COLUMN;
+	if (m->depth_func == GL_LESS)
+		return CAMERA_NEAREST_LESS;
+	return m->depth_func == GL_LEQUAL ? CAMERA_NEAREST_LEQUAL : CAMERA_COLUMN;
+}
+
+static uint32_t multisampled(const struct scene *scene, uint32_t instance)
+{
+	return scene->materials[scene->instances[instance].material].multisample;
+}
+
+/* A run of instances that one pass answers, before instances are made. */
+struct run {
+	uint32_t first, end, mode;
+	uint32_t clear_first, clear_count;
+};
+
+/* Most passes over one view between clears; where draws alternate more often, one of columns answers for the rest. */
+#define MAX_PASSES 4
+
+static uint32_t cut_runs(const struct scene *scene, struct run *runs)
+{
+	uint32_t n = 0, clear = 0, group = 0;
+
+	for (uint32_t i = 0; i < scene->n_instances; i++) {
+		uint32_t mode = draw_mode(scene, &scene->instances[i]), clears = clear;
+		int new_group;
+
+		while (clears < scene->n_clears && scene->clears[clears].before_instance <= i)
+			clears++;
+		new_group = n == 0 || clears > clear || scene->instances[i].view != scene->instances[i - 1].view ||
+		            multisampled(scene, i) != multisampled(scene, i - 1);
+		if (new_group)
+			group = n;
+		if (!new_group && runs[n - 1].mode == mode) {
+			runs[n - 1].end = i + 1;
+			continue;
+		}
+		if (n - group >= MAX_PASSES) {
+			runs[group + 1].end = i + 1;
+			runs[group + 1].mode = CAMERA_COLUMN;
+			n = group + 2;
+			continue;
+		}
+		runs[n++] = (struct run){ i, i + 1, mode, clear, clears - clear };
+		clear = clears;
+	}
+	if (clear < scene->n_clears)
+		runs[n++] = (struct run){ scene->n_instances, scene->n_instances, CAMERA_COLUMN, clear, scene->n_clears - clear };
+	return n;
+}
+
+static void make_view(const struct scene_view *from, const float shift[2], struct view *view)
+{
+	double inverse[16];
+
+	memcpy(view->projection, from->projection, sizeof(view->projection));
+	memcpy(view->viewport, from->viewport, sizeof(view->viewport));
+	view->viewport[0] += shift[0];
+	view->viewport[1] += shift[1];
+	memcpy(view->depth_range, from->depth_range, sizeof(view->depth_range));
+	memcpy(view->scissor, from->scissor, sizeof(view->scissor));
+	if (!invert(from->projection, inverse))
+		return; /* an inverse of zeros: the view has no rays, only screen geometry */
+	for (int i = 0; i < 16; i++)
+		view->inverse[i] = (float)inverse[i];
+}
+
+static int draws_to_window(const struct scene *scene, uint32_t instance)
+{
+	return scene->views[scene->instances[instance].view].target == 0;
+}
+
+int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out)
+{
+	size_t most = 2 * (size_t)scene->n_instances + 1;
+	struct run *runs = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*runs));
+	uint32_t n_runs;
+
+	out->segments = calloc(most + scene->n_clears, sizeof(*out->segments));
+	out->instances = calloc(most, sizeof(*out->instances));
+	out->geometries = calloc(most, sizeof(*out->geometries));
+	out->shapes = calloc(most, sizeof(*out->shapes));
+	out->culls = calloc(most, sizeof(*out->culls));
+	out->views = calloc(most, sizeof(*out->views));
+	out->scene_views = calloc(most, sizeof(*out->scene_views));
+	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
+	if (!runs || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
+	    !out->scene_views || !out->skies || find_skies(scene, out->skies) != 0)
+		goto fail;
+	n_runs = cut_runs(scene, runs);
+	for (uint32_t r = 0; r < n_runs; r++) {
+		struct segment *segment = &out->segments[out->n_segments++];
+
+		*segment = (struct segment){ .clear_first = runs[r].clear_first, .clear_count = runs[r].clear_count,
+			                     .view = SCENE_NONE, .mode = runs[r].mode, .instance_first = out->n_instances };
+		if (runs[r].first == runs[r].end || !draws_to_window(scene, runs[r].first))
+			continue;
+		segment->multisample = multisampled(scene, runs[r].first);
+		segment->view = out->n_views;
+		out->scene_views[out->n_views] = scene->views[scene->instances[runs[r].first].view];
+		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);
+		out->n_views++;
+		for (int screen = 0; screen < 2; screen++)
+			for (uint32_t i = runs[r].first; i < runs[r].end; i++)
+				add_shapes(scene, out, segment, i, screen);
+		out->views[segment->view].screen_first =
+			segment->instance_first + segment->instance_count - segment->screen_count;
+		out->views[segment->view].screen_count = segment->screen_count;
+	}
+	out->owner = malloc((out->n_vertices + (size_t)1) * sizeof(*out->owner));
+	if (!out->owner)
+		goto fail;
+	for (uint32_t i = 0; i < out->n_instances; i++)
+		for (uint32_t v = 0; v < out->geometries[i].vertex_count; v++)
+			out->owner[out->geometries[i].vertex_first + v] = i;
+	free(runs);
+	return 0;
+fail:
+	free(runs);
+	prepared_free(out);
+	return err_report(ERR_SYSTEM, NULL, "out of memory for a frame of %u instances", scene->n_instances);
+}
+
+void prepared_free(struct prepared *p)
+{
+	free(p->segments);
+	free(p->instances);
+	free(p->geometries);
+	free(p->shapes);
+	free(p->culls);
+	free(p->views);
+	free(p->scene_views);
+	free(p->owner);
+	free(p->skies);
+	memset(p, 0, sizeof(*p));
+}

@@ -1,0 +1,69 @@
+/*
+ * A frame as the wavefront takes it: scene instances with their matrices and flags, and the order in which things happen,
+ * cut into segments that one camera pass each can answer.
+ */
+#ifndef TRACER_FRAME_PREPARE_H
+#define TRACER_FRAME_PREPARE_H
+
+#include "kernels/shared.h"
+#include "scene/scene.h"
+
+/* Clears, then the instances of one view. */
+struct segment {
+	uint32_t clear_first, clear_count; /* in scene.clears; happen first */
+	uint32_t view;                     /* in prepared.views: each segment has its own; SCENE_NONE: clears only */
+	uint32_t mode;                     /* CAMERA_*: nearest where that is the same answer, else columns */
+	uint32_t instance_first, instance_count; /* in prepared.instances; screen geometry comes last */
+	uint32_t screen_count;
+	uint32_t multisample; /* its primitives cover samples, not pixels */
+};
+
+/* What the rasterizer makes of an instance's primitives (GL 2.1 sec. 3.5.4: polygon modes). */
+enum prepared_shape { PREPARED_FILLED, PREPARED_LINES, PREPARED_POINTS };
+
+struct prepared {
+	struct segment *segments;
+	uint32_t n_segments;
+
+	/* [n_instances]: one of each for every instance. An instance whose faces have different polygon modes comes
+	   twice. primitive_first, node and triangle places are not yet known. */
+	struct instance *instances;
+	struct geometry *geometries;
+	enum prepared_shape *shapes;
+	uint32_t *culls; /* INSTANCE_CULL_* of those that are to be expanded */
+	uint32_t n_instances;
+
+	struct view *views;             /* [n_views], one a segment that draws */
+	struct scene_view *scene_views; /* the scene's, beside them */
+	uint32_t n_views;
+
+	uint32_t n_vertices;  /* of all instances */
+	uint32_t n_texcoords; /* [4] each */
+	uint32_t *owner;      /* [n_vertices]: instance */
+	uint8_t *skies;       /* [scene's instances]: 1 where it is a sky */
+	uint32_t n_light_slots; /* most lights in any lit material */
+	int has_mirrors; /* a surface mirrors or lets light through */
+	int has_veils;   /* what stops a ray to a light may let some of it pass */
+};
+
+/**
+ * Prepare a frame.
+ * @param shift  by how much its picture is moved, pixels: pixel centres then show what lies beside them
+ * @param out  all zero; filled on success; free with prepared_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out);
+void prepared_free(struct prepared *p);
+
+/** Where a mesh's arrays lie among the words of its block, in a geometry's fields; relative to `base`. */
+void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometry *g);
+
+/** Words of a mesh's vertex arrays, and of its indices. */
+size_t prepare_attribute_words(const struct scene_mesh *mesh);
+size_t prepare_index_words(const struct scene_mesh *mesh);
+
+/** pool_fill for both: object is a struct scene_mesh. */
+void prepare_fill_attributes(const void *object, uint32_t *words);
+void prepare_fill_indices(const void *object, uint32_t *words);
+
+#endif

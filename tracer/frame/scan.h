@@ -1,0 +1,20 @@
+/* Prefix sums on a device: kernels/frame/scan.h. */
+#ifndef TRACER_FRAME_SCAN_H
+#define TRACER_FRAME_SCAN_H
+
+#include <stdint.h>
+
+#include "tracer/device/device.h"
+
+/**
+ * Where n items' results begin when they stand densely, in the items' order.
+ * @param counts   uint[n]: how many results each item has; together less than 2^32
+ * @param places   made large enough; receives uint[n]. Not `counts`
+ * @param scratch  a buffer that nothing else is kept in
+ * @param total    receives how many results there are; places are written only where there are some
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int scan_counts(struct device *dev, const struct device_buffer *counts, uint32_t n, struct device_buffer **places,
+                struct device_buffer **scratch, uint32_t *total);
+
+#endif

@@ -1,0 +1,76 @@
+/*
+ * The wavefront: a scene becomes a picture on a device.
+ *
+ * Per frame: vertex stage; acceleration structures; then segment by segment (prepare.h), in draw order: clears, camera
+ * rays, fragments gathered, shaded, lit again where shadow rays were stopped, mirrors followed, and all of it put
+ * through the per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
+ */
+#ifndef TRACER_FRAME_TRACE_H
+#define TRACER_FRAME_TRACE_H
+
+#include "scene/scene.h"
+#include "tracer/accel/accel.h"
+#include "tracer/device/device.h"
+#include "tracer/image/image.h"
+#include "look/look.h"
+
+enum tracer_mode {
+	TRACER_WHITTED,  /* GL's picture, shadows, mirrors, glass */
+	TRACER_GL,       /* GL's picture alone: beauty equals gl */
+	TRACER_NORMALS,  /* eye-space normals as colours */
+	TRACER_AO,       /* how open each surface is, as grey */
+	TRACER_AO_PHONG, /* the same over GL's picture */
+	TRACER_DIFFUSE,  /* whitted, and one bounce of light from surface to surface */
+	TRACER_PATH      /* light followed from surface to surface, no ambient light */
+};
+
+struct tracer_options {
+	enum tracer_mode mode;
+	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
+	unsigned depth;   /* bounces at most */
+	unsigned samples; /* of a pixel, spread otherwise in each (kernels/frame/sample.h), of which it is the mean; 0 counts as 1 */
+	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
+	float reach;      /* of openness, eye-space units; 0: without end */
+	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
+	enum accel_kind accel; /* trees of meshes */
+	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
+	struct store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
+	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
+	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
+};
+
+struct tracer;
+
+/** @param dev  kept until tracer_destroy. @return 0 or ERR_SYSTEM (reported) */
+int tracer_create(struct tracer **out, struct device *dev);
+void tracer_destroy(struct tracer **tracer);
+
+/** Share trees of meshes with other tracers of the process from now on. @param grove  kept until tracer_destroy */
+void tracer_share(struct tracer *tracer, struct grove *grove);
+
+/** 0, or ERR_USAGE (reported) where a list of channel groups names one that is not there. */
+int tracer_check_aov(const char *aov);
+
+/**
+ * Render one frame.
+ * @param img  empty; receives the channels, and the attributes that the scene and device know (relume:frame,
+ *             relume:device, relume:encoding, camera); free with image_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                  struct image *img);
+
+/**
+ * What GL drew of a scene, as pixels: rounded to the frame buffer's bits, no shadows, no mirrors.
+ * @param picture  of the scene's size, arrays allocated; filled
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture);
+
+/** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
+struct tracer_undrawn {
+	uint64_t targets; /* instances that drew to a target other than the window */
+};
+const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
+
+#endif

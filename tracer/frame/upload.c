@@ -1,0 +1,203 @@
+/* A frame's meshes, state, textures and trees on their way to the device. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+#include "tracer/frame/frame.h"
+
+int place_attributes(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct pool_item *items = calloc(scene->n_meshes + (size_t)1, sizeof(*items));
+	int err;
+
+	if (!items)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < scene->n_meshes; i++)
+		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
+			                       prepare_attribute_words(scene->meshes[i]), scene->meshes[i], 0 };
+	err = pool_place(&job->tr->attributes, job->tr->dev, items, scene->n_meshes, prepare_fill_attributes);
+	for (uint32_t i = 0; i < job->prepared.n_instances && !err; i++) {
+		uint32_t mesh = scene->instances[job->prepared.instances[i].scene_instance].mesh;
+
+		prepare_layout(scene->meshes[mesh], items[mesh].place, &job->prepared.geometries[i]);
+	}
+	free(items);
+	return err;
+}
+
+/* Meshes are the scene's and those that lines and points became. */
+int place_indices(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct prepared *p = &job->prepared;
+	struct pool_item *items = calloc((size_t)scene->n_meshes + p->n_instances + 1, sizeof(*items));
+	size_t n = scene->n_meshes;
+	int err;
+
+	if (!items)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < n; i++)
+		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
+			                       prepare_index_words(scene->meshes[i]), scene->meshes[i], 0 };
+	for (uint32_t i = 0; i < p->n_instances; i++)
+		if (job->extra[i])
+			items[n++] = (struct pool_item){ { job->extra[i]->hash[0], job->extra[i]->hash[1] },
+				                         prepare_index_words(job->extra[i]), job->extra[i], 0 };
+	err = pool_place(&job->tr->indices, job->tr->dev, items, n, prepare_fill_indices);
+	n = scene->n_meshes;
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		uint32_t mesh = scene->instances[p->instances[i].scene_instance].mesh;
+		const struct pool_item *item = job->extra[i] ? &items[n++] : &items[mesh];
+		const struct scene_mesh *from = item->object;
+
+		p->geometries[i].index = item->place;
+		p->geometries[i].primitive_draw =
+			from->primitive_draw ? item->place + from->primitive_count * (uint32_t)from->kind : SCENE_NONE;
+	}
+	free(items);
+	return err;
+}
+
+static void fill_texels(const void *object, uint32_t *words)
+{
+	const struct scene_texture *texture = object;
+
+	memcpy(words, texture->texels, texture->n_bytes / 4 * 4);
+}
+
+static uint32_t level_words(const struct scene_texture *t, uint32_t level)
+{
+	uint32_t w = t->width >> level ? t->width >> level : 1, h = t->height >> level ? t->height >> level : 1;
+	uint32_t d = t->depth >> level ? t->depth >> level : 1;
+
+	w += 2 * t->border;
+	h = t->target == GL_TEXTURE_1D ? 1 : h + 2 * t->border;
+	d = t->target == GL_TEXTURE_3D ? d + 2 * t->border : t->target == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+	return w * h * d * (t->floats ? 4 : 1);
+}
+
+static int describe_texture(const struct scene_texture *t, uint32_t place, struct texture_image *out)
+{
+	size_t at = 0;
+
+	*out = (struct texture_image){ t->target, t->base_format, t->width, t->height, t->depth, t->n_levels, t->border,
+		                       t->floats ? 4 : 1, { 0 } };
+	if (out->n_levels > TEXTURE_MAX_LEVELS)
+		out->n_levels = TEXTURE_MAX_LEVELS;
+	for (uint32_t level = 0; level < out->n_levels; level++) {
+		out->level_first[level] = place + (uint32_t)at;
+		at += level_words(t, level);
+	}
+	if (out->n_levels == 0 || at > t->n_bytes / 4)
+		return err_report(ERR_SYSTEM, NULL, "a texture of %u x %u has %zu bytes, not the %zu of its %u levels",
+		                  t->width, t->height, t->n_bytes, at * 4, t->n_levels);
+	return 0;
+}
+
+static int upload_textures(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	struct pool_item *items = calloc(scene->n_textures + (size_t)1, sizeof(*items));
+	struct texture_image *images = calloc(scene->n_textures + (size_t)1, sizeof(*images));
+	int err = 0;
+
+	if (!items || !images) {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+		goto done;
+	}
+	for (uint32_t i = 0; i < scene->n_textures; i++)
+		items[i] = (struct pool_item){ { scene->textures[i]->hash[0], scene->textures[i]->hash[1] },
+			                       scene->textures[i]->n_bytes / 4, scene->textures[i], 0 };
+	err = pool_place(&job->tr->texels, job->tr->dev, items, scene->n_textures, fill_texels);
+	for (uint32_t i = 0; i < scene->n_textures && !err; i++)
+		err = describe_texture(scene->textures[i], items[i].place, &images[i]);
+	if (!err)
+		err = upload(job->tr, BUFFER_TEXTURES, images, scene->n_textures, sizeof(*images));
+done:
+	free(items);
+	free(images);
+	return err;
+}
+
+int upload_state(struct job *job)
+{
+	const struct scene *s = job->scene;
+	struct tracer *tr = job->tr;
+	int err = upload(tr, BUFFER_MATERIALS, s->materials, s->n_materials, sizeof(*s->materials));
+
+	if (!err)
+		err = upload(tr, BUFFER_LIGHTS, s->lights, s->n_lights, sizeof(*s->lights));
+	if (!err)
+		err = upload(tr, BUFFER_UNITS, s->units, s->n_units, sizeof(*s->units));
+	if (!err)
+		err = upload(tr, BUFFER_CURRENTS, s->currents, s->n_currents, sizeof(*s->currents));
+	if (!err)
+		err = upload(tr, BUFFER_STIPPLES, s->stipples, s->n_stipples, sizeof(*s->stipples));
+	if (!err)
+		err = upload_textures(job);
+	return err;
+}
+
+/* One pool of those of meshes: what is not there yet, or all of it where the buffer has to grow. */
+static int upload_pool(struct tracer *tr, enum bottom_part part, enum buffer buffer)
+{
+	const struct accel_pool pool = accel_pool(tr->accel, part);
+	const size_t size = bottom_item_bytes[part];
+	size_t from = pool.same;
+	int err = 0;
+
+	if (!tr->buffers[buffer] || pool.n > tr->tree_room[part]) {
+		/* A buffer that grew once will again. */
+		const size_t room = tr->buffers[buffer] ? pool.n + pool.n / 4 : pool.n;
+
+		err = reserve(tr, buffer, room, size);
+		tr->tree_room[part] = err ? 0 : room;
+		from = 0;
+	}
+	if (err || from == pool.n)
+		return err;
+	return device_write(tr->dev, tr->buffers[buffer], from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+}
+
+/* What the device's kernels walk of them. */
+static int upload_mesh_trees(struct tracer *tr)
+{
+	static const struct {
+		enum bottom_part part;
+		enum buffer buffer;
+		unsigned families;
+	} pools[] = {
+		{ BOTTOM_NODES2, BUFFER_NODES2, 1u << FAMILY_BINARY },
+		{ BOTTOM_TRIANGLES, BUFFER_TRIANGLES, 1u << FAMILY_BINARY },
+		{ BOTTOM_NODES8, BUFFER_NODES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_TRIANGLES8, BUFFER_TRIANGLES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_FACES8, BUFFER_FACES8, 1u << FAMILY_PACKETS },
+		{ BOTTOM_NODES8C, BUFFER_NODES8C, 1u << FAMILY_COMPRESSED },
+		{ BOTTOM_TRIANGLES8C, BUFFER_TRIANGLES8C, 1u << FAMILY_COMPRESSED },
+	};
+	int err = 0;
+
+	for (size_t i = 0; i < sizeof(pools) / sizeof(pools[0]) && !err; i++)
+		if (pools[i].families >> device_family(tr->dev) & 1)
+			err = upload_pool(tr, pools[i].part, pools[i].buffer);
+	if (!err)
+		accel_copied(tr->accel);
+	return err;
+}
+
+int upload_trees(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	const struct accel *a = tr->accel;
+	int err = upload_mesh_trees(tr);
+
+	if (!err)
+		err = upload(tr, BUFFER_TOP2, a->top2, a->n_top2, sizeof(*a->top2));
+	if (!err)
+		err = upload(tr, BUFFER_TOP8, a->top8, a->n_top8, sizeof(*a->top8));
+	if (!err)
+		err = upload(tr, BUFFER_INSTANCE_LIST, a->instance_list, a->n_instance_list, sizeof(*a->instance_list));
+	return err;
+}

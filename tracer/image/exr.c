@@ -1,0 +1,395 @@
+/* struct image to and from OpenEXR files, by OpenEXRCore (written against 3.1.5; its traps are named where met). */
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <errno.h>
+#include <half.h>
+#include <openexr.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/err.h"
+#include "base/part.h"
+#include "tracer/image/exr_zip.h"
+#include "tracer/image/image.h"
+
+#define MAX_PIXELS ((uint64_t)1 << 30)
+
+/* What the library said last on this thread: it reports through a callback, we report once, with the file's name. */
+static _Thread_local char exr_said[160];
+
+static void keep_message(exr_const_context_t context, exr_result_t code, const char *message)
+{
+	(void)context;
+	snprintf(exr_said, sizeof(exr_said), "%s", message ? message : exr_get_default_error_message(code));
+}
+
+static exr_context_initializer_t context_setup(void)
+{
+	exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+
+	exr_said[0] = '\0';
+	setup.error_handler_fn = keep_message;
+	return setup;
+}
+
+/* The text for a failed call. */
+static const char *reason(exr_result_t rc)
+{
+	return exr_said[0] ? exr_said : exr_get_default_error_message(rc);
+}
+
+/* --- Attributes ------------------------------------------------------------------------------------------------ */
+
+/* Attributes of the standard that hold a matrix; in struct image they are 16 numbers as text, in file order. */
+static int is_matrix(const char *name)
+{
+	return strcmp(name, "worldToCamera") == 0 || strcmp(name, "worldToNDC") == 0;
+}
+
+static exr_result_t write_matrix(exr_context_t file, const char *name, const char *text)
+{
+	exr_attr_m44f_t m;
+	const char *at = text;
+	char *end;
+
+	for (int i = 0; i < 16; i++, at = end) {
+		m.m[i] = strtof(at, &end);
+		if (end == at)
+			return EXR_ERR_INVALID_ARGUMENT;
+	}
+	return exr_attr_set_m44f(file, 0, name, &m);
+}
+
+static exr_result_t write_attributes(exr_context_t file, const struct image *img)
+{
+	static const exr_attr_chromaticities_t rec709 = { 0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f };
+	exr_result_t rc = exr_attr_set_chromaticities(file, 0, "chromaticities", &rec709);
+
+	for (size_t i = 0; i < img->n_attributes && rc == EXR_ERR_SUCCESS; i++) {
+		const struct image_attribute *a = &img->attributes[i];
+
+		rc = is_matrix(a->name) ? write_matrix(file, a->name, a->text) :
+		                          exr_attr_set_string(file, 0, a->name, a->text);
+	}
+	return rc;
+}
+
+static int read_attributes(exr_context_t file, struct image *img)
+{
+	int32_t count = 0;
+	int rc = 0;
+
+	exr_get_attribute_count(file, 0, &count);
+	for (int32_t i = 0; i < count && !rc; i++) {
+		const exr_attribute_t *a;
+
+		if (exr_get_attribute_by_index(file, 0, EXR_ATTR_LIST_FILE_ORDER, i, &a) != EXR_ERR_SUCCESS)
+			continue;
+		if (a->type == EXR_ATTR_STRING) {
+			rc = image_set_attribute(img, a->name, "%.*s", (int)a->string->length, a->string->str);
+		} else if (a->type == EXR_ATTR_M44F) {
+			char text[256];
+			size_t at = 0;
+
+			for (int k = 0; k < 16 && at < sizeof(text); k++)
+				at += (size_t)snprintf(text + at, sizeof(text) - at, k ? " %.7g" : "%.7g",
+				                       (double)a->m44f->m[k]);
+			rc = image_set_attribute(img, a->name, "%s", text);
+		}
+	}
+	return rc;
+}
+
+/* --- Writing --------------------------------------------------------------------------------------------------- */
+
+static const struct image_channel *find_channel(const struct image *img, const char *name)
+{
+	for (size_t i = 0; i < img->n_channels; i++)
+		if (strcmp(img->channels[i].name, name) == 0)
+			return &img->channels[i];
+	return NULL;
+}
+
+static int compare_channels(const void *a, const void *b)
+{
+	return strcmp((*(const struct image_channel *const *)a)->name, (*(const struct image_channel *const *)b)->name);
+}
+
+static exr_result_t define_part(exr_context_t file, const struct image *img)
+{
+	const struct image_channel **sorted = malloc((img->n_channels + 1) * sizeof(*sorted));
+	exr_result_t rc;
+	int part;
+
+	if (!sorted)
+		return EXR_ERR_OUT_OF_MEMORY;
+	for (size_t i = 0; i < img->n_channels; i++)
+		sorted[i] = &img->channels[i];
+	qsort(sorted, img->n_channels, sizeof(*sorted), compare_channels);
+	rc = exr_add_part(file, "", EXR_STORAGE_SCANLINE, &part);
+	if (rc == EXR_ERR_SUCCESS)
+		rc = exr_initialize_required_attr_simple(file, part, (int32_t)img->width, (int32_t)img->height,
+		                                         EXR_COMPRESSION_ZIP);
+	for (size_t i = 0; i < img->n_channels && rc == EXR_ERR_SUCCESS; i++)
+		rc = exr_add_channel(file, part, sorted[i]->name,
+		                     sorted[i]->full_float ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
+		                     EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+	free(sorted);
+	return rc;
+}
+
+/*
+ * The rows of a chunk as the file has them: line by line, channel by channel. The library's own packing asks for each number what
+ * to make of it.
+ */
+static exr_result_t pack_rows(exr_encode_pipeline_t *encode)
+{
+	uint8_t *out = encode->packed_buffer;
+
+	for (int32_t row = 0; row < encode->chunk.height; row++)
+		for (int i = 0; i < encode->channel_count; i++) {
+			const exr_coding_channel_info_t *c = &encode->channels[i];
+			const uint8_t *from = c->encode_from_ptr + (ptrdiff_t)row * c->user_line_stride;
+
+			if (c->user_data_type == c->data_type) {
+				memcpy(out, from, (size_t)c->width * (size_t)c->bytes_per_element);
+				out += (size_t)c->width * (size_t)c->bytes_per_element;
+				continue;
+			}
+			for (int32_t x = 0; x < c->width; x++, out += sizeof(uint16_t)) {
+				uint16_t half;
+				float value;
+
+				memcpy(&value, from + (size_t)x * sizeof(value), sizeof(value));
+				half = imath_float_to_half(value);
+				memcpy(out, &half, sizeof(half));
+			}
+		}
+	encode->packed_bytes = (uint64_t)(out - (uint8_t *)encode->packed_buffer);
+	return EXR_ERR_SUCCESS;
+}
+
+/* One chunk: the rows from `y` on that compress together. */
+static exr_result_t write_chunk(exr_context_t file, const struct image *img, exr_encode_pipeline_t *encode,
+                                struct exr_zip *zip, int32_t y)
+{
+	exr_chunk_info_t chunk;
+	exr_result_t rc = exr_write_scanline_chunk_info(file, 0, y, &chunk);
+
+	if (rc != EXR_ERR_SUCCESS)
+		return rc;
+	rc = y ? exr_encoding_update(file, 0, &chunk, encode) : exr_encoding_initialize(file, 0, &chunk, encode);
+	if (rc != EXR_ERR_SUCCESS)
+		return rc;
+	for (int i = 0; i < encode->channel_count; i++) {
+		exr_coding_channel_info_t *c = &encode->channels[i];
+		const struct image_channel *from = find_channel(img, c->channel_name);
+		const uint8_t *plane = from->halves ? (const uint8_t *)from->halves : (const uint8_t *)from->values;
+		int32_t bytes = from->halves ? (int32_t)sizeof(uint16_t) : (int32_t)sizeof(float);
+
+		c->user_data_type = from->halves ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+		c->user_bytes_per_element = (int16_t)bytes;
+		c->user_pixel_stride = bytes;
+		c->user_line_stride = (int32_t)img->width * bytes;
+		c->encode_from_ptr = plane + (size_t)y * img->width * (size_t)bytes;
+	}
+	if (y == 0) {
+		rc = exr_encoding_choose_default_routines(file, 0, encode);
+		if (rc != EXR_ERR_SUCCESS)
+			return rc;
+		encode->convert_and_pack_fn = pack_rows;
+		exr_zip_encode_with(encode, zip);
+	}
+	return exr_encoding_run(file, 0, encode);
+}
+
+static exr_result_t write_chunks(exr_context_t file, const struct image *img)
+{
+	exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
+	struct exr_zip zip = { 0 };
+	int32_t rows = 1;
+	exr_result_t rc = exr_get_scanlines_per_chunk(file, 0, &rows);
+
+	for (int32_t y = 0; y < (int32_t)img->height && rc == EXR_ERR_SUCCESS; y += rows)
+		rc = write_chunk(file, img, &encode, &zip, y);
+	exr_encoding_destroy(file, &encode);
+	exr_zip_free(&zip);
+	return rc;
+}
+
+int image_write_exr(const struct image *img, const char *path)
+{
+	exr_context_initializer_t setup = context_setup();
+	exr_context_t file = NULL;
+	exr_result_t rc;
+	struct stat status;
+	char temporary[4096];
+	int result = 0;
+
+	if (img->width == 0 || img->height == 0 || img->n_channels == 0)
+		return err_report(ERR_SYSTEM, path, "an empty image cannot be written");
+	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
+		return err_report(ERR_SYSTEM, path, "cannot be written: it is a directory");
+	if (part_begin(path, temporary, sizeof(temporary)))
+		return ERR_SYSTEM;
+
+	errno = 0;
+	rc = exr_start_write(&file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup);
+	if (rc != EXR_ERR_SUCCESS) {
+		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
+		goto fail;
+	}
+	rc = define_part(file, img);
+	if (rc == EXR_ERR_SUCCESS)
+		rc = write_attributes(file, img);
+	if (rc == EXR_ERR_SUCCESS)
+		rc = exr_write_header(file);
+	if (rc == EXR_ERR_SUCCESS)
+		rc = write_chunks(file, img);
+	if (rc != EXR_ERR_SUCCESS) {
+		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
+		exr_finish(&file);
+		goto fail;
+	}
+	rc = exr_finish(&file);
+	if (rc != EXR_ERR_SUCCESS) {
+		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
+		goto fail;
+	}
+	return part_finish(temporary, path);
+fail:
+	part_drop(temporary);
+	return result;
+}
+
+/* --- Reading --------------------------------------------------------------------------------------------------- */
+
+/* Size and channels; refuses what struct image cannot hold. */
+static int read_layout(exr_context_t file, struct image *img, const char *path, int32_t *y_first)
+{
+	const exr_attr_chlist_t *channels;
+	exr_attr_box2i_t window;
+	exr_storage_t storage;
+	int parts = 0;
+	int64_t width, height;
+
+	if (exr_get_count(file, &parts) != EXR_ERR_SUCCESS || parts != 1 ||
+	    exr_get_storage(file, 0, &storage) != EXR_ERR_SUCCESS || storage != EXR_STORAGE_SCANLINE)
+		return err_report(ERR_INPUT, path, "is not an OpenEXR file of one scan-line part");
+	if (exr_get_data_window(file, 0, &window) != EXR_ERR_SUCCESS ||
+	    exr_get_channels(file, 0, &channels) != EXR_ERR_SUCCESS)
+		return err_report(ERR_INPUT, path, "has no usable header: %s", reason(EXR_ERR_MISSING_REQ_ATTR));
+	width = (int64_t)window.max.x - window.min.x + 1;
+	height = (int64_t)window.max.y - window.min.y + 1;
+	if (width < 1 || height < 1 || (uint64_t)width * (uint64_t)height > MAX_PIXELS)
+		return err_report(ERR_INPUT, path, "has an impossible size");
+	img->width = (uint32_t)width;
+	img->height = (uint32_t)height;
+	*y_first = window.min.y;
+	for (int i = 0; i < channels->num_channels; i++) {
+		const exr_attr_chlist_entry_t *c = &channels->entries[i];
+
+		if (c->x_sampling != 1 || c->y_sampling != 1)
+			return err_report(ERR_INPUT, path, "channel %s is subsampled", c->name.str);
+		if (c->name.length >= (int)sizeof(img->channels->name))
+			return err_report(ERR_INPUT, path, "channel name %s is too long", c->name.str);
+		if (!image_add_channel(img, c->name.str, c->pixel_type != EXR_PIXEL_HALF))
+			return ERR_SYSTEM;
+	}
+	return 0;
+}
+
+/* The pipeline does not turn unsigned integers into floats. */
+static void floats_from_uints(float *values, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		uint32_t u;
+
+		memcpy(&u, &values[i], sizeof(u));
+		values[i] = (float)u;
+	}
+}
+
+static exr_result_t read_chunk(exr_context_t file, const struct image *img, exr_decode_pipeline_t *decode,
+                               struct exr_zip *zip, int32_t y_first, int32_t row)
+{
+	exr_compression_t compression;
+	exr_chunk_info_t chunk;
+	exr_result_t rc = exr_read_scanline_chunk_info(file, 0, y_first + row, &chunk);
+
+	if (rc != EXR_ERR_SUCCESS)
+		return rc;
+	rc = row ? exr_decoding_update(file, 0, &chunk, decode) : exr_decoding_initialize(file, 0, &chunk, decode);
+	if (rc != EXR_ERR_SUCCESS)
+		return rc;
+	for (int i = 0; i < decode->channel_count; i++) {
+		exr_coding_channel_info_t *c = &decode->channels[i];
+		float *values = find_channel(img, c->channel_name)->values;
+
+		c->user_data_type = c->data_type == EXR_PIXEL_UINT ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
+		c->user_bytes_per_element = sizeof(float);
+		c->user_pixel_stride = sizeof(float);
+		c->user_line_stride = (int32_t)(img->width * sizeof(float));
+		c->decode_to_ptr = (uint8_t *)(values + (size_t)row * img->width);
+	}
+	if (row == 0) {
+		rc = exr_decoding_choose_default_routines(file, 0, decode);
+		if (rc == EXR_ERR_SUCCESS)
+			rc = exr_get_compression(file, 0, &compression);
+		if (rc != EXR_ERR_SUCCESS)
+			return rc;
+		if (compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS)
+			exr_zip_decode_with(decode, zip);
+	}
+	rc = exr_decoding_run(file, 0, decode);
+	for (int i = 0; i < decode->channel_count && rc == EXR_ERR_SUCCESS; i++)
+		if (decode->channels[i].data_type == EXR_PIXEL_UINT)
+			floats_from_uints((float *)(void *)decode->channels[i].decode_to_ptr,
+			                  (size_t)img->width * (size_t)chunk.height);
+	return rc;
+}
+
+static exr_result_t read_chunks(exr_context_t file, const struct image *img, int32_t y_first)
+{
+	exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+	struct exr_zip zip = { 0 };
+	int32_t rows = 1;
+	exr_result_t rc = exr_get_scanlines_per_chunk(file, 0, &rows);
+
+	for (int32_t row = 0; row < (int32_t)img->height && rc == EXR_ERR_SUCCESS; row += rows)
+		rc = read_chunk(file, img, &decode, &zip, y_first, row);
+	exr_decoding_destroy(file, &decode);
+	exr_zip_free(&zip);
+	return rc;
+}
+
+int image_read_exr(struct image *img, const char *path)
+{
+	exr_context_initializer_t setup = context_setup();
+	exr_context_t file = NULL;
+	struct stat status;
+	exr_result_t rc;
+	int32_t y_first = 0;
+	int result;
+
+	if (stat(path, &status) != 0)
+		return err_report(ERR_INPUT, path, "%s", strerror(errno));
+	if (!S_ISREG(status.st_mode))
+		return err_report(ERR_INPUT, path, "is not a file");
+	rc = exr_start_read(&file, path, &setup);
+	if (rc != EXR_ERR_SUCCESS)
+		return err_report(ERR_INPUT, path, "is not a readable OpenEXR file: %s", reason(rc));
+	result = read_layout(file, img, path, &y_first);
+	if (!result)
+		result = read_attributes(file, img);
+	if (!result) {
+		rc = read_chunks(file, img, y_first);
+		if (rc != EXR_ERR_SUCCESS)
+			result = err_report(ERR_INPUT, path, "is damaged: %s", reason(rc));
+	}
+	exr_finish(&file);
+	if (result)
+		image_free(img);
+	return result;
+}

@@ -1,0 +1,153 @@
+#include "tracer/image/image.h"
+
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <half.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+static void free_planes(struct image_channel *channel)
+{
+	free(channel->values);
+	free(channel->halves);
+}
+
+void image_free(struct image *img)
+{
+	for (size_t i = 0; i < img->n_channels; i++)
+		free_planes(&img->channels[i]);
+	free(img->channels);
+	free(img->attributes);
+	memset(img, 0, sizeof(*img));
+}
+
+static void *no_memory(const struct image *img, const char *name)
+{
+	err_report(ERR_SYSTEM, NULL, "out of memory for channel %s of %u x %u pixels", name, img->width, img->height);
+	return NULL;
+}
+
+static size_t pixel_count(const struct image *img)
+{
+	size_t n = (size_t)img->width * img->height;
+
+	return n ? n : 1;
+}
+
+/* Room for one more channel, all zero; it counts once its plane is there. */
+static struct image_channel *next_channel(struct image *img, const char *name, int full_float)
+{
+	struct image_channel *channels = realloc(img->channels, (img->n_channels + 1) * sizeof(*channels)), *channel;
+
+	if (!channels)
+		return no_memory(img, name);
+	img->channels = channels;
+	channel = &channels[img->n_channels];
+	memset(channel, 0, sizeof(*channel));
+	snprintf(channel->name, sizeof(channel->name), "%s", name);
+	channel->full_float = full_float;
+	return channel;
+}
+
+float *image_add_channel(struct image *img, const char *name, int full_float)
+{
+	struct image_channel *channel = next_channel(img, name, full_float);
+
+	if (!channel)
+		return NULL;
+	channel->values = calloc(pixel_count(img), sizeof(*channel->values));
+	if (!channel->values)
+		return no_memory(img, name);
+	img->n_channels++;
+	return channel->values;
+}
+
+uint16_t *image_add_halves(struct image *img, const char *name)
+{
+	struct image_channel *channel = next_channel(img, name, 0);
+
+	if (!channel)
+		return NULL;
+	channel->halves = malloc(pixel_count(img) * sizeof(*channel->halves));
+	if (!channel->halves)
+		return no_memory(img, name);
+	img->n_channels++;
+	return channel->halves;
+}
+
+float *image_values(const struct image *img, size_t i)
+{
+	struct image_channel *channel = &img->channels[i];
+	size_t n = pixel_count(img);
+
+	if (channel->values || !channel->halves)
+		return channel->values;
+	channel->values = malloc(n * sizeof(*channel->values));
+	if (!channel->values)
+		return no_memory(img, channel->name);
+	for (size_t k = 0; k < n; k++)
+		channel->values[k] = imath_half_to_float(channel->halves[k]);
+	return channel->values;
+}
+
+float *image_channel(const struct image *img, const char *name)
+{
+	for (size_t i = 0; i < img->n_channels; i++)
+		if (strcmp(img->channels[i].name, name) == 0)
+			return image_values(img, i);
+	return NULL;
+}
+
+static struct image_attribute *find_attribute(const struct image *img, const char *name)
+{
+	for (size_t i = 0; i < img->n_attributes; i++)
+		if (strcmp(img->attributes[i].name, name) == 0)
+			return &img->attributes[i];
+	return NULL;
+}
+
+int image_set_attribute(struct image *img, const char *name, const char *fmt, ...)
+{
+	struct image_attribute *attribute = find_attribute(img, name);
+	va_list args;
+
+	if (!attribute) {
+		attribute = realloc(img->attributes, (img->n_attributes + 1) * sizeof(*attribute));
+		if (!attribute)
+			return err_report(ERR_SYSTEM, NULL, "out of memory for attribute %s", name);
+		img->attributes = attribute;
+		attribute += img->n_attributes++;
+		snprintf(attribute->name, sizeof(attribute->name), "%s", name);
+	}
+	va_start(args, fmt);
+	vsnprintf(attribute->text, sizeof(attribute->text), fmt, args);
+	va_end(args);
+	return 0;
+}
+
+const char *image_attribute(const struct image *img, const char *name)
+{
+	const struct image_attribute *attribute = find_attribute(img, name);
+
+	return attribute ? attribute->text : NULL;
+}
+
+float image_linear_from_display(float display)
+{
+	float x = fabsf(display);
+	float y = x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
+
+	return copysignf(y, display);
+}
+
+float image_display_from_linear(float linear)
+{
+	float x = fabsf(linear);
+	float y = x <= 0.0031308f ? x * 12.92f : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+
+	return copysignf(y, linear);
+}

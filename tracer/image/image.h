@@ -1,0 +1,77 @@
+/*
+ * A picture in memory: float, one plane per channel, row 0 is the TOP row (GL's row 0 is the bottom one).
+ *
+ * Channel names are those of the EXR file ("R", "gl.R", "shadow.G", "Z", "id"). Colours are linear light with Rec.709
+ * primaries unless attribute "relume:encoding" says "display"; ids are exact integers.
+ */
+#ifndef TRACER_IMAGE_IMAGE_H
+#define TRACER_IMAGE_IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct image_channel {
+	char name[32];
+	int full_float;   /* 1: stored as 32-bit float in a file, 0: half */
+	float *values;    /* [height][width]; NULL as long as nobody has asked for those of `halves` */
+	uint16_t *halves; /* the same as the bits of halves, or NULL: what the renderer makes, and files take as it is */
+};
+
+struct image_attribute {
+	char name[48];
+	char text[256];
+};
+
+struct image {
+	uint32_t width, height;
+	struct image_channel *channels; /* owned, in the order they were added */
+	size_t n_channels;
+	struct image_attribute *attributes; /* owned; relume:trace, relume:frame, relume:device, ... */
+	size_t n_attributes;
+};
+
+/** Free everything; the struct is empty (all zero) afterwards. */
+void image_free(struct image *img);
+
+/**
+ * Add a channel, all 0.
+ * @return its plane, valid until image_free (adding channels does not move planes), or NULL: out of memory (reported)
+ */
+float *image_add_channel(struct image *img, const char *name, int full_float);
+
+/** Add a channel of halves, not yet set. @return its plane, as image_add_channel; who changes it must not have asked for floats */
+uint16_t *image_add_halves(struct image *img, const char *name);
+
+/** The plane of a channel as floats, or NULL where there is none of that name, or no memory (reported). */
+float *image_channel(const struct image *img, const char *name);
+
+/** The same of channel number i. */
+float *image_values(const struct image *img, size_t i);
+
+/** Set a text attribute, replacing one of the same name. @return 0 or ERR_SYSTEM (reported) */
+int image_set_attribute(struct image *img, const char *name, const char *fmt, ...)
+	__attribute__((format(printf, 3, 4)));
+
+/** The text of an attribute, or NULL. Borrowed until the image changes. */
+const char *image_attribute(const struct image *img, const char *name);
+
+/**
+ * Write as OpenEXR: one part, ZIP (exr_zip.h), half or float as the channels say, channels sorted by name, written to a
+ * temporary name beside `path` and renamed when whole. Same image, same bytes. Attributes are strings, but for
+ * worldToCamera and worldToNDC, whose text is 16 numbers in the file's order (rows of a matrix for row vectors).
+ * @return 0, or ERR_SYSTEM (reported; nothing is left under either name)
+ */
+int image_write_exr(const struct image *img, const char *path);
+
+/**
+ * Read an OpenEXR file of one scan-line part (what image_write_exr writes; half, float and uint channels).
+ * @param img  empty; filled on success
+ * @return 0, ERR_INPUT (missing or not such a file, reported) or ERR_SYSTEM (reported)
+ */
+int image_read_exr(struct image *img, const char *path);
+
+/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; odd beyond [0,1]. */
+float image_linear_from_display(float display);
+float image_display_from_linear(float linear);
+
+#endif

@@ -1,0 +1,155 @@
+/* relume render: recording -> scenes -> pictures -> files. Options: settings.c; threads: pipeline.c; signals: watch.c. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/part.h"
+#include "base/verbs.h"
+#include "tracer/render/pipeline.h"
+
+#define MAX_PATH_BYTES 4096
+
+/* What the recording has of what was asked for. */
+struct extent {
+	uint64_t end;   /* frames of the recording */
+	uint64_t total; /* frames to deal with */
+	int short_of;   /* 1: it is damaged, and frames behind that were asked for */
+};
+
+/* Frames asked for that are not there; the list cut down to the chunk asked for. @return 1: the chunk holds no frame */
+static int settle_frames(struct settings *s, struct replay *replay, struct extent *x)
+{
+	int damaged = 0, err = replay_frame_count(replay, &x->end, &damaged);
+
+	if (err)
+		return err;
+	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
+	if (s->frames.n_ranges && frame_list_last(&s->frames) >= x->end && !damaged)
+		return err_report(ERR_USAGE, s->trace, "has %llu frames, numbered from 0; frame %llu is not there",
+		                  (unsigned long long)x->end, (unsigned long long)frame_list_last(&s->frames));
+	if (x->end == 0)
+		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
+	if (s->n_chunks)
+		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
+	x->total = frame_list_count(&s->frames, x->end);
+	return err;
+}
+
+/* Say what would be done. */
+static int rehearse(const struct settings *s, const struct stamp *stamp, uint64_t total)
+{
+	static const char *const words[] = { "render", "render, it is damaged", "render, it was made otherwise", "leave" };
+	uint64_t frame = 0;
+
+	for (uint64_t i = 0; i < total && frame_list_next(&s->frames, frame, &frame); i++, frame++) {
+		char path[MAX_PATH_BYTES];
+		int err = frame_pattern_expand(s->output, frame, path, sizeof(path));
+
+		if (err)
+			return err;
+		printf("frame %llu: %s: %s\n", (unsigned long long)frame, path,
+		       words[s->skip_existing ? stamp_check(stamp, frame, path) : STAMP_MISSING]);
+	}
+	return 0;
+}
+
+static unsigned default_jobs(void)
+{
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+
+	/* One frame's kernels run while another one is prepared, read back or cleared up by a single core. */
+	return cores <= 4 ? 2 : cores >= 16 ? 8 : (unsigned)cores / 2;
+}
+
+static void report(const struct pipeline *p)
+{
+	const struct tracer_undrawn *u = &p->undrawn;
+	const char *trace = p->settings->trace;
+
+	replay_report_unsupported(p->replay, trace, 20);
+	if (u->targets)
+		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
+}
+
+static void prepare_device(const struct settings *s, struct device *dev)
+{
+	char folder[4096];
+
+	if (s->has_family)
+		device_choose_family(dev, s->family);
+	if (!s->no_cache && s->cache)
+		device_keep_programs(dev, s->cache, 0);
+	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
+		device_keep_programs(dev, folder, 0);
+}
+
+static int render_frames(struct pipeline *p, uint64_t total)
+{
+	const struct settings *s = p->settings;
+	struct progress progress;
+	int err = device_open_list(s->device, s->threads, &p->devices, &p->n_devices);
+
+	if (err)
+		return err;
+	for (size_t i = 0; i < p->n_devices; i++)
+		prepare_device(s, p->devices[i]);
+	p->progress = &progress;
+	p->jobs = s->jobs ? s->jobs : default_jobs();
+	part_sweep(s->output);
+	progress_begin_style(&progress, "rendered", total, s->progress);
+	err = pipeline_run(p);
+	progress_end(&progress);
+	if (!err || progress.failed)
+		progress_summary(&progress);
+	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
+		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
+	free(p->shares);
+	report(p);
+	device_close_list(&p->devices, &p->n_devices);
+	return err;
+}
+
+static int render(struct settings *s)
+{
+	struct pipeline p = { .settings = s, .start_s = progress_clock_s() };
+	struct extent x = { .total = 0 };
+	int err = watch_start(&p.watch, s->frame_s, s->memory_bytes), number = 0;
+
+	if (err)
+		return err;
+	err = replay_open(&p.replay, s->trace);
+	if (!err && !s->no_cache)
+		err = store_open(s->cache, s->cache_bytes ? s->cache_bytes : STORE_BYTES, &s->tracer.store);
+	if (!err)
+		err = settle_frames(s, p.replay, &x);
+	if (!err) {
+		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
+		p.end = x.end;
+		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total);
+	}
+	if (!err && x.short_of)
+		err = err_report(ERR_INPUT, s->trace, "is damaged after frame %llu; frames up to there are done",
+		                 (unsigned long long)x.end - 1);
+	number = watch_signal(p.watch);
+	if (number)
+		err_report(ERR_SYSTEM, NULL, "stopped by %s; the same command with --skip-existing goes on",
+		           strsignal(number));
+	replay_close(&p.replay);
+	store_close(&s->tracer.store);
+	watch_stop(&p.watch);
+	return number ? -(128 + number) : err;
+}
+
+int render_main(int argc, char **argv)
+{
+	struct settings s = { .trace = NULL };
+	int err = settings_parse(&s, argc, argv);
+
+	if (!err)
+		err = render(&s);
+	settings_free(&s);
+	return err == 1 ? 0 : -err;
+}

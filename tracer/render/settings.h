@@ -1,0 +1,44 @@
+/*
+ * What `relume render` was asked for: its command line, and the name by content of all that decides about pictures.
+ *
+ * Every option is in one table (settings.c). It counts as one that changes pictures unless its row says otherwise, so
+ * that a new option is part of the name without a thought.
+ */
+#ifndef TRACER_RENDER_SETTINGS_H
+#define TRACER_RENDER_SETTINGS_H
+
+#include "base/frames.h"
+#include "base/progress.h"
+#include "tracer/frame/trace.h"
+
+struct settings {
+	const char *trace, *output, *device;
+	unsigned threads, jobs; /* 0: as the machine has */
+	int has_family; /* 0: each device takes the kernels that suit its kind */
+	enum device_family family;
+	struct frame_list frames;
+	uint64_t chunk, n_chunks; /* n_chunks 0: all */
+	int skip_existing, dry_run;
+	uint64_t memory_bytes;  /* 0: no limit */
+	double frame_s;         /* 0: no limit */
+	enum progress_style progress;
+	const char *cache;      /* folder for trees of meshes and compiled kernels; NULL: the user's */
+	int no_cache;
+	uint64_t cache_bytes;   /* what it may hold; 0: STORE_BYTES */
+	struct look *look;
+	struct tracer_options tracer;
+	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
+};
+
+/**
+ * Parse a command line.
+ * @param s  zero-initialised; strings are borrowed from argv; settings_free
+ * @return 0; 1 where help was printed; ERR_USAGE, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int settings_parse(struct settings *s, int argc, char **argv);
+void settings_free(struct settings *s);
+
+/** What --mode takes. @return 0 or ERR_USAGE (reported) */
+int settings_parse_mode(const char *word, enum tracer_mode *out);
+
+#endif

@@ -1,0 +1,24 @@
+/*
+ * What a frame's file says about where it comes from, and whether a file that is there is the one that would be made.
+ */
+#ifndef TRACER_RENDER_STAMP_H
+#define TRACER_RENDER_STAMP_H
+
+#include "tracer/image/image.h"
+
+struct stamp {
+	const char *trace, *settings; /* hashes, borrowed */
+};
+
+/** Write trace, settings and version into a picture (relume:trace, relume:settings, relume:version). @return 0 or ERR_SYSTEM */
+int stamp_image(const struct stamp *stamp, struct image *img);
+
+enum stamp_state { STAMP_MISSING, STAMP_DAMAGED, STAMP_OTHER, STAMP_SAME };
+
+/**
+ * Look at a frame's file. Every byte of its pixels is unpacked: torn, cut and zeroed files are found.
+ * @return STAMP_MISSING; STAMP_DAMAGED (reported); STAMP_OTHER: of another trace, frame, settings or version; STAMP_SAME
+ */
+enum stamp_state stamp_check(const struct stamp *stamp, uint64_t frame, const char *path);
+
+#endif
