@@ -215,11 +215,15 @@ demo:
 	@corpus/demo.sh $(BUILD)
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
+SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
 	show-rays show-hits show-build show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
+
+# What the house looks like: circles, sizes, repetitions.
+show-house: all
+	@$(PYTHON) -B tests/house.py $(BUILD) --count --json $(BUILD)/show/house.json
 
 show-farm: all
 	@$(PYTHON) tests/show/farm.py $(BUILD)

@@ -19,7 +19,7 @@ def main(folder):
         for row in shown["rows"]:
             bad += row["passed"] is False
             mark = {True: "holds", False: "FAILS", None: "-"}[row["passed"]]
-            rows.append((mark, f"{shown['name']}: {row['what']}", str(row["figure"]), str(row["bar"] or ""),
+            rows.append((mark, f"{shown['name']}: {row['what']}", str(row["figure"]), str("" if row["bar"] is None else row["bar"]),
                          str(row["peer"] or "")))
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     for row in rows:
