@@ -9,12 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum trace_type { /* the tags of the format */
-	TRACE_NULL, TRACE_FALSE, TRACE_TRUE, TRACE_SINT, TRACE_UINT, TRACE_FLOAT, TRACE_DOUBLE, TRACE_STRING,
-	TRACE_BLOB, TRACE_ENUM, TRACE_BITMASK, TRACE_ARRAY, TRACE_STRUCT, TRACE_OPAQUE, TRACE_REPR, TRACE_WSTRING,
-	N_TRACE_TYPES,
-	TRACE_NONE = -1 /* an argument that was not recorded */
-};
+#include "capture/format/tags.h"
 
 struct trace_value {
 	enum trace_type type;
@@ -40,13 +35,11 @@ struct call_sig {
 	int32_t command; /* index in the generated command table, -1: unknown there */
 };
 
-enum { CALL_FAKE = 1 }; /* flag bit 0: made up by the recorder; executed like any other */
-
 struct call {
 	uint64_t number; /* ordinal of its ENTER event, from 0 */
 	uint64_t thread;
 	const struct call_sig *sig;
-	uint32_t flags;
+	uint32_t flags;  /* CALL_FAKE */
 	int incomplete;  /* the file ended before the call returned */
 	uint32_t n_args; /* at least sig->n_args; unrecorded ones are TRACE_NONE */
 	const struct trace_value *args;

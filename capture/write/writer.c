@@ -23,12 +23,7 @@
 #include "enums.h"
 
 enum { PATH_BYTES = STATS_PATH_BYTES, FLUSH_AFTER_NS = 20000000, NO_MEMBARRIER_US = 20000 };
-enum { /* of values */
-	TAG_FALSE = 1, TAG_TRUE = 2, TAG_SINT = 3, TAG_UINT = 4, TAG_STRING = 7, TAG_BLOB = 8, TAG_ENUM = 9, TAG_BITMASK = 0x0A,
-	TAG_ARRAY = 0x0B, TAG_STRUCT = 0x0C, TAG_OPAQUE = 0x0D
-};
 enum { FIRST_COMMAND_ID = 4 }; /* 0 to 3 are apitrace's own memory functions */
-enum { EVENT_ENTER = 0, EVENT_LEAVE = 1, DETAIL_END = 0, DETAIL_FLAGS = 5, FLAG_FAKE = 1 };
 
 static _Atomic int lock_word;
 
@@ -196,13 +191,13 @@ uint8_t *put_varint(uint8_t *p, uint64_t v)
 
 uint8_t *put_uint(uint8_t *p, uint64_t v)
 {
-	*p++ = TAG_UINT;
+	*p++ = TRACE_UINT;
 	return put_varint(p, v);
 }
 
 uint8_t *put_sint(uint8_t *p, int64_t v)
 {
-	*p++ = v < 0 ? TAG_SINT : TAG_UINT;
+	*p++ = v < 0 ? TRACE_SINT : TRACE_UINT;
 	return put_varint(p, v < 0 ? 0 - (uint64_t)v : (uint64_t)v);
 }
 
@@ -210,7 +205,7 @@ uint8_t *put_address(uint8_t *p, uintptr_t v)
 {
 	if (!v)
 		return put_null(p);
-	*p++ = TAG_OPAQUE;
+	*p++ = TRACE_OPAQUE;
 	return put_varint(p, v);
 }
 
@@ -226,7 +221,7 @@ static uint8_t *put_chars(uint8_t *p, const char *s)
 /* A signature holds one name and is written with the first value that needs it. */
 static uint8_t *put_enum_entry(uint8_t *p, unsigned number)
 {
-	*p++ = TAG_ENUM;
+	*p++ = TRACE_ENUM;
 	p = put_varint(p, number);
 	if (!enum_known[number]) {
 		enum_known[number] = 1;
@@ -256,7 +251,7 @@ uint8_t *put_symbol(uint8_t *p, int64_t v)
 
 uint8_t *put_bits(uint8_t *p, uint32_t v, const struct bits_entry *bits)
 {
-	*p++ = TAG_BITMASK;
+	*p++ = TRACE_BITMASK;
 	p = put_varint(p, bits->number);
 	if (!w.bits_known[bits->number]) {
 		w.bits_known[bits->number] = 1;
@@ -277,7 +272,7 @@ uint8_t *put_bool8(uint8_t *p, unsigned v)
 
 uint8_t *put_bool32(uint8_t *p, unsigned v)
 {
-	*p++ = v ? TAG_TRUE : TAG_FALSE;
+	*p++ = v ? TRACE_TRUE : TRACE_FALSE;
 	return p;
 }
 
@@ -290,15 +285,15 @@ static void put_head(void)
 	ssize_t n = readlink("/proc/self/exe", name, sizeof(name));
 	uint8_t *p = w.chunk;
 
-	*p++ = 6; /* format, then meaning of calls: both apitrace's sixth */
-	*p++ = 6;
+	*p++ = TRACE_VERSION;
+	*p++ = TRACE_SEMANTICS;
 	p = put_varint(p, sizeof(key) - 1);
 	memcpy(p, key, sizeof(key) - 1);
 	p += sizeof(key) - 1;
 	p = put_varint(p, n > 0 ? (uint64_t)n : 0);
 	memcpy(p, name, n > 0 ? (size_t)n : 0);
 	p += n > 0 ? n : 0;
-	*p++ = 0;
+	*p++ = 0; /* no more properties */
 	w.p = p;
 }
 
@@ -400,14 +395,14 @@ static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known
 		return NULL;
 	if (!self.number)
 		self.number = atomic_fetch_add(&n_threads, 1) + 1;
-	*p++ = EVENT_ENTER;
+	*p++ = TRACE_ENTER;
 	p = put_varint(p, self.number - 1);
 	p = put_varint(p, id);
 	if (!*known)
 		p = put_call_signature(p, command);
 	*known = 1;
 	if (flags) {
-		*p++ = DETAIL_FLAGS;
+		*p++ = TRACE_DETAIL_FLAGS;
 		*p++ = (uint8_t)flags;
 	}
 	return p;
@@ -439,22 +434,22 @@ uint8_t *writer_enter(unsigned command)
 
 uint8_t *writer_enter_fake(unsigned command)
 {
-	return is_left_out(command) ? NULL : enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], FLAG_FAKE);
+	return is_left_out(command) ? NULL : enter(command + FIRST_COMMAND_ID, &commands[command], &command_known[command], CALL_FAKE);
 }
 
 uint8_t *writer_enter_memcpy(void)
 {
 	static const struct command memory_copy = { "memcpy", 3, "dest\0src\0n\0", NULL, NULL, 0 };
 
-	return enter(0, &memory_copy, &w.memcpy_known, FLAG_FAKE);
+	return enter(0, &memory_copy, &w.memcpy_known, CALL_FAKE);
 }
 
 void writer_call_end(uint8_t *p)
 {
-	*p++ = DETAIL_END;
-	*p++ = EVENT_LEAVE;
+	*p++ = TRACE_DETAIL_END;
+	*p++ = TRACE_LEAVE;
 	p = put_varint(p, w.n_calls++);
-	*p++ = DETAIL_END;
+	*p++ = TRACE_DETAIL_END;
 	end(p);
 }
 
@@ -462,7 +457,7 @@ uint64_t writer_enter_end(uint8_t *p)
 {
 	uint64_t call = ++w.n_calls;
 
-	*p++ = DETAIL_END;
+	*p++ = TRACE_DETAIL_END;
 	end(p);
 	return call;
 }
@@ -473,13 +468,13 @@ uint8_t *writer_leave(uint64_t call)
 
 	if (!p)
 		return NULL;
-	*p++ = EVENT_LEAVE;
+	*p++ = TRACE_LEAVE;
 	return put_varint(p, call - 1);
 }
 
 void writer_leave_end(uint8_t *p)
 {
-	*p++ = DETAIL_END;
+	*p++ = TRACE_DETAIL_END;
 	end(p);
 }
 
@@ -638,17 +633,17 @@ static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes
 
 uint8_t *put_string(uint8_t *p, const char *s, long bytes)
 {
-	return put_sized(p, TAG_STRING, s, s && bytes < 0 ? (long)memory_text_bytes(s) : bytes);
+	return put_sized(p, TRACE_STRING, s, s && bytes < 0 ? (long)memory_text_bytes(s) : bytes);
 }
 
 uint8_t *put_text(uint8_t *p, const char *s, long size)
 {
-	return put_sized(p, TAG_STRING, s, s && size > 0 ? (long)strnlen(s, (size_t)size) : 0);
+	return put_sized(p, TRACE_STRING, s, s && size > 0 ? (long)strnlen(s, (size_t)size) : 0);
 }
 
 uint8_t *put_blob(uint8_t *p, const void *data, long bytes)
 {
-	return put_sized(p, TAG_BLOB, data, bytes);
+	return put_sized(p, TRACE_BLOB, data, bytes);
 }
 
 uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes)
@@ -657,7 +652,7 @@ uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes)
 
 	if (!data)
 		return put_null(p);
-	*p++ = TAG_BLOB;
+	*p++ = TRACE_BLOB;
 	p = put_varint(p, (uint64_t)bytes);
 	while (bytes) {
 		long n = w.end - p < bytes ? w.end - p : bytes;
@@ -672,7 +667,7 @@ uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes)
 
 uint8_t *put_array_head(uint8_t *p, long n)
 {
-	*p++ = TAG_ARRAY;
+	*p++ = TRACE_ARRAY;
 	return put_varint(p, n > 0 ? (uint64_t)n : 0);
 }
 
@@ -753,7 +748,7 @@ uint8_t *put_visual(uint8_t *p, const void *visual)
 
 	if (!info)
 		return put_null(p);
-	*p++ = TAG_STRUCT;
+	*p++ = TRACE_STRUCT;
 	p = put_varint(p, 0);
 	if (!w.visual_known) {
 		w.visual_known = 1;

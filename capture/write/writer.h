@@ -14,6 +14,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "capture/format/tags.h"
+
 struct command {
 	const char *name;
 	unsigned n_args;
@@ -152,38 +154,38 @@ uint8_t *put_room(uint8_t *p);
 /** Raw bytes without a tag; `data` is read without faulting. */
 uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes);
 
-/* Scalars: tags of trace.md. What every call needs is inline, the rest is not: there are thousands of thunks. */
+/* Scalars. What every call needs is inline, the rest is not: there are thousands of thunks. */
 
 /** `index` < 128. */
 static inline uint8_t *put_argument(uint8_t *p, unsigned index)
 {
-	p[0] = 1;
+	p[0] = TRACE_DETAIL_ARGUMENT;
 	p[1] = (uint8_t)index;
 	return p + 2;
 }
 
 static inline uint8_t *put_return(uint8_t *p)
 {
-	*p++ = 2;
+	*p++ = TRACE_DETAIL_RESULT;
 	return p;
 }
 
 static inline uint8_t *put_null(uint8_t *p)
 {
-	*p++ = 0;
+	*p++ = TRACE_NULL;
 	return p;
 }
 
 static inline uint8_t *put_float(uint8_t *p, float v)
 {
-	*p++ = 5;
+	*p++ = TRACE_FLOAT;
 	memcpy(p, &v, sizeof(v));
 	return p + sizeof(v);
 }
 
 static inline uint8_t *put_double(uint8_t *p, double v)
 {
-	*p++ = 6;
+	*p++ = TRACE_DOUBLE;
 	memcpy(p, &v, sizeof(v));
 	return p + sizeof(v);
 }

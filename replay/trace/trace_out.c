@@ -13,8 +13,6 @@
 
 #define CHUNK_BYTES ((size_t)1 << 20) /* apitrace's reader has room for no more */
 
-enum sig_kind { SIG_CALL, SIG_ENUM, SIG_BITMASK, SIG_STRUCT, N_SIG_KINDS };
-
 struct known { /* a signature that has been written */
 	const void *sig;
 	uint64_t id;
@@ -25,7 +23,7 @@ struct trace_out {
 	char part[PATH_MAX];
 	FILE *file;
 	int rc;
-	uint64_t bytes, n_calls, n_ids[N_SIG_KINDS];
+	uint64_t bytes, n_calls, n_ids[N_TRACE_SIG_KINDS];
 	struct known *known; /* open addressing, at most half full */
 	size_t n_known, room;
 	size_t n; /* bytes of the chunk */
@@ -118,7 +116,7 @@ static struct known *slot_of(struct known *known, size_t room, const void *sig)
 }
 
 /* Write a signature's number. @return 1 where it is met for the first time: what it says follows */
-static int put_signature(struct trace_out *o, enum sig_kind kind, const void *sig)
+static int put_signature(struct trace_out *o, enum trace_sig_kind kind, const void *sig)
 {
 	struct known *slot;
 
@@ -158,7 +156,7 @@ static void put_names(struct trace_out *o, const char *name, const char *const *
 
 static void put_enum_signature(struct trace_out *o, const struct trace_enum_sig *sig)
 {
-	if (!put_signature(o, SIG_ENUM, sig))
+	if (!put_signature(o, TRACE_SIG_ENUM, sig))
 		return;
 	put_uint(o, sig->n);
 	for (uint32_t i = 0; i < sig->n; i++) {
@@ -169,7 +167,7 @@ static void put_enum_signature(struct trace_out *o, const struct trace_enum_sig 
 
 static void put_bitmask_signature(struct trace_out *o, const struct trace_bitmask_sig *sig)
 {
-	if (!put_signature(o, SIG_BITMASK, sig))
+	if (!put_signature(o, TRACE_SIG_BITMASK, sig))
 		return;
 	put_uint(o, sig->n);
 	for (uint32_t i = 0; i < sig->n; i++) {
@@ -212,7 +210,7 @@ static void put_value(struct trace_out *o, const struct trace_value *v)
 		break;
 	case TRACE_STRUCT:
 		members = v->sig;
-		if (put_signature(o, SIG_STRUCT, members))
+		if (put_signature(o, TRACE_SIG_STRUCT, members))
 			put_names(o, members->name, members->members, members->n);
 		break;
 	case TRACE_ARRAY:
@@ -235,28 +233,28 @@ static void put_value(struct trace_out *o, const struct trace_value *v)
 
 int trace_out_call(struct trace_out *o, const struct call *call)
 {
-	put_byte(o, 0);
+	put_byte(o, TRACE_ENTER);
 	put_uint(o, call->thread);
-	if (put_signature(o, SIG_CALL, call->sig))
+	if (put_signature(o, TRACE_SIG_CALL, call->sig))
 		put_names(o, call->sig->name, call->sig->arg_names, call->sig->n_args);
 	if (call->flags) {
-		put_byte(o, 5);
+		put_byte(o, TRACE_DETAIL_FLAGS);
 		put_uint(o, call->flags);
 	}
 	for (uint32_t i = 0; i < call->n_args; i++)
 		if (call->args[i].type != TRACE_NONE) {
-			put_byte(o, 1);
+			put_byte(o, TRACE_DETAIL_ARGUMENT);
 			put_uint(o, i);
 			put_value(o, &call->args[i]);
 		}
-	put_byte(o, 0);
-	put_byte(o, 1);
+	put_byte(o, TRACE_DETAIL_END);
+	put_byte(o, TRACE_LEAVE);
 	put_uint(o, o->n_calls++);
 	if (call->ret.type != TRACE_NONE) {
-		put_byte(o, 2);
+		put_byte(o, TRACE_DETAIL_RESULT);
 		put_value(o, &call->ret);
 	}
-	put_byte(o, 0);
+	put_byte(o, TRACE_DETAIL_END);
 	return o->rc;
 }
 
@@ -300,8 +298,8 @@ int trace_out_open(struct trace_out **out, const char *path, const char *from_pa
 		return rc;
 	}
 	write_file(o, "at", 2);
-	put_uint(o, 6);
-	put_uint(o, 6);
+	put_uint(o, TRACE_VERSION);
+	put_uint(o, TRACE_SEMANTICS);
 	for (size_t i = 0; trace_reader_property_at(from, i, &name, &value); i++) {
 		put_text(o, name);
 		put_text(o, value);
