@@ -21,7 +21,7 @@ static uint8_t bytes[KEPT_LARGEST];
 struct painter {
 	struct device *dev[N_DEVICES];
 	struct tracer *tracer[N_DEVICES];
-	struct feed feed;
+	struct supply supply;
 	const char *what; /* is painted */
 	int number, part;
 	unsigned n_drawn;
@@ -53,7 +53,7 @@ static void paint(void *user, const struct scene *scene)
 
 static int supply(void *user, const struct scene *scene, struct scene_picture *picture)
 {
-	return feed_supply(&((struct painter *)user)->feed, scene, picture);
+	return supply_picture(&((struct painter *)user)->supply, scene, picture);
 }
 
 static void open_painter(struct painter *p, int part)
@@ -63,13 +63,13 @@ static void open_painter(struct painter *p, int part)
 	ck_assert_int_eq(device_open(NULL, 1, &p->dev[KERNELS]), 0);
 	for (int i = 0; i < N_DEVICES; i++)
 		ck_assert_int_eq(tracer_create(&p->tracer[i], p->dev[i]), 0);
-	p->feed.parent = p->dev[TWIN];
+	p->supply.parent = p->dev[TWIN];
 }
 
 static void close_painter(struct painter *p)
 {
 	ck_assert_uint_gt(p->n_drawn, 10);
-	feed_free(&p->feed);
+	supply_free(&p->supply);
 	for (int i = 0; i < N_DEVICES; i++) {
 		tracer_destroy(&p->tracer[i]);
 		device_close(&p->dev[i]);

@@ -300,7 +300,7 @@ END_TEST
 START_TEST(copies_are_kept_up)
 {
 	struct random_scene *s = random_scene_create(3);
-	char *copies[N_BOTTOM_PARTS] = { NULL };
+	char *copies[N_BLAS_PARTS] = { NULL };
 	size_t copied = 0, all = 0;
 
 	for (uint32_t frame = 0; frame < 200; frame++) {
@@ -309,9 +309,9 @@ START_TEST(copies_are_kept_up)
 		s->meshes[frame % MESHES].hash[1] = frame; /* as if it had moved */
 		ck_assert_int_eq(accel_build_frame(s->accel, &s->scene, NULL, NULL, s->instances + first, n, &s->view, &s->spaces,
 		                                   &s->n_spaces), 0);
-		for (int part = 0; part < N_BOTTOM_PARTS; part++) {
-			const struct accel_pool pool = accel_pool(s->accel, (enum bottom_part)part);
-			const size_t bytes = bottom_item_bytes[part];
+		for (int part = 0; part < N_BLAS_PARTS; part++) {
+			const struct accel_pool pool = accel_pool(s->accel, (enum blas_part)part);
+			const size_t bytes = blas_item_bytes[part];
 
 			ck_assert_uint_le(pool.same, pool.n);
 			if (pool.same)
@@ -325,7 +325,7 @@ START_TEST(copies_are_kept_up)
 		accel_copied(s->accel);
 	}
 	ck_assert_uint_lt(copied, all / 2);
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+	for (int part = 0; part < N_BLAS_PARTS; part++)
 		free(copies[part]);
 	random_scene_free(s);
 }

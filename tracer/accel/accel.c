@@ -23,20 +23,20 @@
 #define SHARE_TRIANGLES 256
 
 /* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
-struct blas {
+struct placed_blas {
 	uint64_t hash[2];
 	enum accel_kind kind;
 	int baked; /* of this frame only */
 	uint64_t last_use;
 	uint64_t fitted; /* frame in which its tree was fitted to another mesh */
-	size_t first[N_BOTTOM_PARTS];
-	struct bottom bottom; /* its parts are in the pools, not here */
+	size_t first[N_BLAS_PARTS];
+	struct blas blas; /* its parts are in the pools, not here */
 };
 
 struct accel_cache {
-	struct blas *entries;
+	struct placed_blas *entries;
 	size_t n, capacity;
-	size_t capacities[N_BOTTOM_PARTS]; /* of the pools */
+	size_t capacities[N_BLAS_PARTS]; /* of the pools */
 	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
 	size_t table_size;
 	uint64_t frame;
@@ -50,14 +50,14 @@ struct part {
 
 static struct part part_of(struct accel *a, int part)
 {
-	const struct part parts[N_BOTTOM_PARTS] = {
-		[BOTTOM_NODES2] = { (void **)&a->nodes2, &a->n_nodes2 },
-		[BOTTOM_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
-		[BOTTOM_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
-		[BOTTOM_TRIANGLES8] = { (void **)&a->triangles8, &a->n_triangles8 },
-		[BOTTOM_FACES8] = { (void **)&a->faces8, &a->n_faces8 },
-		[BOTTOM_NODES8C] = { (void **)&a->nodes8c, &a->n_nodes8c },
-		[BOTTOM_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
+	const struct part parts[N_BLAS_PARTS] = {
+		[BLAS_NODES2] = { (void **)&a->nodes2, &a->n_nodes2 },
+		[BLAS_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
+		[BLAS_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
+		[BLAS_TRIANGLES8] = { (void **)&a->triangles8, &a->n_triangles8 },
+		[BLAS_FACES8] = { (void **)&a->faces8, &a->n_faces8 },
+		[BLAS_NODES8C] = { (void **)&a->nodes8c, &a->n_nodes8c },
+		[BLAS_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
 	};
 
 	return parts[part];
@@ -108,7 +108,7 @@ void accel_destroy(struct accel **accel)
 	*accel = NULL;
 	if (!a)
 		return;
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+	for (int part = 0; part < N_BLAS_PARTS; part++)
 		free(*part_of(a, part).items);
 	free(a->top2);
 	free(a->top8);
@@ -120,7 +120,7 @@ void accel_destroy(struct accel **accel)
 	free(a);
 }
 
-struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part)
+struct accel_pool accel_pool(const struct accel *accel, enum blas_part part)
 {
 	const struct part pool = part_of((struct accel *)accel, part);
 
@@ -129,7 +129,7 @@ struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part)
 
 void accel_copied(struct accel *accel)
 {
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
+	for (int part = 0; part < N_BLAS_PARTS; part++)
 		accel->same[part] = *part_of(accel, part).n;
 }
 
@@ -170,7 +170,7 @@ static int table_rebuild(struct accel_cache *cache)
 	return 0;
 }
 
-static struct blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2], enum accel_kind kind)
+static struct placed_blas *find_blas(const struct accel_cache *cache, const uint64_t hash[2], enum accel_kind kind)
 {
 	if (!cache->table_size)
 		return NULL;
@@ -185,17 +185,17 @@ static struct blas *find_blas(const struct accel_cache *cache, const uint64_t ha
 }
 
 /* Move a BLAS down to the ends of what is kept, and these up by it. */
-static void move_down(struct accel *accel, struct blas *blas, size_t ends[N_BOTTOM_PARTS])
+static void move_down(struct accel *accel, struct placed_blas *placed, size_t ends[N_BLAS_PARTS])
 {
-	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
-		const size_t bytes = bottom_item_bytes[part], n = blas->bottom.n[part];
+	for (int part = 0; part < N_BLAS_PARTS; part++) {
+		const size_t bytes = blas_item_bytes[part], n = placed->blas.n[part];
 		char *items = *part_of(accel, part).items;
 
-		if (n && blas->first[part] != ends[part]) {
-			memmove(items + ends[part] * bytes, items + blas->first[part] * bytes, n * bytes);
+		if (n && placed->first[part] != ends[part]) {
+			memmove(items + ends[part] * bytes, items + placed->first[part] * bytes, n * bytes);
 			accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
 		}
-		blas->first[part] = ends[part];
+		placed->first[part] = ends[part];
 		ends[part] += n;
 	}
 }
@@ -208,7 +208,7 @@ static int much_is_unused(const struct accel *accel)
 
 	for (size_t i = 0; i < cache->n; i++)
 		if (cache->entries[i].last_use + KEEP_FRAMES < cache->frame)
-			unused += cache->entries[i].bottom.n[BOTTOM_TRIANGLES];
+			unused += cache->entries[i].blas.n[BLAS_TRIANGLES];
 	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
 }
 
@@ -217,10 +217,10 @@ static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
 	const int drop = much_is_unused(accel);
-	size_t n = 0, ends[N_BOTTOM_PARTS] = { 0 };
+	size_t n = 0, ends[N_BLAS_PARTS] = { 0 };
 
 	for (size_t i = 0; i < cache->n; i++) {
-		struct blas b = cache->entries[i];
+		struct placed_blas b = cache->entries[i];
 
 		if (b.baked || (drop && b.last_use + KEEP_FRAMES < cache->frame))
 			continue;
@@ -230,7 +230,7 @@ static int drop_unused(struct accel *accel)
 	if (n == cache->n)
 		return 0;
 	cache->n = n;
-	for (int part = 0; part < N_BOTTOM_PARTS; part++) {
+	for (int part = 0; part < N_BLAS_PARTS; part++) {
 		*part_of(accel, part).n = ends[part];
 		accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
 	}
@@ -240,24 +240,24 @@ static int drop_unused(struct accel *accel)
 
 /* --- building BLASes --- */
 
-/* Copy a bottom level to the ends of the pools. */
-static int append(struct accel *accel, const struct bottom *bottom, struct blas *blas)
+/* Copy a BLAS to the ends of the pools. */
+static int append(struct accel *accel, const struct blas *blas, struct placed_blas *placed)
 {
 	int err = 0;
 
-	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++) {
+	for (int part = 0; part < N_BLAS_PARTS && !err; part++) {
 		const struct part pool = part_of(accel, part);
-		const size_t bytes = bottom_item_bytes[part];
+		const size_t bytes = blas_item_bytes[part];
 
-		blas->first[part] = *pool.n;
-		err = grow_array(pool.items, &accel->cache->capacities[part], *pool.n, bottom->n[part], bytes);
-		if (!err && bottom->n[part])
-			memcpy((char *)*pool.items + *pool.n * bytes, bottom->parts[part], bottom->n[part] * bytes);
+		placed->first[part] = *pool.n;
+		err = grow_array(pool.items, &accel->cache->capacities[part], *pool.n, blas->n[part], bytes);
+		if (!err && blas->n[part])
+			memcpy((char *)*pool.items + *pool.n * bytes, blas->parts[part], blas->n[part] * bytes);
 	}
-	for (int part = 0; part < N_BOTTOM_PARTS && !err; part++)
-		*part_of(accel, part).n += bottom->n[part];
-	blas->bottom = *bottom;
-	memset(blas->bottom.parts, 0, sizeof(blas->bottom.parts));
+	for (int part = 0; part < N_BLAS_PARTS && !err; part++)
+		*part_of(accel, part).n += blas->n[part];
+	placed->blas = *blas;
+	memset(placed->blas.parts, 0, sizeof(placed->blas.parts));
 	return err;
 }
 
@@ -278,16 +278,16 @@ static void find_topology(const struct scene_mesh *mesh, const struct soup *soup
  * The tree to fit to a mesh that nobody has seen: one of the same triangles, not used in this frame, used last before. Where there are
  * several, meshes find theirs in the order in which they were first drawn, each its own. NULL: there is none.
  */
-static struct blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
+static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
 {
-	struct blas *best = NULL;
+	struct placed_blas *best = NULL;
 
 	if (!(topology[0] | topology[1]))
 		return NULL;
 	for (size_t i = 0; i < cache->n; i++) {
-		struct blas *b = &cache->entries[i];
+		struct placed_blas *b = &cache->entries[i];
 
-		if (b->kind == kind && b->bottom.topology[0] == topology[0] && b->bottom.topology[1] == topology[1] && b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
+		if (b->kind == kind && b->blas.topology[0] == topology[0] && b->blas.topology[1] == topology[1] && b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
 			best = b;
 	}
 	if (best)
@@ -296,19 +296,19 @@ static struct blas *find_moved(struct accel_cache *cache, enum accel_kind kind, 
 }
 
 /* The tree of a mesh whose vertices have moved. *out is empty where it is better built. */
-static int refit(const struct accel *accel, const struct blas *moved, const struct soup *soup, struct tree *out)
+static int refit(const struct accel *accel, const struct placed_blas *moved, const struct soup *soup, struct tree *out)
 {
-	const struct triangle *triangles = accel->triangles + moved->first[BOTTOM_TRIANGLES];
-	const size_t n = moved->bottom.n[BOTTOM_TRIANGLES];
-	struct tree old = { accel->nodes2 + moved->first[BOTTOM_NODES2], malloc(n * sizeof(*old.order)),
-		            (uint32_t)moved->bottom.n[BOTTOM_NODES2], (uint32_t)n };
+	const struct triangle *triangles = accel->triangles + moved->first[BLAS_TRIANGLES];
+	const size_t n = moved->blas.n[BLAS_TRIANGLES];
+	struct tree old = { accel->nodes2 + moved->first[BLAS_NODES2], malloc(n * sizeof(*old.order)),
+		            (uint32_t)moved->blas.n[BLAS_NODES2], (uint32_t)n };
 	int err;
 
 	if (!old.order)
 		return out_of_memory();
 	for (uint32_t i = 0; i < old.n_order; i++)
 		old.order[i] = triangles[i].primitive; /* none was left out */
-	err = tree_refit(&old, soup, REFIT_COST * moved->bottom.built_cost, out);
+	err = tree_refit(&old, soup, REFIT_COST * moved->blas.built_cost, out);
 	free(old.order);
 	return err;
 }
@@ -325,29 +325,29 @@ struct order {
  * A tree for a soup: fitted, found or built. What moves gets a binned tree, quick to build, and is not kept on disk.
  * @param own  receives 1 where it depends on what this accel saw before
  */
-static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct bottom *bottom, struct tree *out,
+static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct blas *blas, struct tree *out,
                      int *own)
 {
-	struct blas *moved = find_moved(accel->cache, order->kind, bottom->topology);
+	struct placed_blas *moved = find_moved(accel->cache, order->kind, blas->topology);
 	int err = moved ? refit(accel, moved, soup, out) : 0;
 
 	*own = moved != NULL;
 	if (err)
 		return err;
 	if (out->nodes) {
-		bottom->built_cost = moved->bottom.built_cost;
+		blas->built_cost = moved->blas.built_cost;
 		accel->n_fitted++;
 		return 0;
 	}
 	accel->n_made++;
 	err = tree_make(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
-	if (!err && (bottom->topology[0] | bottom->topology[1]))
-		bottom->built_cost = bvh_cost(out->nodes, out->n_nodes);
+	if (!err && (blas->topology[0] | blas->topology[1]))
+		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
 	return err;
 }
 
 /* @param out, own  as of find_tree; *out to be freed, also after an error */
-static int make_bottom(struct accel *accel, const struct order *order, struct bottom *out, int *own)
+static int make_blas(struct accel *accel, const struct order *order, struct blas *out, int *own)
 {
 	struct soup soup;
 	struct tree tree = { NULL };
@@ -358,52 +358,52 @@ static int make_bottom(struct accel *accel, const struct order *order, struct bo
 	if (!err)
 		err = find_tree(accel, &soup, order, out, &tree, own);
 	if (!err)
-		err = bottom_make(&soup, &tree, accel->wide, out);
+		err = blas_make(&soup, &tree, accel->wide, out);
 	tree_free(&tree);
 	soup_free(&soup);
 	return err;
 }
 
 /* Into the pools, from what all workers share or for this one alone. */
-static int place_bottom(struct accel *accel, const struct order *order, struct blas *blas)
+static int place_blas(struct accel *accel, const struct order *order, struct placed_blas *placed)
 {
-	struct grove *grove = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->grove;
-	const struct grove_key key = { { order->mesh->hash[0], order->mesh->hash[1] }, order->kind, accel->wide };
-	const struct bottom *shared = NULL;
-	struct bottom bottom = { .n = { 0 } };
-	int own = 0, err = grove ? grove_take(grove, &key, &shared) : 0;
+	struct blas_cache *cache = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->shared;
+	const struct blas_key key = { { order->mesh->hash[0], order->mesh->hash[1] }, order->kind, accel->wide };
+	const struct blas *shared = NULL;
+	struct blas blas = { .n = { 0 } };
+	int own = 0, err = cache ? blas_cache_acquire(cache, &key, &shared) : 0;
 
 	if (err)
 		return err;
 	if (!shared) {
-		err = make_bottom(accel, order, &bottom, &own);
-		if (grove && (err || own))
-			grove_abandon(grove, &key);
-		else if (grove)
-			shared = grove_give(grove, &key, &bottom);
+		err = make_blas(accel, order, &blas, &own);
+		if (cache && (err || own))
+			blas_cache_abandon(cache, &key);
+		else if (cache)
+			shared = blas_cache_publish(cache, &key, &blas);
 	}
 	if (!err)
-		err = append(accel, shared ? shared : &bottom, blas);
+		err = append(accel, shared ? shared : &blas, placed);
 	if (shared)
-		grove_release(grove, shared);
-	bottom_free(&bottom);
+		blas_cache_release(cache, shared);
+	blas_free(&blas);
 	return err;
 }
 
-static int build_blas(struct accel *accel, const struct order *order, struct blas **out)
+static int add_blas(struct accel *accel, const struct order *order, struct placed_blas **out)
 {
 	struct accel_cache *cache = accel->cache;
-	struct blas blas = { .baked = order->baked, .kind = order->kind };
+	struct placed_blas placed = { .baked = order->baked, .kind = order->kind };
 	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
 
-	memcpy(blas.hash, order->mesh->hash, sizeof(blas.hash));
+	memcpy(placed.hash, order->mesh->hash, sizeof(placed.hash));
 	if (!err)
-		err = place_bottom(accel, order, &blas);
+		err = place_blas(accel, order, &placed);
 	if (err)
 		return err;
 	accel->generation++;
 	*out = &cache->entries[cache->n];
-	cache->entries[cache->n++] = blas;
+	cache->entries[cache->n++] = placed;
 	if (order->baked)
 		return 0;
 	if (4 * cache->n > cache->table_size)
@@ -430,23 +430,23 @@ static int place_instance(struct accel *accel, const struct scene_mesh *mesh, co
 	const int baked = (instance->flags & INSTANCE_BAKED) != 0;
 	const struct order order = { mesh, baked ? eye_vertices + instance->vertex_first : (const float (*)[4])mesh->position, baked,
 		                     is_of_frame(instance), accel_kind_of(accel, instance) };
-	struct blas *blas = baked ? NULL : find_blas(accel->cache, mesh->hash, order.kind);
+	struct placed_blas *placed = baked ? NULL : find_blas(accel->cache, mesh->hash, order.kind);
 	int err = 0;
 
 	if (mesh->kind != SCENE_TRIANGLES)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of lines or points was not expanded");
-	if (!blas)
-		err = build_blas(accel, &order, &blas);
+	if (!placed)
+		err = add_blas(accel, &order, &placed);
 	if (err)
 		return err;
-	blas->last_use = accel->cache->frame;
-	instance->node2_first = (uint32_t)blas->first[BOTTOM_NODES2];
-	instance->node8_first = (uint32_t)blas->first[BOTTOM_NODES8];
-	instance->triangle_first = (uint32_t)blas->first[BOTTOM_TRIANGLES];
-	instance->triangle8_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8];
-	instance->node8c_first = (uint32_t)blas->first[BOTTOM_NODES8C];
-	instance->triangle8c_first = (uint32_t)blas->first[BOTTOM_TRIANGLES8C];
-	*box = blas->bottom.box;
+	placed->last_use = accel->cache->frame;
+	instance->node2_first = (uint32_t)placed->first[BLAS_NODES2];
+	instance->node8_first = (uint32_t)placed->first[BLAS_NODES8];
+	instance->triangle_first = (uint32_t)placed->first[BLAS_TRIANGLES];
+	instance->triangle8_first = (uint32_t)placed->first[BLAS_TRIANGLES8];
+	instance->node8c_first = (uint32_t)placed->first[BLAS_NODES8C];
+	instance->triangle8c_first = (uint32_t)placed->first[BLAS_TRIANGLES8C];
+	*box = placed->blas.box;
 	instance->radius = 0;
 	for (int a = 0; a < 3; a++) {
 		instance->centre[a] = 0.5f * (box->lo[a] + box->hi[a]);
@@ -473,7 +473,7 @@ int accel_build_frame(struct accel *accel, const struct scene *scene, const stru
 		err = place_instance(accel, mesh, eye_vertices, &instances[i], &boxes[i]);
 	}
 	if (!err)
-		err = tops_build(accel, scene, instances, n, boxes, views);
+		err = tlas_build(accel, scene, instances, n, boxes, views);
 	free(boxes);
 	*spaces = accel->spaces;
 	*n_spaces = (uint32_t)accel->n_spaces;

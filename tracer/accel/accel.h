@@ -29,7 +29,7 @@ struct accel {
 	struct triangle *triangles8c; /* leaf order of nodes8c */
 	size_t n_nodes2, n_nodes8, n_triangles, n_triangles8, n_faces8, n_nodes8c, n_triangles8c;
 	uint64_t generation; /* grows whenever the pools above changed */
-	size_t same[N_BOTTOM_PARTS]; /* items at the front of each pool that are as they were when accel_copied was called last */
+	size_t same[N_BLAS_PARTS]; /* items at the front of each pool that are as they were when accel_copied was called last */
 
 	/* Of the current frame: leaves of both hold indices into instance_list. */
 	struct node2 *top2;
@@ -39,8 +39,8 @@ struct accel {
 
 	unsigned wide;        /* of ACCEL_ROWS and ACCEL_COMPRESSED, those wanted; ACCEL_ROWS at first; settled before the first frame */
 	enum accel_kind kind; /* of the BLASes that the next frame finds or builds; ACCEL_BVH at first */
-	struct store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
-	struct grove *grove;  /* what other accels share with it; borrowed, NULL: nothing, as at first */
+	struct blas_store *store;  /* where trees are kept beyond this run; borrowed, NULL: nowhere, as at first */
+	struct blas_cache *shared; /* BLASes that other accels share with it; borrowed, NULL: none, as at first */
 	uint64_t n_made, n_fitted; /* trees of meshes so far: built or read here, and fitted to vertices that have moved */
 	struct accel_cache *cache; /* private: mesh hash -> place in the pools, last frame of use */
 	struct accel_space *spaces;
@@ -83,7 +83,7 @@ struct accel_pool {
 	const void *items;
 	size_t n, same;
 };
-struct accel_pool accel_pool(const struct accel *accel, enum bottom_part part);
+struct accel_pool accel_pool(const struct accel *accel, enum blas_part part);
 
 /** Its user has a copy of all pools now. */
 void accel_copied(struct accel *accel);

@@ -6,30 +6,30 @@
 #include "base/err.h"
 #include "scene/scene.h"
 
-const size_t bottom_item_bytes[N_BOTTOM_PARTS] = {
-	[BOTTOM_NODES2] = sizeof(struct node2),   [BOTTOM_TRIANGLES] = sizeof(struct triangle),
-	[BOTTOM_NODES8] = sizeof(struct node8),   [BOTTOM_TRIANGLES8] = sizeof(struct triangle8),
-	[BOTTOM_FACES8] = sizeof(struct face8),
-	[BOTTOM_NODES8C] = sizeof(struct node8c), [BOTTOM_TRIANGLES8C] = sizeof(struct triangle),
+const size_t blas_item_bytes[N_BLAS_PARTS] = {
+	[BLAS_NODES2] = sizeof(struct node2),   [BLAS_TRIANGLES] = sizeof(struct triangle),
+	[BLAS_NODES8] = sizeof(struct node8),   [BLAS_TRIANGLES8] = sizeof(struct triangle8),
+	[BLAS_FACES8] = sizeof(struct face8),
+	[BLAS_NODES8C] = sizeof(struct node8c), [BLAS_TRIANGLES8C] = sizeof(struct triangle),
 };
 
 /* Room for n items of a part, none of them set. @return NULL: there is none (reported) */
-static void *make_part(struct bottom *bottom, enum bottom_part part, size_t n)
+static void *make_part(struct blas *blas, enum blas_part part, size_t n)
 {
-	bottom->n[part] = n;
-	bottom->parts[part] = malloc(n * bottom_item_bytes[part] + 1);
-	if (!bottom->parts[part])
+	blas->n[part] = n;
+	blas->parts[part] = malloc(n * blas_item_bytes[part] + 1);
+	if (!blas->parts[part])
 		err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-	return bottom->parts[part];
+	return blas->parts[part];
 }
 
 /* A part turned out to have fewer items. */
-static void cut_part(struct bottom *bottom, enum bottom_part part, size_t n)
+static void cut_part(struct blas *blas, enum blas_part part, size_t n)
 {
-	void *less = realloc(bottom->parts[part], n * bottom_item_bytes[part] + 1);
+	void *less = realloc(blas->parts[part], n * blas_item_bytes[part] + 1);
 
-	bottom->parts[part] = less ? less : bottom->parts[part];
-	bottom->n[part] = n;
+	blas->parts[part] = less ? less : blas->parts[part];
+	blas->n[part] = n;
 }
 
 static void set_triangle8(struct triangle8 *out, const struct triangle *triangles, uint32_t n)
@@ -59,11 +59,11 @@ static void set_face8(struct face8 *out, const struct triangle *triangles, uint3
 }
 
 /* The eight-wide tree in rows. */
-static int make_rows(const struct tree *tree, struct bottom *bottom)
+static int make_rows(const struct tree *tree, struct blas *blas)
 {
-	const struct triangle *triangles = bottom->parts[BOTTOM_TRIANGLES];
+	const struct triangle *triangles = blas->parts[BLAS_TRIANGLES];
 	uint32_t *first = malloc(2 * ((size_t)tree->n_order + 1) * sizeof(*first)), *count = first + tree->n_order + 1;
-	struct node8 *nodes = make_part(bottom, BOTTOM_NODES8, tree->n_nodes);
+	struct node8 *nodes = make_part(blas, BLAS_NODES8, tree->n_nodes);
 	uint32_t n_nodes, n_blocks;
 	struct triangle8 *blocks;
 	struct face8 *faces;
@@ -75,9 +75,9 @@ static int make_rows(const struct tree *tree, struct bottom *bottom)
 		err = bvh_collapse8(tree->nodes, tree->n_nodes, BVH_BLOCKS, nodes, &n_nodes, first, count, &n_blocks);
 	if (err)
 		goto done;
-	cut_part(bottom, BOTTOM_NODES8, n_nodes);
-	blocks = make_part(bottom, BOTTOM_TRIANGLES8, n_blocks);
-	faces = make_part(bottom, BOTTOM_FACES8, n_blocks);
+	cut_part(blas, BLAS_NODES8, n_nodes);
+	blocks = make_part(blas, BLAS_TRIANGLES8, n_blocks);
+	faces = make_part(blas, BLAS_FACES8, n_blocks);
 	err = blocks && faces ? 0 : ERR_SYSTEM;
 	for (uint32_t i = 0; i < n_blocks && !err; i++) {
 		set_triangle8(&blocks[i], triangles + first[i], count[i]);
@@ -88,24 +88,24 @@ done:
 	return err;
 }
 
-static int make_compressed(const struct tree *tree, struct bottom *bottom)
+static int make_compressed(const struct tree *tree, struct blas *blas)
 {
-	struct node8c *nodes = make_part(bottom, BOTTOM_NODES8C, BVH_COMPRESSED_NODES(tree->n_nodes, tree->n_order));
-	struct triangle *triangles = make_part(bottom, BOTTOM_TRIANGLES8C, tree->n_order);
+	struct node8c *nodes = make_part(blas, BLAS_NODES8C, BVH_COMPRESSED_NODES(tree->n_nodes, tree->n_order));
+	struct triangle *triangles = make_part(blas, BLAS_TRIANGLES8C, tree->n_order);
 	uint32_t n_nodes;
 	int err = nodes && triangles ? 0 : ERR_SYSTEM;
 
 	if (!err)
-		err = bvh_compress8(tree->nodes, tree->n_nodes, bottom->parts[BOTTOM_TRIANGLES], tree->n_order, nodes, &n_nodes, triangles);
+		err = bvh_compress8(tree->nodes, tree->n_nodes, blas->parts[BLAS_TRIANGLES], tree->n_order, nodes, &n_nodes, triangles);
 	if (!err)
-		cut_part(bottom, BOTTOM_NODES8C, n_nodes);
+		cut_part(blas, BLAS_NODES8C, n_nodes);
 	return err;
 }
 
-int bottom_make(const struct soup *soup, const struct tree *tree, unsigned wide, struct bottom *out)
+int blas_make(const struct soup *soup, const struct tree *tree, unsigned wide, struct blas *out)
 {
-	struct node2 *nodes = make_part(out, BOTTOM_NODES2, tree->n_nodes);
-	struct triangle *triangles = make_part(out, BOTTOM_TRIANGLES, tree->n_order);
+	struct node2 *nodes = make_part(out, BLAS_NODES2, tree->n_nodes);
+	struct triangle *triangles = make_part(out, BLAS_TRIANGLES, tree->n_order);
 	int err = nodes && triangles ? 0 : ERR_SYSTEM;
 
 	if (err)
@@ -121,18 +121,18 @@ int bottom_make(const struct soup *soup, const struct tree *tree, unsigned wide,
 	return err;
 }
 
-void bottom_free(struct bottom *bottom)
+void blas_free(struct blas *blas)
 {
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
-		free(bottom->parts[part]);
-	*bottom = (struct bottom){ .n = { 0 } };
+	for (int part = 0; part < N_BLAS_PARTS; part++)
+		free(blas->parts[part]);
+	*blas = (struct blas){ .n = { 0 } };
 }
 
-size_t bottom_bytes(const struct bottom *bottom)
+size_t blas_bytes(const struct blas *blas)
 {
 	size_t bytes = 0;
 
-	for (int part = 0; part < N_BOTTOM_PARTS; part++)
-		bytes += bottom->n[part] * bottom_item_bytes[part];
+	for (int part = 0; part < N_BLAS_PARTS; part++)
+		bytes += blas->n[part] * blas_item_bytes[part];
 	return bytes;
 }

@@ -9,8 +9,8 @@
 #define SLOTS 4096u /* of the hash table; some tens of thousands of meshes are no more than a dozen each */
 
 struct entry {
-	struct bottom bottom; /* the first member: entries are found by it */
-	struct grove_key key;
+	struct blas blas; /* the first member: entries are found by it */
+	struct blas_key key;
 	size_t bytes;
 	unsigned users;  /* who copies from it */
 	int made;        /* 0: someone is at it */
@@ -18,7 +18,7 @@ struct entry {
 	struct entry *older, *younger;  /* made ones, by last use */
 };
 
-struct grove {
+struct blas_cache {
 	pthread_mutex_t lock; /* of all below */
 	pthread_cond_t changed;
 	struct entry *slots[SLOTS];
@@ -26,22 +26,22 @@ struct grove {
 	size_t most, bytes;
 };
 
-int grove_create(size_t most, struct grove **out)
+int blas_cache_create(size_t most, struct blas_cache **out)
 {
-	struct grove *grove = calloc(1, sizeof(*grove));
+	struct blas_cache *cache = calloc(1, sizeof(*cache));
 
-	*out = grove;
-	if (!grove)
+	*out = cache;
+	if (!cache)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	grove->most = most;
-	pthread_mutex_init(&grove->lock, NULL);
-	pthread_cond_init(&grove->changed, NULL);
+	cache->most = most;
+	pthread_mutex_init(&cache->lock, NULL);
+	pthread_cond_init(&cache->changed, NULL);
 	return 0;
 }
 
-static struct entry **find(struct grove *grove, const struct grove_key *key)
+static struct entry **find(struct blas_cache *cache, const struct blas_key *key)
 {
-	struct entry **at = &grove->slots[key->hash[0] % SLOTS];
+	struct entry **at = &cache->slots[key->hash[0] % SLOTS];
 
 	while (*at && memcmp(&(*at)->key, key, sizeof(*key)) != 0)
 		at = &(*at)->next;
@@ -50,45 +50,45 @@ static struct entry **find(struct grove *grove, const struct grove_key *key)
 
 /* --- By last use ---------------------------------------------------------------------------------------------------- */
 
-static void unlink_use(struct grove *grove, struct entry *e)
+static void unlink_use(struct blas_cache *cache, struct entry *e)
 {
-	*(e->older ? &e->older->younger : &grove->oldest) = e->younger;
-	*(e->younger ? &e->younger->older : &grove->youngest) = e->older;
+	*(e->older ? &e->older->younger : &cache->oldest) = e->younger;
+	*(e->younger ? &e->younger->older : &cache->youngest) = e->older;
 }
 
-static void link_youngest(struct grove *grove, struct entry *e)
+static void link_youngest(struct blas_cache *cache, struct entry *e)
 {
-	e->older = grove->youngest;
+	e->older = cache->youngest;
 	e->younger = NULL;
-	*(e->older ? &e->older->younger : &grove->oldest) = e;
-	grove->youngest = e;
+	*(e->older ? &e->older->younger : &cache->oldest) = e;
+	cache->youngest = e;
 }
 
-static void drop(struct grove *grove, struct entry *e)
+static void drop(struct blas_cache *cache, struct entry *e)
 {
-	*find(grove, &e->key) = e->next;
+	*find(cache, &e->key) = e->next;
 	if (e->made) {
-		unlink_use(grove, e);
-		grove->bytes -= e->bytes;
+		unlink_use(cache, e);
+		cache->bytes -= e->bytes;
 	}
-	bottom_free(&e->bottom);
+	blas_free(&e->blas);
 	free(e);
 }
 
-static void keep_bound(struct grove *grove)
+static void keep_bound(struct blas_cache *cache)
 {
-	for (struct entry *e = grove->oldest, *next; e && grove->bytes > grove->most; e = next) {
+	for (struct entry *e = cache->oldest, *next; e && cache->bytes > cache->most; e = next) {
 		next = e->younger;
 		if (!e->users)
-			drop(grove, e);
+			drop(cache, e);
 	}
 }
 
-void grove_destroy(struct grove **grove)
+void blas_cache_destroy(struct blas_cache **cache)
 {
-	struct grove *g = *grove;
+	struct blas_cache *g = *cache;
 
-	*grove = NULL;
+	*cache = NULL;
 	if (!g)
 		return;
 	while (g->oldest)
@@ -100,9 +100,9 @@ void grove_destroy(struct grove **grove)
 
 /* --- Taking and giving ---------------------------------------------------------------------------------------------- */
 
-static struct entry *add(struct grove *grove, const struct grove_key *key)
+static struct entry *add(struct blas_cache *cache, const struct blas_key *key)
 {
-	struct entry *e = calloc(1, sizeof(*e)), **slot = find(grove, key);
+	struct entry *e = calloc(1, sizeof(*e)), **slot = find(cache, key);
 
 	if (e) {
 		e->key = *key;
@@ -111,59 +111,59 @@ static struct entry *add(struct grove *grove, const struct grove_key *key)
 	return e;
 }
 
-int grove_take(struct grove *grove, const struct grove_key *key, const struct bottom **out)
+int blas_cache_acquire(struct blas_cache *cache, const struct blas_key *key, const struct blas **out)
 {
 	struct entry *e;
 	int err = 0;
 
 	*out = NULL;
-	pthread_mutex_lock(&grove->lock);
-	while ((e = *find(grove, key)) && !e->made)
-		pthread_cond_wait(&grove->changed, &grove->lock);
+	pthread_mutex_lock(&cache->lock);
+	while ((e = *find(cache, key)) && !e->made)
+		pthread_cond_wait(&cache->changed, &cache->lock);
 	if (e) {
-		unlink_use(grove, e);
-		link_youngest(grove, e);
+		unlink_use(cache, e);
+		link_youngest(cache, e);
 		e->users++;
-		*out = &e->bottom;
-	} else if (!add(grove, key)) {
+		*out = &e->blas;
+	} else if (!add(cache, key)) {
 		err = err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	}
-	pthread_mutex_unlock(&grove->lock);
+	pthread_mutex_unlock(&cache->lock);
 	return err;
 }
 
-void grove_release(struct grove *grove, const struct bottom *bottom)
+void blas_cache_release(struct blas_cache *cache, const struct blas *blas)
 {
-	struct entry *e = (struct entry *)bottom;
+	struct entry *e = (struct entry *)blas;
 
-	pthread_mutex_lock(&grove->lock);
+	pthread_mutex_lock(&cache->lock);
 	e->users--;
-	keep_bound(grove);
-	pthread_mutex_unlock(&grove->lock);
+	keep_bound(cache);
+	pthread_mutex_unlock(&cache->lock);
 }
 
-const struct bottom *grove_give(struct grove *grove, const struct grove_key *key, struct bottom *bottom)
+const struct blas *blas_cache_publish(struct blas_cache *cache, const struct blas_key *key, struct blas *blas)
 {
 	struct entry *e;
 
-	pthread_mutex_lock(&grove->lock);
-	e = *find(grove, key);
-	e->bottom = *bottom;
-	e->bytes = bottom_bytes(bottom);
+	pthread_mutex_lock(&cache->lock);
+	e = *find(cache, key);
+	e->blas = *blas;
+	e->bytes = blas_bytes(blas);
 	e->users = 1;
 	e->made = 1;
-	grove->bytes += e->bytes;
-	link_youngest(grove, e);
-	pthread_cond_broadcast(&grove->changed);
-	pthread_mutex_unlock(&grove->lock);
-	*bottom = (struct bottom){ .n = { 0 } };
-	return &e->bottom;
+	cache->bytes += e->bytes;
+	link_youngest(cache, e);
+	pthread_cond_broadcast(&cache->changed);
+	pthread_mutex_unlock(&cache->lock);
+	*blas = (struct blas){ .n = { 0 } };
+	return &e->blas;
 }
 
-void grove_abandon(struct grove *grove, const struct grove_key *key)
+void blas_cache_abandon(struct blas_cache *cache, const struct blas_key *key)
 {
-	pthread_mutex_lock(&grove->lock);
-	drop(grove, *find(grove, key));
-	pthread_cond_broadcast(&grove->changed);
-	pthread_mutex_unlock(&grove->lock);
+	pthread_mutex_lock(&cache->lock);
+	drop(cache, *find(cache, key));
+	pthread_cond_broadcast(&cache->changed);
+	pthread_mutex_unlock(&cache->lock);
 }

@@ -9,44 +9,44 @@
 
 #include "tracer/accel/blas.h"
 
-struct grove;
+struct blas_cache;
 
-/* What a bottom level is found by. */
-struct grove_key {
+/* What a BLAS is found by. */
+struct blas_key {
 	uint64_t hash[2]; /* of the mesh */
 	uint32_t kind;    /* enum accel_kind */
-	uint32_t wide;    /* as of bottom_make */
+	uint32_t wide;    /* as of blas_make */
 };
 
-#define GROVE_BYTES (256u << 20)
+#define BLAS_CACHE_BYTES (256u << 20)
 
 /**
  * @param most  bytes that it may hold beside what is in use
  * @return 0 or ERR_SYSTEM (reported)
  */
-int grove_create(size_t most, struct grove **out);
+int blas_cache_create(size_t most, struct blas_cache **out);
 
 /** Nobody may be using it. */
-void grove_destroy(struct grove **grove);
+void blas_cache_destroy(struct blas_cache **cache);
 
 /**
- * Find a bottom level, waiting where someone else is making it.
+ * Find a BLAS, waiting where someone else is making it.
  *
- * @param out  receives it; unchanged until grove_release(), which the caller owes. NULL: there is none, and the caller is to make it:
- *             grove_give() or grove_abandon() is owed instead
+ * @param out  receives it; unchanged until blas_cache_release(), which the caller owes. NULL: there is none, and the caller is to make it:
+ *             blas_cache_publish() or blas_cache_abandon() is owed instead
  * @return 0 or ERR_SYSTEM (reported)
  */
-int grove_take(struct grove *grove, const struct grove_key *key, const struct bottom **out);
-void grove_release(struct grove *grove, const struct bottom *bottom);
+int blas_cache_acquire(struct blas_cache *cache, const struct blas_key *key, const struct blas **out);
+void blas_cache_release(struct blas_cache *cache, const struct blas *blas);
 
 /**
- * What grove_take() asked for.
- * @param bottom  moved into the grove and left empty
- * @return where it is now; as grove_take() gives it, grove_release() is owed
+ * What blas_cache_acquire() asked for.
+ * @param blas  moved into the cache and left empty
+ * @return where it is now; as blas_cache_acquire() gives it, blas_cache_release() is owed
  */
-const struct bottom *grove_give(struct grove *grove, const struct grove_key *key, struct bottom *bottom);
+const struct blas *blas_cache_publish(struct blas_cache *cache, const struct blas_key *key, struct blas *blas);
 
 /** It will not come: one of those who wait makes it. */
-void grove_abandon(struct grove *grove, const struct grove_key *key);
+void blas_cache_abandon(struct blas_cache *cache, const struct blas_key *key);
 
 #endif

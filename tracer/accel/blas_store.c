@@ -28,16 +28,16 @@ struct counts {
 	uint32_t n_nodes, n_order;
 };
 
-struct store {
+struct blas_store {
 	char folder[PATH_MAX - 96];
 	uint64_t most, added; /* added: bytes since the folder was counted last */
 	int counted, lost;    /* lost: nothing can be written */
 	pthread_mutex_t lock; /* of what is written, and of the fields above */
 };
 
-int store_open(const char *folder, uint64_t most, struct store **out)
+int blas_store_open(const char *folder, uint64_t most, struct blas_store **out)
 {
-	struct store *store = calloc(1, sizeof(*store));
+	struct blas_store *store = calloc(1, sizeof(*store));
 
 	*out = NULL;
 	if (!store)
@@ -53,7 +53,7 @@ int store_open(const char *folder, uint64_t most, struct store **out)
 	return 0;
 }
 
-void store_close(struct store **store)
+void blas_store_close(struct blas_store **store)
 {
 	if (*store)
 		pthread_mutex_destroy(&(*store)->lock);
@@ -61,7 +61,7 @@ void store_close(struct store **store)
 	*store = NULL;
 }
 
-static void path_of(const struct store *store, const struct store_key *key, char path[PATH_MAX])
+static void path_of(const struct blas_store *store, const struct blas_store_key *key, char path[PATH_MAX])
 {
 	snprintf(path, PATH_MAX, "%s/%016llx%016llx-%u-%u" SUFFIX, store->folder, (unsigned long long)key->hash[0],
 	         (unsigned long long)key->hash[1], key->kind, key->version);
@@ -73,7 +73,7 @@ static size_t bytes_of(struct counts n)
 }
 
 /* Of all that the content depends on: nodes of another layout or byte order are other ones. */
-static void hash_key(const struct store_key *key, uint64_t out[2])
+static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 {
 	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
 	const XXH128_hash_t hash = XXH3_128bits(all, sizeof(all));
@@ -104,7 +104,7 @@ static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree
 	return tree_is_sound(out, n_triangles);
 }
 
-int store_load(struct store *store, const struct store_key *key, struct tree *out)
+int blas_store_load(struct blas_store *store, const struct blas_store_key *key, struct tree *out)
 {
 	char path[PATH_MAX];
 	uint64_t hash[2];
@@ -177,7 +177,7 @@ static size_t list_kept(DIR *dir, struct kept **out)
 }
 
 /* Count the folder, and remove what was unused for longest where it holds more than it may. Others may do the same. */
-static void keep_bound(struct store *store)
+static void keep_bound(struct blas_store *store)
 {
 	DIR *dir = opendir(store->folder);
 	uint64_t bytes = 0;
@@ -205,7 +205,7 @@ static void keep_bound(struct store *store)
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
 
 /* @return 0; the errno that says why not; -1 (reported) */
-static int save(struct store *store, const char *path, const struct store_key *key, const struct tree *tree)
+static int save(struct blas_store *store, const char *path, const struct blas_store_key *key, const struct tree *tree)
 {
 	const struct counts counts = { tree->n_nodes, tree->n_order };
 	char *bytes = malloc(bytes_of(counts));
@@ -227,7 +227,7 @@ static int save(struct store *store, const char *path, const struct store_key *k
 	return failed;
 }
 
-void store_save(struct store *store, const struct store_key *key, const struct tree *tree)
+void blas_store_save(struct blas_store *store, const struct blas_store_key *key, const struct tree *tree)
 {
 	const uint64_t bytes = bytes_of((struct counts){ tree->n_nodes, tree->n_order });
 	char path[PATH_MAX];

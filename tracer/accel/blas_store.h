@@ -14,32 +14,32 @@
 
 #include <stdint.h>
 
-struct store;
+struct blas_store;
 struct tree;
 
 /* What a tree is found by. */
-struct store_key {
+struct blas_store_key {
 	uint64_t hash[2]; /* of the mesh */
 	uint32_t version; /* of the builders */
 	uint32_t kind;    /* which builder */
 	uint32_t n_triangles;
 };
 
-#define STORE_BYTES (2ull << 30) /* what the folder may hold where nothing else is asked for */
+#define BLAS_STORE_BYTES (2ull << 30) /* what the folder may hold where nothing else is asked for */
 
 /**
  * @param folder  made when something is to be written into it; NULL: "trees" in the user's cache folder (base/folder.h)
  * @param most    bytes that the folder may hold
- * @param out     receives the store, to be closed with store_close; NULL where folder is NULL and the user has none
+ * @param out     receives the store, to be closed with blas_store_close; NULL where folder is NULL and the user has none
  * @return 0 or ERR_SYSTEM (reported): out of memory, or a name that is too long
  */
-int store_open(const char *folder, uint64_t most, struct store **out);
-void store_close(struct store **store);
+int blas_store_open(const char *folder, uint64_t most, struct blas_store **out);
+void blas_store_close(struct blas_store **store);
 
 /** Find a tree that the kernels can walk. @return 1: *out is it, to be freed with tree_free; 0: there is none, *out is empty */
-int store_load(struct store *store, const struct store_key *key, struct tree *out);
+int blas_store_load(struct blas_store *store, const struct blas_store_key *key, struct tree *out);
 
 /** Keep a tree. */
-void store_save(struct store *store, const struct store_key *key, const struct tree *tree);
+void blas_store_save(struct blas_store *store, const struct blas_store_key *key, const struct tree *tree);
 
 #endif

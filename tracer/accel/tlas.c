@@ -165,7 +165,7 @@ static int make_room(struct accel *accel, uint32_t n)
 	return top2 && top8 && list ? 0 : out_of_memory();
 }
 
-int tops_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
+int tlas_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
                const struct bvh_box *boxes, struct view *views)
 {
 	struct top top = { .boxes = malloc((n + 1) * sizeof(*top.boxes)), .items = malloc((n + 1) * sizeof(*top.items)),

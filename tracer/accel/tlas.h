@@ -15,7 +15,7 @@
  * @param views      [scene->n_views]; tlas_first and tlas_count are filled in
  * @return 0 or ERR_SYSTEM (reported)
  */
-int tops_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
+int tlas_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
                const struct bvh_box *boxes, struct view *views);
 
 #endif

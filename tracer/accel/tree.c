@@ -37,18 +37,18 @@ static int build(const struct soup *soup, enum accel_kind kind, struct tree *tre
 	                                                               tree->order);
 }
 
-int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out)
+int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out)
 {
-	const struct store_key key = { { hash[0], hash[1] }, TREE_VERSION, kind, soup->n };
+	const struct blas_store_key key = { { hash[0], hash[1] }, TREE_VERSION, kind, soup->n };
 	const int keep = store && soup->n >= keep_from[kind];
 	int err;
 
 	*out = (struct tree){ NULL };
-	if (keep && store_load(store, &key, out))
+	if (keep && blas_store_load(store, &key, out))
 		return 0;
 	err = build(soup, kind, out);
 	if (!err && keep)
-		store_save(store, &key, out);
+		blas_store_save(store, &key, out);
 	return err;
 }
 

@@ -41,7 +41,7 @@ struct tree {
  * @param out    receives the tree, to be freed with tree_free, also after an error
  * @return 0 or ERR_SYSTEM (reported). That a tree cannot be kept is no error
  */
-int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct store *store, struct tree *out);
+int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out);
 
 /**
  * Fit a tree to the same triangles, some of which have moved.

@@ -35,7 +35,7 @@ enum buffer {
 struct tracer {
 	struct device *dev;
 	struct accel *accel;
-	size_t tree_room[N_BOTTOM_PARTS]; /* of the buffers of meshes' trees, items */
+	size_t tree_room[N_BLAS_PARTS]; /* of the buffers of meshes' trees, items */
 	struct pool attributes, indices, texels;
 	struct device_buffer *buffers[N_BUFFERS];
 	uint32_t *counts, *first; /* [pixels], host copies */

@@ -48,9 +48,9 @@ void tracer_destroy(struct tracer **tracer)
 	*tracer = NULL;
 }
 
-void tracer_share(struct tracer *tracer, struct grove *grove)
+void tracer_share(struct tracer *tracer, struct blas_cache *cache)
 {
-	tracer->accel->grove = grove;
+	tracer->accel->shared = cache;
 }
 
 int tracer_check_aov(const char *aov)

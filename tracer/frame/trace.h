@@ -34,7 +34,7 @@ struct tracer_options {
 	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
 	enum accel_kind accel; /* trees of meshes */
 	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
-	struct store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
+	struct blas_store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
@@ -45,8 +45,8 @@ struct tracer;
 int tracer_create(struct tracer **out, struct device *dev);
 void tracer_destroy(struct tracer **tracer);
 
-/** Share trees of meshes with other tracers of the process from now on. @param grove  kept until tracer_destroy */
-void tracer_share(struct tracer *tracer, struct grove *grove);
+/** Share trees of meshes with other tracers of the process from now on. @param cache  kept until tracer_destroy */
+void tracer_share(struct tracer *tracer, struct blas_cache *cache);
 
 /** 0, or ERR_USAGE (reported) where a list of channel groups names one that is not there. */
 int tracer_check_aov(const char *aov);

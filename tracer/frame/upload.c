@@ -141,10 +141,10 @@ int upload_state(struct job *job)
 }
 
 /* One pool of those of meshes: what is not there yet, or all of it where the buffer has to grow. */
-static int upload_pool(struct tracer *tr, enum bottom_part part, enum buffer buffer)
+static int upload_pool(struct tracer *tr, enum blas_part part, enum buffer buffer)
 {
 	const struct accel_pool pool = accel_pool(tr->accel, part);
-	const size_t size = bottom_item_bytes[part];
+	const size_t size = blas_item_bytes[part];
 	size_t from = pool.same;
 	int err = 0;
 
@@ -165,17 +165,17 @@ static int upload_pool(struct tracer *tr, enum bottom_part part, enum buffer buf
 static int upload_mesh_trees(struct tracer *tr)
 {
 	static const struct {
-		enum bottom_part part;
+		enum blas_part part;
 		enum buffer buffer;
 		unsigned families;
 	} pools[] = {
-		{ BOTTOM_NODES2, BUFFER_NODES2, 1u << FAMILY_BINARY },
-		{ BOTTOM_TRIANGLES, BUFFER_TRIANGLES, 1u << FAMILY_BINARY },
-		{ BOTTOM_NODES8, BUFFER_NODES8, 1u << FAMILY_PACKETS },
-		{ BOTTOM_TRIANGLES8, BUFFER_TRIANGLES8, 1u << FAMILY_PACKETS },
-		{ BOTTOM_FACES8, BUFFER_FACES8, 1u << FAMILY_PACKETS },
-		{ BOTTOM_NODES8C, BUFFER_NODES8C, 1u << FAMILY_COMPRESSED },
-		{ BOTTOM_TRIANGLES8C, BUFFER_TRIANGLES8C, 1u << FAMILY_COMPRESSED },
+		{ BLAS_NODES2, BUFFER_NODES2, 1u << FAMILY_BINARY },
+		{ BLAS_TRIANGLES, BUFFER_TRIANGLES, 1u << FAMILY_BINARY },
+		{ BLAS_NODES8, BUFFER_NODES8, 1u << FAMILY_PACKETS },
+		{ BLAS_TRIANGLES8, BUFFER_TRIANGLES8, 1u << FAMILY_PACKETS },
+		{ BLAS_FACES8, BUFFER_FACES8, 1u << FAMILY_PACKETS },
+		{ BLAS_NODES8C, BUFFER_NODES8C, 1u << FAMILY_COMPRESSED },
+		{ BLAS_TRIANGLES8C, BUFFER_TRIANGLES8C, 1u << FAMILY_COMPRESSED },
 	};
 	int err = 0;
 

@@ -122,7 +122,7 @@ static int render(struct settings *s)
 		return err;
 	err = replay_open(&p.replay, s->trace);
 	if (!err && !s->no_cache)
-		err = store_open(s->cache, s->cache_bytes ? s->cache_bytes : STORE_BYTES, &s->tracer.store);
+		err = blas_store_open(s->cache, s->cache_bytes ? s->cache_bytes : BLAS_STORE_BYTES, &s->tracer.store);
 	if (!err)
 		err = settle_frames(s, p.replay, &x);
 	if (!err) {
@@ -138,7 +138,7 @@ static int render(struct settings *s)
 		err_report(ERR_SYSTEM, NULL, "stopped by %s; the same command with --skip-existing goes on",
 		           strsignal(number));
 	replay_close(&p.replay);
-	store_close(&s->tracer.store);
+	blas_store_close(&s->tracer.store);
 	watch_stop(&p.watch);
 	return number ? -(128 + number) : err;
 }

@@ -24,7 +24,7 @@ struct settings {
 	enum progress_style progress;
 	const char *cache;      /* folder for trees of meshes and compiled kernels; NULL: the user's */
 	int no_cache;
-	uint64_t cache_bytes;   /* what it may hold; 0: STORE_BYTES */
+	uint64_t cache_bytes;   /* what it may hold; 0: BLAS_STORE_BYTES */
 	struct look *look;
 	struct tracer_options tracer;
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */

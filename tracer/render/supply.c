@@ -1,22 +1,22 @@
 #include "tracer/render/supply.h"
 
-int feed_supply(void *user, const struct scene *scene, struct scene_picture *picture)
+int supply_picture(void *user, const struct scene *scene, struct scene_picture *picture)
 {
-	struct feed *feed = user;
+	struct supply *supply = user;
 	int err = 0;
 
-	if (!feed->dev)
-		err = device_share(feed->parent, &feed->dev);
-	if (!err && !feed->tracer)
-		err = tracer_create(&feed->tracer, feed->dev);
+	if (!supply->dev)
+		err = device_share(supply->parent, &supply->dev);
+	if (!err && !supply->tracer)
+		err = tracer_create(&supply->tracer, supply->dev);
 	if (!err)
-		tracer_share(feed->tracer, feed->grove);
-	return err ? err : tracer_render_picture(feed->tracer, scene, picture);
+		tracer_share(supply->tracer, supply->cache);
+	return err ? err : tracer_render_picture(supply->tracer, scene, picture);
 }
 
-void feed_free(struct feed *feed)
+void supply_free(struct supply *supply)
 {
-	tracer_destroy(&feed->tracer);
-	if (feed->dev)
-		device_close(&feed->dev);
+	tracer_destroy(&supply->tracer);
+	if (supply->dev)
+		device_close(&supply->dev);
 }

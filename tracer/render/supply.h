@@ -8,15 +8,15 @@
 #include "replay/replay.h"
 #include "tracer/frame/trace.h"
 
-struct feed {
+struct supply {
 	struct device *parent; /* borrowed */
-	struct grove *grove;   /* trees that it shares with others; borrowed, or NULL */
+	struct blas_cache *cache; /* BLASes that it shares with others; borrowed, or NULL */
 	struct device *dev;    /* owned: shares the parent's device */
 	struct tracer *tracer; /* owned */
 };
 
-/** A replay_supply; user is a struct feed with nothing but its parent and grove set. */
-int feed_supply(void *user, const struct scene *scene, struct scene_picture *picture);
-void feed_free(struct feed *feed);
+/** A replay_supply; user is a struct supply with nothing but its parent and cache set. */
+int supply_picture(void *user, const struct scene *scene, struct scene_picture *picture);
+void supply_free(struct supply *supply);
 
 #endif

@@ -19,7 +19,7 @@
 static char folder[256];
 static struct soup soup;
 
-static const struct store_key key = { { 1, 2 }, TREE_VERSION, ACCEL_BVH, N };
+static const struct blas_store_key key = { { 1, 2 }, TREE_VERSION, ACCEL_BVH, N };
 
 /* Triangles of several sizes, the same in each run. */
 static void make_soup(void)
@@ -51,11 +51,11 @@ static void set_up(void)
 	make_soup();
 }
 
-static struct store *open_store(uint64_t most)
+static struct blas_store *open_store(uint64_t most)
 {
-	struct store *store;
+	struct blas_store *store;
 
-	ck_assert_int_eq(store_open(folder, most, &store), 0);
+	ck_assert_int_eq(blas_store_open(folder, most, &store), 0);
 	return store;
 }
 
@@ -99,18 +99,18 @@ static unsigned list_files(char (*paths)[512], unsigned room, uint64_t *bytes)
 
 START_TEST(a_tree_is_found_again)
 {
-	struct store *store = open_store(STORE_BYTES);
+	struct blas_store *store = open_store(BLAS_STORE_BYTES);
 	struct tree got;
 
 	for (int kind = 0; kind < N_ACCEL_KINDS; kind++) {
 		struct tree tree = build((enum accel_kind)kind);
-		struct store_key k = key, other;
+		struct blas_store_key k = key, other;
 
 		k.kind = (uint32_t)kind;
-		ck_assert_int_eq(store_load(store, &k, &got), 0);
+		ck_assert_int_eq(blas_store_load(store, &k, &got), 0);
 		ck_assert_ptr_null(got.nodes);
-		store_save(store, &k, &tree);
-		ck_assert_int_eq(store_load(store, &k, &got), 1);
+		blas_store_save(store, &k, &tree);
+		ck_assert_int_eq(blas_store_load(store, &k, &got), 1);
 		ck_assert(is_same(&tree, &got));
 		tree_free(&got);
 		for (int what = 0; what < 4; what++) {
@@ -119,18 +119,18 @@ START_TEST(a_tree_is_found_again)
 			other.hash[1] += what == 1;
 			other.version += what == 2;
 			other.n_triangles += what == 3;
-			ck_assert_msg(store_load(store, &other, &got) == 0, "found by another key (%d)", what);
+			ck_assert_msg(blas_store_load(store, &other, &got) == 0, "found by another key (%d)", what);
 		}
 		tree_free(&tree);
 	}
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 }
 END_TEST
 
 START_TEST(large_meshes_alone_are_kept)
 {
-	struct store *store = open_store(STORE_BYTES);
+	struct blas_store *store = open_store(BLAS_STORE_BYTES);
 	struct soup little = soup;
 	struct tree tree, again;
 	char paths[4][512];
@@ -151,7 +151,7 @@ START_TEST(large_meshes_alone_are_kept)
 	ck_assert(is_same(&tree, &again));
 	tree_free(&tree);
 	tree_free(&again);
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 }
 END_TEST
@@ -171,32 +171,32 @@ START_TEST(a_damaged_file_is_no_tree)
 {
 	struct random_scene r = { .random = 3 };
 	struct tree tree = build(ACCEL_BVH), got;
-	struct store *store = open_store(STORE_BYTES);
+	struct blas_store *store = open_store(BLAS_STORE_BYTES);
 	char path[1][512];
 	uint64_t bytes;
 
-	store_save(store, &key, &tree);
+	blas_store_save(store, &key, &tree);
 	ck_assert_uint_eq(list_files(path, 1, &bytes), 1);
 	for (int i = 0; i < 500; i++) {
 		const off_t at = i < 64 ? i : (off_t)between(&r, 64, (float)bytes - 1);
 		const uint8_t change = (uint8_t)(1u << i % 8);
 
 		write_byte(path[0], at, change);
-		ck_assert_msg(store_load(store, &key, &got) == 0, "bit %d of byte %ld is not missed", i % 8, (long)at);
+		ck_assert_msg(blas_store_load(store, &key, &got) == 0, "bit %d of byte %ld is not missed", i % 8, (long)at);
 		ck_assert_ptr_null(got.nodes);
 		write_byte(path[0], at, change);
 	}
-	ck_assert_int_eq(store_load(store, &key, &got), 1);
+	ck_assert_int_eq(blas_store_load(store, &key, &got), 1);
 	tree_free(&got);
 	for (uint64_t length = 0; length <= bytes + 1; length += length < 70 ? 1 : bytes / 9) {
 		ck_assert_int_eq(truncate(path[0], (off_t)length), 0);
-		ck_assert_msg(length == bytes || store_load(store, &key, &got) == 0, "a file cut to %llu bytes", (unsigned long long)length);
-		store_save(store, &key, &tree);
-		ck_assert_int_eq(store_load(store, &key, &got), 1);
+		ck_assert_msg(length == bytes || blas_store_load(store, &key, &got) == 0, "a file cut to %llu bytes", (unsigned long long)length);
+		blas_store_save(store, &key, &tree);
+		ck_assert_int_eq(blas_store_load(store, &key, &got), 1);
 		tree_free(&got);
 	}
 	tree_free(&tree);
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 }
 END_TEST
@@ -204,7 +204,7 @@ END_TEST
 /* A tree whose checksum holds, but which would lead a kernel out of its arrays or its stack. */
 START_TEST(an_unsound_tree_is_no_tree)
 {
-	struct store *store = open_store(STORE_BYTES);
+	struct blas_store *store = open_store(BLAS_STORE_BYTES);
 	struct tree tree = build(ACCEL_BVH), got;
 
 	ck_assert(tree_is_sound(&tree, N));
@@ -223,8 +223,8 @@ START_TEST(an_unsound_tree_is_no_tree)
 		case 7: tree.nodes[0].child[1] = 0; tree.nodes[0].count[1] = 1; break; /* nodes that nobody comes to */
 		}
 		ck_assert_msg(!tree_is_sound(&tree, N), "case %d", what);
-		store_save(store, &key, &tree);
-		ck_assert_msg(store_load(store, &key, &got) == 0, "case %d", what);
+		blas_store_save(store, &key, &tree);
+		ck_assert_msg(blas_store_load(store, &key, &got) == 0, "case %d", what);
 		tree.nodes[0] = node;
 		tree.order[N - 1] = item;
 	}
@@ -241,7 +241,7 @@ START_TEST(an_unsound_tree_is_no_tree)
 		ck_assert_msg(tree_is_sound(&tree, N) == (n <= BVH_MAX_DEPTH), "a path of %u nodes", n);
 	}
 	tree_free(&tree);
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 }
 END_TEST
@@ -250,17 +250,17 @@ START_TEST(unused_ones_go_first)
 {
 	struct tree tree = build(ACCEL_BVH), got;
 	const uint64_t each = 64 + tree.n_nodes * sizeof(*tree.nodes) + tree.n_order * sizeof(*tree.order), most = 20 * each;
-	struct store *store = open_store(most);
+	struct blas_store *store = open_store(most);
 	uint64_t bytes;
 
 	for (uint32_t i = 0; i < 60; i++) {
-		struct store_key k = key;
+		struct blas_store_key k = key;
 
 		k.hash[0] = i;
-		store_save(store, &k, &tree);
+		blas_store_save(store, &k, &tree);
 		k.hash[0] = 3; /* in use all the time */
 		if (i >= 3) {
-			ck_assert_msg(store_load(store, &k, &got) == 1, "what was just used is gone after %u", i);
+			ck_assert_msg(blas_store_load(store, &k, &got) == 1, "what was just used is gone after %u", i);
 			tree_free(&got);
 		}
 		list_files(NULL, 0, &bytes);
@@ -269,7 +269,7 @@ START_TEST(unused_ones_go_first)
 	}
 	ck_assert_uint_ge(bytes, most / 2);
 	tree_free(&tree);
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 }
 END_TEST
@@ -292,24 +292,24 @@ START_TEST(processes_share_a_folder)
 		children[p] = fork();
 		if (children[p] == 0) {
 			struct random_scene r = { .random = 11 + p };
-			struct store *store;
-			int wrong = store_open(folder, 5 * bytes, &store) != 0, found = 0;
+			struct blas_store *store;
+			int wrong = blas_store_open(folder, 5 * bytes, &store) != 0, found = 0;
 
 			for (int i = 0; i < 300 && !wrong; i++) {
 				const uint32_t which = (uint32_t)between(&r, 0, KEYS - 0.01f);
-				struct store_key k = key;
+				struct blas_store_key k = key;
 				struct tree got;
 
 				k.hash[1] = which;
-				if (store_load(store, &k, &got)) {
+				if (blas_store_load(store, &k, &got)) {
 					found++;
 					wrong = !is_same(&got, &trees[which]);
 					tree_free(&got);
 				} else {
-					store_save(store, &k, &trees[which]);
+					blas_store_save(store, &k, &trees[which]);
 				}
 			}
-			store_close(&store);
+			blas_store_close(&store);
 			_exit(wrong ? 1 : found ? 2 : 0);
 		}
 	}
@@ -332,7 +332,7 @@ END_TEST
 static unsigned count_lines(uint64_t most)
 {
 	struct tree tree = build(ACCEL_BVH);
-	struct store *store = open_store(most);
+	struct blas_store *store = open_store(most);
 	int saved = dup(2), ends[2];
 	char text[4096];
 	unsigned lines = 0;
@@ -341,7 +341,7 @@ static unsigned count_lines(uint64_t most)
 	ck_assert_int_eq(pipe(ends), 0);
 	dup2(ends[1], 2);
 	for (int i = 0; i < 5; i++)
-		store_save(store, &key, &tree);
+		blas_store_save(store, &key, &tree);
 	dup2(saved, 2);
 	close(ends[1]);
 	while ((n = read(ends[0], text, sizeof(text))) > 0)
@@ -350,7 +350,7 @@ static unsigned count_lines(uint64_t most)
 	close(ends[0]);
 	close(saved);
 	tree_free(&tree);
-	store_close(&store);
+	blas_store_close(&store);
 	soup_free(&soup);
 	return lines;
 }
@@ -358,7 +358,7 @@ static unsigned count_lines(uint64_t most)
 START_TEST(no_right_to_write_is_one_line)
 {
 	snprintf(folder, sizeof(folder), "/dev/null/trees");
-	ck_assert_uint_eq(count_lines(STORE_BYTES), 1);
+	ck_assert_uint_eq(count_lines(BLAS_STORE_BYTES), 1);
 }
 END_TEST
 
@@ -369,7 +369,7 @@ START_TEST(a_full_disk_is_one_line)
 
 	signal(SIGXFSZ, SIG_IGN);
 	ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &limit), 0);
-	ck_assert_uint_eq(count_lines(STORE_BYTES), 1);
+	ck_assert_uint_eq(count_lines(BLAS_STORE_BYTES), 1);
 	ck_assert_uint_eq(list_files(NULL, 0, &bytes), 0);
 }
 END_TEST

@@ -12,31 +12,31 @@
 #define KEYS 50
 #define ROUNDS 400
 
-static struct grove *grove;
+static struct blas_cache *cache;
 static atomic_uint n_made[KEYS];
 
-static struct grove_key key_of(uint32_t i)
+static struct blas_key key_of(uint32_t i)
 {
-	return (struct grove_key){ { i, 7 }, i % N_ACCEL_KINDS, ACCEL_ROWS };
+	return (struct blas_key){ { i, 7 }, i % N_ACCEL_KINDS, ACCEL_ROWS };
 }
 
 /* As many nodes as bytes asks for, each holding its number. */
-static struct bottom make(uint32_t number, size_t bytes)
+static struct blas make(uint32_t number, size_t bytes)
 {
-	struct bottom b = { .n = { [BOTTOM_NODES2] = bytes / sizeof(struct node2) } };
-	struct node2 *nodes = calloc(b.n[BOTTOM_NODES2] + 1, sizeof(*nodes));
+	struct blas b = { .n = { [BLAS_NODES2] = bytes / sizeof(struct node2) } };
+	struct node2 *nodes = calloc(b.n[BLAS_NODES2] + 1, sizeof(*nodes));
 
-	for (size_t i = 0; i < b.n[BOTTOM_NODES2]; i++)
+	for (size_t i = 0; i < b.n[BLAS_NODES2]; i++)
 		nodes[i].child[0] = number;
-	b.parts[BOTTOM_NODES2] = nodes;
+	b.parts[BLAS_NODES2] = nodes;
 	return b;
 }
 
-static int is_of(const struct bottom *b, uint32_t number)
+static int is_of(const struct blas *b, uint32_t number)
 {
-	const struct node2 *nodes = b->parts[BOTTOM_NODES2];
+	const struct node2 *nodes = b->parts[BLAS_NODES2];
 
-	for (size_t i = 0; i < b->n[BOTTOM_NODES2]; i++)
+	for (size_t i = 0; i < b->n[BLAS_NODES2]; i++)
 		if (nodes[i].child[0] != number)
 			return 0;
 	return 1;
@@ -45,21 +45,21 @@ static int is_of(const struct bottom *b, uint32_t number)
 /* Take it and let it go again. @return 1: it was there; 0: it was made */
 static int take(uint32_t number, size_t bytes)
 {
-	const struct grove_key key = key_of(number);
-	const struct bottom *got;
+	const struct blas_key key = key_of(number);
+	const struct blas *got;
 	int found;
 
-	ck_assert_int_eq(grove_take(grove, &key, &got), 0);
+	ck_assert_int_eq(blas_cache_acquire(cache, &key, &got), 0);
 	found = got != NULL;
 	if (!found) {
-		struct bottom b = make(number, bytes);
+		struct blas b = make(number, bytes);
 
 		n_made[number % KEYS]++;
-		got = grove_give(grove, &key, &b);
-		ck_assert_ptr_null(b.parts[BOTTOM_NODES2]);
+		got = blas_cache_publish(cache, &key, &b);
+		ck_assert_ptr_null(b.parts[BLAS_NODES2]);
 	}
 	ck_assert(is_of(got, number));
-	grove_release(grove, got);
+	blas_cache_release(cache, got);
 	return found;
 }
 
@@ -89,35 +89,35 @@ static void run_threads(void *(*work)(void *))
 
 START_TEST(each_is_made_once)
 {
-	ck_assert_int_eq(grove_create(1 << 20, &grove), 0);
+	ck_assert_int_eq(blas_cache_create(1 << 20, &cache), 0);
 	run_threads(take_all);
 	for (int i = 0; i < KEYS; i++)
 		ck_assert_uint_eq(n_made[i], 1);
-	grove_destroy(&grove);
-	ck_assert_ptr_null(grove);
+	blas_cache_destroy(&cache);
+	ck_assert_ptr_null(cache);
 }
 END_TEST
 
 START_TEST(little_room_makes_some_again)
 {
-	ck_assert_int_eq(grove_create(6400 * KEYS / 4, &grove), 0);
+	ck_assert_int_eq(blas_cache_create(6400 * KEYS / 4, &cache), 0);
 	run_threads(take_all);
 	for (int i = 0; i < KEYS; i++)
 		ck_assert_uint_ge(n_made[i], 1);
-	grove_destroy(&grove);
+	blas_cache_destroy(&cache);
 }
 END_TEST
 
 START_TEST(unused_for_longest_goes_first)
 {
-	const struct grove_key key = key_of(1);
-	const struct bottom *held;
+	const struct blas_key key = key_of(1);
+	const struct blas *held;
 
-	ck_assert_int_eq(grove_create(3 * 6400, &grove), 0);
+	ck_assert_int_eq(blas_cache_create(3 * 6400, &cache), 0);
 	for (uint32_t i = 0; i < 3; i++)
 		ck_assert_int_eq(take(i, 6400), 0);
 	ck_assert_int_eq(take(0, 6400), 1);
-	ck_assert_int_eq(grove_take(grove, &key, &held), 0);
+	ck_assert_int_eq(blas_cache_acquire(cache, &key, &held), 0);
 	ck_assert_int_eq(take(3, 6400), 0); /* 2 goes */
 	ck_assert_int_eq(take(0, 6400), 1);
 	ck_assert_int_eq(take(2, 6400), 0); /* 1 is in use: 3 goes */
@@ -125,18 +125,18 @@ START_TEST(unused_for_longest_goes_first)
 	ck_assert_int_eq(take(0, 6400), 0);
 	ck_assert(is_of(held, 1));
 	ck_assert_int_eq(take(1, 6400), 1);
-	grove_release(grove, held);
+	blas_cache_release(cache, held);
 	/* Another kind or other parts are something else. */
 	for (int i = 0; i < 2; i++) {
-		struct grove_key other = key;
-		const struct bottom *got;
+		struct blas_key other = key;
+		const struct blas *got;
 
 		*(i ? &other.kind : &other.wide) ^= 2;
-		ck_assert_int_eq(grove_take(grove, &other, &got), 0);
+		ck_assert_int_eq(blas_cache_acquire(cache, &other, &got), 0);
 		ck_assert_ptr_null(got);
-		grove_abandon(grove, &other);
+		blas_cache_abandon(cache, &other);
 	}
-	grove_destroy(&grove);
+	blas_cache_destroy(&cache);
 }
 END_TEST
 
@@ -145,48 +145,48 @@ static atomic_uint n_failed;
 /* All but the last to come fail to make it. */
 static void *fail_then_make(void *arg)
 {
-	const struct grove_key key = key_of(0);
-	const struct bottom *got;
+	const struct blas_key key = key_of(0);
+	const struct blas *got;
 
 	(void)arg;
-	ck_assert_int_eq(grove_take(grove, &key, &got), 0);
+	ck_assert_int_eq(blas_cache_acquire(cache, &key, &got), 0);
 	if (!got && n_failed < THREADS - 1) {
 		usleep(20000); /* the others wait meanwhile */
 		n_failed++;
-		grove_abandon(grove, &key);
+		blas_cache_abandon(cache, &key);
 		return NULL;
 	}
 	if (!got) {
-		struct bottom b = make(0, 640);
+		struct blas b = make(0, 640);
 
-		got = grove_give(grove, &key, &b);
+		got = blas_cache_publish(cache, &key, &b);
 	}
 	ck_assert(is_of(got, 0));
-	grove_release(grove, got);
+	blas_cache_release(cache, got);
 	return NULL;
 }
 
 START_TEST(what_fails_passes_on)
 {
-	ck_assert_int_eq(grove_create(1 << 20, &grove), 0);
+	ck_assert_int_eq(blas_cache_create(1 << 20, &cache), 0);
 	run_threads(fail_then_make);
 	ck_assert_uint_eq(n_failed, THREADS - 1);
 	ck_assert_int_eq(take(0, 640), 1);
-	grove_destroy(&grove);
+	blas_cache_destroy(&cache);
 }
 END_TEST
 
-/* Two accels of one grove: the second makes no tree of the large meshes, and both pools hold the same. */
+/* Two accels of one cache: the second makes no tree of the large meshes, and both pools hold the same. */
 START_TEST(accels_share_trees)
 {
 	struct random_scene *s = random_scene_create(1);
 	struct accel *both[2];
 
-	ck_assert_int_eq(grove_create(GROVE_BYTES, &grove), 0);
+	ck_assert_int_eq(blas_cache_create(BLAS_CACHE_BYTES, &cache), 0);
 	for (int i = 0; i < 2; i++) {
 		ck_assert_int_eq(accel_create(&both[i]), 0);
 		both[i]->wide = ACCEL_ROWS | ACCEL_COMPRESSED;
-		both[i]->grove = grove;
+		both[i]->shared = cache;
 		ck_assert_int_eq(accel_build_frame(both[i], &s->scene, NULL, NULL, s->instances, INSTANCES, &s->view, &s->spaces,
 		                                   &s->n_spaces), 0);
 		ck_assert_uint_eq(both[i]->n_triangles, s->accel->n_triangles);
@@ -199,14 +199,14 @@ START_TEST(accels_share_trees)
 	ck_assert_uint_lt(both[1]->n_made, both[0]->n_made);
 	accel_destroy(&both[0]);
 	accel_destroy(&both[1]);
-	grove_destroy(&grove);
+	blas_cache_destroy(&cache);
 	random_scene_free(s);
 }
 END_TEST
 
 int main(void)
 {
-	TCase *tests = tcase_create("grove");
+	TCase *tests = tcase_create("blas_cache");
 
 	choose_seed();
 	tcase_set_timeout(tests, 60);
@@ -215,5 +215,5 @@ int main(void)
 	tcase_add_test(tests, unused_for_longest_goes_first);
 	tcase_add_test(tests, what_fails_passes_on);
 	tcase_add_test(tests, accels_share_trees);
-	return run_case(tests, "grove");
+	return run_case(tests, "blas_cache");
 }
