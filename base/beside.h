@@ -1,4 +1,4 @@
-/* Files that belong to the command: they lie beside it, or in ../lib/relume where it is installed. */
+/* Files that belong to the command. They lie beside it or, once installed, in ../lib/relume. */
 #ifndef BASE_BESIDE_H
 #define BASE_BESIDE_H
 
@@ -8,7 +8,7 @@
  * Find one of the command's own files.
  * @param name       without folder
  * @param out, size  receive its path
- * @return 0 or ERR_SYSTEM (reported: where it was looked for)
+ * @return 0 or ERR_SYSTEM (reported, with the places that were searched)
  */
 int beside_find(const char *name, char *out, size_t size);
 

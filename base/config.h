@@ -1,6 +1,6 @@
 /*
- * Configuration: YAML files against a schema of libcyaml: unknown keys, wrong types and values out of range are errors that name the
- * file and the line.
+ * Configuration files: YAML, checked against a libcyaml schema. An unknown key, a wrong type or a value out of range is an error that
+ * names the file and the line.
  */
 #ifndef BASE_CONFIG_H
 #define BASE_CONFIG_H
@@ -8,10 +8,10 @@
 #include <cyaml/cyaml.h>
 
 /**
- * Load a file. Keys that the schema does not know are errors.
+ * Load a file.
  *
  * @param schema  its root must be a pointer (CYAML_FLAG_POINTER) to a mapping
- * @param out     receives the data; free with config_free and the same schema. (libyaml has taken the names yaml_*.)
+ * @param out     receives the data; free with config_free and the same schema. (libyaml owns the prefix yaml_.)
  * @return 0; ERR_INPUT (reported: missing, no YAML, or not what the schema says, with its line); ERR_SYSTEM (reported)
  */
 int config_load(const char *path, const cyaml_schema_value_t *schema, void **out);

@@ -1,12 +1,11 @@
 /*
  * Errors and exit codes, the same in every stage outside the traced program.
  *
- * Functions return 0 or a negative ERR_*; results go out by pointer. The text goes to standard error once, where the
- * facts are known, through err_report; callers above only hand the code on. The command exits with the negated code.
+ * Functions return 0 or a negative ERR_*; results go out by pointer. err_report prints the text once, where the facts are known;
+ * callers only pass the code on. The command exits with the negated code.
  */
 #ifndef BASE_ERR_H
 #define BASE_ERR_H
-
 
 enum {
 	ERR_FAILED   = -1, /* compared, and the comparison failed */
@@ -14,7 +13,7 @@ enum {
 	ERR_INPUT    = -3, /* an input is missing, unreadable or not what it should be */
 	ERR_BASELINE = -4, /* a baseline is new or missing */
 	ERR_SYSTEM   = -5, /* a device or the system failed: memory, disk, OpenCL, a child process */
-	ERR_GL       = -6  /* the recorded program made a GL error; it is state of the replay and never leaves it */
+	ERR_GL       = -6  /* the recorded program made a GL error: state of the replay, never an exit code */
 };
 
 /**
@@ -28,12 +27,12 @@ enum {
 int err_report(int code, const char *where, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 
 /**
- * From now on this thread shares `said` (0 to begin with) with others that do the same work: of all their reports only the
- * first is printed, as a disk that is full for one is full for all. NULL ends it. Warnings are not concerned.
+ * Print only the first report of a group of threads: a disk that is full for one is full for all. From now on this thread
+ * shares `said` (initially 0) with the others of its group. NULL leaves the group. Warnings are always printed.
  */
 void err_share(int *said);
 
-/** The same line, prefixed "warning: "; for what the user should know and that stops nothing. */
+/** Print "relume: WHERE: warning: TEXT": the user should know, and the work goes on. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

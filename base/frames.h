@@ -33,13 +33,13 @@ void frame_list_free(struct frame_list *list);
 /** 1 where the list holds the frame (an empty list holds every frame), 0 otherwise. */
 int frame_list_contains(const struct frame_list *list, uint64_t frame);
 
-/** The last frame the list asks for; UINT64_MAX for an empty list. */
+/** The last frame of the list; UINT64_MAX for an empty list. */
 uint64_t frame_list_last(const struct frame_list *list);
 
-/** How many frames below `end` the list asks for. */
+/** Number of frames of the list below `end`. */
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end);
 
-/** The first frame from `from` on that the list asks for. @return 1, or 0 where there is none */
+/** The first frame of the list at or after `from`. @return 1, or 0 where there is none */
 int frame_list_next(const struct frame_list *list, uint64_t from, uint64_t *frame);
 
 /** Parse one frame number. @return 0 or ERR_USAGE (reported) */
@@ -49,16 +49,17 @@ int frame_number_parse(const char *text, uint64_t *frame);
 int frame_chunk_parse(const char *text, uint64_t *i, uint64_t *n);
 
 /**
- * Cut the list down to its i-th part of n: consecutive frames, parts as equal as can be, every frame in exactly one part.
- * @param end  how many frames there are; those beyond it belong to no part
- * @return 0; 1 where this part holds no frame (the list is left as it is); ERR_SYSTEM (reported)
+ * Cut the list down to its i-th part of n. Parts are runs of consecutive frames, of equal length but for one frame; each frame is in
+ * exactly one part.
+ * @param end  number of frames of the recording; later ones are in no part
+ * @return 0; 1 where this part holds no frame (the list is unchanged); ERR_SYSTEM (reported)
  */
 int frame_list_chunk(struct frame_list *list, uint64_t end, uint64_t i, uint64_t n);
 
-/** 1 where the pattern holds a place for a frame number. */
+/** 1 where the pattern has a placeholder for the frame number. */
 int frame_pattern_has_number(const char *pattern);
 
-/** How many bytes of the pattern stand before the frame number; all, where it holds none. */
+/** Bytes of the pattern before its placeholder; all of them where it has none. */
 size_t frame_pattern_prefix(const char *pattern);
 
 /**

@@ -1,5 +1,5 @@
 /*
- * JSON written as it comes, indented; nothing is kept. Numbers that JSON cannot say (NaN, infinities) become null.
+ * A JSON writer: streams indented text and keeps nothing. NaN and infinities, which JSON lacks, become null.
  */
 #ifndef BASE_JSON_H
 #define BASE_JSON_H

@@ -1,6 +1,6 @@
 /*
- * One file in a folder of things that could be made again: written whole (base/part.h), with a key and a checksum. A file that is
- * not there, cut, damaged, or of another key is as good as none.
+ * One file of a cache folder: written whole (base/part.h), with a key and a checksum. A file that is missing, cut, damaged or of
+ * another key counts as absent.
  */
 #ifndef BASE_KEPT_H
 #define BASE_KEPT_H
@@ -9,13 +9,13 @@
 #include <stdint.h>
 
 /**
- * @param key    of all that the content depends on
- * @param bytes  receives the content, to be freed with free()
- * @return 1; 0: there is none that can be used
+ * @param key    hash of everything that the content depends on
+ * @param bytes  receives the content; release with free()
+ * @return 1; 0: absent
  */
 int kept_read(const char *path, const uint64_t key[2], void **bytes, size_t *n);
 
-/** Replaces what is there. The folder is made where it is missing. @return 0; the errno that says why not; -1 (reported) */
+/** Replace the file; make its folder where that is missing. @return 0; the errno that says why not; -1 (reported) */
 int kept_write(const char *path, const uint64_t key[2], const void *bytes, size_t n);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * 4x4 matrices: float[16], column-major, column vectors, p' = M p. In float, as Mesa computes them, so that products
- * agree to the last bit where that is possible.
+ * 4x4 matrices: float[16], column-major, column vectors, p' = M p. All arithmetic is in float and in Mesa's order, so products
+ * agree with Mesa's to the last bit where that is possible.
  */
 #ifndef BASE_MAT4_H
 #define BASE_MAT4_H
@@ -10,7 +10,10 @@ extern const float mat4_identity[16];
 /** out = a b; out may be a or b. */
 void mat4_mul(float out[16], const float a[16], const float b[16]);
 
-/** Angle in degrees, axis not normalised (GL 2.1 sec. 2.11.2). An axis of no length gives the identity; about x, y or z all other entries are exact. */
+/**
+ * Angle in degrees; the axis need not be normalised (GL 2.1 sec. 2.11.2). A zero axis gives the identity. A rotation about x, y or z has
+ * exact zeros and ones.
+ */
 void mat4_rotation(float out[16], float angle_deg, float x, float y, float z);
 void mat4_frustum(float out[16], float left, float right, float bottom, float top, float near, float far);
 void mat4_ortho(float out[16], float left, float right, float bottom, float top, float near, float far);
@@ -22,7 +25,7 @@ int mat4_invert(float out[16], const float m[16]);
 /** out = M v. */
 void mat4_transform(float out[4], const float m[16], const float v[4]);
 
-/** out = v M: how plane equations move, with the inverse matrix (sec. 2.12). */
+/** out = v M: with the inverse matrix, how a plane equation is transformed (sec. 2.12). */
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16]);
 
 #endif

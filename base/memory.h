@@ -3,9 +3,9 @@
 #define BASE_MEMORY_H
 
 /**
- * Let malloc take from large pages (transparent huge pages, where the system offers them by request), and keep what it was given:
- * a replay fills tens of MiB once, and a fault for each 4 KiB is a sixth of its time. Called once, before other threads are.
- * What cannot be had is done without.
+ * Let malloc use transparent huge pages, where the system offers them on request, and keep freed memory. A replay fills tens of
+ * MiB once; a page fault for each 4 KiB is a sixth of its time. Call once, before starting threads. Does nothing where the
+ * system refuses.
  */
 void memory_use_large_pages(void);
 

@@ -21,7 +21,7 @@ enum progress_style { PROGRESS_AUTO, PROGRESS_BAR, PROGRESS_LINES, PROGRESS_JSON
 struct progress {
 	const char *verb;   /* "rendered", "scored"; borrowed */
 	uint64_t total;     /* frames in all; 0 where it is not known */
-	uint64_t done, skipped, failed; /* done: all that were dealt with */
+	uint64_t done, skipped, failed; /* done: includes skipped and failed */
 	enum progress_style style;      /* never AUTO once begun */
 	double start_s;
 	struct { uint64_t frame; double seconds; } slowest[PROGRESS_SLOWEST]; /* slowest first; seconds 0: none */
@@ -36,25 +36,25 @@ void progress_begin_style(struct progress *p, const char *verb, uint64_t total, 
 /** The style that a word names ("bar", "lines", "json", "none", "auto"), or -1. */
 int progress_style_of(const char *word);
 
-/** One frame is done. `text` says how it went ("0.12 s, 2 views"); shown on plain lines only. */
+/** One frame is done. `text` ("0.12 s, 2 views") appears on plain lines only. */
 void progress_step(struct progress *p, uint64_t frame, const char *text);
 
-/** Work on the first frame begins, so many seconds after the command did: said as JSON alone. */
+/** Work on the first frame begins, `seconds` after the command started. Printed in JSON only. */
 void progress_start(const struct progress *p, uint64_t frame, double seconds);
 
-/** As progress_step, for a frame that took so many seconds, was skipped or has failed ("done", "skipped", "failed"). */
+/** As progress_step, with a state ("done", "skipped", "failed") and the seconds that the frame took. */
 void progress_frame(struct progress *p, uint64_t frame, const char *state, double seconds);
 
-/** Print what the run came to: frames, rate, the slowest frames, peak memory. After progress_end. */
+/** Print the totals of the run: frames, rate, slowest frames, peak memory. Call after progress_end. */
 void progress_summary(const struct progress *p);
 
-/** The most memory that this process has held so far, in bytes. */
+/** Peak memory of this process so far, in bytes. */
 uint64_t progress_peak_memory(void);
 
 /** Clear the bar. Prints nothing itself. */
 void progress_end(struct progress *p);
 
-/** Seconds on a clock that never runs backwards; only differences mean something. */
+/** Seconds of a monotonic clock; only differences have a meaning. */
 double progress_clock_s(void);
 
 #endif

@@ -1,7 +1,7 @@
 /*
- * A queue of pointers between threads that holds so many at most: who is ahead waits.
+ * A bounded queue of pointers between threads: a full queue makes its writers wait.
  *
- * Items are the caller's. All functions may be called from any thread.
+ * The caller owns the items. Any thread may call any function.
  */
 #ifndef BASE_QUEUE_H
 #define BASE_QUEUE_H
@@ -18,25 +18,25 @@ struct queue {
 };
 
 /**
- * @param bound   items that it holds before queue_put waits; 1 at least
+ * @param bound   items held before queue_put waits; at least 1
  * @param extra   room beyond that for queue_put_back
  * @return 0 or ERR_SYSTEM (reported)
  */
 int queue_init(struct queue *q, size_t bound, size_t extra);
 
-/** Every item must have been taken. */
+/** The queue must be empty. */
 void queue_free(struct queue *q);
 
-/** Append, waiting for room. @return 1, or 0 where the queue is closed: the item stays the caller's */
+/** Append; waits for room. @return 1, or 0 where the queue is closed: the caller keeps the item */
 int queue_put(struct queue *q, void *item);
 
-/** Put an item back that was taken, in front of all others, even into a closed queue; never waits. */
+/** Return a taken item to the front of the queue, even of a closed one. Never waits. */
 void queue_put_back(struct queue *q, void *item);
 
-/** The next item, waiting for one; NULL once the queue is closed and empty. */
+/** Take the next item; waits for one. NULL once the queue is closed and empty. */
 void *queue_take(struct queue *q);
 
-/** No more items will come: wakes who waits. */
+/** No more items will come. Wakes all waiting threads. */
 void queue_close(struct queue *q);
 
 #endif

@@ -1,4 +1,4 @@
-/* The version of Relume, as it says itself and writes into frames: frames of another version are rendered again. */
+/* Relume's version. Frames carry it; a frame of another version is rendered again. */
 #ifndef BASE_VERSION_H
 #define BASE_VERSION_H
 
