@@ -14,7 +14,7 @@
 #ifndef REPLAY_INDEX_SNAPSHOT_H
 #define REPLAY_INDEX_SNAPSHOT_H
 
-#include "replay/index/bytes.h"
+#include "base/bytes.h"
 #include "replay/machine/exec.h"
 
 /* Where blobs are kept. */

@@ -11,11 +11,11 @@
 
 #include "capture/format/trace.h"
 #include "gl_tokens.h"
-#include "replay/machine/arena.h"
+#include "base/arena.h"
 #include "replay/replay.h"
 #include "scene/scene.h"
 #include "replay/machine/state.h"
-#include "replay/machine/table.h"
+#include "base/table.h"
 
 struct gls_exec;
 

@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "scene/scene.h"
-#include "replay/machine/table.h"
+#include "base/table.h"
 
 #define GLS_MAX_UNITS SCENE_MAX_UNITS
 #define GLS_MAX_LIGHTS SCENE_MAX_LIGHTS

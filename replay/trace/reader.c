@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/machine/arena.h"
-#include "replay/index/bytes.h"
+#include "base/arena.h"
+#include "base/bytes.h"
 #include "replay/trace/container.h"
 #include "replay/machine/exec.h"
 

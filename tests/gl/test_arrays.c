@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/err.h"
-#include "replay/index/bytes.h"
+#include "base/bytes.h"
 #include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/index/bytes.h"
+#include "base/bytes.h"
 #include "replay/machine/exec.h"
 
 #define MAX_ORDER 30

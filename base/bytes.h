@@ -2,8 +2,8 @@
  * Bytes written one after the other, and read again with nothing believed: for indexes and what else is kept of a trace.
  * Numbers are as this machine has them; whoever keeps such bytes says so in their version.
  */
-#ifndef REPLAY_INDEX_BYTES_H
-#define REPLAY_INDEX_BYTES_H
+#ifndef BASE_BYTES_H
+#define BASE_BYTES_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "replay/machine/table.h"
+#include "base/table.h"
 
 #include <stdlib.h>
 

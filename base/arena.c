@@ -1,4 +1,4 @@
-#include "replay/machine/arena.h"
+#include "base/arena.h"
 
 #include <stdlib.h>
 

@@ -2,8 +2,8 @@
  * Hash tables from 64-bit keys to pointers, open addressing. All zero is a valid empty table. Values are not owned; a
  * NULL value is an empty place.
  */
-#ifndef REPLAY_MACHINE_TABLE_H
-#define REPLAY_MACHINE_TABLE_H
+#ifndef BASE_TABLE_H
+#define BASE_TABLE_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,8 +2,8 @@
  * Memory that is given out piece by piece and taken back all at once; blocks are kept, so that a steady user of it
  * allocates nothing. All zero is a valid empty arena.
  */
-#ifndef REPLAY_MACHINE_ARENA_H
-#define REPLAY_MACHINE_ARENA_H
+#ifndef BASE_ARENA_H
+#define BASE_ARENA_H
 
 #include <stddef.h>
 
