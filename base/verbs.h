@@ -9,13 +9,13 @@
 #define BASE_VERBS_H
 
 int record_main(int argc, char **argv);  /* capture/record.c */
-int info_main(int argc, char **argv);    /* replay/info.c */
-int index_main(int argc, char **argv);   /* replay/index/index_main.c */
-int dump_main(int argc, char **argv);    /* replay/trace/dump.c */
-int scene_main(int argc, char **argv);   /* scene/json.c */
-int trim_main(int argc, char **argv);    /* replay/trace/trim.c */
-int repair_main(int argc, char **argv);  /* replay/trace/repair.c */
-int export_main(int argc, char **argv);  /* replay/export.c */
+int info_main(int argc, char **argv);    /* replay/verbs/info.c */
+int index_main(int argc, char **argv);   /* replay/verbs/index.c */
+int dump_main(int argc, char **argv);    /* replay/verbs/dump.c */
+int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
+int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
+int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
+int export_main(int argc, char **argv);  /* replay/verbs/export.c */
 int render_main(int argc, char **argv);  /* tracer/render/render.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* tracer/devices.c */

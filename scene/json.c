@@ -1,353 +1,283 @@
-/* relume scene: the scene of a frame, as text or JSON. */
-#include <getopt.h>
+#include "scene/json.h"
+
 #include <inttypes.h>
-#include <stdio.h>
 
-#include "base/err.h"
-#include "base/frames.h"
-#include "base/verbs.h"
 #include "base/json.h"
-#include "replay/replay.h"
-
-static void print_help(void)
-{
-	puts("usage: relume scene [OPTIONS] TRACE\n"
-	     "\n"
-	     "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n"
-	     "\n"
-	     "  -f, --frame N   which frame, from 0 (default 0)\n"
-	     "  -j, --json      everything, as JSON; otherwise one line per instance\n"
-	     "  -v, --vertices  with --json: the meshes' arrays too\n"
-	     "  -h, --help      this text");
-}
 
 static const char *kind_name(enum scene_primitive kind)
 {
 	return kind == SCENE_POINTS ? "points" : kind == SCENE_LINES ? "lines" : "triangles";
 }
 
-static void hash_text(const uint64_t hash[2], char out[33])
-{
-	snprintf(out, 33, "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
-}
-
 /* ---- text ---- */
 
-static void print_clears(const struct scene *s, uint32_t *next, uint32_t before)
+static void write_clears(FILE *out, const struct scene *s, uint32_t *next, uint32_t before)
 {
 	for (; *next < s->n_clears && s->clears[*next].before_instance <= before; (*next)++) {
 		const struct scene_clear *c = &s->clears[*next];
-		printf("draw %u: clear%s%s%s, scissor %d %d %dx%d\n", c->draw, c->buffers & 1 ? " colour" : "",
-		       c->buffers & 2 ? " depth" : "", c->buffers & 4 ? " stencil" : "", c->scissor[0], c->scissor[1],
-		       c->scissor[2], c->scissor[3]);
+		fprintf(out, "draw %u: clear%s%s%s, scissor %d %d %dx%d\n", c->draw, c->buffers & 1 ? " colour" : "",
+		        c->buffers & 2 ? " depth" : "", c->buffers & 4 ? " stencil" : "", c->scissor[0], c->scissor[1],
+		        c->scissor[2], c->scissor[3]);
 	}
 }
 
-static void print_text(const struct scene *s)
+void scene_write_text(FILE *out, const struct scene *s)
 {
 	uint32_t clear = 0;
 
-	printf("frame %" PRIu64 ": %ux%u, %u instances, %u primitives, %u meshes, %u materials, %u views, %u textures%s\n",
-	       s->frame, s->width, s->height, s->n_instances, s->n_primitives, s->n_meshes, s->n_materials, s->n_views,
-	       s->n_textures, s->needs_previous ? ", shows pixels of an earlier frame" : "");
+	fprintf(out, "frame %" PRIu64 ": %ux%u, %u instances, %u primitives, %u meshes, %u materials, %u views, %u textures%s\n",
+	        s->frame, s->width, s->height, s->n_instances, s->n_primitives, s->n_meshes, s->n_materials, s->n_views,
+	        s->n_textures, s->needs_previous ? ", shows pixels of an earlier frame" : "");
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_mesh *m = s->meshes[in->mesh];
 		const struct scene_material *mat = &s->materials[in->material];
-		print_clears(s, &clear, i);
-		printf("draw %u: %u %s of mesh %u, material %u (%s%u textures%s%s%s), view %u, %s at call %" PRIu64 "\n", in->draw,
-		       m->primitive_count, kind_name(m->kind), in->mesh, in->material, mat->lighting ? "lit, " : "",
-		       mat->unit_count, mat->blend ? ", blended" : "", mat->alpha_test ? ", alpha test" : "",
-		       mat->depth_test ? "" : ", no depth test", in->view, s->draws[in->draw].call, s->draws[in->draw].call_number);
+		write_clears(out, s, &clear, i);
+		fprintf(out, "draw %u: %u %s of mesh %u, material %u (%s%u textures%s%s%s), view %u, %s at call %" PRIu64 "\n", in->draw,
+		        m->primitive_count, kind_name(m->kind), in->mesh, in->material, mat->lighting ? "lit, " : "",
+		        mat->unit_count, mat->blend ? ", blended" : "", mat->alpha_test ? ", alpha test" : "",
+		        mat->depth_test ? "" : ", no depth test", in->view, s->draws[in->draw].call, s->draws[in->draw].call_number);
 	}
-	print_clears(s, &clear, s->n_instances);
+	write_clears(out, s, &clear, s->n_instances);
 }
 
-/* ---- JSON: names are those of scene.h ---- */
+/* ---- JSON: a row for each field, by its name ---- */
 
-#define UINT(object, field) json_key_uint(j, #field, (object)->field)
-#define FLOAT(object, field) json_key_float(j, #field, (double)(object)->field)
-#define FLOATS(object, field) json_key_floats(j, #field, (const float *)(object)->field, sizeof((object)->field) / sizeof(float))
+enum kind { UINTS, INTS, FLOATS, FACE, STENCIL, SURFACE };
 
-static void write_face(struct json *j, const char *name, const struct scene_face *f)
+struct field {
+	const char *name;
+	enum kind kind;
+	int is_array;
+	size_t offset, bytes;
+};
+
+/* A row's kind and form follow from the field's type, so that they cannot disagree. */
+#define MEMBER(type, member) (((type *)0)->member)
+#define KIND_OF(value) \
+	_Generic((value), uint32_t: UINTS, uint64_t: UINTS, uint32_t *: UINTS, int32_t *: INTS, float: FLOATS, float *: FLOATS, \
+		float(*)[4]: FLOATS, struct scene_face: FACE, struct scene_stencil: STENCIL, struct scene_surface: SURFACE)
+#define IS_ARRAY(value) _Generic((value), uint32_t *: 1, int32_t *: 1, float *: 1, float(*)[4]: 1, default: 0)
+#define ROW(type, member) \
+	{ #member, KIND_OF(MEMBER(type, member)), IS_ARRAY(MEMBER(type, member)), offsetof(type, member), sizeof(MEMBER(type, member)) }
+#define FIELD(owner, member) ROW(struct scene_##owner, member)
+#define SCENE_FIELD(member) ROW(struct scene, member)
+
+static const struct field face_fields[] = {
+	FIELD(face, ambient), FIELD(face, diffuse), FIELD(face, specular), FIELD(face, emission), FIELD(face, shininess),
+	{ 0 },
+};
+
+static const struct field stencil_fields[] = {
+	FIELD(stencil, func), FIELD(stencil, ref), FIELD(stencil, compare_mask), FIELD(stencil, write_mask),
+	FIELD(stencil, fail), FIELD(stencil, zfail), FIELD(stencil, zpass),
+	{ 0 },
+};
+
+static const struct field surface_fields[] = {
+	FIELD(surface, reflect), FIELD(surface, transmit), FIELD(surface, ior), FIELD(surface, absorb),
+	FIELD(surface, roughness), FIELD(surface, hidden), FIELD(surface, emission),
+	{ 0 },
+};
+
+static const struct field material_fields[] = {
+	FIELD(material, lighting), FIELD(material, light_first), FIELD(material, light_count),
+	FIELD(material, light_model_ambient), FIELD(material, local_viewer), FIELD(material, two_side),
+	FIELD(material, separate_specular), FIELD(material, front), FIELD(material, back), FIELD(material, color_material),
+	FIELD(material, color_material_mode), FIELD(material, normalize), FIELD(material, rescale_normal),
+	FIELD(material, shade_model), FIELD(material, first_provokes), FIELD(material, unit_first),
+	FIELD(material, unit_count), FIELD(material, color_sum), FIELD(material, fog), FIELD(material, fog_mode),
+	FIELD(material, fog_coord_source), FIELD(material, fog_density), FIELD(material, fog_start),
+	FIELD(material, fog_end), FIELD(material, fog_color), FIELD(material, cull_face), FIELD(material, front_face),
+	FIELD(material, polygon_mode_front), FIELD(material, polygon_mode_back), FIELD(material, polygon_offset),
+	FIELD(material, polygon_offset_factor), FIELD(material, polygon_offset_units), FIELD(material, polygon_stipple),
+	FIELD(material, line_stipple), FIELD(material, line_width), FIELD(material, point_size),
+	FIELD(material, line_smooth), FIELD(material, point_smooth), FIELD(material, polygon_smooth),
+	FIELD(material, point_sprite), FIELD(material, point_attenuation), FIELD(material, point_size_min),
+	FIELD(material, point_size_max), FIELD(material, point_fade_threshold), FIELD(material, multisample),
+	FIELD(material, samples_off), FIELD(material, alpha_to_coverage), FIELD(material, alpha_to_one),
+	FIELD(material, clip_plane_mask), FIELD(material, clip_plane_eye), FIELD(material, alpha_test),
+	FIELD(material, alpha_func), FIELD(material, alpha_ref), FIELD(material, stencil_test),
+	FIELD(material, stencil_front), FIELD(material, stencil_back), FIELD(material, depth_test),
+	FIELD(material, depth_func), FIELD(material, depth_write), FIELD(material, blend),
+	FIELD(material, blend_equation_rgb), FIELD(material, blend_equation_alpha), FIELD(material, blend_src_rgb),
+	FIELD(material, blend_dst_rgb), FIELD(material, blend_src_alpha), FIELD(material, blend_dst_alpha),
+	FIELD(material, blend_color), FIELD(material, logic_op), FIELD(material, color_mask), FIELD(material, surface),
+	FIELD(material, program),
+	{ 0 },
+};
+
+static const struct field unit_fields[] = {
+	FIELD(unit, unit), FIELD(unit, texture), FIELD(unit, wrap_s), FIELD(unit, wrap_t), FIELD(unit, wrap_r),
+	FIELD(unit, min_filter), FIELD(unit, mag_filter), FIELD(unit, border_color), FIELD(unit, lod_bias),
+	FIELD(unit, min_lod), FIELD(unit, max_lod), FIELD(unit, max_anisotropy), FIELD(unit, compare_mode),
+	FIELD(unit, compare_func), FIELD(unit, depth_mode), FIELD(unit, env_mode), FIELD(unit, env_color),
+	FIELD(unit, combine_rgb), FIELD(unit, combine_alpha), FIELD(unit, source_rgb), FIELD(unit, source_alpha),
+	FIELD(unit, operand_rgb), FIELD(unit, operand_alpha), FIELD(unit, scale_rgb), FIELD(unit, scale_alpha),
+	FIELD(unit, gen_mode), FIELD(unit, gen_object_plane), FIELD(unit, gen_eye_plane), FIELD(unit, matrix),
+	FIELD(unit, coord_replace),
+	{ 0 },
+};
+
+static const struct field light_fields[] = {
+	FIELD(light, index), FIELD(light, ambient), FIELD(light, diffuse), FIELD(light, specular),
+	FIELD(light, position_eye), FIELD(light, spot_direction_eye), FIELD(light, spot_exponent),
+	FIELD(light, spot_cutoff_deg), FIELD(light, attenuation), FIELD(light, radius),
+	{ 0 },
+};
+
+static const struct field current_fields[] = {
+	FIELD(current, color), FIELD(current, secondary), FIELD(current, normal), FIELD(current, texcoord),
+	FIELD(current, fog_coord),
+	{ 0 },
+};
+
+static const struct field view_fields[] = {
+	FIELD(view, projection), FIELD(view, viewport), FIELD(view, depth_range), FIELD(view, scissor),
+	FIELD(view, target), FIELD(view, space),
+	{ 0 },
+};
+
+static const struct field instance_fields[] = {
+	FIELD(instance, mesh), FIELD(instance, material), FIELD(instance, view), FIELD(instance, current),
+	FIELD(instance, draw), FIELD(instance, first_primitive), FIELD(instance, modelview),
+	{ 0 },
+};
+
+static const struct field clear_fields[] = {
+	FIELD(clear, before_instance), FIELD(clear, draw), FIELD(clear, target), FIELD(clear, buffers),
+	FIELD(clear, scissor), FIELD(clear, color), FIELD(clear, depth), FIELD(clear, stencil), FIELD(clear, color_mask),
+	FIELD(clear, stencil_mask),
+	{ 0 },
+};
+
+static const struct field texture_fields[] = {
+	FIELD(texture, target), FIELD(texture, base_format), FIELD(texture, width), FIELD(texture, height),
+	FIELD(texture, depth), FIELD(texture, n_levels), FIELD(texture, border), FIELD(texture, n_bytes),
+	{ 0 },
+};
+
+static const struct field scene_fields[] = {
+	SCENE_FIELD(frame), SCENE_FIELD(width), SCENE_FIELD(height), SCENE_FIELD(depth_bits),
+	SCENE_FIELD(stencil_bits), SCENE_FIELD(alpha_bits), SCENE_FIELD(samples), SCENE_FIELD(floats),
+	SCENE_FIELD(kd_tree), SCENE_FIELD(n_primitives), SCENE_FIELD(n_draws), SCENE_FIELD(needs_previous),
+	{ 0 },
+};
+
+static void write_object(struct json *j, const struct field *fields, const void *object);
+
+static void write_field(struct json *j, const struct field *f, const void *at)
 {
-	json_key(j, name);
-	json_begin(j, '{');
-	FLOATS(f, ambient);
-	FLOATS(f, diffuse);
-	FLOATS(f, specular);
-	FLOATS(f, emission);
-	FLOAT(f, shininess);
-	json_end(j, '}');
+	static const struct field *const inner[] = { [FACE] = face_fields, [STENCIL] = stencil_fields, [SURFACE] = surface_fields };
+	size_t n = f->bytes / 4;
+
+	if (f->kind >= FACE) {
+		json_key(j, f->name);
+		write_object(j, inner[f->kind], at);
+	} else if (f->kind == FLOATS) {
+		f->is_array ? json_key_floats(j, f->name, at, n) : json_key_float(j, f->name, (double)*(const float *)at);
+	} else if (f->kind == INTS) {
+		json_key_ints(j, f->name, at, n);
+	} else if (f->is_array) {
+		json_key_uints(j, f->name, at, n);
+	} else {
+		json_key_uint(j, f->name, f->bytes == 8 ? *(const uint64_t *)at : *(const uint32_t *)at);
+	}
 }
 
-static void write_stencil(struct json *j, const char *name, const struct scene_stencil *s)
+static void write_fields(struct json *j, const struct field *fields, const void *object)
 {
-	json_key(j, name);
-	json_begin(j, '{');
-	UINT(s, func);
-	UINT(s, ref);
-	UINT(s, compare_mask);
-	UINT(s, write_mask);
-	UINT(s, fail);
-	UINT(s, zfail);
-	UINT(s, zpass);
-	json_end(j, '}');
+	for (; fields->name; fields++)
+		write_field(j, fields, (const char *)object + fields->offset);
 }
 
-static void write_material(struct json *j, const struct scene_material *m)
+static void write_object(struct json *j, const struct field *fields, const void *object)
 {
 	json_begin(j, '{');
-	UINT(m, lighting);
-	UINT(m, light_first);
-	UINT(m, light_count);
-	FLOATS(m, light_model_ambient);
-	UINT(m, local_viewer);
-	UINT(m, two_side);
-	UINT(m, separate_specular);
-	write_face(j, "front", &m->front);
-	write_face(j, "back", &m->back);
-	UINT(m, color_material);
-	UINT(m, color_material_mode);
-	UINT(m, normalize);
-	UINT(m, rescale_normal);
-	UINT(m, shade_model);
-	UINT(m, first_provokes);
-	UINT(m, unit_first);
-	UINT(m, unit_count);
-	UINT(m, color_sum);
-	UINT(m, fog);
-	UINT(m, fog_mode);
-	UINT(m, fog_coord_source);
-	FLOAT(m, fog_density);
-	FLOAT(m, fog_start);
-	FLOAT(m, fog_end);
-	FLOATS(m, fog_color);
-	UINT(m, cull_face);
-	UINT(m, front_face);
-	UINT(m, polygon_mode_front);
-	UINT(m, polygon_mode_back);
-	UINT(m, polygon_offset);
-	FLOAT(m, polygon_offset_factor);
-	FLOAT(m, polygon_offset_units);
-	UINT(m, polygon_stipple);
-	UINT(m, line_stipple);
-	FLOAT(m, line_width);
-	FLOAT(m, point_size);
-	UINT(m, line_smooth);
-	UINT(m, point_smooth);
-	UINT(m, polygon_smooth);
-	UINT(m, point_sprite);
-	FLOATS(m, point_attenuation);
-	FLOAT(m, point_size_min);
-	FLOAT(m, point_size_max);
-	FLOAT(m, point_fade_threshold);
-	UINT(m, multisample);
-	UINT(m, samples_off);
-	UINT(m, alpha_to_coverage);
-	UINT(m, alpha_to_one);
-	UINT(m, clip_plane_mask);
-	FLOATS(m, clip_plane_eye);
-	UINT(m, alpha_test);
-	UINT(m, alpha_func);
-	FLOAT(m, alpha_ref);
-	UINT(m, stencil_test);
-	write_stencil(j, "stencil_front", &m->stencil_front);
-	write_stencil(j, "stencil_back", &m->stencil_back);
-	UINT(m, depth_test);
-	UINT(m, depth_func);
-	UINT(m, depth_write);
-	UINT(m, blend);
-	UINT(m, blend_equation_rgb);
-	UINT(m, blend_equation_alpha);
-	UINT(m, blend_src_rgb);
-	UINT(m, blend_dst_rgb);
-	UINT(m, blend_src_alpha);
-	UINT(m, blend_dst_alpha);
-	FLOATS(m, blend_color);
-	UINT(m, logic_op);
-	UINT(m, color_mask);
-	json_key(j, "surface");
-	json_begin(j, '{');
-	FLOAT(&m->surface, reflect);
-	FLOAT(&m->surface, transmit);
-	FLOAT(&m->surface, ior);
-	FLOATS(&m->surface, absorb);
-	FLOAT(&m->surface, roughness);
-	UINT(&m->surface, hidden);
-	FLOATS(&m->surface, emission);
-	json_end(j, '}');
-	UINT(m, program);
-	json_end(j, '}');
-}
-
-static void write_unit(struct json *j, const struct scene_unit *u)
-{
-	json_begin(j, '{');
-	UINT(u, unit);
-	UINT(u, texture);
-	UINT(u, wrap_s);
-	UINT(u, wrap_t);
-	UINT(u, wrap_r);
-	UINT(u, min_filter);
-	UINT(u, mag_filter);
-	FLOATS(u, border_color);
-	FLOAT(u, lod_bias);
-	FLOAT(u, min_lod);
-	FLOAT(u, max_lod);
-	FLOAT(u, max_anisotropy);
-	UINT(u, compare_mode);
-	UINT(u, compare_func);
-	UINT(u, depth_mode);
-	UINT(u, env_mode);
-	FLOATS(u, env_color);
-	UINT(u, combine_rgb);
-	UINT(u, combine_alpha);
-	json_key_uints(j, "source_rgb", u->source_rgb, 4);
-	json_key_uints(j, "source_alpha", u->source_alpha, 4);
-	json_key_uints(j, "operand_rgb", u->operand_rgb, 4);
-	json_key_uints(j, "operand_alpha", u->operand_alpha, 4);
-	FLOAT(u, scale_rgb);
-	FLOAT(u, scale_alpha);
-	json_key_uints(j, "gen_mode", u->gen_mode, 4);
-	FLOATS(u, gen_object_plane);
-	FLOATS(u, gen_eye_plane);
-	FLOATS(u, matrix);
-	UINT(u, coord_replace);
-	json_end(j, '}');
-}
-
-static void write_light(struct json *j, const struct scene_light *l)
-{
-	json_begin(j, '{');
-	UINT(l, index);
-	FLOATS(l, ambient);
-	FLOATS(l, diffuse);
-	FLOATS(l, specular);
-	FLOATS(l, position_eye);
-	FLOATS(l, spot_direction_eye);
-	FLOAT(l, spot_exponent);
-	FLOAT(l, spot_cutoff_deg);
-	FLOATS(l, attenuation);
-	FLOAT(l, radius);
-	json_end(j, '}');
-}
-
-static void write_current(struct json *j, const struct scene_current *c)
-{
-	json_begin(j, '{');
-	FLOATS(c, color);
-	FLOATS(c, secondary);
-	FLOATS(c, normal);
-	FLOATS(c, texcoord);
-	FLOAT(c, fog_coord);
-	json_end(j, '}');
-}
-
-static void write_view(struct json *j, const struct scene_view *v)
-{
-	json_begin(j, '{');
-	FLOATS(v, projection);
-	FLOATS(v, viewport);
-	FLOATS(v, depth_range);
-	json_key_ints(j, "scissor", v->scissor, 4);
-	UINT(v, target);
-	UINT(v, space);
+	write_fields(j, fields, object);
 	json_end(j, '}');
 }
 
 static void write_instance(struct json *j, const struct scene *s, const struct scene_instance *in)
 {
+	const struct scene_draw *draw = &s->draws[in->draw];
+
 	json_begin(j, '{');
-	UINT(in, mesh);
-	UINT(in, material);
-	UINT(in, view);
-	UINT(in, current);
-	UINT(in, draw);
-	UINT(in, first_primitive);
-	FLOATS(in, modelview);
-	json_key_string(j, "call", s->draws[in->draw].call);
-	json_key_uint(j, "call_number", s->draws[in->draw].call_number);
-	json_key_uint(j, "list", s->draws[in->draw].list);
+	write_fields(j, instance_fields, in);
+	json_key_string(j, "call", draw->call);
+	json_key_uint(j, "call_number", draw->call_number);
+	json_key_uint(j, "list", draw->list);
 	json_end(j, '}');
 }
 
-static void write_clear(struct json *j, const struct scene_clear *c)
+static void write_hash(struct json *j, const uint64_t hash[2])
 {
-	json_begin(j, '{');
-	UINT(c, before_instance);
-	UINT(c, draw);
-	UINT(c, target);
-	UINT(c, buffers);
-	json_key_ints(j, "scissor", c->scissor, 4);
-	FLOATS(c, color);
-	FLOAT(c, depth);
-	UINT(c, stencil);
-	UINT(c, color_mask);
-	UINT(c, stencil_mask);
-	json_end(j, '}');
-}
+	char text[33];
 
-static void write_mesh(struct json *j, const struct scene_mesh *m, int vertices)
-{
-	char hash[33], name[16];
-	size_t n = m->vertex_count;
-
-	hash_text(m->hash, hash);
-	json_begin(j, '{');
-	json_key_string(j, "hash", hash);
-	json_key_string(j, "kind", kind_name(m->kind));
-	UINT(m, vertex_count);
-	UINT(m, primitive_count);
-	UINT(m, attributes);
-	if (vertices) {
-		json_key_floats(j, "position", m->position, 4 * n);
-		if (m->normal)
-			json_key_floats(j, "normal", m->normal, 3 * n);
-		if (m->color)
-			json_key_floats(j, "color", m->color, 4 * n);
-		if (m->secondary)
-			json_key_floats(j, "secondary", m->secondary, 4 * n);
-		if (m->fog_coord)
-			json_key_floats(j, "fog_coord", m->fog_coord, n);
-		for (unsigned u = 0; u < SCENE_MAX_UNITS; u++) {
-			snprintf(name, sizeof(name), "texcoord%u", u);
-			if (m->texcoord[u])
-				json_key_floats(j, name, m->texcoord[u], 4 * n);
-		}
-		if (m->face) {
-			json_key(j, "face");
-			json_begin(j, '[');
-			for (size_t v = 0; v < n; v++) {
-				json_begin(j, '{');
-				write_face(j, "front", &m->face[v][0]);
-				write_face(j, "back", &m->face[v][1]);
-				json_end(j, '}');
-			}
-			json_end(j, ']');
-		}
-		json_key_uints(j, "index", m->index, (size_t)m->primitive_count * m->kind);
-		if (m->primitive_draw)
-			json_key_uints(j, "primitive_draw", m->primitive_draw, m->primitive_count);
-	}
-	json_end(j, '}');
+	snprintf(text, sizeof(text), "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
+	json_key_string(j, "hash", text);
 }
 
 static void write_texture(struct json *j, const struct scene_texture *t)
 {
-	char hash[33];
-
-	hash_text(t->hash, hash);
 	json_begin(j, '{');
-	json_key_string(j, "hash", hash);
-	UINT(t, target);
-	UINT(t, base_format);
-	UINT(t, width);
-	UINT(t, height);
-	UINT(t, depth);
-	UINT(t, n_levels);
-	UINT(t, border);
-	UINT(t, n_bytes);
+	write_hash(j, t->hash);
+	write_fields(j, texture_fields, t);
+	json_end(j, '}');
+}
+
+static void write_floats(struct json *j, const char *name, const float *values, size_t n)
+{
+	if (values)
+		json_key_floats(j, name, values, n);
+}
+
+static void write_faces(struct json *j, const struct scene_mesh *m)
+{
+	json_key(j, "face");
+	json_begin(j, '[');
+	for (size_t v = 0; v < m->vertex_count; v++) {
+		json_begin(j, '{');
+		json_key(j, "front");
+		write_object(j, face_fields, &m->face[v][0]);
+		json_key(j, "back");
+		write_object(j, face_fields, &m->face[v][1]);
+		json_end(j, '}');
+	}
+	json_end(j, ']');
+}
+
+static void write_arrays(struct json *j, const struct scene_mesh *m)
+{
+	char name[16];
+	size_t n = m->vertex_count;
+
+	write_floats(j, "position", m->position, 4 * n);
+	write_floats(j, "normal", m->normal, 3 * n);
+	write_floats(j, "color", m->color, 4 * n);
+	write_floats(j, "secondary", m->secondary, 4 * n);
+	write_floats(j, "fog_coord", m->fog_coord, n);
+	for (unsigned u = 0; u < SCENE_MAX_UNITS; u++) {
+		snprintf(name, sizeof(name), "texcoord%u", u);
+		write_floats(j, name, m->texcoord[u], 4 * n);
+	}
+	if (m->face)
+		write_faces(j, m);
+	json_key_uints(j, "index", m->index, (size_t)m->primitive_count * m->kind);
+	if (m->primitive_draw)
+		json_key_uints(j, "primitive_draw", m->primitive_draw, m->primitive_count);
+}
+
+static void write_mesh(struct json *j, const struct scene_mesh *m, int vertices)
+{
+	json_begin(j, '{');
+	write_hash(j, m->hash);
+	json_key_string(j, "kind", kind_name(m->kind));
+	json_key_uint(j, "vertex_count", m->vertex_count);
+	json_key_uint(j, "primitive_count", m->primitive_count);
+	json_key_uint(j, "attributes", m->attributes);
+	if (vertices)
+		write_arrays(j, m);
 	json_end(j, '}');
 }
 
@@ -360,74 +290,21 @@ static void write_texture(struct json *j, const struct scene_texture *t)
 		json_end(j, ']'); \
 	} while (0)
 
-static void print_json(const struct scene *s, int vertices)
+void scene_write_json(FILE *out, const struct scene *s, int vertices)
 {
-	struct json out = { .out = stdout }, *j = &out;
+	struct json json = { .out = out }, *j = &json;
 
 	json_begin(j, '{');
-	UINT(s, frame);
-	UINT(s, width);
-	UINT(s, height);
-	UINT(s, depth_bits);
-	UINT(s, stencil_bits);
-	UINT(s, alpha_bits);
-	UINT(s, samples);
-	UINT(s, floats);
-	UINT(s, kd_tree);
-	UINT(s, n_primitives);
-	UINT(s, n_draws);
-	UINT(s, needs_previous);
-	LIST(views, write_view(j, &s->views[i]));
-	LIST(clears, write_clear(j, &s->clears[i]));
+	write_fields(j, scene_fields, s);
+	LIST(views, write_object(j, view_fields, &s->views[i]));
+	LIST(clears, write_object(j, clear_fields, &s->clears[i]));
 	LIST(instances, write_instance(j, s, &s->instances[i]));
-	LIST(materials, write_material(j, &s->materials[i]));
-	LIST(lights, write_light(j, &s->lights[i]));
-	LIST(units, write_unit(j, &s->units[i]));
-	LIST(currents, write_current(j, &s->currents[i]));
+	LIST(materials, write_object(j, material_fields, &s->materials[i]));
+	LIST(lights, write_object(j, light_fields, &s->lights[i]));
+	LIST(units, write_object(j, unit_fields, &s->units[i]));
+	LIST(currents, write_object(j, current_fields, &s->currents[i]));
 	LIST(meshes, write_mesh(j, s->meshes[i], vertices));
 	LIST(textures, write_texture(j, s->textures[i]));
 	json_end(j, '}');
-	putchar('\n');
-}
-
-int scene_main(int argc, char **argv)
-{
-	static const struct option options[] = {
-		{ "frame", required_argument, NULL, 'f' }, { "json", no_argument, NULL, 'j' },
-		{ "vertices", no_argument, NULL, 'v' },    { "help", no_argument, NULL, 'h' }, { 0 },
-	};
-	struct scene *scene = NULL;
-	uint64_t frame = 0;
-	int json = 0, vertices = 0, opt, rc;
-
-	while ((opt = getopt_long(argc, argv, "f:jvh", options, NULL)) != -1) {
-		switch (opt) {
-		case 'f':
-			if (frame_number_parse(optarg, &frame))
-				return -ERR_USAGE;
-			break;
-		case 'j':
-			json = 1;
-			break;
-		case 'v':
-			vertices = 1;
-			break;
-		case 'h':
-			print_help();
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1)
-		return -err_report(ERR_USAGE, NULL, "scene takes one trace; 'relume help scene' says more");
-	rc = replay_one_frame(argv[optind], frame, &scene);
-	if (rc)
-		return -rc;
-	if (json)
-		print_json(scene, vertices);
-	else
-		print_text(scene);
-	scene_release(&scene);
-	return 0;
+	putc('\n', out);
 }

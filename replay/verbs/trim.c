@@ -16,7 +16,7 @@
 #include "base/frames.h"
 #include "base/verbs.h"
 #include "capture/format/ref.h"
-#include "replay/trace/early.h"
+#include "replay/verbs/early.h"
 #include "replay/machine/exec.h"
 #include "replay/trace/reader.h"
 #include "replay/replay.h"

@@ -9,8 +9,8 @@
  * Mesa moves no raster position by a bitmap that is discarded (22.3): one that stands in a list and moves a position that a later
  * frame goes on from is where a driver and this machine may part.
  */
-#ifndef REPLAY_TRACE_EARLY_H
-#define REPLAY_TRACE_EARLY_H
+#ifndef REPLAY_VERBS_EARLY_H
+#define REPLAY_VERBS_EARLY_H
 
 #include "replay/trace/trace_out.h"
 

@@ -1,4 +1,4 @@
-#include "replay/trace/early.h"
+#include "replay/verbs/early.h"
 
 #include <stdlib.h>
 #include <string.h>
