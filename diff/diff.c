@@ -1,7 +1,6 @@
 /* relume diff: score traced frames against their references, or any two sets of images. */
 #include "base/verbs.h"
 
-#include <getopt.h>
 #include <inttypes.h>
 #include <math.h>
 #include <pthread.h>
@@ -13,6 +12,7 @@
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "diff/baseline/baseline.h"
 #include "diff/pictures/oiio.h"
@@ -34,39 +34,10 @@ struct options {
 	struct score_options score;
 };
 
-static void print_help(FILE *out)
-{
-	fputs("usage: relume diff [OPTIONS] REF TRACED\n"
-	      "       relume diff [OPTIONS] --baseline DIR TRACED\n"
-	      "\n"
-	      "Score traced frames against their references, frame by frame and gate by gate.\n"
-	      "\n"
-	      "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
-	      "TRACED  images: what 'relume render' wrote, or any\n"
-	      "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
-	      "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n"
-	      "\n"
-	      "  -f, --frames LIST      frames that must be there and pass, as in 10-60 or 1-500x5; default: all of both sets\n"
-	      "      --channel LAYER    what to compare with the reference: gl (default where there is one), beauty, albedo, ...\n"
-	      "      --effects E=LO:HI  gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent\n"
-	      "                         of the pixels; either may be left out; may be given several times\n"
-	      "      --baseline DIR     gate B: compare with the frames that 'relume approve' put there\n"
-	      "      --config FILE      bars, masks, flaky frames (default: relume-diff.yaml where there is one)\n"
-	      "      --yee              measure Yee's metric, too, which is slow\n"
-	      "      --report DIR       DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet\n"
-	      "      --json FILE        every figure and bar as JSON; - for standard output, instead of the table\n"
-	      "      --junit FILE       JUnit XML, one case for each frame\n"
-	      "      --annotations      print workflow commands (::error, ::warning) that CI servers show beside a change\n"
-	      "  -h, --help             this text\n"
-	      "\n"
-	      "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
-	      "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
-	      out);
-}
-
 /** "shadow=1:40": per cent, either bound may be empty. */
-static int parse_effects(const char *text, struct score_options *options)
+static int parse_effects(const struct options_row *row, const char *text, void *out)
 {
+	struct score_options *options = out;
 	const char *equals = strchr(text, '='), *colon = equals ? strchr(equals, ':') : NULL;
 	struct score_range range = { N_SCORE_EFFECTS, NAN, NAN };
 	char *end;
@@ -88,63 +59,75 @@ static int parse_effects(const char *text, struct score_options *options)
 			goto wrong;
 	}
 	if (options->n_ranges == SCORE_MAX_RANGES)
-		return err_report(ERR_USAGE, NULL, "--effects may be given %d times", SCORE_MAX_RANGES);
+		return err_report(ERR_USAGE, NULL, "--%s may be given %d times", row->name, SCORE_MAX_RANGES);
 	options->ranges[options->n_ranges++] = range;
 	return 0;
 wrong:
 	return err_report(ERR_USAGE, NULL, "'%s' is no range of an effect; write shadow=1:40 or any=0.5:", text);
 }
 
+static int want_yee(const struct options_row *row, const char *value, void *out)
+{
+	struct score_options *options = out;
+
+	(void)row, (void)value;
+	options->yee = oiio_compare_yee;
+	return 0;
+}
+
+static const struct options_row rows[] = {
+	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5; default: all of both sets",
+	  options_frames, .at = offsetof(struct options, frames) },
+	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, albedo, ...",
+	  options_text, .at = offsetof(struct options, score.channel) },
+	{ "effects", 0, "E=LO:HI", "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
+	  "pixels; either may be left out; may be given several times", parse_effects, .at = offsetof(struct options, score) },
+	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there",
+	  options_text, .at = offsetof(struct options, baseline) },
+	{ "config", 0, "FILE", "bars, masks, flaky frames (default: relume-diff.yaml where there is one)",
+	  options_text, .at = offsetof(struct options, config) },
+	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee, .at = offsetof(struct options, score) },
+	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",
+	  options_text, .at = offsetof(struct options, report) },
+	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of the table",
+	  options_text, .at = offsetof(struct options, json) },
+	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit) },
+	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
+	  options_flag, .at = offsetof(struct options, annotations) },
+};
+
+static const struct options_table table = {
+	.verb = "diff",
+	.head = "usage: relume diff [OPTIONS] REF TRACED\n"
+	        "       relume diff [OPTIONS] --baseline DIR TRACED\n"
+	        "\n"
+	        "Score traced frames against their references, frame by frame and gate by gate.\n"
+	        "\n"
+	        "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
+	        "TRACED  images: what 'relume render' wrote, or any\n"
+	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
+	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
+	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
+	.takes = "REF and TRACED, or --baseline DIR and TRACED",
+	.least = 1,
+	.most = 2,
+};
+
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
 static int parse_options(int argc, char **argv, struct options *o)
 {
-	enum { OPT_CHANNEL = 256, OPT_EFFECTS, OPT_REPORT, OPT_JSON, OPT_JUNIT, OPT_BASELINE, OPT_CONFIG, OPT_YEE,
-	       OPT_ANNOTATIONS };
-	static const struct option known[] = {
-		{ "frames", required_argument, NULL, 'f' },
-		{ "channel", required_argument, NULL, OPT_CHANNEL },
-		{ "effects", required_argument, NULL, OPT_EFFECTS },
-		{ "report", required_argument, NULL, OPT_REPORT },
-		{ "json", required_argument, NULL, OPT_JSON },
-		{ "junit", required_argument, NULL, OPT_JUNIT },
-		{ "baseline", required_argument, NULL, OPT_BASELINE },
-		{ "config", required_argument, NULL, OPT_CONFIG },
-		{ "yee", no_argument, NULL, OPT_YEE },
-		{ "annotations", no_argument, NULL, OPT_ANNOTATIONS },
-		{ "help", no_argument, NULL, 'h' },
-		{ NULL, 0, NULL, 0 },
-	};
-	int c, err = 0;
+	struct options_line line;
+	int err = options_parse(&table, argc, argv, o, &line);
 
-	optind = 1;
-	while (!err && (c = getopt_long(argc, argv, "f:h", known, NULL)) != -1) {
-		switch (c) {
-		case 'f':
-			frame_list_free(&o->frames);
-			err = frame_list_parse(optarg, &o->frames);
-			break;
-		case OPT_CHANNEL: o->score.channel = optarg; break;
-		case OPT_EFFECTS: err = parse_effects(optarg, &o->score); break;
-		case OPT_REPORT: o->report = optarg; break;
-		case OPT_JSON: o->json = optarg; break;
-		case OPT_JUNIT: o->junit = optarg; break;
-		case OPT_BASELINE: o->baseline = optarg; break;
-		case OPT_CONFIG: o->config = optarg; break;
-		case OPT_YEE: o->score.yee = oiio_compare_yee; break;
-		case OPT_ANNOTATIONS: o->annotations = 1; break;
-		case 'h':
-			print_help(stdout);
-			return 1;
-		default:
-			err = ERR_USAGE; /* getopt has said why */
-		}
-	}
 	if (err)
 		return err;
-	if (argc - optind != 2 && !(argc - optind == 1 && o->baseline))
-		return err_report(ERR_USAGE, NULL, "relume diff takes REF and TRACED; 'relume diff --help' explains");
-	o->reference = argc - optind == 2 ? argv[optind] : NULL;
-	o->traced = argv[argc - 1];
+	if (line.n_words == 1 && !o->baseline)
+		return options_misuse(&table);
+	o->reference = line.n_words == 2 ? line.words[0] : NULL;
+	o->traced = line.words[line.n_words - 1];
 	return 0;
 }
 

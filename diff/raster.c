@@ -7,7 +7,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <signal.h>
@@ -21,6 +20,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/frames.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "replay/replay.h"
 
@@ -40,58 +40,41 @@ struct frame_ends {
 	char visual[64];   /* bits of a pixel, as visual.c takes them */
 };
 
-static void print_help(FILE *out)
-{
-	fputs("usage: relume raster [OPTIONS] TRACE -o PATTERN.png\n"
-	      "\n"
-	      "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, or on an\n"
-	      "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
-	      "It draws with the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
-	      "such a visual. The first frame of another recorder's trace is left out: what glretrace shows of it is not reliable.\n"
-	      "\n"
-	      "  -f, --frames LIST     frames, as in 10-60 or 1-500x5; default: all\n"
-	      "  -o, --output PATTERN  file names with the frame number as ####, %04d or $F4, ending in .png\n"
-	      "  -h, --help            this text\n",
-	      out);
-}
+static const struct options_row rows[] = {
+	{ "frames", 'f', "LIST", "frames, as in 10-60 or 1-500x5; default: all", options_frames, .at = offsetof(struct options, frames) },
+	{ "output", 'o', "PATTERN", "file names with the frame number as ####, %04d or $F4, ending in .png",
+	  options_text, .at = offsetof(struct options, output), .is_required = 1 },
+};
+
+static const struct options_table table = {
+	.verb = "raster",
+	.head = "usage: relume raster [OPTIONS] TRACE -o PATTERN.png\n"
+	        "\n"
+	        "Make reference frames of a trace with a real OpenGL: apitrace's glretrace, on the display there is, or on an\n"
+	        "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
+	        "Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
+	        "such a visual. The first frame of another recorder's trace is left out: glretrace does not show it reliably.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace and -o PATTERN.png",
+	.least = 1,
+	.most = 1,
+};
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
 static int parse_options(int argc, char **argv, struct options *o)
 {
-	static const struct option known[] = {
-		{ "frames", required_argument, NULL, 'f' },
-		{ "output", required_argument, NULL, 'o' },
-		{ "help", no_argument, NULL, 'h' },
-		{ NULL, 0, NULL, 0 },
-	};
+	struct options_line line;
+	int err = options_parse(&table, argc, argv, o, &line);
 	size_t length;
-	int c, err;
 
-	optind = 1;
-	while ((c = getopt_long(argc, argv, "f:o:h", known, NULL)) != -1) {
-		switch (c) {
-		case 'f':
-			frame_list_free(&o->frames);
-			err = frame_list_parse(optarg, &o->frames);
-			if (err)
-				return err;
-			break;
-		case 'o': o->output = optarg; break;
-		case 'h':
-			print_help(stdout);
-			return 1;
-		default:
-			return ERR_USAGE; /* getopt has said why */
-		}
-	}
-	if (argc - optind != 1 || !o->output)
-		return err_report(ERR_USAGE, NULL, "relume raster takes one trace and -o PATTERN.png; "
-		                  "'relume raster --help' explains");
+	if (err)
+		return err;
+	o->trace = line.words[0];
 	length = strlen(o->output);
 	if (!frame_pattern_has_number(o->output) || length < 4 || strcmp(o->output + length - 4, ".png") != 0)
 		return err_report(ERR_USAGE, o->output, "the pattern needs a place for the frame number and the ending .png, "
 		                  "as in out/NAME.####.png");
-	o->trace = argv[optind];
 	return 0;
 }
 

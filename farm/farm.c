@@ -139,15 +139,10 @@ static int submit(int argc, char **argv)
 static int script(int argc, char **argv)
 {
 	struct farm_job job = { 0 };
-	int err;
+	int err = farm_job_parse(argc, argv, &job);
 
-	for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
-		if (strcmp(argv[i], "--for") == 0 || strncmp(argv[i], "--for=", 6) == 0 || strcmp(argv[i], "--help") == 0 ||
-		    strcmp(argv[i], "-h") == 0)
-			goto known;
-	return err_report(ERR_USAGE, NULL, "for which engine? --for takes slurm, parallel or make");
-known:
-	err = farm_job_parse(argc, argv, &job);
+	if (!err && job.asked_engine < 0)
+		err = err_report(ERR_USAGE, NULL, "for which engine? --for takes slurm, parallel or make");
 	if (!err)
 		err = farm_script_print(&job, stdout);
 	if (!err && fflush(stdout))
@@ -239,7 +234,7 @@ int farm_main(int argc, char **argv)
 	int err;
 
 	if (strcmp(verb, "--help") == 0 || strcmp(verb, "-h") == 0) {
-		fputs(farm_help, stdout);
+		options_print_help(&farm_options, stdout);
 		return 0;
 	}
 	if (strcmp(verb, "submit") == 0)

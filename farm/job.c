@@ -1,7 +1,6 @@
 #include "farm/job.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,58 +15,67 @@
 #define DEFAULT_CHUNK 50
 #define MAX_TASKS 1000000
 
-const char farm_help[] =
-	"usage: relume farm submit TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
-	"       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
-	"       relume farm status|retry|cancel FOLDER\n"
-	"\n"
-	"Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
-	"Every machine must see the trace and the frames under the same names.\n"
-	"\n"
-	"submit  starts an array job that renders, and one after it that scores and writes a page; prints their numbers\n"
-	"        and the job's FOLDER, which lies beside the frames: out/gears.####.exr has out/gears.farm\n"
-	"script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
-	"status  says how many frames are whole, and what waits and runs; exits with 1 while frames are missing\n"
-	"retry   renders what is missing or damaged and in no one's hands, and scores again\n"
-	"cancel  ends what waits and runs; frames that are whole stay\n"
-	"\n"
-	"  -f, --frames LIST    frames, as in 1-500 or 1-500x5\n"
-	"  -o, --output PATTERN file names: ####, %04d, $F4 or {frame} stand for the frame number\n"
-	"      --chunk N        frames in a task, at most (default 50)\n"
-	"      --reference REF  what to score against, as for 'relume diff' (default: what was recorded with --ref)\n"
-	"      --gres LIST      what each task needs of a node, as gpu:1\n"
-	"      --sbatch OPTION  one more option of sbatch, as --sbatch=--partition=night; may be repeated\n"
-	"      --local          on this machine, though Slurm is there\n"
-	"      --for ENGINE     slurm, parallel or make\n"
-	"  -h, --help           this text\n"
-	"\n"
-	"Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
-	"5 Slurm or the system failed.\n";
+static const char *const farm_engine_names[] = { "slurm", "parallel", "make", NULL };
 
-static int parse_engine(const char *text, enum farm_engine *out)
+/* --- The command line ---------------------------------------------------------------------------------------------- */
+
+static int take_chunk(const struct options_row *row, const char *text, void *out)
 {
-	static const struct { const char *name; enum farm_engine engine; } known[] = {
-		{ "slurm", FARM_SLURM }, { "parallel", FARM_PARALLEL }, { "make", FARM_MAKE },
-	};
-
-	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
-		if (strcmp(text, known[i].name) == 0) {
-			*out = known[i].engine;
-			return 0;
-		}
-	return err_report(ERR_USAGE, NULL, "--for takes slurm, parallel or make, not '%s'", text);
-}
-
-static int parse_chunk(const char *text, uint64_t *out)
-{
+	uint64_t *chunk = out;
 	char *end;
 
 	errno = 0;
-	*out = strtoull(text, &end, 10);
-	if (errno || *text < '0' || *text > '9' || *end || *out == 0)
-		return err_report(ERR_USAGE, NULL, "--chunk takes a number of frames, not '%s'", text);
+	*chunk = strtoull(text, &end, 10);
+	if (errno || *text < '0' || *text > '9' || *end || *chunk == 0)
+		return err_report(ERR_USAGE, NULL, "--%s takes a number of frames, not '%s'", row->name, text);
 	return 0;
 }
+
+static int add_sbatch(const struct options_row *row, const char *text, void *out)
+{
+	struct farm_job *job = out;
+
+	(void)row;
+	job->sbatch[job->n_sbatch++] = text;
+	return 0;
+}
+
+static const struct options_row rows[] = {
+	{ "frames", 'f', "LIST", "frames, as in 1-500 or 1-500x5", options_text, .at = offsetof(struct farm_job, frames_text), .is_required = 1 },
+	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number",
+	  options_text, .at = offsetof(struct farm_job, output), .is_required = 1 },
+	{ "chunk", 0, "N", "frames in a task, at most (default 50)", take_chunk, .at = offsetof(struct farm_job, chunk) },
+	{ "reference", 0, "REF", "what to score against, as for 'relume diff' (default: what was recorded with --ref)",
+	  options_text, .at = offsetof(struct farm_job, reference) },
+	{ "gres", 0, "LIST", "what each task needs of a node, as gpu:1", options_text, .at = offsetof(struct farm_job, gres) },
+	{ "sbatch", 0, "OPTION", "one more option of sbatch, as --sbatch=--partition=night; may be repeated", add_sbatch, .at = 0 },
+	{ "local", 0, NULL, "on this machine, even where Slurm is installed", options_flag, .at = offsetof(struct farm_job, is_local) },
+	{ "for", 0, "ENGINE", "slurm, parallel or make", options_word, .at = offsetof(struct farm_job, asked_engine), .words = farm_engine_names },
+};
+
+const struct options_table farm_options = {
+	.verb = "farm",
+	.head = "usage: relume farm submit TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
+	        "       relume farm script --for ENGINE TRACE -f FRAMES -o PATTERN [OPTIONS] [-- RENDER-OPTIONS]\n"
+	        "       relume farm status|retry|cancel FOLDER\n"
+	        "\n"
+	        "Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
+	        "Every machine must see the trace and the frames under the same names.\n"
+	        "\n"
+	        "submit  starts an array job that renders, and one after it that scores and writes a page; prints their numbers\n"
+	        "        and the job's FOLDER, which lies beside the frames: out/gears.####.exr has out/gears.farm\n"
+	        "script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
+	        "status  says how many frames are whole, and what waits and runs; exits with 1 while frames are missing\n"
+	        "retry   renders frames that are missing or damaged and that no task waits or runs for, and scores again\n"
+	        "cancel  ends what waits and runs; frames that are whole stay\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
+	         "5 Slurm or the system failed.\n",
+	.takes = "one TRACE, -f FRAMES and -o PATTERN",
+	.least = 1,
+	.most = 1,
+};
 
 /* Which frames, where to and which of them anew is said once, before the "--". */
 static int check_render_options(const struct farm_job *job)
@@ -122,58 +130,36 @@ static const char *recorded_reference(const struct farm_job *job)
 	return job->trace;
 }
 
-static int parse_words(struct farm_job *job, uint64_t *chunk)
+static int parse_words(struct farm_job *job)
 {
-	enum { CHUNK = 256, REFERENCE, GRES, SBATCH, LOCAL, FOR };
-	static const struct option table[] = {
-		{ "frames", required_argument, NULL, 'f' },        { "output", required_argument, NULL, 'o' },
-		{ "chunk", required_argument, NULL, CHUNK },       { "reference", required_argument, NULL, REFERENCE },
-		{ "gres", required_argument, NULL, GRES },         { "sbatch", required_argument, NULL, SBATCH },
-		{ "local", no_argument, NULL, LOCAL },             { "for", required_argument, NULL, FOR },
-		{ "help", no_argument, NULL, 'h' },                { NULL, 0, NULL, 0 },
-	};
-	int argc = job->n_words, option, err = 0;
-	char **argv = job->words;
+	struct options_line line;
+	int argc = job->n_words, err;
 
 	/* What stands behind the first "--" is not ours to sort. */
 	for (int i = 1; i < argc; i++)
-		if (strcmp(argv[i], "--") == 0) {
-			job->render = argv + i + 1;
+		if (strcmp(job->words[i], "--") == 0) {
+			job->render = job->words + i + 1;
 			job->n_render = argc - i - 1;
 			argc = i;
 			break;
 		}
-	optind = 1;
-	while (!err && (option = getopt_long(argc, argv, "f:o:h", table, NULL)) != -1) {
-		switch (option) {
-		case 'f': job->frames_text = optarg; break;
-		case 'o': job->output = optarg; break;
-		case CHUNK: err = parse_chunk(optarg, chunk); break;
-		case REFERENCE: job->reference = optarg; break;
-		case GRES: job->gres = optarg; break;
-		case SBATCH: job->sbatch[job->n_sbatch++] = optarg; break;
-		case LOCAL: job->engine = FARM_LOCAL; break;
-		case FOR: err = parse_engine(optarg, &job->engine); break;
-		case 'h':
-			fputs(farm_help, stdout);
-			return 1;
-		default:
-			return ERR_USAGE; /* getopt_long has said what */
-		}
-	}
+	err = options_parse(&farm_options, argc, job->words, job, &line);
 	if (err)
 		return err;
-	if (argc - optind != 1 || !job->frames_text || !job->output)
-		return err_report(ERR_USAGE, NULL, "relume farm takes one TRACE, -f FRAMES and -o PATTERN; 'relume farm --help' explains");
-	job->trace = argv[optind];
+	job->trace = line.words[0];
+	if (job->asked_engine >= 0)
+		job->engine = (enum farm_engine)job->asked_engine;
+	else
+		job->engine = job->is_local || !program_exists("sbatch") ? FARM_LOCAL : FARM_SLURM;
 	return 0;
 }
 
 int farm_job_parse(int argc, char **argv, struct farm_job *out)
 {
-	uint64_t chunk = DEFAULT_CHUNK;
 	int err;
 
+	out->chunk = DEFAULT_CHUNK;
+	out->asked_engine = -1;
 	out->words = calloc((size_t)argc + 1, sizeof(*out->words));
 	out->sbatch = calloc((size_t)argc + 1, sizeof(*out->sbatch));
 	if (!out->words || !out->sbatch)
@@ -181,8 +167,7 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	for (out->n_words = 0; out->n_words < argc; out->n_words++)
 		if (!(out->words[out->n_words] = strdup(argv[out->n_words])))
 			return err_report(ERR_SYSTEM, NULL, "out of memory");
-	out->engine = program_exists("sbatch") ? FARM_SLURM : FARM_LOCAL;
-	err = parse_words(out, &chunk);
+	err = parse_words(out);
 	if (!err)
 		err = check_render_options(out);
 	if (!err)
@@ -192,7 +177,7 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	if (err)
 		return err;
 	out->n_frames = frame_list_count(&out->frames, frame_list_last(&out->frames) + 1);
-	out->n_tasks = (out->n_frames + chunk - 1) / chunk;
+	out->n_tasks = (out->n_frames + out->chunk - 1) / out->chunk;
 	if (out->n_tasks > MAX_TASKS)
 		return err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
 		                  out->n_tasks);

@@ -18,22 +18,27 @@
 #include <stdint.h>
 
 #include "base/frames.h"
+#include "base/options.h"
 
-enum farm_engine { FARM_LOCAL, FARM_SLURM, FARM_PARALLEL, FARM_MAKE };
+enum farm_engine { FARM_SLURM, FARM_PARALLEL, FARM_MAKE, FARM_LOCAL };
 
 struct farm_job {
 	/* As given; borrowed from `words`. Relative names are relative to `directory`. */
 	const char *trace, *output, *frames_text;
 	const char *reference; /* what the report scores against; NULL: nothing is scored */
 	const char *gres;      /* generic resources a task asks Slurm for, or NULL */
-	char **sbatch;         /* owned array of n_sbatch further options of sbatch */
+	const char **sbatch;   /* owned array of n_sbatch further options of sbatch */
 	int n_sbatch;
 	char **render;         /* n_render options of `relume render` */
 	int n_render;
 
+	uint64_t chunk;        /* frames in a task, at most */
+	int is_local;          /* 1: --local */
+	int asked_engine;      /* what --for names, an enum farm_engine; -1: nothing */
+
 	enum farm_engine engine;
 	struct frame_list frames;   /* of frames_text; owned */
-	uint64_t n_frames, n_tasks; /* n_tasks: as many as it takes for no task to have more than --chunk frames */
+	uint64_t n_frames, n_tasks; /* n_tasks: as many as it takes for no task to exceed `chunk` */
 
 	char directory[PATH_MAX]; /* where the words were typed; absolute */
 	char relume[PATH_MAX];    /* this command; absolute */
@@ -43,8 +48,8 @@ struct farm_job {
 	char reference_of_trace[PATH_MAX];
 };
 
-/** What `relume help farm` says. */
-extern const char farm_help[];
+/** What `relume farm submit` and `relume farm script` take. */
+extern const struct options_table farm_options;
 
 /**
  * Make a job from the words after `submit` or `script`, in the current directory.

@@ -1,7 +1,6 @@
 /* relume approve: make traced frames the ones that later frames are compared with. */
 #include "base/verbs.h"
 
-#include <getopt.h>
 #include <inttypes.h>
 #include <pwd.h>
 #include <stdio.h>
@@ -13,76 +12,43 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/frames.h"
+#include "base/options.h"
 #include "diff/baseline/baseline.h"
 #include "diff/score/gates.h"
 #include "diff/report/output.h"
 #include "diff/pictures/set.h"
 
 struct options {
-	const char *traced, *dir, *by, *reason;
+	const char *by, *reason;
 	struct frame_list frames;
 	int hashes, dry_run;
 };
 
-static void print_help(FILE *out)
-{
-	fputs("usage: relume approve [OPTIONS] TRACED BASELINE\n"
-	      "\n"
-	      "Approve traced frames: 'relume diff --baseline BASELINE' compares later ones with them.\n"
-	      "What changes is printed frame by frame.\n"
-	      "\n"
-	      "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
-	      "BASELINE  a folder; each device has a folder of its own in it\n"
-	      "\n"
-	      "  -f, --frames LIST  frames to approve, as in 10-60 or 1-500x5; default: all\n"
-	      "      --hashes       keep only the hashes of the channels: small, but only the same device can be compared\n"
-	      "      --by NAME      who approves (default: the user)\n"
-	      "      --reason TEXT  why\n"
-	      "  -n, --dry-run      print what would change, and change nothing\n"
-	      "  -h, --help         this text\n"
-	      "\n"
-	      "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
-	      out);
-}
+static const struct options_row rows[] = {
+	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5; default: all", options_frames, .at = offsetof(struct options, frames) },
+	{ "hashes", 0, NULL, "keep only the hashes of the channels: small, but only the same device can be compared",
+	  options_flag, .at = offsetof(struct options, hashes) },
+	{ "by", 0, "NAME", "who approves (default: the user)", options_text, .at = offsetof(struct options, by) },
+	{ "reason", 0, "TEXT", "why", options_text, .at = offsetof(struct options, reason) },
+	{ "dry-run", 'n', NULL, "print what would change, and change nothing", options_flag, .at = offsetof(struct options, dry_run) },
+};
 
-/** @return 0 go on, 1 help was printed, or ERR_* (reported) */
-static int parse_options(int argc, char **argv, struct options *o)
-{
-	enum { OPT_HASHES = 256, OPT_BY, OPT_REASON };
-	static const struct option known[] = {
-		{ "frames", required_argument, NULL, 'f' },   { "hashes", no_argument, NULL, OPT_HASHES },
-		{ "by", required_argument, NULL, OPT_BY },    { "reason", required_argument, NULL, OPT_REASON },
-		{ "dry-run", no_argument, NULL, 'n' },        { "help", no_argument, NULL, 'h' },
-		{ NULL, 0, NULL, 0 },
-	};
-	int c, err = 0;
-
-	optind = 1;
-	while (!err && (c = getopt_long(argc, argv, "f:nh", known, NULL)) != -1) {
-		switch (c) {
-		case 'f':
-			frame_list_free(&o->frames);
-			err = frame_list_parse(optarg, &o->frames);
-			break;
-		case OPT_HASHES: o->hashes = 1; break;
-		case OPT_BY: o->by = optarg; break;
-		case OPT_REASON: o->reason = optarg; break;
-		case 'n': o->dry_run = 1; break;
-		case 'h':
-			print_help(stdout);
-			return 1;
-		default:
-			err = ERR_USAGE; /* getopt has said why */
-		}
-	}
-	if (err)
-		return err;
-	if (argc - optind != 2)
-		return err_report(ERR_USAGE, NULL, "relume approve takes TRACED and BASELINE; 'relume approve --help' explains");
-	o->traced = argv[optind];
-	o->dir = argv[optind + 1];
-	return 0;
-}
+static const struct options_table table = {
+	.verb = "approve",
+	.head = "usage: relume approve [OPTIONS] TRACED BASELINE\n"
+	        "\n"
+	        "Approve traced frames: 'relume diff --baseline BASELINE' compares later ones with them.\n"
+	        "What changes is printed frame by frame.\n"
+	        "\n"
+	        "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
+	        "BASELINE  a folder; each device has a folder of its own in it\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
+	.takes = "TRACED and BASELINE",
+	.least = 2,
+	.most = 2,
+};
 
 static const char *user_name(const char *by)
 {
@@ -323,18 +289,17 @@ int approve_main(int argc, char **argv)
 	struct options o = { 0 };
 	struct set set = { 0 };
 	struct baseline baseline = { 0 };
-	int err = parse_options(argc, argv, &o);
+	struct options_line line;
+	int err = options_parse(&table, argc, argv, &o, &line);
 
-	if (err > 0)
-		return 0;
 	if (!err)
-		err = set_open(o.traced, &set);
+		err = set_open(line.words[0], &set);
 	if (!err)
-		err = baseline_open(o.dir, &baseline);
+		err = baseline_open(line.words[1], &baseline);
 	if (!err)
 		err = approve_all(&o, &set, &baseline);
 	baseline_close(&baseline);
 	set_free(&set);
 	frame_list_free(&o.frames);
-	return -err;
+	return err > 0 ? 0 : -err;
 }

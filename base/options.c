@@ -1,0 +1,221 @@
+#include "base/options.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/frames.h"
+
+/* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
+enum { NAME_COLUMNS = 25, PAGE_COLUMNS = 114, FIRST_ROW = 256 /* what getopt_long returns for the first row */ };
+
+static const struct options_row help_row = { "help", 'h', NULL, "this text", .set = NULL };
+
+/* --- Help ---------------------------------------------------------------------------------------------------------- */
+
+static int format_name(const struct options_row *row, char *out, size_t size)
+{
+	char letter[8] = "    ";
+
+	if (row->letter)
+		snprintf(letter, sizeof(letter), "-%c, ", row->letter);
+	return snprintf(out, size, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "", row->argument ? row->argument : "");
+}
+
+static void print_row(const struct options_row *row, int column, FILE *out)
+{
+	char name[80];
+	int at, n;
+
+	if (!row->name) {
+		fprintf(out, "%s\n", row->help);
+		return;
+	}
+	at = format_name(row, name, sizeof(name));
+	at = fprintf(out, "%-*s", column > at + 2 ? column : at + 2, name);
+	for (const char *word = row->help; *word; word += n + (word[n] == ' ')) {
+		n = (int)strcspn(word, " ");
+		if (word > row->help && at + 1 + n > PAGE_COLUMNS)
+			at = fprintf(out, "\n%*s", column, "") - 1;
+		else if (word > row->help)
+			at += fprintf(out, " ");
+		at += fprintf(out, "%.*s", n, word);
+	}
+	fputc('\n', out);
+}
+
+void options_print_help(const struct options_table *table, FILE *out)
+{
+	int column = format_name(&help_row, NULL, 0);
+
+	for (size_t i = 0; i < table->n_rows; i++) {
+		const int n = table->rows[i].name ? format_name(&table->rows[i], NULL, 0) : 0;
+
+		column = n > column && n <= NAME_COLUMNS ? n : column;
+	}
+	fprintf(out, "%s\n", table->head);
+	for (size_t i = 0; i < table->n_rows; i++)
+		print_row(&table->rows[i], column + 2, out);
+	print_row(&help_row, column + 2, out);
+	if (table->notes)
+		fprintf(out, "\n%s", table->notes);
+}
+
+int options_misuse(const struct options_table *table)
+{
+	return err_report(ERR_USAGE, NULL, "%s takes %s; 'relume help %s' says more", table->verb, table->takes, table->verb);
+}
+
+/* --- Parsing ------------------------------------------------------------------------------------------------------- */
+
+/* What getopt_long takes; the row of --help is the last one. */
+static void make_getopt(const struct options_table *table, struct option longs[OPTIONS_MAX_ROWS + 2],
+                        char letters[2 * OPTIONS_MAX_ROWS + 4])
+{
+	const size_t n = table->n_rows;
+	int n_longs = 0;
+
+	assert(n <= OPTIONS_MAX_ROWS);
+	if (table->stops)
+		*letters++ = '+';
+	for (size_t i = 0; i <= n; i++) {
+		const struct options_row *row = i < n ? &table->rows[i] : &help_row;
+
+		if (!row->name)
+			continue;
+		longs[n_longs++] = (struct option){ row->name, row->argument ? required_argument : no_argument, NULL, FIRST_ROW + (int)i };
+		if (row->letter)
+			*letters++ = row->letter;
+		if (row->letter && row->argument)
+			*letters++ = ':';
+	}
+	*letters = '\0';
+}
+
+static size_t find_row(const struct options_table *table, int c)
+{
+	size_t i = 0;
+
+	if (c >= FIRST_ROW)
+		return (size_t)(c - FIRST_ROW);
+	while (i < table->n_rows && table->rows[i].letter != c)
+		i++;
+	return i;
+}
+
+int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line)
+{
+	struct option longs[OPTIONS_MAX_ROWS + 2] = { { 0 } };
+	char letters[2 * OPTIONS_MAX_ROWS + 4];
+	int c, err;
+
+	*line = (struct options_line){ 0 };
+	make_getopt(table, longs, letters);
+	optind = 0; /* glibc: begin anew */
+	while ((c = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
+		const size_t i = find_row(table, c);
+		const struct options_row *row = &table->rows[i];
+
+		if (c == '?')
+			return ERR_USAGE; /* getopt_long has said what */
+		if (i == table->n_rows) {
+			options_print_help(table, stdout);
+			return 1;
+		}
+		line->given[i] = optarg ? optarg : "";
+		err = row->set(row, line->given[i], (char *)out + row->at);
+		if (err)
+			return err;
+	}
+	line->words = argv + optind;
+	line->n_words = argc - optind;
+	for (size_t i = 0; i < table->n_rows; i++)
+		if (table->rows[i].is_required && !line->given[i])
+			return options_misuse(table);
+	if (line->n_words < table->least || (table->most >= 0 && line->n_words > table->most))
+		return options_misuse(table);
+	return 0;
+}
+
+/* --- Values -------------------------------------------------------------------------------------------------------- */
+
+int options_text(const struct options_row *row, const char *value, void *out)
+{
+	(void)row;
+	*(const char **)out = value;
+	return 0;
+}
+
+int options_flag(const struct options_row *row, const char *value, void *out)
+{
+	(void)row, (void)value;
+	*(int *)out = 1;
+	return 0;
+}
+
+int options_clear(const struct options_row *row, const char *value, void *out)
+{
+	(void)row, (void)value;
+	*(int *)out = 0;
+	return 0;
+}
+
+int options_number(const struct options_row *row, const char *value, void *out)
+{
+	unsigned long number;
+	char *end;
+
+	errno = 0;
+	number = strtoul(value, &end, 10);
+	if (errno || end == value || *end || *value == '-' || number > row->most)
+		return err_report(ERR_USAGE, NULL, "--%s takes a number up to %u, not '%s'", row->name, row->most, value);
+	*(unsigned *)out = (unsigned)number;
+	return 0;
+}
+
+int options_word(const struct options_row *row, const char *value, void *out)
+{
+	char list[160] = "";
+	size_t n = 0;
+
+	for (int i = 0; row->words[i]; i++) {
+		if (strcmp(value, row->words[i]) == 0) {
+			*(int *)out = i;
+			return 0;
+		}
+		n += (size_t)snprintf(list + n, sizeof(list) - n, "%s%s", i ? row->words[i + 1] ? ", " : " or " : "", row->words[i]);
+		n = n < sizeof(list) ? n : sizeof(list) - 1;
+	}
+	return err_report(ERR_USAGE, NULL, "--%s takes %s, not '%s'", row->name, list, value);
+}
+
+int options_bytes(const struct options_row *row, const char *value, void *out)
+{
+	static const char units[] = "KMGT";
+	char *end;
+	double bytes = strtod(value, &end);
+	const char *unit = *end ? strchr(units, *end & ~0x20) : NULL;
+
+	if (end == value || !(bytes > 0) || (*end && (!unit || end[1])) || bytes > 1e15)
+		return err_report(ERR_USAGE, NULL, "--%s takes a size as 800M or 4G, not '%s'", row->name, value);
+	for (const char *u = units; unit && u <= unit; u++)
+		bytes *= 1024;
+	*(uint64_t *)out = (uint64_t)bytes;
+	return 0;
+}
+
+int options_frame(const struct options_row *row, const char *value, void *out)
+{
+	(void)row;
+	return frame_number_parse(value, out) ? ERR_USAGE : 0;
+}
+
+int options_frames(const struct options_row *row, const char *value, void *out)
+{
+	(void)row;
+	frame_list_free(out);
+	return frame_list_parse(value, out);
+}

@@ -1,0 +1,82 @@
+/*
+ * The command line of a verb. One table says what each option is called, what `--help` tells of it, and where its value
+ * goes:
+ *
+ *     static const struct options_row rows[] = {
+ *         { "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
+ *         { "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+ *     };
+ *
+ * getopt_long parses, and names what it does not know. Every verb has -h, --help without a row. Man pages and shell
+ * completion come from the help text (packaging/pages.py).
+ */
+#ifndef BASE_OPTIONS_H
+#define BASE_OPTIONS_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { OPTIONS_MAX_ROWS = 40 };
+
+struct options_row {
+	const char *name;     /* long name; NULL: a heading, whose text is `help` */
+	char letter;          /* short name; 0: none */
+	const char *argument; /* what the help text calls the value; NULL: the option takes none */
+	const char *help;     /* one line; wrapped when printed */
+	/**
+	 * Take a value.
+	 * @param value  as typed, "" for an option without one; lives as long as argv
+	 * @param out    `at` bytes into the verb's own struct
+	 * @return 0 or ERR_* (reported)
+	 */
+	int (*set)(const struct options_row *row, const char *value, void *out);
+	size_t at;
+	unsigned most;            /* options_number: the largest value */
+	const char *const *words; /* options_word: what may be said, ended by NULL */
+	int is_required;
+	int kind;                 /* the verb's own */
+};
+
+struct options_table {
+	const char *verb;
+	const char *head;  /* usage, then what the verb does */
+	const struct options_row *rows;
+	size_t n_rows;
+	const char *notes; /* what follows the options, as exit codes; NULL: nothing */
+	const char *takes; /* what must be said: "one trace and -o FILE" */
+	int least, most;   /* how many words that are no options; most -1: any number */
+	int stops;         /* 1: the first such word ends the options, as the rest is another program's */
+};
+
+/* What a command line held beside values. */
+struct options_line {
+	char **words; /* those that are no options; within argv */
+	int n_words;
+	const char *given[OPTIONS_MAX_ROWS]; /* by row: the last value, "" for an option without one; NULL: not given */
+};
+
+/**
+ * Parse a command line.
+ * @param argv  argv[0] names the verb in messages; sorted so that words follow options
+ * @param out   the verb's own struct, filled by the rows
+ * @return 0; 1 where help was printed; ERR_USAGE (reported), or what a row's `set` returned
+ */
+int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line);
+
+/** Report what the verb takes. @return ERR_USAGE */
+int options_misuse(const struct options_table *table);
+
+void options_print_help(const struct options_table *table, FILE *out);
+
+/* Values of the common kinds; `out` is what stands in brackets. */
+int options_text(const struct options_row *row, const char *value, void *out);   /* const char *, borrowed */
+int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */
+int options_clear(const struct options_row *row, const char *value, void *out);  /* int: 0 */
+int options_number(const struct options_row *row, const char *value, void *out); /* unsigned, 0 to `most` */
+int options_word(const struct options_row *row, const char *value, void *out);   /* int or enum: place in `words` */
+int options_bytes(const struct options_row *row, const char *value, void *out);  /* uint64_t, "800M" */
+int options_frame(const struct options_row *row, const char *value, void *out);  /* uint64_t */
+int options_frames(const struct options_row *row, const char *value, void *out); /* struct frame_list */
+
+#endif
