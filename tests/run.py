@@ -54,9 +54,25 @@ def kill_session(leader):
             pass  # it ended meanwhile
 
 
+def vendor_files():
+    """The .icd files that name OpenCL's implementations here."""
+    place = pathlib.Path(os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OPENCL_VENDOR_PATH") or "/etc/OpenCL/vendors")
+    return sorted(place.glob("*.icd")) if place.is_dir() else []
+
+
 def environment(build, tmp):
     # Check's own limit of 4 s a test is for a machine that does nothing else.
     env = dict(os.environ, RELUME=str(build / "relume"), RELUME_BUILD=str(build), TMPDIR=tmp, CK_DEFAULT_TIMEOUT="30")
+    # Where several implementations of OpenCL are installed tests mean PoCL, unless they take one of RELUME_VENDORS.
+    files = vendor_files()
+    env["RELUME_VENDORS"] = ":".join(map(str, files))
+    pocl = [f for f in files if "pocl" in f.read_text()]
+    if len(files) > 1 and pocl:
+        # A folder: not every loader takes the name of a file.
+        alone = build / "tests" / "vendors"
+        alone.mkdir(parents=True, exist_ok=True)
+        (alone / "pocl.icd").write_text(pocl[0].read_text())
+        env["OCL_ICD_VENDORS"] = str(alone)
     # Kernels are compiled once for all tests, though many have a scratch home.
     env.setdefault("POCL_CACHE_DIR", str(build / "tests" / "pocl-cache"))
     # Trees and indices go where they harm nobody, and last from one run to the next.

@@ -5,6 +5,14 @@
 #ifndef KERNELS_RAYS_LANES_H
 #define KERNELS_RAYS_LANES_H
 
+/*
+ * Sixteen lanes are passed by value, to fma() and select() too. Clang warns where the processor has narrower registers: code of a wider
+ * processor would pass them otherwise. A program and its device's library are compiled for one processor, so there is no such code.
+ */
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpsabi"
+#endif
+
 #if defined(__has_builtin) && defined(__AVX__)
 #if __has_builtin(__builtin_ia32_movmskps256)
 #define LANES_MOVEMASK 1

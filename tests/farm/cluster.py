@@ -97,6 +97,8 @@ class Cluster:
             "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP",
         ]
         self.config.write_text("\n".join(lines) + "\n")
+        # No control groups: a slurmd that looks for them by itself does not start where /sys/fs/cgroup is not mounted.
+        (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         if self.gres:
             # Device files of the right kind are all that Slurm asks for.
             (self.folder / "gres.conf").write_text("Name=gpu File=/dev/null\n")
