@@ -126,7 +126,7 @@ $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
 
 # Names the layout of the state machine: checkpoints of another one are not read (replay/index/snapshot.h).
-$(BUILD)/gen/layout.h: replay/index/snapshot.c replay/machine/state.h replay/machine/exec.h replay/gl/texture/texture.h scene/scene.h
+$(BUILD)/gen/layout.h: replay/index/snapshot.c replay/machine/state.h replay/machine/machine.h replay/machine/geometry.h replay/build/mesh.h replay/gl/geometry/list.h replay/gl/surface/feedback.h replay/gl/surface/drawable.h replay/gl/surface/framebuffer.h replay/gl/texture/texture.h scene/scene.h
 	@mkdir -p $(@D)
 	$(Q)echo "#define SNAPSHOT_LAYOUT \"$$(cat $^ | md5sum | cut -d ' ' -f 1)\"" >$@
 

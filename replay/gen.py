@@ -89,7 +89,7 @@ def dispatch(out, overlay, capture_overlay, sources):
 
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
     lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */",
-             '#include "replay/machine/exec.h"', ""]
+             '#include "replay/machine/commands.h"', ""]
     lines += [f"gls_handler gls_{name};" for name in sorted(handlers)]
     lines += ["", "const struct gls_command gls_commands[] = {"]
     for name in names:

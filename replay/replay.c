@@ -6,10 +6,19 @@
 #include <string.h>
 #include <xxhash.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
-#include "replay/machine/exec.h"
-#include "replay/trace/hash.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/texture/texture.h"
 #include "replay/index/index.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+#include "base/table.h"
+#include "replay/trace/hash.h"
 #include "replay/trace/reader.h"
 
 #define HASHED_BYTES ((uint64_t)1 << 20)
@@ -90,11 +99,11 @@ void replay_close(struct replay **rp)
 
 void replay_set_supplier(struct replay *rp, replay_supply *supply, void *user)
 {
-	rp->exec->supply = rp->supply = supply;
-	rp->exec->supply_user = rp->supply_user = user;
+	rp->exec->feedback.supply = rp->supply = supply;
+	rp->exec->feedback.supply_user = rp->supply_user = user;
 }
 
-/* Execute one frame. @return as replay_next_frame; 1 with exec->rewind set: it could not be built */
+/* Execute one frame. @return as replay_next_frame; 1 with exec->feedback.rewind set: it could not be built */
 static int run_frame(struct replay *rp, int want, struct scene **scene)
 {
 	struct gls_exec *x = rp->exec;
@@ -112,7 +121,7 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 		rc = gls_exec_call(x, call);
 		if (rc)
 			return rc;
-		if (x->rewind)
+		if (x->feedback.rewind)
 			return 1;
 	}
 	if (want)
@@ -121,7 +130,7 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 		gls_frame_carry(x);
 	else
 		gls_frame_skip(x);
-	if (x->rewind)
+	if (x->feedback.rewind)
 		return 1;
 	if (x->failed || (want && !*scene))
 		return x->failed ? x->failed : err_report(ERR_SYSTEM, rp->path, "out of memory");
@@ -134,7 +143,7 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 /* Start again, and build every frame. */
 static int rewind_and_build(struct replay *rp)
 {
-	int rc, fronts = rp->exec->fronts;
+	int rc, fronts = rp->exec->feedback.fronts;
 
 	gls_exec_destroy(&rp->exec);
 	trace_reader_close(&rp->reader);
@@ -143,9 +152,9 @@ static int rewind_and_build(struct replay *rp)
 		rc = gls_exec_create(&rp->exec, rp->path);
 	if (rc)
 		return rc;
-	rp->exec->supply = rp->supply;
-	rp->exec->supply_user = rp->supply_user;
-	rp->exec->fronts = fronts;
+	rp->exec->feedback.supply = rp->supply;
+	rp->exec->feedback.supply_user = rp->supply_user;
+	rp->exec->feedback.fronts = fronts;
 	rp->build_all = 1;
 	return 1;
 }
@@ -158,9 +167,9 @@ int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 	*scene = NULL;
 	rc = run_frame(rp, want, scene);
 	/* Twice, where only the second time finds that it is looked at what front buffers show. */
-	for (int i = 0; i < 2 && rc == 1 && rp->exec->rewind; i++) {
+	for (int i = 0; i < 2 && rc == 1 && rp->exec->feedback.rewind; i++) {
 		rc = rewind_and_build(rp);
-		while (rc == 1 && !rp->exec->rewind && rp->exec->frame <= frame)
+		while (rc == 1 && !rp->exec->feedback.rewind && rp->exec->frame <= frame)
 			rc = run_frame(rp, want && rp->exec->frame == frame, scene);
 	}
 	return rc;
@@ -174,9 +183,9 @@ static int have_index(struct replay *rp, enum index_mode mode)
 static void use_instead(struct replay *rp, struct gls_exec *x)
 {
 	gls_exec_take_counts(x, rp->exec);
-	x->supply = rp->supply;
-	x->supply_user = rp->supply_user;
-	x->fronts = rp->exec->fronts;
+	x->feedback.supply = rp->supply;
+	x->feedback.supply_user = rp->supply_user;
+	x->feedback.fronts = rp->exec->feedback.fronts;
 	gls_exec_destroy(&rp->exec);
 	rp->exec = x;
 }
@@ -206,7 +215,7 @@ static int start_again(struct replay *rp)
 
 	if (rc)
 		return rc;
-	table_free(&rp->exec->unknown); /* its keys go with the reader */
+	table_free(&rp->exec->counts.unknown); /* its keys go with the reader */
 	use_instead(rp, x);
 	trace_reader_close(&rp->reader);
 	return trace_reader_open(&rp->reader, rp->path);
@@ -269,10 +278,10 @@ int replay_needs_skipped(struct replay *rp, uint64_t last)
 	struct scene *scene = NULL;
 	int rc = 1;
 
-	rp->exec->supply = know_nothing;
+	rp->exec->feedback.supply = know_nothing;
 	while (rc == 1 && rp->exec->frame <= last) {
 		rc = run_frame(rp, 1, &scene);
-		if (rc == 1 && rp->exec->rewind)
+		if (rc == 1 && rp->exec->feedback.rewind)
 			return 1;
 		scene_release(&scene);
 	}
@@ -376,7 +385,7 @@ static size_t finish(struct replay *rp, size_t n, const struct replay_count **ou
 
 static size_t put_unknown(struct replay *rp, size_t n, const char *why)
 {
-	const struct table *t = &rp->exec->unknown;
+	const struct table *t = &rp->exec->counts.unknown;
 
 	for (size_t i = 0; i < t->room; i++)
 		if (t->entries[i].value)
@@ -391,8 +400,8 @@ size_t replay_unsupported(struct replay *rp, const struct replay_count **out)
 	size_t n = 0;
 
 	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->unsupported[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, x->why[i], x->unsupported[i]);
+		if (x->counts.unsupported[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, x->counts.why[i], x->counts.unsupported[i]);
 	return finish(rp, put_unknown(rp, n, NULL), out);
 }
 
@@ -402,8 +411,8 @@ size_t replay_calls(struct replay *rp, const struct replay_count **out)
 	size_t n = 0;
 
 	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->count[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, NULL, x->count[i]);
+		if (x->counts.calls[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, NULL, x->counts.calls[i]);
 	return finish(rp, put_unknown(rp, n, NULL), out);
 }
 
@@ -431,8 +440,8 @@ size_t replay_gl_errors(struct replay *rp, const struct replay_count **out)
 	size_t n = 0;
 
 	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->errors[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, error_name(x->error_code[i]), x->errors[i]);
+		if (x->counts.errors[i])
+			n += (size_t)put(rp, n, gls_commands[i].name, error_name(x->counts.error_code[i]), x->counts.errors[i]);
 	return finish(rp, n, out);
 }
 
@@ -447,7 +456,7 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out)
 		return 0;
 	for (size_t i = 0; i < x->n_contexts; i++) {
 		struct gls_context *ctx = x->contexts[i];
-		struct gls_drawable *d = ctx->state.ever_current ? gls_drawable_of(x, &ctx->state) : NULL;
+		struct gls_drawable *d = ctx->state.ever_current ? gls_drawable_of(x, ctx->state.drawable) : NULL;
 		rp->contexts[i] = (struct replay_context){ ctx->handle, d ? d->width : 0, d ? d->height : 0, ctx->api, ctx->calls,
 		                                           ctx->shares, ctx->state.alpha_bits, ctx->state.depth_bits,
 		                                           ctx->state.stencil_bits, ctx->state.samples };

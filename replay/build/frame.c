@@ -1,12 +1,28 @@
 /* The scene under construction: what a draw saw is copied here, equal things once (scene.h). */
+#include "replay/build/frame.h"
+
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
 #include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/front.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
+#include "replay/replay.h"
 
 struct gls_frame {
 	struct scene *out; /* NULL between frames */
@@ -180,9 +196,9 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 
 	if (!image)
 		return 0;
-	missing = x->missing ? gls_texture_missing(t) : 0;
-	if (missing && x->supply)
-		x->rewind = 1;
+	missing = x->feedback.missing ? gls_texture_missing(t) : 0;
+	if (missing && x->feedback.supply)
+		x->feedback.rewind = 1;
 	f->out->shows_earlier |= missing && missing <= x->frame;
 	*out = unit->value;
 	out->texture = texture_slot(x, f, image);
@@ -711,7 +727,7 @@ void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
 void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
                              struct gls_texture_image *image, const float corner[4], const float (*values)[4])
 {
-	struct gls_geometry *g = &x->compiling;
+	struct gls_geometry *g = &x->scratch.geometry;
 	struct gls_mesh *mesh;
 
 	gls_geometry_clear(g);

@@ -15,7 +15,7 @@
 #ifndef REPLAY_INDEX_INDEX_H
 #define REPLAY_INDEX_INDEX_H
 
-#include "replay/machine/exec.h"
+#include "replay/machine/machine.h"
 #include "replay/trace/reader.h"
 
 struct replay;

@@ -5,9 +5,26 @@
 #include <string.h>
 #include <xxhash.h>
 
-#include "base/err.h"
 #include "layout.h"
+#include "base/err.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/geometry/array.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/gl/geometry/eval.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/geometry/vertexarray.h"
+#include "replay/gl/state/attrib.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
+#include "base/bytes.h"
+#include "base/arena.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MAX_VALUE_DEPTH 17
 #define MAX_OBJECTS (1u << 24)
@@ -433,7 +450,7 @@ static int is_quiet(const struct gls_exec *x)
 	for (size_t i = 0; i < x->n_contexts; i++)
 		if (x->contexts[i]->state.list || x->contexts[i]->state.begin_mode)
 			return 0;
-	return x->geometry.n_vertices == 0;
+	return x->pending.geometry.n_vertices == 0;
 }
 
 static int save(struct saver *s)
@@ -448,9 +465,9 @@ static int save(struct saver *s)
 		return 1;
 	bytes_put_u64(out, x->frame);
 	bytes_put_u64(out, x->n_calls);
-	bytes_put_u64(out, x->versions);
+	bytes_put_u64(out, x->caches.versions);
 	bytes_put_u64(out, x->thread);
-	bytes_put_u64(out, (uint64_t)x->missing);
+	bytes_put_u64(out, (uint64_t)x->feedback.missing);
 	bytes_put_u64(out, x->n_contexts);
 	for (size_t i = 0; i < x->n_contexts; i++) {
 		const struct gls_context *ctx = x->contexts[i];
@@ -639,7 +656,7 @@ static struct gls_mesh *get_mesh(struct loader *l)
 		l->in.failed = 1;
 		return NULL;
 	}
-	for (key = mesh->mesh.hash[0]; (known = table_find(&l->x->meshes, key)); key++)
+	for (key = mesh->mesh.hash[0]; (known = table_find(&l->x->caches.meshes, key)); key++)
 		if (memcmp(known->mesh.hash, mesh->mesh.hash, sizeof(mesh->mesh.hash)) == 0)
 			break;
 	if (known) {
@@ -651,12 +668,12 @@ static struct gls_mesh *get_mesh(struct loader *l)
 	mesh->used_frame = l->x->frame;
 	mesh->slot_frame = 0;
 	mesh->slot = 0;
-	if (table_set(&l->x->meshes, key, mesh)) {
+	if (table_set(&l->x->caches.meshes, key, mesh)) {
 		free(mesh);
 		l->err = ERR_SYSTEM;
 		return NULL;
 	}
-	l->x->mesh_bytes += n;
+	l->x->caches.mesh_bytes += n;
 	return mesh;
 }
 
@@ -1109,9 +1126,9 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 
 	x->frame = cursor_u64(&l.in);
 	x->n_calls = cursor_u64(&l.in);
-	x->versions = cursor_u64(&l.in);
+	x->caches.versions = cursor_u64(&l.in);
 	x->thread = cursor_u64(&l.in);
-	x->missing = cursor_u64(&l.in) != 0;
+	x->feedback.missing = cursor_u64(&l.in) != 0;
 	count = get_count(&l, sizeof(struct gls_state));
 	free(x->contexts);
 	x->contexts = allocate(&l, (count + 1) * sizeof(*x->contexts));

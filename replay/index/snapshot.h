@@ -15,7 +15,7 @@
 #define REPLAY_INDEX_SNAPSHOT_H
 
 #include "base/bytes.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/machine.h"
 
 /* Where blobs are kept. */
 struct snapshot_blobs {

@@ -301,16 +301,15 @@ struct gls_state {
 	uint32_t srgb; /* 1: it can hold sRGB colours (which matters to accum.c alone: nothing here converts else) */
 };
 
-/** A context as GL hands it out (all initial values of chapter 6); width and height of the first drawable may be 0. */
-int gls_state_init(struct gls_state *st);
-void gls_state_free(struct gls_state *st);
-void gls_maps_free(struct gls_maps *maps);
-struct bytes;
-struct cursor;
-/** A context's maps in a snapshot, and out of one: NULL there is as good as here. */
-void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
-/** @return NULL: there are none, or in->failed: no such bytes, or no memory for them. The caller owns it. */
-struct gls_maps *gls_maps_load(struct cursor *in);
+/* What contexts share. */
+struct gls_share {
+	unsigned refs;
+	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
+	struct table programs;                 /* ARB program name -> target + 1 */
+	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
+	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
+	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */
+};
 
 /** Record a GL error of the program (sec. 2.5): the first one sticks. */
 static inline void gls_set_error(struct gls_state *st, uint32_t error)

@@ -8,7 +8,7 @@
 #include "base/arena.h"
 #include "base/bytes.h"
 #include "replay/trace/container.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/commands.h"
 
 #define FORMAT_NEWEST 6
 #define MAX_DEPTH 16           /* arrays in structs in arrays; recorders need 3 */

@@ -5,7 +5,8 @@
 
 #include "base/err.h"
 #include "gl_tokens.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
 
 enum { MAX_THREADS = 256, MAX_ATTRIBUTES = 64, MAX_ITEMS = 16, ATTRIBUTE_ARGS = 6 };
 

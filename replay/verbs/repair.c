@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 #include "replay/trace/trace_out.h"
 

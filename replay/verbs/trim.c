@@ -17,7 +17,7 @@
 #include "base/verbs.h"
 #include "capture/format/ref.h"
 #include "replay/verbs/early.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 #include "replay/replay.h"
 #include "replay/trace/trace_out.h"

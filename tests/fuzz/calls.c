@@ -6,8 +6,16 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
 #include "replay/index/snapshot.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/texture/texture.h"
+#include "base/bytes.h"
 
 #define MAX_FRAMES 8
 #define MAX_ITEMS 256
@@ -300,14 +308,14 @@ static int end_frame(struct gls_exec *x, const struct calls_painter *painter)
 		scene = gls_frame_finish(x);
 	else
 		gls_frame_skip(x);
-	if (scene && painter && !x->rewind)
+	if (scene && painter && !x->feedback.rewind)
 		painter->paint(painter->user, scene);
 	if (scene)
 		scene_release(&scene);
 	x->frame++;
 	gls_mesh_cache_trim(x);
 	gls_image_cache_trim(x);
-	return x->failed || x->rewind ? 0 : check_snapshot(x);
+	return x->failed || x->feedback.rewind ? 0 : check_snapshot(x);
 }
 
 static void fill_grey(const struct scene *scene, struct scene_picture *p)
@@ -346,18 +354,18 @@ int calls_run(const uint8_t *data, size_t size, const struct calls_painter *pain
 
 	if (c && !gls_exec_create(&x, "calls")) {
 		begin_frame(x, size, painter);
-		x->supply = painter ? painter->supply : NULL;
-		x->supply_user = painter ? painter->user : NULL;
+		x->feedback.supply = painter ? painter->supply : NULL;
+		x->feedback.supply_user = painter ? painter->user : NULL;
 		if (!make_current(x))
 			for (size_t at = 0; at + CALLS_SLOT <= size && x->frame < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
-				if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->rewind)
+				if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->feedback.rewind)
 					break;
 				if (x->frame_ended) {
 					wrong = end_frame(x, painter);
 					begin_frame(x, size, painter);
 				}
 			}
-		if (!x->failed && !x->rewind && !wrong && !call(x, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
+		if (!x->failed && !x->feedback.rewind && !wrong && !call(x, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
 			wrong = end_frame(x, painter);
 	}
 	gls_exec_destroy(&x);

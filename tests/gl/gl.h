@@ -17,9 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
 #include "replay/replay.h"
 #include "tests/case.h"
+#include "replay/gl/surface/feedback.h"
 
 #define GL_MAX_ARGS 16
 
@@ -170,7 +175,7 @@ static inline uint64_t gl_unsupported(const struct gl *gl)
 	uint64_t n = 0;
 
 	for (unsigned i = 0; i < n_gls_commands; i++)
-		n += gl->x->unsupported[i];
+		n += gl->x->counts.unsupported[i];
 	return n;
 }
 

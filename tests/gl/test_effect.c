@@ -6,6 +6,9 @@
 
 #include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/surface/feedback.h"
+#include "base/bytes.h"
 
 #define N_LISTS 6
 #define N_TEXTURES 4
@@ -74,10 +77,10 @@ static void compare(struct pair *pair, const char *what, unsigned number)
 	for (unsigned i = 0; i < n_gls_commands; i++) {
 		const struct gls_exec *a = pair->gl[0].x, *b = pair->gl[1].x;
 
-		if (a->errors[i] != b->errors[i] || a->unsupported[i] != b->unsupported[i])
+		if (a->counts.errors[i] != b->counts.errors[i] || a->counts.unsupported[i] != b->counts.unsupported[i])
 			ck_abort_msg("%s %u: %s: %llu and %llu errors, %llu and %llu not done: %s %s", what, number, gls_commands[i].name,
-			             (unsigned long long)a->errors[i], (unsigned long long)b->errors[i],
-			             (unsigned long long)a->unsupported[i], (unsigned long long)b->unsupported[i], a->why[i], b->why[i]);
+			             (unsigned long long)a->counts.errors[i], (unsigned long long)b->counts.errors[i],
+			             (unsigned long long)a->counts.unsupported[i], (unsigned long long)b->counts.unsupported[i], a->counts.why[i], b->counts.why[i]);
 	}
 	free(state[0].data);
 	free(state[1].data);

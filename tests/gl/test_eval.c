@@ -2,6 +2,7 @@
 #include "base/err.h"
 #include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
+#include "base/bytes.h"
 
 static const float arc[9] = { 0, 0, 0, 1, 2, 0, 2, 0, 0 };
 

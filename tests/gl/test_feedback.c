@@ -1,5 +1,6 @@
 /* Pixels that feed back (GL 2.1 sec. 3.8.2, 4.2, 4.3): who asks for which pixels, and what becomes of them. */
 #include "tests/gl/gl.h"
+#include "replay/gl/surface/feedback.h"
 
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {
@@ -27,8 +28,8 @@ static struct gl open_with(struct painter *p)
 {
 	struct gl gl = gl_open();
 
-	gl.x->supply = paint;
-	gl.x->supply_user = p;
+	gl.x->feedback.supply = paint;
+	gl.x->feedback.supply_user = p;
 	return gl;
 }
 
@@ -154,10 +155,10 @@ START_TEST(test_skipped_frames)
 	gl.x->want = 1;
 	triangle(&gl);
 	s = gl_swap(&gl);
-	ck_assert_int_eq(gl.x->rewind, 0); /* covered */
+	ck_assert_int_eq(gl.x->feedback.rewind, 0); /* covered */
 	scene_release(&s);
 	textured_triangle(&gl);
-	ck_assert_int_eq(gl.x->rewind, 1);
+	ck_assert_int_eq(gl.x->feedback.rewind, 1);
 	gl_close(&gl);
 	p.unknown = 1;
 	gl = open_with(&p);
@@ -165,7 +166,7 @@ START_TEST(test_skipped_frames)
 	triangle(&gl);
 	gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
 	ck_assert_ptr_null(gls_frame_finish(gl.x));
-	ck_assert_int_eq(gl.x->rewind, 1);
+	ck_assert_int_eq(gl.x->feedback.rewind, 1);
 	gl_close(&gl);
 }
 END_TEST

@@ -1,5 +1,8 @@
 /* Front and back buffer of a window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10): which events reach which, and what a swap does. */
 #include "tests/gl/gl.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/feedback.h"
 
 #define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
 
@@ -32,7 +35,7 @@ static struct gl open_with_pictures(void)
 {
 	struct gl gl = gl_open();
 
-	gl.x->supply = apply_clears;
+	gl.x->feedback.supply = apply_clears;
 	return gl;
 }
 
@@ -85,7 +88,7 @@ START_TEST(test_swap)
 	struct gl gl = open_with_pictures();
 	const struct scene_picture *p;
 
-	gl.x->fronts = 1;
+	gl.x->feedback.fronts = 1;
 	clear(&gl, ALL, 0.2, 0.5);
 	swap(&gl);
 	ck_assert_uint_eq(read_buffer(&gl, GL_FRONT)->rgba[0], 51);
@@ -107,13 +110,13 @@ START_TEST(test_known_too_late)
 		struct gl gl = open_with_pictures();
 		const struct scene_picture *p;
 
-		gl.x->fronts = fronts;
+		gl.x->feedback.fronts = fronts;
 		clear(&gl, ALL, 0.2, 0.5);
 		swap(&gl);
 		clear(&gl, ALL, 0.4, 0.25);
 		p = read_buffer(&gl, GL_FRONT);
-		ck_assert_int_eq(gl.x->rewind, !fronts);
-		ck_assert_int_eq(gl.x->fronts, 1);
+		ck_assert_int_eq(gl.x->feedback.rewind, !fronts);
+		ck_assert_int_eq(gl.x->feedback.fronts, 1);
 		ck_assert_int_eq(p != NULL, fronts);
 		if (p) {
 			ck_assert_uint_eq(p->rgba[0], 51);
@@ -184,7 +187,7 @@ END_TEST
 START_TEST(test_front_alone)
 {
 	struct gl gl = open_with_pictures();
-	struct gls_drawable *d = gls_drawable_of(gl.x, gl_state(&gl));
+	struct gls_drawable *d = gls_drawable_of(gl.x, gl_state(&gl)->drawable);
 
 	gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
 	gl_call(&gl, "glDrawBuffer", "e", GL_FRONT);
@@ -198,7 +201,7 @@ START_TEST(test_front_alone)
 		scene_release(&s);
 		ck_assert_uint_eq(gls_frame_events(&d->surface), 2);
 	}
-	ck_assert_int_eq(gl.x->rewind, 0);
+	ck_assert_int_eq(gl.x->feedback.rewind, 0);
 	gl_close(&gl);
 }
 END_TEST

@@ -243,7 +243,7 @@ START_TEST(test_every_command)
 		if (!gls_commands[i].core || gls_commands[i].handler || gls_commands[i].excuse)
 			continue;
 		gl_call(&gl, gls_commands[i].name, "");
-		ck_assert_uint_eq(gl.x->unsupported[i], 1);
+		ck_assert_uint_eq(gl.x->counts.unsupported[i], 1);
 		n++;
 	}
 	ck_assert_uint_eq(gl_unsupported(&gl), n);

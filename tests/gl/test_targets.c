@@ -1,5 +1,6 @@
 /* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): how many bits it has, framebuffer objects. */
 #include "tests/gl/gl.h"
+#include "replay/gl/surface/feedback.h"
 
 static void triangle(struct gl *gl)
 {
@@ -133,8 +134,8 @@ static struct gl open_object(struct painter *p, uint32_t format)
 {
 	struct gl gl = gl_open();
 
-	gl.x->supply = paint;
-	gl.x->supply_user = p;
+	gl.x->feedback.supply = paint;
+	gl.x->feedback.supply_user = p;
 	gl_call(&gl, "glBindTexture", "ei", GL_TEXTURE_2D, 5);
 	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
 	gl_call(&gl, "glTexImage2D", "eieiiieep", GL_TEXTURE_2D, 0, format, 16, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
@@ -278,7 +279,7 @@ START_TEST(test_object_skipped)
 	gls_frame_skip(gl.x);
 	gl.x->want = 1;
 	show(&gl);
-	ck_assert_int_eq(gl.x->rewind, 1);
+	ck_assert_int_eq(gl.x->feedback.rewind, 1);
 	gl_close(&gl);
 	gl = open_object(&p, GL_RGBA);
 	gl.x->want = 0;
@@ -287,7 +288,7 @@ START_TEST(test_object_skipped)
 	gl.x->want = 1;
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT); /* all of it is new */
 	show(&gl);
-	ck_assert_int_eq(gl.x->rewind, 0);
+	ck_assert_int_eq(gl.x->feedback.rewind, 0);
 	gl_close(&gl);
 }
 END_TEST
@@ -300,8 +301,8 @@ START_TEST(test_accum)
 	const struct scene_rectangle *r;
 	struct scene *s;
 
-	gl.x->supply = paint; /* 10 20 30 40 everywhere */
-	gl.x->supply_user = &p;
+	gl.x->feedback.supply = paint; /* 10 20 30 40 everywhere */
+	gl.x->feedback.supply_user = &p;
 	gl_call(&gl, "glAccum", "ef", GL_NONE, 1.0);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
 	gl_call(&gl, "glClearAccum", "ffff", 0.0, 0.0, 0.0, 0.5);
@@ -333,12 +334,12 @@ START_TEST(test_accum)
 	gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
 	gl_call(&gl, "glAccum", "ef", GL_LOAD, 1.0);
 	gl_call(&gl, "glAccum", "ef", GL_RETURN, 1.0);
-	ck_assert_int_eq(gl.x->rewind, 0);
+	ck_assert_int_eq(gl.x->feedback.rewind, 0);
 	gl.x->want = 0;
 	gl_call(&gl, "glAccum", "ef", GL_MULT, 0.5);
 	gl.x->want = 1;
 	gl_call(&gl, "glAccum", "ef", GL_RETURN, 1.0);
-	ck_assert_int_eq(gl.x->rewind, 1);
+	ck_assert_int_eq(gl.x->feedback.rewind, 1);
 	gl_close(&gl);
 }
 END_TEST

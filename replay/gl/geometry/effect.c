@@ -8,11 +8,23 @@
  *
  * It holds while the lists and textures that it was made of do: their share group counts up when one of them goes (epoch).
  */
+#include "replay/gl/geometry/effect.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/geometry/vertex.h"
+#include "replay/gl/state/attrib.h"
+#include "replay/gl/state/light.h"
+#include "replay/gl/state/matrix.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MAX_OPS (1u << 16) /* of a list, with those inlined */
 #define MAX_NESTING 8      /* of lists inlined */
@@ -271,7 +283,7 @@ const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_stat
 	const struct gls_matrix_stack *stack = gls_current_stack(st);
 	const struct gls_effect *e = &list->effect;
 
-	if (x->want || st->begin_mode || !st->a.current.edge_flag || x->geometry.n_vertices)
+	if (x->want || st->begin_mode || !st->a.current.edge_flag || x->pending.geometry.n_vertices)
 		return NULL;
 	if (e->epoch != st->share->epoch + 1) {
 		if (!list->skipped++)

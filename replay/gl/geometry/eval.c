@@ -2,12 +2,22 @@
  * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces that give vertices and their attributes. Grids and switches are attribute
  * groups (attrib.c); the maps themselves are not, and stand here.
  */
+#include "replay/gl/geometry/eval.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/geometry/vertex.h"
 #include "base/bytes.h"
-#include "replay/machine/exec.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 #define MAX_ORDER 30
 #define POINTS_A_REPEAT 64 /* that count as much as an operation of a list (gls_is_beyond_measure) */

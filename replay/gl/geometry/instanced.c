@@ -4,7 +4,14 @@
  */
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/geometry/array.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 /* How often to draw; 0 where it is an error, or more than a recording means (counted). */
 static int64_t count_instances(struct gls_exec *x, struct gls_state *st, int64_t instances)

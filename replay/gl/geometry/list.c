@@ -5,15 +5,31 @@
  * attributes between are assembled into meshes once: such a list costs one instance per CallList. A run whose vertices need
  * an attribute that is only known when the list is called stays as calls.
  */
+#include "replay/gl/geometry/list.h"
+
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
-#include "replay/machine/exec.h"
+#include "capture/format/trace.h"
+#include "replay/build/frame.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/effect.h"
+#include "replay/gl/geometry/vertex.h"
+#include "replay/gl/state/light.h"
+#include "replay/gl/texture/texture.h"
+#include "base/arena.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MAX_PACKED 16
-#define REPEATED (1u << 16)
-#define REPEATED_A_CALL 128
 
 /* ---- keeping calls ---- */
 
@@ -231,22 +247,6 @@ static void run_with_pixels(struct gls_exec *x, struct gls_state *st, const stru
 	st->client.unpack = unpack;
 }
 
-int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why)
-{
-	uint64_t most = REPEATED + REPEATED_A_CALL * x->call->number;
-
-	if (x->repeated_frame != x->frame) {
-		x->repeated_frame = x->frame;
-		x->repeated = 0;
-	}
-	if (x->repeated > most || n > most - x->repeated) {
-		gls_unsupported(x, why);
-		return 1;
-	}
-	x->repeated += n;
-	return 0;
-}
-
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_list *list = table_find(&st->share->lists, name);
@@ -305,8 +305,8 @@ static int is_command(const struct gls_op *op, gls_handler *handler)
 static int fits_run(const struct gls_exec *x, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
-	const struct gls_geometry *g = &x->geometry;
-	int open = x->assembling->begin_mode != 0;
+	const struct gls_geometry *g = &x->pending.geometry;
+	int open = x->scratch.assembling->begin_mode != 0;
 	enum scene_primitive kind;
 
 	if (op->form == GLS_OP_MESH || k->handler == gls_glEdgeFlag || k->handler == gls_glEdgeFlagv)
@@ -328,18 +328,18 @@ static int fits_run(const struct gls_exec *x, const struct gls_op *op)
 static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_t first, uint32_t last, struct run *run)
 {
 	struct trace_value args[MAX_PACKED + 1];
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 	struct call c = call_of_list(x);
 
 	gls_geometry_clear(g);
-	x->assembling->begin_mode = 0;
+	x->scratch.assembling->begin_mode = 0;
 	*run = (struct run){ .stop = first };
 	for (uint32_t i = first; i < last && fits_run(x, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
 		uint32_t n = g->n_vertices, touched = g->touched;
 		unpack_call(op, args, &c);
 		x->command = op->command;
-		gls_commands[op->command].handler(x, x->assembling, &c);
+		gls_commands[op->command].handler(x, x->scratch.assembling, &c);
 		if (n == 0 && g->n_vertices)
 			run->known = touched;
 		run->set |= touched | g->touched;
@@ -365,13 +365,13 @@ static const float (*keep_values(struct gls_list *list, uint32_t mask, const flo
 
 static int keep_run(struct gls_exec *x, struct gls_list *list, const struct run *run)
 {
-	struct gls_geometry *g = &x->geometry;
-	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = x->assembling->a.lighting.first_provokes };
+	struct gls_geometry *g = &x->pending.geometry;
+	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = x->scratch.assembling->a.lighting.first_provokes };
 
 	op.before = run->known & ~g->given;
 	op.after = run->set;
 	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
-	op.after_values = keep_values(list, op.after, (const float (*)[4])x->assembling->a.current.attribute);
+	op.after_values = keep_values(list, op.after, (const float (*)[4])x->scratch.assembling->a.current.attribute);
 	if (!op.before_values || !op.after_values) {
 		gls_out_of_memory(x, 0);
 		return ERR_SYSTEM;
@@ -525,19 +525,19 @@ static int has_begin(const struct gls_list *list)
 /* The same list with its runs assembled, in an arena of its own. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
-	struct gls_geometry pending = x->geometry;
+	struct gls_geometry pending = x->pending.geometry;
 	struct gls_list *out = calloc(1, sizeof(*out));
 	int want = x->want, failed = !out;
 	uint32_t command = x->command;
 
-	if (!x->assembling)
-		x->assembling = calloc(1, sizeof(*x->assembling));
-	failed |= !x->assembling;
-	if (x->assembling) {
-		x->assembling->a.current.edge_flag = 1;
-		x->assembling->a.lighting.first_provokes = x->st->a.lighting.first_provokes;
+	if (!x->scratch.assembling)
+		x->scratch.assembling = calloc(1, sizeof(*x->scratch.assembling));
+	failed |= !x->scratch.assembling;
+	if (x->scratch.assembling) {
+		x->scratch.assembling->a.current.edge_flag = 1;
+		x->scratch.assembling->a.lighting.first_provokes = x->st->a.lighting.first_provokes;
 	}
-	x->geometry = x->compiling;
+	x->pending.geometry = x->scratch.geometry;
 	x->want = 1;
 	for (uint32_t i = 0; i < list->n && !failed;) {
 		struct run run;
@@ -551,8 +551,8 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 		failed = keep_run(x, out, &run) != 0;
 		i = run.end;
 	}
-	x->compiling = x->geometry;
-	x->geometry = pending;
+	x->scratch.geometry = x->pending.geometry;
+	x->pending.geometry = pending;
 	x->want = want;
 	x->command = command;
 	if (failed) {

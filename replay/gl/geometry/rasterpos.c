@@ -2,9 +2,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "kernels/gl/vertex.h"
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
 #include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "kernels/gl/vertex.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/state.h"
 
 static void clamp_color(float out[4], struct vec4 c)
 {

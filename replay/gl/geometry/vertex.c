@@ -1,7 +1,17 @@
 /* Begin/End and vertex attributes (GL 2.1 sec. 2.6, 2.7). */
+#include "replay/gl/geometry/vertex.h"
+
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 /* ---- attributes ---- */
 
@@ -40,7 +50,7 @@ void gls_color_changed(struct gls_state *st)
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4])
 {
 	memcpy(st->a.current.attribute[attribute], value, 16);
-	x->geometry.touched |= 1u << attribute;
+	x->pending.geometry.touched |= 1u << attribute;
 	if (attribute == GLS_ATTR_COLOR && st->a.lighting.color_material)
 		gls_color_changed(st);
 }
@@ -61,7 +71,7 @@ static int take_touched(struct gls_geometry *g, const struct gls_state *st)
 
 static void add_vertex(struct gls_exec *x, const struct gls_state *st, const float position[4])
 {
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 	uint32_t at = g->n_vertices;
 
 	if (at == 0) {
@@ -98,7 +108,7 @@ void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4
 
 GLS_HANDLER(glBegin, INSIDE)
 {
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 	uint32_t mode = arg_u(c, 0);
 	enum scene_primitive kind = gls_mode_kind(mode);
 
@@ -117,16 +127,16 @@ GLS_HANDLER(glBegin, INSIDE)
 	g->quads = mode == GL_QUADS;
 	g->begin_vertex = g->n_vertices;
 	if (!g->n_vertices) {
-		x->pending_call = x->call->number;
-		x->pending_command = x->command;
-		x->pending_list = x->drawn_list;
+		x->pending.call = x->call->number;
+		x->pending.command = x->command;
+		x->pending.list = x->drawn_list;
 	}
 	st->begin_mode = mode + 1;
 }
 
 GLS_HANDLER(glEnd, INSIDE)
 {
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 
 	if (!st->begin_mode) {
 		gls_error(x, st, GL_INVALID_OPERATION);
@@ -143,7 +153,7 @@ GLS_HANDLER(glEnd, INSIDE)
 /* The primitive ends and another of its kind begins (NV_primitive_restart). */
 GLS_HANDLER(glPrimitiveRestartNV, INSIDE)
 {
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 
 	if (!st->begin_mode) {
 		gls_error(x, st, GL_INVALID_OPERATION);
@@ -161,7 +171,7 @@ GLS_HANDLER(glPrimitiveRestartNV, INSIDE)
  */
 void gls_before_material(struct gls_exec *x, struct gls_state *st)
 {
-	struct gls_geometry *g = &x->geometry;
+	struct gls_geometry *g = &x->pending.geometry;
 
 	if (!st->begin_mode && g->n_vertices)
 		gls_flush(x);

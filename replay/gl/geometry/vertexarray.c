@@ -3,10 +3,18 @@
  * of the one that is bound are the context's own state; those of the others, 0 included, wait in a table. A buffer that is
  * deleted is detached from the bound object alone; the others look its name up when they draw.
  */
+#include "replay/gl/geometry/vertexarray.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS])
 {

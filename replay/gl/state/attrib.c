@@ -1,11 +1,24 @@
 /* Enables, attribute stacks, initial values (GL 2.1 sec. 6.1.14 and the state tables of chapter 6). */
+#include "replay/gl/state/attrib.h"
+
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
-#include "replay/machine/exec.h"
 #include "base/mat4.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/eval.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/geometry/vertex.h"
+#include "replay/gl/geometry/vertexarray.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 /* ---- initial values ---- */
 
@@ -468,7 +481,7 @@ GLS_HANDLER(glPopAttrib, STATE)
 	old = &st->attrib_stack[st->attrib_depth].attribs;
 	if (mask & GL_CURRENT_BIT) {
 		a->current = old->current;
-		x->geometry.touched = ~0u >> (32 - N_GLS_ATTRIBUTES);
+		x->pending.geometry.touched = ~0u >> (32 - N_GLS_ATTRIBUTES);
 	}
 	if (mask & GL_POINT_BIT)
 		a->point = old->point;

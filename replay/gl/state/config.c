@@ -3,7 +3,15 @@
  * our own say so when a context is first made current (capture/format/trace.md); in others it is taken from what the program asked of
  * a configuration, or asked for. What nobody said stays as gls_state_init has it.
  */
-#include "replay/machine/exec.h"
+#include "replay/gl/state/config.h"
+
+#include "capture/format/trace.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 enum { GLX_RGBA = 4, GLX_DOUBLEBUFFER = 5, GLX_STEREO = 6, GLX_USE_GL = 1 }; /* attributes without a value, visuals only */
 enum { GLX_ALPHA_SIZE = 11, GLX_DEPTH_SIZE = 12, GLX_STENCIL_SIZE = 13 };

@@ -1,10 +1,23 @@
 /* Contexts, drawables and frame ends: GLX 1.4 and EGL as far as a recording shows them; markers of our own recorder. */
+#include "replay/gl/state/context.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/machine/exec.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/array.h"
+#include "replay/gl/state/attrib.h"
+#include "replay/gl/state/config.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MAX_CONTEXTS 4096
 
@@ -56,22 +69,6 @@ static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, u
 	}
 	x->contexts[x->n_contexts++] = ctx;
 	return ctx;
-}
-
-struct gls_drawable *gls_drawable_of(struct gls_exec *x, struct gls_state *st)
-{
-	struct gls_drawable *d = table_find(&x->drawables, st->drawable);
-
-	if (d)
-		return d;
-	d = calloc(1, sizeof(*d));
-	if (!d || table_set(&x->drawables, st->drawable, d)) {
-		free(d);
-		gls_out_of_memory(x, sizeof(*d));
-		return NULL;
-	}
-	d->front.is_front = 1;
-	return d;
 }
 
 void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
@@ -239,7 +236,7 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	if (strncmp(text, "relume:drawable", 15) != 0 || sscanf(text, "relume:drawable %u %u", &width, &height) != 2 ||
 	    width > 65536 || height > 65536)
 		return;
-	drawable = gls_drawable_of(x, st);
+	drawable = gls_drawable_of(x, st->drawable);
 	if (drawable)
 		drawable->width = width, drawable->height = height, drawable->fixed = 1;
 }

@@ -1,7 +1,13 @@
 /* Per-fragment operations and the whole framebuffer (GL 2.1 sec. 4.1, 4.2). */
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/accum.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 static float clamp01(double value)
 {

@@ -1,8 +1,16 @@
 /* Lighting, materials, shading, fog (GL 2.1 sec. 2.14, 3.10). */
+#include "replay/gl/state/light.h"
+
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
 #include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "replay/gl/geometry/vertex.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 /* ---- lights, sec. 2.14.2 ---- */
 

@@ -1,8 +1,16 @@
 /* Coordinate transformations (GL 2.1 sec. 2.11, 2.12). */
+#include "replay/gl/state/matrix.h"
+
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
 #include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
 {
@@ -211,7 +219,7 @@ GLS_HANDLER(glOrtho, MATRIX)
 GLS_HANDLER(glViewport, STATE)
 {
 	float *rect = st->a.viewport.rect;
-	struct gls_drawable *drawable = gls_drawable_of(x, st);
+	struct gls_drawable *drawable = gls_drawable_of(x, st->drawable);
 
 	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
 		gls_error(x, st, GL_INVALID_VALUE);

@@ -1,7 +1,12 @@
 /*
  * Later things that a program of the fixed-function age may use beside it: shaders, several draw buffers. Draws with programs are rendered as fixed function and counted.
  */
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 GLS_HANDLER(glUseProgram, STATE) { st->program = arg_u(c, 0); }
 GLS_HANDLER(glUseProgramObjectARB, STATE) { st->program = arg_u(c, 0); }

@@ -2,7 +2,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "replay/gl/texture/texture.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/texture/teximage.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
 
 GLS_HANDLER(glPointSize, STATE)
 {

@@ -4,11 +4,22 @@
  *
  * Where a frame is not built, sums are missing from then on until all of the buffer is loaded or cleared.
  */
+#include "replay/gl/surface/accum.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/pixels.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 #define ONE 32767.0f
 
@@ -19,7 +30,7 @@ struct area {
 /* The drawable, its buffer in its present size, and what of it the scissor lets through. NULL: none, or out of memory */
 static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
 {
-	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st);
+	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
 	const int32_t *r = st->a.scissor.rect;
 
 	if (!d || !d->width || !d->height)
@@ -124,7 +135,7 @@ GLS_HANDLER(glAccum, STATE)
 	if (!gls_renders(st))
 		return;
 	if (!x->want) {
-		d = op == GL_RETURN || st->draw_framebuffer ? NULL : gls_drawable_of(x, st);
+		d = op == GL_RETURN || st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
 		if (d)
 			d->accum_missing = 1;
 		return;
@@ -137,8 +148,8 @@ GLS_HANDLER(glAccum, STATE)
 		d->accum_missing = 0;
 	for (unsigned i = 0; i < 4; i++)
 		every[i] = (float)clamp16(value * ONE);
-	if (op == GL_RETURN && d->accum_missing && x->supply)
-		x->rewind = 1;
+	if (op == GL_RETURN && d->accum_missing && x->feedback.supply)
+		x->feedback.rewind = 1;
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)
@@ -157,7 +168,7 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 
 	if (!gls_renders(st))
 		return;
-	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st)))
+	if (!x->want && !st->draw_framebuffer && (d = gls_drawable_of(x, st->drawable)))
 		d->accum_missing = 1;
 	if (!x->want || !(d = open_buffer(x, st, &area)))
 		return;

@@ -5,13 +5,23 @@
  *
  * A frame may show what the one before left. What a drawable held at the beginning of a frame is therefore kept: as a
  * picture where one was made, else as the scene that would make it. Where frames were skipped it is not known; the frame
- * that turns out to need it sets x->rewind, and replay.c starts again and builds every frame.
+ * that turns out to need it sets x->feedback.rewind, and replay.c starts again and builds every frame.
  */
+#include "replay/gl/surface/feedback.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/machine/exec.h"
+#include "replay/build/frame.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/front.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "replay/replay.h"
 
 #define MANY_EVENTS (1u << 14) /* of frames that nobody wants: bundled, so that they do not pile up */
 
@@ -110,7 +120,7 @@ static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 
 	if (!p || !s->width || !s->height)
 		return p;
-	if (x->supply(x->supply_user, s, &p->picture) != 0) {
+	if (x->feedback.supply(x->feedback.supply_user, s, &p->picture) != 0) {
 		if (!x->failed)
 			x->failed = ERR_SYSTEM; /* reported by the supplier */
 		gls_picture_release(p);
@@ -158,12 +168,8 @@ static void describe(struct gls_surface *s, const struct gls_drawable *d, const 
 
 static struct gls_drawable *window(struct gls_exec *x, struct gls_state *st, uint64_t name)
 {
-	uint64_t drawn = st->drawable;
-	struct gls_drawable *d;
+	struct gls_drawable *d = gls_drawable_of(x, name);
 
-	st->drawable = name;
-	d = gls_drawable_of(x, st);
-	st->drawable = drawn;
 	if (!d)
 		return NULL;
 	describe(&d->surface, d, st);
@@ -211,7 +217,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		return 1;
 	if (!surface->picture) {
 		/* It may be that nothing shows through: a sky over all of it. */
-		int try = s->n_instances && !(x->shows_through && surface->before);
+		int try = s->n_instances && !(x->feedback.shows_through && surface->before);
 
 		if (try && !(*snapshot = render(x, s)))
 			return 0;
@@ -219,12 +225,12 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 			gls_frame_all_known(surface);
 			return 1;
 		}
-		x->shows_through |= try;
+		x->feedback.shows_through |= try;
 		gls_picture_release(*snapshot);
 		*snapshot = NULL;
 		if (surface->skipped) {
-			x->rewind = 1;
-			x->fronts |= surface->is_front;
+			x->feedback.rewind = 1;
+			x->feedback.fronts |= surface->is_front;
 			return 0;
 		}
 		surface->picture = render(x, surface->before);
@@ -244,7 +250,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 
 	if (!x->want || !surface)
 		return NULL;
-	if (!x->supply) {
+	if (!x->feedback.supply) {
 		gls_unsupported(x, "needs pixels that were drawn: only a renderer has them");
 		return NULL;
 	}
@@ -306,14 +312,14 @@ static struct scene *end_scene(struct gls_exec *x, struct gls_surface *surface)
 	struct gls_picture *snapshot = NULL;
 	struct scene *s = gls_frame_scene(x, surface);
 
-	if (!s || (x->supply && !find_start(x, surface, s, &snapshot)))
+	if (!s || (x->feedback.supply && !find_start(x, surface, s, &snapshot)))
 		return NULL;
 	s = gls_frame_take(x, surface);
 	forget(surface);
 	surface->skipped = surface->carried = 0;
 	if (snapshot)
 		surface->picture = snapshot;
-	else if (x->supply)
+	else if (x->feedback.supply)
 		surface->before = gls_scene_reference(s);
 	return s;
 }
@@ -356,7 +362,7 @@ void gls_frame_carry(struct gls_exec *x)
 	if (!surface)
 		return;
 	surface->carried |= surface->frame != NULL;
-	if (gls_frame_events(surface) > MANY_EVENTS || (x->fronts && !x->unswapped))
+	if (gls_frame_events(surface) > MANY_EVENTS || (x->feedback.fronts && !x->unswapped))
 		bundle(x, surface);
 	if (!x->unswapped)
 		gls_front_swapped(d);

@@ -1,15 +1,30 @@
 /*
  * Framebuffer objects (EXT_framebuffer_object, EXT_framebuffer_blit; GL 3.0 sec. 4.4): render to texture.
  *
- * What an object is drawn to is a surface of its own (exec.h), made of what is attached. Attachments hold the truth: its
+ * What an object is drawn to is a surface of its own (feedback.h), made of what is attached. Attachments hold the truth: its
  * events are rendered and written back to them (settled) when somebody looks at one of them, and what comes after begins
  * from them. A frame that was not built leaves its targets missing, as a screen copy does (copytex.c).
  */
+#include "replay/gl/surface/framebuffer.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/build/frame.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/pixels.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MANY_EVENTS (1u << 16) /* of an object that nobody looks at: settled, so that they do not pile up */
 
@@ -60,7 +75,7 @@ static void set_missing(struct gls_exec *x, const struct target *t, uint32_t mis
 	else if (t->level)
 		t->level->missing = missing;
 	if (missing)
-		x->missing = 1;
+		x->feedback.missing = 1;
 }
 
 /* ---- pixels between surfaces and attachments ---- */
@@ -330,7 +345,7 @@ static void settle_colors(struct gls_exec *x, const struct gls_share *share, str
 {
 	struct gls_surface *s = &fb->surface;
 	uint32_t left = colors_of(fb), others = 1u << DEPTH | 1u << STENCIL;
-	int color = left ? __builtin_ctz(left) : -1, loads = x->want && x->supply, shows = 1;
+	int color = left ? __builtin_ctz(left) : -1, loads = x->want && x->feedback.supply, shows = 1;
 	const struct scene_picture *p = NULL;
 
 	if (loads && !(s->picture = load(x, share, fb, color)))
@@ -453,8 +468,8 @@ const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_
 	too = fb->drawn_too;
 	fb->drawn_buffer = st->a.pixel.read_buffer;
 	fb->drawn_too = 0;
-	if (describe(st->share, fb) && !(fb->read = load(x, st->share, fb, color_of(fb->drawn_buffer))) && !x->failed && x->supply)
-		x->rewind = 1;
+	if (describe(st->share, fb) && !(fb->read = load(x, st->share, fb, color_of(fb->drawn_buffer))) && !x->failed && x->feedback.supply)
+		x->feedback.rewind = 1;
 	fb->drawn_buffer = drawn;
 	fb->drawn_too = too;
 	return fb->read ? &fb->read->picture : NULL;

@@ -5,11 +5,20 @@
  * The two have colours of their own, and share depth and stencil. As long as nobody draws to the front buffer or reads it, it
  * costs a reference to what the last swap put there. From then until the next swap both are surfaces that get every event: with
  * colours where DrawBuffer says so, and else with what it does to depth and stencil. What the front buffer shows of earlier
- * events is made only when the replay has started again for it (x->fronts, feedback.c).
+ * events is made only when the replay has started again for it (x->feedback.fronts, feedback.c).
  */
+#include "replay/gl/surface/front.h"
+
 #include <string.h>
 
-#include "replay/machine/exec.h"
+#include "gl_tokens.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 static int is_front(uint32_t buffer)
 {
@@ -81,11 +90,11 @@ struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d)
 	d->parted = 1;
 	if (known)
 		return front;
-	if (x->fronts && !(start = start_of(x, front, back)))
-		return front; /* x->rewind or x->failed says why */
+	if (x->feedback.fronts && !(start = start_of(x, front, back)))
+		return front; /* x->feedback.rewind or x->failed says why */
 	gls_surface_free(front);
 	front->picture = start;
-	front->skipped = !start && x->supply;
+	front->skipped = !start && x->feedback.supply;
 	front->carried = 0;
 	return front;
 }
@@ -108,7 +117,7 @@ unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_tar
 	out[0] = (struct gls_target){ surface, buffer != GL_NONE };
 	if (st->draw_framebuffer || !st->double_buffered)
 		return 1;
-	d = gls_drawable_of(x, st);
+	d = gls_drawable_of(x, st->drawable);
 	if (!d->parted && !is_front(buffer))
 		return 1;
 	out[0].colored = buffer != GL_NONE && !is_front_alone(buffer);

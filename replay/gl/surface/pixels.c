@@ -1,9 +1,21 @@
 /* Pixels drawn as pixels (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
+#include "replay/gl/surface/pixels.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/texture/teximage.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 #define MAX_SIDE 16384
 

@@ -1,7 +1,16 @@
 /* Textures out of the screen (GL 2.1 sec. 3.8.2): CopyTexImage, CopyTexSubImage. */
 #include <string.h>
 
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/texture/teximage.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 /* Rows of a picture into texels of a level, through pixel transfer (sec. 4.3.2, 3.6.5). Places off the screen stay. */
 static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, int64_t x0, int64_t y0, int64_t width,
@@ -40,9 +49,9 @@ static void copy(struct gls_exec *x, struct gls_state *st, struct gls_texture *t
 	if (p)
 		copy_pixels(st, p, from[0], from[1], size[0], size[1], l,
 		            (size_t)((to[2] * l->height + to[1]) * l->width + to[0]));
-	else if (!x->want || !x->supply) {
+	else if (!x->want || !x->feedback.supply) {
 		l->missing = (uint32_t)x->frame + 1;
-		x->missing = 1;
+		x->feedback.missing = 1;
 	}
 	gls_texture_changed(t);
 	if (p && to[0] == 0 && to[1] == 0 && size[0] == l->width && size[1] == l->height && l->depth == 1)

@@ -3,9 +3,13 @@
  * ARB_texture_compression_rgtc, EXT_texture_compression_latc and ATI_texture_compression_3dc as texels.
  * Bits are numbered as in the extensions: bit 0 is the lowest of the first byte.
  */
+#include "replay/gl/texture/texcompress.h"
+
 #include <string.h>
 
-#include "replay/gl/texture/texture.h"
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/texture/texformat.h"
 
 struct rgba {
 	unsigned v[4];

@@ -1,8 +1,10 @@
 /* Internal formats of textures and renderbuffers (GL 2.1 tables 3.15 - 3.18 and what later extensions add to them). */
+#include "replay/gl/texture/texformat.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "replay/gl/texture/texture.h"
+#include "gl_tokens.h"
 
 /*
  * What Mesa stores of each format: formats of at least 8 bits a channel keep 8 here. Of the small ones llvmpipe has R3_G3_B2 to

@@ -1,10 +1,25 @@
 /* Pixels from the client into textures (GL 2.1 sec. 3.6, 3.8.1, 3.8.2, 3.8.8). */
+#include "replay/gl/texture/teximage.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/pixels.h"
+#include "replay/gl/texture/texcompress.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define MAX_SIZE 16384
 #define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */

@@ -6,8 +6,21 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
 #include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/texformat.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
 
 #define IMAGE_KEEP_FRAMES 8                  /* frames that an unused image is kept */
 #define IMAGE_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
@@ -605,13 +618,13 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 			bytes += n;
 		}
 	hash = XXH3_128bits_digest(&state);
-	for (key = hash.low64; (image = table_find(&x->images, key)); key++)
+	for (key = hash.low64; (image = table_find(&x->caches.images, key)); key++)
 		if (image->texture.hash[1] == hash.high64 && image->texture.hash[0] == hash.low64) {
 			atomic_fetch_add(&image->refs, 1);
 			return image;
 		}
 	image = calloc(1, sizeof(*image) + bytes);
-	if (!image || table_set(&x->images, key, image)) {
+	if (!image || table_set(&x->caches.images, key, image)) {
 		free(image);
 		gls_out_of_memory(x, bytes);
 		return NULL;
@@ -630,7 +643,7 @@ static struct gls_texture_image *build_image(struct gls_exec *x, const struct gl
 				memcpy(at, level->texels, level->texel_bytes * gls_level_count(level));
 			at += level->texel_bytes * gls_level_count(level);
 		}
-	x->image_bytes += bytes;
+	x->caches.image_bytes += bytes;
 	return image;
 }
 
@@ -691,26 +704,26 @@ void gls_texture_image_release(struct gls_texture_image *image)
 /* Screen copies make a new image each frame: drop those that the cache alone holds and nobody drew for a while. */
 void gls_image_cache_trim(struct gls_exec *x)
 {
-	if (x->image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)
+	if (x->caches.image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)
 		return;
-	for (size_t i = 0; i < x->images.room;) {
-		struct table_entry e = x->images.entries[i];
+	for (size_t i = 0; i < x->caches.images.room;) {
+		struct table_entry e = x->caches.images.entries[i];
 		struct gls_texture_image *image = e.value;
 		if (!image || atomic_load(&image->refs) > 1 || image->used_frame + IMAGE_KEEP_FRAMES > x->frame) {
 			i++;
 			continue;
 		}
-		x->image_bytes -= image->texture.n_bytes;
-		table_remove(&x->images, e.key); /* may move another one into this place: look again */
+		x->caches.image_bytes -= image->texture.n_bytes;
+		table_remove(&x->caches.images, e.key); /* may move another one into this place: look again */
 		gls_texture_image_release(image);
 	}
 }
 
 void gls_image_cache_free(struct gls_exec *x)
 {
-	for (size_t i = 0; i < x->images.room; i++)
-		gls_texture_image_release(x->images.entries[i].value);
-	table_free(&x->images);
+	for (size_t i = 0; i < x->caches.images.room; i++)
+		gls_texture_image_release(x->caches.images.entries[i].value);
+	table_free(&x->caches.images);
 }
 
 /* ---- the end of a share group ---- */

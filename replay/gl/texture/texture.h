@@ -4,7 +4,15 @@
 #ifndef REPLAY_GL_TEXTURE_TEXTURE_H
 #define REPLAY_GL_TEXTURE_TEXTURE_H
 
-#include "replay/machine/exec.h"
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "replay/machine/commands.h"
+#include "replay/machine/state.h"
+#include "scene/scene.h"
+
+gls_handler gls_glBindTexture, gls_glActiveTexture;
 
 #define GLS_MAX_LEVELS 15 /* 16384 texels at most */
 
@@ -76,48 +84,6 @@ void gls_texture_free(struct gls_texture *t);
 /** gls_texture_target of a GL token (texture or cube face), -1: none. `face` receives 0 .. 5. */
 int gls_texture_target_of(uint32_t token, unsigned *face);
 
-/* ---- pixels, teximage.c ---- */
-
-/**
- * Client pixels to texels (sec. 3.6.4): unpack state, format, type and pixel transfer.
- * @param depth  of images of three dimensions; 0: of two, for which no images are skipped
- * @param out  width * height * depth texels of the internal format, RGBA or one float where its base is DEPTH_COMPONENT
- * @return 0; -1: format or type is not known (error set); -2: too few bytes (what is there was read)
- */
-int gls_unpack_pixels(struct gls_exec *x, struct gls_state *st, uint32_t format, uint32_t type, uint32_t width,
-                      uint32_t height, uint32_t depth, const uint8_t *data, size_t n, uint32_t internal_format,
-                      uint8_t *out);
-
-/**
- * Pixels of COLOR_INDEX or STENCIL_INDEX (sec. 3.6.5): shifted, offset, through the maps; pixels.c.
- * @param texels  receives colours, or stencil values of 4 bytes
- * @return 0, or -1: no type of indices
- */
-int gls_unpack_indices(const struct gls_state *st, uint32_t format, uint32_t type, const uint8_t *data, size_t n, uint32_t width,
-                       uint32_t height, uint8_t *texels);
-
-/** The stencil values of pixels of the format DEPTH_STENCIL, a byte each. What is not there is 0. */
-void gls_unpack_stencil(const struct gls_state *st, uint32_t type, uint32_t width, uint32_t height, const uint8_t *data, size_t n,
-                        uint8_t *out);
-
-/** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel of an internal format. */
-void gls_store_pixel(const struct gls_state *st, uint32_t internal_format, float rgba[4], uint8_t *out);
-
-/** Whatever the client's format was, a block-compressed image as texels of the internal format; texcompress.c. @return 0; -1: too few bytes */
-int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
-
-/** The object whose level a call names, or NULL (error set; proxies: NULL and no error). */
-struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
-                                           unsigned *face);
-
-/** Make a level anew, texels all 0. @return the level, or NULL: it has no texels (error set where it is one) */
-struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
-                                      int64_t level, uint32_t internal_format, int64_t width, int64_t height, int64_t depth,
-                                      int64_t border);
-
-/** Levels above the base level out of it (sec. 3.8.8). */
-void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, unsigned face);
-
 /** `missing` of the first level that misses pixels; 0: there is none. */
 uint32_t gls_texture_missing(const struct gls_texture *t);
 
@@ -125,57 +91,9 @@ uint32_t gls_texture_missing(const struct gls_texture *t);
 struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t texel_bytes,
                                                  const uint8_t *texels);
 
-/** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
-const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n);
-
-/* ---- internal formats, texformat.c ---- */
-
-/* A number in [0,1] as 8 bits. */
-static inline uint8_t gls_byte(float value)
-{
-	float v = value > 0 ? value : 0; /* so written, what is no number is 0, and nothing branches */
-
-	v = v < 1 ? v : 1;
-	return (uint8_t)(v * 255.0f + 0.5f);
-}
-
-struct gls_format {
-	uint32_t token, base; /* base: table 3.15; RED and RG beside (ARB_texture_rg) */
-	uint8_t bits[4];      /* of R G B A (L and I: of R) where fewer than 8 are stored; 0: 8 */
-	uint8_t srgb;         /* 1: colours are encoded as sRGB says, and sampled in linear light */
-	uint8_t block_bytes;  /* of 4x4 texels (8x4 of FXT1) in client memory where it is compressed; else 0 */
-	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded;
-	   so does every texel here, which is all that is done of that compression */
-	uint8_t s3tc;
-	uint8_t numbers; /* enum gls_numbers */
-};
-
-/* Formats whose texels are four floats, which may be beyond [0,1]: what numbers they can hold. */
-enum gls_numbers { GLS_BYTES, GLS_SNORM8, GLS_SNORM16, GLS_FLOAT, GLS_HALF, GLS_11F, GLS_9E5 };
-
-/** NULL: none that fixed function could sample. */
-const struct gls_format *gls_format_find(uint32_t internal_format);
-/** Base format of an internal format, 0: none. */
-uint32_t gls_base_format(uint32_t internal_format);
-/** Of a surface that such a texture or renderbuffer is attached to. */
-uint32_t gls_format_depth_bits(uint32_t internal_format);
-uint32_t gls_format_stencil_bits(uint32_t internal_format);
-/** 1: a drawable that such a texture or renderbuffer is attached to holds floats. */
-uint32_t gls_format_is_float(uint32_t internal_format);
-/** Of a texel: 4, or 16 where it is four floats. */
-uint32_t gls_texel_bytes(uint32_t internal_format);
-/** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
-void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
-/** The same of a colour that was drawn. */
-void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *out);
-/** The same as gls_format_store in four bytes, whatever the format. */
-void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
-/** What a texel holds. */
-void gls_texel_load(uint32_t texel_bytes, const uint8_t *texel, float out[4]);
-/** A border colour as sampling a format gives it: no number that its texels could not be. */
-void gls_format_border(uint32_t internal_format, const float color[4], float out[4]);
-/** EXT_texture_sRGB, of one channel in [0,1]. */
-float gls_linear_from_srgb(float c);
-float gls_srgb_from_linear(float c);
+/** Drop images that the cache alone holds and that were not drawn for some frames, where the cache is large. */
+void gls_image_cache_trim(struct gls_exec *x);
+void gls_image_cache_free(struct gls_exec *x);
+void gls_share_release(struct gls_share *share);
 
 #endif

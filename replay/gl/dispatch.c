@@ -1,0 +1,207 @@
+/* struct call -> handler, and what happens around every handler. */
+#include "replay/gl/dispatch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "base/err.h"
+#include "capture/format/trace.h"
+#include "replay/build/frame.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/state/attrib.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/feedback.h"
+#include "replay/gl/texture/texture.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
+
+#define MAX_THREADS 65536
+
+void gls_flush(struct gls_exec *x)
+{
+	struct gls_geometry *g = &x->pending.geometry;
+	struct gls_mesh *mesh;
+	uint32_t list = x->drawn_list;
+
+	if (g->n_primitives && x->st) {
+		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->n_vertices))
+			gls_geometry_turn_quads(g);
+		mesh = gls_geometry_mesh(x, g);
+		x->drawn_list = x->pending.list;
+		if (mesh)
+			gls_frame_add(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
+		x->drawn_list = list;
+		gls_mesh_release(mesh);
+	}
+	gls_geometry_clear(g);
+}
+
+enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
+
+void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
+{
+	/* What each kind asks for (commands.h); all of it means outside Begin/End. */
+	static const uint8_t rules[] = {
+		[GLS_KIND_STATE] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_MATRIX] = OUTSIDE | DRAW_PENDING,
+		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE, [GLS_KIND_WINDOW] = 0,
+	};
+	const struct gls_command *k = &gls_commands[command];
+	struct gls_state *st = x->st;
+
+	x->command = command;
+	if (k->kind == GLS_KIND_NONE)
+		return;
+	if (rules[k->kind]) {
+		if (st->begin_mode) {
+			gls_error(x, st, GL_INVALID_OPERATION);
+			return;
+		}
+		if (rules[k->kind] & DRAW_PENDING && x->pending.geometry.n_vertices)
+			gls_flush(x);
+		if (rules[k->kind] & STALE)
+			st->dirty |= GLS_DIRTY_ALL;
+	}
+	k->handler(x, st, c);
+}
+
+static int is_kept_in_lists(uint32_t kind)
+{
+	return kind == GLS_KIND_VERTEX || kind == GLS_KIND_INSIDE || kind == GLS_KIND_STATE || kind == GLS_KIND_MATRIX;
+}
+
+static int switch_thread(struct gls_exec *x, uint64_t thread)
+{
+	if (thread >= MAX_THREADS)
+		return err_report(ERR_INPUT, x->path, "call %llu: thread number %llu makes no sense",
+		                  (unsigned long long)x->call->number, (unsigned long long)thread);
+	if (x->st)
+		gls_flush(x);
+	if (thread >= x->n_threads) {
+		struct gls_context **grown = realloc(x->threads, (thread + 1) * sizeof(*grown));
+		if (!grown)
+			return err_report(ERR_SYSTEM, x->path, "out of memory");
+		memset(grown + x->n_threads, 0, (thread + 1 - x->n_threads) * sizeof(*grown));
+		x->threads = grown;
+		x->n_threads = thread + 1;
+	}
+	x->thread = thread;
+	x->current = x->threads[thread];
+	x->st = x->current ? &x->current->state : NULL;
+	return 0;
+}
+
+int gls_exec_call(struct gls_exec *x, const struct call *c)
+{
+	const struct gls_command *k;
+	int32_t command = c->sig->command;
+	int rc;
+
+	x->call = c;
+	x->n_calls++;
+	if (command < 0) {
+		/* Keyed by the signature, which lives as long as the reader. */
+		uint64_t n = (uintptr_t)table_find(&x->counts.unknown, (uintptr_t)c->sig);
+		return table_set(&x->counts.unknown, (uintptr_t)c->sig, (void *)(uintptr_t)(n + 1));
+	}
+	k = &gls_commands[command];
+	x->command = (uint32_t)command;
+	x->counts.calls[command]++;
+	if ((c->thread != x->thread || !x->threads) && (rc = switch_thread(x, c->thread)))
+		return rc;
+	if (x->current)
+		x->current->calls++;
+	if (!k->handler) {
+		x->counts.unsupported[command] += !k->excuse;
+		return 0;
+	}
+	if (k->kind != GLS_KIND_WINDOW) {
+		if (!x->st) {
+			x->without_context++;
+			return 0;
+		}
+		if (x->st->list && is_kept_in_lists(k->kind)) {
+			if (gls_list_append(x, x->st, c))
+				return ERR_SYSTEM;
+			if (x->st->list_mode == GL_COMPILE)
+				return 0;
+		}
+	}
+	gls_dispatch(x, c, (uint32_t)command);
+	return x->failed;
+}
+
+/* ---- life ---- */
+
+int gls_exec_create(struct gls_exec **out, const char *path)
+{
+	struct gls_exec *x = calloc(1, sizeof(*x));
+
+	*out = NULL;
+	if (!x)
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	x->path = path;
+	x->counts.calls = calloc(n_gls_commands, sizeof(*x->counts.calls));
+	x->counts.unsupported = calloc(n_gls_commands, sizeof(*x->counts.unsupported));
+	x->counts.errors = calloc(n_gls_commands, sizeof(*x->counts.errors));
+	x->counts.why = calloc(n_gls_commands, sizeof(*x->counts.why));
+	x->counts.error_code = calloc(n_gls_commands, sizeof(*x->counts.error_code));
+	if (!x->counts.calls || !x->counts.unsupported || !x->counts.errors || !x->counts.why || !x->counts.error_code ) {
+		gls_exec_destroy(&x);
+		return err_report(ERR_SYSTEM, path, "out of memory");
+	}
+	*out = x;
+	return 0;
+}
+
+void gls_exec_take_counts(struct gls_exec *x, struct gls_exec *other)
+{
+	struct gls_counts mine = x->counts;
+
+	x->counts = other->counts;
+	other->counts = mine;
+}
+
+void gls_exec_destroy(struct gls_exec **exec)
+{
+	struct gls_exec *x = *exec;
+
+	if (!x)
+		return;
+	for (size_t i = 0; i < x->n_contexts; i++) {
+		gls_state_free(&x->contexts[i]->state);
+		free(x->contexts[i]);
+	}
+	free(x->contexts);
+	free(x->threads);
+	for (size_t i = 0; i < x->drawables.room; i++)
+		if (x->drawables.entries[i].value) {
+			gls_surface_free(&((struct gls_drawable *)x->drawables.entries[i].value)->surface);
+			gls_surface_free(&((struct gls_drawable *)x->drawables.entries[i].value)->front);
+			free(((struct gls_drawable *)x->drawables.entries[i].value)->accum);
+			free(x->drawables.entries[i].value);
+		}
+	table_free(&x->drawables);
+	table_free(&x->configs);
+	gls_geometry_free(&x->pending.geometry);
+	gls_geometry_free(&x->scratch.geometry);
+	free(x->scratch.assembling);
+	gls_mesh_cache_free(x);
+	gls_image_cache_free(x);
+	table_free(&x->maps);
+	table_free(&x->counts.unknown);
+	free(x->scratch.bytes);
+	free(x->scratch.elements);
+	free(x->counts.calls);
+	free(x->counts.unsupported);
+	free(x->counts.errors);
+	free(x->counts.why);
+	free(x->counts.error_code);
+	free(x);
+	*exec = NULL;
+}

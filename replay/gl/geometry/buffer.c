@@ -1,0 +1,241 @@
+#include "replay/gl/geometry/buffer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
+
+static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
+{
+	struct gls_buffer *b = gls_buffer_find(st, name);
+
+	if (b || !name)
+		return b;
+	b = calloc(1, sizeof(*b));
+	if (!b || table_set(&st->share->buffers, name, b)) {
+		free(b);
+		gls_out_of_memory(x, sizeof(*b));
+		return NULL;
+	}
+	b->version = ++x->caches.versions;
+	return b;
+}
+
+/* Where the name of the buffer bound to a target is kept; NULL: a target that no draw looks at. */
+static uint32_t *binding(struct gls_state *st, uint32_t target)
+{
+	switch (target) {
+	case GL_ARRAY_BUFFER:
+		return &st->client.array_buffer;
+	case GL_ELEMENT_ARRAY_BUFFER:
+		return &st->client.element_buffer;
+	case GL_COPY_READ_BUFFER:
+		return &st->client.copy_read_buffer;
+	case GL_COPY_WRITE_BUFFER:
+		return &st->client.copy_write_buffer;
+	case GL_DRAW_INDIRECT_BUFFER:
+		return &st->client.indirect_buffer;
+	case GL_PIXEL_UNPACK_BUFFER:
+		return &st->client.unpack.buffer;
+	case GL_PIXEL_PACK_BUFFER:
+		return &st->client.pack.buffer;
+	default:
+		return NULL;
+	}
+}
+
+static struct gls_buffer *bound_buffer(struct gls_exec *x, struct gls_state *st, uint32_t target)
+{
+	uint32_t *name = binding(st, target);
+	struct gls_buffer *b;
+
+	if (!name) {
+		gls_unsupported(x, "buffer targets of later GL");
+		return NULL;
+	}
+	b = gls_buffer_find(st, *name);
+	if (!b)
+		gls_error(x, st, GL_INVALID_OPERATION);
+	return b;
+}
+
+GLS_HANDLER(glBindBuffer, CLIENT)
+{
+	uint32_t *name = binding(st, arg_u(c, 0));
+
+	if (!name) {
+		gls_unsupported(x, "buffer targets of later GL");
+		return;
+	}
+	*name = arg_u(c, 1);
+	make_buffer(x, st, *name);
+}
+
+/* x->maps holds the buffers that are mapped, each under the one address where it is. */
+static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
+{
+	if (b && b->mapped)
+		table_remove(&x->maps, b->mapped);
+	if (b)
+		b->mapped = 0;
+}
+
+GLS_HANDLER(glDeleteBuffers, CLIENT)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, 1, &n);
+
+	for (uint64_t i = 0; i < n; i++) {
+		uint32_t name = (uint32_t)gls_value_int(&names[i]);
+		struct gls_buffer *b = name ? table_remove(&st->share->buffers, name) : NULL;
+		if (!b)
+			continue;
+		unmap_buffer(x, b);
+		free(b->data);
+		free(b);
+		if (st->client.array_buffer == name)
+			st->client.array_buffer = 0;
+		if (st->client.element_buffer == name)
+			st->client.element_buffer = 0;
+		if (st->client.unpack.buffer == name)
+			st->client.unpack.buffer = 0;
+		if (st->client.copy_read_buffer == name)
+			st->client.copy_read_buffer = 0;
+		if (st->client.copy_write_buffer == name)
+			st->client.copy_write_buffer = 0;
+		if (st->client.indirect_buffer == name)
+			st->client.indirect_buffer = 0;
+		for (unsigned a = 0; a < N_GLS_ARRAYS; a++)
+			if (st->client.arrays[a].buffer == name)
+				st->client.arrays[a].buffer = 0;
+	}
+}
+
+static void set_data(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+	int64_t size = arg_i(c, 1);
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 2, &n);
+	uint8_t *data;
+
+	if (!b)
+		return;
+	if (size < 0) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (size > INT32_MAX) {
+		gls_unsupported(x, "buffers of 2 GiB and more");
+		return;
+	}
+	data = calloc(1, size ? (size_t)size : 1);
+	if (!data) {
+		gls_out_of_memory(x, (size_t)size);
+		return;
+	}
+	if (bytes)
+		memcpy(data, bytes, n < (size_t)size ? n : (size_t)size);
+	free(b->data);
+	b->data = data;
+	b->bytes = (size_t)size;
+	b->version = ++x->caches.versions;
+}
+
+GLS_HANDLER(glBufferData, CLIENT) { set_data(x, st, c); }
+GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
+
+static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)
+{
+	if (!bytes || offset >= b->bytes)
+		return;
+	memcpy(b->data + offset, bytes, n < b->bytes - offset ? n : b->bytes - offset);
+	b->version = ++x->caches.versions;
+}
+
+GLS_HANDLER(glBufferSubData, CLIENT)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 3, &n);
+
+	if (b && (arg_i(c, 1) < 0 || arg_i(c, 2) < 0 || (uint64_t)arg_i(c, 1) + (uint64_t)arg_i(c, 2) > b->bytes))
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (b)
+		write_buffer(x, b, (uint64_t)arg_i(c, 1), bytes, n < (size_t)arg_i(c, 2) ? n : (size_t)arg_i(c, 2));
+}
+
+/* ARB_copy_buffer. */
+GLS_HANDLER(glCopyBufferSubData, CLIENT)
+{
+	struct gls_buffer *from = bound_buffer(x, st, arg_u(c, 0)), *to = bound_buffer(x, st, arg_u(c, 1));
+	int64_t read = arg_i(c, 2), write = arg_i(c, 3), n = arg_i(c, 4);
+
+	if (!from || !to)
+		return;
+	if (read < 0 || write < 0 || n < 0 || (uint64_t)read > from->bytes || (uint64_t)write > to->bytes ||
+	    (uint64_t)n > from->bytes - (uint64_t)read || (uint64_t)n > to->bytes - (uint64_t)write ||
+	    (from == to && read < write + n && write < read + n)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	if (n)
+		write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
+}
+
+static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)
+{
+	uint64_t address = (uint64_t)gls_value_int(&c->ret);
+
+	if (!b || !address || c->ret.type == TRACE_NONE)
+		return;
+	unmap_buffer(x, b);
+	unmap_buffer(x, table_find(&x->maps, address));
+	b->mapped = address;
+	b->map_offset = offset;
+	b->map_bytes = n;
+	if (table_set(&x->maps, address, b))
+		gls_out_of_memory(x, 0);
+}
+
+GLS_HANDLER(glMapBuffer, CLIENT)
+{
+	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
+
+	if (b)
+		map_buffer(x, b, c, 0, b->bytes);
+}
+
+GLS_HANDLER(glMapBufferRange, CLIENT)
+{
+	map_buffer(x, bound_buffer(x, st, arg_u(c, 0)), c, (uint64_t)arg_i(c, 1), (uint64_t)arg_i(c, 2));
+}
+
+GLS_HANDLER(glUnmapBuffer, CLIENT)
+{
+	unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0)));
+}
+
+/* What the program wrote into a mapped buffer, as recorders tell it. */
+GLS_HANDLER(memcpy, WINDOW)
+{
+	uint64_t to = (uint64_t)arg_i(c, 0);
+	size_t n;
+	const uint8_t *bytes = arg_blob(c, 1, &n);
+
+	for (size_t i = 0; i < x->maps.room; i++) {
+		struct gls_buffer *b = x->maps.entries[i].value;
+		if (b && to >= b->mapped && to - b->mapped < b->map_bytes) {
+			uint64_t offset = to - b->mapped;
+			write_buffer(x, b, b->map_offset + offset, bytes, n < b->map_bytes - offset ? n : b->map_bytes - offset);
+			return;
+		}
+	}
+}

@@ -1,0 +1,65 @@
+/* Display lists (GL 2.1 sec. 5.4): what they hold, and running them. */
+#ifndef REPLAY_GL_GEOMETRY_LIST_H
+#define REPLAY_GL_GEOMETRY_LIST_H
+
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "replay/machine/commands.h"
+
+struct call;
+struct gls_exec;
+struct gls_mesh;
+struct gls_pixel_store;
+struct gls_state;
+struct trace_value;
+
+enum gls_op_form { GLS_OP_CALL, GLS_OP_FLOATS, GLS_OP_FLOAT_ARRAY, GLS_OP_MESH };
+
+/* One call of a list: its arguments in the list's arena. */
+struct gls_op {
+	uint16_t form;
+	uint16_t command;
+	uint32_t n; /* arguments, or floats */
+	union {
+		const struct trace_value *args; /* CALL */
+		const float *floats;            /* FLOATS, FLOAT_ARRAY */
+		const struct gls_op_mesh *mesh; /* MESH */
+	};
+	const struct gls_pixel_store *unpack; /* how to read pixels among the arguments; NULL: there are none */
+};
+/* Begin..End runs or an array draw, assembled when the list was made. */
+struct gls_op_mesh {
+	struct gls_mesh *mesh; /* a reference, or NULL: only attributes */
+	uint32_t before, after; /* attributes set before the first vertex, and to be set after the last: 1 << attribute */
+	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
+	uint32_t n_draws;
+	uint32_t first_provokes; /* as it was cut */
+};
+/* What a list leaves behind when nothing is drawn (effect.c). All zero: not made yet. */
+struct gls_effect {
+	struct gls_op *ops; /* owned; what they point to belongs to the lists they come from */
+	uint32_t n;
+	uint32_t pushes, nesting; /* of the matrix stack and of lists, as far as they are left out */
+	uint32_t n_made, none;    /* how often it was; 1: there is none */
+	uint64_t epoch;           /* of the share group when it was made, + 1 */
+};
+struct gls_list {
+	struct gls_op *ops;
+	uint32_t n, room;
+	struct arena arena;
+	struct gls_effect effect;
+	uint32_t inlined, skipped; /* 1: effects of other lists may hold ops of this one; calls of it in frames that were skipped */
+	uint64_t name[2], bytes, held; /* of its blob, and of that and its meshes' together (snapshot.c); held 0: not known yet */
+};
+#define GLS_MAX_LIST_NESTING 64
+void gls_list_free(struct gls_list *list);
+/** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
+int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c);
+/** Keep a mesh in it (takes the reference). */
+int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
+gls_handler gls_glCallList;
+/** Run a list, where there is one of this name. */
+void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
+
+#endif

@@ -1,0 +1,55 @@
+/* Internal formats: what a texel of each can hold. */
+#ifndef REPLAY_GL_TEXTURE_TEXFORMAT_H
+#define REPLAY_GL_TEXTURE_TEXFORMAT_H
+
+#include <stdint.h>
+
+/* A number in [0,1] as 8 bits. */
+static inline uint8_t gls_byte(float value)
+{
+	float v = value > 0 ? value : 0; /* so written, what is no number is 0, and nothing branches */
+
+	v = v < 1 ? v : 1;
+	return (uint8_t)(v * 255.0f + 0.5f);
+}
+
+struct gls_format {
+	uint32_t token, base; /* base: table 3.15; RED and RG beside (ARB_texture_rg) */
+	uint8_t bits[4];      /* of R G B A (L and I: of R) where fewer than 8 are stored; 0: 8 */
+	uint8_t srgb;         /* 1: colours are encoded as sRGB says, and sampled in linear light */
+	uint8_t block_bytes;  /* of 4x4 texels (8x4 of FXT1) in client memory where it is compressed; else 0 */
+	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded;
+	   so does every texel here, which is all that is done of that compression */
+	uint8_t s3tc;
+	uint8_t numbers; /* enum gls_numbers */
+};
+
+/* Formats whose texels are four floats, which may be beyond [0,1]: what numbers they can hold. */
+enum gls_numbers { GLS_BYTES, GLS_SNORM8, GLS_SNORM16, GLS_FLOAT, GLS_HALF, GLS_11F, GLS_9E5 };
+
+/** NULL: none that fixed function could sample. */
+const struct gls_format *gls_format_find(uint32_t internal_format);
+/** Base format of an internal format, 0: none. */
+uint32_t gls_base_format(uint32_t internal_format);
+/** Of a surface that such a texture or renderbuffer is attached to. */
+uint32_t gls_format_depth_bits(uint32_t internal_format);
+uint32_t gls_format_stencil_bits(uint32_t internal_format);
+/** 1: a drawable that such a texture or renderbuffer is attached to holds floats. */
+uint32_t gls_format_is_float(uint32_t internal_format);
+/** Of a texel: 4, or 16 where it is four floats. */
+uint32_t gls_texel_bytes(uint32_t internal_format);
+/** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
+void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
+/** The same of a colour that was drawn. */
+void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *out);
+/** The same as gls_format_store in four bytes, whatever the format. */
+void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
+/** What a texel holds. */
+void gls_texel_load(uint32_t texel_bytes, const uint8_t *texel, float out[4]);
+/** A border colour as sampling a format gives it: no number that its texels could not be. */
+void gls_format_border(uint32_t internal_format, const float color[4], float out[4]);
+/** EXT_texture_sRGB, of one channel in [0,1]. */
+float gls_linear_from_srgb(float c);
+float gls_srgb_from_linear(float c);
+
+#endif

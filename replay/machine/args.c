@@ -1,0 +1,103 @@
+#include "replay/machine/args.h"
+
+const struct trace_value gls_no_value = { .type = TRACE_NONE };
+
+double gls_value_double(const struct trace_value *v)
+{
+	switch (v->type) {
+	case TRACE_FLOAT:
+		return v->f;
+	case TRACE_DOUBLE:
+		return v->d;
+	case TRACE_SINT:
+	case TRACE_ENUM:
+		return (double)v->i;
+	case TRACE_TRUE:
+		return 1;
+	case TRACE_UINT:
+	case TRACE_BITMASK:
+	case TRACE_OPAQUE:
+		return (double)v->u;
+	case TRACE_REPR:
+		return gls_value_double(&v->items[1]);
+	case TRACE_ARRAY:
+		return v->count ? gls_value_double(&v->items[0]) : 0;
+	default:
+		return 0;
+	}
+}
+
+int64_t gls_value_int(const struct trace_value *v)
+{
+	double d;
+
+	switch (v->type) {
+	case TRACE_SINT:
+	case TRACE_ENUM:
+		return v->i;
+	case TRACE_UINT:
+	case TRACE_BITMASK:
+	case TRACE_OPAQUE:
+		return (int64_t)v->u;
+	default:
+		d = gls_value_double(v);
+		return d >= -9e18 && d <= 9e18 ? (int64_t)d : 0;
+	}
+}
+
+unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n)
+{
+	const struct trace_value *v = arg(c, i);
+	unsigned got;
+
+	if (v->type != TRACE_ARRAY) {
+		if (v->type == TRACE_NONE || v->type == TRACE_NULL || v->type == TRACE_BLOB || v->type == TRACE_OPAQUE || !n)
+			return 0;
+		out[0] = (float)gls_value_double(v);
+		return 1;
+	}
+	for (got = 0; got < n && got < v->count; got++) {
+		const struct trace_value *item = &v->items[got];
+		out[got] = item->type == TRACE_FLOAT ? item->f : (float)gls_value_double(item);
+	}
+	return got;
+}
+
+unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n)
+{
+	const struct trace_value *v = arg(c, i);
+	unsigned got;
+
+	if (v->type != TRACE_ARRAY) {
+		if (v->type == TRACE_NONE || v->type == TRACE_NULL || v->type == TRACE_BLOB || v->type == TRACE_OPAQUE || !n)
+			return 0;
+		out[0] = (uint32_t)gls_value_int(v);
+		return 1;
+	}
+	for (got = 0; got < n && got < v->count; got++)
+		out[got] = (uint32_t)gls_value_int(&v->items[got]);
+	return got;
+}
+
+const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n)
+{
+	const struct trace_value *v = arg(c, i);
+
+	*n = v->type == TRACE_ARRAY ? v->count : 0;
+	return *n ? v->items : NULL;
+}
+
+const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n)
+{
+	const struct trace_value *v = arg(c, i);
+
+	*n = v->type == TRACE_BLOB ? v->count : 0;
+	return v->type == TRACE_BLOB ? v->blob : NULL;
+}
+
+int arg_is_offset(const struct call *c, unsigned i)
+{
+	enum trace_type type = arg(c, i)->type;
+
+	return type == TRACE_OPAQUE || type == TRACE_NULL || type == TRACE_UINT;
+}

@@ -1,0 +1,50 @@
+/*
+ * The commands of OpenGL and of window systems: a table that gen.py makes from Khronos' registries, overlay.txt and the handlers.
+ *
+ * A chapter defines one function per command with GLS_HANDLER at the start of a line. What the dispatcher does around it depends on
+ * the command's kind.
+ */
+#ifndef REPLAY_MACHINE_COMMANDS_H
+#define REPLAY_MACHINE_COMMANDS_H
+
+#include <stdint.h>
+
+struct call;
+struct gls_exec;
+struct gls_state;
+
+typedef void gls_handler(struct gls_exec *x, struct gls_state *st, const struct call *c);
+
+enum gls_kind {
+	GLS_KIND_NONE,
+	GLS_KIND_VERTEX, /* vertex attributes: anywhere, kept in lists, pending vertices stay pending */
+	GLS_KIND_INSIDE, /* the same, but the handler decides what becomes of pending vertices (Material, CallList, End) */
+	GLS_KIND_STATE,  /* outside Begin/End only, kept in lists; pending vertices are drawn first, material and view are stale */
+	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
+	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; into a list goes what it drew */
+	GLS_KIND_CLIENT, /* client state: anywhere, never kept in lists, changes nothing that is pending */
+	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, objects, queries */
+	GLS_KIND_WINDOW  /* window system and memory: no context needed, st may be NULL */
+};
+
+#define GLS_HANDLER(name, kind) \
+	void gls_##name(struct gls_exec *x __attribute__((unused)), struct gls_state *st __attribute__((unused)), \
+	                const struct call *c __attribute__((unused)))
+
+enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does nothing but draw; ends a frame */
+
+struct gls_command {
+	const char *name;
+	gls_handler *handler; /* NULL: excused, or not done yet */
+	uint32_t kind;
+	const char *excuse;   /* why nothing needs to be done */
+	uint32_t core;        /* 1: part of GL 1.0 - 2.1 */
+	uint32_t drawing;     /* enum gls_drawing, or 0 */
+};
+extern const struct gls_command gls_commands[]; /* sorted by name */
+extern const unsigned n_gls_commands;
+
+/** Index in gls_commands, or -1. */
+int32_t gls_command_find(const char *name);
+
+#endif

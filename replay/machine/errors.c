@@ -1,0 +1,62 @@
+#include "replay/machine/errors.h"
+
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "capture/format/trace.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+
+#define REPEATED (1u << 16)
+#define REPEATED_A_CALL 128
+
+void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error)
+{
+	gls_set_error(st, error);
+	x->counts.errors[x->command]++;
+	x->counts.error_code[x->command] = error;
+}
+
+void gls_unsupported(struct gls_exec *x, const char *why)
+{
+	x->counts.unsupported[x->command]++;
+	x->counts.why[x->command] = why;
+}
+
+void gls_out_of_memory(struct gls_exec *x, size_t bytes)
+{
+	if (!x->failed)
+		x->failed = err_report(ERR_SYSTEM, x->path, "out of memory for %zu bytes at call %llu (%s)", bytes,
+		                       x->call ? (unsigned long long)x->call->number : 0, gls_commands[x->command].name);
+}
+
+void *gls_scratch(struct gls_exec *x, size_t n)
+{
+	if (n > x->scratch.room) {
+		uint8_t *grown = realloc(x->scratch.bytes, n);
+		if (!grown) {
+			gls_out_of_memory(x, n);
+			return NULL;
+		}
+		x->scratch.bytes = grown;
+		x->scratch.room = n;
+	}
+	return x->scratch.bytes;
+}
+
+int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why)
+{
+	uint64_t most = REPEATED + REPEATED_A_CALL * x->call->number;
+
+	if (x->repeated_frame != x->frame) {
+		x->repeated_frame = x->frame;
+		x->repeated = 0;
+	}
+	if (x->repeated > most || n > most - x->repeated) {
+		gls_unsupported(x, why);
+		return 1;
+	}
+	x->repeated += n;
+	return 0;
+}

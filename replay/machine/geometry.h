@@ -1,0 +1,58 @@
+/* Vertices collected and not drawn yet, and how primitives are cut into triangles, lines and points (GL 2.1 sec. 2.6.1). */
+#ifndef REPLAY_MACHINE_GEOMETRY_H
+#define REPLAY_MACHINE_GEOMETRY_H
+
+#include <stdint.h>
+
+#include "replay/machine/state.h"
+#include "scene/scene.h"
+
+#define GLS_MAX_PENDING_VERTICES (1u << 20)
+
+/* Vertices collected and not drawn yet. All arrays grow and are kept. */
+struct gls_geometry {
+	enum scene_primitive kind;
+	uint32_t n_vertices, room_vertices;
+	uint32_t given; /* attributes that vary, as scene_mesh.attributes */
+	float *position, *attribute[N_GLS_ATTRIBUTES]; /* 4 floats each, whatever the attribute */
+	struct scene_face (*face)[2]; /* where `given` has SCENE_HAS_FACE */
+	uint8_t *edge;  /* edge flag of each vertex */
+	uint32_t *index, *primitive_draw;
+	uint8_t *edge_flags;
+	uint32_t n_primitives, room_primitives;
+	uint32_t n_draws;        /* Begin..End pairs so far */
+	uint32_t begin_vertex;   /* first vertex of the open Begin */
+	uint32_t edges_hidden;   /* any edge flag is off */
+	uint32_t quads;          /* 1: all primitives come from GL_QUADS */
+	uint32_t touched;        /* attributes that may differ from `constant` by now: 1 << attribute */
+	float constant[N_GLS_ATTRIBUTES][4]; /* values of attributes that do not vary */
+};
+
+/** Forget all vertices. */
+void gls_geometry_clear(struct gls_geometry *g);
+void gls_geometry_free(struct gls_geometry *g);
+/** Room for n more vertices of the attributes in `given`, and n more primitives. @return 0 or ERR_SYSTEM (reported) */
+int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
+/** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM */
+int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
+/** Make the material vary: vertices so far get `face`, front and back. @return 0 or ERR_SYSTEM */
+int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2]);
+/** Triangles, lines or points that a primitive mode is cut into: SCENE_*; 0 for no mode of GL's. */
+enum scene_primitive gls_mode_kind(uint32_t mode);
+/**
+ * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
+ * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
+ * @param first_provokes  1: separate triangles, strips and fans go by FIRST_VERTEX_CONVENTION (ARB_provoking_vertex); lines, which
+ *                  have a direction, are left to who draws them
+ * @return 0 or ERR_SYSTEM
+ */
+int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
+/**
+ * Cut the other way, from the first to the third vertex, the quads of a geometry that holds nothing else: llvmpipe does so with
+ * quads that come without indices (not in lists, then), are shaded smoothly, and of which nothing has to be clipped.
+ */
+void gls_geometry_turn_quads(struct gls_geometry *g);
+/** 1 where quads with these positions ([n][4]) are cut the other way under the current state. */
+int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n);
+
+#endif

@@ -1,0 +1,106 @@
+/*
+ * The machine that executes calls. The chapters of replay/gl/ and the index see it; nobody else does.
+ */
+#ifndef REPLAY_MACHINE_MACHINE_H
+#define REPLAY_MACHINE_MACHINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "replay/machine/geometry.h"
+#include "replay/machine/state.h"
+#include "base/table.h"
+#include "scene/scene.h"
+
+struct call;
+struct gls_mesh;
+
+struct gls_context {
+	uint64_t handle, share_handle;
+	const char *api;
+	uint64_t calls;
+	int destroyed, shares;
+	struct gls_state state;
+};
+
+/* Calls met so far, by command. */
+struct gls_counts {
+	uint64_t *calls, *unsupported, *errors; /* [n_gls_commands] */
+	const char **why;                       /* [n_gls_commands] what of it is not done */
+	uint32_t *error_code;                   /* [n_gls_commands] the last one */
+	struct table unknown;                   /* name -> count, of calls in no table */
+};
+
+/* Vertices that are collected and not drawn yet, of gls_exec.st. */
+struct gls_pending {
+	struct gls_geometry geometry;
+	uint64_t call; /* number of the call that began them */
+	uint32_t command, list;
+};
+
+/* Contents that were met before. */
+struct gls_caches {
+	struct table meshes;     /* low half of the hash -> struct gls_mesh (chains by probing the high half) */
+	struct table draws;      /* key of an array draw -> struct gls_mesh */
+	struct table images;     /* texture contents */
+	size_t mesh_bytes, image_bytes;
+	uint64_t versions;       /* last one given to a buffer, array or texture */
+};
+
+/* Memory for anyone, between two lines. */
+struct gls_scratch {
+	uint8_t *bytes;
+	size_t room;
+	uint32_t *elements; /* indices of the draw being executed */
+	size_t elements_room;
+	struct gls_geometry geometry; /* of list assembly and array draws */
+	struct gls_state *assembling; /* state that a list's vertices are run through when it is made (list.c) */
+};
+
+/* Pixels that were drawn and are needed (surface/feedback.c). */
+struct gls_feedback {
+	int (*supply)(void *user, const struct scene *scene, struct scene_picture *out); /* replay.h; NULL: nobody makes pixels */
+	void *supply_user;
+	int fronts;        /* 1: what front buffers show is looked at */
+	int missing;       /* 1: some texture has pixels missing that were drawn in skipped frames */
+	int shows_through; /* 1: some frame did show what was there before it */
+	int rewind;        /* 1: a frame needs pixels of skipped ones: all must be built from the start */
+};
+
+struct gls_exec {
+	const char *path;    /* of the trace, for messages */
+	int want;            /* 1: scenes are built */
+	int failed;          /* ERR_*: a handler met a failure of ours */
+	uint64_t frame;      /* being executed */
+	int frame_ended;     /* set by swaps */
+	int is_ours;         /* 1: our recorder has left its mark */
+
+	struct gls_context **contexts; /* owned, in order of creation */
+	size_t n_contexts;
+	struct gls_context *current; /* of the thread whose call is executed */
+	struct gls_state *st;        /* &current->state or NULL */
+	struct gls_context **threads; /* current context of each thread */
+	size_t n_threads;
+	uint64_t thread;
+	struct table drawables;
+	struct table configs; /* of drawables, see config.c */
+	struct table maps;    /* mapped address -> struct gls_buffer */
+
+	const struct call *call;      /* being executed */
+	uint32_t command;             /* its index */
+	uint32_t drawn_list;          /* the outermost list being called; 0: none */
+	unsigned list_depth;
+	uint64_t repeated, repeated_frame; /* what calls made of themselves in that frame: gls_is_beyond_measure */
+	uint64_t swapped;             /* drawable of the swap that ended the frame */
+	int unswapped;                /* 1: it ended without a swap */
+	uint64_t serial;              /* of the last scene begun */
+
+	struct gls_pending pending;
+	struct gls_caches caches;
+	struct gls_scratch scratch;
+	struct gls_feedback feedback;
+	uint64_t n_calls, without_context;
+	struct gls_counts counts;
+};
+
+#endif
