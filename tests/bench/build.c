@@ -19,6 +19,7 @@
 #include "base/progress.h"
 #include "tests/bench/embree_build.h"
 #include "tests/bench/hall_mesh.h"
+#include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
 
 #define LEAF_MAX 4
@@ -110,11 +111,11 @@ static int run_ours(struct input *in, const struct contest *c, struct side *side
 {
 	const double wall = progress_clock_s(), cpu = processor_s();
 	const uint32_t n = in->mesh.n_triangles;
-	uint32_t n_order;
-	int err = c->quality == RTC_BUILD_QUALITY_HIGH
-		? bvh_build_sbvh(in->boxes, in->triangles, n, LEAF_MAX, 0, n + n / 4, in->nodes, &in->n_nodes, in->order, &n_order)
-		: bvh_build_sah(in->boxes, n, LEAF_MAX, 0, in->nodes, &in->n_nodes, in->order);
+	const struct bvh_input input = { in->boxes, in->triangles, n, LEAF_MAX, n + n / 4, 0 };
+	struct tree tree = { .nodes = in->nodes, .order = in->order };
+	int err = (c->quality == RTC_BUILD_QUALITY_HIGH ? bvh_build_sbvh : bvh_build_sah)(&input, &tree);
 
+	in->n_nodes = tree.n_nodes;
 	side->wall_s[slot] = progress_clock_s() - wall;
 	side->cpu_s[slot] = processor_s() - cpu;
 	return err;

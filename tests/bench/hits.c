@@ -388,7 +388,7 @@ static void count_others(struct tally *tally, const struct world *w, const struc
 		if (memcmp(hit, &out[0]->hits[i], sizeof(*hit)) == 0)
 			continue;
 		if (tally->differ[a]++ < 5)
-			printf("%s is not %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: %d, %d\n", tree_kind_names[a], tree_kind_names[0],
+			printf("%s is not %s: o %.9g %.9g %.9g d %.9g %.9g %.9g t %.9g .. %.9g: %d, %d\n", accel_kind_names[a], accel_kind_names[0],
 			       ray->o[0], ray->o[1], ray->o[2], ray->d[0], ray->d[1], ray->d[2], ray->t_min, ray->t_max, (int)ours,
 			       (int)out[0]->hits[i].primitive);
 		tally->wrong[a] += judge(w, ray, ours, trace_peer(w, ray)) == WRONG_OURS;
@@ -467,7 +467,7 @@ static int write_json(const char *path, const struct tally *tally, const char *d
 		        v == WRONG_OURS ? (total(tally, -1, v) ? "false" : "true") : "null");
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
 		fprintf(out, "    { \"what\": \"hits of %s that are not those of %s to the bit\", \"figure\": \"%llu rays, %llu wrong\", \"bar\": "
-		        "\"0 wrong\", \"passed\": %s },\n", tree_kind_names[a], tree_kind_names[0], (unsigned long long)tally->differ[a],
+		        "\"0 wrong\", \"passed\": %s },\n", accel_kind_names[a], accel_kind_names[0], (unsigned long long)tally->differ[a],
 		        (unsigned long long)tally->wrong[a], tally->wrong[a] ? "false" : "true");
 	fprintf(out, "    { \"what\": \"any hit and nearest hit disagree\", \"figure\": \"%llu rays\", \"bar\": \"0\", \"passed\": %s }\n  ]\n}\n",
 	        (unsigned long long)tally->occluded_wrong, tally->occluded_wrong ? "false" : "true");
@@ -525,8 +525,8 @@ int main(int argc, char **argv)
 	}
 	printf("\nany hit and nearest hit disagree: %llu; bar: 0 of ours wrong, 0 of these\n", (unsigned long long)tally.occluded_wrong);
 	for (int a = 1; a < N_ACCEL_KINDS; a++)
-		printf("%s: %llu hits are not those of %s to the bit, %llu of them wrong; bar: 0 wrong\n", tree_kind_names[a],
-		       (unsigned long long)tally.differ[a], tree_kind_names[0], (unsigned long long)tally.wrong[a]);
+		printf("%s: %llu hits are not those of %s to the bit, %llu of them wrong; bar: 0 wrong\n", accel_kind_names[a],
+		       (unsigned long long)tally.differ[a], accel_kind_names[0], (unsigned long long)tally.wrong[a]);
 	if (json)
 		err = write_json(json, &tally, device_name(dev), command);
 	if (!err && total_wrong(&tally))

@@ -3,7 +3,10 @@
 
 #include "kernels/rays/compressed.h"
 #include "tests/case.h"
+#include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
+#include "tracer/accel/compress.h"
+#include "tracer/accel/sah_build.h"
 
 #define N 70000
 #define CUT_MAX 20000 /* triangles for trees that cut space */
@@ -92,19 +95,17 @@ static void check_node8c(uint32_t index, uint32_t depth, struct bvh_box *below)
 	}
 }
 
-/* The builder's text is compiled more than once; all make the same tree, by one thread or more. */
-int sah_build_plain(enum bvh_splits, const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, uint32_t, unsigned, uint32_t,
-                    struct node2 *, uint32_t *, uint32_t *, uint32_t *);
-
+/* The builder is compiled more than once; all make the same tree, by one thread or more. */
 static void check_same_tree(uint32_t n, uint32_t n_nodes)
 {
 	static struct node2 plain[N];
 	static uint32_t plain_order[N];
-	uint32_t n_plain, n_order;
+	const struct bvh_input in = { .boxes = boxes, .n = n, .leaf_max = 4, .room = n, .threads = 1 };
+	struct tree tree = { .nodes = plain, .order = plain_order };
 
-	ck_assert_int_eq(sah_build_plain(BVH_OBJECTS, boxes, NULL, n, 4, 32, 1, n, plain, &n_plain, plain_order, &n_order), 0);
-	ck_assert_uint_eq(n_order, n);
-	ck_assert_uint_eq(n_plain, n_nodes);
+	ck_assert_int_eq(sah_build_plain(SAH_OBJECTS, &in, 32, &tree), 0);
+	ck_assert_uint_eq(tree.n_order, n);
+	ck_assert_uint_eq(tree.n_nodes, n_nodes);
 	ck_assert_mem_eq(plain, nodes, n_nodes * sizeof(*nodes));
 	ck_assert_mem_eq(plain_order, order, n * sizeof(*order));
 }
@@ -113,10 +114,12 @@ static void check_same_linear(uint32_t n, uint32_t n_nodes)
 {
 	static struct node2 alone[N];
 	static uint32_t alone_order[N];
-	uint32_t n_alone;
+	const struct bvh_input in = { .boxes = boxes, .n = n, .leaf_max = 4, .threads = 1 };
+	struct tree tree = { .nodes = alone, .order = alone_order };
 
-	ck_assert_int_eq(bvh_build_linear(boxes, n, 4, 1, alone, &n_alone, alone_order), 0);
-	ck_assert_uint_eq(n_alone, n_nodes);
+	ck_assert_int_eq(bvh_build_linear(&in, &tree), 0);
+	ck_assert_uint_eq(tree.n_order, n);
+	ck_assert_uint_eq(tree.n_nodes, n_nodes);
 	ck_assert_mem_eq(alone, nodes, n_nodes * sizeof(*nodes));
 	ck_assert_mem_eq(alone_order, order, n * sizeof(*order));
 }
@@ -124,16 +127,14 @@ static void check_same_linear(uint32_t n, uint32_t n_nodes)
 /* @return binary nodes for each compressed one */
 static float check_trees(uint32_t n, int linear)
 {
+	const struct bvh_input in = { .boxes = boxes, .n = n, .leaf_max = 4, .threads = 3 };
+	struct tree tree = { .nodes = nodes, .order = order };
 	uint32_t n_nodes, n_nodes8, n_blocks;
 	struct bvh_box whole;
 
-	if (linear) {
-		ck_assert_int_eq(bvh_build_linear(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
-		check_same_linear(n, n_nodes);
-	} else {
-		ck_assert_int_eq(bvh_build_sah(boxes, n, 4, 3, nodes, &n_nodes, order), 0);
-		check_same_tree(n, n_nodes);
-	}
+	ck_assert_int_eq((linear ? bvh_build_linear : bvh_build_sah)(&in, &tree), 0);
+	n_nodes = tree.n_nodes;
+	(linear ? check_same_linear : check_same_tree)(n, n_nodes);
 	ck_assert_uint_le(n_nodes, n > 1 ? n - 1 : 1);
 	memset(seen, 0, sizeof(seen));
 	check_node2(0, 0);
@@ -159,10 +160,13 @@ static float check_trees(uint32_t n, int linear)
 /* Leaves that no compressed node has room for become nodes. */
 static void check_large_leaves(uint32_t n, uint32_t leaf)
 {
+	const struct bvh_input in = { .boxes = boxes, .n = n, .leaf_max = leaf, .threads = 3 };
+	struct tree tree = { .nodes = nodes, .order = order };
 	uint32_t n_nodes, n_nodes8;
 	struct bvh_box whole;
 
-	ck_assert_int_eq(bvh_build_sah(boxes, n, leaf, 3, nodes, &n_nodes, order), 0);
+	ck_assert_int_eq(bvh_build_sah(&in, &tree), 0);
+	n_nodes = tree.n_nodes;
 	for (uint32_t i = 0; i < n; i++)
 		triangles[i].primitive = order[i];
 	ck_assert_int_eq(bvh_compress8(nodes, n_nodes, triangles, n, nodes8c, &n_nodes8, triangles8c), 0);
@@ -176,30 +180,29 @@ static void check_large_leaves(uint32_t n, uint32_t leaf)
 /* The same with spatial splits and as kd-trees, whatever the number of threads; leaves are no larger than asked for. */
 static void check_cut_trees(const struct triangle *triangles, uint32_t n, uint32_t room)
 {
-	static struct node2 other[4 * CUT_MAX + 1];
-	static struct node2 first[4 * CUT_MAX + 1];
+	static struct node2 nodes_first[4 * CUT_MAX + 1], nodes_other[4 * CUT_MAX + 1];
 	static uint32_t order_first[4 * CUT_MAX + 1], order_other[4 * CUT_MAX + 1];
-	uint32_t n_first, n_other, n_order_first, n_order_other;
 
 	for (int kd = 0; kd < 2; kd++) {
-		int (*build)(const struct bvh_box *, const struct triangle *, uint32_t, uint32_t, unsigned, uint32_t, struct node2 *,
-		             uint32_t *, uint32_t *, uint32_t *) = kd ? bvh_build_kd : bvh_build_sbvh;
+		struct bvh_input in = { .boxes = boxes, .triangles = triangles, .n = n, .leaf_max = 4, .room = room, .threads = 1 };
+		struct tree first = { .nodes = nodes_first, .order = order_first }, other = { .nodes = nodes_other, .order = order_other };
 
-		ck_assert_int_eq(build(boxes, triangles, n, 4, 1, room, first, &n_first, order_first, &n_order_first), 0);
-		ck_assert_int_eq(build(boxes, triangles, n, 4, 3, room, other, &n_other, order_other, &n_order_other), 0);
-		ck_assert_uint_eq(n_first, n_other);
-		ck_assert_uint_eq(n_order_first, n_order_other);
-		ck_assert_uint_le(n_order_first, room);
-		ck_assert_mem_eq(first, other, n_first * sizeof(*first));
-		ck_assert_mem_eq(order_first, order_other, n_order_first * sizeof(*order_first));
+		ck_assert_int_eq((kd ? bvh_build_kd : bvh_build_sbvh)(&in, &first), 0);
+		in.threads = 3;
+		ck_assert_int_eq((kd ? bvh_build_kd : bvh_build_sbvh)(&in, &other), 0);
+		ck_assert_uint_eq(first.n_nodes, other.n_nodes);
+		ck_assert_uint_eq(first.n_order, other.n_order);
+		ck_assert_uint_le(first.n_order, room);
+		ck_assert_mem_eq(nodes_first, nodes_other, first.n_nodes * sizeof(*nodes_first));
+		ck_assert_mem_eq(order_first, order_other, first.n_order * sizeof(*order_first));
 		memset(seen, 0, sizeof(seen));
-		for (uint32_t i = 0; i < n_order_first; i++)
+		for (uint32_t i = 0; i < first.n_order; i++)
 			seen[order_first[i]] = 1;
 		for (uint32_t i = 0; i < n; i++)
 			ck_assert_msg(seen[i], "item %u of %u is in no leaf", i, n);
-		for (uint32_t i = 0; i < n_first; i++)
+		for (uint32_t i = 0; i < first.n_nodes; i++)
 			for (int side = 0; side < 2; side++)
-				ck_assert_uint_le(first[i].count[side], 4);
+				ck_assert_uint_le(nodes_first[i].count[side], 4);
 	}
 }
 

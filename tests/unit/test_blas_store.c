@@ -12,7 +12,7 @@
 
 #include "tests/case.h"
 #include "tracer/accel/blas_store.h"
-#include "tracer/accel/tree.h"
+#include "tracer/accel/builders.h"
 
 #define N 6000
 
@@ -63,7 +63,7 @@ static struct tree build(enum accel_kind kind)
 {
 	struct tree tree;
 
-	ck_assert_int_eq(tree_make(&soup, kind, (const uint64_t[]){ 1, 2 }, NULL, &tree), 0);
+	ck_assert_int_eq(builders_make_tree(&soup, kind, (const uint64_t[]){ 1, 2 }, NULL, &tree), 0);
 	return tree;
 }
 
@@ -136,18 +136,18 @@ START_TEST(large_meshes_alone_are_kept)
 	char paths[4][512];
 	uint64_t bytes;
 
-	ck_assert_int_eq(tree_make(&soup, ACCEL_BVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
+	ck_assert_int_eq(builders_make_tree(&soup, ACCEL_BVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
 	tree_free(&tree);
 	little.n = 100;
-	ck_assert_int_eq(tree_make(&little, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
+	ck_assert_int_eq(builders_make_tree(&little, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
 	tree_free(&tree);
 	ck_assert_uint_eq(list_files(paths, 4, &bytes), 0);
-	ck_assert_int_eq(tree_make(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
+	ck_assert_int_eq(builders_make_tree(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &tree), 0);
 	ck_assert_uint_eq(list_files(paths, 4, &bytes), 1);
 	/* What is found is what is taken: boxes of 6000 other triangles do not bring a tree of their own. */
 	for (uint32_t i = 0; i < soup.n; i++)
 		soup.boxes[i].lo[0] = soup.boxes[i].hi[0] = 0;
-	ck_assert_int_eq(tree_make(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &again), 0);
+	ck_assert_int_eq(builders_make_tree(&soup, ACCEL_SBVH, (const uint64_t[]){ 3, 4 }, store, &again), 0);
 	ck_assert(is_same(&tree, &again));
 	tree_free(&tree);
 	tree_free(&again);

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/accel/soup.h"
 #include "tracer/accel/tlas.h"
@@ -43,14 +44,14 @@ struct accel_cache {
 };
 
 /* One of the pools of struct accel. */
-struct part {
+struct pool {
 	void **items;
 	size_t *n;
 };
 
-static struct part part_of(struct accel *a, int part)
+static struct pool pool_of(struct accel *a, int part)
 {
-	const struct part parts[N_BLAS_PARTS] = {
+	const struct pool pools[N_BLAS_PARTS] = {
 		[BLAS_NODES2] = { (void **)&a->nodes2, &a->n_nodes2 },
 		[BLAS_TRIANGLES] = { (void **)&a->triangles, &a->n_triangles },
 		[BLAS_NODES8] = { (void **)&a->nodes8, &a->n_nodes8 },
@@ -60,7 +61,7 @@ static struct part part_of(struct accel *a, int part)
 		[BLAS_TRIANGLES8C] = { (void **)&a->triangles8c, &a->n_triangles8c },
 	};
 
-	return parts[part];
+	return pools[part];
 }
 
 static int out_of_memory(void)
@@ -109,7 +110,7 @@ void accel_destroy(struct accel **accel)
 	if (!a)
 		return;
 	for (int part = 0; part < N_BLAS_PARTS; part++)
-		free(*part_of(a, part).items);
+		free(*pool_of(a, part).items);
 	free(a->top2);
 	free(a->top8);
 	free(a->instance_list);
@@ -122,7 +123,7 @@ void accel_destroy(struct accel **accel)
 
 struct accel_pool accel_pool(const struct accel *accel, enum blas_part part)
 {
-	const struct part pool = part_of((struct accel *)accel, part);
+	const struct pool pool = pool_of((struct accel *)accel, part);
 
 	return (struct accel_pool){ *pool.items, *pool.n, accel->same[part] };
 }
@@ -130,7 +131,7 @@ struct accel_pool accel_pool(const struct accel *accel, enum blas_part part)
 void accel_copied(struct accel *accel)
 {
 	for (int part = 0; part < N_BLAS_PARTS; part++)
-		accel->same[part] = *part_of(accel, part).n;
+		accel->same[part] = *pool_of(accel, part).n;
 }
 
 /* --- finding BLASes --- */
@@ -189,7 +190,7 @@ static void move_down(struct accel *accel, struct placed_blas *placed, size_t en
 {
 	for (int part = 0; part < N_BLAS_PARTS; part++) {
 		const size_t bytes = blas_item_bytes[part], n = placed->blas.n[part];
-		char *items = *part_of(accel, part).items;
+		char *items = *pool_of(accel, part).items;
 
 		if (n && placed->first[part] != ends[part]) {
 			memmove(items + ends[part] * bytes, items + placed->first[part] * bytes, n * bytes);
@@ -231,7 +232,7 @@ static int drop_unused(struct accel *accel)
 		return 0;
 	cache->n = n;
 	for (int part = 0; part < N_BLAS_PARTS; part++) {
-		*part_of(accel, part).n = ends[part];
+		*pool_of(accel, part).n = ends[part];
 		accel->same[part] = ends[part] < accel->same[part] ? ends[part] : accel->same[part];
 	}
 	accel->generation++;
@@ -246,7 +247,7 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 	int err = 0;
 
 	for (int part = 0; part < N_BLAS_PARTS && !err; part++) {
-		const struct part pool = part_of(accel, part);
+		const struct pool pool = pool_of(accel, part);
 		const size_t bytes = blas_item_bytes[part];
 
 		placed->first[part] = *pool.n;
@@ -255,7 +256,7 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 			memcpy((char *)*pool.items + *pool.n * bytes, blas->parts[part], blas->n[part] * bytes);
 	}
 	for (int part = 0; part < N_BLAS_PARTS && !err; part++)
-		*part_of(accel, part).n += blas->n[part];
+		*pool_of(accel, part).n += blas->n[part];
 	placed->blas = *blas;
 	memset(placed->blas.parts, 0, sizeof(placed->blas.parts));
 	return err;
@@ -340,7 +341,7 @@ static int find_tree(struct accel *accel, const struct soup *soup, const struct 
 		return 0;
 	}
 	accel->n_made++;
-	err = tree_make(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
+	err = builders_make_tree(soup, moved ? ACCEL_BVH : order->kind, order->mesh->hash, moved || order->of_frame ? NULL : accel->store, out);
 	if (!err && (blas->topology[0] | blas->topology[1]))
 		blas->built_cost = bvh_cost(out->nodes, out->n_nodes);
 	return err;

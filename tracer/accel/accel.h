@@ -8,6 +8,8 @@
 #include "scene/scene.h"
 #include "tracer/accel/blas.h"
 #include "tracer/accel/blas_cache.h"
+#include "tracer/accel/blas_store.h"
+#include "tracer/accel/builders.h"
 
 /* Top level of one eye space, for secondary rays: instances with INSTANCE_SECONDARY, or its skies (INSTANCE_SKY). */
 struct accel_space {

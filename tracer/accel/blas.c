@@ -5,6 +5,8 @@
 
 #include "base/err.h"
 #include "scene/scene.h"
+#include "tracer/accel/bvh.h"
+#include "tracer/accel/compress.h"
 
 const size_t blas_item_bytes[N_BLAS_PARTS] = {
 	[BLAS_NODES2] = sizeof(struct node2),   [BLAS_TRIANGLES] = sizeof(struct triangle),

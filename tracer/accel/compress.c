@@ -1,4 +1,5 @@
-/* Eight-wide nodes of 80 bytes out of binary ones. */
+#include "tracer/accel/compress.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

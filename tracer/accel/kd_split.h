@@ -4,7 +4,7 @@
  * box of its own piece ("perfect splits", Wald and Havran 2006, "On building fast kd-trees for ray tracing, and on doing that in
  * O(N log N)", sec. 2.2). Cells shrink to what they hold. Many triangles are binned by where they begin and end (Shevtsov,
  * Soupikov and Kapustin 2007, "Highly parallel fast KD-tree construction for interactive ray tracing of dynamic scenes"), few
- * give the planes themselves. Part of sah_build.h's text.
+ * give the planes themselves. For sah_build.inc.
  */
 #ifndef TRACER_ACCEL_KD_SPLIT_H
 #define TRACER_ACCEL_KD_SPLIT_H
@@ -33,7 +33,7 @@ static inline float kd_cost(struct kd_areas areas, float share, uint32_t n_left,
 }
 
 /* The cheapest of the planes between bins of one axis, if cheaper than *best. */
-static void kd_try_bins(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
+static inline void kd_try_bins(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
 {
 	const float lo = -box8_negative_lo(cell)[axis], width = box8_size(cell)[axis], scale = KD_BINS / width;
 	const struct kd_areas areas = kd_areas_of(cell, axis);
@@ -60,7 +60,7 @@ static void kd_try_bins(const box8 *refs, uint32_t n, box8 cell, int axis, struc
 }
 
 /* The same of the planes at both ends of each triangle. */
-static void kd_try_ends(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
+static inline void kd_try_ends(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
 {
 	const float lo = -box8_negative_lo(cell)[axis], width = box8_size(cell)[axis];
 	const struct kd_areas areas = kd_areas_of(cell, axis);
@@ -87,7 +87,7 @@ static void kd_try_ends(const box8 *refs, uint32_t n, box8 cell, int axis, struc
 	}
 }
 
-static struct plane find_kd_plane(const box8 *refs, uint32_t n, box8 cell)
+static inline struct plane find_kd_plane(const box8 *refs, uint32_t n, box8 cell)
 {
 	struct plane best = { FLT_MAX, 0, 0 };
 
@@ -100,7 +100,7 @@ static struct plane find_kd_plane(const box8 *refs, uint32_t n, box8 cell)
 }
 
 /* How many references a plane cuts. */
-static uint32_t kd_count_cut(const box8 *refs, uint32_t n, const struct plane *plane)
+static inline uint32_t kd_count_cut(const box8 *refs, uint32_t n, const struct plane *plane)
 {
 	uint32_t cut = 0;
 

@@ -5,14 +5,14 @@
  * The levels down to parts of GRAIN items are laid out first, by one thread; each part then goes to any thread, which fills a
  * range of nodes of its own. What is in which node follows from the sorted codes alone.
  */
-#include "tracer/accel/bvh.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "tracer/accel/box8.h"
+#include "tracer/accel/builders.h"
+#include "tracer/accel/bvh.h"
 #include "tracer/accel/forks.h"
 
 #define AXIS_BITS 14 /* of a code, per axis: four passes of sorting in all */
@@ -361,17 +361,18 @@ static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threa
 	return n;
 }
 
-int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max, unsigned threads, struct node2 *nodes,
-                     uint32_t *n_nodes, uint32_t *order)
+int bvh_build_linear(const struct bvh_input *in, struct tree *out)
 {
+	const uint32_t n = in->n;
 	/* At each of the levels, parts of 2 * GRAIN items and more are divided. */
 	const uint32_t most_parts = BVH_MAX_DEPTH * (n / (2 * GRAIN) + 1) + 1;
-	struct build b = { .boxes = boxes, .n = n, .leaf_max = leaf_max, .out = nodes, .order = order, .chunk = 4 * GRAIN };
+	const unsigned threads = n < 2 * GRAIN ? 1 : in->threads;
+	struct build b = { .boxes = in->boxes, .n = n, .leaf_max = in->leaf_max, .out = out->nodes, .order = out->order, .chunk = 4 * GRAIN };
 	struct forks forks = { 0 };
 	int err = 0;
 
 	if (n < 2)
-		return bvh_build_sah(boxes, n, leaf_max, threads, nodes, n_nodes, order);
+		return bvh_build_sah(in, out);
 	b.n_chunks = (n - 1) / b.chunk + 1;
 	b.from = malloc(n * sizeof(*b.from));
 	b.to = malloc(n * sizeof(*b.to));
@@ -386,10 +387,9 @@ int bvh_build_linear(const struct bvh_box *boxes, uint32_t n, uint32_t leaf_max,
 		err = forks_init(&forks, sizeof(uint32_t), most_parts > b.n_chunks ? most_parts : b.n_chunks);
 	if (err)
 		goto done;
-	if (n < 2 * GRAIN)
-		threads = 1;
 	sort(&b, &forks, n < SORT_ALONE ? 1 : threads);
-	*n_nodes = build_nodes(&b, &forks, threads);
+	out->n_nodes = build_nodes(&b, &forks, threads);
+	out->n_order = n;
 	forks_free(&forks);
 done:
 	free(b.from);

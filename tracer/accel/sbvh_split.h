@@ -1,7 +1,7 @@
 /*
  * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): where the sides of the
  * best division of a part still overlap, cut its space by a plane instead, and let both sides hold a triangle that the plane
- * cuts, each with the box of its own piece. Part of sah_build.h's text.
+ * cuts, each with the box of its own piece. For sah_build.inc.
  */
 #ifndef TRACER_ACCEL_SBVH_SPLIT_H
 #define TRACER_ACCEL_SBVH_SPLIT_H
@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "kernels/rays/rays.h"
-#include "tracer/accel/box8.h"
+#include "tracer/accel/sah_part.h"
 
 #define SPATIAL_BINS 16
 /* Sides that overlap by less of the root's area are left alone (Stich et al. sec. 4.5; 1e-5 costs a quarter more time here). */
@@ -52,7 +52,7 @@ static inline vec4 set_lane(vec4 v, int axis, float x)
  * The boxes of the two pieces of a triangle, within the box of the piece that is cut. They are a little larger than the
  * pieces, by what counts as a hit beside a triangle (accel.c widens boxes by the same).
  */
-static void cut_triangle(const struct triangle *t, box8 whole, int axis, float at, box8 *left, box8 *right)
+static inline void cut_triangle(const struct triangle *t, box8 whole, int axis, float at, box8 *left, box8 *right)
 {
 	const vec4 v0 = { t->v0[0], t->v0[1], t->v0[2], 0 }, e1 = { t->e1[0], t->e1[1], t->e1[2], 0 };
 	const vec4 e2 = { t->e2[0], t->e2[1], t->e2[2], 0 };
@@ -97,7 +97,7 @@ static inline int spatial_bin_of(float x, float lo, float scale)
 }
 
 /* The cheapest plane across one axis, if cheaper than *best. */
-static void try_planes(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space, int axis, struct plane *best)
+static inline void try_planes(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space, int axis, struct plane *best)
 {
 	const float lo = -box8_negative_lo(space)[axis], width = box8_size(space)[axis], scale = SPATIAL_BINS / width;
 	struct spatial_bin bins[SPATIAL_BINS];
@@ -119,7 +119,7 @@ static void try_planes(const struct triangle *triangles, const box8 *refs, uint3
 		for (int k = first; k < last; k++) {
 			box8 piece;
 
-			cut_triangle(&triangles[item_of(refs[i])], rest, axis, lo + (float)(k + 1) / scale, &piece, &rest);
+			cut_triangle(&triangles[sah_item_of(refs[i])], rest, axis, lo + (float)(k + 1) / scale, &piece, &rest);
 			if (box8_is_box(piece))
 				bins[k].box = box8_join(piece, bins[k].box);
 			if (!box8_is_box(rest))
@@ -146,7 +146,7 @@ static void try_planes(const struct triangle *triangles, const box8 *refs, uint3
 	}
 }
 
-static struct plane find_plane(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space)
+static inline struct plane find_plane(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space)
 {
 	struct plane best = { FLT_MAX, 0, 0 };
 
@@ -161,8 +161,8 @@ static struct plane find_plane(const struct triangle *triangles, const box8 *ref
  * The parts get their counts and boxes.
  * @return 1; 0 where all would be on one side: the same references are there, in another order
  */
-static int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room, const struct plane *plane,
-                           int may_keep, struct part *left, struct part *right)
+static inline int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room, const struct plane *plane,
+                           int may_keep, struct sah_part *left, struct sah_part *right)
 {
 	box8 l = box8_empty(), r = l;
 	uint32_t n_left = 0, n_right = 0, n_cut, total = n;
@@ -192,7 +192,7 @@ static int partition_space(const struct triangle *triangles, box8 *refs, uint32_
 		box8 a, b, la, rb;
 		float both, whole_left, whole_right;
 
-		cut_triangle(&triangles[item_of(ref)], ref, plane->axis, plane->at, &a, &b);
+		cut_triangle(&triangles[sah_item_of(ref)], ref, plane->axis, plane->at, &a, &b);
 		la = box8_join(ref, l);
 		rb = box8_join(ref, r);
 		whole_left = box8_half_area(la) * (float)n_left + (n_right > 1 ? box8_half_area(r) * (float)(n_right - 1) : 0);

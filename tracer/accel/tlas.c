@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/accel/soup.h"
 
@@ -63,22 +64,24 @@ static void top_add(struct top *top, uint32_t item, const struct instance *insta
 static int build_top(struct accel *accel, struct top *top, int wide)
 {
 	struct node2 *nodes2 = accel->top2 + accel->n_top2;
-	uint32_t n_nodes2, n_nodes8;
-	int err = bvh_build_sah(top->boxes, top->n, LEAF_INSTANCES, 0, nodes2, &n_nodes2, top->order);
+	const struct bvh_input in = { .boxes = top->boxes, .n = top->n, .leaf_max = LEAF_INSTANCES };
+	struct tree tree = { .nodes = nodes2, .order = top->order };
+	uint32_t n_nodes8;
+	int err = bvh_build_sah(&in, &tree);
 
 	if (err)
 		return err;
-	for (uint32_t i = 0; i < n_nodes2; i++)
+	for (uint32_t i = 0; i < tree.n_nodes; i++)
 		for (int side = 0; side < 2; side++)
 			if (nodes2[i].count[side])
 				nodes2[i].child[side] += (uint32_t)accel->n_instance_list;
 	for (uint32_t i = 0; i < top->n; i++)
 		accel->instance_list[accel->n_instance_list + i] = top->items[top->order[i]];
 	accel->n_instance_list += top->n;
-	accel->n_top2 += n_nodes2;
+	accel->n_top2 += tree.n_nodes;
 	if (!wide)
 		return 0;
-	err = bvh_collapse8(nodes2, n_nodes2, BVH_ITEMS, accel->top8 + accel->n_top8, &n_nodes8, NULL, NULL, NULL);
+	err = bvh_collapse8(nodes2, tree.n_nodes, BVH_ITEMS, accel->top8 + accel->n_top8, &n_nodes8, NULL, NULL, NULL);
 	if (!err)
 		accel->n_top8 += n_nodes8;
 	return err;

@@ -4,53 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
-
-const char *const tree_kind_names[N_ACCEL_KINDS + 1] = { [ACCEL_BVH] = "bvh", [ACCEL_SBVH] = "sbvh", [ACCEL_KD] = "kd",
-	                                                 [ACCEL_LBVH] = "lbvh" };
-
-/* Most triangles in a leaf. */
-#define LEAF_TRIANGLES 4
-/* How many more items than triangles cutting space may make, for each triangle. */
-#define SPATIAL_SHARE 0.25
-#define KD_SHARE 3.0
-
-/* From how many triangles on a tree is kept: below, building it takes no longer than reading a file from a disk. */
-static const uint32_t keep_from[N_ACCEL_KINDS] = { [ACCEL_BVH] = 16384, [ACCEL_SBVH] = 1024, [ACCEL_KD] = 1024,
-	                                               [ACCEL_LBVH] = 65536 };
-
-static int build(const struct soup *soup, enum accel_kind kind, struct tree *tree)
-{
-	const double more = !soup->bounded ? 0 : kind == ACCEL_SBVH ? SPATIAL_SHARE : kind == ACCEL_KD ? KD_SHARE : 0;
-	const uint32_t n = soup->n, room = n + 1 + (uint32_t)(more * n);
-
-	if (room < n)
-		return err_report(ERR_SYSTEM, NULL, "acceleration structures: a mesh of %u triangles is too large", n);
-	tree->nodes = malloc(room * sizeof(*tree->nodes));
-	tree->order = malloc(room * sizeof(*tree->order));
-	if (!tree->nodes || !tree->order)
-		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-	tree->n_order = n;
-	if (more > 0)
-		return (kind == ACCEL_KD ? bvh_build_kd : bvh_build_sbvh)(soup->boxes, soup->triangles, n, LEAF_TRIANGLES, 0, room, tree->nodes,
-		                                                          &tree->n_nodes, tree->order, &tree->n_order);
-	return (kind == ACCEL_LBVH ? bvh_build_linear : bvh_build_sah)(soup->boxes, n, LEAF_TRIANGLES, 0, tree->nodes, &tree->n_nodes,
-	                                                               tree->order);
-}
-
-int tree_make(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out)
-{
-	const struct blas_store_key key = { { hash[0], hash[1] }, TREE_VERSION, kind, soup->n };
-	const int keep = store && soup->n >= keep_from[kind];
-	int err;
-
-	*out = (struct tree){ NULL };
-	if (keep && blas_store_load(store, &key, out))
-		return 0;
-	err = build(soup, kind, out);
-	if (!err && keep)
-		blas_store_save(store, &key, out);
-	return err;
-}
+#include "tracer/accel/bvh.h"
 
 int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out)
 {
@@ -80,7 +34,7 @@ static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t
 
 	*items += count;
 	if (count)
-		return count <= LEAF_TRIANGLES && child <= tree->n_order && count <= tree->n_order - child;
+		return count <= TREE_LEAF_TRIANGLES && child <= tree->n_order && count <= tree->n_order - child;
 	if (!child)
 		return at == 0 && tree->nodes[at].lo[side][0] > tree->nodes[at].hi[side][0]; /* an empty side */
 	if (child <= at || child >= tree->n_nodes || depth[child] || depth[at] + 1 >= BVH_MAX_DEPTH)

@@ -8,12 +8,14 @@
 
 #include "base/err.h"
 #include "base/verbs.h"
+#include "tracer/accel/builders.h"
 #include "tracer/bench/bench_accel.h"
 #include "tracer/bench/bench_frame.h"
 #include "tracer/render/settings.h"
 
 #define MAX_REPEATS 99
 
+#define ACCEL_WORD(kind, name, ...) name ", "
 static const char help[] =
 	"usage: relume bench [OPTIONS] [TRACE]\n"
 	"\n"
@@ -27,7 +29,7 @@ static const char help[] =
 	"  --threads N      compute threads on a CPU\n"
 	"  --models DIR     folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj\n"
 	"                   (default: ../shared/models; bumpy spheres stand in where they are missing)\n"
-	"  --accel LIST     kinds of trees, side by side: bvh, sbvh, kd, lbvh, with commas, or all\n"
+	"  --accel LIST     kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all\n"
 	"  --repeat N       runs of each (default 5)\n"
 	"  -f, --frame N    which frame of the recording (default 0)\n"
 	"  --mode MODE      as for relume render (default whitted)\n"
@@ -61,10 +63,10 @@ static int parse_kinds(const char *list, unsigned *kinds)
 		const size_t n = strcspn(list, ",");
 		int kind = 0;
 
-		while (kind < N_ACCEL_KINDS && (strlen(tree_kind_names[kind]) != n || strncmp(tree_kind_names[kind], list, n) != 0))
+		while (kind < N_ACCEL_KINDS && (strlen(accel_kind_names[kind]) != n || strncmp(accel_kind_names[kind], list, n) != 0))
 			kind++;
 		if (kind == N_ACCEL_KINDS)
-			return err_report(ERR_USAGE, NULL, "--accel takes bvh, sbvh, kd, lbvh, with commas, or all, not '%.*s'", (int)n, list);
+			return err_report(ERR_USAGE, NULL, "--accel takes " TREE_BUILDERS(ACCEL_WORD) "with commas, or all, not '%.*s'", (int)n, list);
 		*kinds |= 1u << kind;
 		list += n + (list[n] == ',');
 	} while (*list);

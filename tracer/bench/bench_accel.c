@@ -50,10 +50,10 @@ static void print_row(const struct bench *b, enum accel_kind kind, size_t n, str
 	if (json)
 		printf("  {\"accel\": \"%s\", \"build_s\": %.5f, \"build_cpu_s\": %.5f, \"sah_cost\": %.3f, \"items_per_triangle\": %.3f, \"bytes\": %zu, "
 		       "\"camera_mrays_per_s\": %.3f, \"shadow_mrays_per_s\": %.3f, \"incoherent_mrays_per_s\": %.3f}%s\n",
-		       tree_kind_names[kind], build_s, cpu_s, row->tree.cost, share, row->tree.bytes, mrays[CAMERA_S], mrays[SHADOW_S],
+		       accel_kind_names[kind], build_s, cpu_s, row->tree.cost, share, row->tree.bytes, mrays[CAMERA_S], mrays[SHADOW_S],
 		       mrays[INCOHERENT_S], last ? "" : ",");
 	else
-		printf("%-6s %9.1f ms %9.1f ms %9.2f %9.2f %7.1f MB %9.2f %9.2f %11.2f\n", tree_kind_names[kind], 1e3 * build_s, 1e3 * cpu_s, row->tree.cost,
+		printf("%-6s %9.1f ms %9.1f ms %9.2f %9.2f %7.1f MB %9.2f %9.2f %11.2f\n", accel_kind_names[kind], 1e3 * build_s, 1e3 * cpu_s, row->tree.cost,
 		       share, (double)row->tree.bytes * 1e-6, mrays[CAMERA_S], mrays[SHADOW_S], mrays[INCOHERENT_S]);
 }
 

@@ -423,7 +423,7 @@ static int measure_tree(struct bench *b, enum accel_kind kind, struct bench_tree
 	out->build_s = progress_clock_s();
 	out->build_cpu_s = processor_s();
 	if (!err)
-		err = tree_make(&soup, kind, b->state->mesh.hash, NULL, &tree);
+		err = builders_make_tree(&soup, kind, b->state->mesh.hash, NULL, &tree);
 	out->build_s = progress_clock_s() - out->build_s;
 	out->build_cpu_s = processor_s() - out->build_cpu_s;
 	out->cost = err ? 0 : bvh_cost(tree.nodes, tree.n_nodes);

@@ -8,7 +8,9 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "tracer/accel/builders.h"
 
+#define ACCEL_LINE(kind, name, build, spare, keep_from, help) "                         " name ": " help "\n"
 static const char help[] =
 	"usage: relume render TRACE [-f FRAMES] -o PATTERN [OPTIONS]\n"
 	"\n"
@@ -36,10 +38,9 @@ static const char help[] =
 	"      --reach X        how far the ao modes look, in units of eye space (default: without end)\n"
 	"      --look FILE      rules, YAML: what surfaces are made of, lights added, moved, off or with a size\n"
 	"                       (look/look.h shows all keys)\n"
-	"      --accel KIND     how trees of meshes are built: bvh, binned; sbvh, with spatial splits: some percent cheaper\n"
-	"                       to trace, ten times the time to build; kd, a kd-tree; lbvh, along a Morton curve: the\n"
-	"                       quickest to build (default: kd from where the program calls rtBuildKdTreeEXT, else bvh).\n"
-	"                       What moves gets a binned one. The picture is the same\n"
+	"      --accel KIND     how trees of meshes are built (default: kd from where the program calls rtBuildKdTreeEXT, else\n"
+	"                       bvh). What moves gets a binned one. The picture is the same\n"
+	TREE_BUILDERS(ACCEL_LINE)
 	"      --relight        light each pixel (Phong), not vertices: channel relight tells the difference\n"
 	"On what:\n"
 	"      --device LIST    devices that share the frames, by number, type or part of the name as 'relume devices' lists\n"
@@ -208,7 +209,7 @@ static int parse_option(struct settings *s, enum key key, const char *value)
 		s->tracer.look = s->look;
 		return err;
 	case ACCEL:
-		err = parse_word(value, name, tree_kind_names, &word);
+		err = parse_word(value, name, accel_kind_names, &word);
 		s->tracer.accel = (enum accel_kind)word;
 		s->tracer.accel_asked = 1;
 		return err;
