@@ -125,10 +125,13 @@ $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
 
-# Names the layout of the state machine: checkpoints of another one are not read (replay/index/snapshot.h).
-$(BUILD)/gen/layout.h: replay/index/snapshot.c replay/machine/state.h replay/machine/machine.h replay/machine/geometry.h replay/build/mesh.h replay/gl/geometry/list.h replay/gl/surface/feedback.h replay/gl/surface/drawable.h replay/gl/surface/framebuffer.h replay/gl/texture/texture.h scene/scene.h
+# What snapshots keep of the state machine: those of another layout are not read (replay/index/layout.txt).
+LAYOUT := replay/index/layout
+$(BUILD)/gen/layout.h: $(LAYOUT).py $(LAYOUT).txt $(BUILD)/gen/gl_tokens.h
 	@mkdir -p $(@D)
-	$(Q)echo "#define SNAPSHOT_LAYOUT \"$$(cat $^ | md5sum | cut -d ' ' -f 1)\"" >$@
+	$(Q)$(CC) $(CPPFLAGS) -std=c11 -E -P -MD -MP -MF $(@:.h=.dep) -MT $@ -include replay/index/snapshot_parts.h -x c /dev/null | \
+		$(PYTHON) -B $(LAYOUT).py $(LAYOUT).txt $@
+-include $(BUILD)/gen/layout.dep
 
 # Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
 $(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/gen/overlay.txt capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)

@@ -1,15 +1,15 @@
 /*
- * The GL state machine between two frames, as bytes: what an index keeps so that a replay can begin in the middle.
+ * The GL state machine between two frames, as bytes: an index keeps them so that a replay can begin in the middle.
  *
- * Structs of the state are kept as they lie in memory, pointers apart, so that whatever is added to one is kept by itself;
- * what a pointer leads to is written by hand. A struct with pointers that changes its size does not compile until snapshot.c
- * has been looked at, and a test compares states restored with states replayed, byte by byte. Big things (texels, buffers,
- * lists, meshes) are blobs that are kept once by content.
+ * Structs of the state are saved as they lie in memory, without their pointers: a plain member that is added is saved by itself.
+ * What a pointer leads to is saved by hand. layout.txt names what becomes of every pointer, and a new one does not compile
+ * before it is named there. `relume index --check` compares states restored with states replayed, byte by byte. Big things
+ * (texels, buffers, lists, meshes) are blobs: each content is kept once.
  *
- * Why not a stream of calls that rebuilds the state: it would have to be executed at every seek, cannot say all that the
- * state holds (errors, versions of buffers, meshes of lists), and what it forgets nobody notices.
+ * Why not a stream of calls that rebuilds the state? Every seek would have to execute it. It cannot say all that the state holds
+ * (errors, versions of buffers, meshes of lists), and nobody notices what it forgets.
  *
- * A snapshot can be read by the build that wrote it alone: see snapshot_layout.
+ * Only a build with the same layout can read a snapshot: see snapshot_layout.
  */
 #ifndef REPLAY_INDEX_SNAPSHOT_H
 #define REPLAY_INDEX_SNAPSHOT_H
@@ -29,7 +29,10 @@ struct snapshot_blobs {
 	uint64_t *count; /* not NULL: blobs are neither named nor kept, their bytes are added to this */
 };
 
-/** Changes whenever snapshots of another build could not be read by this one. */
+/**
+ * Names what snapshots are made of: names, offsets and sizes of the members of all structs that are saved, and the commands that
+ * lists hold by number. A build reads snapshots of equal layouts only.
+ */
 uint64_t snapshot_layout(void);
 
 /**

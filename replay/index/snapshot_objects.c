@@ -1,0 +1,222 @@
+#include "replay/index/snapshot_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/gl/texture/texformat.h"
+
+/* ---- textures ---- */
+
+/* What of a texture is not levels: before them and behind them. */
+#define LEVELS_BEGIN offsetof(struct gls_texture, levels)
+#define LEVELS_END (LEVELS_BEGIN + sizeof(((struct gls_texture *)0)->levels))
+
+/* Levels that are there, each after its number. Most are the same at every checkpoint: their names are found once. */
+static void put_texture(struct saver *s, void *value)
+{
+	static const struct gls_level none;
+	struct gls_texture *t = value, raw;
+
+	memcpy(&raw, t, LEVELS_BEGIN);
+	memcpy((char *)&raw + LEVELS_END, (const char *)t + LEVELS_END, sizeof(raw) - LEVELS_END);
+	raw.image = NULL;
+	raw.dirty = 1;
+	raw.hashed = 0;
+	bytes_put(s->out, &raw, LEVELS_BEGIN);
+	bytes_put(s->out, (const char *)&raw + LEVELS_END, sizeof(raw) - LEVELS_END);
+	for (unsigned i = 0; i < 6 * GLS_MAX_LEVELS; i++) {
+		struct gls_level *level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS], kept;
+		if (memcmp(level, &none, sizeof(none)) == 0)
+			continue;
+		kept = *level;
+		kept.texels = NULL;
+		memset(kept.hash, 0, sizeof(kept.hash));
+		bytes_put_u64(s->out, i);
+		bytes_put(s->out, &kept, sizeof(kept));
+		bytes_put_u64(s->out, level->texels != NULL);
+		if (level->texels && !t->hashed && !s->blobs->count)
+			saver_name(level->texels, level->bytes, level->hash);
+		if (level->texels)
+			saver_named_blob(s, level->hash, level->texels, level->bytes);
+	}
+	bytes_put_u64(s->out, UINT64_MAX);
+	t->hashed |= !s->blobs->count;
+}
+
+static void *get_texture(struct loader *l)
+{
+	struct gls_texture *t = loader_alloc(l, sizeof(*t));
+
+	if (!t)
+		return NULL;
+	cursor_copy(&l->in, t, LEVELS_BEGIN);
+	cursor_copy(&l->in, (char *)t + LEVELS_END, sizeof(*t) - LEVELS_END);
+	t->image = NULL;
+	t->dirty = 1;
+	t->hashed = 0;
+	for (uint64_t i; !loader_is_bad(l) && (i = cursor_u64(&l->in)) != UINT64_MAX;) {
+		struct gls_level *level;
+		size_t n;
+		if (i >= 6 * GLS_MAX_LEVELS || t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS].texels) {
+			l->in.failed = 1;
+			break;
+		}
+		level = &t->levels[i / GLS_MAX_LEVELS][i % GLS_MAX_LEVELS];
+		cursor_copy(&l->in, level, sizeof(*level));
+		level->texels = NULL;
+		if (!cursor_u64(&l->in))
+			continue;
+		level->texels = loader_blob(l, &n);
+		level->texel_bytes = gls_texel_bytes(level->internal_format);
+		if (n != level->bytes || level->width > 65536 || level->height > 65536 || level->depth > 65536 ||
+		    (uint64_t)level->width * level->height * level->depth > n / level->texel_bytes)
+			l->in.failed = 1;
+	}
+	if (!loader_is_bad(l) && t->target <= N_GLS_TEXTURE_TARGETS)
+		return t;
+	l->in.failed = 1;
+	gls_texture_free(t);
+	return NULL;
+}
+
+static void drop_texture(void *texture)
+{
+	gls_texture_free(texture);
+}
+
+static const struct snapshot_table textures = {
+	"texture", sizeof(struct gls_texture) - (LEVELS_END - LEVELS_BEGIN), put_texture, get_texture, drop_texture
+};
+
+/* ---- buffers ---- */
+
+static void put_buffer(struct saver *s, void *value)
+{
+	struct gls_buffer raw = *(const struct gls_buffer *)value;
+	const void *data = raw.data;
+
+	raw.data = NULL;
+	bytes_put(s->out, &raw, sizeof(raw));
+	saver_blob(s, data, data ? raw.bytes : 0);
+}
+
+static void drop_buffer(void *value)
+{
+	struct gls_buffer *b = value;
+
+	free(b->data);
+	free(b);
+}
+
+static void *get_buffer(struct loader *l)
+{
+	struct gls_buffer *b = loader_alloc(l, sizeof(*b));
+	uint8_t *data;
+	size_t n;
+
+	if (!b)
+		return NULL;
+	cursor_copy(&l->in, b, sizeof(*b));
+	b->data = NULL;
+	data = loader_blob(l, &n);
+	if (n != b->bytes && !(n == 0 && b->bytes == 0))
+		l->in.failed = 1;
+	b->data = loader_alloc(l, b->bytes + 1);
+	if (b->data && data)
+		memcpy(b->data, data, n);
+	free(data);
+	if (!loader_is_bad(l) && b->mapped && table_set(&l->x->maps, b->mapped, b))
+		l->err = ERR_SYSTEM;
+	if (!loader_is_bad(l))
+		return b;
+	drop_buffer(b);
+	return NULL;
+}
+
+static const struct snapshot_table buffers = { "buffer", sizeof(struct gls_buffer), put_buffer, get_buffer, drop_buffer };
+
+/* ---- framebuffer objects and renderbuffers: what was drawn to them is missing (gls_framebuffer_touch) ---- */
+
+static void put_framebuffer(struct saver *s, void *value)
+{
+	struct gls_framebuffer raw = *(const struct gls_framebuffer *)value;
+
+	memset(&raw.surface, 0, sizeof(raw.surface));
+	raw.read = NULL;
+	bytes_put(s->out, &raw, sizeof(raw));
+}
+
+static void *get_framebuffer(struct loader *l)
+{
+	struct gls_framebuffer *fb = loader_alloc(l, sizeof(*fb));
+
+	if (!fb)
+		return NULL;
+	cursor_copy(&l->in, fb, sizeof(*fb));
+	memset(&fb->surface, 0, sizeof(fb->surface));
+	fb->read = NULL;
+	for (unsigned i = 0; i < N_GLS_ATTACHMENTS; i++)
+		if (fb->attached[i].face >= 6 || fb->attached[i].level >= GLS_MAX_LEVELS)
+			l->in.failed = 1;
+	return fb;
+}
+
+static const struct snapshot_table framebuffers = {
+	"framebuffer object", sizeof(struct gls_framebuffer), put_framebuffer, get_framebuffer, free
+};
+
+static void put_renderbuffer(struct saver *s, void *value)
+{
+	struct gls_renderbuffer raw = *(const struct gls_renderbuffer *)value;
+
+	raw.content = NULL;
+	bytes_put(s->out, &raw, sizeof(raw));
+}
+
+static void *get_renderbuffer(struct loader *l)
+{
+	struct gls_renderbuffer *r = loader_alloc(l, sizeof(*r));
+
+	if (!r)
+		return NULL;
+	cursor_copy(&l->in, r, sizeof(*r));
+	r->content = NULL;
+	if (r->width > 16384 || r->height > 16384)
+		l->in.failed = 1;
+	return r;
+}
+
+static const struct snapshot_table renderbuffers = {
+	"renderbuffer", sizeof(struct gls_renderbuffer), put_renderbuffer, get_renderbuffer, free
+};
+
+/* ---- all that contexts share ---- */
+
+void snapshot_put_share(struct saver *s, const struct gls_share *share)
+{
+	saver_table(s, &share->lists, &snapshot_lists);
+	saver_table(s, &share->textures, &textures);
+	saver_table(s, &share->buffers, &buffers);
+	saver_table(s, &share->programs, &snapshot_numbers);
+	saver_table(s, &share->framebuffers, &framebuffers);
+	saver_table(s, &share->renderbuffers, &renderbuffers);
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
+		bytes_put_u64(s->out, share->defaults[i] != NULL);
+		if (share->defaults[i])
+			put_texture(s, share->defaults[i]);
+	}
+}
+
+void snapshot_get_share(struct loader *l, struct gls_share *share)
+{
+	loader_table(l, &share->lists, &snapshot_lists);
+	loader_table(l, &share->textures, &textures);
+	loader_table(l, &share->buffers, &buffers);
+	loader_table(l, &share->programs, &snapshot_numbers);
+	loader_table(l, &share->framebuffers, &framebuffers);
+	loader_table(l, &share->renderbuffers, &renderbuffers);
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS && !loader_is_bad(l); i++)
+		if (cursor_u64(&l->in))
+			share->defaults[i] = get_texture(l);
+}

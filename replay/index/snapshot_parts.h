@@ -1,0 +1,81 @@
+/*
+ * What the parts of a snapshot share: snapshot.c (contexts, drawables), snapshot_state.c (the state of a context),
+ * snapshot_objects.c (what contexts share) and snapshot_lists.c (display lists and their meshes).
+ *
+ * Each part saves and loads, in the same order. layout.txt names what becomes of every pointer.
+ */
+#ifndef REPLAY_INDEX_SNAPSHOT_PARTS_H
+#define REPLAY_INDEX_SNAPSHOT_PARTS_H
+
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/texture.h"
+#include "replay/index/snapshot.h"
+
+/* ---- saving ---- */
+
+struct saver {
+	struct gls_exec *x;
+	const struct snapshot_blobs *blobs;
+	struct bytes *out;
+	uint64_t held; /* bytes of all blobs so far */
+	int err;
+	size_t wanted; /* snapshot_place: the byte that is asked about, SIZE_MAX else */
+	char place[96];
+};
+
+/** Say what comes next, so that snapshot_place can name a byte. */
+void saver_section(struct saver *s, const char *what, uint64_t number);
+
+/** The name of a blob: XXH3-128. */
+void saver_name(const void *data, size_t n, uint64_t name[2]);
+void saver_blob(struct saver *s, const void *data, size_t n);
+void saver_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n);
+
+/* ---- loading: nothing read is believed ---- */
+
+struct loader {
+	struct gls_exec *x;
+	const struct snapshot_blobs *blobs;
+	struct cursor in;
+	int err; /* ERR_SYSTEM: no memory (reported) */
+};
+
+int loader_is_bad(const struct loader *l);
+
+/** n bytes of zeros, to be freed with free(); NULL: the loader is bad, or becomes so. */
+void *loader_alloc(struct loader *l, size_t n);
+
+/** A count of things that take so many bytes each at least: no more than there can be. */
+uint64_t loader_count(struct loader *l, size_t bytes);
+
+/** @return a blob's bytes, to be freed with free(), or NULL where there are none; *n receives how many */
+uint8_t *loader_blob(struct loader *l, size_t *n);
+
+/* ---- tables, in ascending order of their keys: equal tables are equal bytes ---- */
+
+struct snapshot_table {
+	const char *what;   /* for snapshot_place; NULL: values are not named one by one */
+	size_t least_bytes; /* of an entry */
+	void (*put)(struct saver *s, void *value);
+	void *(*get)(struct loader *l); /* NULL: the loader is bad, or there is nothing to keep */
+	void (*drop)(void *value);      /* frees one that cannot be kept */
+};
+void saver_table(struct saver *s, const struct table *t, const struct snapshot_table *how);
+void loader_table(struct loader *l, struct table *t, const struct snapshot_table *how);
+
+extern const struct snapshot_table snapshot_numbers; /* values are numbers and no pointers */
+extern const struct snapshot_table snapshot_lists;   /* snapshot_lists.c */
+
+/* ---- the parts ---- */
+
+void snapshot_put_share(struct saver *s, const struct gls_share *share); /* snapshot_objects.c */
+void snapshot_get_share(struct loader *l, struct gls_share *share);
+void snapshot_put_state(struct saver *s, const struct gls_state *st);    /* snapshot_state.c */
+void snapshot_get_state(struct loader *l, struct gls_state *st);
+
+#endif

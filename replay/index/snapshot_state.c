@@ -1,0 +1,174 @@
+#include "replay/index/snapshot_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/gl/geometry/eval.h"
+#include "replay/gl/geometry/vertexarray.h"
+
+/* ---- vertex arrays ---- */
+
+/* Of all arrays. */
+static void put_array_memory(struct saver *s, const struct gls_array *arrays)
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
+		saver_blob(s, arrays[i].client, arrays[i].client ? arrays[i].client_bytes : 0);
+}
+
+/* The pointers among what was read are none until their bytes are. */
+static void get_array_memory(struct loader *l, struct gls_array *arrays)
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
+		size_t n;
+
+		arrays[i].client = loader_is_bad(l) ? NULL : loader_blob(l, &n);
+		arrays[i].client_room = arrays[i].client ? n : 0;
+		if (!loader_is_bad(l) && arrays[i].client_room != arrays[i].client_bytes)
+			l->in.failed = 1;
+	}
+}
+
+/* Leave out pointers to client memory: it belongs to the arrays in use and not to those on a stack. */
+static void forget_memory(struct gls_array *arrays)
+{
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
+		arrays[i].client = NULL;
+		arrays[i].client_room = 0;
+	}
+}
+
+static void put_vertex_array(struct saver *s, void *value)
+{
+	const struct gls_vertex_array *object = value;
+	struct gls_vertex_array raw = *object;
+
+	forget_memory(raw.arrays);
+	bytes_put(s->out, &raw, sizeof(raw));
+	put_array_memory(s, object->arrays);
+}
+
+static void drop_vertex_array(void *object)
+{
+	gls_vertex_array_free(object);
+}
+
+static void *get_vertex_array(struct loader *l)
+{
+	struct gls_vertex_array *object = loader_alloc(l, sizeof(*object));
+
+	if (!object)
+		return NULL;
+	cursor_copy(&l->in, object, sizeof(*object));
+	get_array_memory(l, object->arrays);
+	if (!loader_is_bad(l))
+		return object;
+	drop_vertex_array(object);
+	return NULL;
+}
+
+static const struct snapshot_table vertex_arrays = {
+	NULL, sizeof(struct gls_vertex_array), put_vertex_array, get_vertex_array, drop_vertex_array
+};
+
+/* ---- the state of a context ---- */
+
+static uint64_t context_of(const struct gls_exec *x, const struct gls_state *st)
+{
+	uint64_t i = 0;
+
+	while (&x->contexts[i]->state != st)
+		i++;
+	return i;
+}
+
+/* What was pushed once, and is not read again: it differs with what was left out of lists that drew nothing (effect.c). */
+static void clear_unused(struct gls_matrix_stack *stack)
+{
+	memset(stack->matrices[stack->depth + 1], 0, (GLS_MAX_MATRICES - 1 - stack->depth) * sizeof(stack->matrices[0]));
+}
+
+void snapshot_put_state(struct saver *s, const struct gls_state *st)
+{
+	struct gls_state raw = *st;
+
+	forget_memory(raw.client.arrays);
+	raw.attrib_stack = NULL;
+	raw.client_stack = NULL;
+	raw.share = NULL;
+	raw.list = NULL;
+	raw.maps = NULL;
+	memset(&raw.vertex_arrays, 0, sizeof(raw.vertex_arrays));
+	raw.dirty = GLS_DIRTY_ALL;
+	clear_unused(&raw.modelview);
+	clear_unused(&raw.projection);
+	clear_unused(&raw.color_matrix);
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		clear_unused(&raw.texture[u]);
+	saver_section(s, "struct gls_state of context", context_of(s->x, st));
+	bytes_put(s->out, &raw, sizeof(raw));
+	saver_section(s, "array memory of context", context_of(s->x, st));
+	put_array_memory(s, st->client.arrays);
+	saver_section(s, "vertex array objects of context", context_of(s->x, st));
+	saver_table(s, &st->vertex_arrays, &vertex_arrays);
+	saver_section(s, "attribute stacks of context", context_of(s->x, st));
+	bytes_put(s->out, st->attrib_stack, st->attrib_depth * sizeof(*st->attrib_stack));
+	for (unsigned i = 0; i < st->client_depth; i++) {
+		struct gls_saved_client saved = st->client_stack[i];
+		forget_memory(saved.client.arrays);
+		bytes_put(s->out, &saved, sizeof(saved));
+	}
+	saver_section(s, "evaluators' maps of context", context_of(s->x, st));
+	gls_maps_save(st->maps, s->out);
+}
+
+static int depth_fits(const struct gls_matrix_stack *loaded, const struct gls_matrix_stack *made)
+{
+	return loaded->max == made->max && loaded->depth < made->max;
+}
+
+/* Numbers that are used as places in arrays. */
+static int state_fits(const struct gls_state *raw, const struct gls_state *made)
+{
+	int fits = depth_fits(&raw->modelview, &made->modelview) && depth_fits(&raw->projection, &made->projection) &&
+	           depth_fits(&raw->color_matrix, &made->color_matrix);
+
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		fits &= depth_fits(&raw->texture[u], &made->texture[u]);
+	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
+		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
+	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&
+	       raw->a.texturing.active < GLS_MAX_UNITS && raw->client.active_texture < GLS_MAX_UNITS && !raw->begin_mode;
+}
+
+void snapshot_get_state(struct loader *l, struct gls_state *st)
+{
+	struct gls_state raw;
+
+	cursor_copy(&l->in, &raw, sizeof(raw));
+	if (loader_is_bad(l) || !state_fits(&raw, st)) {
+		l->in.failed = 1;
+		return;
+	}
+	forget_memory(raw.client.arrays);
+	raw.attrib_stack = st->attrib_stack;
+	raw.client_stack = st->client_stack;
+	raw.share = st->share;
+	raw.list = NULL;
+	raw.maps = NULL;
+	memset(&raw.vertex_arrays, 0, sizeof(raw.vertex_arrays));
+	raw.dirty = GLS_DIRTY_ALL;
+	*st = raw;
+	get_array_memory(l, st->client.arrays);
+	loader_table(l, &st->vertex_arrays, &vertex_arrays);
+	cursor_copy(&l->in, st->attrib_stack, st->attrib_depth * sizeof(*st->attrib_stack));
+	cursor_copy(&l->in, st->client_stack, st->client_depth * sizeof(*st->client_stack));
+	for (unsigned i = 0; i < st->attrib_depth; i++)
+		if (st->attrib_stack[i].attribs.texturing.active >= GLS_MAX_UNITS)
+			l->in.failed = 1;
+	for (unsigned i = 0; i < st->client_depth; i++) {
+		forget_memory(st->client_stack[i].client.arrays);
+		if (st->client_stack[i].client.active_texture >= GLS_MAX_UNITS)
+			l->in.failed = 1;
+	}
+	st->maps = gls_maps_load(&l->in);
+}
