@@ -142,11 +142,34 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 
 /* --- Values -------------------------------------------------------------------------------------------------------- */
 
+/* @return the place of a value in the row's words, or ERR_USAGE (reported) */
+static int find_word(const struct options_row *row, const char *value)
+{
+	char list[160] = "";
+	size_t n = 0;
+
+	for (int i = 0; row->words[i]; i++) {
+		if (strcmp(value, row->words[i]) == 0)
+			return i;
+		n += (size_t)snprintf(list + n, sizeof(list) - n, "%s%s", !i ? "" : row->words[i + 1] ? ", " : " or ", row->words[i]);
+		n = n < sizeof(list) ? n : sizeof(list) - 1;
+	}
+	return err_report(ERR_USAGE, NULL, "--%s takes %s, not '%s'", row->name, list, value);
+}
+
 int options_text(const struct options_row *row, const char *value, void *out)
 {
-	(void)row;
 	*(const char **)out = value;
-	return 0;
+	return row->words && find_word(row, value) < 0 ? ERR_USAGE : 0;
+}
+
+int options_word(const struct options_row *row, const char *value, void *out)
+{
+	const int i = find_word(row, value);
+
+	if (i >= 0)
+		*(int *)out = i;
+	return i < 0 ? i : 0;
 }
 
 int options_flag(const struct options_row *row, const char *value, void *out)
@@ -176,22 +199,6 @@ int options_number(const struct options_row *row, const char *value, void *out)
 	return 0;
 }
 
-int options_word(const struct options_row *row, const char *value, void *out)
-{
-	char list[160] = "";
-	size_t n = 0;
-
-	for (int i = 0; row->words[i]; i++) {
-		if (strcmp(value, row->words[i]) == 0) {
-			*(int *)out = i;
-			return 0;
-		}
-		n += (size_t)snprintf(list + n, sizeof(list) - n, "%s%s", i ? row->words[i + 1] ? ", " : " or " : "", row->words[i]);
-		n = n < sizeof(list) ? n : sizeof(list) - 1;
-	}
-	return err_report(ERR_USAGE, NULL, "--%s takes %s, not '%s'", row->name, list, value);
-}
-
 int options_bytes(const struct options_row *row, const char *value, void *out)
 {
 	static const char units[] = "KMGT";
@@ -200,7 +207,7 @@ int options_bytes(const struct options_row *row, const char *value, void *out)
 	const char *unit = *end ? strchr(units, *end & ~0x20) : NULL;
 
 	if (end == value || !(bytes > 0) || (*end && (!unit || end[1])) || bytes > 1e15)
-		return err_report(ERR_USAGE, NULL, "--%s takes a size as 800M or 4G, not '%s'", row->name, value);
+		return err_report(ERR_USAGE, NULL, "--%s takes a number of bytes such as 800M or 4G, not '%s'", row->name, value);
 	for (const char *u = units; unit && u <= unit; u++)
 		bytes *= 1024;
 	*(uint64_t *)out = (uint64_t)bytes;

@@ -33,7 +33,7 @@ struct options_row {
 	int (*set)(const struct options_row *row, const char *value, void *out);
 	size_t at;
 	unsigned most;            /* options_number: the largest value */
-	const char *const *words; /* options_word: what may be said, ended by NULL */
+	const char *const *words; /* options_word, options_text: what may be said, ended by NULL */
 	int is_required;
 	int kind;                 /* the verb's own */
 };
@@ -70,7 +70,7 @@ int options_misuse(const struct options_table *table);
 void options_print_help(const struct options_table *table, FILE *out);
 
 /* Values of the common kinds; `out` is what stands in brackets. */
-int options_text(const struct options_row *row, const char *value, void *out);   /* const char *, borrowed */
+int options_text(const struct options_row *row, const char *value, void *out);   /* const char *, borrowed; of `words` if any */
 int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */
 int options_clear(const struct options_row *row, const char *value, void *out);  /* int: 0 */
 int options_number(const struct options_row *row, const char *value, void *out); /* unsigned, 0 to `most` */

@@ -1,23 +1,13 @@
 /* relume dump: a trace's calls as text, in the manner of `apitrace dump`. */
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "replay/trace/reader.h"
-
-static void print_help(void)
-{
-	puts("usage: relume dump [OPTIONS] TRACE\n"
-	     "\n"
-	     "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n"
-	     "\n"
-	     "  -c, --calls LIST  only these calls: \"100\", \"0-50\", \"0-1000x10\", or several with commas\n"
-	     "  -h, --help        this text");
-}
 
 static void print_string(FILE *out, const char *s, uint64_t n)
 {
@@ -152,42 +142,43 @@ static void print_call(FILE *out, const struct call *c)
 	fputc('\n', out);
 }
 
+struct dump {
+	struct frame_list calls;
+};
+
+static const struct options_row rows[] = {
+	{ "calls", 'c', "LIST", "only these calls: \"100\", \"0-50\", \"0-1000x10\", or several with commas",
+	  options_frames, .at = offsetof(struct dump, calls) },
+};
+
+static const struct options_table table = {
+	.verb = "dump",
+	.head = "usage: relume dump [OPTIONS] TRACE\n"
+	        "\n"
+	        "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace",
+	.least = 1,
+	.most = 1,
+};
+
 int dump_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "calls", required_argument, NULL, 'c' }, { "help", no_argument, NULL, 'h' }, { 0 },
-	};
-	struct frame_list calls = { 0 };
+	struct dump o = { 0 };
+	struct options_line line;
 	struct trace_reader *reader = NULL;
 	const struct call *call;
 	uint64_t last;
-	int opt, rc;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "c:h", options, NULL)) != -1) {
-		switch (opt) {
-		case 'c':
-			frame_list_free(&calls);
-			rc = frame_list_parse(optarg, &calls);
-			if (rc)
-				return -rc;
-			break;
-		case 'h':
-			print_help();
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1) {
-		rc = err_report(ERR_USAGE, NULL, "dump takes one trace; 'relume help dump' says more");
-		goto done;
-	}
-	rc = trace_reader_open(&reader, argv[optind]);
+	if (!rc)
+		rc = trace_reader_open(&reader, line.words[0]);
 	if (rc)
 		goto done;
-	last = frame_list_last(&calls);
+	last = frame_list_last(&o.calls);
 	while ((rc = trace_reader_next(reader, &call)) == 1) {
-		if (frame_list_contains(&calls, call->number))
+		if (frame_list_contains(&o.calls, call->number))
 			print_call(stdout, call);
 		/* Calls come in the order they returned: those of other threads may still be on their way. */
 		if (last < UINT64_MAX && call->number > last + 1024)
@@ -199,6 +190,6 @@ int dump_main(int argc, char **argv)
 		rc = err_report(ERR_SYSTEM, NULL, "standard output cannot be written");
 done:
 	trace_reader_close(&reader);
-	frame_list_free(&calls);
-	return -rc;
+	frame_list_free(&o.calls);
+	return rc > 0 ? 0 : -rc;
 }

@@ -1,6 +1,5 @@
 /* relume export: a frame as glTF 2.0. */
 #include <errno.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -8,23 +7,34 @@
 
 #include "base/err.h"
 #include "base/folder.h"
-#include "base/frames.h"
 #include "base/part.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "scene/gltf.h"
 #include "replay/replay.h"
 
-static void print_help(void)
-{
-	puts("usage: relume export [OPTIONS] -o FILE.glb TRACE\n"
-	     "\n"
-	     "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
-	     "cameras and lights. What glTF has no words for is left out and named.\n"
-	     "\n"
-	     "  -f, --frame N      which frame, from 0 (default 0)\n"
-	     "  -o, --output FILE  the file; appears when it is whole\n"
-	     "  -h, --help         this text");
-}
+struct export {
+	uint64_t frame;
+	const char *output;
+};
+
+static const struct options_row rows[] = {
+	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct export, frame) },
+	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text, .at = offsetof(struct export, output), .is_required = 1 },
+};
+
+static const struct options_table table = {
+	.verb = "export",
+	.head = "usage: relume export [OPTIONS] -o FILE.glb TRACE\n"
+	        "\n"
+	        "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
+	        "cameras and lights. What glTF has no words for is left out and named.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace and -o FILE.glb",
+	.least = 1,
+	.most = 1,
+};
 
 static void report_losses(const char *where, const struct gltf_losses *l)
 {
@@ -72,38 +82,15 @@ static int write_file(const char *path, const struct scene *scene)
 
 int export_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "frame", required_argument, NULL, 'f' },
-		{ "output", required_argument, NULL, 'o' },
-		{ "help", no_argument, NULL, 'h' },
-		{ 0 },
-	};
+	struct export o = { 0 };
+	struct options_line line;
 	struct scene *scene = NULL;
-	const char *output = NULL;
-	uint64_t frame = 0;
-	int opt, rc;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "f:o:h", options, NULL)) != -1) {
-		switch (opt) {
-		case 'f':
-			if (frame_number_parse(optarg, &frame))
-				return -ERR_USAGE;
-			break;
-		case 'o':
-			output = optarg;
-			break;
-		case 'h':
-			print_help();
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1 || !output)
-		return -err_report(ERR_USAGE, NULL, "export takes one trace and -o FILE.glb; 'relume help export' says more");
-	rc = replay_one_frame(argv[optind], frame, &scene);
 	if (!rc)
-		rc = write_file(output, scene);
+		rc = replay_one_frame(line.words[0], o.frame, &scene);
+	if (!rc)
+		rc = write_file(o.output, scene);
 	scene_release(&scene);
-	return -rc;
+	return rc > 0 ? 0 : -rc;
 }

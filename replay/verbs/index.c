@@ -1,5 +1,4 @@
 /* relume index: make, describe or check the index of a trace. */
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,23 +6,36 @@
 #include <sys/stat.h>
 
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "replay/index/index.h"
 #include "base/json.h"
 #include "replay/replay.h"
 
-static const char help[] =
-	"usage: relume index [OPTIONS] TRACE\n"
-	"\n"
-	"Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on first need\n"
-	"anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
-	"TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n"
-	"\n"
-	"      --force   make it anew even where it is current\n"
-	"      --check   compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where\n"
-	"                they differ)\n"
-	"  -j, --json    as JSON\n"
-	"  -h, --help    this text\n";
+struct asked {
+	int force, check, json;
+};
+
+static const struct options_row rows[] = {
+	{ "force", 0, NULL, "make it anew even where it is current", options_flag, .at = offsetof(struct asked, force) },
+	{ "check", 0, NULL, "compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where they differ)",
+	  options_flag, .at = offsetof(struct asked, check) },
+	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+};
+
+static const struct options_table table = {
+	.verb = "index",
+	.head = "usage: relume index [OPTIONS] TRACE\n"
+	        "\n"
+	        "Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on first need\n"
+	        "anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
+	        "TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace",
+	.least = 1,
+	.most = 1,
+};
 
 static uint64_t file_bytes(const char *path)
 {
@@ -68,40 +80,27 @@ static void print_json(const char *trace, const struct index_facts *f)
 
 int index_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "force", no_argument, NULL, 'F' }, { "check", no_argument, NULL, 'c' }, { "json", no_argument, NULL, 'j' },
-		{ "help", no_argument, NULL, 'h' },  { 0 },
-	};
-	enum index_mode mode = INDEX_KEEP;
+	struct asked o = { 0 };
+	struct options_line line;
 	struct index *index = NULL;
 	struct index_facts facts;
 	struct replay *rp = NULL;
-	int check = 0, json = 0, opt, rc;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "jh", options, NULL)) != -1) {
-		switch (opt) {
-		case 'F': mode = INDEX_FORCE; break;
-		case 'c': check = 1; break;
-		case 'j': json = 1; break;
-		case 'h': fputs(help, stdout); return 0;
-		default: return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1)
-		return -err_report(ERR_USAGE, NULL, "index takes one trace; 'relume help index' says more");
-	rc = replay_open(&rp, argv[optind]);
 	if (!rc)
-		rc = index_open(&index, argv[optind], replay_trace_hash(rp), mode, rp);
+		rc = replay_open(&rp, line.words[0]);
+	if (!rc)
+		rc = index_open(&index, line.words[0], replay_trace_hash(rp), o.force ? INDEX_FORCE : INDEX_KEEP, rp);
 	if (!rc) {
 		facts = index_facts(index);
-		if (json)
-			print_json(argv[optind], &facts);
+		if (o.json)
+			print_json(line.words[0], &facts);
 		else
-			print_text(argv[optind], &facts);
-		if (check)
+			print_text(line.words[0], &facts);
+		if (o.check)
 			rc = index_check(index);
 	}
 	index_close(&index);
 	replay_close(&rp);
-	return -rc;
+	return rc > 0 ? 0 : -rc;
 }

@@ -1,11 +1,11 @@
 /* relume info: what a trace holds. */
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "base/json.h"
 #include "replay/replay.h"
@@ -50,18 +50,28 @@ static void print_ranges(const struct frame_ranges *r)
 	puts(r->n > TOP_CALLS ? ", ..." : "");
 }
 
-static void print_help(void)
-{
-	puts("usage: relume info [OPTIONS] TRACE\n"
-	     "\n"
-	     "Say what a trace holds: frames, calls, contexts, drawable size, frames that may show what earlier ones\n"
-	     "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
-	     "program itself made.\n"
-	     "\n"
-	     "  -a, --all    every command that was called, not only the most frequent\n"
-	     "  -j, --json   as JSON\n"
-	     "  -h, --help   this text");
-}
+struct asked {
+	int all, json;
+};
+
+static const struct options_row rows[] = {
+	{ "all", 'a', NULL, "every command that was called, not only the most frequent", options_flag, .at = offsetof(struct asked, all) },
+	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+};
+
+static const struct options_table table = {
+	.verb = "info",
+	.head = "usage: relume info [OPTIONS] TRACE\n"
+	        "\n"
+	        "Say what a trace holds: frames, calls, contexts, drawable size, frames that may show what earlier ones\n"
+	        "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
+	        "program itself made.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace",
+	.least = 1,
+	.most = 1,
+};
 
 static void print_counts(const char *title, const struct replay_count *counts, size_t n, size_t limit)
 {
@@ -166,35 +176,17 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 
 int info_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "all", no_argument, NULL, 'a' }, { "json", no_argument, NULL, 'j' }, { "help", no_argument, NULL, 'h' }, { 0 },
-	};
+	struct asked o = { 0 };
+	struct options_line line;
 	struct frame_ranges earlier = { 0 };
-	size_t limit = TOP_CALLS;
 	struct replay *rp = NULL;
 	struct scene *scene = NULL;
-	int json = 0, opt, rc;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "ajh", options, NULL)) != -1) {
-		switch (opt) {
-		case 'a':
-			limit = (size_t)-1;
-			break;
-		case 'j':
-			json = 1;
-			break;
-		case 'h':
-			print_help();
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1)
-		return -err_report(ERR_USAGE, NULL, "info takes one trace; 'relume help info' says more");
-	rc = replay_open(&rp, argv[optind]);
+	if (!rc)
+		rc = replay_open(&rp, line.words[0]);
 	if (rc)
-		return -rc;
+		return rc > 0 ? 0 : -rc;
 	/* Frames are built, so that what drawing does not do yet is found as well. */
 	while ((rc = replay_next_frame(rp, 1, &scene)) == 1) {
 		/* The first frame begins with an empty window. */
@@ -204,10 +196,10 @@ int info_main(int argc, char **argv)
 			break;
 	}
 	if (rc == 0 || replay_frame(rp)) {
-		if (json)
-			print_json(rp, argv[optind], &earlier);
+		if (o.json)
+			print_json(rp, line.words[0], &earlier);
 		else
-			print_text(rp, argv[optind], limit, &earlier);
+			print_text(rp, line.words[0], o.all ? (size_t)-1 : TOP_CALLS, &earlier);
 	}
 	replay_close(&rp);
 	free(earlier.ranges);

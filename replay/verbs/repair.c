@@ -1,26 +1,38 @@
 /* relume repair: what is whole of a trace that was cut or damaged, as a trace of its own. */
-#include <getopt.h>
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 #include "replay/trace/trace_out.h"
 
-static const char help[] =
-	"usage: relume repair -o NEW TRACE\n"
-	"\n"
-	"Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: every call up\n"
-	"to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. What follows\n"
-	"damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes readable but\n"
-	"changes what they say goes unnoticed, as recordings hold no checksums.\n"
-	"\n"
-	"  -o, --output FILE  the recording to write; it appears when it is whole\n"
-	"  -h, --help         this text\n"
-	"\n"
-	"Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n";
+struct asked {
+	const char *new;
+};
+
+static const struct options_row rows[] = {
+	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
+	  options_text, .at = offsetof(struct asked, new), .is_required = 1 },
+};
+
+static const struct options_table table = {
+	.verb = "repair",
+	.head = "usage: relume repair -o NEW TRACE\n"
+	        "\n"
+	        "Save what can be read of a recording that was cut (a full disk, a machine that went down) or damaged: every call up\n"
+	        "to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. What follows\n"
+	        "damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes readable but\n"
+	        "changes what they say goes unnoticed, as recordings hold no checksums.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
+	.takes = "one trace and -o with the file to write",
+	.least = 1,
+	.most = 1,
+};
 
 struct saved {
 	uint64_t calls, frames;
@@ -81,20 +93,11 @@ static int repair(const char *path, const char *new)
 
 int repair_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "output", required_argument, NULL, 'o' }, { "help", no_argument, NULL, 'h' }, { 0 },
-	};
-	const char *new = NULL;
-	int opt;
+	struct asked o = { 0 };
+	struct options_line line;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "o:h", options, NULL)) != -1) {
-		switch (opt) {
-		case 'o': new = optarg; break;
-		case 'h': fputs(help, stdout); return 0;
-		default: return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1 || !new)
-		return -err_report(ERR_USAGE, NULL, "repair takes one trace and -o with the file to write; 'relume help repair' says more");
-	return -repair(argv[optind], new);
+	if (!rc)
+		rc = repair(line.words[0], o.new);
+	return rc > 0 ? 0 : -rc;
 }

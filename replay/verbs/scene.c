@@ -1,63 +1,48 @@
 /* relume scene: the scene of a frame, as text or JSON. */
-#include <getopt.h>
 #include <stdio.h>
 
 #include "base/err.h"
-#include "base/frames.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "replay/replay.h"
 #include "scene/json.h"
 
-static void print_help(void)
-{
-	puts("usage: relume scene [OPTIONS] TRACE\n"
-	     "\n"
-	     "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n"
-	     "\n"
-	     "  -f, --frame N   which frame, from 0 (default 0)\n"
-	     "  -j, --json      everything, as JSON; otherwise one line per instance\n"
-	     "  -v, --vertices  with --json: the meshes' arrays too\n"
-	     "  -h, --help      this text");
-}
+struct asked {
+	uint64_t frame;
+	int json, vertices;
+};
+
+static const struct options_row rows[] = {
+	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
+	{ "json", 'j', NULL, "everything, as JSON; otherwise one line per instance", options_flag, .at = offsetof(struct asked, json) },
+	{ "vertices", 'v', NULL, "with --json: the meshes' arrays too", options_flag, .at = offsetof(struct asked, vertices) },
+};
+
+static const struct options_table table = {
+	.verb = "scene",
+	.head = "usage: relume scene [OPTIONS] TRACE\n"
+	        "\n"
+	        "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace",
+	.least = 1,
+	.most = 1,
+};
 
 int scene_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "frame", required_argument, NULL, 'f' }, { "json", no_argument, NULL, 'j' },
-		{ "vertices", no_argument, NULL, 'v' },    { "help", no_argument, NULL, 'h' }, { 0 },
-	};
+	struct asked o = { 0 };
+	struct options_line line;
 	struct scene *scene = NULL;
-	uint64_t frame = 0;
-	int json = 0, vertices = 0, opt, rc;
+	int rc = options_parse(&table, argc, argv, &o, &line);
 
-	while ((opt = getopt_long(argc, argv, "f:jvh", options, NULL)) != -1) {
-		switch (opt) {
-		case 'f':
-			if (frame_number_parse(optarg, &frame))
-				return -ERR_USAGE;
-			break;
-		case 'j':
-			json = 1;
-			break;
-		case 'v':
-			vertices = 1;
-			break;
-		case 'h':
-			print_help();
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (argc - optind != 1)
-		return -err_report(ERR_USAGE, NULL, "scene takes one trace; 'relume help scene' says more");
-	rc = replay_one_frame(argv[optind], frame, &scene);
-	if (rc)
-		return -rc;
-	if (json)
-		scene_write_json(stdout, scene, vertices);
-	else
+	if (!rc)
+		rc = replay_one_frame(line.words[0], o.frame, &scene);
+	if (!rc && o.json)
+		scene_write_json(stdout, scene, o.vertices);
+	else if (!rc)
 		scene_write_text(stdout, scene);
 	scene_release(&scene);
-	return 0;
+	return rc > 0 ? 0 : -rc;
 }

@@ -4,7 +4,6 @@
  * All calls of the frames asked for are kept, and of the frames before them what makes objects and state (early.h). Frames may show
  * what earlier frames drew: then the new trace begins earlier, with a frame from which on nothing does.
  */
-#include <getopt.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -14,6 +13,7 @@
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "capture/format/ref.h"
 #include "replay/verbs/early.h"
@@ -21,21 +21,6 @@
 #include "replay/trace/reader.h"
 #include "replay/replay.h"
 #include "replay/trace/trace_out.h"
-
-static const char help[] =
-	"usage: relume trim -f FIRST-LAST -o NEW TRACE\n"
-	"\n"
-	"Cut a recording down to some of its frames. NEW needs nothing but itself: it holds all calls of these frames, and of\n"
-	"the frames before them those that make objects and state, so that it shows the same pictures, here and in apitrace's\n"
-	"tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is not cleared, or\n"
-	"is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
-	"Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n"
-	"\n"
-	"  -f, --frames RANGE  the frames to keep: 100-120, or 7\n"
-	"  -o, --output FILE   the recording to write; it appears when it is whole\n"
-	"  -h, --help          this text\n"
-	"\n"
-	"Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n";
 
 struct trim {
 	const char *path, *new;
@@ -179,11 +164,13 @@ static int trim(struct trim *t)
 	return rc;
 }
 
-static int parse_frames(const char *text, struct trim *t)
+static int take_frames(const struct options_row *row, const char *text, void *out)
 {
+	struct trim *t = out;
 	struct frame_list list = { 0 };
 	int rc = frame_list_parse(text, &list);
 
+	(void)row;
 	if (rc)
 		return rc;
 	if (list.n_ranges == 1 && (list.ranges[0].step == 1 || list.ranges[0].first == list.ranges[0].last)) {
@@ -196,32 +183,38 @@ static int parse_frames(const char *text, struct trim *t)
 	return rc;
 }
 
+static const struct options_row rows[] = {
+	{ "frames", 'f', "RANGE", "the frames to keep: 100-120, or 7", take_frames, .at = 0, .is_required = 1 },
+	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
+	  options_text, .at = offsetof(struct trim, new), .is_required = 1 },
+};
+
+static const struct options_table table = {
+	.verb = "trim",
+	.head = "usage: relume trim -f FIRST-LAST -o NEW TRACE\n"
+	        "\n"
+	        "Cut a recording down to some of its frames. NEW needs nothing but itself: it holds all calls of these frames, and of\n"
+	        "the frames before them those that make objects and state, so that it shows the same pictures, here and in apitrace's\n"
+	        "tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is not cleared, or\n"
+	        "is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
+	        "Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n",
+	.takes = "one trace, -f with the frames and -o with the file to write",
+	.least = 1,
+	.most = 1,
+};
+
 int trim_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "frames", required_argument, NULL, 'f' }, { "output", required_argument, NULL, 'o' },
-		{ "help", no_argument, NULL, 'h' },         { 0 },
-	};
 	struct trim t = { 0 };
-	int opt, have_frames = 0, rc = 0;
+	struct options_line line;
+	int rc = options_parse(&table, argc, argv, &t, &line);
 
-	while (!rc && (opt = getopt_long(argc, argv, "f:o:h", options, NULL)) != -1) {
-		switch (opt) {
-		case 'f':
-			rc = parse_frames(optarg, &t);
-			have_frames = 1;
-			break;
-		case 'o': t.new = optarg; break;
-		case 'h':
-			fputs(help, stdout);
-			return 0;
-		default: rc = ERR_USAGE;
-		}
+	if (!rc) {
+		t.path = line.words[0];
+		rc = trim(&t);
 	}
-	if (!rc && (argc - optind != 1 || !t.new || !have_frames))
-		rc = err_report(ERR_USAGE, NULL, "trim takes one trace, -f with the frames and -o with the file to write; "
-		                "'relume help trim' says more");
-	t.path = rc ? NULL : argv[optind];
-	rc = rc ? rc : trim(&t);
-	return -rc;
+	return rc > 0 ? 0 : -rc;
 }
