@@ -1,7 +1,6 @@
 /* relume record: runs a program with the recorder preloaded. What is recorded, and where, travels in RELUME_* variables. */
 #include <errno.h>
 #include <fcntl.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <signal.h>
@@ -16,6 +15,7 @@
 
 #include "base/beside.h"
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "capture/key.h"
 #include "capture/stats.h"
@@ -24,109 +24,89 @@ enum { MAX_NUMBER_BYTES = 24, PATIENCE_S = 5 };
 
 struct options {
 	char trace[STATS_PATH_BYTES]; /* absolute: the program may change its directory */
-	const char *ref, *ref_every, *max_frames, *quit_after, *frame_end;
+	const char *output, *ref, *ref_every, *max_frames, *quit_after, *frame_end;
 	uint64_t max_bytes;
 	const char *first_frame, *last_frame, *start_key;
 	int no_children, paused;
 	char **program;
 };
 
-static void print_help(FILE *out)
-{
-	fputs("usage: relume record [OPTIONS] -- PROGRAM [ARGUMENTS]\n"
-	      "\n"
-	      "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
-	      "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
-	      "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
-	      "again at the end of a frame; what the program makes and sets meanwhile is kept, so that what follows is whole.\n"
-	      "\n"
-	      "  -o, --output NAME.trace  where to record to (PROGRAM.trace in the current directory); replaced\n"
-	      "      --ref KINDS          keep what the program showed in NAME.ref: color, depth, or color,depth\n"
-	      "      --ref-every N        only every Nth frame of these\n"
-	      "      --frames A-B         record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace\n"
-	      "                           begins with all that they need and calls them 0 to B-A; the program goes on\n"
-	      "      --paused             begin with recording switched off\n"
-	      "      --start-key KEY      the same; the key (F9, Pause, r, ...; as X calls it) switches as SIGUSR2 does\n"
-	      "      --frame-end CALL     a frame ends with each swap and, for programs that do not swap, with each:\n"
-	      "                           flush, finish, clear (of the color buffer), or readpixels after something was\n"
-	      "                           drawn (swap: with nothing else; OSMesa: with flush and finish); the frame is then\n"
-	      "                           the buffer that is drawn to, front or back\n"
-	      "      --max-frames N       end the recording after N frames; the program goes on\n"
-	      "      --max-size BYTES     end the recording after the first frame that makes the trace so large (K, M and G\n"
-	      "                           count 1024, 1024^2, 1024^3); the program goes on\n"
-	      "      --no-children        record only the process that is started, not those that it starts\n"
-	      "      --quit-after N       end the recording and the program after N frames, and exit with 0\n"
-	      "      --env NAME=VALUE     set a variable for the program; may be repeated\n"
-	      "  -h, --help               this text\n"
-	      "\n"
-	      "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
-	      out);
-}
+/* --- The command line ---------------------------------------------------------------------------------------------- */
 
 /* A whole number from 1 on. */
-static int check_number(const char *option, const char *text)
+static int take_count(const struct options_row *row, const char *text, void *out)
 {
 	char *end;
 
 	errno = 0;
 	if (*text < '0' || *text > '9' || strlen(text) >= MAX_NUMBER_BYTES || strtoull(text, &end, 10) == 0 || *end || errno)
-		return err_report(ERR_USAGE, NULL, "%s takes a number of frames, not '%s'", option, text);
-	return 0;
+		return err_report(ERR_USAGE, NULL, "--%s takes a number of frames, not '%s'", row->name, text);
+	return options_text(row, text, out);
 }
 
-/* Bytes, with K, M or G behind. */
-static int read_size(const char *text, uint64_t *out)
-{
-	static const char units[] = "KMG";
-	const char *unit = NULL;
-	uint64_t size;
-	char *end;
-
-	errno = 0;
-	size = strtoull(text, &end, 10);
-	if (*text >= '0' && *text <= '9' && *end)
-		unit = strchr(units, *end);
-	for (int i = 0; unit && i <= unit - units && !errno; i++, size *= 1024)
-		if (size > UINT64_MAX / 1024)
-			errno = ERANGE;
-	if (errno || !size || *text < '0' || *text > '9' || end[unit ? 1 : 0])
-		return err_report(ERR_USAGE, NULL, "--max-size takes a number of bytes such as 500M, not '%s'", text);
-	*out = size;
-	return 0;
-}
-
-/* "A-B" or "A-", cut in two in place. */
-static int read_frames(char *text, struct options *o)
+/* "A-B" or "A-", cut in two where it stands in argv. */
+static int take_frames(const struct options_row *row, const char *text, void *out)
 {
 	size_t digits = strspn(text, "0123456789"), more = text[digits] == '-' ? strspn(text + digits + 1, "0123456789") : 0;
-	char *last = text + digits + 1;
+	const char *last = text + digits + 1;
+	struct options *o = out;
 
 	if (!digits || digits >= MAX_NUMBER_BYTES - 4 || more >= MAX_NUMBER_BYTES - 4 || text[digits] != '-' || last[more] ||
 	    (more && strtoull(last, NULL, 10) < strtoull(text, NULL, 10)))
-		return err_report(ERR_USAGE, NULL, "--frames takes the first and the last frame as in 10-19, or 10-, not '%s'", text);
-	text[digits] = '\0';
+		return err_report(ERR_USAGE, NULL, "--%s takes the first and the last frame as in 10-19, or 10-, not '%s'", row->name, text);
+	((char *)text)[digits] = '\0';
 	o->first_frame = text;
 	o->last_frame = more ? last : NULL;
 	return 0;
 }
 
-static int check_frame_end(const char *text)
+static int take_variable(const struct options_row *row, const char *text, void *out)
 {
-	static const char *const names[] = FRAME_TRIGGER_NAMES;
-
-	for (int i = 0; i < N_FRAME_TRIGGERS; i++)
-		if (strcmp(text, names[i]) == 0)
-			return 0;
-	return err_report(ERR_USAGE, NULL, "--frame-end takes swap, flush, finish, clear or readpixels, not '%s'", text);
+	(void)out;
+	if (!strchr(text, '=') || text[0] == '=')
+		return err_report(ERR_USAGE, NULL, "--%s takes NAME=VALUE, not '%s'", row->name, text);
+	return putenv((char *)text) ? err_report(ERR_SYSTEM, NULL, "out of memory") : 0;
 }
 
-static int check_ref(const char *text)
-{
-	if (strcmp(text, "color") == 0 || strcmp(text, "depth") == 0 || strcmp(text, "color,depth") == 0 ||
-	    strcmp(text, "depth,color") == 0)
-		return 0;
-	return err_report(ERR_USAGE, NULL, "--ref takes color, depth or color,depth, not '%s'", text);
-}
+static const char *const frame_ends[] = FRAME_TRIGGER_NAMES;
+static const char *const ref_kinds[] = { "color", "depth", "color,depth", "depth,color", NULL };
+
+#define AT(member) .at = offsetof(struct options, member)
+
+static const struct options_row rows[] = {
+	{ "output", 'o', "NAME.trace", "where to record to (PROGRAM.trace in the current directory); replaced", options_text, AT(output) },
+	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
+	  options_text, AT(ref), .words = ref_kinds },
+	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
+	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace begins with all "
+	  "that they need and calls them 0 to B-A; the program goes on", take_frames, .at = 0 },
+	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
+	{ "start-key", 0, "KEY", "the same; the key (F9, Pause, r, ...; as X calls it) switches as SIGUSR2 does", options_text, AT(start_key) },
+	{ "frame-end", 0, "CALL", "a frame ends with each swap and, for programs that do not swap, with each: flush, finish, clear (of "
+	  "the color buffer), or readpixels after something was drawn (swap: with nothing else; OSMesa: with flush and finish); the "
+	  "frame is then the buffer that is drawn to, front or back", options_text, AT(frame_end), .words = frame_ends },
+	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
+	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace so large (K, M and G count 1024, 1024^2, "
+	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },
+	{ "no-children", 0, NULL, "record only the process that is started, not those that it starts", options_flag, AT(no_children) },
+	{ "quit-after", 0, "N", "end the recording and the program after N frames, and exit with 0", take_count, AT(quit_after) },
+	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_variable, .at = 0 },
+};
+
+static const struct options_table table = {
+	.verb = "record",
+	.head = "usage: relume record [OPTIONS] -- PROGRAM [ARGUMENTS]\n"
+	        "\n"
+	        "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
+	        "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
+	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
+	        "again at the end of a frame; what the program makes and sets meanwhile is kept, so that what follows is whole.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
+	.most = -1,
+	.stops = 1,
+};
 
 static int set_trace(struct options *o, const char *name)
 {
@@ -147,83 +127,21 @@ static int set_trace(struct options *o, const char *name)
 	return 0;
 }
 
-/* Fills `o`; returns 0, ERR_USAGE (reported), or 1 where the help text was asked for. */
+/* Fills `o`; returns 0, ERR_* (reported), or 1 where the help text was asked for. */
 static int parse(int argc, char **argv, struct options *o)
 {
-	enum { REF = 256, REF_EVERY, MAX_FRAMES, QUIT_AFTER, ENV, FRAME_END, MAX_SIZE, NO_CHILDREN, FRAMES, PAUSED, START_KEY };
-	static const struct option table[] = {
-		{ "output", required_argument, NULL, 'o' },       { "ref", required_argument, NULL, REF },
-		{ "ref-every", required_argument, NULL, REF_EVERY }, { "max-frames", required_argument, NULL, MAX_FRAMES },
-		{ "quit-after", required_argument, NULL, QUIT_AFTER }, { "env", required_argument, NULL, ENV },
-		{ "frame-end", required_argument, NULL, FRAME_END }, { "max-size", required_argument, NULL, MAX_SIZE },
-		{ "no-children", no_argument, NULL, NO_CHILDREN }, { "frames", required_argument, NULL, FRAMES },
-		{ "paused", no_argument, NULL, PAUSED }, { "start-key", required_argument, NULL, START_KEY },
-		{ "help", no_argument, NULL, 'h' },               { NULL, 0, NULL, 0 },
-	};
-	const char *output = NULL;
-	int option, rc = 0;
+	struct options_line line;
+	int rc = options_parse(&table, argc, argv, o, &line);
 
-	while (!rc && (option = getopt_long(argc, argv, "+o:h", table, NULL)) != -1) {
-		switch (option) {
-		case 'o':
-			output = optarg;
-			break;
-		case REF:
-			o->ref = optarg;
-			rc = check_ref(optarg);
-			break;
-		case REF_EVERY:
-			o->ref_every = optarg;
-			rc = check_number("--ref-every", optarg);
-			break;
-		case MAX_FRAMES:
-			o->max_frames = optarg;
-			rc = check_number("--max-frames", optarg);
-			break;
-		case QUIT_AFTER:
-			o->quit_after = optarg;
-			rc = check_number("--quit-after", optarg);
-			break;
-		case FRAME_END:
-			o->frame_end = optarg;
-			rc = check_frame_end(optarg);
-			break;
-		case MAX_SIZE:
-			rc = read_size(optarg, &o->max_bytes);
-			break;
-		case FRAMES:
-			rc = read_frames(optarg, o);
-			break;
-		case START_KEY:
-			o->start_key = optarg;
-			/* fall through */
-		case PAUSED:
-			o->paused = 1;
-			break;
-		case NO_CHILDREN:
-			o->no_children = 1;
-			break;
-		case ENV:
-			if (!strchr(optarg, '=') || optarg[0] == '=')
-				rc = err_report(ERR_USAGE, NULL, "--env takes NAME=VALUE, not '%s'", optarg);
-			else if (putenv(optarg))
-				rc = err_report(ERR_SYSTEM, NULL, "out of memory");
-			break;
-		case 'h':
-			print_help(stdout);
-			return 1;
-		default:
-			return ERR_USAGE; /* getopt_long has said what */
-		}
-	}
 	if (rc)
 		return rc;
-	if (optind >= argc)
+	if (!line.n_words)
 		return err_report(ERR_USAGE, NULL, "no program to record; 'relume record --help' shows how");
-	if (output && (!*output || output[strlen(output) - 1] == '/'))
-		return err_report(ERR_USAGE, NULL, "'%s' is no name for a trace", output);
-	o->program = argv + optind;
-	return set_trace(o, output);
+	if (o->output && (!*o->output || o->output[strlen(o->output) - 1] == '/'))
+		return err_report(ERR_USAGE, NULL, "'%s' is no name for a trace", o->output);
+	o->paused |= o->start_key != NULL;
+	o->program = line.words;
+	return set_trace(o, o->output);
 }
 
 static int find_recorder(char *out, size_t size)

@@ -10,7 +10,7 @@
 
 /* What ends a frame besides a swap, which always does: the words of `record --frame-end`, in this order. */
 enum frame_trigger { FRAME_SWAP, FRAME_FLUSH, FRAME_FINISH, FRAME_CLEAR, FRAME_READPIXELS, N_FRAME_TRIGGERS };
-#define FRAME_TRIGGER_NAMES { "swap", "flush", "finish", "clear", "readpixels" }
+#define FRAME_TRIGGER_NAMES { "swap", "flush", "finish", "clear", "readpixels", NULL }
 
 enum { STATS_MAX_PROCESSES = 64, STATS_MAX_UNKNOWN = 64, STATS_NAME_BYTES = 64, STATS_PATH_BYTES = 1024 };
 
