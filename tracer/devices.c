@@ -1,23 +1,34 @@
 /* relume devices: what there is to render on. */
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "tracer/device/device.h"
 
-static const char help[] =
-	"usage: relume devices [--json]\n"
-	"\n"
-	"List the OpenCL devices: number, type, name, compute units and the floats that each computes with at once, memory,\n"
-	"the family of traversal kernels that it runs (render --kernels names another), platform and driver. The number, the\n"
-	"type (cpu, gpu, accelerator: the first of it) or any part of the name is what --device takes; without --device the\n"
-	"first GPU is used, else the first device.\n"
-	"'--device reference' runs the kernels' C twins: slow, needs no OpenCL.\n"
-	"\n"
-	"  --json   as JSON\n";
+struct asked {
+	int json;
+};
+
+static const struct options_row rows[] = {
+	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+};
+
+static const struct options_table table = {
+	.verb = "devices",
+	.head = "usage: relume devices [--json]\n"
+	        "\n"
+	        "List the OpenCL devices: number, type, name, compute units and the floats that each computes with at once, memory,\n"
+	        "the family of traversal kernels that it runs (render --kernels names another), platform and driver. The number, the\n"
+	        "type (cpu, gpu, accelerator: the first of it) or any part of the name is what --device takes; without --device the\n"
+	        "first GPU is used, else the first device.\n"
+	        "'--device reference' runs the kernels' C twins: slow, needs no OpenCL.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "no arguments",
+};
 
 static void print_json_string(const char *text)
 {
@@ -44,45 +55,32 @@ static void print_json(const struct device_description *list, size_t n)
 		printf(", \"type\": \"%s\", \"units\": %u, \"width\": %u, \"memory_bytes\": %llu, \"buffer_bytes\": %llu, "
 		       "\"kernels\": \"%s\"}%s\n", device_type_name(list[i].type), list[i].units, list[i].width,
 		       (unsigned long long)list[i].memory_bytes, (unsigned long long)list[i].buffer_bytes,
-		       device_family_name(device_type_family(list[i].type)), i + 1 < n ? "," : "");
+		       device_family_names[device_type_family(list[i].type)], i + 1 < n ? "," : "");
 	}
 	puts("]");
 }
 
 int devices_main(int argc, char **argv)
 {
-	static const struct option options[] = {
-		{ "json", no_argument, NULL, 'j' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 }
-	};
+	struct asked o = { 0 };
+	struct options_line line;
 	struct device_description *list = NULL;
 	size_t n;
-	int json = 0, option, err;
+	int err = options_parse(&table, argc, argv, &o, &line);
 
-	while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1) {
-		switch (option) {
-		case 'j':
-			json = 1;
-			break;
-		case 'h':
-			fputs(help, stdout);
-			return 0;
-		default:
-			return -ERR_USAGE;
-		}
-	}
-	if (optind < argc)
-		return -err_report(ERR_USAGE, NULL, "devices takes no argument '%s'", argv[optind]);
+	if (err)
+		return err > 0 ? 0 : -err;
 	err = device_list(&list, &n);
 	if (err)
 		return -err;
-	if (json) {
+	if (o.json) {
 		print_json(list, n);
 	} else {
 		for (size_t i = 0; i < n; i++)
 			printf("%zu  %s  %s, %u units of width %u, %llu MiB, kernels: %s  (%s %s)\n", i,
 			       device_type_name(list[i].type), list[i].name, list[i].units, list[i].width,
 			       (unsigned long long)(list[i].memory_bytes >> 20),
-			       device_family_name(device_type_family(list[i].type)), list[i].platform, list[i].driver);
+			       device_family_names[device_type_family(list[i].type)], list[i].platform, list[i].driver);
 	}
 	free(list);
 	return 0;

@@ -1,12 +1,12 @@
 /* relume bench: how fast the traversal kernels run here. */
 #include "tracer/bench/bench.h"
 
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/options.h"
 #include "base/verbs.h"
 #include "tracer/accel/builders.h"
 #include "tracer/bench/bench_accel.h"
@@ -14,35 +14,14 @@
 #include "tracer/render/settings.h"
 
 #define MAX_REPEATS 99
-
 #define ACCEL_WORD(kind, name, ...) name ", "
-static const char help[] =
-	"usage: relume bench [OPTIONS] [TRACE]\n"
-	"\n"
-	"With a recording: render one of its frames several times and print what each kernel took, the\n"
-	"means of all runs but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median of\n"
-	"several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to\n"
-	"one point light, and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n"
-	"\n"
-	"  --device NAME    number or part of the name of an OpenCL device, or 'reference'\n"
-	"  --kernels FAMILY with a recording: packets, binary or compressed, as for relume render\n"
-	"  --threads N      compute threads on a CPU\n"
-	"  --models DIR     folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj\n"
-	"                   (default: ../shared/models; bumpy spheres stand in where they are missing)\n"
-	"  --accel LIST     kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all\n"
-	"  --repeat N       runs of each (default 5)\n"
-	"  -f, --frame N    which frame of the recording (default 0)\n"
-	"  --mode MODE      as for relume render (default whitted)\n"
-	"  --json           as JSON\n";
 
 struct options {
 	const char *device, *models, *trace;
 	uint64_t frame;
 	enum tracer_mode mode;
-	unsigned threads, kinds; /* kinds: bit 1 << enum accel_kind; 0: what is not asked for */
-	size_t repeats;
-	int json, has_family;
-	enum device_family family;
+	unsigned threads, repeats, kinds; /* kinds: bit 1 << enum accel_kind; 0: what is not asked for */
+	int json, family;                 /* enum device_family; -1: what suits the device */
 };
 
 struct figure {
@@ -52,8 +31,11 @@ struct figure {
 	double mrays;
 };
 
-static int parse_kinds(const char *list, unsigned *kinds)
+static int take_kinds(const struct options_row *row, const char *list, void *out)
 {
+	unsigned *kinds = out;
+
+	(void)row;
 	*kinds = 0;
 	if (strcmp(list, "all") == 0) {
 		*kinds = (1u << N_ACCEL_KINDS) - 1;
@@ -73,65 +55,48 @@ static int parse_kinds(const char *list, unsigned *kinds)
 	return 0;
 }
 
+static const struct options_row rows[] = {
+	{ "device", 0, "NAME", "number or part of the name of an OpenCL device, or 'reference'", options_text, .at = offsetof(struct options, device) },
+	{ "kernels", 0, "FAMILY", "with a recording: packets, binary or compressed, as for relume render",
+	  options_word, .at = offsetof(struct options, family), .words = device_family_names },
+	{ "threads", 0, "N", "compute threads on a CPU", options_number, .at = offsetof(struct options, threads), .most = 1024 },
+	{ "models", 0, "DIR", "folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj (default: ../shared/models; bumpy spheres "
+	  "stand in where they are missing)", options_text, .at = offsetof(struct options, models) },
+	{ "accel", 0, "LIST", "kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all",
+	  take_kinds, .at = offsetof(struct options, kinds) },
+	{ "repeat", 0, "N", "runs of each (default 5)", options_number, .at = offsetof(struct options, repeats), .most = MAX_REPEATS },
+	{ "frame", 'f', "N", "which frame of the recording (default 0)", options_frame, .at = offsetof(struct options, frame) },
+	{ "mode", 0, "MODE", "as for relume render (default whitted)",
+	  options_word, .at = offsetof(struct options, mode), .words = settings_mode_names },
+	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct options, json) },
+};
+
+static const struct options_table table = {
+	.verb = "bench",
+	.head = "usage: relume bench [OPTIONS] [TRACE]\n"
+	        "\n"
+	        "With a recording: render one of its frames several times and print what each kernel took, the means of all runs\n"
+	        "but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median\n"
+	        "of several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to one point light,\n"
+	        "and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one recording or none",
+	.most = 1,
+};
+
 static int parse(int argc, char **argv, struct options *o)
 {
-	static const struct option options[] = {
-		{ "device", required_argument, NULL, 'd' }, { "threads", required_argument, NULL, 't' },
-		{ "models", required_argument, NULL, 'm' }, { "repeat", required_argument, NULL, 'r' },
-		{ "json", no_argument, NULL, 'j' },         { "help", no_argument, NULL, 'h' },
-		{ "frame", required_argument, NULL, 'f' },  { "mode", required_argument, NULL, 'M' },
-		{ "kernels", required_argument, NULL, 'k' }, { "accel", required_argument, NULL, 'a' },
-		{ NULL, 0, NULL, 0 }
-	};
-	int option, err = 0;
+	struct options_line line;
+	int err = options_parse(&table, argc, argv, o, &line);
 
-	while (!err && (option = getopt_long(argc, argv, "f:h", options, NULL)) != -1) {
-		switch (option) {
-		case 'd':
-			o->device = optarg;
-			break;
-		case 't':
-			o->threads = (unsigned)strtoul(optarg, NULL, 10);
-			break;
-		case 'm':
-			o->models = optarg;
-			break;
-		case 'r':
-			o->repeats = strtoul(optarg, NULL, 10);
-			if (o->repeats < 1 || o->repeats > MAX_REPEATS)
-				return err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
-			break;
-		case 'j':
-			o->json = 1;
-			break;
-		case 'f':
-			o->frame = strtoull(optarg, NULL, 10);
-			break;
-		case 'M':
-			err = settings_parse_mode(optarg, &o->mode);
-			break;
-		case 'a':
-			err = parse_kinds(optarg, &o->kinds);
-			break;
-		case 'k':
-			o->has_family = 1;
-			err = device_parse_family(optarg, &o->family);
-			break;
-		case 'h':
-			fputs(help, stdout);
-			exit(0);
-		default:
-			return ERR_USAGE;
-		}
-	}
 	if (err)
 		return err;
-	if (optind < argc)
-		o->trace = argv[optind++];
+	o->trace = line.n_words ? line.words[0] : NULL;
+	if (!o->repeats)
+		return err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
 	if (o->trace && o->kinds)
-		return err_report(ERR_USAGE, NULL, "--accel measures the scene of its own, no recording");
-	if (optind < argc)
-		return err_report(ERR_USAGE, NULL, "bench takes one recording; what is '%s'?", argv[optind]);
+		return err_report(ERR_USAGE, NULL, "--accel measures a scene of its own, no recording");
 	return 0;
 }
 
@@ -175,16 +140,16 @@ int bench_main(int argc, char **argv)
 		{ "incoherent, nearest hit", "intersect_compressed", KERNEL_intersect_compressed, BENCH_AMBIENT, 0 },
 	};
 	const size_t n = sizeof(figures) / sizeof(figures[0]);
-	struct options o = { .models = "../shared/models", .repeats = 5 };
+	struct options o = { .models = "../shared/models", .repeats = 5, .family = -1 };
 	struct device *dev = NULL;
 	struct bench *b = NULL;
 	int err = parse(argc, argv, &o);
 
 	if (err)
-		return -err;
+		return err > 0 ? 0 : -err;
 	err = device_open(o.device, o.threads, &dev);
-	if (!err && o.has_family)
-		device_choose_family(dev, o.family);
+	if (!err && o.family >= 0)
+		device_choose_family(dev, (enum device_family)o.family);
 	if (!err && o.trace) {
 		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
 		goto done;

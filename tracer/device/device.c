@@ -259,25 +259,10 @@ void device_choose_family(struct device *dev, enum device_family family)
 	dev->family = family;
 }
 
-static const char *const family_names[N_DEVICE_FAMILIES] = {
+const char *const device_family_names[N_DEVICE_FAMILIES + 1] = {
 #define FAMILY_NAME(name, word) #word,
 	DEVICE_FAMILIES(FAMILY_NAME)
 };
-
-const char *device_family_name(enum device_family family)
-{
-	return family_names[family];
-}
-
-int device_parse_family(const char *text, enum device_family *out)
-{
-	for (int i = 0; i < N_DEVICE_FAMILIES; i++)
-		if (strcmp(text, family_names[i]) == 0) {
-			*out = (enum device_family)i;
-			return 0;
-		}
-	return err_report(ERR_USAGE, NULL, "there is no family of kernels '%s'; there are packets, binary and compressed", text);
-}
 
 void device_keep_programs(struct device *dev, const char *folder, int always)
 {

@@ -158,9 +158,7 @@ enum device_family device_family(const struct device *dev);
 /** Take one of the families whatever the device is; before its first tracer. */
 void device_choose_family(struct device *dev, enum device_family family);
 
-const char *device_family_name(enum device_family family);
-/** @return 0, or ERR_USAGE (reported: there is no such family) */
-int device_parse_family(const char *text, enum device_family *out);
+extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by NULL */
 
 /**
  * Keep what the device's compiler makes of the kernels in a folder, for other runs; processes may share it. Before its first

@@ -78,8 +78,8 @@ static void prepare_device(const struct settings *s, struct device *dev)
 {
 	char folder[4096];
 
-	if (s->has_family)
-		device_choose_family(dev, s->family);
+	if (s->family >= 0)
+		device_choose_family(dev, (enum device_family)s->family);
 	if (!s->no_cache && s->cache)
 		device_keep_programs(dev, s->cache, 0);
 	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))

@@ -1,8 +1,8 @@
 /*
  * What `relume render` was asked for: its command line, and the name by content of all that decides about pictures.
  *
- * Every option is in one table (settings.c). It counts as one that changes pictures unless its row says otherwise, so
- * that a new option is part of the name without a thought.
+ * settings.c lists the options in one table. An option changes pictures unless its row says otherwise, so a new one is part of
+ * the name by default.
  */
 #ifndef TRACER_RENDER_SETTINGS_H
 #define TRACER_RENDER_SETTINGS_H
@@ -14,8 +14,7 @@
 struct settings {
 	const char *trace, *output, *device;
 	unsigned threads, jobs; /* 0: as the machine has */
-	int has_family; /* 0: each device takes the kernels that suit its kind */
-	enum device_family family;
+	int family; /* of traversal kernels, enum device_family; -1: what suits each device */
 	struct frame_list frames;
 	uint64_t chunk, n_chunks; /* n_chunks 0: all */
 	int skip_existing, dry_run;
@@ -38,7 +37,7 @@ struct settings {
 int settings_parse(struct settings *s, int argc, char **argv);
 void settings_free(struct settings *s);
 
-/** What --mode takes. @return 0 or ERR_USAGE (reported) */
-int settings_parse_mode(const char *word, enum tracer_mode *out);
+/** What --mode takes, by enum tracer_mode; ended by NULL. */
+extern const char *const settings_mode_names[];
 
 #endif
