@@ -5,62 +5,11 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
-
-/* a b, in float, column by column, as Mesa multiplies its matrices: window positions then agree to the last bit. */
-static void multiply(const float a[16], const float b[16], float out[16])
-{
-	for (int row = 0; row < 4; row++)
-		for (int col = 0; col < 4; col++)
-			out[col * 4 + row] = a[row] * b[col * 4] + a[4 + row] * b[col * 4 + 1] +
-			                     a[8 + row] * b[col * 4 + 2] + a[12 + row] * b[col * 4 + 3];
-}
-
-/* Gauss and Jordan with full pivots, in double. @return 0 where there is no inverse */
-static int invert(const float m[16], double out[16])
-{
-	double a[4][8];
-
-	for (int row = 0; row < 4; row++)
-		for (int col = 0; col < 4; col++) {
-			a[row][col] = m[col * 4 + row];
-			a[row][4 + col] = row == col;
-		}
-	for (int col = 0; col < 4; col++) {
-		int best = col;
-		double scale;
-
-		for (int row = col + 1; row < 4; row++)
-			if (fabs(a[row][col]) > fabs(a[best][col]))
-				best = row;
-		if (!(fabs(a[best][col]) > 1e-30))
-			return 0;
-		for (int k = 0; k < 8; k++) {
-			double swap = a[col][k];
-
-			a[col][k] = a[best][k];
-			a[best][k] = swap;
-		}
-		scale = 1 / a[col][col];
-		for (int k = 0; k < 8; k++)
-			a[col][k] *= scale;
-		for (int row = 0; row < 4; row++) {
-			double factor = a[row][col];
-
-			if (row == col)
-				continue;
-			for (int k = 0; k < 8; k++)
-				a[row][k] -= factor * a[col][k];
-		}
-	}
-	for (int row = 0; row < 4; row++)
-		for (int col = 0; col < 4; col++)
-			out[col * 4 + row] = a[row][4 + col];
-	return 1;
-}
 
 /* Rows of the inverse transpose of the upper 3 x 3, rescaled as RESCALE_NORMAL wants (sec. 2.11.3). */
 static void normal_matrix(const float m[16], int rescale, float out[12])
@@ -109,16 +58,13 @@ static void identity_rows(float rows[12])
 /* An affine inverse in rows; 0 where the matrix is projective or has none that floats can hold. */
 static int invert_affine(const float m[16], float rows[12])
 {
-	double inverse[16];
-	float columns[16], finite = 0;
+	float inverse[16], finite = 0;
 
-	if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1 || !invert(m, inverse))
+	if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1 || !mat4_invert(inverse, m))
 		return 0;
-	for (int i = 0; i < 16; i++) {
-		columns[i] = (float)inverse[i];
-		finite += 0 * columns[i];
-	}
-	rows_from_columns(columns, rows);
+	for (int i = 0; i < 16; i++)
+		finite += 0 * inverse[i];
+	rows_from_columns(inverse, rows);
 	/* Almost flat: a ray in object space would have no accuracy left. */
 	for (int row = 0; row < 3; row++)
 		for (int col = 0; col < 3; col++)
@@ -302,7 +248,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	struct geometry *g = &p->geometries[p->n_instances];
 
 	p->shapes[p->n_instances] = shape;
-	multiply(scene->views[from->view].projection, from->modelview, g->clip_from_obj);
+	mat4_mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
 	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
 	prepare_layout(mesh, 0, g);
@@ -452,7 +398,7 @@ static uint32_t cut_runs(const struct scene *scene, struct run *runs)
 
 static void make_view(const struct scene_view *from, const float shift[2], struct view *view)
 {
-	double inverse[16];
+	float inverse[16], largest = 0;
 
 	memcpy(view->projection, from->projection, sizeof(view->projection));
 	memcpy(view->viewport, from->viewport, sizeof(view->viewport));
@@ -460,10 +406,12 @@ static void make_view(const struct scene_view *from, const float shift[2], struc
 	view->viewport[1] += shift[1];
 	memcpy(view->depth_range, from->depth_range, sizeof(view->depth_range));
 	memcpy(view->scissor, from->scissor, sizeof(view->scissor));
-	if (!invert(from->projection, inverse))
+	if (!mat4_invert(inverse, from->projection))
 		return; /* an inverse of zeros: the view has no rays, only screen geometry */
 	for (int i = 0; i < 16; i++)
-		view->inverse[i] = (float)inverse[i];
+		largest = fabsf(inverse[i]) <= largest ? largest : fabsf(inverse[i]);
+	if (largest < 1e30f)
+		memcpy(view->inverse, inverse, sizeof(view->inverse));
 }
 
 static int draws_to_window(const struct scene *scene, uint32_t instance)
