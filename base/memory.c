@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -10,6 +11,26 @@
 #define HEAP_BYTES (64 << 20)   /* that is asked for at once; addresses, and no memory until it is touched */
 #define KEEP_BYTES (256 << 20)  /* free at the heap's end, beyond which it is given back */
 #define MAPPED_BYTES (16 << 20) /* from which on a block has pages of its own */
+
+int memory_resize(void *array, size_t n, size_t item_bytes)
+{
+	void *items, *grown = NULL;
+
+	memcpy(&items, array, sizeof(items));
+	if (n <= SIZE_MAX / item_bytes)
+		grown = realloc(items, n * item_bytes + 1);
+	if (!grown)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %zu items of %zu bytes", n, item_bytes);
+	memcpy(array, &grown, sizeof(grown));
+	return 0;
+}
+
+size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes)
+{
+	const size_t more = wanted + wanted / 2 + 16;
+
+	return memory_resize(array, more, item_bytes) ? room : more;
+}
 
 void memory_use_large_pages(void)
 {

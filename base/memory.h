@@ -1,6 +1,27 @@
-/* How the process gets its memory from the system. */
+/* Memory: arrays that grow, and how the process gets it from the system. */
 #ifndef BASE_MEMORY_H
 #define BASE_MEMORY_H
+
+#include <stddef.h>
+
+#include "base/err.h"
+
+/**
+ * Give an array room for `n` items of `item_bytes` each.
+ * @param array  address of the pointer to the items; NULL there is an empty array
+ * @return 0, or ERR_SYSTEM (reported): the array is as it was
+ */
+int memory_resize(void *array, size_t n, size_t item_bytes);
+
+/**
+ * Make room for at least `wanted` items, and for half as many again.
+ * @return the room there is now; `room`, less than wanted, where memory is short (reported): the array is as it was
+ */
+size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
+
+/** memory_grow where it is needed. `room` is a variable, of any unsigned type. @return 0 or ERR_SYSTEM (reported) */
+#define MEMORY_GROW(array, room, wanted) \
+	((wanted) <= (room) ? 0 : ((room) = memory_grow(&(array), (room), (wanted), sizeof(*(array)))) < (wanted) ? ERR_SYSTEM : 0)
 
 /**
  * Let malloc use transparent huge pages, where the system offers them on request, and keep freed memory. A replay fills tens of

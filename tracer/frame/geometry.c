@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "tracer/frame/frame.h"
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------- */
@@ -88,6 +89,20 @@ static int expand_instance(struct job *job, uint32_t i)
 	return err;
 }
 
+/* Clip coordinates of new vertices, from `first` on. */
+static int write_clips(struct tracer *tr, uint32_t first, const struct expanded *e)
+{
+	float (*clips)[4] = NULL;
+	int err = memory_resize(&clips, e->n_vertices, sizeof(*clips));
+
+	for (uint32_t v = 0; v < e->n_vertices && !err; v++)
+		memcpy(clips[v], e->vertices[v].clip, sizeof(*clips));
+	if (!err)
+		err = device_write(tr->dev, tr->buffers[BUFFER_CLIPS], first * sizeof(*clips), clips, e->n_vertices * sizeof(*clips));
+	free(clips);
+	return err;
+}
+
 /* Put the new vertices behind the frame's own, where there is room. */
 static int upload_expanded(struct job *job)
 {
@@ -121,9 +136,8 @@ static int upload_expanded(struct job *job)
 		if (!err)
 			err = device_write(tr->dev, tr->buffers[BUFFER_WINDOWS], vertex * sizeof(*e->windows), e->windows,
 			                   e->n_vertices * sizeof(*e->windows));
-		for (uint32_t v = 0; v < e->n_vertices && !err; v++)
-			err = device_write(tr->dev, tr->buffers[BUFFER_CLIPS], (vertex + v) * 4 * sizeof(float),
-			                   e->vertices[v].clip, 4 * sizeof(float));
+		if (!err)
+			err = write_clips(tr, vertex, e);
 		if (!err && e->n_texcoords)
 			err = device_write(tr->dev, tr->buffers[BUFFER_TEXCOORDS], texcoord * sizeof(*e->texcoords),
 			                   e->texcoords, e->n_texcoords * sizeof(*e->texcoords));

@@ -1,0 +1,142 @@
+#include "tracer/frame/expand_end.h"
+
+#include <math.h>
+#include <string.h>
+
+struct expand_end expand_load_end(const struct expand_input *in, uint32_t v, int side)
+{
+	struct expand_end e = { .v = in->vertices[v] };
+	uint32_t units = in->material->unit_count;
+
+	memcpy(e.v.color[0], in->vertices[v].color[side], sizeof(e.v.color[0]));
+	memcpy(e.v.color[1], in->vertices[v].color[side], sizeof(e.v.color[1]));
+	memcpy(e.v.secondary[0], in->vertices[v].secondary[side], sizeof(e.v.secondary[0]));
+	memcpy(e.v.secondary[1], in->vertices[v].secondary[side], sizeof(e.v.secondary[1]));
+	if (units)
+		memcpy(e.texcoord, in->texcoords + (size_t)v * units, units * sizeof(e.texcoord[0]));
+	return e;
+}
+
+void expand_take_color(struct expand_end *e, const struct expand_end *from)
+{
+	memcpy(e->v.color, from->v.color, sizeof(e->v.color));
+	memcpy(e->v.secondary, from->v.secondary, sizeof(e->v.secondary));
+}
+
+static void mix_floats(const float *a, const float *b, float wa, float wb, float *out, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		out[i] = a[i] * wa + b[i] * wb;
+}
+
+/* Attributes wa a + wb b; the place in the window stays to be found. */
+static struct expand_end mix_ends(const struct expand_end *a, const struct expand_end *b, float wa, float wb)
+{
+	struct expand_end e = *a;
+
+	mix_floats(a->v.clip, b->v.clip, wa, wb, e.v.clip, 4);
+	mix_floats(a->v.eye, b->v.eye, wa, wb, e.v.eye, 4);
+	mix_floats(&a->v.color[0][0], &b->v.color[0][0], wa, wb, &e.v.color[0][0], 8);
+	mix_floats(&a->v.secondary[0][0], &b->v.secondary[0][0], wa, wb, &e.v.secondary[0][0], 8);
+	mix_floats(a->v.normal, b->v.normal, wa, wb, e.v.normal, 3);
+	mix_floats(&a->v.fog_coord, &b->v.fog_coord, wa, wb, &e.v.fog_coord, 1);
+	mix_floats(&a->texcoord[0][0], &b->texcoord[0][0], wa, wb, &e.texcoord[0][0], SCENE_MAX_UNITS * 4);
+	return e;
+}
+
+/* As the vertex stage does, but not snapped. Mesa's clipper projects the ends that it makes without fused operations. */
+static float scale_and_move(float scale, float x, float move, int fused)
+{
+	return fused ? fmaf(scale, x, move) : scale * x + move;
+}
+
+void expand_project(const struct expand_input *in, struct expand_end *e)
+{
+	const float *v = in->view->viewport, *c = e->v.clip, *range = in->view->depth_range;
+	int fused = !e->cut;
+
+	e->w_inv = 1 / c[3];
+	e->x = scale_and_move(v[2] * 0.5f, c[0] * e->w_inv, v[0] + v[2] * 0.5f, fused);
+	e->y = scale_and_move(-v[3] * 0.5f, c[1] * e->w_inv, (float)in->height - (v[1] + v[3] * 0.5f), fused);
+	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
+}
+
+/* Signed distances to the planes of the view volume: near, far, and four around. */
+static float clip_distance(const float *c, int plane)
+{
+	float side = plane & 1 ? -1 : 1;
+
+	return c[3] + side * c[plane < 2 ? 2 : (plane - 2) / 2];
+}
+
+static void move_floats(float *from, const float *to, float t, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		from[i] += t * (to[i] - from[i]);
+}
+
+/* An end moved towards the other one, in Mesa's order of operations. */
+static void move_end(struct expand_end *e, const struct expand_end *to, float t)
+{
+	move_floats(e->v.clip, to->v.clip, t, 4);
+	move_floats(e->v.eye, to->v.eye, t, 4);
+	move_floats(&e->v.color[0][0], &to->v.color[0][0], t, 8);
+	move_floats(&e->v.secondary[0][0], &to->v.secondary[0][0], t, 8);
+	move_floats(e->v.normal, to->v.normal, t, 3);
+	move_floats(&e->v.fog_coord, &to->v.fog_coord, t, 1);
+	move_floats(&e->texcoord[0][0], &to->texcoord[0][0], t, SCENE_MAX_UNITS * 4);
+	e->cut = 1;
+}
+
+float expand_plane_distance(const struct expand_input *in, const struct expand_end *e, int plane)
+{
+	const float *p, *eye = e->v.eye;
+
+	if (plane < EXPAND_VOLUME_PLANES)
+		return clip_distance(e->v.clip, plane);
+	plane -= EXPAND_VOLUME_PLANES;
+	p = in->material->clip_plane_eye[plane];
+	return in->material->clip_plane_mask >> plane & 1 ? p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] + p[3] * eye[3] : 0;
+}
+
+int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct expand_end *b)
+{
+	float t_a = 0, t_b = 0; /* shares cut off at either end */
+	struct expand_end from = *a;
+
+	for (int plane = 0; plane < EXPAND_PLANES; plane++) {
+		float da = expand_plane_distance(in, a, plane), db = expand_plane_distance(in, b, plane);
+
+		if (da < 0 && db < 0)
+			return 0;
+		if (da < 0)
+			t_a = fmaxf(t_a, da / (da - db));
+		else if (db < 0)
+			t_b = fmaxf(t_b, db / (db - da));
+	}
+	if (t_a + t_b >= 1)
+		return 0;
+	if (t_a > 0)
+		move_end(a, b, t_a);
+	if (t_b > 0)
+		move_end(b, &from, t_b);
+	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
+}
+
+struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s)
+{
+	float w_inv = a->w_inv + (b->w_inv - a->w_inv) * s, w;
+	struct expand_end e;
+
+	if (!(w_inv > 0)) { /* beyond an end, and beyond the eye */
+		s = s < 0.5f ? 0 : 1;
+		w_inv = s > 0 ? b->w_inv : a->w_inv;
+	}
+	w = 1 / w_inv;
+	e = mix_ends(a, b, (1 - s) * a->w_inv * w, s * b->w_inv * w);
+	e.x = a->x + (b->x - a->x) * s;
+	e.y = a->y + (b->y - a->y) * s;
+	e.z = a->z + (b->z - a->z) * s;
+	e.w_inv = w_inv;
+	return e;
+}

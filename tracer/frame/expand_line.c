@@ -1,0 +1,229 @@
+#include "tracer/frame/expand_line.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/frame/expand_quad.h"
+
+/* The place of a coordinate in its pixel, from the centre. */
+static float from_centre(float x)
+{
+	return x - floorf(x) - 0.5f;
+}
+
+/* Do a place and a direction point the same way? 0 counts as positive along x and as negative along y. */
+static int same_way(float place, float d, int is_y)
+{
+	return is_y ? (place <= 0) == (d <= 0) : (place >= 0) == (d >= 0);
+}
+
+/*
+ * Does a line that runs by d_major and d_minor draw the pixel of an end that lies at (major, minor) in it?
+ * The diamond-exit rule (sec. 3.4.1: the line draws a pixel whose diamond it leaves) as llvmpipe has it. In doubt it looks
+ * where the line passes the pixel's middle, with the slope turned over, and counts the low border in for steep lines' second ends.
+ * edge: the minor coordinate from the pixel's border.
+ */
+static int draws_end(float major, float minor, float edge, float d_major, float d_minor, int first, int steep)
+{
+	float crossing;
+
+	if (fabsf(major) + fabsf(minor) < 0.5f)
+		return first;
+	if (same_way(major, d_major, steep) == first)
+		return 0;
+	if (same_way(minor, d_minor, !steep) != first)
+		return 1;
+	crossing = edge + major * (d_minor / d_major);
+	return crossing < 1 && (crossing > 0 || (crossing == 0 && steep && !first));
+}
+
+/* How far an end moves along the major axis, so that the quad covers the pixel's centre if the end's pixel is drawn. */
+static float end_shift(float x, float y, float d_major, float d_minor, int first, int steep)
+{
+	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
+	float edge = steep ? x - floorf(x) : y - floorf(y);
+	int covers = first ? !same_way(major, d_major, !steep) : same_way(major, d_major, steep) || major == 0;
+
+	if (!first && minor == -0.5f && d_minor > 0)
+		minor = 0.5f;
+	if (covers == draws_end(major, minor, edge, d_major, d_minor, first, steep))
+		return 0;
+	return -major - (d_major > 0 ? 0.5f : -0.5f);
+}
+
+#define EVERYWHERE 1e6f /* pixels: beyond all windows */
+
+/* Add an end's corner, with the end as it is and what of the line is drawn: see GEOMETRY_LINE. */
+static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int second, int32_t x,
+                            int32_t y, const float drawn[3])
+{
+	struct shaded_vertex *vertex = &out->vertices[out->n_vertices];
+
+	expand_add_corner(in, out, e, x, y);
+	memcpy(vertex->color[1], (float[4]){ e->x, e->y, e->z, (float)second }, sizeof(vertex->color[1]));
+	memcpy(vertex->secondary[1], drawn, 3 * sizeof(*drawn));
+}
+
+/* The line a -> b, projected, as a quad. */
+static void add_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
+                     uint32_t draw)
+{
+	float dx = b->x - a->x, dy = b->y - a->y, width = fmaxf(in->material->line_width, 1);
+	int steep = !(fabsf(dx) >= fabsf(dy));
+	float d_major = steep ? dy : dx, d_minor = steep ? dx : dy;
+	const struct expand_end *ends[2] = { a, b };
+	int32_t half = (int32_t)(width + 0.5f) * 128, x[2], y[2];
+
+	if (d_major == 0)
+		return;
+	for (int i = 0; i < 2; i++) {
+		float along = end_shift(ends[i]->x, ends[i]->y, d_major, d_minor, i == 0, steep), across = along * (d_minor / d_major);
+
+		x[i] = expand_snap(ends[i]->x + (steep ? across : along));
+		y[i] = expand_snap(ends[i]->y + (steep ? along : across));
+	}
+	for (int k = 0; k < 4; k++) {
+		int i = k == 1 || k == 2;
+		int32_t side = k < 2 ? -half : half;
+
+		add_line_corner(in, out, ends[i], i, x[i] + (steep ? side : 0), y[i] + (steep ? 0 : side),
+		                (float[3]){ -EVERYWHERE, -EVERYWHERE, EVERYWHERE });
+	}
+	expand_add_triangles(in, out, draw);
+}
+
+/* As snap, where pixels have samples: counted from their corner. */
+static int32_t snap_sampled(float pixels)
+{
+	float x = pixels * 256;
+
+	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
+}
+
+/* Pixels of one axis that llvmpipe (22.3.6) draws of a rectangle along a line; it rounds both sides of their range up. */
+struct extent {
+	int32_t first, end;
+};
+
+/* edge: 1 where a place on a border between pixels counts as beyond it */
+static struct extent extent_of(const int32_t *v, int edge)
+{
+	int32_t least = v[0], most = v[0];
+
+	for (int k = 1; k < 4; k++) {
+		least = v[k] < least ? v[k] : least;
+		most = v[k] > most ? v[k] : most;
+	}
+	return (struct extent){ (least + 255 + edge) >> 8, (most + 255 + edge) >> 8 };
+}
+
+/* The first pixel that is drawn: rectangles are filled tile by tile, from the tile of their extent's first pixel on. */
+static float first_drawn(struct extent e)
+{
+	return e.first % 64 == 0 ? (float)e.first : -EVERYWHERE;
+}
+
+/* The line a -> b under multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
+static void add_line_rectangle(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
+                               uint32_t draw)
+{
+	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
+	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area), drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
+	int32_t side_x = snap_sampled(-dy * scale), side_y = snap_sampled(dx * scale), x[4], y[4], row[4];
+	struct extent columns, rows;
+
+	if (!(area > 0))
+		return;
+	for (int k = 0; k < 4; k++) {
+		const struct expand_end *e = k == 1 || k == 2 ? b : a;
+		int32_t side = k < 2 ? -1 : 1;
+
+		x[k] = snap_sampled(e->x) + side * side_x;
+		y[k] = snap_sampled(e->y) + side * side_y;
+		row[k] = in->from_below ? (int32_t)in->height * 256 - y[k] : y[k];
+	}
+	columns = extent_of(x, 0);
+	rows = extent_of(row, !in->from_below);
+	if (columns.end <= columns.first || rows.end <= rows.first)
+		return;
+	drawn[0] = first_drawn(columns);
+	if (in->from_below)
+		drawn[2] = (float)in->height - 1 - first_drawn(rows);
+	else
+		drawn[1] = first_drawn(rows);
+	for (int k = 0; k < 4; k++)
+		add_line_corner(in, out, k == 1 || k == 2 ? b : a, k == 1 || k == 2, x[k], y[k], drawn);
+	expand_add_triangles(in, out, draw);
+}
+
+/* A smooth line as Mesa's draw module (22.3) makes it: longer by half a pixel at each end, wider by half a pixel a side. */
+static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
+                            uint32_t draw)
+{
+	float dx = b->x - a->x, dy = b->y - a->y, length = sqrtf(dx * dx + dy * dy);
+	float half_length = length < 1 ? length : 0.5f * length + 0.5f;
+	float half = in->material->line_width <= 1 ? 1 : 0.5f * in->material->line_width + 0.5f, angle = atan2f(dy, dx);
+
+	if (!(length >= 0))
+		return;
+	/* Not divided by the length: lines drawn back over themselves show the last bits, and one without a length lies flat. */
+	dx = cosf(angle);
+	dy = sinf(angle);
+	/* From the corner on whose diagonal Mesa cuts the quad: where w differs along the line the two parts bend apart. */
+	for (int k = 0; k < 4; k++) {
+		const struct expand_end *e = k >= 2 ? b : a;
+		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;
+
+		expand_add_smooth_corner(in, out, e, e->x + (along * dx - across * dy), e->y + (along * dy + across * dx),
+		                  (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });
+	}
+	expand_add_triangles(in, out, draw);
+}
+
+static int add_dash(const struct expand_input *in, struct expanded *out, const struct expand_end *a, const struct expand_end *b,
+                    uint32_t draw)
+{
+	if (expand_reserve_quad(in, out))
+		return ERR_SYSTEM;
+	if (in->material->line_smooth)
+		add_smooth_line(in, out, a, b, draw);
+	else if (in->material->multisample)
+		add_line_rectangle(in, out, a, b, draw);
+	else
+		add_line(in, out, a, b, draw);
+	return 0;
+}
+
+int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end a, struct expand_end b, float offset,
+                uint32_t draw, struct expand_stipple *stipple)
+{
+	float length;
+	uint32_t start = 0, n;
+	int err = 0;
+
+	if (!expand_clip_line(in, &a, &b))
+		return 0;
+	expand_project(in, &a);
+	expand_project(in, &b);
+	a.z = fminf(fmaxf(a.z + offset, 0), 1);
+	b.z = fminf(fmaxf(b.z + offset, 0), 1);
+	if (stipple->pattern == 0xffff)
+		return add_dash(in, out, &a, &b, draw);
+	length = in->material->multisample || in->material->line_smooth ?
+	                 sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)) : fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
+	n = (uint32_t)ceilf(length);
+	for (uint32_t i = 0; i <= n && !err; i++) {
+		int on = i < n && stipple->pattern >> (stipple->counter / stipple->factor & 15) & 1;
+
+		if (!on && i > start) {
+			struct expand_end from = expand_line_point(&a, &b, (float)start / length);
+			struct expand_end to = expand_line_point(&a, &b, fminf((float)i / length, 1));
+
+			err = add_dash(in, out, &from, &to, draw);
+		}
+		start = on ? start : i + 1;
+		stipple->counter += i < n;
+	}
+	return err;
+}

@@ -1,0 +1,24 @@
+/*
+ * Lines as quads, where Mesa's llvmpipe puts them: of the line's width, cut at their ends by the diamond-exit rule (GL 2.1
+ * sec. 3.4), under multisampling as rectangles along them, or smooth; whole or in the dashes of a stipple (sec. 3.4.2).
+ */
+#ifndef TRACER_FRAME_EXPAND_LINE_H
+#define TRACER_FRAME_EXPAND_LINE_H
+
+#include "tracer/frame/expand_end.h"
+
+/* A line stipple. */
+struct expand_stipple {
+	uint32_t pattern, factor;
+	uint32_t counter; /* pixels so far along a strip */
+};
+
+/**
+ * Clip a line, project it, and add what its stipple leaves.
+ * @param offset  added to the depth of both ends
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end a, struct expand_end b, float offset,
+                uint32_t draw, struct expand_stipple *stipple);
+
+#endif

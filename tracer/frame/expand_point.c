@@ -1,0 +1,107 @@
+#include "tracer/frame/expand_point.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/frame/expand_quad.h"
+
+static void add_smooth_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
+{
+	const float *fade = in->material->point_attenuation, size = e->v.size[0];
+	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
+	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size;
+
+	for (int k = 0; k < 4; k++) {
+		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
+
+		expand_add_smooth_corner(in, out, e, e->x + x * radius, e->y + y * radius, (float[4]){ x, y, 0, 0 });
+	}
+	expand_add_triangles(in, out, draw);
+}
+
+static void add_point(const struct expand_input *in, struct expanded *out, const struct expand_end *e, uint32_t draw)
+{
+	const struct scene_material *m = in->material;
+	int32_t width = (int32_t)fmaxf(e->v.size[0] * 256 + 0.5f, 256), x = expand_snap(e->x) - width / 2, y = expand_snap(e->y) - width / 2;
+	/* Under multisampling llvmpipe takes a sprite's middle half a pixel off where it is. */
+	float off = m->multisample ? 128 / (float)width : 0;
+
+	/* Other than sprites, and under multisampling, they are whole pixels (sec. 3.3.1), of widths and places rounded as llvmpipe does it. */
+	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
+		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
+
+		x = (((expand_snap(e->x) + middle) >> 8) - pixels / 2) * 256;
+		y = (((expand_snap(e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* what is on an edge belongs above it */
+		width = pixels * 256;
+	}
+	for (int k = 0; k < 4; k++) {
+		int right = k == 1 || k == 2, low = k >= 2;
+		struct expand_end corner = *e;
+
+		for (uint32_t u = 0; u < m->unit_count && m->point_sprite; u++)
+			if (in->units[u].coord_replace)
+				memcpy(corner.texcoord[u], (float[4]){ (float)right + off, m->point_sprite == 2 ? (float)!low - off : (float)low + off, 0, 1 },
+				       sizeof(corner.texcoord[u]));
+		expand_add_corner(in, out, &corner, x + (right ? width : 0), y + (low ? width : 0));
+	}
+	expand_add_triangles(in, out, draw);
+}
+
+int expand_point(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw)
+{
+	for (int plane = 0; plane < EXPAND_PLANES; plane++) {
+		if (expand_plane_distance(in, &e, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
+			return 0;
+	}
+	if (!(e.v.clip[3] > 0))
+		return 0;
+	expand_project(in, &e);
+	e.z = fminf(fmaxf(e.z + offset, 0), 1);
+	if (expand_reserve_quad(in, out))
+		return ERR_SYSTEM;
+	if (in->material->point_smooth && !in->material->point_sprite)
+		add_smooth_point(in, out, &e, draw);
+	else
+		add_point(in, out, &e, draw);
+	return 0;
+}
+
+#define FARTHEST 32768.0f /* pixels from a window's corner: twice what any window has */
+
+/*
+ * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis: beyond, places
+ * have no number in 1/256 pixel. What is as wide as that all by itself ends there.
+ */
+static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float place[2])
+{
+	const float low = (-FARTHEST - corner) / zoom, high = (FARTHEST - corner) / zoom;
+
+	kept[0] = fminf(fmaxf(floorf(fminf(low, high)), 0), (float)n);
+	kept[1] = fminf(fmaxf(ceilf(fmaxf(low, high)), 0), (float)n);
+	for (int i = 0; i < 2; i++)
+		place[i] = fminf(fmaxf(corner + kept[i] * zoom, -2 * FARTHEST), 2 * FARTHEST);
+}
+
+int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw)
+{
+	const struct scene_rectangle *r = &in->rectangles[i];
+	const float *corner = in->mesh->position + 4 * (size_t)i;
+	struct expand_end e = expand_load_end(in, i, 0);
+	float column[2], row[2], x[2], y[2];
+
+	if (expand_reserve_quad(in, out))
+		return ERR_SYSTEM;
+	e.w_inv = 1;
+	e.z = fminf(fmaxf(corner[2], 0), 1);
+	keep_near(corner[0], r->zoom[0], r->width, column, x);
+	keep_near(corner[1], r->zoom[1], r->height, row, y);
+	for (int k = 0; k < 4; k++) {
+		int right = k == 1 || k == 2, high = k >= 2;
+
+		expand_add_smooth_corner(in, out, &e, x[right], (float)in->height - y[high],
+		                  (float[4]){ column[right], row[high], (float)r->texture, (float)r->kind });
+	}
+	expand_add_triangles(in, out, draw);
+	return 0;
+}

@@ -1,0 +1,26 @@
+/*
+ * Quads in the window, four corners and two triangles each: what lines, points and pixel rectangles become.
+ */
+#ifndef TRACER_FRAME_EXPAND_QUAD_H
+#define TRACER_FRAME_EXPAND_QUAD_H
+
+#include "tracer/frame/expand.h"
+#include "tracer/frame/expand_end.h"
+
+/** Room for another quad. @return 0 or ERR_SYSTEM (reported) */
+int expand_reserve_quad(const struct expand_input *in, struct expanded *out);
+
+/** 1/256 pixel from the pixel corner, halves as llvmpipe rounds those of lines and points: a centre is 0 for it. */
+int32_t expand_snap(float pixels);
+
+/** Add a corner of a quad. x, y: in 1/256 pixel, y down. */
+void expand_add_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int32_t x, int32_t y);
+
+/** A corner of a smooth quad: its place is not snapped for attributes. coverage: see GEOMETRY_SMOOTH_LINE */
+void expand_add_smooth_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, float x, float y,
+                              const float coverage[4]);
+
+/** Two triangles over the last four corners, front side up. */
+void expand_add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw);
+
+#endif
