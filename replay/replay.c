@@ -12,8 +12,8 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/surface/drawable.h"
-#include "replay/gl/surface/feedback.h"
-#include "replay/gl/texture/texture.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/gl/texture/image.h"
 #include "replay/index/index.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
@@ -113,7 +113,7 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 	x->want = want || rp->build_all;
 	x->frame_ended = 0;
 	if (want)
-		gls_frame_stop_carrying(x);
+		gls_frame_end_deferred(x);
 	while (!x->frame_ended) {
 		rc = trace_reader_next(rp->reader, &call);
 		if (rc <= 0)
@@ -127,7 +127,7 @@ static int run_frame(struct replay *rp, int want, struct scene **scene)
 	if (want)
 		*scene = gls_frame_finish(x);
 	else if (x->want)
-		gls_frame_carry(x);
+		gls_frame_defer(x);
 	else
 		gls_frame_skip(x);
 	if (x->feedback.rewind)

@@ -11,9 +11,7 @@
 #include "base/mat4.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/surface/feedback.h"
-#include "replay/gl/surface/framebuffer.h"
-#include "replay/gl/surface/front.h"
+#include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/commands.h"
@@ -101,13 +99,12 @@ static uint32_t intern_run(struct table *t, void *array, uint32_t *n, uint32_t *
 
 /* ---- what a draw saw ---- */
 
-static void fill_scissor(struct gls_exec *x, struct gls_state *st, int32_t out[4])
+static void fill_scissor(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
 {
-	const struct gls_surface *d = gls_surface_of(x, st);
-	int64_t x0 = 0, y0 = 0, x1 = d ? d->width : 0, y1 = d ? d->height : 0;
-	const int32_t *rect = st->a.scissor.rect;
+	int64_t x0 = 0, y0 = 0, x1 = d->width, y1 = d->height;
+	const int32_t *rect = scissor->rect;
 
-	if (st->a.scissor.enabled) {
+	if (scissor->enabled) {
 		x0 = rect[0] > x0 ? rect[0] : x0;
 		y0 = rect[1] > y0 ? rect[1] : y0;
 		x1 = (int64_t)rect[0] + rect[2] < x1 ? (int64_t)rect[0] + rect[2] : x1;
@@ -133,16 +130,17 @@ static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 	return (uint32_t)(found - 1);
 }
 
-static uint32_t find_view(struct gls_exec *x, struct gls_frame *f, struct gls_state *st)
+static uint32_t find_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_attribs *a)
 {
+	struct gls_frame *f = surface->frame;
 	struct scene *s = f->out;
 	struct scene_view view;
 
 	memset(&view, 0, sizeof(view));
 	memcpy(view.projection, st->projection.matrices[st->projection.depth], 64);
-	memcpy(view.viewport, st->a.viewport.rect, 16);
-	memcpy(view.depth_range, st->a.viewport.depth_range, 8);
-	fill_scissor(x, st, view.scissor);
+	memcpy(view.viewport, a->viewport.rect, 16);
+	memcpy(view.depth_range, a->viewport.depth_range, 8);
+	fill_scissor(surface, &a->scissor, view.scissor);
 	view.space = space_of(f, &view);
 	return intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
 }
@@ -185,9 +183,9 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 }
 
 /* @return 1 where the unit textures */
-static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, unsigned u, struct scene_unit *out)
+static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, struct scene_unit *out)
 {
-	const struct gls_unit *unit = &st->a.texturing.units[u];
+	unsigned u = unit->value.unit;
 	int target = enabled_target(unit);
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
 	const struct gls_texture_parameters *p = t ? &gls_texture_sampler(st, u, t)->parameters : NULL;
@@ -305,10 +303,9 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 	m->color_material_mode = l->color_material_mode;
 }
 
-static void fill_fragment_state(const struct gls_state *st, const struct gls_target *target, struct scene_material *m)
+static void fill_fragment_state(const struct gls_attribs *a, const struct gls_target *target, struct scene_material *m)
 {
 	const struct gls_surface *d = target->surface;
-	const struct gls_attribs *a = &st->a;
 	const struct gls_color_buffer *b = &a->color;
 
 	m->alpha_test = a->color.alpha_test;
@@ -380,18 +377,18 @@ static void fill_multisample(const struct gls_multisample *a, const struct gls_s
 	}
 }
 
-static uint32_t find_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const float color[4])
+static uint32_t find_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
 {
 	struct gls_frame *f = target->surface->frame;
 	struct scene *s = f->out;
-	const struct gls_attribs *a = &st->a;
+	const struct gls_attribs *a = e->attribs;
 	const uint32_t unclamped = unclamped_by(a, target->surface);
 	struct scene_unit units[GLS_MAX_UNITS];
 	struct scene_material m;
 
 	memset(&m, 0, sizeof(m));
 	m.lighting = a->lighting.enabled;
-	fill_lighting(&a->lighting, color, &m);
+	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], &m);
 	if (m.lighting)
 		m.light_first = fill_lights(f, &a->lighting, &m.light_count);
 	m.normalize = a->transform.normalize;
@@ -399,7 +396,7 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
-		m.unit_count += (uint32_t)fill_unit(x, f, st, u, &units[m.unit_count]);
+		m.unit_count += (uint32_t)fill_unit(x, f, st, &a->texturing.units[u], &units[m.unit_count]);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		put_color(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = intern_run(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
@@ -413,7 +410,7 @@ static uint32_t find_material(struct gls_exec *x, const struct gls_target *targe
 	put_color(m.fog_color, a->fog.color, unclamped & 1);
 	fill_raster_state(a, &m);
 	m.polygon_stipple = fill_stipple(f, a);
-	fill_fragment_state(st, target, &m);
+	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
@@ -557,18 +554,8 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	free_frame(old);
 }
 
-/* What is drawn: as gls_frame_add has it, or gls_frame_add_rectangle. */
-struct event {
-	struct gls_mesh *mesh;
-	const float (*values)[4];
-	uint32_t command;
-	uint64_t call_number;
-	const struct scene_rectangle *rectangle; /* NULL: none */
-	struct gls_texture_image *image;         /* its */
-};
-
 /* Make a frame's last instance a rectangle. @return 0: out of memory */
-static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct event *e)
+static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct gls_event *e)
 {
 	struct scene *s = f->out;
 	struct scene_rectangle *r;
@@ -583,8 +570,7 @@ static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct e
 	return 1;
 }
 
-/* @return 1 where an instance was added */
-static int add_to(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct event *e)
+int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
 {
 	const float (*values)[4] = e->values;
 	struct gls_mesh *mesh = e->mesh;
@@ -601,9 +587,9 @@ static int add_to(struct gls_exec *x, const struct gls_target *target, struct gl
 	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
-		f->view = find_view(x, f, st);
-	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || st->a.lighting.color_material)
-		f->material = find_material(x, target, st, values[GLS_ATTR_COLOR]);
+		f->view = find_view(target->surface, st, e->attribs);
+	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material)
+		f->material = find_material(x, target, st, e);
 	f->last = st;
 	instance = &s->instances[s->n_instances];
 	memset(instance, 0, sizeof(*instance));
@@ -632,40 +618,13 @@ fail:
 	return 0;
 }
 
-/* What the context draws can change something of a surface: depth and stencil, where colours go elsewhere. */
-static int is_reached(const struct gls_target *target, const struct gls_state *st, const struct scene_rectangle *r)
+void gls_frame_pass(struct gls_surface *surface)
 {
-	return target->colored || (st->a.depth.enabled && st->a.depth.write) || st->a.stencil.enabled ||
-	       (r && (r->kind == SCENE_DEPTH_PIXELS || r->kind == SCENE_STENCIL_PIXELS));
+	if (surface->frame)
+		surface->frame->last = NULL;
 }
 
-static void add(struct gls_exec *x, struct gls_state *st, const struct event *e)
-{
-	struct gls_target targets[2];
-	unsigned n, added = 0;
-
-	if (!gls_is_drawn(x, st))
-		return;
-	gls_units_settle(x, st);
-	n = gls_targets_of(x, st, targets);
-	for (unsigned i = 0; i < n; i++) {
-		if (n == 1 || is_reached(&targets[i], st, e->rectangle))
-			added |= (unsigned)add_to(x, &targets[i], st, e);
-		else if (targets[i].surface->frame)
-			targets[i].surface->frame->last = NULL; /* it has not seen this state */
-	}
-	st->dirty = 0;
-	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled))
-		gls_unsupported(x, "programs: drawn as fixed function");
-}
-
-void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
-                   uint32_t command, uint64_t call_number)
-{
-	add(x, st, &(struct event){ mesh, values, command, call_number, NULL, NULL });
-}
-
-static void clear_on(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, uint32_t buffers)
+void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const struct gls_state *st, uint32_t buffers)
 {
 	struct gls_surface *d = target->surface;
 	struct gls_frame *f;
@@ -676,7 +635,7 @@ static void clear_on(struct gls_exec *x, const struct gls_target *target, struct
 	memset(&clear, 0, sizeof(clear));
 	clear.buffers = buffers;
 	clear.color_mask = target->colored ? st->a.color.mask : 0;
-	fill_scissor(x, st, clear.scissor);
+	fill_scissor(d, &st->a.scissor, clear.scissor);
 	put_color(clear.color, st->a.color.clear, d->floats);
 	clear.floats = d->floats;
 	if (!st->a.depth.write) /* masks count for Clear too (sec. 4.2.3) */
@@ -709,40 +668,6 @@ static void clear_on(struct gls_exec *x, const struct gls_target *target, struct
 		f->cleared |= clear.buffers & 1;
 	if (whole)
 		f->cleared |= clear.buffers & ((clear.stencil_mask & 255) == 255 ? 6u : 2u);
-}
-
-void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
-{
-	struct gls_target targets[2];
-	unsigned n;
-
-	if (!gls_is_drawn(x, st) || !buffers)
-		return;
-	n = gls_targets_of(x, st, targets);
-	for (unsigned i = 0; i < n; i++)
-		if (n == 1 || targets[i].colored || buffers & 6)
-			clear_on(x, &targets[i], st, buffers);
-}
-
-void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
-                             struct gls_texture_image *image, const float corner[4], const float (*values)[4])
-{
-	struct gls_geometry *g = &x->scratch.geometry;
-	struct gls_mesh *mesh;
-
-	gls_geometry_clear(g);
-	g->kind = SCENE_POINTS;
-	if (gls_geometry_reserve(g, 1, 1))
-		return;
-	memcpy(g->position, corner, 16);
-	g->edge[0] = 1;
-	g->n_vertices = 1;
-	if (gls_geometry_cut(g, GL_POINTS, 0, 1, NULL, 0) || !(g->n_draws = 1) || !(mesh = gls_geometry_mesh(x, g)))
-		return;
-	st->dirty |= GLS_DIRTY_ALL;
-	add(x, st, &(struct event){ mesh, values, x->command, x->call->number, r, image });
-	gls_mesh_release(mesh);
-	gls_geometry_clear(g);
 }
 
 /* ---- a frame's beginning and end ---- */

@@ -6,11 +6,39 @@
 
 #include "gl_tokens.h"
 #include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
 
 struct gls_mesh;
-struct gls_picture;
-struct gls_surface;
 struct gls_texture_image;
+
+/* Something that is drawn to. All zero: black, and nothing has happened. */
+struct gls_surface {
+	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
+	uint32_t samples, samples_from_below, floats; /* as in struct scene */
+	struct gls_frame *frame;     /* owned: events; NULL: none */
+	struct gls_picture *picture; /* a reference: what it held before them, */
+	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
+	int deferred;                /* 1: some of the events are of earlier frames, which nobody wanted */
+	int is_front;                /* 1: a front buffer beside a back buffer */
+	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
+};
+
+/* What an event changes. */
+struct gls_target {
+	struct gls_surface *surface;
+	int colored; /* 0: colours go to another surface, which shares this one's depth and stencil */
+};
+
+/* What is drawn. */
+struct gls_event {
+	const struct gls_attribs *attribs; /* to draw with: the state's, or changed ones */
+	struct gls_mesh *mesh;     /* no reference is taken (the scene takes its own) */
+	const float (*values)[4];  /* attributes that the mesh does not give */
+	uint32_t command;
+	uint64_t call_number;
+	const struct scene_rectangle *rectangle; /* of pixels, at the mesh's only point; its texture is filled in. NULL: none */
+	struct gls_texture_image *image;         /* its pixels */
+};
 
 /** 1 where drawing and clearing reach a surface, or would if it were wanted: neither selection nor feedback (sec. 5.2, 5.3). */
 static inline int gls_renders(const struct gls_state *st)
@@ -22,20 +50,16 @@ static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state 
 {
 	return x->want && gls_renders(st);
 }
+
 /**
- * Draw a mesh with the state as it is.
- * @param mesh    no reference is taken (the scene takes its own)
- * @param values  attributes that the mesh does not give
+ * Draw on a surface. st->dirty says what of it has changed since this surface saw it last.
+ * @return 1; 0: out of memory (reported)
  */
-void gls_frame_add(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
-                   uint32_t command, uint64_t call_number);
-/**
- * Draw a bitmap or pixel rectangle; values: the raster position's attributes, final. r->texture is filled in from the image.
- * @param corner  window coordinates, z the window depth
- */
-void gls_frame_add_rectangle(struct gls_exec *x, struct gls_state *st, const struct scene_rectangle *r,
-                             struct gls_texture_image *image, const float corner[4], const float (*values)[4]);
-void gls_frame_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers);
+int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
+/** A surface was not reached by an event: it has not seen the state that the event saw. */
+void gls_frame_pass(struct gls_surface *surface);
+/** buffers: as in scene_clear. */
+void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const struct gls_state *st, uint32_t buffers);
 /** The scene of all events so far, valid until the next one; begun where there is none. Borrowed; NULL: out of memory. */
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
 /** The same, taken out of the surface: a reference for the caller. No events are left. */

@@ -7,13 +7,13 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "capture/format/trace.h"
-#include "replay/build/frame.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/state/attrib.h"
+#include "replay/gl/surface/draw.h"
 #include "replay/gl/surface/drawable.h"
-#include "replay/gl/surface/feedback.h"
-#include "replay/gl/texture/texture.h"
+#include "replay/gl/surface/surface.h"
+#include "replay/gl/texture/image.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/geometry.h"
@@ -35,7 +35,7 @@ void gls_flush(struct gls_exec *x)
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;
 		if (mesh)
-			gls_frame_add(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
+			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
 		x->drawn_list = list;
 		gls_mesh_release(mesh);
 	}

@@ -136,7 +136,7 @@ static void *get_buffer(struct loader *l)
 
 static const struct snapshot_table buffers = { "buffer", sizeof(struct gls_buffer), put_buffer, get_buffer, drop_buffer };
 
-/* ---- framebuffer objects and renderbuffers: what was drawn to them is missing (gls_framebuffer_touch) ---- */
+/* ---- framebuffer objects and renderbuffers: what was drawn to them is missing (gls_framebuffer_skip) ---- */
 
 static void put_framebuffer(struct saver *s, void *value)
 {

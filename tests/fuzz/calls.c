@@ -13,8 +13,8 @@
 #include "replay/machine/machine.h"
 #include "replay/index/snapshot.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/surface/feedback.h"
-#include "replay/gl/texture/texture.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/gl/texture/image.h"
 #include "base/bytes.h"
 
 #define MAX_FRAMES 8
@@ -296,7 +296,7 @@ static void begin_frame(struct gls_exec *x, size_t size, const struct calls_pain
 	x->frame_ended = 0;
 	x->want = !painter || !painter->skips || size / CALLS_SLOT % 4 || x->frame % 2;
 	if (x->want)
-		gls_frame_stop_carrying(x);
+		gls_frame_end_deferred(x);
 }
 
 /* The same where it has ended. */

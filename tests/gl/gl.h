@@ -24,7 +24,7 @@
 #include "replay/machine/machine.h"
 #include "replay/replay.h"
 #include "tests/case.h"
-#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/frames.h"
 
 #define GL_MAX_ARGS 16
 

@@ -7,7 +7,7 @@
 #include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
 #include "replay/gl/geometry/list.h"
-#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/frames.h"
 #include "base/bytes.h"
 
 #define N_LISTS 6

@@ -1,6 +1,6 @@
 /* Pixels that feed back (GL 2.1 sec. 3.8.2, 4.2, 4.3): who asks for which pixels, and what becomes of them. */
 #include "tests/gl/gl.h"
-#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/frames.h"
 
 /* A supplier that paints every picture in one colour, and remembers what it was asked. */
 struct painter {

@@ -2,7 +2,8 @@
 #include "tests/gl/gl.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
-#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/gl/surface/screen.h"
 
 #define ALL (GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT)
 

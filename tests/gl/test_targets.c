@@ -1,6 +1,6 @@
 /* What is drawn to (GL 2.1 sec. 4, GLX 1.4 sec. 3.3.3, GL 3.0 sec. 4.4): how many bits it has, framebuffer objects. */
 #include "tests/gl/gl.h"
-#include "replay/gl/surface/feedback.h"
+#include "replay/gl/surface/frames.h"
 
 static void triangle(struct gl *gl)
 {

@@ -8,12 +8,13 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
+#include "base/half.h"
 #include "capture/format/trace.h"
-#include "replay/build/frame.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/geometry/buffer.h"
 #include "replay/gl/geometry/list.h"
+#include "replay/gl/surface/draw.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -265,20 +266,6 @@ static uint64_t source_count(const struct source *s)
 	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
 }
 
-static float half_to_float(uint16_t h)
-{
-	uint32_t sign = (uint32_t)(h & 0x8000) << 16, exponent = h >> 10 & 31, mantissa = h & 1023, bits;
-	float f;
-
-	if (exponent == 0) {
-		f = (float)mantissa / 16777216.0f;
-		return sign ? -f : f;
-	}
-	bits = sign | (exponent == 31 ? 0x7f800000u : (exponent + 112) << 23) | mantissa << 13;
-	memcpy(&f, &bits, 4);
-	return f;
-}
-
 static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized)
 {
 	int8_t i8;
@@ -498,7 +485,7 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
 		if (gls_list_append_mesh(x, st->list, &op) || st->list_mode == GL_COMPILE)
 			return;
 	}
-	gls_frame_add(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
 
 /* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of memory (reported) */

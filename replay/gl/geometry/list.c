@@ -13,11 +13,11 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "capture/format/trace.h"
-#include "replay/build/frame.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/geometry/effect.h"
 #include "replay/gl/geometry/vertex.h"
+#include "replay/gl/surface/draw.h"
 #include "replay/gl/state/light.h"
 #include "replay/gl/texture/texture.h"
 #include "base/arena.h"
@@ -234,7 +234,7 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	if (op->mesh && op->first_provokes != st->a.lighting.first_provokes && st->a.lighting.shade_model == GL_FLAT)
 		gls_unsupported(x, "lists made under another glProvokingVertex than they are called under");
 	if (op->mesh)
-		gls_frame_add(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+		gls_draw_mesh(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 	set_attributes(x, st, op->after, op->after_values);
 }
 

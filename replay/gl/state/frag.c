@@ -2,8 +2,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "replay/build/frame.h"
-#include "replay/gl/surface/accum.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -244,18 +242,4 @@ GLS_HANDLER(glClearAccum, STATE)
 {
 	for (unsigned i = 0; i < 4; i++)
 		st->a.accum.clear[i] = arg_f(c, i);
-}
-
-GLS_HANDLER(glClear, STATE)
-{
-	uint32_t mask = arg_u(c, 0);
-
-	if (mask & ~(uint32_t)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT)) {
-		gls_error(x, st, GL_INVALID_VALUE);
-		return;
-	}
-	if (mask & GL_ACCUM_BUFFER_BIT)
-		gls_accum_clear(x, st);
-	gls_frame_clear(x, st, (mask & GL_COLOR_BUFFER_BIT ? 1u : 0) | (mask & GL_DEPTH_BUFFER_BIT ? 2u : 0) |
-	                           (mask & GL_STENCIL_BUFFER_BIT ? 4u : 0));
 }

@@ -4,7 +4,7 @@
 
 #include "gl_tokens.h"
 #include "capture/format/trace.h"
-#include "replay/gl/texture/teximage.h"
+#include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

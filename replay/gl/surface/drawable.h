@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "replay/gl/surface/feedback.h"
+#include "replay/build/frame.h"
 
 /* A window or pbuffer as far as the trace tells. */
 struct gls_drawable {

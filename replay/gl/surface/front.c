@@ -12,13 +12,10 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
-#include "replay/gl/surface/feedback.h"
 #include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/surface.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
-#include "base/table.h"
 
 static int is_front(uint32_t buffer)
 {
@@ -42,6 +39,11 @@ int gls_front_is_drawn(const struct gls_state *st)
 	return st->double_buffered && is_front(drawn_in_window(st));
 }
 
+int gls_front_alone_is_drawn(const struct gls_state *st)
+{
+	return st->double_buffered && is_front_alone(drawn_in_window(st));
+}
+
 int gls_front_is_read(const struct gls_state *st)
 {
 	return st->double_buffered && !st->read_framebuffer && (is_front_alone(st->a.pixel.read_buffer) || st->a.pixel.read_buffer == GL_LEFT);
@@ -49,7 +51,7 @@ int gls_front_is_read(const struct gls_state *st)
 
 static int has_same_start(const struct gls_surface *a, const struct gls_surface *b)
 {
-	return a->picture == b->picture && a->before == b->before && a->skipped == b->skipped && !a->carried && !b->carried;
+	return a->picture == b->picture && a->before == b->before && a->skipped == b->skipped && !a->deferred && !b->deferred;
 }
 
 static void merge(struct scene_picture *to, const struct scene_picture *colors, const struct scene_picture *rest)
@@ -69,7 +71,7 @@ static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *fron
 
 	if (!rest)
 		return NULL;
-	p = gls_picture_make(x, back->width, back->height, back->depth_bits, back->alpha_bits, back->samples, 0);
+	p = gls_picture_make(x, &(struct gls_picture_form){ back->width, back->height, back->depth_bits, back->alpha_bits, back->samples, 0 });
 	if (!p)
 		return NULL;
 	merge(&p->picture, colors, rest);
@@ -95,7 +97,7 @@ struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d)
 	gls_surface_free(front);
 	front->picture = start;
 	front->skipped = !start && x->feedback.supply;
-	front->carried = 0;
+	front->deferred = 0;
 	return front;
 }
 
@@ -104,23 +106,4 @@ void gls_front_swapped(struct gls_drawable *d)
 	gls_surface_free(&d->front);
 	d->parted = 0;
 	gls_surface_share(&d->front, &d->surface);
-}
-
-unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_target out[2])
-{
-	struct gls_surface *surface = gls_surface_of(x, st);
-	uint32_t buffer = st->a.color.draw_buffer;
-	struct gls_drawable *d;
-
-	if (!surface)
-		return 0;
-	out[0] = (struct gls_target){ surface, buffer != GL_NONE };
-	if (st->draw_framebuffer || !st->double_buffered)
-		return 1;
-	d = gls_drawable_of(x, st->drawable);
-	if (!d->parted && !is_front(buffer))
-		return 1;
-	out[0].colored = buffer != GL_NONE && !is_front_alone(buffer);
-	out[1] = (struct gls_target){ gls_front_part(x, d), is_front(buffer) };
-	return 2;
 }

@@ -1,4 +1,7 @@
-/* Internal formats: what a texel of each can hold. */
+/*
+ * Internal formats of textures and renderbuffers: what is kept of a colour. A texel is 4 bytes RGBA, or 4 floats where its format
+ * holds numbers beyond [0,1]; a depth is one float.
+ */
 #ifndef REPLAY_GL_TEXTURE_TEXFORMAT_H
 #define REPLAY_GL_TEXTURE_TEXFORMAT_H
 
@@ -18,25 +21,25 @@ struct gls_format {
 	uint8_t bits[4];      /* of R G B A (L and I: of R) where fewer than 8 are stored; 0: 8 */
 	uint8_t srgb;         /* 1: colours are encoded as sRGB says, and sampled in linear light */
 	uint8_t block_bytes;  /* of 4x4 texels (8x4 of FXT1) in client memory where it is compressed; else 0 */
-	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded;
-	   so does every texel here, which is all that is done of that compression */
+	/* 1: Mesa compresses plain pixels to S3TC. A block of one colour then keeps 5, 6 and 5 bits of it, cut off and not rounded.
+	   Every texel here keeps as much; nothing else of that compression is done */
 	uint8_t s3tc;
 	uint8_t numbers; /* enum gls_numbers */
 };
 
-/* Formats whose texels are four floats, which may be beyond [0,1]: what numbers they can hold. */
+/* What numbers the texels of a format can hold. All but bytes are stored as floats. */
 enum gls_numbers { GLS_BYTES, GLS_SNORM8, GLS_SNORM16, GLS_FLOAT, GLS_HALF, GLS_11F, GLS_9E5 };
 
-/** NULL: none that fixed function could sample. */
+/** NULL: fixed function could sample no such format. */
 const struct gls_format *gls_format_find(uint32_t internal_format);
 /** Base format of an internal format, 0: none. */
 uint32_t gls_base_format(uint32_t internal_format);
-/** Of a surface that such a texture or renderbuffer is attached to. */
+/** Depth and stencil bits of a surface that such a texture or renderbuffer is attached to. */
 uint32_t gls_format_depth_bits(uint32_t internal_format);
 uint32_t gls_format_stencil_bits(uint32_t internal_format);
-/** 1: a drawable that such a texture or renderbuffer is attached to holds floats. */
+/** 1: a surface that such a texture or renderbuffer is attached to holds floats. */
 uint32_t gls_format_is_float(uint32_t internal_format);
-/** Of a texel: 4, or 16 where it is four floats. */
+/** Bytes of a texel: 4, or 16 where it is four floats. */
 uint32_t gls_texel_bytes(uint32_t internal_format);
 /** A colour as a texel, rounded to what the format can hold, expanded as sampling does (table 3.20). */
 void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *out);
@@ -46,9 +49,9 @@ void gls_format_draw(const struct gls_format *f, const float rgba[4], uint8_t *o
 void gls_format_store_bytes(const struct gls_format *f, const float rgba[4], uint8_t out[4]);
 /** What a texel holds. */
 void gls_texel_load(uint32_t texel_bytes, const uint8_t *texel, float out[4]);
-/** A border colour as sampling a format gives it: no number that its texels could not be. */
+/** A border colour as sampling this format gives it: no number that its texels could not be. */
 void gls_format_border(uint32_t internal_format, const float color[4], float out[4]);
-/** EXT_texture_sRGB, of one channel in [0,1]. */
+/** One channel in [0,1] (EXT_texture_sRGB, IEC 61966-2-1). */
 float gls_linear_from_srgb(float c);
 float gls_srgb_from_linear(float c);
 

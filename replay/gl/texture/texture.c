@@ -1,33 +1,25 @@
-/* Texture objects, their parameters, environments and coordinate generation (GL 2.1 sec. 2.11.4, 3.8). */
+/* Texture objects and their parameters, sampler objects. */
 #include "replay/gl/texture/texture.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "gl_tokens.h"
-#include "base/err.h"
-#include "base/mat4.h"
 #include "capture/format/trace.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/geometry/buffer.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
-#include "base/table.h"
 
-#define IMAGE_KEEP_FRAMES 8                  /* frames that an unused image is kept */
-#define IMAGE_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */
-
-static const uint32_t target_tokens[N_GLS_TEXTURE_TARGETS] = {
-	GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE,
-};
+#define MAX_SIZE 16384
+#define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */
 
 int gls_texture_target_of(uint32_t token, unsigned *face)
 {
@@ -36,9 +28,9 @@ int gls_texture_target_of(uint32_t token, unsigned *face)
 		*face = token - GL_TEXTURE_CUBE_MAP_POSITIVE_X;
 		return GLS_TEXTURE_CUBE;
 	}
-	for (int i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
-		if (target_tokens[i] == token)
-			return i;
+	for (uint32_t i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		if (gls_texture_token(i) == token)
+			return (int)i;
 	return -1;
 }
 
@@ -169,7 +161,7 @@ GLS_HANDLER(glBindTexture, STATE)
 	int target = gls_texture_target_of(token, &face);
 	struct gls_texture *t;
 
-	if (target < 0 || token != target_tokens[target]) {
+	if (target < 0 || token != gls_texture_token((uint32_t)target)) {
 		addressed(x, st, token == GL_TEXTURE_1D_ARRAY ? token : 0);
 		return;
 	}
@@ -189,35 +181,13 @@ GLS_HANDLER(glBindTexture, STATE)
 	active_unit(st)->bound[target] = name;
 }
 
-GLS_HANDLER(glDeleteTextures, NOW)
-{
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
-	struct gls_texture *t;
-
-	gls_flush(x);
-	st->dirty |= GLS_DIRTY_MATERIAL;
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-		if (!name)
-			continue;
-		gls_texture_detach(x, st, name);
-		t = table_remove(&st->share->textures, name);
-		st->share->epoch += t != NULL;
-		gls_texture_free(t);
-		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
-			for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
-				if (st->a.texturing.units[u].bound[target] == name)
-					st->a.texturing.units[u].bound[target] = 0;
-	}
-}
-
 GLS_HANDLER(glPrioritizeTextures, STATE) {} /* residence of textures; nothing is drawn differently */
 
 /* ---- parameters, sec. 3.8.4 ---- */
 
-static int is_wrap(const struct gls_texture *t, uint32_t wrap)
+static int is_wrap(const struct gls_texture *t, float value)
 {
+	uint32_t wrap = token_of_float(value);
 	int any = wrap == GL_CLAMP || wrap == GL_CLAMP_TO_EDGE || wrap == GL_CLAMP_TO_BORDER;
 
 	return any || (t->target != GLS_TEXTURE_RECTANGLE &&
@@ -225,115 +195,123 @@ static int is_wrap(const struct gls_texture *t, uint32_t wrap)
 	                wrap == GL_MIRROR_CLAMP_TO_EDGE || wrap == GL_MIRROR_CLAMP_TO_BORDER_EXT));
 }
 
-static int is_swizzle(uint32_t token)
+static int is_mag_filter(const struct gls_texture *t __attribute__((unused)), float value)
 {
+	uint32_t filter = token_of_float(value);
+
+	return filter == GL_NEAREST || filter == GL_LINEAR;
+}
+
+static int is_min_filter(const struct gls_texture *t, float value)
+{
+	uint32_t filter = token_of_float(value);
+
+	return is_mag_filter(t, value) || (filter >= GL_NEAREST_MIPMAP_NEAREST && filter <= GL_LINEAR_MIPMAP_LINEAR &&
+	                                   t->target != GLS_TEXTURE_RECTANGLE);
+}
+
+static int is_swizzle(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	uint32_t token = token_of_float(value);
+
 	return token == GL_ZERO || token == GL_ONE || (token >= GL_RED && token <= GL_ALPHA);
 }
 
+static int is_not_negative(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	return !(value < 0);
+}
+
+static int is_at_least_one(const struct gls_texture *t __attribute__((unused)), float value)
+{
+	return value >= 1;
+}
+
+/* A parameter of one number: its place in struct gls_texture_parameters, and what it may be. */
+struct parameter {
+	uint32_t name;
+	enum { TOKEN, FLOAT, BOOLEAN } kind;
+	size_t place;
+	int (*allows)(const struct gls_texture *t, float value); /* NULL: anything */
+	uint32_t error;                                          /* of what is not allowed */
+	uint32_t changes_image;
+};
+
+static const struct parameter *find_parameter(uint32_t name)
+{
+#define AT(field) offsetof(struct gls_texture_parameters, field)
+	static const struct parameter parameters[] = {
+		{ GL_TEXTURE_WRAP_S, TOKEN, AT(wrap_s), is_wrap, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_WRAP_T, TOKEN, AT(wrap_t), is_wrap, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_WRAP_R, TOKEN, AT(wrap_r), is_wrap, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_MIN_FILTER, TOKEN, AT(min_filter), is_min_filter, GL_INVALID_ENUM, 1 },
+		{ GL_TEXTURE_MAG_FILTER, TOKEN, AT(mag_filter), is_mag_filter, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_PRIORITY, FLOAT, AT(priority), NULL, 0, 0 },
+		{ GL_TEXTURE_MIN_LOD, FLOAT, AT(min_lod), NULL, 0, 0 },
+		{ GL_TEXTURE_MAX_LOD, FLOAT, AT(max_lod), NULL, 0, 0 },
+		{ GL_TEXTURE_BASE_LEVEL, TOKEN, AT(base_level), is_not_negative, GL_INVALID_VALUE, 1 },
+		{ GL_TEXTURE_MAX_LEVEL, TOKEN, AT(max_level), is_not_negative, GL_INVALID_VALUE, 1 },
+		{ GL_TEXTURE_LOD_BIAS, FLOAT, AT(lod_bias), NULL, 0, 0 },
+		{ GL_GENERATE_MIPMAP, BOOLEAN, AT(generate_mipmap), NULL, 0, 0 },
+		{ GL_TEXTURE_COMPARE_MODE, TOKEN, AT(compare_mode), NULL, 0, 0 },
+		{ GL_TEXTURE_COMPARE_FUNC, TOKEN, AT(compare_func), NULL, 0, 0 },
+		{ GL_DEPTH_TEXTURE_MODE, TOKEN, AT(depth_mode), NULL, 0, 0 },
+		{ GL_TEXTURE_SRGB_DECODE_EXT, TOKEN, AT(srgb_decode), NULL, 0, 1 },
+		{ GL_TEXTURE_SWIZZLE_R, TOKEN, AT(swizzle[0]), is_swizzle, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_SWIZZLE_G, TOKEN, AT(swizzle[1]), is_swizzle, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_SWIZZLE_B, TOKEN, AT(swizzle[2]), is_swizzle, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_SWIZZLE_A, TOKEN, AT(swizzle[3]), is_swizzle, GL_INVALID_ENUM, 0 },
+		{ GL_TEXTURE_MAX_ANISOTROPY_EXT, FLOAT, AT(max_anisotropy), is_at_least_one, GL_INVALID_VALUE, 0 },
+	};
+#undef AT
+
+	for (size_t i = 0; i < sizeof(parameters) / sizeof(parameters[0]); i++)
+		if (parameters[i].name == name)
+			return &parameters[i];
+	return NULL;
+}
+
+static void set_number(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct parameter *p, float value)
+{
+	uint32_t word = p->kind == BOOLEAN ? value != 0 : token_of_float(value);
+
+	if (p->allows && !p->allows(t, value)) {
+		gls_error(x, st, p->error);
+		return;
+	}
+	memcpy((uint8_t *)&t->parameters + p->place, p->kind == FLOAT ? (const void *)&value : &word, sizeof(word));
+	t->dirty |= p->changes_image;
+}
+
+static void set_swizzles(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const float v[4])
+{
+	for (unsigned i = 0; i < 4; i++)
+		if (!(v[i] >= 0.0f) || !is_swizzle(t, v[i])) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+	for (unsigned i = 0; i < 4; i++)
+		t->parameters.swizzle[i] = token_of_float(v[i]);
+}
+
+/* normalized: integers mean colours in [-1,1] */
 static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct call *c, int normalized)
 {
+	const struct parameter *p = find_parameter(arg_u(c, 1));
 	float v[4] = { 0 };
-	uint32_t token;
 
 	if (!t)
 		return;
 	arg_floats(c, 2, v, 4);
-	token = token_of_float(v[0]);
-	switch (arg_u(c, 1)) {
-	case GL_TEXTURE_WRAP_S:
-	case GL_TEXTURE_WRAP_T:
-	case GL_TEXTURE_WRAP_R:
-		if (!is_wrap(t, token)) {
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
-		*(arg_u(c, 1) == GL_TEXTURE_WRAP_S ? &t->parameters.wrap_s : arg_u(c, 1) == GL_TEXTURE_WRAP_T ? &t->parameters.wrap_t : &t->parameters.wrap_r) =
-			token;
-		break;
-	case GL_TEXTURE_MIN_FILTER:
-		if (token != GL_NEAREST && token != GL_LINEAR &&
-		    (token < GL_NEAREST_MIPMAP_NEAREST || token > GL_LINEAR_MIPMAP_LINEAR || t->target == GLS_TEXTURE_RECTANGLE)) {
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
-		t->parameters.min_filter = token;
-		t->dirty = 1;
-		break;
-	case GL_TEXTURE_MAG_FILTER:
-		if (token != GL_NEAREST && token != GL_LINEAR) {
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
-		t->parameters.mag_filter = token;
-		break;
-	case GL_TEXTURE_BORDER_COLOR:
+	if (p)
+		set_number(x, st, t, p, v[0]);
+	else if (arg_u(c, 1) == GL_TEXTURE_BORDER_COLOR)
 		for (unsigned i = 0; i < 4; i++)
 			t->parameters.border_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-		break;
-	case GL_TEXTURE_PRIORITY:
-		t->parameters.priority = v[0];
-		break;
-	case GL_TEXTURE_MIN_LOD:
-		t->parameters.min_lod = v[0];
-		break;
-	case GL_TEXTURE_MAX_LOD:
-		t->parameters.max_lod = v[0];
-		break;
-	case GL_TEXTURE_BASE_LEVEL:
-	case GL_TEXTURE_MAX_LEVEL:
-		if (v[0] < 0) {
-			gls_error(x, st, GL_INVALID_VALUE);
-			return;
-		}
-		*(arg_u(c, 1) == GL_TEXTURE_BASE_LEVEL ? &t->parameters.base_level : &t->parameters.max_level) = token;
-		t->dirty = 1;
-		break;
-	case GL_TEXTURE_LOD_BIAS:
-		t->parameters.lod_bias = v[0];
-		break;
-	case GL_GENERATE_MIPMAP:
-		t->parameters.generate_mipmap = v[0] != 0;
-		break;
-	case GL_TEXTURE_COMPARE_MODE:
-		t->parameters.compare_mode = token;
-		break;
-	case GL_TEXTURE_COMPARE_FUNC:
-		t->parameters.compare_func = token;
-		break;
-	case GL_DEPTH_TEXTURE_MODE:
-		t->parameters.depth_mode = token;
-		break;
-	case GL_TEXTURE_SRGB_DECODE_EXT:
-		t->parameters.srgb_decode = token;
-		t->dirty = 1;
-		break;
-	case GL_TEXTURE_SWIZZLE_R:
-	case GL_TEXTURE_SWIZZLE_G:
-	case GL_TEXTURE_SWIZZLE_B:
-	case GL_TEXTURE_SWIZZLE_A:
-		if (!is_swizzle(token))
-			gls_error(x, st, GL_INVALID_ENUM);
-		else
-			t->parameters.swizzle[arg_u(c, 1) - GL_TEXTURE_SWIZZLE_R] = token;
-		break;
-	case GL_TEXTURE_SWIZZLE_RGBA:
-		for (unsigned i = 0; i < 4; i++)
-			if (!(v[i] >= 0.0f) || !is_swizzle(token_of_float(v[i]))) {
-				gls_error(x, st, GL_INVALID_ENUM);
-				return;
-			}
-		for (unsigned i = 0; i < 4; i++)
-			t->parameters.swizzle[i] = token_of_float(v[i]);
-		break;
-	case GL_TEXTURE_MAX_ANISOTROPY_EXT:
-		if (!(v[0] >= 1))
-			gls_error(x, st, GL_INVALID_VALUE);
-		else
-			t->parameters.max_anisotropy = v[0];
-		break;
-	default:
+	else if (arg_u(c, 1) == GL_TEXTURE_SWIZZLE_RGBA)
+		set_swizzles(x, st, t, v);
+	else
 		gls_error(x, st, GL_INVALID_ENUM);
-	}
 }
 
 static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
@@ -408,282 +386,59 @@ GLS_HANDLER(glSamplerParameterfv, STATE) { set_parameter_of(x, st, find_sampler(
 GLS_HANDLER(glSamplerParameteri, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
 GLS_HANDLER(glSamplerParameteriv, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 1); }
 
-/* ---- environments, sec. 3.8.13 ---- */
+/* ---- levels, sec. 3.8.1 ---- */
 
-static void set_env(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+/* Textures of one dimension are not compressed. */
+static uint32_t uncompressed(uint32_t internal_format)
 {
-	struct gls_unit *unit = active_unit(st);
-	struct scene_unit *e = &unit->value;
-	uint32_t target = arg_u(c, 0), pname = arg_u(c, 1), token;
-	float v[4] = { 0 };
-
-	arg_floats(c, 2, v, 4);
-	token = token_of_float(v[0]);
-	if (target == GL_TEXTURE_FILTER_CONTROL && pname == GL_TEXTURE_LOD_BIAS) {
-		unit->lod_bias = v[0];
-		return;
-	}
-	if (target == GL_POINT_SPRITE && pname == GL_COORD_REPLACE) {
-		e->coord_replace = v[0] != 0;
-		return;
-	}
-	if (target != GL_TEXTURE_ENV) {
-		gls_error(x, st, GL_INVALID_ENUM);
-		return;
-	}
-	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 4) {
-		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
-		return;
-	}
-	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 4) {
-		e->source_alpha[pname - GL_SOURCE0_ALPHA] = token;
-		return;
-	}
-	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 4) {
-		e->operand_rgb[pname - GL_OPERAND0_RGB] = token;
-		return;
-	}
-	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 4) {
-		e->operand_alpha[pname - GL_OPERAND0_ALPHA] = token;
-		return;
-	}
-	switch (pname) {
-	case GL_TEXTURE_ENV_MODE:
-		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
-		    token != GL_COMBINE && token != GL_COMBINE4_NV) {
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
-		e->env_mode = token;
-		break;
-	case GL_TEXTURE_ENV_COLOR:
-		for (unsigned i = 0; i < 4; i++)
-			e->env_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
-		break;
-	case GL_COMBINE_RGB:
-		e->combine_rgb = token;
-		break;
-	case GL_COMBINE_ALPHA:
-		e->combine_alpha = token;
-		break;
-	case GL_RGB_SCALE:
-	case GL_ALPHA_SCALE:
-		if (v[0] != 1 && v[0] != 2 && v[0] != 4) {
-			gls_error(x, st, GL_INVALID_VALUE);
-			return;
-		}
-		*(pname == GL_RGB_SCALE ? &e->scale_rgb : &e->scale_alpha) = v[0];
-		break;
+	switch (internal_format) {
+	case GL_COMPRESSED_RGB:
+		return GL_RGB;
+	case GL_COMPRESSED_RGBA:
+		return GL_RGBA;
+	case GL_COMPRESSED_SRGB:
+		return GL_SRGB;
+	case GL_COMPRESSED_SRGB_ALPHA:
+		return GL_SRGB_ALPHA;
 	default:
-		gls_error(x, st, GL_INVALID_ENUM);
+		return internal_format;
 	}
 }
 
-GLS_HANDLER(glTexEnvf, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnvfv, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnvi, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnviv, STATE) { set_env(x, st, c, 1); }
-
-/* ---- coordinate generation, sec. 2.11.4 ---- */
-
-static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call *c)
+struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face,
+                                      int64_t level, const struct gls_level_form *form)
 {
-	struct scene_unit *e = &active_unit(st)->value;
-	uint32_t coord = arg_u(c, 0) - GL_S, mode;
-	float v[4] = { 0 }, inverse[16];
+	struct gls_level *l = &t->levels[face][level];
+	uint32_t internal_format = t->target == GLS_TEXTURE_1D ? uncompressed(form->internal_format) : form->internal_format;
+	int64_t width = form->width, height = form->height, depth = form->depth, least = form->border == 1 ? 2 : 0;
+	size_t bytes;
 
-	if (coord > 3) {
-		gls_error(x, st, GL_INVALID_ENUM);
-		return;
+	if (!gls_base_format(internal_format)) {
+		/* Mesa takes more formats than GL 2.1 has; those of other kinds hold no colours for fixed function. */
+		gls_unsupported(x, "textures of this internal format");
+		return NULL;
 	}
-	arg_floats(c, 2, v, 4);
-	mode = token_of_float(v[0]);
-	switch (arg_u(c, 1)) {
-	case GL_TEXTURE_GEN_MODE:
-		if (mode != GL_OBJECT_LINEAR && mode != GL_EYE_LINEAR && (mode != GL_SPHERE_MAP || coord > 1) &&
-		    ((mode != GL_REFLECTION_MAP && mode != GL_NORMAL_MAP) || coord > 2)) {
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
-		e->gen_mode[coord] = mode;
-		break;
-	case GL_OBJECT_PLANE:
-		memcpy(e->gen_object_plane[coord], v, 16);
-		break;
-	case GL_EYE_PLANE:
-		mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
-		mat4_transform_plane(e->gen_eye_plane[coord], v, inverse);
-		break;
-	default:
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (width < least || height < (t->target == GLS_TEXTURE_1D ? 0 : least) || depth < (t->target == GLS_TEXTURE_3D ? least : 0) ||
+	    width > MAX_SIZE + 2 || height > MAX_SIZE + 2 || depth > MAX_SIZE + 2 || (form->border != 0 && form->border != 1)) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return NULL;
 	}
-}
-
-GLS_HANDLER(glTexGend, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGendv, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGenf, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGenfv, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGeni, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGeniv, STATE) { set_gen(x, st, c); }
-
-/* ---- completeness (sec. 3.8.10) and images ---- */
-
-static uint32_t half(uint32_t size)
-{
-	return size > 1 ? size / 2 : 1;
-}
-
-static int is_mipmapped(uint32_t filter)
-{
-	return filter != GL_NEAREST && filter != GL_LINEAR;
-}
-
-/* Levels from the base level on that continue each other; 0: no base image. */
-static uint32_t count_levels(const struct gls_texture *t, unsigned face)
-{
-	const struct gls_level *base, *level;
-	uint32_t w, h, d, n;
-
-	if (t->parameters.base_level >= GLS_MAX_LEVELS || t->parameters.base_level > t->parameters.max_level)
-		return 0;
-	base = &t->levels[face][t->parameters.base_level];
-	if (!base->texels)
-		return 0;
-	w = base->width - 2 * base->border;
-	h = t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border;
-	d = t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1;
-	if (!w || !h || !d)
-		return 0; /* nothing but borders */
-	for (n = 1; t->parameters.base_level + n < GLS_MAX_LEVELS && t->parameters.base_level + n <= t->parameters.max_level && (w > 1 || h > 1 || d > 1); n++) {
-		w = half(w);
-		h = half(h);
-		d = half(d);
-		level = base + n;
-		if (!level->texels || level->border != base->border || level->internal_format != base->internal_format ||
-		    level->width != w + 2 * base->border ||
-		    (t->target != GLS_TEXTURE_1D && level->height != h + 2 * base->border) ||
-		    (t->target == GLS_TEXTURE_3D && level->depth != d + 2 * base->border))
-			return n | 0x80000000u; /* the chain breaks off */
+	if (width * height * depth * gls_texel_bytes(internal_format) >= MAX_BYTES) {
+		gls_error(x, st, GL_OUT_OF_MEMORY);
+		return NULL;
 	}
-	return n;
-}
-
-static int is_cube_complete(const struct gls_texture *t)
-{
-	const struct gls_level *first = &t->levels[0][t->parameters.base_level];
-
-	for (unsigned face = 0; face < 6; face++) {
-		const struct gls_level *base = &t->levels[face][t->parameters.base_level];
-		if (!base->texels || base->width != base->height || base->width != first->width ||
-		    base->internal_format != first->internal_format)
-			return 0;
-	}
-	return 1;
-}
-
-static void decode_srgb(uint8_t *to, const uint8_t *from, size_t n_texels)
-{
-	uint8_t linear[256];
-
-	for (unsigned i = 0; i < 256; i++)
-		linear[i] = (uint8_t)(gls_linear_from_srgb((float)i / 255) * 255 + 0.5f);
-	for (size_t i = 0; i < 4 * n_texels; i++)
-		to[i] = i % 4 == 3 ? from[i] : linear[from[i]];
-}
-
-static struct gls_texture_image *build_image(struct gls_exec *x, const struct gls_texture *t, uint32_t n_levels)
-{
-	const struct gls_level *base = &t->levels[0][t->parameters.base_level];
-	unsigned n_faces = t->target == GLS_TEXTURE_CUBE ? 6 : 1;
-	const struct gls_format *format = gls_format_find(base->internal_format);
-	int srgb = format && format->srgb && t->parameters.srgb_decode != GL_SKIP_DECODE_EXT;
-	uint32_t head[9] = { target_tokens[t->target], base->base_format, base->width - 2 * base->border,
-	                     t->target == GLS_TEXTURE_1D ? 1 : base->height - 2 * base->border,
-	                     t->target == GLS_TEXTURE_3D ? base->depth - 2 * base->border : 1, n_levels, base->border, (uint32_t)srgb,
-	                     base->texel_bytes };
-	struct gls_texture_image *image;
-	XXH3_state_t state;
-	XXH128_hash_t hash;
-	uint64_t key;
-	size_t bytes = 0, n;
-	uint8_t *at;
-
-	XXH3_128bits_reset(&state);
-	XXH3_128bits_update(&state, head, sizeof(head));
-	for (uint32_t l = 0; l < n_levels; l++)
-		for (unsigned face = 0; face < n_faces; face++) {
-			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
-			n = level->texel_bytes * gls_level_count(level);
-			XXH3_128bits_update(&state, level->texels, n);
-			bytes += n;
-		}
-	hash = XXH3_128bits_digest(&state);
-	for (key = hash.low64; (image = table_find(&x->caches.images, key)); key++)
-		if (image->texture.hash[1] == hash.high64 && image->texture.hash[0] == hash.low64) {
-			atomic_fetch_add(&image->refs, 1);
-			return image;
-		}
-	image = calloc(1, sizeof(*image) + bytes);
-	if (!image || table_set(&x->caches.images, key, image)) {
-		free(image);
+	bytes = (size_t)(width * height * depth) * (gls_texel_bytes(internal_format) + (gls_format_stencil_bits(internal_format) ? 1 : 0));
+	free(l->texels);
+	*l = (struct gls_level){ .width = (uint32_t)width, .height = (uint32_t)height, .depth = (uint32_t)depth,
+		.border = (uint32_t)form->border, .internal_format = internal_format, .base_format = gls_base_format(internal_format),
+		.bytes = bytes, .texel_bytes = gls_texel_bytes(internal_format) };
+	gls_texture_changed(t);
+	if (!bytes)
+		return NULL;
+	l->texels = calloc(1, bytes);
+	if (!l->texels)
 		gls_out_of_memory(x, bytes);
-		return NULL;
-	}
-	atomic_init(&image->refs, 2); /* the cache's and the caller's */
-	image->texture = (struct scene_texture){ .hash = { hash.low64, hash.high64 }, .target = head[0],
-		.base_format = head[1], .width = head[2], .height = head[3], .depth = head[4], .n_levels = n_levels,
-		.border = base->border, .floats = base->texel_bytes == 16, .n_bytes = bytes };
-	image->texture.texels = at = (uint8_t *)(image + 1);
-	for (uint32_t l = 0; l < n_levels; l++)
-		for (unsigned face = 0; face < n_faces; face++) {
-			const struct gls_level *level = &t->levels[face][t->parameters.base_level + l];
-			if (srgb)
-				decode_srgb(at, level->texels, gls_level_count(level));
-			else
-				memcpy(at, level->texels, level->texel_bytes * gls_level_count(level));
-			at += level->texel_bytes * gls_level_count(level);
-		}
-	x->caches.image_bytes += bytes;
-	return image;
-}
-
-struct gls_texture_image *gls_texture_image_find(struct gls_exec *x, uint32_t width, uint32_t height, uint32_t texel_bytes,
-                                                 const uint8_t *texels)
-{
-	struct gls_texture t = { .target = GLS_TEXTURE_2D };
-	struct gls_texture_image *image;
-
-	t.levels[0][0] = (struct gls_level){ .width = width, .height = height, .depth = 1, .base_format = GL_RGBA,
-		                             .texel_bytes = texel_bytes, .texels = (uint8_t *)(uintptr_t)texels,
-		                             .bytes = (size_t)width * height * texel_bytes };
-	image = build_image(x, &t, 1);
-	if (image)
-		image->used_frame = x->frame;
-	return image;
-}
-
-struct gls_texture_image *gls_texture_image_of(struct gls_exec *x, struct gls_texture *t, uint32_t min_filter)
-{
-	uint32_t n, n_face;
-
-	if (!t->dirty && t->mipmapped == (uint32_t)is_mipmapped(min_filter))
-		return t->image;
-	t->mipmapped = (uint32_t)is_mipmapped(min_filter);
-	gls_texture_image_release(t->image);
-	t->image = NULL;
-	t->dirty = 0;
-	n = count_levels(t, 0);
-	if (!n || (t->target == GLS_TEXTURE_CUBE && !is_cube_complete(t)))
-		return NULL;
-	for (unsigned face = 1; face < 6 && t->target == GLS_TEXTURE_CUBE; face++) {
-		n_face = count_levels(t, face);
-		if ((n_face & 0x7fffffffu) < (n & 0x7fffffffu))
-			n = n_face | 0x80000000u;
-	}
-	if (t->mipmapped && n & 0x80000000u)
-		return NULL;
-	t->image = build_image(x, t, t->mipmapped ? n & 0x7fffffffu : 1);
-	return t->image;
+	return l->texels ? l : NULL;
 }
 
 uint32_t gls_texture_missing(const struct gls_texture *t)
@@ -693,37 +448,6 @@ uint32_t gls_texture_missing(const struct gls_texture *t)
 			if (t->levels[face][level].missing)
 				return t->levels[face][level].missing;
 	return 0;
-}
-
-void gls_texture_image_release(struct gls_texture_image *image)
-{
-	if (image && atomic_fetch_sub(&image->refs, 1) == 1)
-		free(image);
-}
-
-/* Screen copies make a new image each frame: drop those that the cache alone holds and nobody drew for a while. */
-void gls_image_cache_trim(struct gls_exec *x)
-{
-	if (x->caches.image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)
-		return;
-	for (size_t i = 0; i < x->caches.images.room;) {
-		struct table_entry e = x->caches.images.entries[i];
-		struct gls_texture_image *image = e.value;
-		if (!image || atomic_load(&image->refs) > 1 || image->used_frame + IMAGE_KEEP_FRAMES > x->frame) {
-			i++;
-			continue;
-		}
-		x->caches.image_bytes -= image->texture.n_bytes;
-		table_remove(&x->caches.images, e.key); /* may move another one into this place: look again */
-		gls_texture_image_release(image);
-	}
-}
-
-void gls_image_cache_free(struct gls_exec *x)
-{
-	for (size_t i = 0; i < x->caches.images.room; i++)
-		gls_texture_image_release(x->caches.images.entries[i].value);
-	table_free(&x->caches.images);
 }
 
 /* ---- the end of a share group ---- */

@@ -4,17 +4,16 @@
  *
  * Where a frame is not built, sums are missing from then on until all of the buffer is loaded or cleared.
  */
-#include "replay/gl/surface/accum.h"
+#include "replay/gl/pixels/accum.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "gl_tokens.h"
 #include "replay/build/frame.h"
+#include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/drawable.h"
-#include "replay/gl/surface/feedback.h"
-#include "replay/gl/surface/pixels.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/gl/texture/texformat.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -65,23 +64,12 @@ static int16_t clamp16(float v)
 	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
 }
 
-/* IEC 61966-2-1: between 0 and 1 as stored and linear. */
-static float to_linear(float v)
-{
-	return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
-}
-
-static float from_linear(float v)
-{
-	return v <= 0.0031308f ? v * 12.92f : 1.055f * powf(v, 1 / 2.4f) - 0.055f;
-}
-
 /* What a stored byte of a component (3: alpha) counts. */
 static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
 {
 	float v = (float)byte / 255;
 
-	return st->srgb && component < 3 ? to_linear(v) : v;
+	return st->srgb && component < 3 ? gls_linear_from_srgb(v) : v;
 }
 
 /* Each value of the area becomes itself times `scale`, plus `offset`, plus the colour there times `factor`. */
@@ -113,11 +101,11 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 			float v = (float)d->accum[4 * (((size_t)a->y0 + y) * d->accum_width + (size_t)a->x0) + i] / ONE * value;
 
 			v = v > 0 ? v < 1 ? v : 1 : 0;
-			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? from_linear(v) : v) * 255 + 0.5f);
+			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? gls_srgb_from_linear(v) : v) * 255 + 0.5f);
 		}
 	if (texels)
-		gls_draw_rectangle_plainly(x, st, SCENE_COLOR_PIXELS, (float)a->x0, (float)a->y0, width, height,
-		                           (float[2]){ 1, 1 }, texels);
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ SCENE_COLOR_PIXELS, width, height, (float)a->x0, (float)a->y0, { 1, 1 },
+		                                                   texels }, st->a.color.mask);
 }
 
 GLS_HANDLER(glAccum, STATE)

@@ -1,0 +1,81 @@
+/* BlitFramebuffer (GL 3.0 sec. 4.3.2): a pixel rectangle that only the scissor touches. */
+#include <math.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/pixels/rectangle.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
+
+struct blit {
+	int64_t from[4]; /* x0 y0 x1 y1, ascending */
+	float left, low, zoom[2];
+};
+
+static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
+{
+	uint32_t width = (uint32_t)(b->from[2] - b->from[0]), height = (uint32_t)(b->from[3] - b->from[1]);
+	size_t bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
+	uint8_t *texels = gls_scratch(x, (size_t)width * height * bytes);
+
+	for (uint32_t i = 0; texels && i < width * height; i++) {
+		int64_t px = b->from[0] + i % width, py = b->from[1] + i / width;
+		size_t at = (size_t)(py * p->width + px);
+		uint32_t stencil;
+		float depth, v[4];
+
+		memset(texels + bytes * i, 0, bytes);
+		if (px < 0 || py < 0 || px >= p->width || py >= p->height)
+			continue;
+		stencil = p->stencil[at];
+		depth = p->depth_bits ? (float)p->depth[at] / (float)((1u << p->depth_bits) - 1) : 1;
+		gls_picture_color(p, at, v);
+		memcpy(texels + bytes * i, kind == SCENE_COLOR_PIXELS ? (const void *)(p->rgba + 4 * at) : kind == SCENE_FLOAT_PIXELS ? v :
+		                           kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, bytes);
+	}
+	if (texels)
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, b->left, b->low, { b->zoom[0], b->zoom[1] }, texels },
+		                   15);
+}
+
+/* One direction: the source's lower end, the place of it, and how much larger it gets. @return 0 where nothing is left */
+static int span(int64_t s0, int64_t s1, int64_t d0, int64_t d1, int64_t *from, int64_t *to, float *start, float *zoom)
+{
+	*from = s0 < s1 ? s0 : s1;
+	*to = s0 < s1 ? s1 : s0;
+	*start = (float)(s0 < s1 ? d0 : d1);
+	*zoom = s0 == s1 ? 0 : (float)(d1 - d0) / (float)(s1 - s0);
+	return s0 != s1 && d0 != d1 && *to - *from <= 16384;
+}
+
+GLS_HANDLER(glBlitFramebuffer, NOW)
+{
+	struct blit b;
+	uint32_t mask = arg_u(c, 8);
+	const struct scene_picture *p;
+
+	gls_flush(x);
+	st->dirty = GLS_DIRTY_ALL;
+	if (!span(arg_i32(c, 0), arg_i32(c, 2), arg_i32(c, 4), arg_i32(c, 6), &b.from[0], &b.from[2], &b.left, &b.zoom[0]) ||
+	    !span(arg_i32(c, 1), arg_i32(c, 3), arg_i32(c, 5), arg_i32(c, 7), &b.from[1], &b.from[3], &b.low, &b.zoom[1]))
+		return;
+	if (!x->want)
+		return;
+	if (arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1))
+		gls_unsupported(x, "linear filtering: the nearest pixel is taken");
+	p = gls_read_screen(x, st);
+	if (!p)
+		return;
+	if (mask & GL_COLOR_BUFFER_BIT)
+		blit_one(x, st, &b, gls_color_pixels(x, st), p);
+	if (mask & GL_DEPTH_BUFFER_BIT)
+		blit_one(x, st, &b, SCENE_DEPTH_PIXELS, p);
+	if (mask & GL_STENCIL_BUFFER_BIT)
+		blit_one(x, st, &b, SCENE_STENCIL_PIXELS, p);
+}

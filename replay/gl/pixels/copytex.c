@@ -1,0 +1,110 @@
+/* Textures out of the screen (GL 2.1 sec. 3.8.2): CopyTexImage, CopyTexSubImage. */
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/pixels/teximage.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/gl/texture/mipmap.h"
+#include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/unpack.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
+
+/* A rectangle of the screen, and where it goes in a level. */
+struct copy {
+	int64_t from[2], size[2], to[3];
+};
+
+/* Pixels into texels through pixel transfer (sec. 4.3.2, 3.6.5). Texels of places off the screen stay. */
+static void copy_pixels(const struct gls_state *st, const struct scene_picture *p, const struct copy *c, struct gls_level *l)
+{
+	const struct gls_format *format = gls_format_find(l->internal_format);
+	uint8_t *stencil = gls_level_stencil(l);
+	float far = (float)((1u << p->depth_bits) - 1), v[4];
+
+	for (int64_t y = 0; y < c->size[1]; y++)
+		for (int64_t x = 0; x < c->size[0]; x++) {
+			int64_t px = c->from[0] + x, py = c->from[1] + y;
+			size_t from = (size_t)(py * p->width + px);
+			size_t to = (size_t)((c->to[2] * l->height + c->to[1] + y) * l->width + c->to[0] + x);
+			uint8_t *texel = l->texels + l->texel_bytes * to;
+
+			if (px < 0 || py < 0 || px >= p->width || py >= p->height)
+				continue;
+			if (l->base_format != GL_DEPTH_COMPONENT) {
+				gls_picture_color(p, from, v);
+				gls_store_pixel(st, format, v, texel);
+				continue;
+			}
+			v[0] = gls_transfer_depth(st, far > 0 ? (float)p->depth[from] / far : 0);
+			memcpy(texel, v, 4);
+			if (stencil)
+				stencil[to] = p->stencil[from];
+		}
+}
+
+/* Copy to a level; without pixels it is missing from now on. */
+static void copy_screen(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face, int64_t level,
+                        const struct copy *c)
+{
+	const struct scene_picture *p = gls_read_screen(x, st);
+	struct gls_level *l = &t->levels[face][level];
+
+	if (p) {
+		copy_pixels(st, p, c, l);
+	} else if (!x->want || !x->feedback.supply) {
+		l->missing = (uint32_t)x->frame + 1;
+		x->feedback.missing = 1;
+	}
+	gls_texture_changed(t);
+	if (p && c->to[0] == 0 && c->to[1] == 0 && c->size[0] == l->width && c->size[1] == l->height && l->depth == 1)
+		l->missing = 0;
+	gls_texture_level_changed(x, t, face, level);
+}
+
+static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1, arg_i(c, n_dims > 1 ? 7 : 6) };
+	struct gls_level *l = t ? gls_texture_specify(x, st, t, face, arg_i(c, 1), &form) : NULL;
+
+	if (l) /* the border is read, too: the given corner is its corner */
+		copy_screen(x, st, t, face, arg_i(c, 1),
+		            &(struct copy){ { arg_i32(c, 3), arg_i32(c, 4) }, { l->width, l->height }, { 0 } });
+}
+
+static void copy_tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face, after = 2 + n_dims; /* place; then the corner on the screen and the size */
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
+	struct copy copy = { { arg_i32(c, after), arg_i32(c, after + 1) },
+		             { arg_i32(c, after + 2), n_dims > 1 ? arg_i32(c, after + 3) : 1 }, { 0 } };
+	int64_t *to = copy.to, *size = copy.size;
+
+	if (!l)
+		return;
+	if (!l->texels) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	for (unsigned i = 0; i < n_dims; i++)
+		to[i] = arg_i32(c, 2 + i) + l->border;
+	if (to[0] < 0 || to[1] < 0 || to[2] < 0 || size[0] < 0 || size[1] < 0 || to[0] > l->width || to[1] > l->height ||
+	    to[2] >= l->depth || size[0] > l->width - to[0] || size[1] > l->height - to[1]) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return;
+	}
+	copy_screen(x, st, t, face, arg_i(c, 1), &copy);
+}
+
+GLS_HANDLER(glCopyTexImage1D, STATE) { copy_tex_image(x, st, c, 1); }
+GLS_HANDLER(glCopyTexImage2D, STATE) { copy_tex_image(x, st, c, 2); }
+GLS_HANDLER(glCopyTexSubImage1D, STATE) { copy_tex_sub_image(x, st, c, 1); }
+GLS_HANDLER(glCopyTexSubImage2D, STATE) { copy_tex_sub_image(x, st, c, 2); }
+GLS_HANDLER(glCopyTexSubImage3D, STATE) { copy_tex_sub_image(x, st, c, 3); }

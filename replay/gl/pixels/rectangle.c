@@ -1,0 +1,104 @@
+/* Rectangles of pixels as events: a point, with a picture. */
+#include "replay/gl/pixels/rectangle.h"
+
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/draw.h"
+#include "replay/gl/texture/image.h"
+#include "replay/machine/machine.h"
+
+/* A mesh of one point. @return a reference; NULL: out of memory (reported) */
+static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, float depth)
+{
+	struct gls_geometry *g = &x->scratch.geometry;
+	struct gls_mesh *mesh = NULL;
+
+	gls_geometry_clear(g);
+	g->kind = SCENE_POINTS;
+	if (gls_geometry_reserve(g, 1, 1))
+		return NULL;
+	memcpy(g->position, (float[4]){ left, low, depth, 1 }, 16);
+	g->edge[0] = 1;
+	g->n_vertices = 1;
+	if (!gls_geometry_cut(g, GL_POINTS, 0, 1, NULL, 0)) {
+		g->n_draws = 1;
+		mesh = gls_geometry_mesh(x, g);
+	}
+	gls_geometry_clear(g);
+	return mesh;
+}
+
+/* a: the attributes to draw with, which this may change */
+static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, struct gls_attribs *a)
+{
+	const struct scene_rectangle rectangle = { .kind = r->kind, .width = r->width, .height = r->height,
+		                                   .zoom = { r->zoom[0], r->zoom[1] } };
+	const struct gls_current *c = &a->current;
+	struct gls_texture_image *image;
+	struct gls_mesh *mesh;
+	float values[N_GLS_ATTRIBUTES][4];
+
+	if (!x->want || !r->width || !r->height)
+		return;
+	image = gls_texture_image_find(x, r->width, r->height, r->kind == SCENE_FLOAT_PIXELS ? 16 : 4, r->texels);
+	mesh = image ? point_at(x, r->left, r->low, c->raster_position[2]) : NULL;
+	memcpy(values, c->attribute, sizeof(values));
+	memcpy(values[GLS_ATTR_COLOR], c->raster_color, 16);
+	memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
+	memcpy(values[GLS_ATTR_TEXCOORD], c->raster_texcoord, sizeof(c->raster_texcoord));
+	values[GLS_ATTR_FOG_COORD][0] = c->raster_distance;
+	/* What a vertex would go through has been gone through. */
+	a->fog.color_sum |= a->lighting.enabled && a->lighting.separate_specular;
+	a->lighting.enabled = a->lighting.color_material = 0;
+	a->lighting.shade_model = GL_SMOOTH;
+	a->fog.coord_source = GL_FOG_COORD;
+	a->transform.clip_plane_mask = 0;
+	a->point.smooth = a->point.sprite = 0;
+	a->multisample.enabled = 0; /* Mesa draws them to whole pixels */
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		a->texturing.units[u].gen_enabled = 0;
+	st->dirty = GLS_DIRTY_ALL;
+	if (mesh)
+		gls_draw_event(x, st, &(struct gls_event){ a, mesh, (const float (*)[4])values, x->command, x->call->number, &rectangle,
+		                                           image });
+	st->dirty = GLS_DIRTY_ALL;
+	gls_mesh_release(mesh);
+	gls_texture_image_release(image);
+}
+
+void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r)
+{
+	struct gls_attribs a = st->a;
+
+	if (gls_renders(st))
+		draw(x, st, r, &a);
+}
+
+void gls_draw_depths(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r)
+{
+	struct gls_attribs a = st->a;
+
+	a.color.mask = 0;
+	a.stencil.enabled = 0;
+	a.depth.enabled = 1;
+	a.depth.func = GL_ALWAYS;
+	if (gls_renders(st))
+		draw(x, st, r, &a);
+}
+
+void gls_copy_rectangle(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, uint32_t color_mask)
+{
+	struct gls_attribs a = st->a;
+
+	a.color.alpha_test = a.color.blend = a.color.logic_op_enabled = a.stencil.enabled = a.fog.enabled = 0;
+	a.depth.enabled = a.depth.write = r->kind == SCENE_DEPTH_PIXELS;
+	a.depth.func = GL_ALWAYS;
+	a.stencil.side[0].write_mask = 255;
+	a.color.mask = r->kind == SCENE_COLOR_PIXELS || r->kind == SCENE_FLOAT_PIXELS ? color_mask : 0;
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		a.texturing.units[u].enabled = 0;
+	draw(x, st, r, &a);
+}

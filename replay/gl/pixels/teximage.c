@@ -1,0 +1,344 @@
+/* Images of textures (GL 2.1 sec. 3.8.1 - 3.8.3): TexImage, TexSubImage, compressed images, storage, copies and clears of levels. */
+#include "replay/gl/pixels/teximage.h"
+
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/mipmap.h"
+#include "replay/gl/texture/texcompress.h"
+#include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/unpack.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+
+struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
+                                           unsigned *face)
+{
+	int target = gls_texture_target_of(token, face);
+	struct gls_texture *t;
+
+	if (token == GL_PROXY_TEXTURE_1D || token == GL_PROXY_TEXTURE_2D || token == GL_PROXY_TEXTURE_3D ||
+	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE)
+		return NULL;
+	if (target < 0) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return NULL;
+	}
+	if (level < 0 || level >= GLS_MAX_LEVELS) {
+		gls_error(x, st, GL_INVALID_VALUE);
+		return NULL;
+	}
+	t = gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
+	gls_texture_update(x, st, t);
+	return t;
+}
+
+/* ---- images, sec. 3.8.1, 3.8.2 ---- */
+
+/* Arguments of TexImage and CompressedTexImage. */
+static struct gls_level_form form_of(const struct call *c, unsigned n_dims)
+{
+	return (struct gls_level_form){ arg_u(c, 2), arg_i(c, 3), n_dims > 1 ? arg_i(c, 4) : 1, n_dims > 2 ? arg_i(c, 5) : 1,
+		                        arg_i(c, 3 + n_dims) };
+}
+
+/* The pixels of a TexImage or TexSubImage. format: the argument's number; type and data follow */
+static struct gls_pixels pixels_of(struct gls_state *st, const struct call *c, unsigned format, unsigned n_dims, const int64_t size[3])
+{
+	struct gls_pixels p = { .format = arg_u(c, format), .type = arg_u(c, format + 1), .width = (uint32_t)size[0],
+		.height = (uint32_t)size[1], .depth = n_dims > 2 ? (uint32_t)size[2] : 0, .store = &st->client.unpack };
+
+	p.data = gls_pixel_source(st, c, format + 2, &p.n);
+	return p;
+}
+
+static void tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	const struct gls_level_form form = form_of(c, n_dims);
+	struct gls_level *l = t ? gls_texture_specify(x, st, t, face, arg_i(c, 1), &form) : NULL;
+	struct gls_pixels p;
+
+	if (!l)
+		return;
+	p = pixels_of(st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
+	if (p.data && gls_unpack_pixels(x, st, &p, l->internal_format, l->texels) == -2)
+		gls_unsupported(x, "pixels beyond what the recording holds");
+	if (p.data && gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL)
+		gls_unpack_stencil(&p, gls_level_stencil(l));
+	gls_texture_level_changed(x, t, face, arg_i(c, 1));
+}
+
+/* Copy texels to a place in a level. */
+static void place(struct gls_level *l, const int64_t at[3], const int64_t size[3], const uint8_t *texels)
+{
+	for (int64_t z = 0; z < size[2]; z++)
+		for (int64_t y = 0; y < size[1]; y++)
+			memcpy(l->texels + l->texel_bytes * (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
+			       texels + l->texel_bytes * (z * size[1] + y) * size[0], l->texel_bytes * (size_t)size[0]);
+}
+
+/* Stencil values, rows of the same sizes, to a place in a level. */
+static void place_stencil(struct gls_level *l, const int64_t at[3], const int64_t size[3], const uint8_t *stencil)
+{
+	for (int64_t z = 0; z < size[2]; z++)
+		for (int64_t y = 0; y < size[1]; y++)
+			memcpy(gls_level_stencil(l) + (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
+			       stencil + (z * size[1] + y) * size[0], (size_t)size[0]);
+}
+
+static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
+	int64_t at[3] = { 0 }, size[3] = { 1, 1, 1 };
+	struct gls_pixels p;
+	uint8_t *texels;
+
+	if (!l)
+		return;
+	if (!l->texels) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	for (unsigned i = 0; i < n_dims; i++) {
+		int64_t room = i == 0 ? l->width : i == 1 ? l->height : l->depth;
+
+		at[i] = arg_i32(c, 2 + i) + l->border;
+		size[i] = arg_i32(c, 2 + n_dims + i);
+		if (at[i] < 0 || size[i] < 0 || at[i] > room || size[i] > room - at[i]) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+	}
+	p = pixels_of(st, c, 2 + 2 * n_dims, n_dims, size);
+	if (!p.data || !size[0] || !size[1] || !size[2])
+		return;
+	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
+	if (!texels || gls_unpack_pixels(x, st, &p, l->internal_format, texels) == -1)
+		return;
+	place(l, at, size, texels);
+	if (gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL) {
+		gls_unpack_stencil(&p, texels);
+		place_stencil(l, at, size, texels);
+	}
+	gls_texture_changed(t);
+	gls_texture_level_changed(x, t, face, arg_i(c, 1));
+}
+
+GLS_HANDLER(glTexImage1D, STATE) { tex_image(x, st, c, 1); }
+GLS_HANDLER(glTexImage2D, STATE) { tex_image(x, st, c, 2); }
+GLS_HANDLER(glTexImage3D, STATE) { tex_image(x, st, c, 3); }
+GLS_HANDLER(glTexSubImage1D, STATE) { tex_sub_image(x, st, c, 1); }
+GLS_HANDLER(glTexSubImage2D, STATE) { tex_sub_image(x, st, c, 2); }
+GLS_HANDLER(glTexSubImage3D, STATE) { tex_sub_image(x, st, c, 3); }
+
+/* ---- compressed images, sec. 3.8.3 ---- */
+
+/* Texels of an image of blocks, slices one after the other. @return 0, or -1 (counted) */
+static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const int64_t size[3], const uint8_t *data, size_t n,
+                             uint8_t *texels)
+{
+	for (int64_t z = 0; z < size[2]; z++)
+		if (gls_decompress(internal_format, (uint32_t)size[0], (uint32_t)size[1], data + (size_t)z * (n / (size_t)size[2]),
+		                   n / (size_t)size[2], texels + gls_texel_bytes(internal_format) * (size_t)(z * size[0] * size[1]))) {
+			gls_unsupported(x, "compressed images of this format");
+			return -1;
+		}
+	return 0;
+}
+
+static void compressed_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	const struct gls_level_form form = form_of(c, n_dims);
+	struct gls_level *l;
+	size_t n;
+	const uint8_t *pixels = gls_pixel_source(st, c, n_dims + 5, &n);
+
+	if (!t)
+		return;
+	l = gls_texture_specify(x, st, t, face, arg_i(c, 1), &form);
+	if (l && pixels)
+		unpack_compressed(x, l->internal_format, (int64_t[3]){ l->width, l->height, l->depth }, pixels, n, l->texels);
+	if (l)
+		gls_texture_level_changed(x, t, face, arg_i(c, 1));
+}
+
+static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
+	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
+	int64_t at[3] = { 0 }, size[3] = { 1, 1, 1 };
+	size_t n;
+	const uint8_t *pixels = gls_pixel_source(st, c, 4 + 2 * n_dims, &n);
+	uint8_t *texels;
+
+	if (!l || !pixels)
+		return;
+	for (unsigned i = 0; i < n_dims; i++) {
+		at[i] = arg_i32(c, 2 + i);
+		size[i] = arg_i32(c, 2 + n_dims + i);
+	}
+	if (!l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims)) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	for (unsigned i = 0; i < 3; i++)
+		if (at[i] < 0 || size[i] < 0 || at[i] + size[i] > (i == 0 ? l->width : i == 1 ? l->height : l->depth)) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+	if (!size[0] || !size[1] || !size[2])
+		return;
+	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
+	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
+		place(l, at, size, texels);
+	gls_texture_changed(t);
+	gls_texture_level_changed(x, t, face, arg_i(c, 1));
+}
+
+GLS_HANDLER(glCompressedTexImage1D, STATE) { compressed_image(x, st, c, 1); }
+GLS_HANDLER(glCompressedTexImage2D, STATE) { compressed_image(x, st, c, 2); }
+GLS_HANDLER(glCompressedTexImage3D, STATE) { compressed_image(x, st, c, 3); }
+GLS_HANDLER(glCompressedTexSubImage1D, STATE) { compressed_sub_image(x, st, c, 1); }
+GLS_HANDLER(glCompressedTexSubImage2D, STATE) { compressed_sub_image(x, st, c, 2); }
+GLS_HANDLER(glCompressedTexSubImage3D, STATE) { compressed_sub_image(x, st, c, 3); }
+
+/* ---- ARB_texture_storage: all levels at once, without texels ---- */
+
+/* A side of a level; minification stops at 1. */
+static int64_t side(const struct call *c, unsigned i, int64_t level)
+{
+	return arg_i(c, i) >> level ? arg_i(c, i) >> level : 1;
+}
+
+static void tex_storage(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+{
+	unsigned face, n_faces = arg_u(c, 0) == GL_TEXTURE_CUBE_MAP ? 6 : 1;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
+
+	for (int64_t level = 0; t && level < arg_i(c, 1) && level < GLS_MAX_LEVELS; level++)
+		for (face = 0; face < n_faces; face++)
+			gls_texture_specify(x, st, t, face, level,
+			                    &(struct gls_level_form){ arg_u(c, 2), side(c, 3, level), n_dims > 1 ? side(c, 4, level) : 1,
+			                                              n_dims > 2 ? side(c, 5, level) : 1, 0 });
+}
+
+GLS_HANDLER(glTexStorage1D, STATE) { tex_storage(x, st, c, 1); }
+GLS_HANDLER(glTexStorage2D, STATE) { tex_storage(x, st, c, 2); }
+GLS_HANDLER(glTexStorage3D, STATE) { tex_storage(x, st, c, 3); }
+
+/* ---- ARB_clear_texture: one pixel, as TexImage would take it, all over a level ---- */
+
+GLS_HANDLER(glClearTexImage, NOW)
+{
+	const struct gls_pixel_store tight = { .alignment = 1, .swap_bytes = st->client.unpack.swap_bytes };
+	struct gls_pixels pixel = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = 1, .height = 1, .store = &tight };
+	struct gls_texture *t = table_find(&st->share->textures, arg_u(c, 0));
+	uint8_t texel[16] = { 0 };
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	if (!t || arg_i(c, 1) < 0 || arg_i(c, 1) >= GLS_MAX_LEVELS) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	gls_texture_update(x, st, t);
+	pixel.data = arg_blob(c, 4, &pixel.n);
+	for (unsigned face = 0; face < 6; face++) {
+		struct gls_level *l = &t->levels[face][arg_i(c, 1)];
+
+		if (!l->texels)
+			continue;
+		if (pixel.data)
+			gls_unpack_pixels(x, st, &pixel, l->internal_format, texel);
+		for (size_t i = 0; i < gls_level_count(l); i++)
+			memcpy(l->texels + l->texel_bytes * i, texel, l->texel_bytes);
+		gls_texture_changed(t);
+	}
+}
+
+/* ---- ARB_copy_image, NV_copy_image: texels as they are, slice by slice ---- */
+
+/* The image of a texture's level that holds place z, and its slice there. NULL: there is none. */
+static struct gls_level *slice_of(struct gls_texture *t, int64_t level, int64_t z, size_t *slice)
+{
+	int cube = t && t->target == GLS_TEXTURE_CUBE;
+	struct gls_level *l;
+
+	if (!t || level < 0 || level >= GLS_MAX_LEVELS || z < 0 || (cube && z > 5))
+		return NULL;
+	l = &t->levels[cube ? z : 0][level];
+	*slice = cube ? 0 : (size_t)z;
+	return l->texels && *slice < l->depth ? l : NULL;
+}
+
+static int is_inside(const struct gls_level *l, int64_t x, int64_t y, int64_t width, int64_t height)
+{
+	return x >= 0 && y >= 0 && x <= l->width && y <= l->height && width <= l->width - x && height <= l->height - y;
+}
+
+static void copy_image(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct gls_texture *from = table_find(&st->share->textures, arg_u(c, 0)), *to = table_find(&st->share->textures, arg_u(c, 6));
+	int64_t width = arg_i(c, 12), height = arg_i(c, 13);
+
+	gls_flush(x);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	if (arg_u(c, 1) == GL_RENDERBUFFER || arg_u(c, 7) == GL_RENDERBUFFER) {
+		gls_unsupported(x, "copies of renderbuffers");
+		return;
+	}
+	gls_texture_update(x, st, from);
+	gls_texture_update(x, st, to);
+	for (int64_t z = 0; z < arg_i(c, 14); z++) {
+		size_t slice[2];
+		struct gls_level *a = slice_of(from, arg_i(c, 2), arg_i(c, 5) + z, &slice[0]);
+		struct gls_level *b = slice_of(to, arg_i(c, 8), arg_i(c, 11) + z, &slice[1]);
+
+		if (!a || !b || width < 0 || height < 0 || !is_inside(a, arg_i(c, 3), arg_i(c, 4), width, height) ||
+		    !is_inside(b, arg_i(c, 9), arg_i(c, 10), width, height)) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		if (a->internal_format != b->internal_format) {
+			gls_unsupported(x, "copies between internal formats");
+			return;
+		}
+		for (int64_t y = 0; y < height; y++) {
+			size_t i = (slice[0] * a->height + (size_t)(arg_i(c, 4) + y)) * a->width + (size_t)arg_i(c, 3);
+			size_t k = (slice[1] * b->height + (size_t)(arg_i(c, 10) + y)) * b->width + (size_t)arg_i(c, 9);
+
+			memmove(b->texels + b->texel_bytes * k, a->texels + a->texel_bytes * i, b->texel_bytes * (size_t)width);
+			if (gls_level_stencil(b))
+				memmove(gls_level_stencil(b) + k, gls_level_stencil(a) + i, (size_t)width);
+		}
+		b->missing = b->missing ? b->missing : a->missing;
+		gls_texture_changed(to);
+	}
+}
+
+GLS_HANDLER(glCopyImageSubData, NOW) { copy_image(x, st, c); }
+GLS_HANDLER(glCopyImageSubDataNV, NOW) { copy_image(x, st, c); }
+
+GLS_HANDLER(glGenerateMipmap, STATE)
+{
+	unsigned face;
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
+
+	if (!t)
+		return;
+	for (face = 0; face < (t->target == GLS_TEXTURE_CUBE ? 6u : 1u); face++)
+		gls_texture_generate_mipmaps(x, t, face);
+	gls_texture_changed(t);
+}

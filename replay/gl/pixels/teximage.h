@@ -1,0 +1,15 @@
+/* Images of textures, as the commands of GL 2.1 sec. 3.8.1 - 3.8.3 address them. */
+#ifndef REPLAY_GL_PIXELS_TEXIMAGE_H
+#define REPLAY_GL_PIXELS_TEXIMAGE_H
+
+#include "replay/gl/texture/texture.h"
+
+/**
+ * The texture whose level a command names, up to date with what was drawn to it.
+ * @param token  target argument: a texture or the face of a cube
+ * @return NULL: a proxy, or no target or level (GL error)
+ */
+struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
+                                           unsigned *face);
+
+#endif

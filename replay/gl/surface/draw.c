@@ -1,0 +1,56 @@
+/* Drawing and clearing: from the state to the surfaces that it draws to. */
+#include "replay/gl/surface/draw.h"
+
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/machine/errors.h"
+
+/* 1 where a draw can change something of a surface: depth and stencil, where colours go elsewhere. */
+static int is_reached(const struct gls_target *target, const struct gls_event *e)
+{
+	const struct gls_attribs *a = e->attribs;
+	const struct scene_rectangle *r = e->rectangle;
+
+	return target->colored || (a->depth.enabled && a->depth.write) || a->stencil.enabled ||
+	       (r && (r->kind == SCENE_DEPTH_PIXELS || r->kind == SCENE_STENCIL_PIXELS));
+}
+
+void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
+{
+	struct gls_target targets[2];
+	unsigned n, added = 0;
+
+	if (!x->want)
+		return;
+	gls_units_update(x, st, &e->attribs->texturing);
+	n = gls_targets_of(x, st, targets);
+	for (unsigned i = 0; i < n; i++) {
+		if (n == 1 || is_reached(&targets[i], e))
+			added |= (unsigned)gls_frame_add(x, &targets[i], st, e);
+		else
+			gls_frame_pass(targets[i].surface);
+	}
+	st->dirty = 0;
+	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled))
+		gls_unsupported(x, "programs: drawn as fixed function");
+}
+
+void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4], uint32_t command,
+                   uint64_t call_number)
+{
+	if (gls_is_drawn(x, st))
+		gls_draw_event(x, st, &(struct gls_event){ &st->a, mesh, values, command, call_number, NULL, NULL });
+}
+
+void gls_draw_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)
+{
+	struct gls_target targets[2];
+	unsigned n;
+
+	if (!gls_is_drawn(x, st) || !buffers)
+		return;
+	n = gls_targets_of(x, st, targets);
+	for (unsigned i = 0; i < n; i++)
+		if (n == 1 || targets[i].colored || buffers & 6)
+			gls_frame_clear(x, &targets[i], st, buffers);
+}

@@ -1,0 +1,85 @@
+/* Ends of frames: what is shown, what is deferred, what is lost. */
+#include "replay/gl/surface/frames.h"
+
+#include "replay/gl/surface/drawable.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/front.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/gl/surface/surface.h"
+#include "replay/replay.h"
+
+#define MANY_EVENTS (1u << 14) /* of frames that nobody wants: made one picture, so that they do not pile up */
+
+static struct gls_drawable *swapped(struct gls_exec *x)
+{
+	const struct gls_state none = { 0 };
+
+	return gls_window_of(x, x->st ? x->st : &none, x->swapped);
+}
+
+/* What the frame that has ended shows. */
+static struct gls_surface *shown(struct gls_exec *x, struct gls_drawable *d)
+{
+	return x->unswapped && x->st && gls_front_is_drawn(x->st) ? gls_front_part(x, d) : &d->surface;
+}
+
+struct scene *gls_frame_finish(struct gls_exec *x)
+{
+	struct gls_drawable *d = swapped(x);
+	struct scene *s = d ? gls_surface_end(x, shown(x, d)) : NULL;
+
+	if (s && !x->unswapped)
+		gls_front_swapped(d);
+	return s;
+}
+
+static void end_deferred(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct scene *s = surface->deferred ? gls_surface_end(x, surface) : NULL;
+
+	scene_release(&s);
+}
+
+void gls_frame_defer(struct gls_exec *x)
+{
+	struct gls_drawable *d = swapped(x);
+	struct gls_surface *surface = d ? shown(x, d) : NULL;
+
+	if (!surface)
+		return;
+	surface->deferred |= surface->frame != NULL;
+	if (gls_frame_events(surface) > MANY_EVENTS || (x->feedback.fronts && !x->unswapped))
+		end_deferred(x, surface);
+	if (!x->unswapped)
+		gls_front_swapped(d);
+}
+
+void gls_frame_end_deferred(struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->drawables.room; i++) {
+		struct gls_drawable *d = x->drawables.entries[i].value;
+
+		if (!d)
+			continue;
+		end_deferred(x, &d->surface);
+		if (d->parted)
+			end_deferred(x, &d->front);
+	}
+}
+
+void gls_frame_skip(struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->n_contexts; i++)
+		if (x->contexts[i]->state.draw_framebuffer)
+			gls_framebuffer_skip(x, &x->contexts[i]->state);
+	for (size_t i = 0; i < x->drawables.room; i++) {
+		struct gls_drawable *d = x->drawables.entries[i].value;
+
+		if (!d)
+			continue;
+		gls_surface_free(&d->surface);
+		gls_surface_free(&d->front);
+		d->surface.skipped = d->front.skipped = 1;
+		d->parted = 0;
+	}
+}

@@ -1,0 +1,173 @@
+/*
+ * What is drawn to, as pixels. Whoever set a supplier (replay.h) renders them, from the scene of all events so far, and only when
+ * somebody asks.
+ *
+ * A frame may show what the one before left. What a surface held before its events is therefore kept: as a picture where one was
+ * made, else as the scene that would make it. Where frames were skipped it is not known; the frame that turns out to need it sets
+ * x->feedback.rewind, and replay.c starts again and builds every frame.
+ */
+#include "replay/gl/surface/surface.h"
+
+#include "base/err.h"
+#include "replay/machine/errors.h"
+#include "replay/replay.h"
+/* What a scene shows. NULL: it cannot be had */
+static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
+{
+	struct gls_picture *p = gls_picture_make(x, &(struct gls_picture_form){ s->width, s->height, s->depth_bits, s->alpha_bits,
+	                                                                         s->samples, s->floats });
+
+	if (!p || !s->width || !s->height)
+		return p;
+	if (x->feedback.supply(x->feedback.supply_user, s, &p->picture) != 0) {
+		if (!x->failed)
+			x->failed = ERR_SYSTEM; /* reported by the supplier */
+		gls_picture_release(p);
+		return NULL;
+	}
+	return p;
+}
+
+static void forget(struct gls_surface *surface)
+{
+	gls_picture_release(surface->picture);
+	surface->picture = NULL;
+	scene_release(&surface->before);
+}
+
+void gls_surface_free(struct gls_surface *surface)
+{
+	gls_frame_drop(surface);
+	forget(surface);
+}
+
+void gls_surface_share(struct gls_surface *to, const struct gls_surface *from)
+{
+	to->picture = gls_picture_reference(from->picture);
+	to->before = from->before ? gls_scene_reference(from->before) : NULL;
+	to->skipped = from->skipped;
+	to->deferred = from->deferred;
+}
+
+static int has_size(const struct scene_picture *p, const struct scene *s)
+{
+	return p->width == s->width && p->height == s->height;
+}
+
+/* A window of another size has nothing of the old one's, even where its size has changed within a frame. */
+static void check_size(struct gls_surface *surface, struct scene *s)
+{
+	if ((surface->picture && !has_size(&surface->picture->picture, s)) ||
+	    (surface->before && (surface->before->width != s->width || surface->before->height != s->height)))
+		forget(surface);
+	if (s->start && !has_size(s->start, s)) {
+		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+		s->start = NULL;
+	}
+}
+
+/*
+ * Give the scene of a surface what was there before it, where that shows through.
+ * @param snapshot  receives what the scene makes where that had to be found out, or NULL: a reference for the caller
+ * @return 1 the scene is whole; 0 it is not, and cannot be made so now
+ */
+static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, struct gls_picture **snapshot)
+{
+	*snapshot = NULL;
+	check_size(surface, s);
+	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
+		return 1;
+	if (!surface->picture) {
+		/* It may be that nothing shows through: a sky over all of it. */
+		int try = s->n_instances && !(x->feedback.shows_through && surface->before);
+
+		if (try && !(*snapshot = render(x, s)))
+			return 0;
+		if (*snapshot && !(*snapshot)->picture.unknown) {
+			gls_frame_all_known(surface);
+			return 1;
+		}
+		x->feedback.shows_through |= try;
+		gls_picture_release(*snapshot);
+		*snapshot = NULL;
+		if (surface->skipped) {
+			x->feedback.rewind = 1;
+			x->feedback.fronts |= surface->is_front;
+			return 0;
+		}
+		surface->picture = render(x, surface->before);
+		scene_release(&surface->before);
+		if (!surface->picture)
+			return 0;
+	}
+	s->start = &gls_picture_reference(surface->picture)->picture;
+	return 1;
+}
+
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct gls_picture **kept, *snapshot;
+	uint64_t *events;
+	struct scene *s;
+
+	if (!x->want || !surface)
+		return NULL;
+	if (!x->feedback.supply) {
+		gls_unsupported(x, "needs pixels that were drawn: only a renderer has them");
+		return NULL;
+	}
+	s = gls_frame_scene(x, surface);
+	if (!s)
+		return NULL;
+	kept = gls_frame_snapshot(surface, &events);
+	if (*kept && *events == gls_frame_events(surface) && has_size(&(*kept)->picture, s))
+		return &(*kept)->picture;
+	if (!find_start(x, surface, s, &snapshot))
+		return NULL;
+	if (!snapshot)
+		snapshot = s->start && !gls_frame_events(surface) ? gls_picture_reference((struct gls_picture *)(uintptr_t)s->start) :
+		                                                    render(x, s);
+	gls_picture_release(*kept);
+	*kept = snapshot;
+	*events = gls_frame_events(surface);
+	return snapshot ? &snapshot->picture : NULL;
+}
+
+int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture)
+{
+	struct scene *s = gls_frame_scene(x, surface);
+	struct gls_picture **kept;
+	uint64_t *events;
+
+	if (!s || !s->needs_previous) {
+		gls_picture_release(picture);
+		return 0;
+	}
+	kept = gls_frame_snapshot(surface, &events);
+	gls_picture_release(*kept);
+	*kept = NULL;
+	if (s->start)
+		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+	s->start = NULL;
+	gls_frame_renew(x, surface);
+	forget(surface);
+	surface->picture = picture;
+	return 1;
+}
+
+struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface)
+{
+	struct gls_picture *snapshot = NULL;
+	struct scene *s = gls_frame_scene(x, surface);
+
+	if (!s || (x->feedback.supply && !find_start(x, surface, s, &snapshot)))
+		return NULL;
+	s = gls_frame_take(x, surface);
+	forget(surface);
+	surface->skipped = surface->deferred = 0;
+	if (snapshot)
+		surface->picture = snapshot;
+	else if (x->feedback.supply)
+		surface->before = gls_scene_reference(s);
+	return s;
+}

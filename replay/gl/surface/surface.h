@@ -1,0 +1,29 @@
+/*
+ * Surfaces: what is drawn to, and its pixels where they are needed.
+ *
+ * Nobody renders but the supplier (replay.h). A surface keeps the events that it saw, and what it held before them.
+ */
+#ifndef REPLAY_GL_SURFACE_SURFACE_H
+#define REPLAY_GL_SURFACE_SURFACE_H
+
+#include "replay/build/frame.h"
+
+/**
+ * The pixels of a surface as all events so far leave them.
+ * @return borrowed, valid until the surface's next event; NULL: not to be had (counted, or x->feedback.rewind is set)
+ */
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface);
+
+/** Let the same events begin from another picture (takes the reference). @return 1; 0: what was there before does not show */
+int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture);
+
+/** End the surface's scene: what comes next begins from what it shows. @return a reference for the caller; NULL: as gls_surface_read */
+struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface);
+
+/** Make `to`, which holds nothing, begin from what `from` begins from. */
+void gls_surface_share(struct gls_surface *to, const struct gls_surface *from);
+
+/** Forget events and what was there before them. */
+void gls_surface_free(struct gls_surface *surface);
+
+#endif

@@ -1,0 +1,33 @@
+/* One image of a texture: a level of a mipmap, of a face where the texture is a cube (GL 2.1 sec. 3.8.1). */
+#ifndef REPLAY_GL_TEXTURE_LEVEL_H
+#define REPLAY_GL_TEXTURE_LEVEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define GLS_MAX_LEVELS 15 /* 16384 texels at most */
+
+struct gls_level {
+	uint32_t width, height, depth; /* with border; 0: not specified */
+	uint32_t border, internal_format, base_format;
+	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them where the format has it */
+	size_t bytes;    /* of both */
+	uint32_t missing; /* frame + 1 whose drawing belongs here and was not rendered; 0: nothing is missing */
+	uint32_t texel_bytes; /* gls_texel_bytes of the internal format */
+	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
+};
+
+static inline size_t gls_level_count(const struct gls_level *l)
+{
+	return (size_t)l->width * l->height * l->depth;
+}
+
+/* Stencil values of a level, NULL where it has none. */
+static inline uint8_t *gls_level_stencil(const struct gls_level *l)
+{
+	size_t texels = l->texel_bytes * gls_level_count(l);
+
+	return l->texels && l->bytes > texels ? l->texels + texels : NULL;
+}
+
+#endif

@@ -1,0 +1,134 @@
+/* Texture units: environments (GL 2.1 sec. 3.8.13) and coordinate generation (sec. 2.11.4). */
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "base/mat4.h"
+#include "capture/format/trace.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+
+static struct gls_unit *active_unit(struct gls_state *st)
+{
+	return &st->a.texturing.units[st->a.texturing.active];
+}
+
+/* ---- environments, sec. 3.8.13 ---- */
+
+static void set_env(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+{
+	struct gls_unit *unit = active_unit(st);
+	struct scene_unit *e = &unit->value;
+	uint32_t target = arg_u(c, 0), pname = arg_u(c, 1), token;
+	float v[4] = { 0 };
+
+	arg_floats(c, 2, v, 4);
+	token = token_of_float(v[0]);
+	if (target == GL_TEXTURE_FILTER_CONTROL && pname == GL_TEXTURE_LOD_BIAS) {
+		unit->lod_bias = v[0];
+		return;
+	}
+	if (target == GL_POINT_SPRITE && pname == GL_COORD_REPLACE) {
+		e->coord_replace = v[0] != 0;
+		return;
+	}
+	if (target != GL_TEXTURE_ENV) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 4) {
+		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
+		return;
+	}
+	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 4) {
+		e->source_alpha[pname - GL_SOURCE0_ALPHA] = token;
+		return;
+	}
+	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 4) {
+		e->operand_rgb[pname - GL_OPERAND0_RGB] = token;
+		return;
+	}
+	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 4) {
+		e->operand_alpha[pname - GL_OPERAND0_ALPHA] = token;
+		return;
+	}
+	switch (pname) {
+	case GL_TEXTURE_ENV_MODE:
+		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
+		    token != GL_COMBINE && token != GL_COMBINE4_NV) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		e->env_mode = token;
+		break;
+	case GL_TEXTURE_ENV_COLOR:
+		for (unsigned i = 0; i < 4; i++)
+			e->env_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+		break;
+	case GL_COMBINE_RGB:
+		e->combine_rgb = token;
+		break;
+	case GL_COMBINE_ALPHA:
+		e->combine_alpha = token;
+		break;
+	case GL_RGB_SCALE:
+	case GL_ALPHA_SCALE:
+		if (v[0] != 1 && v[0] != 2 && v[0] != 4) {
+			gls_error(x, st, GL_INVALID_VALUE);
+			return;
+		}
+		*(pname == GL_RGB_SCALE ? &e->scale_rgb : &e->scale_alpha) = v[0];
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glTexEnvf, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnvfv, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnvi, STATE) { set_env(x, st, c, 0); }
+GLS_HANDLER(glTexEnviv, STATE) { set_env(x, st, c, 1); }
+
+/* ---- coordinate generation, sec. 2.11.4 ---- */
+
+static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call *c)
+{
+	struct scene_unit *e = &active_unit(st)->value;
+	uint32_t coord = arg_u(c, 0) - GL_S, mode;
+	float v[4] = { 0 }, inverse[16];
+
+	if (coord > 3) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	arg_floats(c, 2, v, 4);
+	mode = token_of_float(v[0]);
+	switch (arg_u(c, 1)) {
+	case GL_TEXTURE_GEN_MODE:
+		if (mode != GL_OBJECT_LINEAR && mode != GL_EYE_LINEAR && (mode != GL_SPHERE_MAP || coord > 1) &&
+		    ((mode != GL_REFLECTION_MAP && mode != GL_NORMAL_MAP) || coord > 2)) {
+			gls_error(x, st, GL_INVALID_ENUM);
+			return;
+		}
+		e->gen_mode[coord] = mode;
+		break;
+	case GL_OBJECT_PLANE:
+		memcpy(e->gen_object_plane[coord], v, 16);
+		break;
+	case GL_EYE_PLANE:
+		mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
+		mat4_transform_plane(e->gen_eye_plane[coord], v, inverse);
+		break;
+	default:
+		gls_error(x, st, GL_INVALID_ENUM);
+	}
+}
+
+GLS_HANDLER(glTexGend, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGendv, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGenf, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGenfv, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGeni, STATE) { set_gen(x, st, c); }
+GLS_HANDLER(glTexGeniv, STATE) { set_gen(x, st, c); }
+

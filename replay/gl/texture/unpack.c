@@ -1,0 +1,534 @@
+/* Client pixels to texels. */
+#include "replay/gl/texture/unpack.h"
+
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "base/half.h"
+#include "capture/format/trace.h"
+#include "replay/gl/geometry/buffer.h"
+#include "replay/gl/texture/texformat.h"
+#include "replay/machine/args.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
+
+/* ---- client formats, tables 3.5 and 3.6 ---- */
+
+/* Which of R G B A each component of a group is; 4: luminance (all of RGB), 5: depth. */
+struct format {
+	uint32_t token;
+	unsigned n;
+	uint8_t to[4];
+};
+
+static const struct format *find_format(uint32_t token)
+{
+	static const struct format formats[] = {
+		{ GL_RED, 1, { 0 } },         { GL_GREEN, 1, { 1 } },        { GL_BLUE, 1, { 2 } },
+		{ GL_ALPHA, 1, { 3 } },       { GL_RGB, 3, { 0, 1, 2 } },    { GL_BGR, 3, { 2, 1, 0 } },
+		{ GL_RGBA, 4, { 0, 1, 2, 3 } }, { GL_BGRA, 4, { 2, 1, 0, 3 } }, { GL_ABGR_EXT, 4, { 3, 2, 1, 0 } },
+		{ GL_LUMINANCE, 1, { 4 } },   { GL_LUMINANCE_ALPHA, 2, { 4, 3 } }, { GL_DEPTH_COMPONENT, 1, { 5 } },
+		{ GL_RG, 2, { 0, 1 } },       { GL_DEPTH_STENCIL, 1, { 5 } },
+	};
+
+	for (size_t i = 0; i < sizeof(formats) / sizeof(formats[0]); i++)
+		if (formats[i].token == token)
+			return &formats[i];
+	return NULL;
+}
+
+/* Packed types (table 3.8): bits of each component from the first one on, first in the highest bits unless reversed. */
+struct packed {
+	uint32_t token;
+	unsigned bytes, n, bits[4], reversed;
+};
+
+static const struct packed *find_packed(uint32_t token)
+{
+	static const struct packed types[] = {
+		{ GL_UNSIGNED_BYTE_3_3_2, 1, 3, { 3, 3, 2 }, 0 },
+		{ GL_UNSIGNED_BYTE_2_3_3_REV, 1, 3, { 3, 3, 2 }, 1 },
+		{ GL_UNSIGNED_SHORT_5_6_5, 2, 3, { 5, 6, 5 }, 0 },
+		{ GL_UNSIGNED_SHORT_5_6_5_REV, 2, 3, { 5, 6, 5 }, 1 },
+		{ GL_UNSIGNED_SHORT_4_4_4_4, 2, 4, { 4, 4, 4, 4 }, 0 },
+		{ GL_UNSIGNED_SHORT_4_4_4_4_REV, 2, 4, { 4, 4, 4, 4 }, 1 },
+		{ GL_UNSIGNED_SHORT_5_5_5_1, 2, 4, { 5, 5, 5, 1 }, 0 },
+		{ GL_UNSIGNED_SHORT_1_5_5_5_REV, 2, 4, { 5, 5, 5, 1 }, 1 },
+		{ GL_UNSIGNED_INT_8_8_8_8, 4, 4, { 8, 8, 8, 8 }, 0 },
+		{ GL_UNSIGNED_INT_8_8_8_8_REV, 4, 4, { 8, 8, 8, 8 }, 1 },
+		{ GL_UNSIGNED_INT_10_10_10_2, 4, 4, { 10, 10, 10, 2 }, 0 },
+		{ GL_UNSIGNED_INT_2_10_10_10_REV, 4, 4, { 10, 10, 10, 2 }, 1 },
+	};
+
+	for (size_t i = 0; i < sizeof(types) / sizeof(types[0]); i++)
+		if (types[i].token == token)
+			return &types[i];
+	return NULL;
+}
+
+static size_t plain_bytes(uint32_t type)
+{
+	switch (type) {
+	case GL_UNSIGNED_BYTE:
+	case GL_BYTE:
+		return 1;
+	case GL_UNSIGNED_SHORT:
+	case GL_SHORT:
+	case GL_HALF_FLOAT:
+		return 2;
+	case GL_UNSIGNED_INT:
+	case GL_INT:
+	case GL_FLOAT:
+	case GL_UNSIGNED_INT_24_8:
+		return 4;
+	case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
+		return 8;
+	default:
+		return 0;
+	}
+}
+
+static uint32_t load(const uint8_t *p, size_t n, int swap)
+{
+	uint32_t value = 0;
+
+	for (size_t i = 0; i < n; i++)
+		value |= (uint32_t)p[swap ? n - 1 - i : i] << (8 * i);
+	return value;
+}
+
+/* One component as a float (table 2.9); of depths packed with stencil values the depth. */
+static float plain_component(const uint8_t *p, uint32_t type, int swap)
+{
+	size_t bytes = plain_bytes(type);
+	uint32_t u = load(p, bytes < 4 ? bytes : 4, swap);
+	float f;
+
+	switch (type) {
+	case GL_HALF_FLOAT:
+		return half_to_float((uint16_t)u);
+	case GL_UNSIGNED_INT_24_8:
+		return (float)(u >> 8) / 16777215.0f;
+	case GL_UNSIGNED_BYTE:
+		return (float)u / 255.0f;
+	case GL_BYTE:
+		return (2.0f * (int8_t)u + 1) / 255.0f;
+	case GL_UNSIGNED_SHORT:
+		return (float)u / 65535.0f;
+	case GL_SHORT:
+		return (2.0f * (int16_t)u + 1) / 65535.0f;
+	case GL_UNSIGNED_INT:
+		return (float)(u / 4294967295.0);
+	case GL_INT:
+		return (float)((2.0 * (int32_t)u + 1) / 4294967295.0);
+	default:
+		memcpy(&f, &u, 4);
+		return f;
+	}
+}
+
+static void packed_components(const uint8_t *p, const struct packed *t, int swap, float out[4])
+{
+	uint32_t word = load(p, t->bytes, swap);
+	unsigned shift = t->reversed ? 0 : 8 * t->bytes;
+
+	for (unsigned i = 0; i < t->n; i++) {
+		uint32_t max = (1u << t->bits[i]) - 1;
+		if (!t->reversed)
+			shift -= t->bits[i];
+		out[i] = (float)(word >> shift & max) / (float)max;
+		if (t->reversed)
+			shift += t->bits[i];
+	}
+}
+
+/* ---- where pixels lie ---- */
+
+const uint8_t *gls_pixel_source(struct gls_state *st, const struct call *c, unsigned i, size_t *n)
+{
+	const struct gls_buffer *b = gls_buffer_find(st, st->client.unpack.buffer);
+	uint64_t offset = (uint64_t)arg_i(c, i);
+
+	if (arg(c, i)->type == TRACE_BLOB)
+		return arg_blob(c, i, n);
+	*n = 0;
+	if (!b || offset >= b->bytes)
+		return NULL;
+	*n = b->bytes - offset;
+	return b->data + offset;
+}
+
+/* How many pixels a row has in memory. */
+static size_t row_pixels(const struct gls_pixels *p)
+{
+	return p->store->row_length > 0 ? (size_t)p->store->row_length : p->width;
+}
+
+/* Rows begin at multiples of the alignment (sec. 3.6.4, equation 3.13). */
+static size_t aligned(const struct gls_pixels *p, size_t row)
+{
+	size_t alignment = (size_t)p->store->alignment;
+
+	return (row + alignment - 1) / alignment * alignment;
+}
+
+/* Where a pixel of a 2D image begins. group: bytes of a pixel */
+static size_t place_of(const struct gls_pixels *p, size_t group, uint32_t x, uint32_t y)
+{
+	const struct gls_pixel_store *s = p->store;
+
+	return ((size_t)s->skip_rows + y) * aligned(p, group * row_pixels(p)) + ((size_t)s->skip_pixels + x) * group;
+}
+
+int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y)
+{
+	const struct gls_pixel_store *s = p->store;
+	size_t bit = (size_t)s->skip_pixels + x, at = ((size_t)s->skip_rows + y) * aligned(p, (row_pixels(p) + 7) / 8) + bit / 8;
+
+	return at < p->n && p->data[at] >> (s->lsb_first ? bit & 7 : 7 - (bit & 7)) & 1;
+}
+
+/* ---- pixel transfer, sec. 3.6.5 ---- */
+
+/* Scale and bias, then the colour maps. */
+static void transfer_color(const struct gls_state *st, float rgba[4])
+{
+	const struct gls_pixel *p = &st->a.pixel;
+
+	for (unsigned i = 0; i < 4; i++) {
+		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_R_TO_R - GL_PIXEL_MAP_I_TO_I + i];
+
+		rgba[i] = rgba[i] * p->scale[i] + p->bias[i];
+		if (p->map_color) {
+			float v = rgba[i] > 0 ? rgba[i] < 1 ? rgba[i] : 1 : 0;
+			rgba[i] = m->size ? m->values[(uint32_t)(v * (float)(m->size - 1) + 0.5f)] : 0;
+		}
+	}
+}
+
+static int transfers_colors(const struct gls_pixel *p)
+{
+	for (unsigned i = 0; i < 4; i++)
+		if (p->scale[i] != 1 || p->bias[i] != 0)
+			return 1;
+	return p->map_color != 0;
+}
+
+float gls_transfer_depth(const struct gls_state *st, float depth)
+{
+	float v = depth * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
+
+	return v > 0 ? v < 1 ? v : 1 : 0;
+}
+
+uint32_t gls_transfer_index(const struct gls_state *st, uint32_t index)
+{
+	int32_t shift = st->a.pixel.index_shift;
+
+	return (shift >= 0 ? index << (shift & 31) : index >> (-shift & 31)) + (uint32_t)st->a.pixel.index_offset;
+}
+
+void gls_store_pixel(const struct gls_state *st, const struct gls_format *to, float rgba[4], uint8_t *out)
+{
+	transfer_color(st, rgba);
+	gls_format_store(to, rgba, out);
+}
+
+/* ---- stencil values and indices ---- */
+
+void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out)
+{
+	size_t group = plain_bytes(p->type);
+
+	for (uint32_t y = 0; y < p->height * (p->depth ? p->depth : 1); y++)
+		for (uint32_t x = 0; x < p->width; x++) {
+			size_t at = place_of(p, group, x, y);
+
+			/* the lowest byte of the last word */
+			*out++ = at <= p->n && group <= p->n - at ? p->data[at + group - (p->store->swap_bytes ? 1 : 4)] : 0;
+		}
+}
+
+/* A colour or stencil index after transfer. size: bytes of one, where it is no bit */
+static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p, size_t size, uint32_t x, uint32_t y)
+{
+	size_t at = place_of(p, size, x, y);
+	uint32_t value = 0;
+	float f;
+
+	if (p->type == GL_BITMAP)
+		value = (uint32_t)gls_unpack_bit(p, x, y);
+	else if (at + size <= p->n)
+		value = load(p->data + at, size, p->store->swap_bytes);
+	if (p->type == GL_FLOAT) {
+		memcpy(&f, &value, 4);
+		value = token_of_float(f);
+	}
+	return gls_transfer_index(st, value);
+}
+
+static uint8_t map_index(const struct gls_pixel_map *m, uint32_t index)
+{
+	float v = m->size ? m->values[index & (m->size - 1)] : 0;
+
+	return (uint8_t)(v > 0 ? v < 1 ? v * 255 + 0.5f : 255 : 0);
+}
+
+int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, uint8_t *out)
+{
+	const struct gls_pixel_map *stencil = &st->pixel_maps[GL_PIXEL_MAP_S_TO_S - GL_PIXEL_MAP_I_TO_I];
+	const struct gls_pixel_map *colors = &st->pixel_maps[GL_PIXEL_MAP_I_TO_R - GL_PIXEL_MAP_I_TO_I];
+	size_t size = plain_bytes(p->type);
+
+	if (p->type == GL_HALF_FLOAT || p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV ||
+	    (p->type != GL_BITMAP && !size))
+		return -1;
+	for (uint32_t y = 0; y < p->height * (p->depth ? p->depth : 1); y++)
+		for (uint32_t x = 0; x < p->width; x++, out += 4) {
+			uint32_t value = index_at(st, p, size, x, y);
+
+			if (p->format == GL_STENCIL_INDEX) {
+				if (st->a.pixel.map_stencil && stencil->size)
+					value = token_of_float(stencil->values[value & (stencil->size - 1)]);
+				memcpy(out, &value, 4);
+				continue;
+			}
+			for (unsigned k = 0; k < 4; k++)
+				out[k] = map_index(&colors[k], value);
+		}
+	return 0;
+}
+
+/* ---- bytes and floats that nothing transfers ---- */
+
+/*
+ * Bytes and floats that nothing transfers end as bytes in other places: for each of a texel's four the member of the group that
+ * it is, or one of these.
+ */
+enum { ZERO_BYTE = 4, FULL_BYTE };
+
+static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
+{
+	place[0] = place[1] = place[2] = ZERO_BYTE;
+	place[3] = FULL_BYTE;
+	for (unsigned k = 0; k < f->n; k++) {
+		if (f->to[k] == 4)
+			place[0] = place[1] = place[2] = (uint8_t)k;
+		else
+			place[f->to[k]] = (uint8_t)k;
+	}
+	if (base == GL_ALPHA)
+		place[0] = place[1] = place[2] = ZERO_BYTE;
+	if (base == GL_LUMINANCE || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY)
+		place[1] = place[2] = place[0];
+	if (base == GL_RED || base == GL_RG)
+		place[2] = ZERO_BYTE;
+	if (base == GL_RED)
+		place[1] = ZERO_BYTE;
+	if (base == GL_LUMINANCE || base == GL_RGB || base == GL_RED || base == GL_RG)
+		place[3] = FULL_BYTE;
+	if (base == GL_INTENSITY)
+		place[3] = place[0];
+}
+
+/* Places as numbers of four bytes: a member times its number stands in all its places; `rest` are the other bytes. */
+struct spread {
+	uint32_t member[4], rest;
+};
+
+static struct spread spread_of(const uint8_t place[4])
+{
+	uint8_t bytes[5][4] = { { 0 } };
+	struct spread s;
+
+	for (unsigned k = 0; k < 4; k++) {
+		if (place[k] < ZERO_BYTE)
+			bytes[place[k]][k] = 1;
+		bytes[4][k] = place[k] == FULL_BYTE ? 255 : 0;
+	}
+	memcpy(s.member, bytes, sizeof(s.member));
+	memcpy(&s.rest, bytes[4], sizeof(s.rest));
+	return s;
+}
+
+static inline void place_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	const struct spread s = spread_of(place);
+
+	for (uint32_t i = 0; i < width; i++, from += n, out += 4) {
+		uint32_t texel = s.rest;
+
+		for (unsigned k = 0; k < n; k++)
+			texel += from[k] * s.member[k];
+		memcpy(out, &texel, 4);
+	}
+}
+
+static inline void place_floats(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	const struct spread s = spread_of(place);
+	float values[4];
+
+	for (uint32_t i = 0; i < width; i++, from += 4 * n, out += 4) {
+		uint32_t texel = s.rest;
+
+		memcpy(values, from, 4 * n);
+		for (unsigned k = 0; k < n; k++)
+			texel += gls_byte(values[k]) * s.member[k];
+		memcpy(out, &texel, 4);
+	}
+}
+
+static void unpack_floats(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	if (n == 4)
+		place_floats(from, 4, width, place, out);
+	else if (n == 3)
+		place_floats(from, 3, width, place, out);
+	else if (n == 2)
+		place_floats(from, 2, width, place, out);
+	else
+		place_floats(from, 1, width, place, out);
+}
+
+static void unpack_bytes(const uint8_t *from, unsigned n, uint32_t width, const uint8_t place[4], uint8_t *out)
+{
+	static const uint8_t as_they_are[4] = { 0, 1, 2, 3 };
+
+	if (n == 4 && memcmp(place, as_they_are, 4) == 0)
+		memcpy(out, from, 4 * (size_t)width);
+	else if (n == 4)
+		place_bytes(from, 4, width, place, out);
+	else if (n == 3)
+		place_bytes(from, 3, width, place, out);
+	else if (n == 2)
+		place_bytes(from, 2, width, place, out);
+	else
+		place_bytes(from, 1, width, place, out);
+}
+
+/* ---- any pixels ---- */
+
+/* What a command's pixels are and become. */
+struct unpacking {
+	const struct gls_state *st;
+	const struct gls_pixels *p;
+	const struct format *from;
+	const struct packed *packed; /* NULL: each component has its own bytes, this many: */
+	size_t component, group;     /* and a pixel this many */
+	const struct gls_format *to;
+	size_t step;                 /* bytes of a texel */
+	int transfers, is_depth;
+	int is_plain;                /* 1: rows are only put in other places: */
+	uint8_t place[4];
+};
+
+/* @return 0: these pixels are not done */
+static int describe(struct unpacking *u)
+{
+	const struct gls_pixels *p = u->p;
+	const struct gls_format *to = u->to;
+	int is_packed_depth = p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV;
+
+	u->from = find_format(p->format);
+	u->packed = find_packed(p->type);
+	u->component = plain_bytes(p->type);
+	u->is_depth = to->base == GL_DEPTH_COMPONENT;
+	if (!u->from || (!u->component && !u->packed) || u->is_depth != (u->from->to[0] == 5) ||
+	    (u->packed && u->packed->n != u->from->n) || (p->format == GL_DEPTH_STENCIL) != is_packed_depth)
+		return 0;
+	u->group = u->packed ? u->packed->bytes : u->from->n * u->component;
+	u->step = to->numbers ? 16 : 4;
+	u->transfers = transfers_colors(&u->st->a.pixel);
+	u->is_plain = (p->type == GL_UNSIGNED_BYTE || (p->type == GL_FLOAT && !p->store->swap_bytes)) && !u->transfers &&
+	              !u->is_depth && !to->bits[0] && !to->bits[3] && !to->s3tc && !to->numbers;
+	if (u->is_plain)
+		places_of(u->from, to->base, u->place);
+	return 1;
+}
+
+static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t *out)
+{
+	const struct format *f = u->from;
+	float rgba[4] = { 0, 0, 0, 1 }, v[4];
+
+	if (u->packed)
+		packed_components(data, u->packed, u->p->store->swap_bytes, v);
+	else
+		for (unsigned k = 0; k < f->n; k++)
+			v[k] = plain_component(data + k * u->component, u->p->type, u->p->store->swap_bytes);
+	if (u->is_depth) {
+		v[0] = gls_transfer_depth(u->st, v[0]);
+		memcpy(out, v, 4);
+		return;
+	}
+	for (unsigned k = 0; k < f->n; k++) {
+		if (f->to[k] == 4)
+			rgba[0] = rgba[1] = rgba[2] = v[k];
+		else
+			rgba[f->to[k]] = v[k];
+	}
+	if (u->transfers)
+		transfer_color(u->st, rgba);
+	gls_format_store(u->to, rgba, out);
+}
+
+/* @return 0, or -2: some bytes are not there */
+static int unpack_row(const struct unpacking *u, size_t at, uint8_t *out)
+{
+	size_t n = u->p->n;
+	int rc = 0;
+
+	if (u->is_plain && at <= n && u->group * u->p->width <= n - at) {
+		(u->p->type == GL_FLOAT ? unpack_floats : unpack_bytes)(u->p->data + at, u->from->n, u->p->width, u->place, out);
+		return 0;
+	}
+	for (uint32_t i = 0; i < u->p->width; i++, at += u->group, out += u->step) {
+		if (at <= n && u->group <= n - at) {
+			unpack_texel(u, u->p->data + at, out);
+		} else {
+			memset(out, 0, u->step);
+			rc = -2;
+		}
+	}
+	return rc;
+}
+
+/* Colour indices as the colours that maps make of them (sec. 3.6.5). @return 0, or -1: no type of indices */
+static int unpack_color_indices(const struct gls_state *st, const struct gls_pixels *p, const struct gls_format *to, uint8_t *out)
+{
+	if (gls_unpack_indices(st, p, out))
+		return -1;
+	/* from the last on: texels may be larger than colours */
+	for (size_t i = (size_t)p->width * p->height * (p->depth ? p->depth : 1); i-- > 0;) {
+		float v[4];
+
+		gls_texel_load(4, out + 4 * i, v);
+		gls_format_store(to, v, out + (to->numbers ? 16 : 4) * i);
+	}
+	return 0;
+}
+
+int gls_unpack_pixels(struct gls_exec *x, const struct gls_state *st, const struct gls_pixels *p, uint32_t internal_format,
+                      uint8_t *out)
+{
+	const struct gls_pixel_store *s = p->store;
+	struct unpacking u = { .st = st, .p = p, .to = gls_format_find(internal_format) };
+	size_t row, image, start;
+	int rc = 0;
+
+	if (p->format == GL_COLOR_INDEX && u.to->base != GL_DEPTH_COMPONENT) {
+		if (!unpack_color_indices(st, p, u.to, out))
+			return 0;
+	} else if (describe(&u)) {
+		row = aligned(p, u.group * row_pixels(p));
+		image = row * (s->image_height > 0 ? (size_t)s->image_height : p->height);
+		start = (p->depth ? (size_t)s->skip_images * image : 0) + place_of(p, u.group, 0, 0);
+		for (uint32_t z = 0; z < (p->depth ? p->depth : 1); z++)
+			for (uint32_t y = 0; y < p->height; y++, out += u.step * p->width)
+				rc |= unpack_row(&u, start + z * image + y * row, out);
+		return rc;
+	}
+	gls_unsupported(x, "pixels of this format and type");
+	return -1;
+}
