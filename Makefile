@@ -26,9 +26,10 @@ LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lxxhash -lcyaml -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
-RECORDER_SRC := $(wildcard capture/gl/*.c capture/write/*.c)
+RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
+RECORDER_GEN := tables/commands tables/enums thunks
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c) \
-	$(addprefix $(BUILD)/recorder/gen/,commands.o enums.o thunks.o)
+	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := diff/visual.c
 REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format scene look kernels/ref tracer tracer/* farm)) \
@@ -96,7 +97,7 @@ $(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map $(BUI
 	@mkdir -p $(@D)
 	$(Q)cp $(BUILD)/relume $(@D)/relume
 	$(Q)$(CC) $(CPPFLAGS) $(SANITIZED_CFLAGS) -fsanitize=$* -shared -Wl,-Bsymbolic -Wl,--version-script=capture/gen/exports.map -o $@ \
-		$(RECORDER_SRC) capture/format/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks) -l:libsnappy.a -lstdc++ -ldl -pthread
+		$(RECORDER_SRC) capture/format/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,$(RECORDER_GEN)) -l:libsnappy.a -lstdc++ -ldl -pthread
 
 $(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
 	@mkdir -p $(@D)
@@ -107,7 +108,7 @@ $(BUILD)/recorder/gen/stamp: capture/gen/gen.py capture/gen/registry.py capture/
 	$(Q)$(PYTHON) -B capture/gen/gen.py capture/gen/overlay.txt $(@D)
 	@touch $@
 
-$(patsubst %,$(BUILD)/recorder/gen/%.c,commands enums thunks): $(BUILD)/recorder/gen/stamp ;
+$(patsubst %,$(BUILD)/recorder/gen/%.c,$(RECORDER_GEN)): $(BUILD)/recorder/gen/stamp ;
 
 $(BUILD)/recorder/gen/%.o: $(BUILD)/recorder/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -O2 -g0 -c -o $@ $<

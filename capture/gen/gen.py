@@ -3,9 +3,9 @@
 
     gen.py OVERLAY OUTPUT-DIRECTORY
 
-writes commands.h (numbers and typed calls of the real functions), commands.c (the table), thunks.c, enums.c (names by value)
-and commands.txt (one line a command: recorded, or passed through and why). The same input gives the same bytes.
-A thunk is thin: it calls the functions of writer.h and wrap.h; every decision is in overlay.txt or in these.
+writes tables/commands.h and .c (numbers, names and shapes of commands), tables/enums.h and .c (names by value), real.h (typed calls
+of the real functions), thunks.h and .c, and commands.txt (one line a command: recorded, or passed through and why). The same
+input gives the same bytes. A thunk is thin: it calls what hooks.h lists; every decision is in overlay.txt or there.
 """
 import os
 import re
@@ -429,39 +429,44 @@ def write(directory, name, lines):
 def main(overlay_path, directory):
     gen = Generator(Overlay(overlay_path))
     passed = {name: gen.why_passed(command) for name, command in gen.commands.items()}
-    os.makedirs(directory, exist_ok=True)
+    os.makedirs(os.path.join(directory, "tables"), exist_ok=True)
 
     numbers = [BANNER + "#ifndef GEN_COMMANDS_H\n#define GEN_COMMANDS_H\n\nenum {"]
-    numbers += [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};", ""]
-    for name, command in gen.commands.items():
-        numbers.append(f"#define real_{name} (({gen.c_type(command.result, name)} (*)({gen.signature(command)}))real(CMD_{name}))")
-    write(directory, "commands.h", numbers + ["", "#endif"])
-
-    thunks = [BANNER + '#include "capture/gl/wrap.h"\n#include "thunks.h"\n']
-    for name, command in gen.commands.items():
-        thunks += gen.thunk(command, passed[name]) + [""]
-    names = gen.plain_enums()
-    write(directory, "thunks.c", thunks)
-
-    table = [BANNER + '#include "capture/gl/wrap.h"\n#include "thunks.h"\n', "const struct command commands[N_COMMANDS] = {"]
+    write(directory, "tables/commands.h", numbers + [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};", "", "#endif"])
+    table = [BANNER + '#include "tables/commands.h"\n\n#include <stddef.h>\n\n#include "capture/write/tables.h"\n',
+             "const struct command commands[N_COMMANDS] = {"]
     for name, command in gen.commands.items():
         arguments = "".join(p.name + "\\0" for p in command.params)
         shape = gen.shape(command)
-        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", (void *){name}, '
-                     + (f'"{shape[0]}"' if shape else "NULL")
+        table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", ' + (f'"{shape[0]}"' if shape else "NULL")
                      + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.draws) else ", 0 },"))
+    write(directory, "tables/commands.c", table + ["};"])
+
+    real = [BANNER + '#ifndef GEN_REAL_H\n#define GEN_REAL_H\n\n#include "capture/gl/resolve.h"\n#include "tables/commands.h"\n']
+    for name, command in gen.commands.items():
+        real.append(f"#define real_{name} (({gen.c_type(command.result, name)} (*)({gen.signature(command)}))resolve_real(CMD_{name}))")
+    write(directory, "real.h", real + ["", "#endif"])
+
+    thunks = [BANNER + '#include "thunks.h"\n\n#include "capture/gen/hooks.h"\n']
+    for name, command in gen.commands.items():
+        thunks += gen.thunk(command, passed[name]) + [""]
+    thunks += ["void *const entry_points[N_COMMANDS] = {"] + [f"\t(void *){name}," for name in gen.commands] + ["};"]
+    write(directory, "thunks.c", thunks)
     prototypes = [f"SHOWN {gen.c_type(c.result, n)} {n}({gen.signature(c)});" for n, c in gen.commands.items()]
-    write(directory, "thunks.h", [BANNER + "#ifndef GEN_THUNKS_H\n#define GEN_THUNKS_H\n"] + prototypes + ["", "#endif"])
-    write(directory, "commands.c", table + ["};"])
+    head = (BANNER + '#ifndef GEN_THUNKS_H\n#define GEN_THUNKS_H\n\n#include "tables/commands.h"\n\n'
+            '#define SHOWN __attribute__((visibility("default")))\n\n'
+            'extern void *const entry_points[N_COMMANDS] __attribute__((visibility("hidden")));\n')
+    write(directory, "thunks.h", [head] + prototypes + ["", "#endif"])
+    names = gen.plain_enums()
 
     # One signature a name, written where it is first used: index in enum_entries is the signature's number.
-    enums = [BANNER + '#include "capture/write/writer.h"\n', "const struct enum_entry enum_entries[] = {", "\t{ NULL, 0 },"]
+    enums = [BANNER + '#include "tables/enums.h"\n\n#include <stddef.h>\n', "const struct enum_entry enum_entries[] = {", "\t{ NULL, 0 },"]
     index, order = {}, 0
     for value, name in names.items():
         order += 1
         index[value] = order
         enums.append(f'\t{{ "{name}", {value} }},')
-    header = [BANNER + "#ifndef GEN_ENUMS_H\n#define GEN_ENUMS_H\n"]
+    header = [BANNER + '#ifndef GEN_ENUMS_H\n#define GEN_ENUMS_H\n\n#include "capture/write/tables.h"\n']
     small = []
     for group in sorted(gen.used_small):
         entries = []
@@ -481,8 +486,8 @@ def main(overlay_path, directory):
         enums.append(f"const struct bits_entry bits_{group} = {{ {number}, {len(flags)}, (const struct enum_entry[]){{ {entries} }} }};")
         header.append(f"extern const struct bits_entry bits_{group};")
     header += [f"\nenum {{ N_BITS_ENTRIES = {len(gen.used_bits)} }};", "", "#endif"]
-    write(directory, "enums.c", enums)
-    write(directory, "enums.h", header)
+    write(directory, "tables/enums.c", enums)
+    write(directory, "tables/enums.h", header)
 
     write(directory, "commands.txt", [f"{name} {'passed: ' + passed[name] if passed[name] else 'recorded'}" for name in gen.commands])
 

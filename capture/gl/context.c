@@ -1,13 +1,14 @@
-/* Runs inside the traced program. Contexts: which is current, what it can do, whose errors are pending. */
+/* Runs inside the traced program. */
+#include "capture/gl/context.h"
+
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "capture/write/content.h"
-#include "capture/gl/mirror.h"
-#include "capture/gl/wrap.h"
+#include "real.h"
 
 enum { MAX_ERRORS = 8 };
 
@@ -18,9 +19,10 @@ struct context {
 	int bound; /* has been current before */
 	unsigned errors[MAX_ERRORS];
 	int n_errors;
-	struct content_table *contents;
-	struct mirror_table *mirrors;
-	struct runs_table *runs;
+	struct slot {
+		void *data;
+		void (*release)(void *data);
+	} slots[N_CONTEXT_SLOTS];
 };
 
 /* Only grows, under the lock; few entries. */
@@ -28,12 +30,13 @@ static pthread_mutex_t list_lock = PTHREAD_MUTEX_INITIALIZER;
 static struct context *contexts;
 
 static __thread struct context *current __attribute__((tls_model("initial-exec")));
+static __thread unsigned turn __attribute__((tls_model("initial-exec")));
 
-/* Features */
+/* Features and state */
 
-int context_is_current(void)
+const void *context_current(void)
 {
-	return current != NULL;
+	return current;
 }
 
 int context_has(enum context_feature feature)
@@ -50,19 +53,12 @@ int context_get(unsigned pname)
 	return value;
 }
 
-struct content_table **context_contents(void)
+int context_get_level(unsigned target, int level, unsigned pname)
 {
-	return &current->contents;
-}
+	int value = 0;
 
-struct mirror_table **context_mirrors(void)
-{
-	return &current->mirrors;
-}
-
-struct runs_table **context_runs(void)
-{
-	return current ? &current->runs : NULL;
+	real_glGetTexLevelParameteriv(target, level, pname, &value);
+	return value;
 }
 
 /* 1 where `list` holds `name` as a whole word. */
@@ -149,113 +145,47 @@ static struct context *find_context(void *handle)
 	return c;
 }
 
-void context_destroyed(void *handle)
+void *context_data(enum context_slot slot)
 {
-	pthread_mutex_lock(&list_lock);
-	for (struct context *c = contexts; c; c = c->next)
-		if (c->handle == handle && handle && c != current) {
-			c->handle = NULL; /* the address may come back as another context */
-			maps_context_destroyed(&c->contents);
-			content_free(&c->contents);
-			mirror_free(&c->mirrors);
-			runs_free(&c->runs);
-		}
-	pthread_mutex_unlock(&list_lock);
+	return current ? current->slots[slot].data : NULL;
 }
 
-static void record_rectangle(unsigned command, const int rectangle[4])
+void context_set_data(enum context_slot slot, void *data, void (*release)(void *data))
 {
-	uint8_t *p = writer_enter_fake(command);
-
-	if (!p)
-		return;
-	for (unsigned i = 0; i < 4; i++)
-		p = put_sint(put_argument(p, i), rectangle[i]);
-	writer_call_end(p);
+	current->slots[slot] = (struct slot){ data, release };
 }
 
-static void record_value(unsigned command, uint8_t *(*put)(uint8_t *, uint32_t), uint32_t value)
+unsigned context_turn(void)
 {
-	uint8_t *p = writer_enter_fake(command);
-
-	if (!p)
-		return;
-	p = put(put_argument(p, 0), value);
-	writer_call_end(p);
+	return turn;
 }
 
-static uint8_t *put_clear_bits(uint8_t *p, uint32_t v)
+int context_select(void *handle)
 {
-	return put_bits(p, v, &bits_ClearBufferMask);
-}
-
-/*
- * glretrace makes a small window and resizes it at the first viewport, of which Mesa's software rasterizer learns when something
- * is drawn to the front buffer or at the first swap: all of the first frame but a corner would be lost (Mesa 22.3.6). So
- * nothing is drawn there: a clear of no buffers.
- */
-void context_make_size_known(void)
-{
-	uint8_t *p;
-
-	if (!context_has(HAS_DESKTOP) || context_get(GL_DRAW_BUFFER) != GL_BACK)
-		return;
-	record_value(CMD_glDrawBuffer, put_enum, GL_FRONT);
-	record_value(CMD_glClear, put_clear_bits, 0);
-	p = writer_enter_fake(CMD_glFlush);
-	if (p)
-		writer_call_end(p);
-	record_value(CMD_glDrawBuffer, put_enum, GL_BACK);
-}
-
-/* GL sets viewport and scissor to the drawable when a context is first made current: that is how a reader learns its size. */
-static void made_current(void *handle)
-{
-	int rectangle[4] = { 0, 0, 0, 0 };
-
 	struct context *before = current;
 
 	current = handle ? find_context(handle) : NULL;
-	if (current != before)
-		arrays_forget();
+	turn += current != before;
 	if (!current || current->bound)
-		return;
+		return 0;
 	current->bound = 1;
 	current->features = find_features();
-	real_glGetIntegerv(GL_VIEWPORT, rectangle);
-	record_rectangle(CMD_glViewport, rectangle);
-	real_glGetIntegerv(GL_SCISSOR_BOX, rectangle);
-	record_rectangle(CMD_glScissor, rectangle);
-	context_make_size_known();
-	if (current->features & HAS_FIXED_FUNCTION)
-		frame_mark_bits();
+	return 1;
 }
 
-void context_made_current_glx(int ok, void *display, unsigned long drawable, void *context)
+void context_destroyed(void *handle)
 {
-	if (!ok || !writer_active())
-		return;
-	frame_drawable_glx(display, drawable);
-	made_current(context);
-}
-
-void context_made_current_egl(unsigned ok, void *display, void *surface, void *context)
-{
-	if (!ok || !writer_active())
-		return;
-	frame_drawable_egl(display, surface);
-	made_current(context);
-}
-
-void context_made_current_osmesa(unsigned ok, void *context, int width, int height)
-{
-	if (!ok)
-		return;
-	resolve_prefer_osmesa();
-	if (!writer_active())
-		return;
-	frame_drawable_osmesa(context, width, height);
-	made_current(context);
+	pthread_mutex_lock(&list_lock);
+	for (struct context *c = contexts; c; c = c->next) {
+		if (c->handle != handle || !handle || c == current)
+			continue;
+		c->handle = NULL; /* the address may come back as another context */
+		for (int i = 0; i < N_CONTEXT_SLOTS; i++)
+			if (c->slots[i].data)
+				c->slots[i].release(c->slots[i].data);
+		memset(c->slots, 0, sizeof(c->slots));
+	}
+	pthread_mutex_unlock(&list_lock);
 }
 
 /* Errors */

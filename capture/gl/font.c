@@ -1,9 +1,6 @@
-/*
- * Runs inside the traced program. glXUseXFont makes display lists out of a font of the X server; readers of the trace have no such
- * font, so the lists are written out before it: each character as the bitmap that the X server draws of it (GLX 1.4 sec. 3.3.6).
- *
- * The server is asked as GLX itself asks it, through the Xlib that GLX has loaded.
- */
+/* Runs inside the traced program. */
+#include "capture/gl/font.h"
+
 #include <GL/gl.h>
 #include <X11/Xlib.h>
 #include <dlfcn.h>
@@ -11,7 +8,14 @@
 #include <pthread.h>
 #include <sys/mman.h>
 
-#include "capture/gl/wrap.h"
+#include "capture/gl/context.h"
+#include "capture/gl/resolve.h"
+#include "capture/gl/restore.h"
+#include "capture/write/fake.h"
+#include "capture/write/memory.h"
+#include "capture/write/values.h"
+#include "capture/write/writer.h"
+#include "real.h"
 
 enum { MAX_SIDE = 4096, MAX_CHARACTERS = 1 << 16 };
 
@@ -38,7 +42,7 @@ static void find_xlib(void)
 
 	x_found = lib != NULL;
 	for (size_t i = 0; lib && i < sizeof(names) / sizeof(names[0]); i++)
-		if (!(functions[i] = dlsym(lib, names[i])))
+		if (!(functions[i] = resolve_in(lib, names[i])))
 			x_found = 0;
 }
 
@@ -84,25 +88,10 @@ static void draw_character(Display *display, const XFontStruct *font, unsigned c
 
 static void record_list(unsigned list, const XCharStruct *c, int width, int height, float advance, const uint8_t *bits)
 {
-	uint8_t *p = writer_enter_fake(CMD_glNewList);
-
-	if (!p)
-		return;
-	p = put_uint(put_argument(p, 0), list);
-	p = put_enum(put_argument(p, 1), GL_COMPILE);
-	writer_call_end(p);
-	if ((p = writer_enter_fake(CMD_glBitmap))) {
-		p = put_sint(put_argument(p, 0), width);
-		p = put_sint(put_argument(p, 1), height);
-		p = put_float(put_argument(p, 2), (float)-c->lbearing);
-		p = put_float(put_argument(p, 3), (float)(c->descent - 1));
-		p = put_float(put_argument(p, 4), advance);
-		p = put_float(put_argument(p, 5), 0);
-		p = put_blob(put_argument(p, 6), bits, (long)(width + 7) / 8 * height);
-		writer_call_end(p);
-	}
-	if ((p = writer_enter_fake(CMD_glEndList)))
-		writer_call_end(p);
+	fake_call(CMD_glNewList, "ue", list, GL_COMPILE);
+	fake_call(CMD_glBitmap, "iiffffb", width, height, (double)-c->lbearing, (double)(c->descent - 1), (double)advance, 0.0, bits,
+	          (long)(width + 7) / 8 * height);
+	fake_call(CMD_glEndList, "");
 }
 
 /*
@@ -130,15 +119,15 @@ static void record_character(Display *display, const XFontStruct *font, unsigned
 	const XCharStruct *found = find_character(font, code), *c = found ? found : &font->max_bounds;
 	int width = c->rbearing - c->lbearing, height = c->ascent + c->descent;
 	size_t bytes = (size_t)(width + 7) / 8 * (size_t)height;
-	uint8_t *bits = MAP_FAILED;
+	uint8_t *bits = NULL;
 
 	if (!found || width <= 0 || height <= 0) { /* one pixel, not set: no driver refuses that */
 		record_list(list, c, 1, 1, ask_advance(list, c->width), empty);
 		return;
 	}
 	if (width <= MAX_SIDE && height <= MAX_SIDE)
-		bits = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-	if (bits == MAP_FAILED) {
+		bits = memory_map(bytes);
+	if (!bits) {
 		record_list(list, c, 1, 1, c->width, empty);
 		return;
 	}
@@ -165,10 +154,10 @@ static void record_lists(unsigned long name, int first, int count, int list)
 	if (!font)
 		return;
 	font->fid = name; /* by which a graphics context is given the font */
-	skip_make_neutral(0);
+	restore_make_neutral(0);
 	for (int i = 0; i < count; i++)
 		record_character(display, font, (unsigned)(first + i), (unsigned)(list + i));
-	skip_make_neutral(1);
+	restore_make_neutral(1);
 	x.XFreeFontInfo(NULL, font, 1);
 }
 

@@ -11,7 +11,6 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -19,6 +18,7 @@
 #include <unistd.h>
 
 #include "capture/stats.h"
+#include "capture/write/memory.h"
 
 enum { N_CHUNKS = 8, AT_ONCE = 16 << 10, LOW_FD = 100, MAX_PROCESSES = 10000, STACK_BYTES = 256 << 10, WAIT_NS = 100000000 };
 
@@ -281,21 +281,14 @@ struct sink_state sink_state(void)
 	return (struct sink_state){ sink.path, sink.error, sink.what, sink.bytes };
 }
 
-static void *map(size_t bytes)
-{
-	void *p = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-
-	return p == MAP_FAILED ? NULL : p;
-}
-
 uint8_t *sink_open(const char *name)
 {
 	int saved = errno, error;
 
 	for (int i = 0; i < N_CHUNKS && !sink.chunks[N_CHUNKS - 1]; i++)
-		sink.chunks[i] = map(SINK_CHUNK); /* pages come into being when they are used */
+		sink.chunks[i] = memory_map(SINK_CHUNK); /* pages come into being when they are used */
 	if (!sink.packed)
-		sink.packed = map(snappy_max_compressed_length(SINK_CHUNK) + 4);
+		sink.packed = memory_map(snappy_max_compressed_length(SINK_CHUNK) + 4);
 	error = !sink.chunks[N_CHUNKS - 1] || !sink.packed ? ENOMEM : create_file(name);
 	if (!error && (error = sink_pwrite(sink.fd, "at", 2, 0)) == 0)
 		sink.bytes = 2;

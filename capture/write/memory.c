@@ -1,10 +1,11 @@
 /* Runs inside the traced program. */
-#include "capture/gl/memory.h"
+#include "capture/write/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -70,4 +71,26 @@ size_t memory_text_bytes(const char *text)
 		if (length < n)
 			return bytes;
 	}
+}
+
+void *memory_map(size_t bytes)
+{
+	void *pages = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+	return pages == MAP_FAILED ? NULL : pages;
+}
+
+int memory_grow(uint8_t **pages, size_t *mapped, size_t bytes)
+{
+	size_t room = (bytes + 0xFFFF) & ~(size_t)0xFFFF;
+	void *more;
+
+	if (bytes <= *mapped)
+		return 1;
+	more = *pages ? mremap(*pages, *mapped, room, MREMAP_MAYMOVE) : memory_map(room);
+	if (!more || more == MAP_FAILED)
+		return 0;
+	*pages = more;
+	*mapped = room;
+	return 1;
 }

@@ -1,21 +1,19 @@
 /*
- * Runs inside the traced program. Begin..End runs: what was drawn before is written as a call of a display list.
+ * Runs inside the traced program. Begin..End runs: one that was drawn before is written as a call of a display list.
  *
  * The calls from glBegin to glEnd are kept as plain records and written when the run is whole. A run whose bytes were drawn
- * before becomes a display list that only the trace has, and from then on a single glCallList. What comes next is guessed
- * (the run that followed the last one in the frame before), so that each call of a static scene costs the comparison of its
- * arguments with those in the guessed run, and nothing is copied or hashed.
+ * before becomes a display list that only the trace has, and from then on a single glCallList. The recorder guesses what comes
+ * next: the run that followed the last one in the frame before. So a call of a static scene costs the comparison of its arguments
+ * with those in the guessed run; nothing is copied or hashed.
  *
  * A record is a word (command, bytes of arguments in the upper half) and the arguments as C has them, packed one after the
  * other and padded to four bytes; struct command's `shape` says what they are.
  */
-#ifndef CAPTURE_WRITE_RUNS_H
-#define CAPTURE_WRITE_RUNS_H
+#ifndef CAPTURE_CLIENT_RUNS_H
+#define CAPTURE_CLIENT_RUNS_H
 
 #include <stdint.h>
 #include <string.h>
-
-struct runs_table; /* of one context; NULL is an empty one */
 
 enum { RUNS_MAX_ARGUMENTS = 64 }; /* bytes of one call's arguments; GL's longest has 36 */
 
@@ -29,19 +27,17 @@ extern __thread struct runs_thread {
 int runs_begin(unsigned mode);
 /** glEnd. 1 where it ended a run that was kept; all of it is written. */
 int runs_end(void);
-/** Edge flags were set: lists are made no more in this context (their vertices would need flags known only when called). */
+/** Edge flags were set: this context makes lists no more, as their vertices would need flags known only when they are called. */
 void runs_edge_flag_set(void);
 /**
- * glColorMaterial. Where the back face alone follows the colour, lists are made no more: Mesa lights back faces otherwise where the
- * colour is a vertex's than where it is constant (22.3.6), and the colour that a program sets before glBegin is the former where
- * vertices are pending, the latter where a list is called.
+ * glColorMaterial. Where the back face alone follows the colour, lists are made no more. Mesa (22.3.6) lights back faces differently
+ * by a vertex's colour than by a constant one. The colour that a program sets before glBegin is a vertex's while vertices are
+ * pending, and a constant where a list is called.
  */
 void runs_color_material(unsigned face);
 /** The program began or ended a list of its own, or deleted some. */
 void runs_list_state(void);
 void runs_lists_used(unsigned first, long count);
-
-void runs_free(struct runs_table **table);
 
 /** Leave the guessed run; what was as guessed is copied. 0: there was no room, as below. */
 int runs_diverge(void);

@@ -1,16 +1,16 @@
 /*
- * Runs inside the traced program. Asking the kernel which pages the program has written since the last time it was asked, so that
- * an array on pages that were not need not be read.
+ * Runs inside the traced program. Asking the kernel which pages the program has written since we last asked, so that an array
+ * on other pages need not be read.
  *
- * Linux has this from 6.7 on: pages are write-protected in a way that the kernel undoes by itself at the first store
- * (userfaultfd's UFFD_FEATURE_WP_ASYNC; no signal, no handler, nothing the program could see but in /proc/self/maps), and the
- * PAGEMAP_SCAN ioctl tells which are protected no longer. Elsewhere, or where a sandbox forbids it, nothing can be watched.
+ * Linux can tell from 6.7 on: it write-protects pages and undoes that by itself at the first store (userfaultfd's
+ * UFFD_FEATURE_WP_ASYNC: no signal, no handler, nothing the program could see but in /proc/self/maps). The PAGEMAP_SCAN ioctl
+ * lists the pages that are protected no longer. Elsewhere, or where a sandbox forbids it, nothing can be watched.
  *
- * Only private memory that is there is watched. Stores by the kernel count like the program's own; what a device writes into
- * pages that were handed to it before they were watched does not.
+ * Only private memory that is there is watched. Stores by the kernel count like the program's own. What a device writes into
+ * pages that it got before they were watched does not.
  */
-#ifndef CAPTURE_GL_WATCH_H
-#define CAPTURE_GL_WATCH_H
+#ifndef CAPTURE_CLIENT_WATCH_H
+#define CAPTURE_CLIENT_WATCH_H
 
 #include <stdint.h>
 

@@ -1,21 +1,19 @@
-/*
- * Runs inside the traced program. Mapped buffers: the recorder sees no store, so what lies there goes out as a copy (apitrace's own
- * memory function): what a flush names, and all of a mapping that ends.
- *
- * A mapping that is persistent (ARB_buffer_storage) may be written while draws read the buffer. What it holds is written when it
- * begins, and is compared with a copy before each command that may read it; what differs goes out. Where the kernel tells which
- * pages were written (watch.h) only those are compared.
- */
-#include "capture/gl/maps.h"
+/* Runs inside the traced program. */
+#include "capture/client/maps.h"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <pthread.h>
+#include <string.h>
 #include <sys/mman.h>
 
-#include "capture/gl/memory.h"
-#include "capture/gl/watch.h"
-#include "capture/gl/wrap.h"
+#include "capture/client/watch.h"
+#include "capture/gl/context.h"
+#include "capture/write/memory.h"
+#include "capture/write/report.h"
+#include "capture/write/values.h"
+#include "capture/write/writer.h"
+#include "real.h"
 
 enum { MAX_MAPS = 256, BLOCK = 1 << 14, MAX_PIECES = 8 };
 
@@ -114,16 +112,26 @@ static void write_changes(struct map *m)
 	compare(m, 0, m->bytes);
 }
 
+static void end_all_of(void *context)
+{
+	pthread_mutex_lock(&lock);
+	for (int i = 0; i < MAX_MAPS; i++)
+		if (maps[i].data && maps[i].context == context)
+			drop(&maps[i]);
+	pthread_mutex_unlock(&lock);
+}
+
 static void begin(struct map *m, const void *data, long bytes)
 {
-	void *copy = mmap(NULL, (size_t)bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+	void *copy = memory_map((size_t)bytes);
 
-	if (copy == MAP_FAILED) {
-		writer_say("no memory to follow a mapped buffer of %ld bytes; what is written there is not recorded", bytes);
+	if (!copy) {
+		report_say("no memory to follow a mapped buffer of %ld bytes; what is written there is not recorded", bytes);
 		return;
 	}
-	*m = (struct map){ .data = data, .bytes = bytes, .copy = copy, .context = context_contents(), .epoch = writer_epoch() };
+	*m = (struct map){ .data = data, .bytes = bytes, .copy = copy, .context = context_current(), .epoch = writer_epoch() };
 	n_maps++;
+	context_set_data(CONTEXT_MAPS, (void *)(uintptr_t)m->context, end_all_of);
 	memory_read(copy, data, (size_t)bytes);
 	record_memory(m->data, m->copy, bytes, 1);
 }
@@ -132,7 +140,7 @@ void maps_begun(const void *data, long bytes, unsigned access)
 {
 	struct map *m;
 
-	if (!data || bytes <= 0 || !writer_active() || !context_is_current() || !(access & GL_MAP_PERSISTENT_BIT) ||
+	if (!data || bytes <= 0 || !writer_active() || !context_current() || !(access & GL_MAP_PERSISTENT_BIT) ||
 	    !(access & GL_MAP_WRITE_BIT) || (access & GL_MAP_FLUSH_EXPLICIT_BIT))
 		return;
 	pthread_mutex_lock(&lock);
@@ -143,7 +151,7 @@ void maps_begun(const void *data, long bytes, unsigned access)
 	if (m)
 		begin(m, data, bytes);
 	else
-		writer_say("more than %d mapped buffers at a time; what is written to the others is not recorded", MAX_MAPS);
+		report_say("more than %d mapped buffers at a time; what is written to the others is not recorded", MAX_MAPS);
 	pthread_mutex_unlock(&lock);
 }
 
@@ -177,15 +185,6 @@ static int ended(const void *data)
 	}
 	pthread_mutex_unlock(&lock);
 	return m != NULL;
-}
-
-void maps_context_destroyed(const void *context)
-{
-	pthread_mutex_lock(&lock);
-	for (int i = 0; i < MAX_MAPS; i++)
-		if (maps[i].data && maps[i].context == context)
-			drop(&maps[i]);
-	pthread_mutex_unlock(&lock);
 }
 
 /* Mappings as GL knows them */
@@ -229,7 +228,7 @@ void maps_buffers_deleted(int n, const unsigned *names)
 	context_errors_after();
 }
 
-void buffer_unmapped(unsigned target)
+void maps_unmapped(unsigned target)
 {
 	const uint8_t *data;
 	long bytes;
@@ -249,7 +248,7 @@ void buffer_unmapped(unsigned target)
 	record_memory(data, data, bytes, 0);
 }
 
-void buffer_flushed(unsigned target, long offset, long length)
+void maps_flushed(unsigned target, long offset, long length)
 {
 	const uint8_t *data;
 

@@ -1,5 +1,5 @@
 /* Runs inside the traced program. */
-#include "capture/gl/watch.h"
+#include "capture/client/watch.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,13 +1,21 @@
 /* Runs inside the traced program. */
 #define XXH_INLINE_ALL
-#include "capture/write/runs.h"
+#include "capture/client/runs.h"
 
 #include <GL/gl.h>
 #include <stddef.h>
 #include <sys/mman.h>
 #include <xxhash.h>
 
-#include "capture/gl/wrap.h"
+#include "capture/gl/context.h"
+#include "capture/gl/skip.h"
+#include "capture/write/fake.h"
+#include "capture/write/memory.h"
+#include "capture/write/tables.h"
+#include "capture/write/values.h"
+#include "capture/write/writer.h"
+#include "tables/commands.h"
+#include "tables/enums.h"
 
 enum { N_SLOTS = 1 << 14, N_PROBES = 8, MIN_BYTES = 128, MAX_LISTS = 1 << 14, CREDIT = 16, BLOCK_BYTES = 1 << 20 };
 enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* of a thread's buffer */
@@ -58,13 +66,6 @@ static __thread struct {
 
 static _Atomic unsigned next_name = FIRST_NAME;
 static _Atomic int names_taken; /* the program uses names of ours */
-
-static void *map(size_t bytes)
-{
-	void *pages = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-
-	return pages == MAP_FAILED ? NULL : pages;
-}
 
 /* Writing records */
 
@@ -181,17 +182,12 @@ static void write_open_run(void)
 int runs_grow(void)
 {
 	size_t used = (size_t)(runs_self.at - self.room), bytes = self.room ? 2 * self.room_bytes : FIRST_ROOM;
-	void *more = NULL;
 
-	if (bytes <= MAX_ROOM)
-		more = self.room ? mremap(self.room, self.room_bytes, bytes, MREMAP_MAYMOVE) : map(bytes);
-	if (more == MAP_FAILED || !more) {
+	if (bytes > MAX_ROOM || !memory_grow(&self.room, &self.room_bytes, bytes)) {
 		writer_wait_with(NULL);
 		write_open_run();
 		return 0;
 	}
-	self.room = more;
-	self.room_bytes = bytes;
 	runs_self.at = self.room + used;
 	runs_self.end = self.room + bytes - 2 * RUNS_MAX_ARGUMENTS;
 	return 1;
@@ -233,7 +229,7 @@ static void *keep(struct runs_table *t, const uint8_t *records, size_t bytes)
 
 	if (bytes > (size_t)(t->arena_end - t->arena_at)) {
 		size_t room = (sizeof(struct block) + bytes + BLOCK_BYTES - 1) & ~(size_t)(BLOCK_BYTES - 1);
-		struct block *block = map(room);
+		struct block *block = memory_map(room);
 
 		if (!block)
 			return NULL;
@@ -249,27 +245,32 @@ static void *keep(struct runs_table *t, const uint8_t *records, size_t bytes)
 	return kept;
 }
 
+static void release(void *table)
+{
+	forget_all(table);
+	munmap(table, sizeof(struct runs_table));
+}
+
 /* The current context's table, or NULL. */
 static struct runs_table *current_table(void)
 {
-	struct runs_table **table = context_runs();
+	struct runs_table *t = context_data(CONTEXT_RUNS);
+	int compiling, off;
 
-	if (!table)
-		return NULL;
-	if (!*table) {
-		*table = map(sizeof(**table));
-		if (!*table)
+	if (t && t->epoch == writer_epoch())
+		return t;
+	if (!t) {
+		t = context_current() ? memory_map(sizeof(*t)) : NULL;
+		if (!t)
 			return NULL;
-		forget_all(*table);
+		context_set_data(CONTEXT_RUNS, t, release);
 	}
-	if ((*table)->epoch != writer_epoch()) {
-		int compiling = (*table)->compiling, off = (*table)->off;
-
-		forget_all(*table);
-		(*table)->compiling = compiling;
-		(*table)->off = off;
-	}
-	return *table;
+	compiling = t->compiling;
+	off = t->off;
+	forget_all(t);
+	t->compiling = compiling;
+	t->off = off;
+	return t;
 }
 
 /* The run's slot, a new one where it was never seen. */
@@ -292,19 +293,6 @@ static struct run *look_up(struct runs_table *t, const uint8_t *records, size_t 
 	return free_slot;
 }
 
-static void write_list_call(unsigned command, unsigned name, unsigned mode)
-{
-	uint8_t *p = writer_enter_fake(command);
-
-	if (!p)
-		return;
-	if (name)
-		p = put_uint(put_argument(p, 0), name);
-	if (mode)
-		p = put_enum(put_argument(p, 1), mode);
-	writer_call_end(p);
-}
-
 /*
  * Mesa's lists are not quite what they hold: quads are split along the other diagonal, which shows in the last bit of a pixel here
  * and there, and line loops go astray. Called between Begin and End, a list's calls take the way of immediate mode: so Begin and
@@ -324,7 +312,7 @@ static void write_call(const struct run *run)
 {
 	if (stays_outside(run->records))
 		write_records(run->records, BEGIN_BYTES);
-	write_list_call(CMD_glCallList, run->list, 0);
+	fake_call(CMD_glCallList, "u", run->list);
 	if (stays_outside(run->records))
 		write_records(run->records + run->bytes - END_BYTES, END_BYTES);
 }
@@ -341,12 +329,12 @@ static int make_list(struct runs_table *t, struct run *run, const uint8_t *recor
 	name = next_name--;
 	t->n_lists++;
 	t->kept_bytes += run->bytes;
-	write_list_call(CMD_glNewList, name, GL_COMPILE);
+	fake_call(CMD_glNewList, "ue", name, GL_COMPILE);
 	if (stays_outside(records))
 		write_records(records + BEGIN_BYTES, run->bytes - BEGIN_BYTES - END_BYTES);
 	else
 		write_records(records, run->bytes);
-	write_list_call(CMD_glEndList, 0, 0);
+	fake_call(CMD_glEndList, "");
 	run->list = name;
 	return 1;
 }
@@ -430,13 +418,4 @@ void runs_lists_used(unsigned first, long count)
 {
 	if (count > 0 && first <= FIRST_NAME && (unsigned long)first + (unsigned long)count > LAST_NAME)
 		names_taken = 1;
-}
-
-void runs_free(struct runs_table **table)
-{
-	if (*table) {
-		forget_all(*table);
-		munmap(*table, sizeof(**table));
-	}
-	*table = NULL;
 }

@@ -1,14 +1,19 @@
 /* Runs inside the traced program. */
-#include "capture/gl/mirror.h"
+#include "capture/client/mirror.h"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <string.h>
 #include <sys/mman.h>
 
-#include "capture/write/content.h"
-#include "capture/gl/memory.h"
-#include "capture/gl/watch.h"
-#include "capture/gl/wrap.h"
+#include "capture/client/content.h"
+#include "capture/client/watch.h"
+#include "capture/gl/context.h"
+#include "capture/write/fake.h"
+#include "capture/write/memory.h"
+#include "capture/write/values.h"
+#include "capture/write/writer.h"
+#include "tables/commands.h"
 
 enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
 enum { PATIENCE = 16, SAMPLE = 8 };     /* contents in a row that were new before only every eighth is looked up */
@@ -42,23 +47,6 @@ struct mirror_table {
 	struct mirror mirrors[N_MIRRORS];
 };
 
-/* Room for `bytes` at *pages, what is there kept. 0 where there is none. */
-static int enlarge(uint8_t **pages, size_t *mapped, size_t bytes)
-{
-	size_t room = (bytes + 0xFFFF) & ~(size_t)0xFFFF;
-	void *more;
-
-	if (bytes <= *mapped)
-		return 1;
-	more = *pages ? mremap(*pages, *mapped, room, MREMAP_MAYMOVE) :
-	                mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-	if (more == MAP_FAILED)
-		return 0;
-	*pages = more;
-	*mapped = room;
-	return 1;
-}
-
 /* The mirror goes; `told` where the trace hears of it. */
 static void drop(struct mirror_table *t, struct mirror *m, int told)
 {
@@ -88,29 +76,25 @@ static void forget_all(struct mirror_table *t)
 	t->credit = CREDIT;
 }
 
-static struct mirror_table *make_table(struct mirror_table **table)
+static void release(void *table)
 {
-	if (!*table) {
-		void *pages = mmap(NULL, sizeof(**table), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-
-		if (pages == MAP_FAILED)
-			return NULL;
-		*table = pages;
-		(*table)->credit = CREDIT;
-		(*table)->epoch = writer_epoch();
-	}
-	if ((*table)->epoch != writer_epoch())
-		forget_all(*table);
-	return *table;
+	forget_all(table);
+	munmap(table, sizeof(struct mirror_table));
 }
 
-void mirror_free(struct mirror_table **table)
+/* The current context's, made at need; NULL where there is no memory. */
+static struct mirror_table *current_table(void)
 {
-	if (*table) {
-		forget_all(*table);
-		munmap(*table, sizeof(**table));
-	}
-	*table = NULL;
+	struct mirror_table *t = context_data(CONTEXT_MIRRORS);
+
+	if (t && t->epoch != writer_epoch())
+		forget_all(t);
+	if (t || !(t = memory_map(sizeof(*t))))
+		return t;
+	context_set_data(CONTEXT_MIRRORS, t, release);
+	t->credit = CREDIT;
+	t->epoch = writer_epoch();
+	return t;
 }
 
 /* The array's mirror; a new one, or another's place, where it has none. */
@@ -138,7 +122,7 @@ static struct mirror *find(struct mirror_table *t, const uint8_t *data)
  */
 static long difference(struct mirror_table *t, const struct mirror *m, long first, long end)
 {
-	if (!enlarge(&t->staging, &t->staging_bytes, BLOCK))
+	if (!memory_grow(&t->staging, &t->staging_bytes, BLOCK))
 		return first;
 	for (long at = first; at < end;) {
 		long bytes = end - at < BLOCK ? end - at : BLOCK;
@@ -203,19 +187,6 @@ static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, lo
 	return n >= 0;
 }
 
-static void write_data(unsigned target, const uint8_t *data, long offset, long bytes)
-{
-	uint8_t *p = writer_enter_fake(CMD_glBufferSubData);
-
-	if (!p)
-		return;
-	p = put_enum(put_argument(p, 0), target);
-	p = put_sint(put_argument(p, 1), offset);
-	p = put_sint(put_argument(p, 2), bytes);
-	p = put_own_blob(put_argument(p, 3), data, bytes);
-	writer_call_end(p);
-}
-
 /* Room in buffer and copy for bytes up to `end`. 1: the buffer is new and empty; 0: there was enough; -1: there is no memory. */
 static int make_room(struct mirror_table *t, struct mirror *m, long end)
 {
@@ -223,7 +194,7 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 
 	if (end <= m->room)
 		return 0;
-	if (t->bytes + room - m->room > MAX_MIRRORED_BYTES || !enlarge(&m->copy, &m->copy_bytes, (size_t)room))
+	if (t->bytes + room - m->room > MAX_MIRRORED_BYTES || !memory_grow(&m->copy, &m->copy_bytes, (size_t)room))
 		return -1;
 	t->bytes += room - m->room;
 	m->room = room;
@@ -273,14 +244,13 @@ static int update(struct mirror_table *t, struct mirror *m, unsigned target, lon
 		changed = m->first;
 		end = m->end;
 	}
-	write_data(target, m->copy + changed, changed, end - changed);
+	fake_call(CMD_glBufferSubData, "ellb", target, changed, end - changed, m->copy + changed, end - changed);
 	return 1;
 }
 
-unsigned mirror_buffer(struct mirror_table **table, unsigned target, const void *data, long first, long end, int *bound,
-                       struct mirror_indices **indices)
+unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound, struct mirror_indices **indices)
 {
-	struct mirror_table *t = make_table(table);
+	struct mirror_table *t = current_table();
 	struct mirror *m = t ? find(t, data) : NULL;
 	int new, held, wanted;
 	long changed;
@@ -315,12 +285,12 @@ unsigned mirror_buffer(struct mirror_table **table, unsigned target, const void 
 	}
 	held = m->buffer && changed >= m->first && changed < m->end;
 	wanted = m->buffer || !new || t->credit > 0;
-	if (!enlarge(&t->staging, &t->staging_bytes, (size_t)(end - first)))
+	if (!memory_grow(&t->staging, &t->staging_bytes, (size_t)(end - first)))
 		return 0;
 	memory_read(t->staging, (const uint8_t *)data + first, (size_t)(end - first));
 	/* Other contents than before: those that come back are found by content. */
 	if (first == 0 && (held || !wanted) && (m->misses++ < PATIENCE || m->misses % SAMPLE == 0)) {
-		unsigned buffer = content_buffer(context_contents(), target, t->staging, end, bound);
+		unsigned buffer = content_buffer(target, t->staging, end, bound);
 
 		if (buffer)
 			m->misses = 0;

@@ -1,0 +1,34 @@
+/*
+ * Runs inside the traced program. Vertex arrays in client memory: what they hold is known only when it is drawn.
+ *
+ * Before each draw every enabled array without a buffer object is written as a made-up gl*Pointer call. Its pointer is a blob of
+ * the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (mirror.h). The driver is the authority on
+ * array state (array_state.h).
+ */
+#ifndef CAPTURE_CLIENT_ARRAYS_H
+#define CAPTURE_CLIENT_ARRAYS_H
+
+#include <stdint.h>
+
+/** The trace may now have other pointers than the recorder has written last; array state can have changed. */
+void arrays_forget(void);
+/** The program has set a pointer. */
+void arrays_pointer_set(void);
+/** The program has called glInterleavedArrays; it is not written unless its pointer is an offset. */
+void arrays_interleaved(void);
+
+/* Before draws. */
+void arrays_draw(int first, int count, int instances, unsigned base_instance);
+void arrays_draw_elements(int count, unsigned type, const void *indices, int base_vertex, int instances,
+                          unsigned base_instance);
+void arrays_multi_draw(const int *first, const int *count, int draws);
+void arrays_multi_draw_elements(const int *count, unsigned type, const void *const *indices, int draws,
+                                const int *base_vertex);
+void arrays_draw_indirect(const void *indirect, int draws, int stride);
+void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draws, int stride);
+
+/** The parameters of indirect draws: how many bytes they have, and they themselves or their offset. */
+long indirect_bytes(int elements, int draws, int stride);
+uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes);
+
+#endif

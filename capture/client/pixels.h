@@ -1,0 +1,35 @@
+/*
+ * Runs inside the traced program. Pixels that the program hands over or reads back: as the pixel store state lays them out in its
+ * memory, or as an offset in a buffer object.
+ */
+#ifndef CAPTURE_CLIENT_PIXELS_H
+#define CAPTURE_CLIENT_PIXELS_H
+
+#include <stdint.h>
+
+/** 1 where pixel pointers are offsets in a bound unpack buffer. */
+int pixels_in_buffer(void);
+
+/** Pixels in client memory, or the offset. */
+uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
+                   int depth);
+/**
+ * Before a call whose pixels may have been seen before, and after it. Pixels that come again are stored once (content.h): the call
+ * is written with an offset in a buffer that holds them.
+ */
+void pixels_used(const void *pixels, int dims, unsigned format, unsigned type, int width, int height, int depth);
+void pixels_written(void);
+
+long pixels_stipple_count(void);
+
+/*
+ * Bytes that the program has read back; -1: not into memory, or not known. Readers of the trace need none of them to draw, but
+ * whoever studies a program does. To be asked after the call.
+ */
+long pixels_read_bytes(unsigned format, unsigned type, int width, int height);
+long pixels_texture_bytes(unsigned target, int level, unsigned format, unsigned type);
+long pixels_compressed_bytes(unsigned target, int level);
+/** So many bytes that a call has returned; below 0: their address, or offset in a buffer. */
+uint8_t *put_returned(uint8_t *p, const void *data, long bytes);
+
+#endif

@@ -1,0 +1,78 @@
+/*
+ * Runs inside the traced program. dlsym is ours too: a program that looks up GL finds the recorder's entry points.
+ *
+ * Lookups that say "after me" (RTLD_NEXT) keep their meaning: libraries that wrap GL themselves make them, and we stand before
+ * all of these.
+ */
+#include <dlfcn.h>
+#include <string.h>
+
+#include "capture/gl/resolve.h"
+#include "thunks.h"
+
+/* By hand: the C library's functions are among what a sanitizer replaces. */
+__attribute__((RESOLVE_BEFORE_ALL)) static int begins_with(const char *name, const char *prefix)
+{
+	while (*prefix && *name == *prefix) {
+		name++;
+		prefix++;
+	}
+	return !*prefix;
+}
+
+__attribute__((RESOLVE_BEFORE_ALL)) static int is_gl_name(const char *name)
+{
+	return begins_with(name, "gl") || begins_with(name, "egl") || begins_with(name, "OSMesa");
+}
+
+/* 1 where an address lies in a library of GL, 2 where it lies in ours. */
+static int whose(const void *address)
+{
+	static const char *const names[] = { "libGL.so", "libGLX", "libOpenGL.so", "libEGL", "libGLES", "libOSMesa",
+		                             "libGLdispatch" };
+	Dl_info info, own;
+	const char *base;
+
+	if (!dladdr(address, &info) || !info.dli_fname)
+		return 0;
+	if (dladdr((const void *)whose, &own) && own.dli_fbase == info.dli_fbase)
+		return 2;
+	base = strrchr(info.dli_fname, '/');
+	base = base ? base + 1 : info.dli_fname;
+	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
+		if (strncmp(base, names[i], strlen(names[i])) == 0)
+			return 1;
+	return 0;
+}
+
+/* What dlsym gives for a name of GL on any handle but "after me". */
+static void *look_up_gl(void *handle, const char *name)
+{
+	void *found = resolve_real_dlsym(handle, name);
+	unsigned command;
+
+	if (!found)
+		return NULL;
+	switch (whose(found)) {
+	case 1:
+		return resolve_substitute(entry_points, name, found);
+	case 2: /* found us: only where the GL here has it as well */
+		command = resolve_number(name);
+		return command == N_COMMANDS || resolve_exists(command) ? found : NULL;
+	default:
+		return found;
+	}
+}
+
+/*
+ * The real dlsym is left by a jump, so that it sees its caller and not us: with RTLD_NEXT the answer depends on it. The
+ * optimizer does so at any level from -O2 on, which is asked for here whatever the rest is built with.
+ */
+__attribute__((visibility("default"), optimize("O2"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
+{
+	if (!resolve_real_dlsym)
+		resolve_dlsym();
+	if (handle != RTLD_NEXT && is_gl_name(name))
+		return look_up_gl(handle, name);
+	return resolve_real_dlsym(handle, name);
+}

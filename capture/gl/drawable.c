@@ -1,0 +1,163 @@
+/* Runs inside the traced program. */
+#include "capture/gl/drawable.h"
+
+#include <GL/gl.h>
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+#include "capture/gl/context.h"
+#include "capture/gl/resolve.h"
+#include "capture/write/clock.h"
+#include "capture/write/fake.h"
+#include "capture/write/writer.h"
+#include "real.h"
+
+enum { GLX_WIDTH_ = 0x801D, GLX_HEIGHT_ = 0x801E, EGL_HEIGHT_ = 0x3056, EGL_WIDTH_ = 0x3057 };
+enum { ASK_SIZE_AFTER_NS = 100000000 };
+
+/* Only grows, under the lock; few entries. */
+static pthread_mutex_t list_lock = PTHREAD_MUTEX_INITIALIZER;
+static struct drawable *drawables;
+
+static _Atomic int size_may_differ = 1;
+
+struct drawable *drawable_find(uintptr_t id)
+{
+	struct drawable *d;
+
+	pthread_mutex_lock(&list_lock);
+	for (d = drawables; d && d->id != id; d = d->next)
+		;
+	if (!d && (d = calloc(1, sizeof(*d)))) {
+		d->id = id;
+		d->window = id;
+		d->next = drawables;
+		drawables = d;
+	}
+	pthread_mutex_unlock(&list_lock);
+	return d;
+}
+
+void drawable_is_window(unsigned long glx_window, unsigned long window)
+{
+	struct drawable *d = glx_window ? drawable_find(glx_window) : NULL;
+
+	if (d)
+		d->window = window;
+}
+
+void drawable_is_pbuffer(void *display, unsigned long pbuffer)
+{
+	struct drawable *d = pbuffer ? drawable_find(pbuffer) : NULL;
+	unsigned width = 0, height = 0;
+
+	if (!d)
+		return;
+	writer_nest();
+	real_glXQueryDrawable(display, pbuffer, GLX_WIDTH_, &width);
+	real_glXQueryDrawable(display, pbuffer, GLX_HEIGHT_, &height);
+	writer_unnest();
+	d->window = 0;
+	d->width = (int)width;
+	d->height = (int)height;
+}
+
+void drawable_may_have_changed(void)
+{
+	size_may_differ = 1;
+}
+
+/*
+ * The size of an X window. By XCB and not by Xlib, where asking for a drawable that is gone calls the program's error
+ * handler, which ends the program. Both libraries are the ones that Mesa's GLX has loaded.
+ */
+struct geometry_reply { /* the X protocol's GetGeometry reply */
+	uint8_t response_type, depth;
+	uint16_t sequence;
+	uint32_t length, root;
+	int16_t x, y;
+	uint16_t width, height, border_width;
+};
+
+static struct {
+	void *(*get_connection)(void *);
+	unsigned (*get_geometry)(void *, uint32_t);
+	struct geometry_reply *(*get_reply)(void *, unsigned, void **);
+} xcb;
+static pthread_once_t xcb_once = PTHREAD_ONCE_INIT;
+
+static void find_xcb(void)
+{
+	void *x11 = dlopen("libX11-xcb.so.1", RTLD_LAZY | RTLD_LOCAL), *lib = dlopen("libxcb.so.1", RTLD_LAZY | RTLD_LOCAL);
+
+	if (!x11 || !lib)
+		return;
+	xcb.get_connection = (void *(*)(void *))resolve_in(x11, "XGetXCBConnection");
+	xcb.get_geometry = (unsigned (*)(void *, uint32_t))resolve_in(lib, "xcb_get_geometry");
+	xcb.get_reply = (struct geometry_reply * (*)(void *, unsigned, void **)) resolve_in(lib, "xcb_get_geometry_reply");
+}
+
+static void ask_window_size(void *display, struct drawable *d)
+{
+	struct geometry_reply *reply;
+	void *connection, *error = NULL;
+
+	pthread_once(&xcb_once, find_xcb);
+	if (!xcb.get_connection || !xcb.get_geometry || !xcb.get_reply)
+		return;
+	connection = xcb.get_connection(display);
+	reply = xcb.get_reply(connection, xcb.get_geometry(connection, (uint32_t)d->window), &error);
+	if (reply) {
+		d->width = reply->width;
+		d->height = reply->height;
+	}
+	free(reply);
+	free(error);
+}
+
+/* 1 where the size is asked for now. */
+static int begin_asking(struct drawable *d, int exact)
+{
+	uint64_t now = clock_ns();
+
+	if (!size_may_differ && d->width && !exact && now - d->asked_ns <= ASK_SIZE_AFTER_NS)
+		return 0;
+	size_may_differ = 0;
+	d->asked_ns = now;
+	return 1;
+}
+
+void drawable_ask_glx(struct drawable *d, void *display, int exact)
+{
+	if (!display || !d->window || !begin_asking(d, exact))
+		return;
+	writer_nest();
+	ask_window_size(display, d);
+	writer_unnest();
+}
+
+void drawable_ask_egl(struct drawable *d, void *display, int exact)
+{
+	if (!begin_asking(d, exact))
+		return;
+	writer_nest();
+	real_eglQuerySurface(display, (void *)d->id, EGL_WIDTH_, &d->width);
+	real_eglQuerySurface(display, (void *)d->id, EGL_HEIGHT_, &d->height);
+	writer_unnest();
+}
+
+/*
+ * glretrace makes a small window and resizes it at the first viewport. Mesa's software rasterizer learns of that when something
+ * is drawn to the front buffer, or at the first swap: all of the first frame but a corner would be lost (Mesa 22.3.6). So nothing
+ * is drawn there: a clear of no buffers.
+ */
+void drawable_make_size_known(void)
+{
+	if (!context_has(HAS_DESKTOP) || context_get(GL_DRAW_BUFFER) != GL_BACK)
+		return;
+	fake_call(CMD_glDrawBuffer, "e", GL_FRONT);
+	fake_call(CMD_glClear, "c", 0);
+	fake_call(CMD_glFlush, "");
+	fake_call(CMD_glDrawBuffer, "e", GL_BACK);
+}

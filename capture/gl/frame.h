@@ -1,0 +1,24 @@
+/* Runs inside the traced program. The ends of frames: what is marked there, and what `relume record` wants of them. */
+#ifndef CAPTURE_GL_FRAME_H
+#define CAPTURE_GL_FRAME_H
+
+#include "capture/stats.h"
+
+/** What this thread draws to from now on. */
+void frame_drawable_glx(void *display, unsigned long drawable);
+void frame_drawable_egl(void *display, void *surface);
+void frame_drawable_osmesa(void *context, int width, int height);
+
+/** Before a swap is written, and after it. */
+void frame_end_glx(void *display, unsigned long drawable);
+void frame_end_egl(void *display, void *surface);
+void frame_ended(void);
+
+void frame_primitive_begins(void);
+void frame_primitive_ended(void);
+void frame_drawn(void);
+void frame_cleared(unsigned buffers);
+/** A call that ends a frame where `record --frame-end` says so, `truth` holds, and something was drawn since the last one. */
+void frame_may_end(enum frame_trigger trigger, int truth);
+
+#endif

@@ -1,0 +1,63 @@
+/* Runs inside the traced program. */
+#include "capture/gl/marker.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "capture/gl/context.h"
+#include "capture/relume.h"
+#include "capture/write/fake.h"
+#include "tables/commands.h"
+
+#define SHOWN __attribute__((visibility("default")))
+
+void marker_write(const char *text)
+{
+	fake_call(CMD_glStringMarkerGREMEDY, "is", (int)strlen(text), text);
+}
+
+SHOWN void relume_material(int kind, float amount, float ior);
+SHOWN void relume_build_kd_tree(void);
+
+/* A number of at least 0 to six places, with a point whatever the program's locale says. */
+static int print_number(char *out, size_t size, float value)
+{
+	long millionths = value > 0 && value < 1e6f ? (long)((double)value * 1e6 + 0.5) : 0;
+
+	return snprintf(out, size, " %ld.%06ld", millionths / 1000000, millionths % 1000000);
+}
+
+void relume_material(int kind, float amount, float ior)
+{
+	static const char *const names[] = { "matte", "mirror", "glass" };
+	char text[96];
+	int n;
+
+	if (kind < RT_MATTE_EXT || kind > RT_GLASS_EXT)
+		return;
+	n = snprintf(text, sizeof(text), "relume:material %s", names[kind]);
+	if (kind != RT_MATTE_EXT)
+		n += print_number(text + n, sizeof(text) - (size_t)n, amount);
+	if (kind == RT_GLASS_EXT)
+		print_number(text + n, sizeof(text) - (size_t)n, ior);
+	marker_write(text);
+}
+
+void relume_build_kd_tree(void)
+{
+	marker_write("relume:kdtree");
+}
+
+void marker_write_bits(void)
+{
+	char text[64];
+
+	context_errors_before();
+	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d", context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS),
+	         context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT), context_get(GL_SAMPLES),
+	         context_get(GL_DOUBLEBUFFER) != 0);
+	context_errors_after();
+	marker_write(text);
+}

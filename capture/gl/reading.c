@@ -1,0 +1,123 @@
+/* Runs inside the traced program. */
+#include "capture/gl/reading.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "capture/gl/context.h"
+#include "real.h"
+
+static const unsigned pack_state[READING_PACK] = { GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,   GL_PACK_ROW_LENGTH,
+	                                           GL_PACK_SKIP_ROWS,  GL_PACK_SKIP_PIXELS, GL_PACK_ALIGNMENT };
+/* Scales, initially 1, and biases take turns. */
+static const unsigned transfer_state[READING_TRANSFER] = { GL_RED_SCALE,  GL_RED_BIAS,  GL_GREEN_SCALE, GL_GREEN_BIAS, GL_BLUE_SCALE,
+	                                                   GL_BLUE_BIAS,  GL_ALPHA_SCALE, GL_ALPHA_BIAS, GL_DEPTH_SCALE, GL_DEPTH_BIAS };
+
+static unsigned read_target(void)
+{
+	return context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER : GL_FRAMEBUFFER;
+}
+
+void reading_begin(struct reading_state *s)
+{
+	if (context_has(HAS_FRAMEBUFFERS)) {
+		s->framebuffer = context_get(context_has(HAS_READ_FRAMEBUFFER) ? GL_READ_FRAMEBUFFER_BINDING :
+		                                                               GL_FRAMEBUFFER_BINDING);
+		if (s->framebuffer)
+			real_glBindFramebuffer(read_target(), 0);
+		/* What is drawn to says what there are: buffers, bits, samples. */
+		s->draw_framebuffer = context_has(HAS_READ_FRAMEBUFFER) ? context_get(GL_DRAW_FRAMEBUFFER_BINDING) : 0;
+		if (s->draw_framebuffer)
+			real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+	}
+	s->read_buffer = context_get(GL_READ_BUFFER);
+	real_glReadBuffer(context_get(GL_DOUBLEBUFFER) ? GL_BACK : GL_FRONT);
+	if (context_has(HAS_PIXEL_BUFFERS)) {
+		s->pack_buffer = context_get(GL_PIXEL_PACK_BUFFER_BINDING);
+		if (s->pack_buffer)
+			real_glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+	}
+	for (int i = 0; i < READING_PACK; i++) {
+		s->pack[i] = context_get(pack_state[i]);
+		real_glPixelStorei(pack_state[i], pack_state[i] == GL_PACK_ALIGNMENT ? 4 : 0);
+	}
+	if (context_has(HAS_PACK_INVERT)) {
+		s->pack_invert = context_get(GL_PACK_INVERT_MESA);
+		real_glPixelStorei(GL_PACK_INVERT_MESA, 0);
+	}
+	if (!context_has(HAS_FIXED_FUNCTION))
+		return;
+	s->map_color = context_get(GL_MAP_COLOR);
+	if (s->map_color)
+		real_glPixelTransferi(GL_MAP_COLOR, 0);
+	for (int i = 0; i < READING_TRANSFER; i++) {
+		float initial = i % 2 ? 0.0f : 1.0f;
+
+		real_glGetFloatv(transfer_state[i], &s->transfer[i]);
+		if (s->transfer[i] != initial)
+			real_glPixelTransferf(transfer_state[i], initial);
+	}
+}
+
+void reading_end(const struct reading_state *s)
+{
+	if (context_has(HAS_FIXED_FUNCTION)) {
+		for (int i = 0; i < READING_TRANSFER; i++)
+			if (s->transfer[i] != (i % 2 ? 0.0f : 1.0f))
+				real_glPixelTransferf(transfer_state[i], s->transfer[i]);
+		if (s->map_color)
+			real_glPixelTransferi(GL_MAP_COLOR, s->map_color);
+	}
+	if (context_has(HAS_PACK_INVERT))
+		real_glPixelStorei(GL_PACK_INVERT_MESA, s->pack_invert);
+	for (int i = 0; i < READING_PACK; i++)
+		real_glPixelStorei(pack_state[i], s->pack[i]);
+	if (s->pack_buffer)
+		real_glBindBuffer(GL_PIXEL_PACK_BUFFER, (unsigned)s->pack_buffer);
+	real_glReadBuffer((unsigned)s->read_buffer);
+	if (s->framebuffer)
+		real_glBindFramebuffer(read_target(), (unsigned)s->framebuffer);
+	if (s->draw_framebuffer)
+		real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (unsigned)s->draw_framebuffer);
+}
+
+/*
+ * A window with several samples a pixel shows their mean, and glReadPixels need not: Mesa's software rasterizers give one sample
+ * (22.3.6). So what the window will show is made as the driver makes it at the swap, by a blit, in a renderbuffer that lives while it
+ * is read.
+ */
+static void read_resolved(int width, int height, void *pixels)
+{
+	int renderbuffer = context_get(GL_RENDERBUFFER_BINDING);
+	unsigned framebuffer = 0, colors = 0, scissor = real_glIsEnabled(GL_SCISSOR_TEST), srgb = real_glIsEnabled(GL_FRAMEBUFFER_SRGB);
+
+	real_glGenFramebuffers(1, &framebuffer);
+	real_glGenRenderbuffers(1, &colors);
+	real_glBindRenderbuffer(GL_RENDERBUFFER, colors);
+	real_glRenderbufferStorage(GL_RENDERBUFFER, context_get(GL_ALPHA_BITS) > 0 ? GL_RGBA8 : GL_RGB8, width, height);
+	real_glBindRenderbuffer(GL_RENDERBUFFER, (unsigned)renderbuffer);
+	real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+	real_glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colors);
+	if (scissor)
+		real_glDisable(GL_SCISSOR_TEST);
+	if (srgb)
+		real_glDisable(GL_FRAMEBUFFER_SRGB);
+	real_glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+	if (scissor)
+		real_glEnable(GL_SCISSOR_TEST);
+	if (srgb)
+		real_glEnable(GL_FRAMEBUFFER_SRGB);
+	real_glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+	real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+	real_glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	real_glDeleteFramebuffers(1, &framebuffer);
+	real_glDeleteRenderbuffers(1, &colors);
+}
+
+void reading_colors(int width, int height, void *pixels)
+{
+	if (context_has(HAS_DESKTOP) && context_has(HAS_FRAMEBUFFERS) && context_has(HAS_READ_FRAMEBUFFER) && context_get(GL_SAMPLES) > 1)
+		read_resolved(width, height, pixels);
+	else
+		real_glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+}

@@ -1,0 +1,16 @@
+/* Runs inside the traced program. Reference frames: what the program shows, read back just before it is swapped (ref.h). */
+#ifndef CAPTURE_GL_REFERENCE_H
+#define CAPTURE_GL_REFERENCE_H
+
+#include <stdint.h>
+
+/** 1 where frame `frame` is to be read back. */
+int reference_wanted(uint64_t frame);
+
+/**
+ * Read the current context's default framebuffer; changes no state that the program can see, keeps its pending errors and errno.
+ * @param unswapped  1: the frame ends without a swap and shows what is drawn to, be it the front buffer
+ */
+void reference_read(uint64_t frame, int width, int height, int unswapped);
+
+#endif

@@ -1,0 +1,14 @@
+/* Runs inside the traced program. Calls that the recorder makes up and that return nothing. */
+#ifndef CAPTURE_WRITE_FAKE_H
+#define CAPTURE_WRITE_FAKE_H
+
+/**
+ * Write a call that readers execute like any other.
+ * @param kinds  a letter for each argument, and what stands for it in `...`:
+ *               e enumerant, u unsigned, t truth: unsigned; i: int; l: long; f: double; o, an offset in a buffer: long;
+ *               m attribute groups, c buffers to clear: unsigned; s, a text: const char *;
+ *               b, memory of the recorder's own: const void *, long bytes
+ */
+void fake_call(unsigned command, const char *kinds, ...);
+
+#endif

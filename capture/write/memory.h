@@ -1,0 +1,33 @@
+/*
+ * Runs inside the traced program. Memory: the program's, read without ever faulting, and pages of our own.
+ *
+ * An enabled vertex array may be stale or shorter than the draw says, and the real GL may never look at it. So the kernel reads
+ * client memory for us: it returns an error where a load would raise a signal.
+ */
+#ifndef CAPTURE_WRITE_MEMORY_H
+#define CAPTURE_WRITE_MEMORY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/**
+ * Copy `bytes` from the program's memory; what cannot be read becomes zeros. Keeps errno.
+ * @return bytes that could not be read
+ */
+size_t memory_read(void *to, const void *from, size_t bytes);
+
+/** Bytes of a text before its NUL, or before what cannot be read. */
+size_t memory_text_bytes(const char *text);
+
+/** Map zeroed pages; munmap frees them. malloc is not for us: the program may have replaced it. NULL: no memory. */
+void *memory_map(size_t bytes);
+
+/**
+ * Make room for `bytes` at *pages and keep what is there.
+ * @param pages   NULL: none yet
+ * @param mapped  bytes mapped there, a multiple of 64 KiB
+ * @return 1; 0: no memory, nothing changed
+ */
+int memory_grow(uint8_t **pages, size_t *mapped, size_t bytes);
+
+#endif

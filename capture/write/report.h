@@ -1,0 +1,22 @@
+/* Runs inside the traced program. What the recorder tells: figures shared with the command (stats.h), words on standard error. */
+#ifndef CAPTURE_WRITE_REPORT_H
+#define CAPTURE_WRITE_REPORT_H
+
+struct stats_process;
+
+/** Say something on standard error: "relume: ...". Keeps errno. */
+void report_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+
+/** Map the figures from the file at `path`. Without this, or where it fails, figures are kept where nobody reads them. */
+void report_open(const char *path);
+
+/** Figures of a new process. Never NULL. */
+struct stats_process *report_new_process(void);
+
+/** Count a command that was passed through and not recorded. */
+void report_unknown(unsigned command);
+
+/** How often the command's signal or key switched recording on or off. */
+unsigned report_toggles(void);
+
+#endif

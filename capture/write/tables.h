@@ -1,0 +1,36 @@
+/*
+ * Runs inside the traced program. The types of the generated tables: what there is to know of each command and enumerant.
+ * tables/commands.h numbers the commands, tables/enums.h names the groups of enumerants.
+ */
+#ifndef CAPTURE_WRITE_TABLES_H
+#define CAPTURE_WRITE_TABLES_H
+
+#include <stdint.h>
+
+struct command {
+	const char *name;
+	unsigned n_args;
+	const char *arg_names; /* one after the other, each with its NUL */
+	/*
+	 * One letter for each argument of a command that may stand in a run (runs.h); else NULL. f d: floats of 4 and 8 bytes;
+	 * b s i, B S I: signed and unsigned integers of 1, 2, 4; e: enumerant, p: of a primitive, t: truth, y: number or
+	 * enumerant. A digit before it: an array of so many; '*': as many as there are bytes.
+	 */
+	const char *shape;
+	int draws; /* 1: does nothing but draw, or end a frame */
+};
+extern const struct command commands[]; /* sorted by name */
+
+struct enum_entry {
+	const char *name;
+	uint32_t value;
+};
+struct bits_entry {
+	unsigned number; /* of its signature */
+	unsigned n_flags;
+	const struct enum_entry *flags;
+};
+extern const struct enum_entry enum_entries[]; /* the index is the signature's number, 0 is unused */
+extern const uint16_t enum_index[0x10000];     /* value -> index in enum_entries, 0 where it has no name */
+
+#endif

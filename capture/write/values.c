@@ -1,0 +1,293 @@
+/* Runs inside the traced program. */
+#include "capture/write/values.h"
+
+#include "capture/write/memory.h"
+#include "tables/enums.h"
+
+/* Signatures that the trace has; under the writer's lock. */
+static uint8_t enum_known[N_ENUM_ENTRIES], bits_known[N_BITS_ENTRIES], visual_known;
+
+void values_forget(void)
+{
+	memset(enum_known, 0, sizeof(enum_known));
+	memset(bits_known, 0, sizeof(bits_known));
+	visual_known = 0;
+}
+
+/* Scalars */
+
+uint8_t *put_uint(uint8_t *p, uint64_t v)
+{
+	*p++ = TRACE_UINT;
+	return put_varint(p, v);
+}
+
+uint8_t *put_sint(uint8_t *p, int64_t v)
+{
+	*p++ = v < 0 ? TRACE_SINT : TRACE_UINT;
+	return put_varint(p, v < 0 ? 0 - (uint64_t)v : (uint64_t)v);
+}
+
+uint8_t *put_address(uint8_t *p, uintptr_t v)
+{
+	if (!v)
+		return put_null(p);
+	*p++ = TRACE_OPAQUE;
+	return put_varint(p, v);
+}
+
+uint8_t *put_chars(uint8_t *p, const char *s)
+{
+	size_t n = strlen(s);
+
+	p = put_varint(p, n);
+	memcpy(p, s, n);
+	return p + n;
+}
+
+/* A signature holds one name and is written with the first value that needs it. */
+static uint8_t *put_enum_entry(uint8_t *p, unsigned number)
+{
+	*p++ = TRACE_ENUM;
+	p = put_varint(p, number);
+	if (!enum_known[number]) {
+		enum_known[number] = 1;
+		*p++ = 1;
+		p = put_chars(p, enum_entries[number].name);
+		p = put_uint(p, enum_entries[number].value);
+	}
+	return put_uint(p, enum_entries[number].value);
+}
+
+uint8_t *put_enum(uint8_t *p, uint32_t v)
+{
+	unsigned number = v < 0x10000 ? enum_index[v] : 0;
+
+	return number ? put_enum_entry(p, number) : put_uint(p, v);
+}
+
+uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16])
+{
+	return v < 16 && group[v] ? put_enum_entry(p, group[v]) : put_enum(p, v);
+}
+
+uint8_t *put_symbol(uint8_t *p, int64_t v)
+{
+	return v >= 0x200 && v < 0x10000 && enum_index[v] ? put_enum(p, (uint32_t)v) : put_sint(p, v);
+}
+
+uint8_t *put_bits(uint8_t *p, uint32_t v, const struct bits_entry *bits)
+{
+	*p++ = TRACE_BITMASK;
+	p = put_varint(p, bits->number);
+	if (!bits_known[bits->number]) {
+		bits_known[bits->number] = 1;
+		p = put_varint(p, bits->n_flags);
+		for (unsigned i = 0; i < bits->n_flags; i++) {
+			p = put_chars(p, bits->flags[i].name);
+			p = put_varint(p, bits->flags[i].value);
+		}
+		p = put_room(p);
+	}
+	return put_varint(p, v);
+}
+
+uint8_t *put_bool8(uint8_t *p, unsigned v)
+{
+	return v < 2 ? put_enum_entry(p, enums_Boolean[v]) : put_uint(p, v);
+}
+
+uint8_t *put_bool32(uint8_t *p, unsigned v)
+{
+	*p++ = v ? TRACE_TRUE : TRACE_FALSE;
+	return p;
+}
+
+/* Bulk values */
+
+uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
+{
+	const uint8_t *from = data;
+
+	while (bytes) {
+		size_t n = (size_t)(recording.end - p);
+
+		if (n > bytes)
+			n = bytes;
+		memory_read(p, from, n);
+		p += n;
+		from += n;
+		bytes -= n;
+		p = put_room(p);
+	}
+	return put_room(p);
+}
+
+static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes)
+{
+	if (!data)
+		return put_null(p);
+	*p++ = (uint8_t)tag;
+	p = put_varint(p, bytes > 0 ? (uint64_t)bytes : 0);
+	return put_memory(p, data, bytes > 0 ? (size_t)bytes : 0);
+}
+
+uint8_t *put_string(uint8_t *p, const char *s, long bytes)
+{
+	return put_sized(p, TRACE_STRING, s, s && bytes < 0 ? (long)memory_text_bytes(s) : bytes);
+}
+
+uint8_t *put_text(uint8_t *p, const char *s, long size)
+{
+	return put_sized(p, TRACE_STRING, s, s && size > 0 ? (long)strnlen(s, (size_t)size) : 0);
+}
+
+uint8_t *put_blob(uint8_t *p, const void *data, long bytes)
+{
+	return put_sized(p, TRACE_BLOB, data, bytes);
+}
+
+uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes)
+{
+	const uint8_t *from = data;
+
+	if (!data)
+		return put_null(p);
+	*p++ = TRACE_BLOB;
+	p = put_varint(p, (uint64_t)bytes);
+	while (bytes) {
+		long n = recording.end - p < bytes ? recording.end - p : bytes;
+
+		memcpy(p, from, (size_t)n);
+		p = put_room(p + n);
+		from += n;
+		bytes -= n;
+	}
+	return put_room(p);
+}
+
+uint8_t *put_array_head(uint8_t *p, long n)
+{
+	*p++ = TRACE_ARRAY;
+	return put_varint(p, n > 0 ? (uint64_t)n : 0);
+}
+
+uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const int *lengths)
+{
+	if (!strings)
+		return put_null(p);
+	p = put_array_head(p, count);
+	for (long i = 0; i < count; i++) { /* a call that GL refuses may have anything here */
+		const char *text;
+		int length = -1;
+
+		memory_read(&text, strings + i, sizeof(text));
+		if (lengths)
+			memory_read(&length, lengths + i, sizeof(length));
+		p = put_string(p, text, length);
+	}
+	return p;
+}
+
+uint8_t *put_zeros(uint8_t *p, const void *data, long n)
+{
+	if (!data)
+		return put_null(p);
+	p = put_array_head(p, n);
+	for (long i = 0; i < n; i++) {
+		p = put_uint(p, 0);
+		if (i % 256 == 255)
+			p = put_room(p);
+	}
+	return put_room(p);
+}
+
+/* Elements of one type: `value` writes v[i]. Room is looked after every so many, none takes more than 128 bytes. */
+#define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
+	uint8_t *put_array_##suffix(uint8_t *p, type const *v, long n)                                                        \
+	{                                                                                                                     \
+		if (!v)                                                                                                       \
+			return put_null(p);                                                                                   \
+		p = put_array_head(p, n);                                                                                     \
+		for (long i = 0; i < n; i++) {                                                                                \
+			p = value;                                                                                            \
+			if (i % 16 == 15)                                                                                     \
+				p = put_room(p);                                                                              \
+		}                                                                                                             \
+		return put_room(p);                                                                                           \
+	}
+
+DEFINE_PUT_ARRAY(s8, int8_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u8, uint8_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s16, int16_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u16, uint16_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s32, int32_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u32, uint32_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(s64, int64_t, put_sint(p, v[i]))
+DEFINE_PUT_ARRAY(u64, uint64_t, put_uint(p, v[i]))
+DEFINE_PUT_ARRAY(f32, float, put_float(p, v[i]))
+DEFINE_PUT_ARRAY(f64, double, put_double(p, v[i]))
+DEFINE_PUT_ARRAY(enum, uint32_t, put_enum(p, v[i]))
+DEFINE_PUT_ARRAY(bool8, uint8_t, put_bool8(p, v[i]))
+DEFINE_PUT_ARRAY(bool32, uint32_t, put_bool32(p, v[i]))
+DEFINE_PUT_ARRAY(ptr, const void *, put_opaque(p, v[i]))
+
+/* Xutil.h's XVisualInfo, laid out by hand: the recorder needs no X11 headers for one struct. */
+struct visual_info {
+	void *visual;
+	unsigned long visualid;
+	int screen, depth, c_class;
+	unsigned long red_mask, green_mask, blue_mask;
+	int colormap_size, bits_per_rgb;
+};
+
+uint8_t *put_visual(uint8_t *p, const void *visual)
+{
+	static const char *const members[] = { "visual", "visualid", "screen", "depth", "c_class", "red_mask",
+		                               "green_mask", "blue_mask", "colormap_size", "bits_per_rgb" };
+	const struct visual_info *info = visual;
+
+	if (!info)
+		return put_null(p);
+	*p++ = TRACE_STRUCT;
+	p = put_varint(p, 0);
+	if (!visual_known) {
+		visual_known = 1;
+		p = put_chars(p, "XVisualInfo");
+		p = put_varint(p, sizeof(members) / sizeof(members[0]));
+		for (size_t i = 0; i < sizeof(members) / sizeof(members[0]); i++)
+			p = put_chars(p, members[i]);
+	}
+	p = put_opaque(p, info->visual);
+	p = put_uint(p, info->visualid);
+	p = put_sint(p, info->screen);
+	p = put_sint(p, info->depth);
+	p = put_sint(p, info->c_class);
+	p = put_uint(p, info->red_mask);
+	p = put_uint(p, info->green_mask);
+	p = put_uint(p, info->blue_mask);
+	p = put_sint(p, info->colormap_size);
+	return put_sint(p, info->bits_per_rgb);
+}
+
+/* Lists of attributes */
+
+enum { MAX_ATTRIBS = 512 };
+
+uint8_t *put_attribs(uint8_t *p, const int *list, int end)
+{
+	long n = 0;
+
+	while (list && n < MAX_ATTRIBS && list[n] != end)
+		n += 2;
+	return put_array_s32(p, list, n + 1);
+}
+
+uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end)
+{
+	long n = 0;
+
+	while (list && n < MAX_ATTRIBS && list[n] != end)
+		n += 2;
+	return put_array_s64(p, (const int64_t *)list, n + 1);
+}
