@@ -20,7 +20,7 @@ CXXFLAGS ?= -O2 -g
 WARNINGS := -Wall -Wextra
 SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/include/Imath -D_GNU_SOURCE -DCL_TARGET_OPENCL_VERSION=120
-ALL_CFLAGS := -std=c11 $(WARNINGS) -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
+ALL_CFLAGS := -std=c11 $(WARNINGS) -Werror=override-init -Werror=incompatible-pointer-types -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
 LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
 LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lxxhash -lcyaml -ldl -lm -pthread

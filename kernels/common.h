@@ -12,7 +12,6 @@
 
 #ifdef __OPENCL_VERSION__
 #pragma OPENCL FP_CONTRACT OFF
-#define GLOBAL __global
 #define M_SQRT(x) sqrt(x)
 #define M_FMA(x, y, z) fma(x, y, z)
 #define M_POW(x, y) pow(x, y)
@@ -32,7 +31,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-#define GLOBAL
 #define M_SQRT(x) sqrtf(x)
 #define M_FMA(x, y, z) fmaf(x, y, z)
 #define M_POW(x, y) powf(x, y)

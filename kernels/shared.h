@@ -13,6 +13,7 @@
 
 #ifdef __OPENCL_VERSION__
 typedef ushort uint16_t;
+#define GLOBAL __global
 #define SHARED_SIZE(type, bytes)
 /* A function that is compiled into each kernel that calls it, wherever constants make it another one there. Interpreters of
  * kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know compilers' own words. */
@@ -23,6 +24,7 @@ typedef ushort uint16_t;
 #endif
 #else
 #include "scene/scene.h"
+#define GLOBAL
 #define SHARED_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #endif
 

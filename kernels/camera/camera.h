@@ -12,22 +12,6 @@
  *   - else: the same on the parts that the view volume leaves of the triangle (kernels/gl/clip.h).
  * Screen instances (view.screen_first ..) are asked at the pixel centre as a point, whatever the projection.
  *
- * Arguments of all, in this order
- *    0  uint view_index
- *    1  const struct view views[]
- *    2  uint width            of the drawable
- *    3  uint height
- *    4  uint mode             CAMERA_NEAREST_LESS, CAMERA_NEAREST_LEQUAL or CAMERA_COLUMN
- *    5  const struct instance instances[]
- *    6  const struct node2 top[]            accel.top2
- *    7  const uint instance_list[]
- *    8  trees               _packet: struct node8, accel.nodes8; _wide: node2, accel.nodes2; _compressed: node8c, accel.nodes8c
- *    9  triangles           _packet: struct face8, accel.faces8; _wide: triangle, accel.triangles; _compressed: accel.triangles8c
- *   10  const struct window_vertex window[] at instance.vertex_first
- *   11  const float clip[][4]               the same vertices in clip space
- *   12  const uint after[]                  per pixel; CAMERA_COLUMN only, any buffer otherwise
- *   13  struct fragment fragments[]
- *   14  uint counts[]                       per pixel: fragments written
  * Pixels are numbered y * width + x, y from the bottom. Those outside of the view's rectangle (camera_rectangle) are
  * not touched.
  *

@@ -9,6 +9,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/camera/coverage.h"
 #include "kernels/camera/frustum.h"
+#include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 
 /* The far plane's lane in a tile's frustum. */
@@ -657,12 +658,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t, int x1, int y1)
 		}
 }
 
-__kernel void camera_packet(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                            __global const struct instance *instances, __global const struct node2 *top,
-                            __global const uint *instance_list, __global const struct node8 *nodes,
-                            __global const struct face8 *faces, __global const struct window_vertex *window,
-                            __global const float *clip, __global const uint *after,
-                            __global struct fragment *fragments, __global uint *counts)
+__kernel void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 {
 	__global const struct view *view = &views[view_index];
 	__global const float *viewport = view->viewport;
@@ -676,7 +672,7 @@ __kernel void camera_packet(uint view_index, __global const struct view *views, 
 	t.view = view;
 	t.instances = instances;
 	t.nodes = nodes;
-	t.faces = faces;
+	t.faces = triangles;
 	t.window = window;
 	t.clip = clip;
 	t.after = after;

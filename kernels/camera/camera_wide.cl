@@ -4,6 +4,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/rays/compressed.h"
 #include "kernels/camera/coverage.h"
+#include "kernels/kernels.h"
 
 /* A pixel on its way. */
 struct pixel {
@@ -351,23 +352,13 @@ INLINED void do_pixel(int is_compressed, uint view_index, __global const struct 
 	counts[pixel] = p.count;
 }
 
-__kernel void camera_wide(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                          __global const struct instance *instances, __global const struct node2 *top,
-                          __global const uint *instance_list, __global const struct node2 *nodes,
-                          __global const struct triangle *triangles, __global const struct window_vertex *window,
-                          __global const float *clip, __global const uint *after, __global struct fragment *fragments,
-                          __global uint *counts)
+__kernel void camera_wide(KERNEL_ARGUMENTS(camera_wide))
 {
 	do_pixel(0, view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
 	         fragments, counts);
 }
 
-__kernel void camera_compressed(uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                                __global const struct instance *instances, __global const struct node2 *top,
-                                __global const uint *instance_list, __global const struct node8c *nodes,
-                                __global const struct triangle *triangles, __global const struct window_vertex *window,
-                                __global const float *clip, __global const uint *after, __global struct fragment *fragments,
-                                __global uint *counts)
+__kernel void camera_compressed(KERNEL_ARGUMENTS(camera_compressed))
 {
 	do_pixel(1, view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
 	         fragments, counts);

@@ -249,18 +249,16 @@ static inline void compose_store(const struct compose_lanes *l, const struct com
  * compose: pixels first .. first + COMPOSE_LANES - 1 of n, counted from the bottom row, into their planes. sums: what add_pass left
  * of the parts of all passes but this one; not looked at where there is but one.
  */
-static inline void compose_item(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                GLOBAL const struct frame_pixel *frame, GLOBAL const float *sums,
-                                const struct compose_request *r, uint32_t n, GLOBAL uint16_t *halves, GLOBAL float *floats,
-                                uint32_t first)
+static inline void compose_item(const struct compose_arguments *a, uint32_t first)
 {
+	const struct compose_request *r = &a->request;
 	struct compose_lanes l;
 
 	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
-		uint32_t pixel = first + k < n ? first + k : n - 1u;
+		uint32_t pixel = first + k < a->n ? first + k : a->n - 1u;
 
 		l.at[k] = (r->height - 1u - pixel / r->width) * r->width + pixel % r->width;
-		compose_load(t, windows, &frame[pixel], sums + (r->n_passes > 1u ? pixel * PASS_PARTS : 0u), r, k, &l);
+		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? pixel * PASS_PARTS : 0u), r, k, &l);
 	}
 	for (uint32_t c = 0u; c < 3u; c++)
 		compose_settle(&l, c);
@@ -273,23 +271,22 @@ static inline void compose_item(const struct tables *t, GLOBAL const struct wind
 	for (uint32_t c = 0u; c < 3u && r->normals; c++)
 		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
 			l.halves[COMPOSE_BEAUTY + c][k] = l.color[COLOR_GL + c][k];
-	compose_store(&l, r, n - first < COMPOSE_LANES ? n - first : COMPOSE_LANES, halves, floats);
+	compose_store(&l, r, a->n - first < COMPOSE_LANES ? a->n - first : COMPOSE_LANES, a->halves, a->floats);
 }
 
 /* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */
-static inline void add_pass_item(GLOBAL const struct frame_pixel *frame, uint32_t turn, uint32_t first, GLOBAL float *sums,
-                                 uint32_t item)
+static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t item)
 {
-	GLOBAL const struct frame_pixel *pixel = &frame[item];
-	GLOBAL float *sum = sums + item * PASS_PARTS;
+	GLOBAL const struct frame_pixel *pixel = &a->frame[item];
+	GLOBAL float *sum = a->sums + item * PASS_PARTS;
 
-	if (sample_turn(item) != turn)
+	if (sample_turn(item) != a->turn)
 		return;
 	for (uint32_t c = 0u; c < 3u; c++) {
-		sum[c] = pixel->shadowed[c] + (first ? 0.0f : sum[c]);
-		sum[3u + c] = pixel->direct[c] + (first ? 0.0f : sum[3u + c]);
-		sum[6u + c] = pixel->mirrored[c] + (first ? 0.0f : sum[6u + c]);
-		sum[9u + c] = pixel->beauty[c] + (first ? 0.0f : sum[9u + c]);
+		sum[c] = pixel->shadowed[c] + (a->first ? 0.0f : sum[c]);
+		sum[3u + c] = pixel->direct[c] + (a->first ? 0.0f : sum[3u + c]);
+		sum[6u + c] = pixel->mirrored[c] + (a->first ? 0.0f : sum[6u + c]);
+		sum[9u + c] = pixel->beauty[c] + (a->first ? 0.0f : sum[9u + c]);
 	}
 }
 

@@ -3,13 +3,11 @@
 #define COMPOSE_LANES COMPOSE_PACKET
 #include "kernels/frame/compose.h"
 
-__kernel void compose_packet(TABLES_ARGUMENTS, __global const struct window_vertex *windows,
-                             __global const struct frame_pixel *frame, __global const float *sums,
-                             struct compose_request request, uint32_t n, __global uint16_t *halves, __global float *floats)
+__kernel void compose_packet(KERNEL_ARGUMENTS(compose))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * COMPOSE_PACKET;
-	struct tables t = TABLES_NAMED;
+	const struct compose_arguments a = KERNEL_STRUCT(compose);
 
 	if (first < n)
-		compose_item(&t, windows, frame, sums, &request, n, halves, floats, first);
+		compose_item(&a, first);
 }

@@ -1,7 +1,8 @@
 /* scan_sum, scan_place: see kernels/frame/scan.h. */
 #include "kernels/frame/scan.h"
+#include "kernels/kernels.h"
 
-__kernel void scan_sum(__global const uint *counts, uint count_first, uint n, __global uint *sums, uint sum_first)
+__kernel void scan_sum(KERNEL_ARGUMENTS(scan_sum))
 {
 	const uint i = (uint)get_global_id(0);
 	uint sum = 0;
@@ -13,8 +14,7 @@ __kernel void scan_sum(__global const uint *counts, uint count_first, uint n, __
 	sums[sum_first + i] = sum;
 }
 
-__kernel void scan_place(__global const uint *counts, uint count_first, uint n, __global const uint *before, uint before_first,
-                         __global uint *places, uint place_first)
+__kernel void scan_place(KERNEL_ARGUMENTS(scan_place))
 {
 	const uint i = (uint)get_global_id(0);
 	uint at;

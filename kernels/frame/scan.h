@@ -7,21 +7,9 @@
  * waits for another work item: nothing depends on scheduling.
  *
  * scan_sum: sums[sum_first + i] = counts[count_first + SCAN_CHUNK i] + .. as far as n counts go
- *    0  const uint counts[]
- *    1  uint count_first
- *    2  uint n
- *    3  uint sums[]
- *    4  uint sum_first
  *
  * scan_place: places[place_first + k] = what stands before chunk i + the counts before count k of chunk i. counts and places may
  * be the same.
- *    0  const uint counts[]
- *    1  uint count_first
- *    2  uint n
- *    3  const uint before[]
- *    4  uint before_first
- *    5  uint places[]
- *    6  uint place_first
  *
  * Work items: SCAN_ITEMS(n).
  */

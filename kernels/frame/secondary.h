@@ -81,33 +81,30 @@ struct stage_kept_plane {
  * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted.
  * sample: which of the rays to each light, over all passes of the frame. keeps, kept: as for shade_item.
  */
-static inline void shadow_ray_item(const struct tables *t, GLOBAL const struct view *views,
-                                   GLOBAL const struct window_vertex *windows,
-                                   GLOBAL const struct fragment *fragments, GLOBAL const uint32_t *pixels,
-                                   uint32_t width, GLOBAL const struct shaded *shaded, uint32_t sample, uint32_t n,
-                                   GLOBAL struct ray *rays, uint32_t item, int keeps, struct stage_kept_plane *kept)
+static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps, struct stage_kept_plane *kept)
 {
-	uint32_t slot = item / n, i = item % n;
-	struct fragment f = fragments[i];
+	const struct tables *t = &a->tables;
+	uint32_t slot = item / a->n, i = item % a->n;
+	struct fragment f = a->fragments[i];
 	struct point p;
 	float u, v;
 
-	if (!(shaded[i].flags & SHADED_THERE) || !(shaded[i].flags & SHADED_WANTS(slot))) {
-		stage_no_ray(&rays[item]);
+	if (!(a->shaded[i].flags & SHADED_THERE) || !(a->shaded[i].flags & SHADED_WANTS(slot))) {
+		stage_no_ray(&a->rays[item]);
 		return;
 	}
 	if (!keeps || kept->instance != f.instance || kept->primitive != f.primitive) {
 		kept->instance = f.instance;
 		kept->primitive = f.primitive;
-		kept->p = point_of_triangle(t, windows, &f, kept->w_inv);
+		kept->p = point_of_triangle(t, a->windows, &f, kept->w_inv);
 		kept->plane = point_plane_of(&kept->p);
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
-	sample_square(sample_hash(pixels[i]) + SAMPLE_LIGHT + slot, sample, &u, &v);
+	sample_square(sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
 	stage_light_ray(t, &p, &kept->plane, slot,
-	                stage_view_direction(&views[p.geometry->view], pixels[i] % width, pixels[i] / width), u, v,
-	                &rays[item]);
+	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width), u, v,
+	                &a->rays[item]);
 }
 
 /* A seed for a path at its present place. */
@@ -117,51 +114,47 @@ static inline uint32_t stage_seed(GLOBAL const struct path *path, GLOBAL const u
 }
 
 /* hit_ray: from hits to lights, as shadow_ray does from fragments. `rays`: those that led to the hits. */
-static inline void hit_ray_item(const struct tables *t, GLOBAL const struct hit *hits, GLOBAL const struct ray *rays,
-                                GLOBAL const struct path *paths, GLOBAL const uint32_t *pixels,
-                                GLOBAL const uint32_t *wanted, uint32_t sample, uint32_t n, GLOBAL struct ray *out,
-                                uint32_t item)
+static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item)
 {
-	uint32_t slot = item / n, i = item % n;
-	struct hit hit = hits[i];
+	const struct tables *t = &a->tables;
+	uint32_t slot = item / a->n, i = item % a->n;
+	struct hit hit = a->hits[i];
 	struct point_plane plane;
 	struct point p;
 	float u, v;
 
-	if (!(wanted[i] & SHADED_WANTS(slot))) {
-		stage_no_ray(&out[item]);
+	if (!(a->wanted[i] & SHADED_WANTS(slot))) {
+		stage_no_ray(&a->out[item]);
 		return;
 	}
-	p = point_from_hit(t, &hit, v3_load(rays[i].d));
-	sample_square(stage_seed(&paths[i], pixels, SAMPLE_LIGHT + slot), sample, &u, &v);
+	p = point_from_hit(t, &hit, v3_load(a->rays[i].d));
+	sample_square(stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
 	plane = point_plane_of(&p);
-	stage_light_ray(t, &p, &plane, slot, v3_load(rays[i].d), u, v, &out[item]);
+	stage_light_ray(t, &p, &plane, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
 }
 
 /* ao_ray: an even look around from each fragment, as far as `reach`. */
-static inline void ao_ray_item(const struct tables *t, GLOBAL const struct view *views,
-                               GLOBAL const struct window_vertex *windows, GLOBAL const struct fragment *fragments,
-                               GLOBAL const uint32_t *pixels, uint32_t width, GLOBAL const struct shaded *shaded,
-                               uint32_t sample, float reach, GLOBAL struct ray *rays, uint32_t item)
+static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 {
-	struct fragment f = fragments[item];
+	const struct tables *t = &a->tables;
+	struct fragment f = a->fragments[item];
 	struct vec3 from, plane, d;
 	struct point p;
 	float u, v;
 
-	stage_no_ray(&rays[item]);
-	p = point_from_fragment(t, windows, &f);
-	if (!(shaded[item].flags & SHADED_THERE) || p.geometry->flags & GEOMETRY_EXPANDED)
+	stage_no_ray(&a->rays[item]);
+	p = point_from_fragment(t, a->windows, &f);
+	if (!(a->shaded[item].flags & SHADED_THERE) || p.geometry->flags & GEOMETRY_EXPANDED)
 		return;
-	from = stage_view_direction(&views[p.geometry->view], pixels[item] % width, pixels[item] / width);
+	from = stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width);
 	plane = point_plane_normal(&p);
 	plane = v3_dot(plane, from) > 0.0f ? v3_scale(plane, -1.0f) : plane;
-	sample_square(sample_hash(pixels[item]) + SAMPLE_BOUNCE, sample, &u, &v);
+	sample_square(sample_hash(a->pixels[item]) + SAMPLE_BOUNCE, a->sample, &u, &v);
 	d = sample_cosine(point_normal(&p), u, v);
 	if (v3_dot(d, plane) <= 0.0f)
 		return; /* below the horizon of a faceted surface: neither open nor closed */
-	stage_ray(&p, d, from, &rays[item]);
-	rays[item].t_max = reach;
+	stage_ray(&p, d, from, &a->rays[item]);
+	a->rays[item].t_max = a->reach;
 }
 
 /* --- What lets light through -------------------------------------------------------------------------------------- */
@@ -308,68 +301,61 @@ static inline float veil_beyond(float t)
 /*
  * shadow_sum: shares of light that arrive: rays that nothing stopped add `weight`. first: of this list.
  */
-static inline void shadow_sum_item(GLOBAL const uint32_t *stopped, float weight, uint32_t first, GLOBAL float *arriving,
-                                   uint32_t item)
+static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
-	float share = stopped[item] ? 0.0f : weight;
+	float share = a->occluded[item] ? 0.0f : a->weight;
 
 	for (uint32_t c = 0u; c < 3u; c++)
-		arriving[item * 3u + c] = first ? share : arriving[item * 3u + c] + share;
+		a->visibility[item * 3u + c] = a->first ? share : a->visibility[item * 3u + c] + share;
 }
 
 /* shadow_start: rays that something stopped, gathered, to go on through what lets light pass. */
-static inline void shadow_start_item(GLOBAL const uint32_t *stopped, GLOBAL const uint32_t *places,
-                                     GLOBAL const struct ray *rays, float weight, GLOBAL struct ray *walk_rays,
-                                     GLOBAL struct path *walkers, uint32_t item)
+static inline void shadow_start_item(const struct shadow_start_arguments *a, uint32_t item)
 {
 	GLOBAL struct path *w;
 
-	if (!stopped[item])
+	if (!a->occluded[item])
 		return;
-	w = &walkers[places[item]];
-	walk_rays[places[item]] = rays[item];
-	v3_store(w->weight, v3(weight, weight, weight));
+	w = &a->shadow_paths[a->places[item]];
+	a->shadow_rays[a->places[item]] = a->rays[item];
+	v3_store(w->weight, v3(a->weight, a->weight, a->weight));
 	w->target = item;
 	w->kind = w->depth = 0u;
 	w->medium = SCENE_NONE;
 }
 
 /* shadow_walk: past the surface that a ray to a light hit, or to its end. */
-static inline void shadow_walk_item(const struct tables *t, GLOBAL const struct hit *hits, GLOBAL const struct ray *rays,
-                                    GLOBAL const struct path *walkers, GLOBAL float *arriving,
-                                    GLOBAL struct ray *next_rays, GLOBAL struct path *next, GLOBAL uint32_t *counts,
-                                    uint32_t item)
+static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint32_t item)
 {
-	struct hit hit = hits[item];
-	struct path w = walkers[item];
+	const struct tables *t = &a->tables;
+	struct hit hit = a->hits[item];
+	struct path w = a->paths[item];
 	struct vec3 weight = v3(w.weight[0], w.weight[1], w.weight[2]);
-	GLOBAL float *out = arriving + w.target * 3u;
+	GLOBAL float *out = a->visibility + w.target * 3u;
 
-	counts[item] = 0u;
+	a->counts[item] = 0u;
 	if (hit.instance == SCENE_NONE) {
 		v3_store(out, v3_add(v3_load(out), weight));
 		return;
 	}
-	weight = v3_mul(weight, veil_light(t, &hit, &rays[item]));
+	weight = v3_mul(weight, veil_light(t, &hit, &a->rays[item]));
 	if (!(v3_most(weight) > 0.0f))
 		return;
-	next_rays[item] = rays[item];
-	next_rays[item].t_min = veil_beyond(hit.t);
-	next[item] = w;
-	v3_store(next[item].weight, weight);
-	counts[item] = 1u;
+	a->next_rays[item] = a->rays[item];
+	a->next_rays[item].t_min = veil_beyond(hit.t);
+	a->next_paths[item] = w;
+	v3_store(a->next_paths[item].weight, weight);
+	a->counts[item] = 1u;
 }
 
 /* --- Paths -------------------------------------------------------------------------------------------------------- */
 
 /* gather_paths: next rays to their places in the new list. */
-static inline void gather_paths_item(GLOBAL const struct ray *next_rays, GLOBAL const struct path *next,
-                                     GLOBAL const uint32_t *counts, GLOBAL const uint32_t *places, uint32_t slots,
-                                     GLOBAL struct ray *rays, GLOBAL struct path *paths, uint32_t item)
+static inline void gather_paths_item(const struct gather_paths_arguments *a, uint32_t item)
 {
-	for (uint32_t i = 0u; i < counts[item]; i++) {
-		rays[places[item] + i] = next_rays[item * slots + i];
-		paths[places[item] + i] = next[item * slots + i];
+	for (uint32_t i = 0u; i < a->counts[item]; i++) {
+		a->rays[a->places[item] + i] = a->next_rays[item * a->slots + i];
+		a->paths[a->places[item] + i] = a->next_paths[item * a->slots + i];
 	}
 }
 
@@ -483,75 +469,71 @@ static inline struct vec3 path_weight(const struct path *path)
 }
 
 /* leave: a fragment's first rays, and what of its own colour stays. */
-static inline void leave_item(const struct tables *t, GLOBAL const struct view *views,
-                              GLOBAL const struct window_vertex *windows, GLOBAL const struct fragment *fragments,
-                              GLOBAL const uint32_t *pixels, uint32_t width, uint32_t transport, uint32_t sample,
-                              GLOBAL struct shaded *shaded, GLOBAL struct ray *next_rays, GLOBAL struct path *next,
-                              GLOBAL uint32_t *counts, uint32_t item)
+static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 {
-	struct fragment f = fragments[item];
-	GLOBAL struct shaded *s = &shaded[item];
-	uint32_t seed = sample_hash(pixels[item]);
+	const struct tables *t = &a->tables;
+	struct fragment f = a->fragments[item];
+	GLOBAL struct shaded *s = &a->shaded[item];
+	uint32_t seed = sample_hash(a->pixels[item]);
 	struct branches b;
 	struct vec3 d, mirrored;
 	struct split split;
 	struct coat coat;
 	struct point p;
 
-	counts[item] = 0u;
+	a->counts[item] = 0u;
 	if (!(s->flags & SHADED_THERE))
 		return;
-	p = point_from_fragment(t, windows, &f);
+	p = point_from_fragment(t, a->windows, &f);
 	if (p.geometry->flags & GEOMETRY_EXPANDED)
 		return;
-	if (transport < TRANSPORT_DIFFUSE && !(p.material->surface.reflect > 0.0f || p.material->surface.transmit > 0.0f))
+	if (a->transport < TRANSPORT_DIFFUSE && !(p.material->surface.reflect > 0.0f || p.material->surface.transmit > 0.0f))
 		return;
-	b.rays = next_rays + item * PATHS_PER_FRAGMENT;
-	b.paths = next + item * PATHS_PER_FRAGMENT;
+	b.rays = a->next_rays + item * PATHS_PER_FRAGMENT;
+	b.paths = a->next_paths + item * PATHS_PER_FRAGMENT;
 	b.count = 0u;
 	b.from.target = item;
 	b.from.depth = 0u;
 	b.from.medium = SCENE_NONE;
-	d = v3_normalize(stage_view_direction(&views[p.geometry->view], pixels[item] % width, pixels[item] / width));
+	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	split = split_light(&p, d);
 	mirrored = v3_scale(v3_load(s->direct), 1.0f - split.mirrored);
 	v3_store(s->mirrored, mirrored);
 	v3_store(s->beauty, v3_sub(mirrored, v3_scale(v3_load(s->direct), split.through)));
-	if (transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
-		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, sample);
-	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, sample);
+	if (a->transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
+		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, a->sample);
+	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, a->sample);
 	if (split.through > 0.0f) {
 		point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
 		branch_through(&b, &p, d, &split, v3_scale(glass_tint(t, &p, &coat), split.through), PATH_REFRACT);
 	}
-	counts[item] = b.count;
+	a->counts[item] = b.count;
 }
 
 /* sky_ray: what hit nothing looks on from the viewer's place: skies are drawn around that, and mean infinity. */
-static inline void sky_ray_item(GLOBAL const struct hit *hits, GLOBAL const struct ray *rays, GLOBAL struct ray *out,
-                                uint32_t item)
+static inline void sky_ray_item(const struct sky_ray_arguments *a, uint32_t item)
 {
-	stage_no_ray(&out[item]);
-	if (hits[item].instance != SCENE_NONE)
+	stage_no_ray(&a->out[item]);
+	if (a->hits[item].instance != SCENE_NONE)
 		return;
-	v3_store(out[item].d, v3_load(rays[item].d));
-	out[item].t_min = 0.0f;
-	out[item].t_max = 1.0e30f;
+	v3_store(a->out[item].d, v3_load(a->rays[item].d));
+	a->out[item].t_min = 0.0f;
+	a->out[item].t_max = 1.0e30f;
 }
 
 
 /* want_lights: what lights a path's hit must ask for. */
-static inline void want_lights_item(const struct tables *t, GLOBAL const struct hit *hits, GLOBAL const struct ray *rays,
-                                    uint32_t transport, GLOBAL uint32_t *wanted, uint32_t item)
+static inline void want_lights_item(const struct want_lights_arguments *a, uint32_t item)
 {
-	struct hit hit = hits[item];
+	const struct tables *t = &a->tables;
+	struct hit hit = a->hits[item];
 	struct point p;
 
-	wanted[item] = 0u;
+	a->wanted[item] = 0u;
 	if (hit.instance == SCENE_NONE)
 		return;
-	p = point_from_hit(t, &hit, v3_load(rays[item].d));
-	wanted[item] = stage_wanted(&p, stage_lights(t, &p, transport, point_lit_from_vertices(&p).lights));
+	p = point_from_hit(t, &hit, v3_load(a->rays[item].d));
+	a->wanted[item] = stage_wanted(&p, stage_lights(t, &p, a->transport, point_lit_from_vertices(&p).lights));
 }
 
 /* The colour of what a path hit, with what arrives of the lights. */
@@ -624,17 +606,12 @@ static inline void branch_one(const struct tables *t, struct branches *b, const 
 /*
  * shade_hit: what a path found, into given[item]; and the rays that go on from there.
  */
-static inline void shade_hit_item(const struct tables *t, GLOBAL const struct hit *hits, GLOBAL const struct hit *sky,
-                                  uint32_t has_sky, GLOBAL const struct ray *rays, GLOBAL const struct path *paths,
-                                  GLOBAL const uint32_t *pixels, GLOBAL const float *arriving, uint32_t n_slots,
-                                  uint32_t transport, uint32_t sample, uint32_t depth,
-                                  GLOBAL const float *background, uint32_t n, GLOBAL float *given,
-                                  GLOBAL struct ray *next_rays, GLOBAL struct path *next, GLOBAL uint32_t *counts,
-                                  uint32_t item)
+static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t item)
 {
-	struct hit hit = hits[item];
-	GLOBAL float *out = given + item * 3u;
-	struct vec3 d = v3_load(rays[item].d), seen[SCENE_MAX_LIGHTS], weight, own;
+	const struct tables *t = &a->tables;
+	struct hit hit = a->hits[item];
+	GLOBAL float *out = a->radiance + item * 3u;
+	struct vec3 d = v3_load(a->rays[item].d), seen[SCENE_MAX_LIGHTS], weight, own;
 	struct branches b;
 	struct point p;
 	struct coat coat;
@@ -643,79 +620,77 @@ static inline void shade_hit_item(const struct tables *t, GLOBAL const struct hi
 	uint32_t seed;
 	int dimmed;
 
-	b.from = paths[item];
-	b.rays = next_rays + item * PATHS_PER_HIT;
-	b.paths = next + item * PATHS_PER_HIT;
+	b.from = a->paths[item];
+	b.rays = a->next_rays + item * PATHS_PER_HIT;
+	b.paths = a->next_paths + item * PATHS_PER_HIT;
 	b.count = 0u;
-	counts[item] = 0u;
+	a->counts[item] = 0u;
 	weight = path_weight(&b.from);
 	if (hit.instance == SCENE_NONE) {
-		v3_store(out, v3_mul(weight, hit_nothing(t, &sky[item], &rays[item], has_sky, background)));
+		v3_store(out, v3_mul(weight, hit_nothing(t, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
 		return;
 	}
 	v3_store(out, v3(0.0f, 0.0f, 0.0f));
 	p = point_from_hit(t, &hit, d);
-	stage_seen(arriving, n_slots, n, item, seen);
-	dimmed = stage_dimmed(arriving, n_slots, n, item);
+	stage_seen(a->visibility, a->n_slots, a->n, item, seen);
+	dimmed = stage_dimmed(a->visibility, a->n_slots, a->n, item);
 	point_coat(t, &p, (GLOBAL const struct view *)0, (const struct clip_setup *)0, (struct point_kept *)0, 0u, 0u, 0u, &coat);
-	color = hit_color(t, &p, &coat, transport, seen, dimmed);
+	color = hit_color(t, &p, &coat, a->transport, seen, dimmed);
 	if (p.material->surface.hidden & 2u || veil_is_hole(&p, color.w)) {
-		branch_on(&b, &rays[item], hit.t, weight);
-		counts[item] = b.count;
+		branch_on(&b, &a->rays[item], hit.t, weight);
+		a->counts[item] = b.count;
 		return;
 	}
 	if (b.from.medium != SCENE_NONE)
-		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - rays[item].t_min));
+		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - a->rays[item].t_min));
 	split = split_light(&p, d);
 	own = v3(color.x, color.y, color.z);
 	if (p.material->blend && !(split.through > 0.0f)) {
 		own = veil_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
-		branch_on(&b, &rays[item], hit.t, v3_mul(v3_scale(weight, split.base), veil_pass(p.material, color)));
+		branch_on(&b, &a->rays[item], hit.t, v3_mul(v3_scale(weight, split.base), veil_pass(p.material, color)));
 	}
 	v3_store(out, v3_mul(weight, v3_scale(own, split.base)));
-	seed = stage_seed(&paths[item], pixels, 0u);
-	if (b.from.depth < depth && transport == TRANSPORT_PATH && !b.count) {
-		branch_one(t, &b, &p, d, &split, &coat, weight, seed, sample);
-	} else if (b.from.depth < depth && transport != TRANSPORT_PATH) {
-		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, seed, sample);
+	seed = stage_seed(&a->paths[item], a->pixels, 0u);
+	if (b.from.depth < a->depth && a->transport == TRANSPORT_PATH && !b.count) {
+		branch_one(t, &b, &p, d, &split, &coat, weight, seed, a->sample);
+	} else if (b.from.depth < a->depth && a->transport != TRANSPORT_PATH) {
+		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, seed, a->sample);
 		if (split.through > 0.0f)
 			branch_through(&b, &p, d, &split,
 			               v3_mul(v3_scale(weight, split.through), glass_tint(t, &p, &coat)), b.from.kind);
 	}
-	counts[item] = b.count;
+	a->counts[item] = b.count;
 }
 
 /* credit: what the paths of a fragment found, into its parts. The first path of each fragment sums them up in order. */
-static inline void credit_item(GLOBAL const struct path *paths, GLOBAL const float *given, uint32_t n,
-                               GLOBAL struct shaded *shaded, uint32_t item)
+static inline void credit_item(const struct credit_arguments *a, uint32_t item)
 {
-	uint32_t target = paths[item].target;
-	GLOBAL struct shaded *s = &shaded[target];
+	uint32_t target = a->paths[item].target;
+	GLOBAL struct shaded *s = &a->shaded[target];
 
-	if (item > 0u && paths[item - 1u].target == target)
+	if (item > 0u && a->paths[item - 1u].target == target)
 		return;
-	for (uint32_t i = item; i < n && paths[i].target == target; i++) {
-		struct vec3 light = v3_load(given + i * 3u);
+	for (uint32_t i = item; i < a->n && a->paths[i].target == target; i++) {
+		struct vec3 light = v3_load(a->radiance + i * 3u);
 
-		if (paths[i].kind == PATH_DIFFUSE)
+		if (a->paths[i].kind == PATH_DIFFUSE)
 			v3_store(s->direct, v3_add(v3_load(s->direct), light));
-		if (paths[i].kind != PATH_REFRACT)
+		if (a->paths[i].kind != PATH_REFRACT)
 			v3_store(s->mirrored, v3_add(v3_load(s->mirrored), light));
 		v3_store(s->beauty, v3_add(v3_load(s->beauty), light));
 	}
 }
 
 /* ao_shade: how open a fragment's surroundings are, as its colour or over it. */
-static inline void ao_shade_item(GLOBAL const float *arriving, uint32_t over_gl, GLOBAL struct shaded *shaded,
-                                 uint32_t item)
+static inline void ao_shade_item(const struct ao_shade_arguments *a, uint32_t item)
 {
-	GLOBAL struct shaded *s = &shaded[item];
-	float open = arriving[item * 3u];
+	GLOBAL struct shaded *s = &a->shaded[item];
+	float open = a->visibility[item * 3u];
 	struct vec3 color = v3(open, open, open);
 
 	if (!(s->flags & SHADED_THERE))
 		return;
-	if (over_gl) {
+	if (a->over_gl) {
 		color = v3_scale(v3_load(s->gl), open);
 		v3_store(s->shadowed, color);
 	}

@@ -22,17 +22,16 @@ static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, ui
 }
 
 /* gather: a pixel's fragments to their place in the list; where the column goes on next time. */
-static inline void gather_item(GLOBAL const struct fragment *sparse, GLOBAL const uint32_t *counts, uint32_t slots,
-                               GLOBAL const uint32_t *first, GLOBAL struct fragment *list, GLOBAL uint32_t *pixels,
-                               GLOBAL uint32_t *after, uint32_t pixel)
+static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 {
-	uint32_t n = counts[pixel];
+	const uint32_t pixel = stage_pixel(a->rectangle, a->width, item);
+	uint32_t n = a->counts[pixel];
 
 	for (uint32_t i = 0u; i < n; i++) {
-		list[first[pixel] + i] = sparse[pixel * slots + i];
-		pixels[first[pixel] + i] = pixel;
+		a->list[a->first[pixel] + i] = a->sparse[pixel * a->slots + i];
+		a->pixels[a->first[pixel] + i] = pixel;
 	}
-	after[pixel] = n == slots ? sparse[pixel * slots + n - 1u].order + 1u : SCENE_NONE;
+	a->after[pixel] = n == a->slots ? a->sparse[pixel * a->slots + n - 1u].order + 1u : SCENE_NONE;
 }
 
 /* Shares of the material's lights that arrive at the item. */
@@ -408,15 +407,12 @@ static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32
  * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
  * or nothing (kept->instance SCENE_NONE).
  */
-static inline void shade_item(const struct tables *t, GLOBAL const struct view *views,
-                              GLOBAL const struct window_vertex *windows, GLOBAL struct fragment *fragments,
-                              GLOBAL const uint32_t *pixels, uint32_t width, uint32_t height, uint32_t bits,
-                              GLOBAL const float *arriving, uint32_t n_slots, uint32_t transport, uint32_t n,
-                              GLOBAL struct shaded *shaded, uint32_t item, int keeps, struct stage_kept *kept)
+static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct stage_kept *kept)
 {
+	const struct tables *t = &a->tables;
 	struct fragment f;
 	GLOBAL const struct view *view;
-	GLOBAL struct shaded *out = &shaded[item];
+	GLOBAL struct shaded *out = &a->shaded[item];
 	uint32_t x, y;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct point p;
@@ -428,27 +424,27 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	GLOBAL const uint32_t *group = t->texels;
 	uint32_t kind = 0u;
 
-	if (n_slots && (!stage_dimmed(arriving, n_slots, n, item) || !(out->flags & SHADED_THERE)))
+	if (a->n_slots && (!stage_dimmed(a->visibility, a->n_slots, a->n, item) || !(out->flags & SHADED_THERE)))
 		return;
-	stage_seen(arriving, n_slots, n, item, seen);
-	f = fragments[item];
-	x = pixels[item] % width;
-	y = pixels[item] / width;
-	stage_keep(t, views, windows, x, y, height, bits, !n_slots, &f, keeps, kept);
+	stage_seen(a->visibility, a->n_slots, a->n, item, seen);
+	f = a->fragments[item];
+	x = a->pixels[item] % a->width;
+	y = a->pixels[item] / a->width;
+	stage_keep(t, a->views, a->windows, x, y, a->height, a->bits, !a->n_slots, &f, keeps, kept);
 	p = kept->p;
-	view = &views[p.geometry->view];
-	if (!n_slots) {
-		clipped = userclip_outside(view, windows, &p, (int32_t)x, (int32_t)y, (float)height);
+	view = &a->views[p.geometry->view];
+	if (!a->n_slots) {
+		clipped = userclip_outside(view, a->windows, &p, (int32_t)x, (int32_t)y, (float)a->height);
 		if (kept->have_setup)
-			stage_unsnap(view, kept, x, y, height, &f);
+			stage_unsnap(view, kept, x, y, a->height, &f);
 		else
-			stage_line(t, views, x, height - 1u - y, &f);
-		fragments[item] = f;
+			stage_line(t, a->views, x, a->height - 1u - y, &f);
+		a->fragments[item] = f;
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
 	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
-	if (!n_slots && (clipped || stage_undrawn(&p, x, height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
+	if (!a->n_slots && (clipped || stage_undrawn(&p, x, a->height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
 		out->flags = 0u;
 		return;
 	}
@@ -460,8 +456,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		}
 	}
 	point_coat(t, &p, view, kept->have_setup ? &kept->setup : (const struct clip_setup *)0,
-	           keeps ? &kept->sampling : (struct point_kept *)0, x, y, height, &coat);
-	if (n_slots && !p.material->surface.relit) {
+	           keeps ? &kept->sampling : (struct point_kept *)0, x, y, a->height, &coat);
+	if (a->n_slots && !p.material->surface.relit) {
 		stage_keep_lit(t, seen, keeps, kept);
 		lit = from_vertices = point_lit_between(&p, kept->lit);
 	} else {
@@ -472,8 +468,8 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 	color = point_finish(t, &p, &coat, &lit);
 	color = v4(pixel_settle(color.x), pixel_settle(color.y), pixel_settle(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
-	stage_store_direct(out, stage_relit(t, &p, &coat, transport, seen, color));
-	if (n_slots)
+	stage_store_direct(out, stage_relit(t, &p, &coat, a->transport, seen, color));
+	if (a->n_slots)
 		return;
 	color.w *= coverage;
 	v4_store(out->gl, color);
@@ -487,24 +483,24 @@ static inline void shade_item(const struct tables *t, GLOBAL const struct view *
 		out->flags = SHADED_THERE | SHADED_STENCIL;
 		return;
 	}
-	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, transport, from_vertices.lights));
+	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, a->transport, from_vertices.lights));
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */
 
 /* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
-static inline void resolve_item(const struct tables *t, GLOBAL const struct fragment *fragments,
-                                GLOBAL struct shaded *shaded, GLOBAL const uint32_t *first,
-                                GLOBAL const uint32_t *counts, uint32_t bits, GLOBAL struct frame_pixel *frame,
-                                uint32_t pixel)
+static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
 {
-	for (uint32_t i = first[pixel]; i < first[pixel] + counts[pixel]; i++) {
-		GLOBAL const struct geometry *g = &t->geometries[fragments[i].instance];
+	const struct tables *t = &a->tables;
+	const uint32_t pixel = stage_pixel(a->rectangle, a->width, item);
+
+	for (uint32_t i = a->first[pixel]; i < a->first[pixel] + a->counts[pixel]; i++) {
+		GLOBAL const struct geometry *g = &t->geometries[a->fragments[i].instance];
 		uint32_t draw = g->draw;
 
 		if (g->primitive_draw != SCENE_NONE)
-			draw += t->indices[g->primitive_draw + FRAGMENT_PRIMITIVE(fragments[i])];
-		pixel_draw(&t->materials[g->material], &shaded[i], &fragments[i], draw, &frame[pixel], bits);
+			draw += t->indices[g->primitive_draw + FRAGMENT_PRIMITIVE(a->fragments[i])];
+		pixel_draw(&t->materials[g->material], &a->shaded[i], &a->fragments[i], draw, &a->frame[pixel], a->bits);
 	}
 }
 

@@ -110,14 +110,13 @@ static inline float vertex_point_size(GLOBAL const struct scene_material *m, str
 /*
  * The vertex stage: vertex `item` of the frame. `owner[item]` is its instance.
  */
-static inline void vertex_item(const struct tables *t, GLOBAL const struct view *views, GLOBAL const uint32_t *owner,
-                               uint32_t height, uint32_t item, GLOBAL struct shaded_vertex *vertices,
-                               GLOBAL struct window_vertex *windows, GLOBAL float *clips, GLOBAL float *texcoords)
+static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 {
-	GLOBAL const struct geometry *g = &t->geometries[owner[item]];
+	const struct tables *t = &a->tables;
+	GLOBAL const struct geometry *g = &t->geometries[a->owners[item]];
 	GLOBAL const struct scene_material *m = &t->materials[g->material];
-	GLOBAL const struct view *view = &views[g->view];
-	GLOBAL struct shaded_vertex *out = &vertices[item];
+	GLOBAL const struct view *view = &a->views[g->view];
+	GLOBAL struct shaded_vertex *out = &a->shaded[item];
 	uint32_t v = item - g->vertex_first;
 	struct vec4 obj = v4_load(t->attributes + g->position + v * 4u);
 	struct vec4 eye = m4_mul(g->eye_from_obj, obj), clip = m4_mul(g->clip_from_obj, obj);
@@ -126,9 +125,9 @@ static inline void vertex_item(const struct tables *t, GLOBAL const struct view 
 
 	v4_store(out->eye, eye);
 	v4_store(out->clip, clip);
-	v4_store(clips + item * 4u, clip);
+	v4_store(a->clips + item * 4u, clip);
 	v3_store(out->normal, normal);
-	windows[item] = clip_window(view, clip, (float)height);
+	a->windows[item] = clip_window(view, clip, (float)a->height);
 
 	front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
 	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;
@@ -143,7 +142,7 @@ static inline void vertex_item(const struct tables *t, GLOBAL const struct view 
 	out->size[1] = 0.0f;
 
 	for (uint32_t i = 0u; i < m->unit_count; i++)
-		v4_store(texcoords + (g->texcoord_first + v * m->unit_count + i) * 4u,
+		v4_store(a->coords + (g->texcoord_first + v * m->unit_count + i) * 4u,
 		         vertex_texcoord(t, g, &t->units[m->unit_first + i], v, obj, eye, normal));
 }
 

@@ -13,20 +13,7 @@
  * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest hit
  * of several instances is the one whose t + shift, rounded, is least.
  *
- * Arguments of all, in this order
- *    0  uint n_rays
- *    1  const struct ray rays[]
- *    2  uint top_first            accel_space.top8_first; _binary and _compressed: top2_first
- *    3  const struct node8 top[]  accel.top8; _binary and _compressed: accel.top2, struct node2
- *    4  const uint instance_list[]
- *    5  const struct instance instances[]
- *    6  const struct node8 nodes[]          accel.nodes8; _binary: accel.nodes2; _compressed: accel.nodes8c
- *    7  const struct triangle8 triangles[]  accel.triangles8; _binary: accel.triangles, struct triangle; _compressed:
- *                                           accel.triangles8c, the same
- *    8  occlude: uint occluded[]  1 where anything is hit, else 0
- *       intersect: struct hit hits[]  the nearest; instance == SCENE_NONE where there is none. Of several at the very
- *                                 same t that of the lowest instance, there of the lowest primitive: it depends on
- *                                 no tree
+ * Of several nearest hits at the very same t the lowest instance counts, there the lowest primitive: the answer depends on no tree.
  *
  * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.

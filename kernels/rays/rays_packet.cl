@@ -9,6 +9,7 @@
  * (a tenth more: nobody foresees the branch); two single rays at once in sixteen lanes (up to two fifths more); eight-wide trees of least
  * cost as compress.c makes them, and leaves of fewer triangles (nothing, and up to a fifth more: leaves come from memory).
  */
+#include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/packet.h"
 #include "kernels/rays/wide.h"
@@ -379,10 +380,7 @@ static inline ulong load_packets(struct packet *p, __global const struct ray *ra
 	return lanes;
 }
 
-__kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint top_first,
-                             __global const struct node8 *top, __global const uint *instance_list,
-                             __global const struct instance *instances, __global const struct node8 *nodes,
-                             __global const struct triangle8 *triangles, __global uint *occluded)
+__kernel void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
@@ -399,10 +397,7 @@ __kernel void occlude_packet(uint n_rays, __global const struct ray *rays, uint 
 		occluded[first + i] = (uint)(lanes >> i) & 1u;
 }
 
-__kernel void intersect_packet(uint n_rays, __global const struct ray *rays, uint top_first,
-                               __global const struct node8 *top, __global const uint *instance_list,
-                               __global const struct instance *instances, __global const struct node8 *nodes,
-                               __global const struct triangle8 *triangles, __global struct hit *hits)
+__kernel void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];

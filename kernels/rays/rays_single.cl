@@ -7,6 +7,7 @@
  * order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are private: of the room they have for the deepest tree
  * a ray touches only the few entries that it needs.
  */
+#include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/walk.h"
 
@@ -251,10 +252,7 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, int is_comp
 	return eye.hit;
 }
 
-__kernel void occlude_binary(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
-                             __global const uint *instance_list, __global const struct instance *instances,
-                             __global const struct node2 *nodes, __global const struct triangle *triangles,
-                             __global uint *occluded)
+__kernel void occlude_binary(KERNEL_ARGUMENTS(occlude_binary))
 {
 	const uint i = (uint)get_global_id(0);
 
@@ -263,10 +261,7 @@ __kernel void occlude_binary(uint n_rays, __global const struct ray *rays, uint 
 		              SCENE_NONE;
 }
 
-__kernel void intersect_binary(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
-                               __global const uint *instance_list, __global const struct instance *instances,
-                               __global const struct node2 *nodes, __global const struct triangle *triangles,
-                               __global struct hit *hits)
+__kernel void intersect_binary(KERNEL_ARGUMENTS(intersect_binary))
 {
 	const uint i = (uint)get_global_id(0);
 
@@ -274,10 +269,7 @@ __kernel void intersect_binary(uint n_rays, __global const struct ray *rays, uin
 		hits[i] = walk_ray(&rays[i], 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
 }
 
-__kernel void occlude_compressed(uint n_rays, __global const struct ray *rays, uint top_first, __global const struct node2 *top,
-                                 __global const uint *instance_list, __global const struct instance *instances,
-                                 __global const struct node8c *nodes, __global const struct triangle *triangles,
-                                 __global uint *occluded)
+__kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
 {
 	const uint i = (uint)get_global_id(0);
 
@@ -286,10 +278,7 @@ __kernel void occlude_compressed(uint n_rays, __global const struct ray *rays, u
 		              SCENE_NONE;
 }
 
-__kernel void intersect_compressed(uint n_rays, __global const struct ray *rays, uint top_first,
-                                   __global const struct node2 *top, __global const uint *instance_list,
-                                   __global const struct instance *instances, __global const struct node8c *nodes,
-                                   __global const struct triangle *triangles, __global struct hit *hits)
+__kernel void intersect_compressed(KERNEL_ARGUMENTS(intersect_compressed))
 {
 	const uint i = (uint)get_global_id(0);
 

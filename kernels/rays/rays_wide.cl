@@ -1,6 +1,7 @@
 /*
  * occlude_wide, intersect_wide: one ray a work item against eight boxes or eight triangles at once. See kernels/rays/rays.h.
  */
+#include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/wide.h"
 
@@ -49,10 +50,7 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, __glo
 	return w.hit;
 }
 
-__kernel void occlude_wide(uint n_rays, __global const struct ray *rays, uint top_first,
-                           __global const struct node8 *top, __global const uint *instance_list,
-                           __global const struct instance *instances, __global const struct node8 *nodes,
-                           __global const struct triangle8 *triangles, __global uint *occluded)
+__kernel void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint i = (uint)get_global_id(0);
 
@@ -61,10 +59,7 @@ __kernel void occlude_wide(uint n_rays, __global const struct ray *rays, uint to
 		              SCENE_NONE;
 }
 
-__kernel void intersect_wide(uint n_rays, __global const struct ray *rays, uint top_first,
-                             __global const struct node8 *top, __global const uint *instance_list,
-                             __global const struct instance *instances, __global const struct node8 *nodes,
-                             __global const struct triangle8 *triangles, __global struct hit *hits)
+__kernel void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint i = (uint)get_global_id(0);
 

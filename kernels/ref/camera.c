@@ -5,12 +5,10 @@
 
 #include "kernels/rays/compressed.h"
 #include "kernels/gl/clip.h"
+#include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
-#include "kernels/shared.h"
-#include "tracer/device/device.h"
 
-extern device_twin camera_packet_c, camera_wide_c, camera_compressed_c;
-
+/* What the three kernels have in common. */
 struct args {
 	const struct view *view;
 	uint32_t width, height, mode;
@@ -44,15 +42,10 @@ struct pixel {
 };
 
 /* All but the trees and their triangles. */
-static struct args unpack(const void *const *args)
-{
-	return (struct args){
-		.view = (const struct view *)args[1] + *(const uint32_t *)args[0],
-		.width = *(const uint32_t *)args[2], .height = *(const uint32_t *)args[3], .mode = *(const uint32_t *)args[4],
-		.instances = args[5], .top = args[6], .instance_list = args[7], .window = args[10], .clip = args[11], .after = args[12],
-		.fragments = (struct fragment *)args[13], .counts = (uint32_t *)args[14]
-	};
-}
+#define COMMON_ARGS(a) \
+	.view = (a)->pass.views + (a)->pass.view_index, .width = (a)->pass.width, .height = (a)->pass.height, .mode = (a)->pass.mode, \
+	.instances = (a)->instances, .top = (a)->top, .instance_list = (a)->instance_list, .window = (a)->pass.window, \
+	.clip = (const float (*)[4])(a)->pass.clip, .after = (a)->pass.after, .fragments = (a)->pass.fragments, .counts = (a)->pass.counts
 
 /* --- fragments --- */
 
@@ -487,14 +480,12 @@ static struct camera_rectangle rectangle_of(const struct args *args)
 	return camera_rectangle(s[0], s[1], s[2], s[3], args->width, args->height);
 }
 
-void camera_packet_c(const void *const *args, size_t first, size_t last)
+void camera_packet_c(const struct camera_packet_arguments *from, size_t first, size_t last)
 {
-	struct args a = unpack(args);
+	const struct args a = { COMMON_ARGS(from), .rows = from->nodes, .faces = from->triangles };
 	const struct camera_rectangle r = rectangle_of(&a);
 	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
 
-	a.rows = args[8];
-	a.faces = args[9];
 	for (size_t item = first; item < last && item < camera_packet_items(r); item++) {
 		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE;
 		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE;
@@ -514,20 +505,16 @@ static void do_pixels(const struct args *a, size_t first, size_t last)
 		do_pixel(a, r.x0 + (int32_t)(item % columns), r.y0 + (int32_t)(item / columns));
 }
 
-void camera_wide_c(const void *const *args, size_t first, size_t last)
+void camera_wide_c(const struct camera_wide_arguments *from, size_t first, size_t last)
 {
-	struct args a = unpack(args);
+	const struct args a = { COMMON_ARGS(from), .nodes = from->nodes, .triangles = from->triangles };
 
-	a.nodes = args[8];
-	a.triangles = args[9];
 	do_pixels(&a, first, last);
 }
 
-void camera_compressed_c(const void *const *args, size_t first, size_t last)
+void camera_compressed_c(const struct camera_compressed_arguments *from, size_t first, size_t last)
 {
-	struct args a = unpack(args);
+	const struct args a = { COMMON_ARGS(from), .compressed = from->nodes, .triangles = from->triangles };
 
-	a.compressed = args[8];
-	a.triangles = args[9];
 	do_pixels(&a, first, last);
 }

@@ -3,15 +3,13 @@
 
 #include <math.h>
 
+#include "kernels/kernels.h"
 #include "kernels/rays/compressed.h"
-#include "tracer/device/device.h"
-
-extern device_twin occlude_packet_c, intersect_packet_c, occlude_wide_c, intersect_wide_c;
-extern device_twin occlude_binary_c, intersect_binary_c, occlude_compressed_c, intersect_compressed_c;
 
 /* What trees are made of. */
 enum tree { TREE_ROWS, TREE_BINARY, TREE_COMPRESSED };
 
+/* What all of the kernels have in common. */
 struct args {
 	uint32_t n_rays;
 	const struct ray *rays;
@@ -20,9 +18,10 @@ struct args {
 	const uint32_t *instance_list;
 	const struct instance *instances;
 	const void *nodes, *triangles;
-	void *out;
 	enum tree tree;
 };
+#define ARGS_OF(a, kind) \
+	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, kind }
 
 /* One ray on its way. */
 struct walk {
@@ -32,12 +31,6 @@ struct walk {
 	struct hit hit; /* hit.t: the ray's end so far */
 	int any;        /* the first hit will do */
 };
-
-static struct args unpack(const void *const *args, enum tree tree)
-{
-	return (struct args){ *(const uint32_t *)args[0], args[1], *(const uint32_t *)args[2], args[3], args[4], args[5],
-		              args[6], args[7], (void *)args[8], tree };
-}
 
 static int done(const struct walk *w)
 {
@@ -323,70 +316,33 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any)
 	return w.hit;
 }
 
-static void occlude(const struct args *args, size_t first, size_t last)
+/* The twins of one list of arguments: any hit, and the nearest. */
+#define TWINS(list, tree) \
+	void occlude_##list##_c(const struct occlude_##list##_arguments *a, size_t first, size_t last) \
+	{ \
+		const struct args args = ARGS_OF(a, tree); \
+\
+		for (size_t i = first; i < last && i < a->n_rays; i++) \
+			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1).instance != SCENE_NONE; \
+	} \
+\
+	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
+	{ \
+		const struct args args = ARGS_OF(a, tree); \
+\
+		for (size_t i = first; i < last && i < a->n_rays; i++) \
+			a->hits[i] = walk_ray(&args, (uint32_t)i, 0); \
+	}
+TWINS(wide, TREE_ROWS)
+TWINS(binary, TREE_BINARY)
+TWINS(compressed, TREE_COMPRESSED)
+
+void occlude_packet_c(const struct occlude_wide_arguments *a, size_t first, size_t last)
 {
-	for (size_t i = first; i < last && i < args->n_rays; i++)
-		((uint32_t *)args->out)[i] = walk_ray(args, (uint32_t)i, 1).instance != SCENE_NONE;
+	occlude_wide_c(a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
 }
 
-static void intersect(const struct args *args, size_t first, size_t last)
+void intersect_packet_c(const struct intersect_wide_arguments *a, size_t first, size_t last)
 {
-	for (size_t i = first; i < last && i < args->n_rays; i++)
-		((struct hit *)args->out)[i] = walk_ray(args, (uint32_t)i, 0);
-}
-
-void occlude_packet_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_ROWS);
-
-	occlude(&a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
-}
-
-void intersect_packet_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_ROWS);
-
-	intersect(&a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
-}
-
-void occlude_wide_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_ROWS);
-
-	occlude(&a, first, last);
-}
-
-void intersect_wide_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_ROWS);
-
-	intersect(&a, first, last);
-}
-
-void occlude_binary_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_BINARY);
-
-	occlude(&a, first, last);
-}
-
-void intersect_binary_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_BINARY);
-
-	intersect(&a, first, last);
-}
-
-void occlude_compressed_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_COMPRESSED);
-
-	occlude(&a, first, last);
-}
-
-void intersect_compressed_c(const void *const *args, size_t first, size_t last)
-{
-	const struct args a = unpack(args, TREE_COMPRESSED);
-
-	intersect(&a, first, last);
+	intersect_wide_c(a, first * RAYS_PER_ITEM, last * RAYS_PER_ITEM);
 }

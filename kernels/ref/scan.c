@@ -1,18 +1,11 @@
 /* C twins of kernels/frame/scan.cl. */
 #include "kernels/frame/scan.h"
-#include "tracer/device/device.h"
+#include "kernels/kernels.h"
 
-extern device_twin scan_sum_c, scan_place_c;
-
-static uint32_t number(const void *arg)
+void scan_sum_c(const struct scan_sum_arguments *a, size_t first, size_t last)
 {
-	return *(const uint32_t *)arg;
-}
-
-void scan_sum_c(const void *const *args, size_t first, size_t last)
-{
-	const uint32_t *counts = (const uint32_t *)args[0] + number(args[1]), n = number(args[2]);
-	uint32_t *sums = (uint32_t *)args[3] + number(args[4]);
+	const uint32_t *counts = a->counts + a->count_first, n = a->n;
+	uint32_t *sums = a->sums + a->sum_first;
 
 	for (size_t i = first; i < last && i < SCAN_ITEMS(n); i++) {
 		sums[i] = 0;
@@ -21,11 +14,10 @@ void scan_sum_c(const void *const *args, size_t first, size_t last)
 	}
 }
 
-void scan_place_c(const void *const *args, size_t first, size_t last)
+void scan_place_c(const struct scan_place_arguments *a, size_t first, size_t last)
 {
-	const uint32_t *counts = (const uint32_t *)args[0] + number(args[1]), n = number(args[2]);
-	const uint32_t *before = (const uint32_t *)args[3] + number(args[4]);
-	uint32_t *places = (uint32_t *)args[5] + number(args[6]);
+	const uint32_t *counts = a->counts + a->count_first, *before = a->before + a->before_first, n = a->n;
+	uint32_t *places = a->places + a->place_first;
 
 	for (size_t i = first; i < last && i < SCAN_ITEMS(n); i++) {
 		uint32_t at = before[i];

@@ -358,7 +358,7 @@ static const struct {
 	double bar;
 	struct {
 		const char *name;
-		enum device_kernel kernel;
+		enum kernel kernel;
 	} kernels[2];
 } works[N_WORKS] = {
 	{ "camera", 3, { { "camera_packet", KERNEL_camera_packet }, { NULL, 0 } } },
@@ -366,7 +366,7 @@ static const struct {
 	{ "incoherent", 1.5, { { "occlude_packet", KERNEL_occlude_packet }, { "occlude_wide", KERNEL_occlude_wide } } },
 };
 
-static int run_ours(struct bench *b, enum work work, enum device_kernel kernel, struct took *took)
+static int run_ours(struct bench *b, enum work work, enum kernel kernel, struct took *took)
 {
 	const double start = cpu_clock_s();
 	int err = work == WORK_CAMERA ? bench_camera(b, kernel, &took->wall)

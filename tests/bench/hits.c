@@ -31,6 +31,7 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 #include "tracer/bench/bench.h"
+#include "tracer/frame/traverse.h"
 
 #define ROUNDING 32
 #define N_SCENES 4
@@ -117,16 +118,12 @@ struct world {
 	struct view view;
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
-	struct device_buffer *top, *list, *instances, *nodes, *triangles, *rays, *hits, *occluded;
+	struct traverse_trees trees;
+	union buffer_ray rays;
+	union buffer_hit hits;
+	union buffer_uint occluded;
 	RTCScene peer;
 };
-
-static int upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes)
-{
-	int err = device_reserve(dev, buffer, bytes);
-
-	return err ? err : device_write(dev, *buffer, 0, data, bytes);
-}
 
 static int open_ours(struct device *dev, struct world *w)
 {
@@ -148,10 +145,7 @@ static int open_ours(struct device *dev, struct world *w)
 		w->accel->kind = (enum accel_kind)kind;
 		err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces);
 	}
-	if (err || (err = upload(dev, &w->nodes, w->accel->nodes8, w->accel->n_nodes8 * sizeof(*w->accel->nodes8))) ||
-	    (err = upload(dev, &w->triangles, w->accel->triangles8, w->accel->n_triangles8 * sizeof(*w->accel->triangles8))))
-		return err;
-	return 0;
+	return err ? err : traverse_upload_pools(dev, w->accel, &w->trees);
 }
 
 /* What came of a batch of rays in a tree of one kind. */
@@ -162,33 +156,22 @@ struct outcome {
 
 static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind, const struct ray *rays, uint32_t n, struct outcome *out)
 {
-	uint32_t top_first, *occluded = out->occluded;
-	struct hit *hits = out->hits;
+	struct traverse_rays r;
 	int err;
 
 	/* The trees are there; only the top level and the instance change. */
 	w->accel->kind = kind;
 	if ((err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces)) ||
-	    (err = upload(dev, &w->top, w->accel->top8, w->accel->n_top8 * sizeof(*w->accel->top8))) ||
-	    (err = upload(dev, &w->list, w->accel->instance_list, w->accel->n_instance_list * sizeof(uint32_t))) ||
-	    (err = upload(dev, &w->instances, &w->instance, sizeof(w->instance))))
+	    (err = traverse_upload_tops(dev, w->accel, &w->instance, 1, &w->trees)) ||
+	    (err = launch_upload(dev, w->rays, rays, n)) || (err = launch_reserve(dev, w->hits, n)) ||
+	    (err = launch_reserve(dev, w->occluded, n)))
 		return err;
-	top_first = w->spaces[0].top8_first;
-	if ((err = upload(dev, &w->rays, rays, n * sizeof(*rays))) || (err = device_reserve(dev, &w->hits, n * sizeof(*hits))) ||
-	    (err = device_reserve(dev, &w->occluded, n * sizeof(*occluded))))
-		return err;
-	for (int any = 0; any < 2 && !err; any++) {
-		const struct device_arg args[] = {
-			ARG_VALUE(n), ARG_BUFFER(w->rays), ARG_VALUE(top_first), ARG_BUFFER(w->top), ARG_BUFFER(w->list),
-			ARG_BUFFER(w->instances), ARG_BUFFER(w->nodes), ARG_BUFFER(w->triangles), ARG_BUFFER(any ? w->occluded : w->hits),
-		};
-
-		err = device_run(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_packet,
-		                 (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM, args, sizeof(args) / sizeof(args[0]));
-	}
+	r = (struct traverse_rays){ .space = &w->spaces[0], .n = n, .rays = w->rays, .occluded = w->occluded, .hits = w->hits };
+	for (int any = 0; any < 2 && !err; any++)
+		err = traverse_rays(dev, any ? KERNEL_occlude_packet : KERNEL_intersect_packet, &w->trees, &r);
 	if (!err)
-		err = device_read(dev, w->hits, 0, hits, n * sizeof(*hits));
-	return err ? err : device_read(dev, w->occluded, 0, occluded, n * sizeof(*occluded));
+		err = device_read(dev, w->hits.buffer, 0, out->hits, n * sizeof(out->hits[0]));
+	return err ? err : device_read(dev, w->occluded.buffer, 0, out->occluded, n * sizeof(out->occluded[0]));
 }
 
 /* Robust mode: Embree's own answer to rays through edges. */
@@ -420,9 +403,10 @@ static int run_scene(struct device *dev, RTCDevice peer, struct world *w, uint32
 	}
 	if (w->peer)
 		rtcReleaseScene(w->peer);
-	for (size_t i = 0; i < 8; i++)
-		device_release(dev, (struct device_buffer **[]){ &w->top, &w->list, &w->instances, &w->nodes, &w->triangles,
-		                                                 &w->rays, &w->hits, &w->occluded }[i]);
+	device_release(dev, &w->rays.buffer);
+	device_release(dev, &w->hits.buffer);
+	device_release(dev, &w->occluded.buffer);
+	traverse_release(dev, &w->trees);
 	accel_destroy(&w->accel);
 	free(rays);
 	for (int a = 0; a < N_ACCEL_KINDS; a++)

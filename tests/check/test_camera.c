@@ -3,6 +3,7 @@
 
 #include "kernels/camera/camera.h"
 #include "tests/case.h"
+#include "tracer/frame/traverse.h"
 
 #define WIDTH 75 /* not a multiple of a tile */
 #define HEIGHT 53
@@ -129,46 +130,32 @@ static void free_frame(struct frame *f)
 	random_scene_free(f->s);
 }
 
-static void run(const struct frame *f, struct device *dev, enum device_kernel kernel, uint32_t mode, struct result *out)
+static void run(const struct frame *f, struct device *dev, enum kernel kernel, uint32_t mode, struct result *out)
 {
 	const struct random_scene *s = f->s;
-	const struct accel *a = s->accel;
-	const uint32_t view = 0, width = WIDTH, height = HEIGHT;
 	const int32_t *sc = s->view.scissor;
-	const int compressed = kernel == KERNEL_camera_compressed, packet = kernel == KERNEL_camera_packet;
 	const struct camera_rectangle r = camera_rectangle(sc[0], sc[1], sc[2], sc[3], WIDTH, HEIGHT);
 	struct device_buffer *b[] = {
-		make_buffer(dev, &s->view, sizeof(s->view)), make_buffer(dev, s->instances, sizeof(s->instances)),
-		make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)),
-		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
-		packet ? make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)) :
-		compressed ? make_buffer(dev, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c)) :
-		             make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)),
-		packet ? make_buffer(dev, a->faces8, a->n_faces8 * sizeof(*a->faces8)) :
-		compressed ? make_buffer(dev, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c)) :
-		             make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)),
-		make_buffer(dev, f->window, s->n_vertices * sizeof(*f->window)),
-		make_buffer(dev, f->clip, s->n_vertices * sizeof(*f->clip)),
-		make_buffer(dev, f->after, PIXELS * sizeof(*f->after)), NULL, NULL,
+		make_buffer(dev, &s->view, sizeof(s->view)), make_buffer(dev, f->window, s->n_vertices * sizeof(*f->window)),
+		make_buffer(dev, f->clip, s->n_vertices * sizeof(*f->clip)), make_buffer(dev, f->after, PIXELS * sizeof(*f->after)),
+		NULL, NULL,
 	};
+	struct traverse_trees trees = { 0 };
 
 	memset(out, 0xa5, sizeof(*out));
-	b[9] = make_buffer(dev, out->fragments, sizeof(out->fragments));
-	b[10] = make_buffer(dev, out->counts, sizeof(out->counts));
-	{
-		const struct device_arg args[] = {
-			ARG_VALUE(view), ARG_BUFFER(b[0]), ARG_VALUE(width), ARG_VALUE(height), ARG_VALUE(mode), ARG_BUFFER(b[1]),
-			ARG_BUFFER(b[2]), ARG_BUFFER(b[3]), ARG_BUFFER(b[4]), ARG_BUFFER(b[5]), ARG_BUFFER(b[6]), ARG_BUFFER(b[7]),
-			ARG_BUFFER(b[8]), ARG_BUFFER(b[9]), ARG_BUFFER(b[10]),
-		};
-
-		ck_assert_int_eq(device_run(dev, kernel, kernel == KERNEL_camera_packet ? camera_packet_items(r) : camera_wide_items(r),
-		                            args, sizeof(args) / sizeof(args[0])), 0);
-	}
-	ck_assert_int_eq(device_read(dev, b[9], 0, out->fragments, sizeof(out->fragments)), 0);
-	ck_assert_int_eq(device_read(dev, b[10], 0, out->counts, sizeof(out->counts)), 0);
+	b[4] = make_buffer(dev, out->fragments, sizeof(out->fragments));
+	b[5] = make_buffer(dev, out->counts, sizeof(out->counts));
+	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
+	ck_assert_int_eq(traverse_upload_tops(dev, s->accel, s->instances, INSTANCES, &trees), 0);
+	ck_assert_int_eq(traverse_camera(dev, kernel, &trees, r,
+	                                 LAUNCH(camera_pass, .view_index = 0, .views = { b[0] }, .width = WIDTH, .height = HEIGHT,
+	                                        .mode = mode, .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },
+	                                        .fragments = { b[4] }, .counts = { b[5] })), 0);
+	ck_assert_int_eq(device_read(dev, b[4], 0, out->fragments, sizeof(out->fragments)), 0);
+	ck_assert_int_eq(device_read(dev, b[5], 0, out->counts, sizeof(out->counts)), 0);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
 		device_release(dev, &b[i]);
+	traverse_release(dev, &trees);
 	for (uint32_t i = 0; i < GUARD; i++)
 		ck_assert_msg(out->counts[PIXELS + i] == GUARD_WORD &&
 		                      out->fragments[(mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1) * PIXELS + i].order == GUARD_WORD,
@@ -250,9 +237,9 @@ START_TEST(kernels_agree_with_twins)
 
 			look_aside(&f, i & 2);
 			for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
-				for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
+				for (enum kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
 					snprintf(what, sizeof(what), "%s, %s, %s, at %s, mode %u", list[k].name,
-					         device_kernel_name(kernel), i & 1 ? "orthographic" : "perspective",
+					         kernel_entries[kernel].name, i & 1 ? "orthographic" : "perspective",
 					         i & 2 ? "a sample" : "centres", mode);
 					run(&f, reference, kernel, mode, &want);
 					run(&f, dev, kernel, mode, &got);
@@ -326,7 +313,7 @@ START_TEST(trees_change_nothing)
 		struct frame f = make_frame(seed_of_run + (uint32_t)i, i);
 
 		for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
-			for (enum device_kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
+			for (enum kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
 				f.s->accel->kind = ACCEL_BVH;
 				ck_assert_int_eq(accel_build_frame(f.s->accel, &f.s->scene, NULL, NULL, f.s->instances, INSTANCES,
 				                                   &f.s->view, &f.s->spaces, &f.s->n_spaces), 0);

@@ -9,7 +9,7 @@
 
 #include "kernels/gl/tables.h"
 #include "tests/case.h"
-#include "tracer/device/device.h"
+#include "tracer/device/launch.h"
 
 #define WIDTH 13u
 #define HEIGHT 7u
@@ -98,25 +98,21 @@ static void run(struct device *dev, const struct content *c, const struct compos
 		make_buffer(dev, c->windows, sizeof(c->windows)), make_buffer(dev, c->frame, sizeof(c->frame)),
 		make_buffer(dev, c->sums, sizeof(c->sums)), NULL, NULL,
 	};
-	struct device_arg args[N_TABLES + 7];
+	const struct tables_launch tables = *LAUNCH(tables, .geometries = { b[0] }, .materials = { b[1] }, .lights = { b[0] },
+	                                            .units = { b[0] }, .currents = { b[0] }, .attributes = { b[0] },
+	                                            .indices = { b[2] }, .vertices = { b[3] }, .texcoords = { b[0] },
+	                                            .textures = { b[0] }, .texels = { b[0] }, .stipples = { b[0] });
+	const struct compose_launch *a;
 
 	memset(out, 0xa5, sizeof(*out));
 	b[7] = make_buffer(dev, out->halves, sizeof(out->halves));
 	b[8] = make_buffer(dev, out->floats, sizeof(out->floats));
-	for (int i = 0; i < N_TABLES; i++)
-		args[i] = ARG_BUFFER(b[0]);
-	args[1] = ARG_BUFFER(b[1]);
-	args[6] = ARG_BUFFER(b[2]);
-	args[7] = ARG_BUFFER(b[3]);
-	args[N_TABLES] = ARG_BUFFER(b[4]);
-	args[N_TABLES + 1] = ARG_BUFFER(b[5]);
-	args[N_TABLES + 2] = ARG_BUFFER(b[6]);
-	args[N_TABLES + 3] = ARG_VALUE(*request);
-	args[N_TABLES + 4] = ARG_VALUE(n);
-	args[N_TABLES + 5] = ARG_BUFFER(b[7]);
-	args[N_TABLES + 6] = ARG_BUFFER(b[8]);
-	ck_assert_int_eq(device_run(dev, packets ? KERNEL_compose_packet : KERNEL_compose,
-	                            packets ? (n + COMPOSE_PACKET - 1) / COMPOSE_PACKET : n, args, N_TABLES + 7), 0);
+	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] }, .sums = { b[6] },
+	            .request = *request, .n = n, .halves = { b[7] }, .floats = { b[8] });
+	if (packets)
+		ck_assert_int_eq(launch_compose_packet(dev, (n + COMPOSE_PACKET - 1) / COMPOSE_PACKET, a), 0);
+	else
+		ck_assert_int_eq(launch_compose(dev, n, a), 0);
 	ck_assert_int_eq(device_read(dev, b[7], 0, out->halves, sizeof(out->halves)), 0);
 	ck_assert_int_eq(device_read(dev, b[8], 0, out->floats, sizeof(out->floats)), 0);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)

@@ -3,6 +3,7 @@
 
 #include "kernels/rays/rays.h"
 #include "tests/case.h"
+#include "tracer/frame/traverse.h"
 
 #define N_RAYS 4099 /* not a multiple of a packet */
 #define GUARD 64
@@ -76,7 +77,7 @@ enum way { PACKET, WIDE, BINARY, COMPRESSED, N_WAYS };
 
 static const struct {
 	const char *name;
-	enum device_kernel kernels[2];
+	enum kernel kernels[2];
 } ways[N_WAYS] = {
 	[PACKET] = { "packet", { KERNEL_occlude_packet, KERNEL_intersect_packet } },
 	[WIDE] = { "wide", { KERNEL_occlude_wide, KERNEL_intersect_wide } },
@@ -86,41 +87,25 @@ static const struct {
 
 static void run(struct random_scene *s, struct device *dev, const struct ray *rays, enum way way, struct result *out)
 {
-	const struct accel *a = s->accel;
-	const int single = way == BINARY || way == COMPRESSED;
-	const uint32_t n = N_RAYS, top_first = single ? s->spaces[0].top2_first : s->spaces[0].top8_first;
-	const uint32_t packets = (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM;
-	struct device_buffer *b[] = {
-		make_buffer(dev, rays, N_RAYS * sizeof(*rays)),
-		single ? make_buffer(dev, a->top2, a->n_top2 * sizeof(*a->top2)) :
-		         make_buffer(dev, a->top8, a->n_top8 * sizeof(*a->top8)),
-		make_buffer(dev, a->instance_list, a->n_instance_list * sizeof(uint32_t)),
-		make_buffer(dev, s->instances, sizeof(s->instances)),
-		way == BINARY     ? make_buffer(dev, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2)) :
-		way == COMPRESSED ? make_buffer(dev, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c)) :
-		                    make_buffer(dev, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8)),
-		way == BINARY     ? make_buffer(dev, a->triangles, a->n_triangles * sizeof(*a->triangles)) :
-		way == COMPRESSED ? make_buffer(dev, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c)) :
-		                    make_buffer(dev, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8)),
-		NULL, NULL,
-	};
+	struct device_buffer *b[] = { make_buffer(dev, rays, N_RAYS * sizeof(*rays)), NULL, NULL };
+	struct traverse_trees trees = { 0 };
+	struct traverse_rays r = { .space = &s->spaces[0], .n = N_RAYS };
 
 	memset(out, 0xa5, sizeof(*out));
-	b[6] = make_buffer(dev, out->occluded, sizeof(out->occluded));
-	b[7] = make_buffer(dev, out->hits, sizeof(out->hits));
-	for (int kind = 0; kind < 2; kind++) {
-		const struct device_arg args[] = {
-			ARG_VALUE(n), ARG_BUFFER(b[0]), ARG_VALUE(top_first), ARG_BUFFER(b[1]), ARG_BUFFER(b[2]),
-			ARG_BUFFER(b[3]), ARG_BUFFER(b[4]), ARG_BUFFER(b[5]), ARG_BUFFER(b[6 + kind]),
-		};
-		const enum device_kernel kernel = ways[way].kernels[kind];
-
-		ck_assert_int_eq(device_run(dev, kernel, way == PACKET ? packets : n, args, 9), 0);
-	}
-	ck_assert_int_eq(device_read(dev, b[6], 0, out->occluded, sizeof(out->occluded)), 0);
-	ck_assert_int_eq(device_read(dev, b[7], 0, out->hits, sizeof(out->hits)), 0);
+	b[1] = make_buffer(dev, out->occluded, sizeof(out->occluded));
+	b[2] = make_buffer(dev, out->hits, sizeof(out->hits));
+	r.rays.buffer = b[0];
+	r.occluded.buffer = b[1];
+	r.hits.buffer = b[2];
+	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
+	ck_assert_int_eq(traverse_upload_tops(dev, s->accel, s->instances, sizeof(s->instances) / sizeof(s->instances[0]), &trees), 0);
+	for (int kind = 0; kind < 2; kind++)
+		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[kind], &trees, &r), 0);
+	ck_assert_int_eq(device_read(dev, b[1], 0, out->occluded, sizeof(out->occluded)), 0);
+	ck_assert_int_eq(device_read(dev, b[2], 0, out->hits, sizeof(out->hits)), 0);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
 		device_release(dev, &b[i]);
+	traverse_release(dev, &trees);
 	for (uint32_t i = 0; i < GUARD; i++) {
 		ck_assert_msg(out->occluded[N_RAYS + i] == GUARD_WORD, "occlude writes past its end");
 		ck_assert_msg(out->hits[N_RAYS + i].primitive == GUARD_WORD, "intersect writes past its end");

@@ -15,18 +15,18 @@ static uint32_t counts[MOST], got[MOST + GUARD];
 
 static void check_scan(struct device *dev, uint32_t n, int kind)
 {
-	struct device_buffer *from = NULL, *places = NULL, *scratch = NULL;
+	union buffer_uint from = { NULL }, places = { NULL }, scratch = { NULL };
 	uint32_t total = 7, want = 0;
 
 	for (uint32_t i = 0; i < n; i++) /* none, one or none, any, all from the last */
 		counts[i] = kind == 0 ? 0 : kind == 1 ? i * 2654435761u >> 31 : kind == 2 ? i * 2654435761u >> 20 : i == n - 1;
 	memset(got, 0xa5, sizeof(got));
-	ck_assert_int_eq(device_reserve(dev, &from, n * sizeof(*counts)), 0);
-	ck_assert_int_eq(device_reserve(dev, &places, sizeof(got)), 0);
-	ck_assert_int_eq(device_write(dev, from, 0, counts, n * sizeof(*counts)), 0);
-	ck_assert_int_eq(device_write(dev, places, 0, got, sizeof(got)), 0);
+	ck_assert_int_eq(launch_reserve(dev, from, n), 0);
+	ck_assert_int_eq(launch_reserve(dev, places, sizeof(got) / sizeof(got[0])), 0);
+	ck_assert_int_eq(device_write(dev, from.buffer, 0, counts, n * sizeof(*counts)), 0);
+	ck_assert_int_eq(device_write(dev, places.buffer, 0, got, sizeof(got)), 0);
 	ck_assert_int_eq(scan_counts(dev, from, n, &places, &scratch, &total), 0);
-	ck_assert_int_eq(device_read(dev, places, 0, got, sizeof(got)), 0);
+	ck_assert_int_eq(device_read(dev, places.buffer, 0, got, sizeof(got)), 0);
 	for (uint32_t i = 0; i < n; i++) {
 		if (total)
 			ck_assert_msg(got[i] == want, "kind %d, place %u of %u is %u, not %u", kind, i, n, got[i], want);
@@ -35,9 +35,9 @@ static void check_scan(struct device *dev, uint32_t n, int kind)
 	ck_assert_uint_eq(total, want);
 	for (uint32_t i = total ? n : 0; i < n + GUARD; i++)
 		ck_assert_msg(got[i] == GUARD_WORD, "something is written past the end, or where there is nothing to place");
-	device_release(dev, &from);
-	device_release(dev, &places);
-	device_release(dev, &scratch);
+	device_release(dev, &from.buffer);
+	device_release(dev, &places.buffer);
+	device_release(dev, &scratch.buffer);
 }
 
 START_TEST(places_are_sums_of_counts)

@@ -9,7 +9,7 @@
 
 #include "kernels/shared.h"
 #include "tests/case.h"
-#include "tracer/device/device.h"
+#include "tracer/device/launch.h"
 
 /* A second queue that took the kernels for GPUs on a CPU would be several times slower, and nobody would see why. */
 START_TEST(test_shared_device_takes_the_same_kernels)
@@ -34,26 +34,22 @@ END_TEST
 START_TEST(test_profile)
 {
 	struct device *dev = NULL;
-	struct device_buffer *stopped = NULL, *arriving = NULL;
+	union buffer_uint occluded = { NULL };
+	union buffer_float visibility = { NULL };
 	struct device_profile profile;
-	uint32_t flags[4] = { 0, 1, 0, 1 }, first = 1, n = 4;
-	float weight = 0.5f, out[12];
-	struct device_arg args[5];
+	uint32_t flags[4] = { 0, 1, 0, 1 }, n = 4;
+	float out[12];
 
 	memset(&profile, 0, sizeof(profile));
 	ck_assert_int_eq(device_open("reference", 2, &dev), 0);
-	ck_assert_int_eq(device_reserve(dev, &stopped, sizeof(flags)), 0);
-	ck_assert_int_eq(device_reserve(dev, &arriving, sizeof(out)), 0);
-	args[0] = ARG_BUFFER(stopped);
-	args[1] = ARG_VALUE(weight);
-	args[2] = ARG_VALUE(first);
-	args[3] = ARG_VALUE(n);
-	args[4] = ARG_BUFFER(arriving);
+	ck_assert_int_eq(launch_reserve(dev, occluded, n), 0);
+	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
 	device_set_profile(dev, &profile);
-	ck_assert_int_eq(device_write(dev, stopped, 0, flags, sizeof(flags)), 0);
-	ck_assert_int_eq(device_run(dev, KERNEL_shadow_sum, n, args, 5), 0);
+	ck_assert_int_eq(device_write(dev, occluded.buffer, 0, flags, sizeof(flags)), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .occluded = occluded, .weight = 0.5f, .first = 1, .n = n,
+	                                                  .visibility = visibility)), 0);
 	device_set_profile(dev, NULL);
-	ck_assert_int_eq(device_read(dev, arriving, 0, out, sizeof(out)), 0);
+	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.5f);
 	ck_assert_float_eq(out[3], 0);
 	ck_assert_uint_eq(profile.writes.count, 1);
@@ -62,9 +58,9 @@ START_TEST(test_profile)
 	ck_assert_uint_eq(profile.kernels[KERNEL_shadow_sum].amount, n);
 	ck_assert(profile.kernels[KERNEL_shadow_sum].wall_s > 0);
 	ck_assert_uint_eq(profile.reads.count, 0);
-	ck_assert_str_eq(device_kernel_name(KERNEL_shadow_sum), "shadow_sum");
-	device_release(dev, &stopped);
-	device_release(dev, &arriving);
+	ck_assert_str_eq(kernel_entries[KERNEL_shadow_sum].name, "shadow_sum");
+	device_release(dev, &occluded.buffer);
+	device_release(dev, &visibility.buffer);
 	device_close(&dev);
 }
 END_TEST
@@ -72,29 +68,25 @@ END_TEST
 /* Sum two lights' shadows with a device that keeps programs in a folder. @return how many came from there */
 static unsigned run_kept(const char *folder, int always)
 {
-	const uint32_t flags[2] = { 0, 1 }, first = 1, n = 2;
-	struct device_buffer *stopped = NULL, *arriving = NULL;
+	const uint32_t flags[2] = { 0, 1 }, n = 2;
+	union buffer_uint occluded = { NULL };
+	union buffer_float visibility = { NULL };
 	struct device *dev = NULL;
-	float weight = 0.25f, out[6];
+	float out[6];
 	unsigned found;
 
 	ck_assert_int_eq(device_open("0", 0, &dev), 0);
 	device_keep_programs(dev, folder, always);
-	ck_assert_int_eq(device_reserve(dev, &stopped, sizeof(flags)), 0);
-	ck_assert_int_eq(device_reserve(dev, &arriving, sizeof(out)), 0);
-	ck_assert_int_eq(device_write(dev, stopped, 0, flags, sizeof(flags)), 0);
-	{
-		const struct device_arg args[] = { ARG_BUFFER(stopped), ARG_VALUE(weight), ARG_VALUE(first), ARG_VALUE(n),
-			                           ARG_BUFFER(arriving) };
-
-		ck_assert_int_eq(device_run(dev, KERNEL_shadow_sum, n, args, 5), 0);
-	}
-	ck_assert_int_eq(device_read(dev, arriving, 0, out, sizeof(out)), 0);
+	ck_assert_int_eq(launch_upload(dev, occluded, flags, n), 0);
+	ck_assert_int_eq(launch_reserve(dev, visibility, 3 * n), 0);
+	ck_assert_int_eq(launch_shadow_sum(dev, n, LAUNCH(shadow_sum, .occluded = occluded, .weight = 0.25f, .first = 1, .n = n,
+	                                                  .visibility = visibility)), 0);
+	ck_assert_int_eq(device_read(dev, visibility.buffer, 0, out, sizeof(out)), 0);
 	ck_assert_float_eq(out[0], 0.25f);
 	ck_assert_float_eq(out[3], 0);
 	found = device_programs_found(dev);
-	device_release(dev, &stopped);
-	device_release(dev, &arriving);
+	device_release(dev, &occluded.buffer);
+	device_release(dev, &visibility.buffer);
 	device_close(&dev);
 	return found;
 }

@@ -26,7 +26,7 @@ struct options {
 
 struct figure {
 	const char *rays, *kernel_name;
-	enum device_kernel kernel;
+	enum kernel kernel;
 	int kind; /* -1: camera */
 	double mrays;
 };

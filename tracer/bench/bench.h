@@ -57,14 +57,14 @@ void bench_destroy(struct bench **bench);
  * @param seconds  how long it took
  * @return 0 or ERR_SYSTEM (reported)
  */
-int bench_camera(struct bench *bench, enum device_kernel kernel, double *seconds);
+int bench_camera(struct bench *bench, enum kernel kernel, double *seconds);
 
 /** The rays of one kind through one of the occlude or intersect kernels; rays and trees are on the device already. */
-int bench_rays(struct bench *bench, enum device_kernel kernel, enum bench_ray_kind kind, double *seconds);
+int bench_rays(struct bench *bench, enum kernel kernel, enum bench_ray_kind kind, double *seconds);
 
 /** What the last run gave: how many pixels or rays hit something. @return 0 or ERR_SYSTEM (reported) */
 int bench_count_camera_hits(struct bench *bench, uint32_t *n);
-int bench_count_ray_hits(struct bench *bench, enum device_kernel kernel, enum bench_ray_kind kind, uint32_t *n);
+int bench_count_ray_hits(struct bench *bench, enum kernel kernel, enum bench_ray_kind kind, uint32_t *n);
 
 /* A tree of the bench's mesh. */
 struct bench_tree {

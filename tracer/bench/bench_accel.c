@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "tracer/frame/traverse.h"
 
 enum { BUILD_S, BUILD_CPU_S, CAMERA_S, SHADOW_S, INCOHERENT_S, N_TIMES };
 
@@ -16,26 +17,19 @@ struct row {
 /* Build one kind and send all rays through it. */
 static int measure(struct bench *b, enum accel_kind kind, size_t slot, struct row *row)
 {
-	static const struct {
-		enum device_kernel camera, occlude, intersect;
-	} kernels[] = {
-		[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_packet },
-		[FAMILY_BINARY] = { KERNEL_camera_wide, KERNEL_occlude_binary, KERNEL_intersect_binary },
-		[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed },
-	};
-	const enum device_family family = device_family(b->dev);
+	const struct traverse_kernels *kernels = &traverse_kernels[device_family(b->dev)];
 	double first;
 	int err;
 
 	if ((err = bench_rebuild(b, kind, &row->tree)) ||
 	    /* The first camera rays wait for the tree to be on the device. */
-	    (err = bench_camera(b, kernels[family].camera, &first)) ||
-	    (err = bench_camera(b, kernels[family].camera, &row->times[CAMERA_S][slot])) ||
-	    (err = bench_rays(b, kernels[family].occlude, BENCH_SHADOW, &row->times[SHADOW_S][slot])))
+	    (err = bench_camera(b, kernels->camera, &first)) ||
+	    (err = bench_camera(b, kernels->camera, &row->times[CAMERA_S][slot])) ||
+	    (err = bench_rays(b, kernels->occlude, BENCH_SHADOW, &row->times[SHADOW_S][slot])))
 		return err;
 	row->times[BUILD_S][slot] = row->tree.build_s;
 	row->times[BUILD_CPU_S][slot] = row->tree.build_cpu_s;
-	return bench_rays(b, kernels[family].intersect, BENCH_AMBIENT, &row->times[INCOHERENT_S][slot]);
+	return bench_rays(b, kernels->intersect, BENCH_AMBIENT, &row->times[INCOHERENT_S][slot]);
 }
 
 static void print_row(const struct bench *b, enum accel_kind kind, size_t n, struct row *row, int json, int last)

@@ -5,10 +5,9 @@
 
 #include "base/err.h"
 #include "base/progress.h"
-#include "kernels/camera/camera.h"
-#include "kernels/rays/rays.h"
 #include "tracer/bench/bench.h"
 #include "tracer/accel/bvh.h"
+#include "tracer/frame/traverse.h"
 
 #define NEAR 0.1f
 #define FAR 100.0f
@@ -34,21 +33,19 @@ struct bench_state {
 	struct window_vertex *window;
 	struct fragment *fragments; /* [pixel], of the picture that the other rays start from */
 
-	struct device_buffer *views, *instances, *top2, *top8, *list, *nodes2, *nodes8, *nodes8c, *triangles, *triangles8, *triangles8c, *faces8;
-	struct device_buffer *window_buffer, *clip_buffer, *fragment_buffer, *count_buffer;
-	struct device_buffer *rays[N_BENCH_RAY_KINDS], *results;
+	struct traverse_trees trees;
+	union buffer_view views;
+	union buffer_window_vertex window_buffer;
+	union buffer_float clip_buffer;
+	union buffer_fragment fragment_buffer;
+	union buffer_uint count_buffer;
+	union buffer_ray rays[N_BENCH_RAY_KINDS];
+	struct device_buffer *results; /* hits, or whether there is one */
 };
 
 static int out_of_memory(void)
 {
 	return err_report(ERR_SYSTEM, NULL, "out of memory");
-}
-
-static int upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes)
-{
-	int err = device_reserve(dev, buffer, bytes);
-
-	return err ? err : device_write(dev, *buffer, 0, data, bytes);
 }
 
 static void set_view(struct bench *b)
@@ -128,73 +125,42 @@ static int prepare_frame(struct bench *b)
 	if (err)
 		return err;
 	transform_vertices(b);
-	if ((err = upload(b->dev, &s->views, &b->view, sizeof(b->view))) ||
-	    (err = upload(b->dev, &s->instances, &s->instance, sizeof(s->instance))) ||
-	    (err = upload(b->dev, &s->top2, a->top2, a->n_top2 * sizeof(*a->top2))) ||
-	    (err = upload(b->dev, &s->top8, a->top8, a->n_top8 * sizeof(*a->top8))) ||
-	    (err = upload(b->dev, &s->list, a->instance_list, a->n_instance_list * sizeof(*a->instance_list))) ||
-	    (err = upload(b->dev, &s->window_buffer, s->window, b->mesh.n_vertices * sizeof(*s->window))) ||
-	    (err = upload(b->dev, &s->clip_buffer, s->clip, b->mesh.n_vertices * sizeof(*s->clip))))
+	if ((err = launch_upload(b->dev, s->views, &b->view, 1)) ||
+	    (err = traverse_upload_tops(b->dev, a, &s->instance, 1, &s->trees)) ||
+	    (err = launch_upload(b->dev, s->window_buffer, s->window, b->mesh.n_vertices)) ||
+	    (err = launch_upload(b->dev, s->clip_buffer, s->clip[0], 4 * (size_t)b->mesh.n_vertices)))
 		return err;
 	if (a->generation == s->uploaded)
 		return 0;
 	s->uploaded = a->generation;
-	if ((err = upload(b->dev, &s->nodes2, a->nodes2, a->n_nodes2 * sizeof(*a->nodes2))) ||
-	    (err = upload(b->dev, &s->nodes8, a->nodes8, a->n_nodes8 * sizeof(*a->nodes8))) ||
-	    (err = upload(b->dev, &s->triangles, a->triangles, a->n_triangles * sizeof(*a->triangles))) ||
-	    (err = upload(b->dev, &s->triangles8, a->triangles8, a->n_triangles8 * sizeof(*a->triangles8))) ||
-	    (err = upload(b->dev, &s->faces8, a->faces8, a->n_faces8 * sizeof(*a->faces8))) ||
-	    (err = upload(b->dev, &s->nodes8c, a->nodes8c, a->n_nodes8c * sizeof(*a->nodes8c))) ||
-	    (err = upload(b->dev, &s->triangles8c, a->triangles8c, a->n_triangles8c * sizeof(*a->triangles8c))))
-		return err;
-	return 0;
+	return traverse_upload_pools(b->dev, a, &s->trees);
 }
 
-int bench_camera(struct bench *b, enum device_kernel kernel, double *seconds)
+int bench_camera(struct bench *b, enum kernel kernel, double *seconds)
 {
 	struct bench_state *s = b->state;
-	const uint32_t view = 0, mode = CAMERA_NEAREST_LESS;
 	const struct camera_rectangle r = camera_rectangle(0, 0, (int32_t)b->width, (int32_t)b->height, b->width, b->height);
-	const uint32_t n = kernel == KERNEL_camera_packet ? camera_packet_items(r) : camera_wide_items(r);
-	const int compressed = kernel == KERNEL_camera_compressed, packet = kernel == KERNEL_camera_packet;
 	const double start = progress_clock_s();
 	int err = prepare_frame(b);
 
-	if (!err) {
-		const struct device_arg args[] = {
-			ARG_VALUE(view), ARG_BUFFER(s->views), ARG_VALUE(b->width), ARG_VALUE(b->height), ARG_VALUE(mode),
-			ARG_BUFFER(s->instances), ARG_BUFFER(s->top2), ARG_BUFFER(s->list),
-			ARG_BUFFER(packet ? s->nodes8 : compressed ? s->nodes8c : s->nodes2),
-			ARG_BUFFER(packet ? s->faces8 : compressed ? s->triangles8c : s->triangles), ARG_BUFFER(s->window_buffer),
-			ARG_BUFFER(s->clip_buffer),
-			ARG_BUFFER(s->count_buffer), ARG_BUFFER(s->fragment_buffer), ARG_BUFFER(s->count_buffer),
-		};
-
-		err = device_run(b->dev, kernel, n, args, sizeof(args) / sizeof(args[0]));
-	}
+	if (!err)
+		err = traverse_camera(b->dev, kernel, &s->trees, r,
+		                      LAUNCH(camera_pass, .view_index = 0, .views = s->views, .width = b->width, .height = b->height,
+		                             .mode = CAMERA_NEAREST_LESS, .window = s->window_buffer, .clip = s->clip_buffer,
+		                             .after = s->count_buffer, .fragments = s->fragment_buffer, .counts = s->count_buffer));
 	if (!err)
 		err = device_finish(b->dev);
 	*seconds = progress_clock_s() - start;
 	return err;
 }
 
-int bench_rays(struct bench *b, enum device_kernel kernel, enum bench_ray_kind kind, double *seconds)
+int bench_rays(struct bench *b, enum kernel kernel, enum bench_ray_kind kind, double *seconds)
 {
 	struct bench_state *s = b->state;
-	const int binary = kernel == KERNEL_occlude_binary || kernel == KERNEL_intersect_binary;
-	const int compressed = kernel == KERNEL_occlude_compressed || kernel == KERNEL_intersect_compressed;
-	const uint32_t n = b->n_rays[kind];
-	const uint32_t top_first = binary || compressed ? s->spaces[0].top2_first : s->spaces[0].top8_first;
-	const struct device_arg args[] = {
-		ARG_VALUE(n), ARG_BUFFER(s->rays[kind]), ARG_VALUE(top_first), ARG_BUFFER(binary || compressed ? s->top2 : s->top8),
-		ARG_BUFFER(s->list), ARG_BUFFER(s->instances),
-		ARG_BUFFER(binary ? s->nodes2 : compressed ? s->nodes8c : s->nodes8),
-		ARG_BUFFER(binary ? s->triangles : compressed ? s->triangles8c : s->triangles8), ARG_BUFFER(s->results),
-	};
+	const struct traverse_rays rays = { .space = &s->spaces[0], .n = b->n_rays[kind], .rays = s->rays[kind],
+		                            .occluded = { s->results }, .hits = { s->results } };
 	const double start = progress_clock_s();
-	const int packet = kernel == KERNEL_occlude_packet || kernel == KERNEL_intersect_packet;
-	int err = device_run(b->dev, kernel, packet ? (n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM : n, args,
-	                     sizeof(args) / sizeof(args[0]));
+	int err = traverse_rays(b->dev, kernel, &s->trees, &rays);
 
 	if (!err)
 		err = device_finish(b->dev);
@@ -206,7 +172,7 @@ int bench_count_camera_hits(struct bench *b, uint32_t *n)
 {
 	const size_t pixels = (size_t)b->width * b->height;
 	uint32_t *counts = malloc(pixels * sizeof(*counts));
-	int err = counts ? device_read(b->dev, b->state->count_buffer, 0, counts, pixels * sizeof(*counts)) : out_of_memory();
+	int err = counts ? device_read(b->dev, b->state->count_buffer.buffer, 0, counts, pixels * sizeof(*counts)) : out_of_memory();
 
 	*n = 0;
 	for (size_t i = 0; i < pixels && !err; i++)
@@ -215,7 +181,7 @@ int bench_count_camera_hits(struct bench *b, uint32_t *n)
 	return err;
 }
 
-int bench_count_ray_hits(struct bench *b, enum device_kernel kernel, enum bench_ray_kind kind, uint32_t *n)
+int bench_count_ray_hits(struct bench *b, enum kernel kernel, enum bench_ray_kind kind, uint32_t *n)
 {
 	const int occlude = kernel == KERNEL_occlude_packet || kernel == KERNEL_occlude_wide ||
 	                    kernel == KERNEL_occlude_binary || kernel == KERNEL_occlude_compressed;
@@ -334,7 +300,7 @@ static int derive_rays(struct bench *b)
 {
 	const size_t pixels = (size_t)b->width * b->height;
 	struct bench_state *s = b->state;
-	int err = device_read(b->dev, s->fragment_buffer, 0, s->fragments, pixels * sizeof(*s->fragments));
+	int err = device_read(b->dev, s->fragment_buffer.buffer, 0, s->fragments, pixels * sizeof(*s->fragments));
 
 	if (err)
 		return err;
@@ -345,7 +311,7 @@ static int derive_rays(struct bench *b)
 	}
 	make_rays(b);
 	for (int kind = 0; kind < N_BENCH_RAY_KINDS && !err; kind++)
-		err = upload(b->dev, &s->rays[kind], b->rays[kind], b->n_rays[kind] * sizeof(**b->rays));
+		err = launch_upload(b->dev, s->rays[kind], b->rays[kind], b->n_rays[kind]);
 	return err ? err : device_reserve(b->dev, &s->results, pixels * sizeof(struct hit));
 }
 
@@ -385,8 +351,8 @@ int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width,
 	set_view(b);
 	set_scene(b);
 	if ((err = accel_create(&s->accel)) ||
-	    (err = device_reserve(dev, &s->fragment_buffer, pixels * sizeof(struct fragment))) ||
-	    (err = device_reserve(dev, &s->count_buffer, pixels * sizeof(uint32_t))))
+	    (err = launch_reserve(dev, s->fragment_buffer, pixels)) ||
+	    (err = launch_reserve(dev, s->count_buffer, pixels)))
 		goto fail;
 	s->accel->wide = ACCEL_ROWS | ACCEL_COMPRESSED;
 	b->build_s = progress_clock_s();
@@ -459,13 +425,13 @@ int bench_rebuild(struct bench *b, enum accel_kind kind, struct bench_tree *out)
 static void release_buffers(struct device *dev, struct bench_state *s)
 {
 	struct device_buffer **buffers[] = {
-		&s->views, &s->instances, &s->top2, &s->top8, &s->list, &s->nodes2, &s->nodes8, &s->nodes8c,
-		&s->triangles, &s->triangles8, &s->triangles8c, &s->faces8, &s->window_buffer, &s->clip_buffer, &s->fragment_buffer, &s->count_buffer,
-		&s->rays[BENCH_SHADOW], &s->rays[BENCH_AMBIENT], &s->results,
+		&s->views.buffer, &s->window_buffer.buffer, &s->clip_buffer.buffer, &s->fragment_buffer.buffer, &s->count_buffer.buffer,
+		&s->rays[BENCH_SHADOW].buffer, &s->rays[BENCH_AMBIENT].buffer, &s->results,
 	};
 
 	for (size_t i = 0; i < sizeof(buffers) / sizeof(buffers[0]); i++)
 		device_release(dev, buffers[i]);
+	traverse_release(dev, &s->trees);
 }
 
 void bench_destroy(struct bench **bench)

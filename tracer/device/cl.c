@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "tracer/device/cl_program.h"
-#include "tracer/device/kernels.h"
+#include "kernels/embed.h"
 
 /* Not in the core header: what the ICD loader says when no driver is installed. */
 #define CL_PLATFORM_NOT_FOUND (-1001)
@@ -37,7 +37,7 @@ struct cl_common {
 struct cl_device {
 	struct cl_common *common;
 	cl_command_queue queue;
-	cl_kernel kernels[N_DEVICE_KERNELS]; /* of its own: arguments are part of a kernel object */
+	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
 	int cpu;
 };
 
@@ -317,7 +317,7 @@ void cl_close(struct cl_device **dev)
 	*dev = NULL;
 	if (!d)
 		return;
-	for (size_t i = 0; i < N_DEVICE_KERNELS; i++)
+	for (size_t i = 0; i < N_KERNELS; i++)
 		if (d->kernels[i])
 			clReleaseKernel(d->kernels[i]);
 	if (d->queue)
@@ -442,8 +442,9 @@ unsigned cl_programs_found(struct cl_device *dev)
 	return n;
 }
 
-static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const char *name)
+static int make_kernel(struct cl_device *dev, enum kernel kernel)
 {
+	const char *name = kernel_entries[kernel].name;
 	cl_int code;
 	int err;
 
@@ -461,8 +462,7 @@ static int make_kernel(struct cl_device *dev, enum device_kernel kernel, const c
 	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
 }
 
-int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, size_t n_items,
-           const struct cl_arg *args, size_t n_args)
+int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args)
 {
 	const size_t local = dev->cpu ? GROUP_CPU : GROUP_GPU;
 	const size_t global = (n_items + local - 1) / local * local;
@@ -473,7 +473,7 @@ int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, s
 	if (n_items == 0)
 		return 0;
 	if (!dev->kernels[kernel]) {
-		err = make_kernel(dev, kernel, name);
+		err = make_kernel(dev, kernel);
 		if (err)
 			return err;
 	}
@@ -483,13 +483,13 @@ int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, s
 		else
 			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, args[i].bytes, args[i].value);
 		if (code != CL_SUCCESS) {
-			snprintf(what, sizeof(what), "kernel %s, argument %zu", name, i);
+			snprintf(what, sizeof(what), "kernel %s, argument %zu", kernel_entries[kernel].name, i);
 			return cl_report(code, what);
 		}
 	}
 	code = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel], 1, NULL, &global, &local, 0, NULL, NULL);
 	if (code != CL_SUCCESS) {
-		snprintf(what, sizeof(what), "kernel %s", name);
+		snprintf(what, sizeof(what), "kernel %s", kernel_entries[kernel].name);
 		return cl_report(code, what);
 	}
 	return 0;

@@ -47,7 +47,6 @@ struct cl_arg {
 };
 
 /** Queue a kernel; its program is compiled at its first use. @return 0 or ERR_SYSTEM (reported) */
-int cl_run(struct cl_device *dev, enum device_kernel kernel, const char *name, size_t n_items,
-           const struct cl_arg *args, size_t n_args);
+int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "base/err.h"
 #include "base/kept.h"
-#include "tracer/device/kernels.h"
+#include "kernels/embed.h"
 
 /* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";

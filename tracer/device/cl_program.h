@@ -23,7 +23,7 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
 
 /**
  * Make the program of one file of kernels.
- * @param file     in kernel_files (tracer/device/kernels.h)
+ * @param file     in kernel_files (kernels/embed.h)
  * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
  * @param out      to be released by the caller
  * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)

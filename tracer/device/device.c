@@ -13,20 +13,7 @@
 #include "base/err.h"
 #include "tracer/device/cl.h"
 
-#define MAX_ARGS 32
 #define MAX_THREADS 64
-
-/* The twins, kernels/ref/. */
-#define DECLARE_TWIN(name) extern device_twin name##_c;
-DEVICE_KERNELS(DECLARE_TWIN)
-
-static const struct {
-	const char *name;
-	device_twin *twin;
-} kernels[N_DEVICE_KERNELS] = {
-#define KERNEL_ENTRY(name) { #name, name##_c },
-	DEVICE_KERNELS(KERNEL_ENTRY)
-};
 
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
@@ -341,11 +328,6 @@ void device_set_profile(struct device *dev, struct device_profile *profile)
 	dev->profile = profile;
 }
 
-const char *device_kernel_name(enum device_kernel kernel)
-{
-	return kernels[kernel].name;
-}
-
 /* --- Copies and launches ------------------------------------------------------------------------------------------- */
 
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)
@@ -380,10 +362,17 @@ int device_read(struct device *dev, const struct device_buffer *buffer, size_t o
 	return err;
 }
 
+int device_upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes)
+{
+	int err = device_reserve(dev, buffer, bytes);
+
+	return err || bytes == 0 ? err : device_write(dev, *buffer, 0, data, bytes);
+}
+
 /* A share of a launch on the reference device. Work items do not depend on each other. */
 struct share {
-	device_twin *twin;
-	const void *const *args;
+	kernel_twin *twin;
+	void *const *args;
 	size_t first, last;
 	pthread_t thread;
 };
@@ -396,17 +385,16 @@ static void *run_share(void *arg)
 	return NULL;
 }
 
-static int run_reference(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
-                         size_t n_args)
+static int run_reference(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
 {
-	const void *pointers[MAX_ARGS];
+	void *pointers[DEVICE_MAX_ARGS];
 	struct share shares[MAX_THREADS];
 	unsigned n_started = 0;
 
 	for (size_t i = 0; i < n_args; i++)
-		pointers[i] = args[i].buffer ? args[i].buffer->memory : args[i].value;
+		pointers[i] = args[i].buffer ? args[i].buffer->memory : (void *)args[i].value;
 	for (unsigned i = 0; i < dev->threads; i++) {
-		shares[i] = (struct share){ kernels[kernel].twin, pointers, n_items * i / dev->threads,
+		shares[i] = (struct share){ kernel_entries[kernel].twin, pointers, n_items * i / dev->threads,
 			                    n_items * (i + 1) / dev->threads, 0 };
 		/* The last share, and any that gets no thread, runs here. */
 		if (i + 1 < dev->threads && pthread_create(&shares[n_started].thread, NULL, run_share, &shares[i]) == 0)
@@ -419,18 +407,16 @@ static int run_reference(struct device *dev, enum device_kernel kernel, size_t n
 	return 0;
 }
 
-static int run_cl(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
-                  size_t n_args)
+static int run_cl(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
 {
-	struct cl_arg cl_args[MAX_ARGS];
+	struct cl_arg cl_args[DEVICE_MAX_ARGS];
 
 	for (size_t i = 0; i < n_args; i++)
 		cl_args[i] = (struct cl_arg){ args[i].buffer ? args[i].buffer->cl : NULL, args[i].value, args[i].bytes };
-	return cl_run(dev->cl, kernel, kernels[kernel].name, n_items, cl_args, n_args);
+	return cl_run(dev->cl, kernel, n_items, cl_args, n_args);
 }
 
-int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
-               size_t n_args)
+int device_run(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
 {
 	struct device_spent begun;
 	int err;
@@ -439,8 +425,6 @@ int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, co
 		return ERR_SYSTEM;
 	if (n_items == 0)
 		return 0;
-	if (n_args > MAX_ARGS)
-		return err_report(ERR_SYSTEM, kernels[kernel].name, "too many arguments");
 	begun = begin(dev);
 	err = dev->cl ? run_cl(dev, kernel, n_items, args, n_args) : run_reference(dev, kernel, n_items, args, n_args);
 	if (!err && dev->profile)

@@ -1,10 +1,6 @@
 /*
  * A device: where kernels run and buffers live. Either an OpenCL device, or "reference": the scalar C twins of
  * kernels/ref, in this process. The tracer is written once against this header and does not know which one it has.
- *
- * Every kernel has an enumerator, one OpenCL function "NAME" and one C twin "NAME_c" that does the work items
- * first .. last-1. Both take the same arguments in the same order; the kernel's own header comment is their
- * specification. Work items beyond the count given must do nothing: OpenCL rounds the global size up to work groups.
  */
 #ifndef TRACER_DEVICE_DEVICE_H
 #define TRACER_DEVICE_DEVICE_H
@@ -12,51 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* X(name): kernel NAME in kernels/, twin NAME_c in kernels/ref/. */
-#define DEVICE_KERNELS(X) \
-	X(camera_packet)    /* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
-	X(camera_wide)      /* the same, one pixel a work item (GPUs) */ \
-	X(camera_compressed) /* the same, compressed nodes */ \
-	X(occlude_packet)   /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
-	X(occlude_wide)     /* the same, one ray a work item */ \
-	X(intersect_packet) /* nearest hit, a packet a work item */ \
-	X(intersect_wide)   /* the same, one ray a work item */ \
-	X(occlude_binary)   /* one ray a work item, in numbers alone (GPUs): BVH2 */ \
-	X(intersect_binary) \
-	X(occlude_compressed) /* the same, compressed nodes */ \
-	X(intersect_compressed) \
-	X(vertex)           /* GL's vertex stage: one vertex of one instance a work item */ \
-	X(gather)           /* one pixel a work item: its fragments into one dense list */ \
-	X(shade)            /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
-	X(shade_packet)     /* the same, consecutive fragments a work item (CPUs) */ \
-	X(shadow_ray)       /* one fragment a work item: its ray to one light */ \
-	X(shadow_ray_packet) /* the same, consecutive ones a work item (CPUs) */ \
-	X(hit_ray)          /* one hit of a path a work item: its ray to one light */ \
-	X(ao_ray)           /* one fragment a work item: a look around */ \
-	X(shadow_sum)       /* one ray to a light a work item: what arrives where nothing stopped it */ \
-	X(shadow_start)     /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
-	X(shadow_walk)      /* one of these a work item: past what it hit */ \
-	X(scan_sum)         /* a chunk of counts a work item: their sum */ \
-	X(scan_place)       /* the same: where each count's results go */ \
-	X(gather_paths)     /* one path a work item: its next rays into one dense list */ \
-	X(leave)            /* one fragment a work item: its mirrored, bent and scattered rays */ \
-	X(sky_ray)          /* one path a work item: its look at the sky where it hit nothing */ \
-	X(want_lights)      /* one path a work item: lights to be asked for at its hit */ \
-	X(shade_hit)        /* one path a work item: the colour it found and its next rays */ \
-	X(credit)           /* one path a work item: what it found into its fragment */ \
-	X(ao_shade)         /* one fragment a work item: its openness as its colour */ \
-	X(clear)            /* one pixel a work item: a Clear */ \
-	X(resolve)          /* one pixel a work item: per-fragment operations in draw order */ \
-	X(merge_samples)    /* one pixel a work item: its samples into one */ \
-	X(add_pass)         /* one pixel a work item: a pass of several to their sum */ \
-	X(compose)          /* one pixel a work item: the planes of the finished picture */ \
-	X(compose_packet)   /* the same, several pixels a work item (CPUs) */
-
-enum device_kernel {
-#define DEVICE_KERNEL_ENUM(name) KERNEL_##name,
-	DEVICE_KERNELS(DEVICE_KERNEL_ENUM)
-	N_DEVICE_KERNELS
-};
+#include "kernels/kernels.h"
 
 /*
  * Families of traversal kernels: what runs fast differs by kind of device. All find the same.
@@ -79,13 +31,7 @@ struct device_arg {
 	const void *value;                  /* of `bytes` bytes, copied at the launch */
 	size_t bytes;
 };
-#define ARG_BUFFER(b) ((struct device_arg){ .buffer = (b) })
-#define ARG_VALUE(v) ((struct device_arg){ .value = &(v), .bytes = sizeof(v) })
-
-/*
- * A C twin: does work items first .. last-1. args[i] points to the buffer's memory, or to the value.
- */
-typedef void device_twin(const void *const *args, size_t first, size_t last);
+#define DEVICE_MAX_ARGS 32
 
 struct device;
 struct device_buffer; /* memory on one device */
@@ -183,13 +129,11 @@ void device_release(struct device *dev, struct device_buffer **buffer);
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes);
 
-/**
- * Queue a kernel; kernels of a device run one after the other, in the order queued.
- * @param n_items  work items; 0: nothing is queued
- * @return 0 or ERR_SYSTEM (reported: kernel, OpenCL's error by name)
- */
-int device_run(struct device *dev, enum device_kernel kernel, size_t n_items, const struct device_arg *args,
-               size_t n_args);
+/** Reserve for so many bytes and write them to the buffer's start. */
+int device_upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes);
+
+/** For launch.c alone, which knows kernels' arguments. As its functions. @param n_args  DEVICE_MAX_ARGS at most */
+int device_run(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args);
 
 /** Wait until everything queued is done. @return 0 or ERR_SYSTEM (reported) */
 int device_finish(struct device *dev);
@@ -201,7 +145,7 @@ struct device_spent {
 };
 
 struct device_profile {
-	struct device_spent kernels[N_DEVICE_KERNELS], writes, reads;
+	struct device_spent kernels[N_KERNELS], writes, reads;
 };
 
 /**
@@ -209,6 +153,5 @@ struct device_profile {
  * @param profile  kept and written until the next call; NULL: no longer
  */
 void device_set_profile(struct device *dev, struct device_profile *profile);
-const char *device_kernel_name(enum device_kernel kernel);
 
 #endif

@@ -74,18 +74,14 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 static int run_compose(struct job *job, const struct compose_request *r)
 {
 	struct tracer *tr = job->tr;
-	int packets = device_family(tr->dev) == FAMILY_PACKETS;
-	struct launch l = launch_with_tables(tr);
+	const struct frame_buffers *b = &tr->buffers;
+	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows, .frame = b->frame,
+	                                        .sums = b->sums, .request = *r, .n = job->n_pixels, .halves = b->halves,
+	                                        .floats = b->floats);
 
-	add(&l, tr, BUFFER_WINDOWS);
-	add(&l, tr, BUFFER_FRAME);
-	add(&l, tr, BUFFER_SUMS);
-	add_bytes(&l, r, sizeof(*r));
-	add_uint(&l, &job->n_pixels);
-	add(&l, tr, BUFFER_HALVES);
-	add(&l, tr, BUFFER_FLOATS);
-	return run(tr, packets ? KERNEL_compose_packet : KERNEL_compose,
-	           packets ? (job->n_pixels + COMPOSE_PACKET - 1) / COMPOSE_PACKET : job->n_pixels, &l);
+	if (device_family(tr->dev) == FAMILY_PACKETS)
+		return launch_compose_packet(tr->dev, (job->n_pixels + COMPOSE_PACKET - 1) / COMPOSE_PACKET, a);
+	return launch_compose(tr->dev, job->n_pixels, a);
 }
 
 /* One plane from the device into a channel of its own. */
@@ -101,19 +97,19 @@ static int fetch(struct job *job, const struct channel *c, const struct compose_
 	plane = c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name);
 	if (!plane)
 		return ERR_SYSTEM;
-	return device_read(tr->dev, tr->buffers[c->full ? BUFFER_FLOATS : BUFFER_HALVES], place * bytes, plane, bytes);
+	return device_read(tr->dev, c->full ? tr->buffers.floats.buffer : tr->buffers.halves.buffer, place * bytes, plane, bytes);
 }
 
 int compose_image(struct job *job, struct image *img)
 {
 	uint32_t halves, floats;
 	struct compose_request r = request_of(job, &halves, &floats);
-	int err = reserve(job->tr, BUFFER_HALVES, (size_t)halves * job->n_pixels, sizeof(uint16_t));
+	int err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
 
 	if (!err)
-		err = reserve(job->tr, BUFFER_FLOATS, (size_t)floats * job->n_pixels, sizeof(float));
+		err = frame_reserve(job->tr, floats, (size_t)floats * job->n_pixels);
 	if (!err)
-		err = reserve(job->tr, BUFFER_SUMS, 1, sizeof(float));
+		err = frame_reserve(job->tr, sums, 1);
 	if (!err)
 		err = run_compose(job, &r);
 	for (size_t i = 0; i < N_CHANNELS && !err; i++)

@@ -6,7 +6,7 @@
 #include "tracer/image/image.h"
 
 /**
- * @param job  its frame stands in BUFFER_FRAME, the sums of all passes but this one, where there were several, in BUFFER_SUMS
+ * @param job  its frame stands in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums
  * @param img  width and height set; receives the channels
  * @return 0 or ERR_SYSTEM (reported)
  */

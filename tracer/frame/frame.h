@@ -13,23 +13,25 @@
 #include "tracer/frame/pool.h"
 #include "tracer/frame/prepare.h"
 #include "tracer/frame/trace.h"
+#include "tracer/frame/traverse.h"
 
-/* The buffers of a frame that are not pools. */
-enum buffer {
-	BUFFER_GEOMETRIES, BUFFER_MATERIALS, BUFFER_LIGHTS, BUFFER_UNITS, BUFFER_CURRENTS, BUFFER_STIPPLES,
-	BUFFER_TEXTURES, BUFFER_VIEWS, BUFFER_INSTANCES,
-	BUFFER_OWNER, BUFFER_VERTICES, BUFFER_TEXCOORDS, BUFFER_WINDOWS, BUFFER_CLIPS,
-	BUFFER_NODES2, BUFFER_NODES8, BUFFER_NODES8C, BUFFER_TRIANGLES, BUFFER_TRIANGLES8, BUFFER_TRIANGLES8C, BUFFER_FACES8,
-	BUFFER_TOP2, BUFFER_TOP8, BUFFER_INSTANCE_LIST,
-	BUFFER_AFTER, BUFFER_SPARSE, BUFFER_COUNTS, BUFFER_FIRST,
-	BUFFER_FRAGMENTS, BUFFER_PIXELS, BUFFER_SHADED,
-	BUFFER_RAYS, BUFFER_STOPPED, BUFFER_ARRIVING, BUFFER_WANTED, BUFFER_BACKGROUND, BUFFER_PLACES, BUFFER_SCAN,
-	BUFFER_PATHS, BUFFER_PATH_RAYS, BUFFER_PATH_HITS, BUFFER_NEXT_PATHS, BUFFER_NEXT_RAYS, BUFFER_NEXT_COUNTS,
-	BUFFER_SKY_RAYS, BUFFER_SKY_HITS, BUFFER_GIVEN,
-	BUFFER_WALKERS, BUFFER_WALK_RAYS, BUFFER_WALK_HITS, BUFFER_NEXT_WALKERS, BUFFER_NEXT_WALK_RAYS,
-	BUFFER_FRAME, /* where pixels have several samples, each one's own: */ BUFFER_SAMPLE1, BUFFER_SAMPLE2, BUFFER_SAMPLE3, BUFFER_SAMPLE4,
-	BUFFER_SUMS, BUFFER_HALVES, BUFFER_FLOATS,
-	N_BUFFERS
+/* X(element, name): the buffers of a frame that are neither pools nor trees. */
+#define FRAME_BUFFERS(X) \
+	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
+	X(uint, stipples) X(texture_image, textures) X(view, views) \
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) \
+	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
+	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
+	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) X(uint, scan) \
+	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
+	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
+	X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
+	X(float, sums) X(half, halves) X(float, floats)
+
+struct frame_buffers {
+#define FRAME_FIELD(element, name) union buffer_##element name;
+	FRAME_BUFFERS(FRAME_FIELD)
+	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: where pixels have several, each one's own */
 };
 
 struct tracer {
@@ -37,11 +39,12 @@ struct tracer {
 	struct accel *accel;
 	size_t tree_room[N_BLAS_PARTS]; /* of the buffers of meshes' trees, items */
 	struct pool attributes, indices, texels;
-	struct device_buffer *buffers[N_BUFFERS];
+	struct traverse_trees trees;
+	struct frame_buffers buffers;
 	uint32_t *counts, *first; /* [pixels], host copies */
 	size_t n_counted;
 	struct tracer_undrawn undrawn;
-	uint64_t drawn_serial, drawn_events; /* scene whose pixels BUFFER_FRAME holds: serial, and how many events it had */
+	uint64_t drawn_serial, drawn_events; /* scene whose pixels buffers.frame holds: serial, and how many events it had */
 };
 
 /* One frame on its way. */
@@ -57,7 +60,7 @@ struct job {
 	uint32_t width, height, n_pixels;
 	uint32_t bits; /* of the frame buffer, and the sample that is drawn: see pixel_depth_bits */
 	uint32_t n_samples; /* of a pixel in this pass: 1 or SCENE_SAMPLES */
-	enum buffer frame;  /* the sample's that is drawn */
+	union buffer_frame_pixel *frame; /* the sample's that is drawn */
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; 0 is its centre, and the last to be traced */
 	uint32_t turn;           /* of other passes: which pixels take part (sample_turn) */
@@ -88,7 +91,7 @@ const struct accel_space *space_of_view(const struct job *job, uint32_t view, in
 /** How points are lit and where their rays go: TRANSPORT_*. */
 uint32_t transport_of(const struct tracer_options *options);
 
-/** Ask all lights from all n fragments of the list: BUFFER_ARRIVING[slot][fragment], three shares each. */
+/** Ask all lights from all n fragments of the list: buffers.visibility[slot][fragment], three shares each. */
 int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n);
 
 /** How open the surroundings of all n fragments are, in place of their colours or over them. */
@@ -99,67 +102,11 @@ int trace_paths(struct job *job, const struct accel_space *space, const struct a
 
 /* --- Small change ------------------------------------------------------------------------------------------------- */
 
-static inline int reserve(struct tracer *tr, enum buffer buffer, size_t count, size_t size)
-{
-	return device_reserve(tr->dev, &tr->buffers[buffer], count * size);
-}
+/* Room for `count` elements in one of the tracer's buffers, by its name; and their content. */
+#define frame_reserve(tr, name, count) launch_reserve((tr)->dev, (tr)->buffers.name, count)
+#define frame_upload(tr, name, data, count) launch_upload((tr)->dev, (tr)->buffers.name, data, count)
 
-static inline int upload(struct tracer *tr, enum buffer buffer, const void *data, size_t count, size_t size)
-{
-	int err = reserve(tr, buffer, count, size);
-
-	return err || count == 0 ? err : device_write(tr->dev, tr->buffers[buffer], 0, data, count * size);
-}
-
-/* Arguments of a launch, counted as they are added. */
-struct launch {
-	struct device_arg args[32];
-	size_t n;
-};
-
-static inline void add_buffer(struct launch *l, const struct device_buffer *buffer)
-{
-	l->args[l->n++] = ARG_BUFFER(buffer);
-}
-
-static inline void add(struct launch *l, const struct tracer *tr, enum buffer buffer)
-{
-	add_buffer(l, tr->buffers[buffer]);
-}
-
-static inline void add_bytes(struct launch *l, const void *value, size_t bytes)
-{
-	l->args[l->n++] = (struct device_arg){ .value = value, .bytes = bytes };
-}
-
-static inline void add_uint(struct launch *l, const uint32_t *value)
-{
-	add_bytes(l, value, sizeof(*value));
-}
-
-/* The tables that every shading kernel takes first (kernels/gl/tables.h). */
-static inline struct launch launch_with_tables(const struct tracer *tr)
-{
-	struct launch l = { .n = 0 };
-
-	add(&l, tr, BUFFER_GEOMETRIES);
-	add(&l, tr, BUFFER_MATERIALS);
-	add(&l, tr, BUFFER_LIGHTS);
-	add(&l, tr, BUFFER_UNITS);
-	add(&l, tr, BUFFER_CURRENTS);
-	add_buffer(&l, tr->attributes.buffer);
-	add_buffer(&l, tr->indices.buffer);
-	add(&l, tr, BUFFER_VERTICES);
-	add(&l, tr, BUFFER_TEXCOORDS);
-	add(&l, tr, BUFFER_TEXTURES);
-	add_buffer(&l, tr->texels.buffer);
-	add(&l, tr, BUFFER_STIPPLES);
-	return l;
-}
-
-static inline int run(struct tracer *tr, enum device_kernel kernel, size_t n, const struct launch *l)
-{
-	return device_run(tr->dev, kernel, n, l->args, l->n);
-}
+/** What every shading kernel takes. */
+struct tables_launch frame_tables(const struct tracer *tr);
 
 #endif

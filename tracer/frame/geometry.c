@@ -12,28 +12,22 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 {
 	struct tracer *tr = job->tr;
 	struct prepared *p = &job->prepared;
+	const struct frame_buffers *b = &tr->buffers;
 	size_t n = (size_t)p->n_vertices + extra_vertices;
-	struct launch l;
-	int err = reserve(tr, BUFFER_VERTICES, n, sizeof(struct shaded_vertex));
+	int err = frame_reserve(tr, vertices, n);
 
 	if (!err)
-		err = reserve(tr, BUFFER_WINDOWS, n, sizeof(struct window_vertex));
+		err = frame_reserve(tr, windows, n);
 	if (!err)
-		err = reserve(tr, BUFFER_CLIPS, n, 4 * sizeof(float));
+		err = frame_reserve(tr, clips, 4 * n);
 	if (!err)
-		err = reserve(tr, BUFFER_TEXCOORDS, (size_t)p->n_texcoords + extra_texcoords, 4 * sizeof(float));
+		err = frame_reserve(tr, texcoords, 4 * ((size_t)p->n_texcoords + extra_texcoords));
 	if (err)
 		return err;
-	l = launch_with_tables(tr);
-	add(&l, tr, BUFFER_VIEWS);
-	add(&l, tr, BUFFER_OWNER);
-	add_uint(&l, &job->height);
-	add_uint(&l, &p->n_vertices);
-	add(&l, tr, BUFFER_VERTICES);
-	add(&l, tr, BUFFER_WINDOWS);
-	add(&l, tr, BUFFER_CLIPS);
-	add(&l, tr, BUFFER_TEXCOORDS);
-	return run(tr, KERNEL_vertex, p->n_vertices, &l);
+	return launch_vertex(tr->dev, p->n_vertices,
+	                     LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height,
+	                            .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows, .clips = b->clips,
+	                            .coords = b->texcoords));
 }
 
 static int upload_vertex_stage(struct job *job)
@@ -43,11 +37,11 @@ static int upload_vertex_stage(struct job *job)
 	int err = place_attributes(job);
 
 	if (!err)
-		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
 	if (!err)
-		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+		err = frame_upload(tr, views, p->views, p->n_views);
 	if (!err)
-		err = upload(tr, BUFFER_OWNER, p->owner, p->n_vertices, sizeof(*p->owner));
+		err = frame_upload(tr, owners, p->owner, p->n_vertices);
 	if (!err)
 		err = device_reserve(tr->dev, &tr->indices.buffer, sizeof(uint32_t));
 	return err;
@@ -77,10 +71,10 @@ static int expand_instance(struct job *job, uint32_t i)
 	if (!vertices || !texcoords)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err && n)
-		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		err = device_read(job->tr->dev, job->tr->buffers.vertices.buffer, g->vertex_first * sizeof(*vertices),
 		                  vertices, n * sizeof(*vertices));
 	if (!err && n_coords)
-		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_TEXCOORDS], g->texcoord_first * sizeof(*texcoords),
+		err = device_read(job->tr->dev, job->tr->buffers.texcoords.buffer, g->texcoord_first * sizeof(*texcoords),
 		                  texcoords, n_coords * sizeof(*texcoords));
 	if (!err)
 		err = expand_primitives(&in, &job->expanded[i]);
@@ -98,7 +92,7 @@ static int write_clips(struct tracer *tr, uint32_t first, const struct expanded 
 	for (uint32_t v = 0; v < e->n_vertices && !err; v++)
 		memcpy(clips[v], e->vertices[v].clip, sizeof(*clips));
 	if (!err)
-		err = device_write(tr->dev, tr->buffers[BUFFER_CLIPS], first * sizeof(*clips), clips, e->n_vertices * sizeof(*clips));
+		err = device_write(tr->dev, tr->buffers.clips.buffer, first * sizeof(*clips), clips, e->n_vertices * sizeof(*clips));
 	free(clips);
 	return err;
 }
@@ -131,15 +125,15 @@ static int upload_expanded(struct job *job)
 		g->texcoord_first = texcoord;
 		if (e->n_vertices == 0)
 			continue;
-		err = device_write(tr->dev, tr->buffers[BUFFER_VERTICES], vertex * sizeof(*e->vertices), e->vertices,
+		err = device_write(tr->dev, tr->buffers.vertices.buffer, vertex * sizeof(*e->vertices), e->vertices,
 		                   e->n_vertices * sizeof(*e->vertices));
 		if (!err)
-			err = device_write(tr->dev, tr->buffers[BUFFER_WINDOWS], vertex * sizeof(*e->windows), e->windows,
+			err = device_write(tr->dev, tr->buffers.windows.buffer, vertex * sizeof(*e->windows), e->windows,
 			                   e->n_vertices * sizeof(*e->windows));
 		if (!err)
 			err = write_clips(tr, vertex, e);
 		if (!err && e->n_texcoords)
-			err = device_write(tr->dev, tr->buffers[BUFFER_TEXCOORDS], texcoord * sizeof(*e->texcoords),
+			err = device_write(tr->dev, tr->buffers.texcoords.buffer, texcoord * sizeof(*e->texcoords),
 			                   e->texcoords, e->n_texcoords * sizeof(*e->texcoords));
 		vertex += e->n_vertices;
 		texcoord += e->n_texcoords;
@@ -189,7 +183,7 @@ static int read_baked(struct job *job, float (**out)[4])
 			free(vertices);
 			return err_report(ERR_SYSTEM, NULL, "out of memory");
 		}
-		err = device_read(job->tr->dev, job->tr->buffers[BUFFER_VERTICES], g->vertex_first * sizeof(*vertices),
+		err = device_read(job->tr->dev, job->tr->buffers.vertices.buffer, g->vertex_first * sizeof(*vertices),
 		                  vertices, g->vertex_count * sizeof(*vertices));
 		for (uint32_t v = 0; v < g->vertex_count; v++)
 			memcpy((*out)[g->vertex_first + v], vertices[v].eye, sizeof(**out));
@@ -249,13 +243,11 @@ static int build_trees(struct job *job)
 		                        p->n_instances, p->views, &job->spaces, &job->n_spaces);
 	free(baked);
 	if (!err)
-		err = upload(tr, BUFFER_INSTANCES, p->instances, p->n_instances, sizeof(*p->instances));
-	if (!err)
-		err = upload(tr, BUFFER_VIEWS, p->views, p->n_views, sizeof(*p->views));
+		err = frame_upload(tr, views, p->views, p->n_views);
 	if (!err)
 		err = place_indices(job);
 	if (!err)
-		err = upload(tr, BUFFER_GEOMETRIES, p->geometries, p->n_instances, sizeof(*p->geometries));
+		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
 	if (!err)
 		err = upload_trees(job);
 	return err;

@@ -8,12 +8,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "tracer/device/device.h"
+#include "tracer/device/launch.h"
 
 struct pool_entry;
 
 struct pool {
-	struct device_buffer *buffer; /* 4-byte words */
+	union { /* 4-byte words */
+		struct device_buffer *buffer;
+		union buffer_uint words;
+		union buffer_float floats;
+	};
 	size_t capacity, used;        /* words */
 	struct pool_entry *entries;   /* hash table, open addressing */
 	size_t n_entries, n_slots;

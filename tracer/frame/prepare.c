@@ -302,7 +302,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		p->n_light_slots = m->surface.light_count;
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
 	if (instance->flags & INSTANCE_SECONDARY)
-		p->has_veils |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
+		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
 		                m->surface.hidden;
 }
 

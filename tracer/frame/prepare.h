@@ -43,7 +43,7 @@ struct prepared {
 	uint8_t *skies;       /* [scene's instances]: 1 where it is a sky */
 	uint32_t n_light_slots; /* most lights in any lit material */
 	int has_mirrors; /* a surface mirrors or lets light through */
-	int has_veils;   /* what stops a ray to a light may let some of it pass */
+	int has_transparency;   /* what stops a ray to a light may let some of it pass */
 };
 
 /**

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "tracer/device/device.h"
+#include "tracer/device/launch.h"
 
 /**
  * Where n items' results begin when they stand densely, in the items' order.
@@ -14,7 +14,7 @@
  * @param total    receives how many results there are; places are written only where there are some
  * @return 0 or ERR_SYSTEM (reported)
  */
-int scan_counts(struct device *dev, const struct device_buffer *counts, uint32_t n, struct device_buffer **places,
-                struct device_buffer **scratch, uint32_t *total);
+int scan_counts(struct device *dev, union buffer_uint counts, uint32_t n, union buffer_uint *places, union buffer_uint *scratch,
+                uint32_t *total);
 
 #endif

@@ -1,10 +1,9 @@
 /* Rays from the fragments of the list: to the lights, into the surroundings, from mirror to mirror and through glass. */
-#include "kernels/rays/rays.h"
 #include "tracer/frame/frame.h"
 #include "tracer/frame/scan.h"
 
 /* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
-#define MOST_VEILS 32u
+#define MOST_LAYERS 32u
 
 const struct accel_space *space_of_view(const struct job *job, uint32_t view, int sky)
 {
@@ -24,178 +23,157 @@ uint32_t transport_of(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
-/* Kernels for any hit and for the nearest, and what they walk. */
-static const struct {
-	enum device_kernel occlude, intersect;
-	uint32_t rays_per_item;
-	enum buffer top, nodes, triangles;
-} ray_kernels[N_DEVICE_FAMILIES] = {
-	[FAMILY_PACKETS] = { KERNEL_occlude_packet, KERNEL_intersect_packet, RAYS_PER_ITEM, BUFFER_TOP8, BUFFER_NODES8,
-		             BUFFER_TRIANGLES8 },
-	[FAMILY_BINARY] = { KERNEL_occlude_binary, KERNEL_intersect_binary, 1, BUFFER_TOP2, BUFFER_NODES2, BUFFER_TRIANGLES },
-	[FAMILY_COMPRESSED] = { KERNEL_occlude_compressed, KERNEL_intersect_compressed, 1, BUFFER_TOP2, BUFFER_NODES8C,
-		                BUFFER_TRIANGLES8C },
-};
-
-/* Trace n rays through a space, for any hit or for the nearest. */
-static int trace_rays(struct job *job, const struct accel_space *space, enum buffer rays, enum buffer results, uint32_t n,
-                      int occlude)
+/* Which of n rays meet anything in a space. */
+static int occlude(struct job *job, const struct accel_space *space, union buffer_ray rays, union buffer_uint occluded, uint32_t n)
 {
-	struct tracer *tr = job->tr;
-	enum device_family family = device_family(tr->dev);
-	uint32_t top = family == FAMILY_PACKETS ? space->top8_first : space->top2_first;
-	uint32_t rays_per_item = ray_kernels[family].rays_per_item;
-	struct launch l = { .n = 0 };
+	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .occluded = occluded };
+	struct device *dev = job->tr->dev;
 
-	add_uint(&l, &n);
-	add(&l, tr, rays);
-	add_uint(&l, &top);
-	add(&l, tr, ray_kernels[family].top);
-	add(&l, tr, BUFFER_INSTANCE_LIST);
-	add(&l, tr, BUFFER_INSTANCES);
-	add(&l, tr, ray_kernels[family].nodes);
-	add(&l, tr, ray_kernels[family].triangles);
-	add(&l, tr, results);
-	return run(tr, occlude ? ray_kernels[family].occlude : ray_kernels[family].intersect,
-	           (n + rays_per_item - 1) / rays_per_item, &l);
+	return traverse_rays(dev, traverse_kernels[device_family(dev)].occlude, &job->tr->trees, &r);
+}
+
+/* Their nearest hits. */
+static int intersect(struct job *job, const struct accel_space *space, union buffer_ray rays, union buffer_hit hits, uint32_t n)
+{
+	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
+	struct device *dev = job->tr->dev;
+
+	return traverse_rays(dev, traverse_kernels[device_family(dev)].intersect, &job->tr->trees, &r);
 }
 
 /* --- Lists -------------------------------------------------------------------------------------------------------- */
 
-/* Two buffers of paths and their rays: the list, and places for what comes of it. */
+/* A list of paths and their rays, and room for what comes of it. */
 struct list {
-	enum buffer paths, rays, next_paths, next_rays;
+	union buffer_path *paths, *next_paths;
+	union buffer_ray *rays, *next_rays;
 };
 
-static const struct list path_list = { BUFFER_PATHS, BUFFER_PATH_RAYS, BUFFER_NEXT_PATHS, BUFFER_NEXT_RAYS };
-static const struct list walk_list = { BUFFER_WALKERS, BUFFER_WALK_RAYS, BUFFER_NEXT_WALKERS, BUFFER_NEXT_WALK_RAYS };
-
-static int reserve_list(struct job *job, enum buffer paths, enum buffer rays, size_t n)
+static struct list path_list(struct job *job)
 {
-	int err = reserve(job->tr, paths, n, sizeof(struct path));
+	struct frame_buffers *b = &job->tr->buffers;
 
-	return err ? err : reserve(job->tr, rays, n, sizeof(struct ray));
+	return (struct list){ &b->paths, &b->next_paths, &b->path_rays, &b->next_path_rays };
 }
 
-/* Where n items' results go when they stand densely: BUFFER_PLACES, from a buffer of their counts. */
-static int place(struct job *job, enum buffer counts, uint32_t n, uint32_t *total)
+/* Rays to lights that go on behind what stopped them. */
+static struct list shadow_list(struct job *job)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+
+	return (struct list){ &b->shadow_paths, &b->next_shadow_paths, &b->shadow_rays, &b->next_shadow_rays };
+}
+
+static int reserve_list(struct job *job, const struct list *list, size_t n)
+{
+	int err = launch_reserve(job->tr->dev, *list->paths, n);
+
+	return err ? err : launch_reserve(job->tr->dev, *list->rays, n);
+}
+
+static int reserve_next(struct job *job, const struct list *list, size_t n)
+{
+	int err = launch_reserve(job->tr->dev, *list->next_paths, n);
+
+	return err ? err : launch_reserve(job->tr->dev, *list->next_rays, n);
+}
+
+/* Where n items' results go when they stand densely, by their counts: buffers.places. */
+static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t *total)
 {
 	struct tracer *tr = job->tr;
 
-	return scan_counts(tr->dev, tr->buffers[counts], n, &tr->buffers[BUFFER_PLACES], &tr->buffers[BUFFER_SCAN], total);
+	return scan_counts(tr->dev, counts, n, &tr->buffers.places, &tr->buffers.scan, total);
 }
 
 /* What came of a list's n paths, up to `slots` each, becomes the list. */
 static int gather_list(struct job *job, const struct list *list, uint32_t slots, uint32_t *n)
 {
-	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
+	const struct frame_buffers *b = &job->tr->buffers;
 	uint32_t from = *n;
-	int err = place(job, BUFFER_NEXT_COUNTS, from, n);
+	int err = place(job, b->next_counts, from, n);
 
 	if (err || *n == 0)
 		return err;
-	err = reserve_list(job, list->paths, list->rays, *n);
+	err = reserve_list(job, list, *n);
 	if (err)
 		return err;
-	add(&l, tr, list->next_rays);
-	add(&l, tr, list->next_paths);
-	add(&l, tr, BUFFER_NEXT_COUNTS);
-	add(&l, tr, BUFFER_PLACES);
-	add_uint(&l, &slots);
-	add_uint(&l, &from);
-	add(&l, tr, list->rays);
-	add(&l, tr, list->paths);
-	return run(tr, KERNEL_gather_paths, from, &l);
+	return launch_gather_paths(job->tr->dev, from,
+	                           LAUNCH(gather_paths, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	                                  .counts = b->next_counts, .places = b->places, .slots = slots, .n = from,
+	                                  .rays = *list->rays, .paths = *list->paths));
 }
 
 /* --- Rays to lights ----------------------------------------------------------------------------------------------- */
 
-static int start_walk(struct job *job, uint32_t n_rays, float weight, uint32_t *n)
+static int start_walk(struct job *job, const struct list *list, uint32_t n_rays, float weight, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
-	int err = place(job, BUFFER_STOPPED, n_rays, n);
+	const struct frame_buffers *b = &tr->buffers;
+	int err = place(job, b->occluded, n_rays, n);
 
 	if (err || *n == 0)
 		return err;
-	err = reserve_list(job, walk_list.paths, walk_list.rays, *n);
+	err = reserve_list(job, list, *n);
 	if (!err)
-		err = reserve_list(job, walk_list.next_paths, walk_list.next_rays, *n);
+		err = reserve_next(job, list, *n);
 	if (!err)
-		err = reserve(tr, BUFFER_WALK_HITS, *n, sizeof(struct hit));
+		err = frame_reserve(tr, shadow_hits, *n);
 	if (!err)
-		err = reserve(tr, BUFFER_NEXT_COUNTS, *n, sizeof(uint32_t));
+		err = frame_reserve(tr, next_counts, *n);
 	if (err)
 		return err;
-	add(&l, tr, BUFFER_STOPPED);
-	add(&l, tr, BUFFER_PLACES);
-	add(&l, tr, BUFFER_RAYS);
-	add_bytes(&l, &weight, sizeof(weight));
-	add_uint(&l, &n_rays);
-	add(&l, tr, walk_list.rays);
-	add(&l, tr, walk_list.paths);
-	return run(tr, KERNEL_shadow_start, n_rays, &l);
+	return launch_shadow_start(tr->dev, n_rays, LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = b->rays,
+	                                                   .weight = weight, .n = n_rays, .shadow_rays = *list->rays,
+	                                                   .shadow_paths = *list->paths));
 }
 
 /* The stopped ones of n_rays rays go on through what lets light pass, from surface to surface. */
-static int walk_veils(struct job *job, const struct accel_space *space, uint32_t n_rays, float weight)
+static int walk_layers(struct job *job, const struct accel_space *space, uint32_t n_rays, float weight)
 {
 	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct list list = shadow_list(job);
 	uint32_t n;
-	int err = start_walk(job, n_rays, weight, &n);
+	int err = start_walk(job, &list, n_rays, weight, &n);
 
-	for (uint32_t i = 0; i < MOST_VEILS && n && !err; i++) {
-		struct launch l = launch_with_tables(tr);
-
-		err = trace_rays(job, space, walk_list.rays, BUFFER_WALK_HITS, n, 0);
-		if (err)
-			return err;
-		add(&l, tr, BUFFER_WALK_HITS);
-		add(&l, tr, walk_list.rays);
-		add(&l, tr, walk_list.paths);
-		add_uint(&l, &n);
-		add(&l, tr, BUFFER_ARRIVING);
-		add(&l, tr, walk_list.next_rays);
-		add(&l, tr, walk_list.next_paths);
-		add(&l, tr, BUFFER_NEXT_COUNTS);
-		err = run(tr, KERNEL_shadow_walk, n, &l);
+	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
+		err = intersect(job, space, *list.rays, b->shadow_hits, n);
 		if (!err)
-			err = gather_list(job, &walk_list, 1, &n);
+			err = launch_shadow_walk(tr->dev, n,
+			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
+			                                .rays = *list.rays, .paths = *list.paths, .n = n,
+			                                .visibility = b->visibility, .next_rays = *list.next_rays,
+			                                .next_paths = *list.next_paths, .counts = b->next_counts));
+		if (!err)
+			err = gather_list(job, &list, 1, &n);
 	}
 	return err;
 }
 
-/* One of `samples` rounds of n_rays rays, already made, into BUFFER_ARRIVING. */
+/* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. */
 static int ask_lights(struct job *job, const struct accel_space *space, uint32_t n_rays, uint32_t sample,
                       uint32_t samples)
 {
-	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
-	uint32_t first = sample == 0;
+	const struct frame_buffers *b = &job->tr->buffers;
 	float weight = 1.0f / (float)samples;
-	int err = trace_rays(job, space, BUFFER_RAYS, BUFFER_STOPPED, n_rays, 1);
+	int err = occlude(job, space, b->rays, b->occluded, n_rays);
 
-	if (err)
-		return err;
-	add(&l, tr, BUFFER_STOPPED);
-	add_bytes(&l, &weight, sizeof(weight));
-	add_uint(&l, &first);
-	add_uint(&l, &n_rays);
-	add(&l, tr, BUFFER_ARRIVING);
-	err = run(tr, KERNEL_shadow_sum, n_rays, &l);
-	return err || !job->prepared.has_veils ? err : walk_veils(job, space, n_rays, weight);
+	if (!err)
+		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .occluded = b->occluded, .weight = weight,
+		                                                     .first = sample == 0, .n = n_rays, .visibility = b->visibility));
+	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, n_rays, weight);
 }
 
 static int reserve_light_rays(struct job *job, size_t n_rays)
 {
 	struct tracer *tr = job->tr;
-	int err = reserve(tr, BUFFER_RAYS, n_rays, sizeof(struct ray));
+	int err = frame_reserve(tr, rays, n_rays);
 
 	if (!err)
-		err = reserve(tr, BUFFER_STOPPED, n_rays, sizeof(uint32_t));
+		err = frame_reserve(tr, occluded, n_rays);
 	if (!err)
-		err = reserve(tr, BUFFER_ARRIVING, n_rays, 3 * sizeof(float));
+		err = frame_reserve(tr, visibility, 3 * (size_t)n_rays);
 	return err;
 }
 
@@ -212,26 +190,20 @@ static uint32_t light_rays(const struct job *job)
 int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
-	int packets = device_family(tr->dev) == FAMILY_PACKETS;
 	int err = reserve_light_rays(job, n_rays);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		struct launch l = launch_with_tables(tr);
-		uint32_t sample = job->pass * samples + i;
+		const struct shadow_ray_launch *a =
+			LAUNCH(shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+			       .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
+			       .sample = job->pass * samples + i, .n = n, .n_rays = n_rays, .rays = b->rays);
 
-		add(&l, tr, BUFFER_VIEWS);
-		add(&l, tr, BUFFER_WINDOWS);
-		add(&l, tr, BUFFER_FRAGMENTS);
-		add(&l, tr, BUFFER_PIXELS);
-		add_uint(&l, &job->width);
-		add(&l, tr, BUFFER_SHADED);
-		add_uint(&l, &sample);
-		add_uint(&l, &n);
-		add_uint(&l, &n_rays);
-		add(&l, tr, BUFFER_RAYS);
-		err = run(tr, packets ? KERNEL_shadow_ray_packet : KERNEL_shadow_ray,
-		          packets ? (n_rays + SHADE_PACKET - 1) / SHADE_PACKET : n_rays, &l);
+		if (device_family(tr->dev) == FAMILY_PACKETS)
+			err = launch_shadow_ray_packet(tr->dev, (n_rays + SHADE_PACKET - 1) / SHADE_PACKET, a);
+		else
+			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
 			err = ask_lights(job, space, n_rays, i, samples);
 	}
@@ -242,34 +214,20 @@ int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
 static int trace_hit_shadows(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4;
-	struct launch l = launch_with_tables(tr);
 	int err = reserve_light_rays(job, n_rays);
 
 	if (!err)
-		err = reserve(tr, BUFFER_WANTED, n, sizeof(uint32_t));
-	if (err)
-		return err;
-	add(&l, tr, BUFFER_PATH_HITS);
-	add(&l, tr, path_list.rays);
-	add_uint(&l, &transport);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_WANTED);
-	err = run(tr, KERNEL_want_lights, n, &l);
+		err = frame_reserve(tr, wanted, n);
+	if (!err)
+		err = launch_want_lights(tr->dev, n, LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
+		                                            .rays = b->path_rays, .transport = transport, .n = n, .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		uint32_t sample = job->pass * samples + i;
-
-		l = launch_with_tables(tr);
-		add(&l, tr, BUFFER_PATH_HITS);
-		add(&l, tr, path_list.rays);
-		add(&l, tr, path_list.paths);
-		add(&l, tr, BUFFER_PIXELS);
-		add(&l, tr, BUFFER_WANTED);
-		add_uint(&l, &sample);
-		add_uint(&l, &n);
-		add_uint(&l, &n_rays);
-		add(&l, tr, BUFFER_RAYS);
-		err = run(tr, KERNEL_hit_ray, n_rays, &l);
+		err = launch_hit_ray(tr->dev, n_rays, LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits,
+		                                             .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
+		                                             .wanted = b->wanted, .sample = job->pass * samples + i, .n = n,
+		                                             .n_rays = n_rays, .out = b->rays));
 		if (!err)
 			err = ask_lights(job, space, n_rays, i, samples);
 	}
@@ -281,155 +239,109 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 int trace_openness(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	float reach = job->options->reach > 0 ? job->options->reach : 1e30f;
-	uint32_t over_gl = job->options->mode == TRACER_AO_PHONG, samples = job->options->rays;
-	struct launch l = { .n = 0 };
+	const struct frame_buffers *b = &tr->buffers;
+	uint32_t samples = job->options->rays;
 	int err = reserve_light_rays(job, n);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		struct launch rays = launch_with_tables(tr);
-		uint32_t sample = job->pass * samples + i;
-
-		add(&rays, tr, BUFFER_VIEWS);
-		add(&rays, tr, BUFFER_WINDOWS);
-		add(&rays, tr, BUFFER_FRAGMENTS);
-		add(&rays, tr, BUFFER_PIXELS);
-		add_uint(&rays, &job->width);
-		add(&rays, tr, BUFFER_SHADED);
-		add_uint(&rays, &sample);
-		add_bytes(&rays, &reach, sizeof(reach));
-		add_uint(&rays, &n);
-		add(&rays, tr, BUFFER_RAYS);
-		err = run(tr, KERNEL_ao_ray, n, &rays);
+		err = launch_ao_ray(tr->dev, n, LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+		                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
+		                                       .shaded = b->shaded, .sample = job->pass * samples + i,
+		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
+		                                       .rays = b->rays));
 		if (!err)
 			err = ask_lights(job, space, n, i, samples);
 	}
 	if (err)
 		return err;
-	add(&l, tr, BUFFER_ARRIVING);
-	add_uint(&l, &over_gl);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_SHADED);
-	return run(tr, KERNEL_ao_shade, n, &l);
+	return launch_ao_shade(tr->dev, n, LAUNCH(ao_shade, .visibility = b->visibility,
+	                                          .over_gl = job->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
 }
 
 /* --- Paths --------------------------------------------------------------------------------------------------------- */
 
-static int leave(struct job *job, uint32_t transport, uint32_t n)
+static int leave(struct job *job, const struct list *list, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	struct launch l = launch_with_tables(tr);
-	int err = reserve_list(job, path_list.next_paths, path_list.next_rays, (size_t)PATHS_PER_FRAGMENT * n);
+	const struct frame_buffers *b = &tr->buffers;
+	int err = reserve_next(job, list, (size_t)PATHS_PER_FRAGMENT * n);
 
 	if (!err)
-		err = reserve(tr, BUFFER_NEXT_COUNTS, n, sizeof(uint32_t));
+		err = frame_reserve(tr, next_counts, n);
 	if (err)
 		return err;
-	add(&l, tr, BUFFER_VIEWS);
-	add(&l, tr, BUFFER_WINDOWS);
-	add(&l, tr, BUFFER_FRAGMENTS);
-	add(&l, tr, BUFFER_PIXELS);
-	add_uint(&l, &job->width);
-	add_uint(&l, &transport);
-	add_uint(&l, &job->pass);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_SHADED);
-	add(&l, tr, path_list.next_rays);
-	add(&l, tr, path_list.next_paths);
-	add(&l, tr, BUFFER_NEXT_COUNTS);
-	return run(tr, KERNEL_leave, n, &l);
+	return launch_leave(tr->dev, n, LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+	                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
+	                                       .transport = transport, .sample = job->pass, .n = n, .shaded = b->shaded,
+	                                       .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	                                       .counts = b->next_counts));
 }
 
 static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
-	int err = reserve(tr, BUFFER_SKY_HITS, sky ? n : 1, sizeof(struct hit));
+	const struct frame_buffers *b = &tr->buffers;
+	int err = frame_reserve(tr, sky_hits, sky ? n : 1);
 
 	if (err || !sky)
 		return err;
-	err = reserve(tr, BUFFER_SKY_RAYS, n, sizeof(struct ray));
-	if (err)
-		return err;
-	add(&l, tr, BUFFER_PATH_HITS);
-	add(&l, tr, path_list.rays);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_SKY_RAYS);
-	err = run(tr, KERNEL_sky_ray, n, &l);
-	return err ? err : trace_rays(job, sky, BUFFER_SKY_RAYS, BUFFER_SKY_HITS, n, 0);
+	err = frame_reserve(tr, sky_rays, n);
+	if (!err)
+		err = launch_sky_ray(tr->dev, n, LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
+	return err ? err : intersect(job, sky, b->sky_rays, b->sky_hits, n);
 }
 
-static int shade_hits(struct job *job, uint32_t has_sky, uint32_t transport, uint32_t n)
+static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	struct launch l = launch_with_tables(tr);
-	uint32_t slots = job->prepared.n_light_slots, depth = job->options->depth;
-	int err = reserve_list(job, path_list.next_paths, path_list.next_rays, (size_t)PATHS_PER_HIT * n);
+	const struct frame_buffers *b = &tr->buffers;
+	int err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n);
 
 	if (!err)
-		err = reserve(tr, BUFFER_NEXT_COUNTS, n, sizeof(uint32_t));
+		err = frame_reserve(tr, next_counts, n);
 	if (!err)
-		err = reserve(tr, BUFFER_GIVEN, n, 3 * sizeof(float));
+		err = frame_reserve(tr, radiance, 3 * (size_t)n);
 	if (err)
 		return err;
-	add(&l, tr, BUFFER_PATH_HITS);
-	add(&l, tr, BUFFER_SKY_HITS);
-	add_uint(&l, &has_sky);
-	add(&l, tr, path_list.rays);
-	add(&l, tr, path_list.paths);
-	add(&l, tr, BUFFER_PIXELS);
-	add(&l, tr, BUFFER_ARRIVING);
-	add_uint(&l, &slots);
-	add_uint(&l, &transport);
-	add_uint(&l, &job->pass);
-	add_uint(&l, &depth);
-	add(&l, tr, BUFFER_BACKGROUND);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_GIVEN);
-	add(&l, tr, path_list.next_rays);
-	add(&l, tr, path_list.next_paths);
-	add(&l, tr, BUFFER_NEXT_COUNTS);
-	return run(tr, KERNEL_shade_hit, n, &l);
-}
-
-static int credit(struct job *job, uint32_t n)
-{
-	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
-
-	add(&l, tr, path_list.paths);
-	add(&l, tr, BUFFER_GIVEN);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_SHADED);
-	return run(tr, KERNEL_credit, n, &l);
+	return launch_shade_hit(tr->dev, n, LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits,
+	                                           .has_sky = has_sky, .rays = *list->rays, .paths = *list->paths,
+	                                           .pixels = b->pixels, .visibility = b->visibility,
+	                                           .n_slots = job->prepared.n_light_slots, .transport = transport,
+	                                           .sample = job->pass, .depth = job->options->depth,
+	                                           .background = b->background, .n = n, .radiance = b->radiance,
+	                                           .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	                                           .counts = b->next_counts));
 }
 
 int trace_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	uint32_t transport = transport_of(job->options), slots = job->prepared.n_light_slots;
-	int err = upload(tr, BUFFER_BACKGROUND, job->background, 4, sizeof(float));
+	const struct frame_buffers *b = &tr->buffers;
+	const struct list list = path_list(job);
+	uint32_t transport = transport_of(job->options);
+	int err = frame_upload(tr, background, job->background, 4);
 
 	if (!err)
-		err = reserve(tr, BUFFER_ARRIVING, 1, 3 * sizeof(float));
+		err = frame_reserve(tr, visibility, 3);
 	if (!err)
-		err = leave(job, transport, n);
+		err = leave(job, &list, transport, n);
 	if (!err)
-		err = gather_list(job, &path_list, PATHS_PER_FRAGMENT, &n);
-	for (uint32_t i = 0; i < job->options->depth + MOST_VEILS && n && !err; i++) {
-		err = reserve(tr, BUFFER_PATH_HITS, n, sizeof(struct hit));
+		err = gather_list(job, &list, PATHS_PER_FRAGMENT, &n);
+	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
+		err = frame_reserve(tr, path_hits, n);
 		if (!err)
-			err = trace_rays(job, space, path_list.rays, BUFFER_PATH_HITS, n, 0);
+			err = intersect(job, space, *list.rays, b->path_hits, n);
 		if (!err)
 			err = look_at_sky(job, sky, n);
-		if (!err && slots)
+		if (!err && job->prepared.n_light_slots)
 			err = trace_hit_shadows(job, space, transport, n);
 		if (!err)
-			err = shade_hits(job, sky != NULL, transport, n);
+			err = shade_hits(job, &list, sky != NULL, transport, n);
 		if (!err)
-			err = credit(job, n);
+			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .n = n,
+			                                       .shaded = b->shaded));
 		if (!err)
-			err = gather_list(job, &path_list, PATHS_PER_HIT, &n);
+			err = gather_list(job, &list, PATHS_PER_HIT, &n);
 	}
 	return err;
 }

@@ -40,12 +40,26 @@ void tracer_destroy(struct tracer **tracer)
 	pool_free(&tr->attributes, tr->dev);
 	pool_free(&tr->indices, tr->dev);
 	pool_free(&tr->texels, tr->dev);
-	for (int i = 0; i < N_BUFFERS; i++)
-		device_release(tr->dev, &tr->buffers[i]);
+#define RELEASE(element, name) device_release(tr->dev, &tr->buffers.name.buffer);
+	FRAME_BUFFERS(RELEASE)
+	device_release(tr->dev, &tr->buffers.frame.buffer);
+	for (int i = 0; i < SCENE_SAMPLES; i++)
+		device_release(tr->dev, &tr->buffers.samples[i].buffer);
+	traverse_release(tr->dev, &tr->trees);
 	free(tr->counts);
 	free(tr->first);
 	free(tr);
 	*tracer = NULL;
+}
+
+struct tables_launch frame_tables(const struct tracer *tr)
+{
+	const struct frame_buffers *b = &tr->buffers;
+
+	return *LAUNCH(tables, .geometries = b->geometries, .materials = b->materials, .lights = b->lights, .units = b->units,
+	               .currents = b->currents, .attributes = tr->attributes.floats, .indices = tr->indices.words,
+	               .vertices = b->vertices, .texcoords = b->texcoords, .textures = b->textures, .texels = tr->texels.words,
+	               .stipples = b->stipples);
 }
 
 void tracer_share(struct tracer *tracer, struct blas_cache *cache)
@@ -88,9 +102,9 @@ static uint32_t rectangle_area(struct camera_rectangle r)
 	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
 }
 
-static enum buffer sample_buffer(const struct job *job, uint32_t sample)
+static union buffer_frame_pixel *sample_buffer(const struct job *job, uint32_t sample)
 {
-	return job->n_samples == 1 ? BUFFER_FRAME : (enum buffer)(BUFFER_SAMPLE1 + sample);
+	return job->n_samples == 1 ? &job->tr->buffers.frame : &job->tr->buffers.samples[sample];
 }
 
 /* Draw to one of the pixels' samples from now on. note: what the kernels are told of it (pixel_sample, PIXEL_FOLLOWS) */
@@ -105,15 +119,9 @@ static int clear_sample(struct job *job, const struct scene_clear *clear)
 	struct camera_rectangle r = camera_rectangle(clear->scissor[0], clear->scissor[1], clear->scissor[2],
 	                                             clear->scissor[3], job->width, job->height);
 	uint32_t n = rectangle_area(r);
-	struct launch l = { .n = 0 };
 
-	add_bytes(&l, clear, sizeof(*clear));
-	add_bytes(&l, &r, sizeof(r));
-	add_uint(&l, &job->width);
-	add_uint(&l, &job->bits);
-	add_uint(&l, &n);
-	add(&l, job->tr, job->frame);
-	return run(job->tr, KERNEL_clear, n, &l);
+	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = r, .width = job->width, .bits = job->bits,
+	                                            .n = n, .frame = *job->frame));
 }
 
 static int run_clear(struct job *job, const struct scene_clear *clear)
@@ -133,30 +141,13 @@ static int run_clear(struct job *job, const struct scene_clear *clear)
 
 static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
 {
-	static const enum device_kernel kernels[N_DEVICE_FAMILIES] = { KERNEL_camera_packet, KERNEL_camera_wide,
-		                                                       KERNEL_camera_compressed };
-	static const enum buffer nodes[N_DEVICE_FAMILIES] = { BUFFER_NODES8, BUFFER_NODES2, BUFFER_NODES8C };
-	static const enum buffer triangles[N_DEVICE_FAMILIES] = { BUFFER_FACES8, BUFFER_TRIANGLES, BUFFER_TRIANGLES8C };
 	struct tracer *tr = job->tr;
-	enum device_family family = device_family(tr->dev);
-	struct launch l = { .n = 0 };
+	const struct frame_buffers *b = &tr->buffers;
 
-	add_uint(&l, &segment->view);
-	add(&l, tr, BUFFER_VIEWS);
-	add_uint(&l, &job->width);
-	add_uint(&l, &job->height);
-	add_uint(&l, &segment->mode);
-	add(&l, tr, BUFFER_INSTANCES);
-	add(&l, tr, BUFFER_TOP2);
-	add(&l, tr, BUFFER_INSTANCE_LIST);
-	add(&l, tr, nodes[family]);
-	add(&l, tr, triangles[family]);
-	add(&l, tr, BUFFER_WINDOWS);
-	add(&l, tr, BUFFER_CLIPS);
-	add(&l, tr, BUFFER_AFTER);
-	add(&l, tr, BUFFER_SPARSE);
-	add(&l, tr, BUFFER_COUNTS);
-	return run(tr, kernels[family], family == FAMILY_PACKETS ? camera_packet_items(r) : camera_wide_items(r), &l);
+	return traverse_camera(tr->dev, traverse_kernels[device_family(tr->dev)].camera, &tr->trees, r,
+	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
+	                              .height = job->height, .mode = segment->mode, .window = b->windows, .clip = b->clips,
+	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));
 }
 
 /* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay together. */
@@ -171,7 +162,7 @@ static int32_t block_end(int32_t at, int32_t limit)
 }
 
 /*
- * Where each pixel's fragments go in the dense list, in BUFFER_FIRST: block by block of pixels.
+ * Where each pixel's fragments go in the dense list, in buffers.first: block by block of pixels.
  * @param n_list  receives how many there are
  * @param more    receives 1 where a pixel's slots were all filled: its column may go on
  */
@@ -179,7 +170,7 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 {
 	struct tracer *tr = job->tr;
 	uint32_t next = 0;
-	int err = device_read(tr->dev, tr->buffers[BUFFER_COUNTS], 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
+	int err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
 
 	*more = 0;
 	for (int32_t y0 = r.y0; y0 < r.y1 && !err; y0 = block_end(y0, r.y1))
@@ -196,74 +187,51 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 				}
 	*n_list = next;
 	if (!err && job->pass)
-		err = upload(tr, BUFFER_COUNTS, tr->counts, job->n_pixels, sizeof(*tr->counts));
-	return err ? err : upload(tr, BUFFER_FIRST, tr->first, job->n_pixels, sizeof(*tr->first));
+		err = frame_upload(tr, counts, tr->counts, job->n_pixels);
+	return err ? err : frame_upload(tr, first, tr->first, job->n_pixels);
 }
 
 static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t n_list)
 {
 	struct tracer *tr = job->tr;
 	uint32_t n = rectangle_area(r);
-	struct launch l = { .n = 0 };
-	int err = reserve(tr, BUFFER_FRAGMENTS, n_list, sizeof(struct fragment));
+	const struct frame_buffers *b = &tr->buffers;
+	int err = frame_reserve(tr, fragments, n_list);
 
 	if (!err)
-		err = reserve(tr, BUFFER_PIXELS, n_list, sizeof(uint32_t));
+		err = frame_reserve(tr, pixels, n_list);
 	if (!err)
-		err = reserve(tr, BUFFER_SHADED, n_list, sizeof(struct shaded));
+		err = frame_reserve(tr, shaded, n_list);
 	if (err)
 		return err;
-	add(&l, tr, BUFFER_SPARSE);
-	add(&l, tr, BUFFER_COUNTS);
-	add_uint(&l, &slots);
-	add(&l, tr, BUFFER_FIRST);
-	add(&l, tr, BUFFER_FRAGMENTS);
-	add(&l, tr, BUFFER_PIXELS);
-	add(&l, tr, BUFFER_AFTER);
-	add_bytes(&l, &r, sizeof(r));
-	add_uint(&l, &job->width);
-	add_uint(&l, &n);
-	return run(tr, KERNEL_gather, n, &l);
+	return launch_gather(tr->dev, n, LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
+	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after, .rectangle = r,
+	                                        .width = job->width, .n = n));
 }
 
 static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 {
 	struct tracer *tr = job->tr;
-	uint32_t transport = transport_of(job->options);
-	int packets = device_family(tr->dev) == FAMILY_PACKETS;
-	struct launch l = launch_with_tables(tr);
+	const struct frame_buffers *b = &tr->buffers;
+	const struct shade_launch *a =
+		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
+		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
+		       .n_slots = slots, .transport = transport_of(job->options), .n = n, .shaded = b->shaded);
 
-	add(&l, tr, BUFFER_VIEWS);
-	add(&l, tr, BUFFER_WINDOWS);
-	add(&l, tr, BUFFER_FRAGMENTS);
-	add(&l, tr, BUFFER_PIXELS);
-	add_uint(&l, &job->width);
-	add_uint(&l, &job->height);
-	add_uint(&l, &job->bits);
-	add(&l, tr, BUFFER_ARRIVING);
-	add_uint(&l, &slots);
-	add_uint(&l, &transport);
-	add_uint(&l, &n);
-	add(&l, tr, BUFFER_SHADED);
-	return run(tr, packets ? KERNEL_shade_packet : KERNEL_shade, packets ? (n + SHADE_PACKET - 1) / SHADE_PACKET : n, &l);
+	if (device_family(tr->dev) == FAMILY_PACKETS)
+		return launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
+	return launch_shade(tr->dev, n, a);
 }
 
 static int run_resolve(struct job *job, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n = rectangle_area(r);
-	struct launch l = launch_with_tables(tr);
 
-	add(&l, tr, BUFFER_FRAGMENTS);
-	add(&l, tr, BUFFER_SHADED);
-	add(&l, tr, BUFFER_FIRST);
-	add(&l, tr, BUFFER_COUNTS);
-	add_bytes(&l, &r, sizeof(r));
-	add_uint(&l, &job->width);
-	add_uint(&l, &job->bits);
-	add_uint(&l, &n);
-	add(&l, tr, job->frame);
-	return run(tr, KERNEL_resolve, n, &l);
+	return launch_resolve(tr->dev, n, LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded,
+	                                         .first = b->first, .counts = b->counts, .rectangle = r, .width = job->width,
+	                                         .bits = job->bits, .n = n, .frame = *job->frame));
 }
 
 /* The fragments of the list: GL's colours, then what rays from them find. */
@@ -296,9 +264,9 @@ static int run_draws(struct job *job, const struct segment *segment)
 	int more = 1, err;
 
 	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
-	err = upload(tr, BUFFER_AFTER, tr->counts, job->n_pixels, sizeof(*tr->counts));
+	err = frame_upload(tr, after, tr->counts, job->n_pixels);
 	if (!err)
-		err = reserve(tr, BUFFER_SPARSE, (size_t)slots * job->n_pixels, sizeof(struct fragment));
+		err = frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
 	while (more && !err) {
 		err = run_camera(job, segment, r);
 		if (!err)
@@ -346,7 +314,7 @@ static int look_at_sample(struct job *job, const struct segment *segment, uint32
 	view->scissor[1] = scissor[1] - (from_below ? row : 0);
 	view->scissor[2] = scissor[2] + left;
 	view->scissor[3] = scissor[3] + row;
-	return device_write(job->tr->dev, job->tr->buffers[BUFFER_VIEWS], segment->view * sizeof(*view), view, sizeof(*view));
+	return device_write(job->tr->dev, job->tr->buffers.views.buffer, segment->view * sizeof(*view), view, sizeof(*view));
 }
 
 /* n_cleared: how many of its clears are done */
@@ -389,15 +357,15 @@ static int reserve_pixels(struct job *job)
 			return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
 		tr->n_counted = job->n_pixels;
 	}
-	err = reserve(tr, BUFFER_COUNTS, job->n_pixels, sizeof(uint32_t));
+	err = frame_reserve(tr, counts, job->n_pixels);
 	if (!err)
-		err = reserve(tr, BUFFER_FRAME, job->n_pixels, sizeof(struct frame_pixel));
+		err = frame_reserve(tr, frame, job->n_pixels);
 	for (uint32_t i = 0; i < job->n_samples && !err; i++)
-		err = reserve(tr, sample_buffer(job, i), job->n_pixels, sizeof(struct frame_pixel));
+		err = launch_reserve(tr->dev, *sample_buffer(job, i), job->n_pixels);
 	if (!err && job->n_passes > 1)
-		err = reserve(tr, BUFFER_SUMS, (size_t)job->n_pixels * PASS_PARTS, sizeof(float));
+		err = frame_reserve(tr, sums, (size_t)job->n_pixels * PASS_PARTS);
 	if (!err)
-		err = reserve(tr, BUFFER_ARRIVING, 1, 3 * sizeof(float));
+		err = frame_reserve(tr, visibility, 3);
 	return err;
 }
 
@@ -473,7 +441,7 @@ static int upload_start(struct job *job)
 	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
 		if (i == 0 || (start && start->samples))
 			start_pixels(job, start && start->samples && job->n_samples > 1 ? &start->samples[i] : start, pixels);
-		err = device_write(job->tr->dev, job->tr->buffers[sample_buffer(job, i)], 0, pixels, job->n_pixels * sizeof(*pixels));
+		err = device_write(job->tr->dev, sample_buffer(job, i)->buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
 	}
 	free(pixels);
 	return err;
@@ -482,28 +450,20 @@ static int upload_start(struct job *job)
 /* The samples of all pixels into the frame. */
 static int run_merge_samples(struct job *job)
 {
-	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
+	const struct frame_buffers *b = &job->tr->buffers;
 
-	for (uint32_t i = 0; i < SCENE_SAMPLES; i++)
-		add(&l, tr, sample_buffer(job, i));
-	add_uint(&l, &job->n_pixels);
-	add(&l, tr, BUFFER_FRAME);
-	return run(tr, KERNEL_merge_samples, job->n_pixels, &l);
+	return launch_merge_samples(job->tr->dev, job->n_pixels,
+	                            LAUNCH(merge_samples, .first = b->samples[0], .second = b->samples[1], .third = b->samples[2],
+	                                   .fourth = b->samples[3], .n = job->n_pixels, .frame = b->frame));
 }
 
 /* The pixels of this pass to those of the passes before. */
 static int run_add_pass(struct job *job, uint32_t first)
 {
-	struct tracer *tr = job->tr;
-	struct launch l = { .n = 0 };
+	const struct frame_buffers *b = &job->tr->buffers;
 
-	add(&l, tr, BUFFER_FRAME);
-	add_uint(&l, &job->turn);
-	add_uint(&l, &first);
-	add_uint(&l, &job->n_pixels);
-	add(&l, tr, BUFFER_SUMS);
-	return run(tr, KERNEL_add_pass, job->n_pixels, &l);
+	return launch_add_pass(job->tr->dev, job->n_pixels, LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
+	                                                           .n = job->n_pixels, .sums = b->sums));
 }
 
 /* --- The picture from the device ----------------------------------------------------------------------------------- */
@@ -562,11 +522,11 @@ static uint64_t events_of(const struct scene *scene)
 }
 
 /* Pixels of the frame on the device, or of one of their samples, rounded as GL's frame buffer is. */
-static int read_pixels(struct tracer *tr, enum buffer buffer, const struct scene *scene, struct frame_pixel *pixels,
+static int read_pixels(struct tracer *tr, union buffer_frame_pixel from, const struct scene *scene, struct frame_pixel *pixels,
                        struct scene_picture *picture)
 {
 	size_t n = (size_t)scene->width * scene->height;
-	int err = device_read(tr->dev, tr->buffers[buffer], 0, pixels, n * sizeof(*pixels));
+	int err = device_read(tr->dev, from.buffer, 0, pixels, n * sizeof(*pixels));
 
 	picture->unknown = 0;
 	for (size_t i = 0; i < n && !err; i++) {
@@ -592,14 +552,14 @@ static int read_picture(struct tracer *tr, const struct scene *scene, struct sce
 
 	if (!pixels)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
-	err = read_pixels(tr, BUFFER_FRAME, scene, pixels, picture);
+	err = read_pixels(tr, tr->buffers.frame, scene, pixels, picture);
 	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && scene->samples > 1 && !err; i++)
-		err = read_pixels(tr, (enum buffer)(BUFFER_SAMPLE1 + i), scene, pixels, &picture->samples[i]);
+		err = read_pixels(tr, tr->buffers.samples[i], scene, pixels, &picture->samples[i]);
 	free(pixels);
 	return err;
 }
 
-/* One look at the frame, into the device's BUFFER_FRAME. */
+/* One look at the frame, into buffers.frame. */
 static int trace_pass(struct job *job)
 {
 	float shift[2] = { 0, 0 };

@@ -114,7 +114,7 @@ static int upload_textures(struct job *job)
 	for (uint32_t i = 0; i < scene->n_textures && !err; i++)
 		err = describe_texture(scene->textures[i], items[i].place, &images[i]);
 	if (!err)
-		err = upload(job->tr, BUFFER_TEXTURES, images, scene->n_textures, sizeof(*images));
+		err = frame_upload(job->tr, textures, images, scene->n_textures);
 done:
 	free(items);
 	free(images);
@@ -125,57 +125,58 @@ int upload_state(struct job *job)
 {
 	const struct scene *s = job->scene;
 	struct tracer *tr = job->tr;
-	int err = upload(tr, BUFFER_MATERIALS, s->materials, s->n_materials, sizeof(*s->materials));
+	int err = frame_upload(tr, materials, s->materials, s->n_materials);
 
 	if (!err)
-		err = upload(tr, BUFFER_LIGHTS, s->lights, s->n_lights, sizeof(*s->lights));
+		err = frame_upload(tr, lights, s->lights, s->n_lights);
 	if (!err)
-		err = upload(tr, BUFFER_UNITS, s->units, s->n_units, sizeof(*s->units));
+		err = frame_upload(tr, units, s->units, s->n_units);
 	if (!err)
-		err = upload(tr, BUFFER_CURRENTS, s->currents, s->n_currents, sizeof(*s->currents));
+		err = frame_upload(tr, currents, s->currents, s->n_currents);
 	if (!err)
-		err = upload(tr, BUFFER_STIPPLES, s->stipples, s->n_stipples, sizeof(*s->stipples));
+		err = frame_upload(tr, stipples, (const uint32_t *)s->stipples, 32 * (size_t)s->n_stipples);
 	if (!err)
 		err = upload_textures(job);
 	return err;
 }
 
 /* One pool of those of meshes: what is not there yet, or all of it where the buffer has to grow. */
-static int upload_pool(struct tracer *tr, enum blas_part part, enum buffer buffer)
+static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buffer **buffer)
 {
 	const struct accel_pool pool = accel_pool(tr->accel, part);
 	const size_t size = blas_item_bytes[part];
 	size_t from = pool.same;
 	int err = 0;
 
-	if (!tr->buffers[buffer] || pool.n > tr->tree_room[part]) {
+	if (!*buffer || pool.n > tr->tree_room[part]) {
 		/* A buffer that grew once will again. */
-		const size_t room = tr->buffers[buffer] ? pool.n + pool.n / 4 : pool.n;
+		const size_t room = *buffer ? pool.n + pool.n / 4 : pool.n;
 
-		err = reserve(tr, buffer, room, size);
+		err = device_reserve(tr->dev, buffer, room * size);
 		tr->tree_room[part] = err ? 0 : room;
 		from = 0;
 	}
 	if (err || from == pool.n)
 		return err;
-	return device_write(tr->dev, tr->buffers[buffer], from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+	return device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
 }
 
 /* What the device's kernels walk of them. */
 static int upload_mesh_trees(struct tracer *tr)
 {
-	static const struct {
+	struct traverse_trees *t = &tr->trees;
+	const struct {
 		enum blas_part part;
-		enum buffer buffer;
+		struct device_buffer **buffer;
 		unsigned families;
 	} pools[] = {
-		{ BLAS_NODES2, BUFFER_NODES2, 1u << FAMILY_BINARY },
-		{ BLAS_TRIANGLES, BUFFER_TRIANGLES, 1u << FAMILY_BINARY },
-		{ BLAS_NODES8, BUFFER_NODES8, 1u << FAMILY_PACKETS },
-		{ BLAS_TRIANGLES8, BUFFER_TRIANGLES8, 1u << FAMILY_PACKETS },
-		{ BLAS_FACES8, BUFFER_FACES8, 1u << FAMILY_PACKETS },
-		{ BLAS_NODES8C, BUFFER_NODES8C, 1u << FAMILY_COMPRESSED },
-		{ BLAS_TRIANGLES8C, BUFFER_TRIANGLES8C, 1u << FAMILY_COMPRESSED },
+		{ BLAS_NODES2, &t->nodes2.buffer, 1u << FAMILY_BINARY },
+		{ BLAS_TRIANGLES, &t->triangles.buffer, 1u << FAMILY_BINARY },
+		{ BLAS_NODES8, &t->nodes8.buffer, 1u << FAMILY_PACKETS },
+		{ BLAS_TRIANGLES8, &t->triangles8.buffer, 1u << FAMILY_PACKETS },
+		{ BLAS_FACES8, &t->faces8.buffer, 1u << FAMILY_PACKETS },
+		{ BLAS_NODES8C, &t->nodes8c.buffer, 1u << FAMILY_COMPRESSED },
+		{ BLAS_TRIANGLES8C, &t->triangles8c.buffer, 1u << FAMILY_COMPRESSED },
 	};
 	int err = 0;
 
@@ -190,14 +191,7 @@ static int upload_mesh_trees(struct tracer *tr)
 int upload_trees(struct job *job)
 {
 	struct tracer *tr = job->tr;
-	const struct accel *a = tr->accel;
 	int err = upload_mesh_trees(tr);
 
-	if (!err)
-		err = upload(tr, BUFFER_TOP2, a->top2, a->n_top2, sizeof(*a->top2));
-	if (!err)
-		err = upload(tr, BUFFER_TOP8, a->top8, a->n_top8, sizeof(*a->top8));
-	if (!err)
-		err = upload(tr, BUFFER_INSTANCE_LIST, a->instance_list, a->n_instance_list, sizeof(*a->instance_list));
-	return err;
+	return err ? err : traverse_upload_tops(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances, &tr->trees);
 }

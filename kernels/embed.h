@@ -1,8 +1,8 @@
 /*
- * The kernels' text, embedded by kernels/embed.py (build/gen/kernels.c).
+ * The kernels' text inside the command: kernels/embed.py writes build/gen/kernels.c.
  */
-#ifndef TRACER_DEVICE_KERNELS_H
-#define TRACER_DEVICE_KERNELS_H
+#ifndef KERNELS_EMBED_H
+#define KERNELS_EMBED_H
 
 #include <stddef.h>
 

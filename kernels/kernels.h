@@ -1,0 +1,438 @@
+/*
+ * Every kernel and its arguments, listed once. From a list come the kernel's signature in OpenCL C (KERNEL_ARGUMENTS), the fields
+ * that its C twin reads (struct LIST_arguments, here) and those that the host sets (struct LIST_launch, tracer/device/launch.h).
+ * A kernel's own header says what it computes.
+ */
+#ifndef KERNELS_KERNELS_H
+#define KERNELS_KERNELS_H
+
+#include "kernels/camera/camera.h"
+#include "kernels/shared.h"
+
+/* --- Elements: what buffers hold ------------------------------------------------------------------------------------ */
+
+/* X(word): struct word. */
+#define KERNEL_STRUCTS(X) \
+	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
+	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
+	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8)
+
+/* Types by one word each, for lists of arguments alone. Three structs stand in no buffer but are passed by value. */
+#define KERNEL_ELEMENT(word) typedef struct word element_##word;
+KERNEL_STRUCTS(KERNEL_ELEMENT)
+KERNEL_ELEMENT(scene_clear)
+KERNEL_ELEMENT(camera_rectangle)
+KERNEL_ELEMENT(compose_request)
+typedef uint32_t element_uint;
+typedef uint16_t element_half;
+typedef float element_float;
+
+/* --- Arguments ------------------------------------------------------------------------------------------------------ */
+
+/*
+ * ARGUMENTS_LIST(IN, OUT, VALUE, GROUP, AND), in the kernel's order:
+ *   IN(element, name)     a buffer that is read
+ *   OUT(element, name)    a buffer that is written; where noted it is read as well
+ *   VALUE(element, name)  a value
+ *   GROUP(list, name)     the arguments of another list, a struct in C
+ */
+
+/* A frame's data as shading reads it. */
+#define ARGUMENTS_tables(IN, OUT, VALUE, GROUP, AND) \
+	IN(geometry, geometries) AND()      /* per instance */ \
+	IN(scene_material, materials) AND() \
+	IN(scene_light, lights) AND() \
+	IN(scene_unit, units) AND() \
+	IN(scene_current, currents) AND() \
+	IN(float, attributes) AND()         /* vertex arrays of all meshes */ \
+	IN(uint, indices) AND()             /* and their indices */ \
+	IN(shaded_vertex, vertices) AND()   /* what the vertex stage made of them */ \
+	IN(float, texcoords) AND()          /* [4] for each vertex and enabled unit */ \
+	IN(texture_image, textures) AND() \
+	IN(uint, texels) AND() \
+	IN(uint, stipples)                  /* 32 rows each */
+
+/* Camera rays: kernels/camera/camera.h. Kernels differ in what their trees are made of. */
+#define ARGUMENTS_camera_pass(IN, OUT, VALUE, GROUP, AND) \
+	VALUE(uint, view_index) AND() \
+	IN(view, views) AND() \
+	VALUE(uint, width) AND()            /* of the drawable */ \
+	VALUE(uint, height) AND() \
+	VALUE(uint, mode) AND()             /* CAMERA_NEAREST_LESS, CAMERA_NEAREST_LEQUAL or CAMERA_COLUMN */ \
+	IN(window_vertex, window) AND()     /* at instance.vertex_first */ \
+	IN(float, clip) AND()               /* [4]: the same vertices in clip space */ \
+	IN(uint, after) AND()               /* per pixel; CAMERA_COLUMN only, any buffer otherwise */ \
+	OUT(fragment, fragments) AND() \
+	OUT(uint, counts)                   /* per pixel: fragments written */
+#define ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node, triangle) \
+	GROUP(camera_pass, pass) AND() \
+	IN(instance, instances) AND() \
+	IN(node2, top) AND()                /* accel.top2 */ \
+	IN(uint, instance_list) AND() \
+	IN(node, nodes) AND() \
+	IN(triangle, triangles)
+#define ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8, face8)
+#define ARGUMENTS_camera_wide(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node2, triangle)
+#define ARGUMENTS_camera_compressed(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8c, triangle)
+
+/* Other rays: kernels/rays/rays.h. _packet and _wide share trees. */
+#define ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	VALUE(uint, n_rays) AND() \
+	IN(ray, rays) AND() \
+	VALUE(uint, top_first) AND()        /* accel_space.top8_first; _binary and _compressed: top2_first */ \
+	IN(top_node, top) AND() \
+	IN(uint, instance_list) AND() \
+	IN(instance, instances) AND() \
+	IN(node, nodes) AND() \
+	IN(triangle, triangles) AND()
+#define ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	OUT(uint, occluded)                 /* 1 where anything is hit, else 0 */
+#define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	OUT(hit, hits)
+#define ARGUMENTS_occlude_wide(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
+#define ARGUMENTS_occlude_binary(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node2, node2, triangle)
+#define ARGUMENTS_occlude_compressed(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node2, node8c, triangle)
+#define ARGUMENTS_intersect_wide(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
+#define ARGUMENTS_intersect_binary(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node2, node2, triangle)
+#define ARGUMENTS_intersect_compressed(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node2, node8c, triangle)
+
+/* Shading. In these, `n` counts what there is one work item for, unless noted. */
+#define ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(view, views) AND() \
+	IN(uint, owners) AND()              /* per vertex: its instance */ \
+	VALUE(uint, height) AND() \
+	VALUE(uint, n) AND() \
+	OUT(shaded_vertex, shaded) AND()    /* tables.vertices */ \
+	OUT(window_vertex, windows) AND() \
+	OUT(float, clips) AND()             /* [4] */ \
+	OUT(float, coords)                  /* tables.texcoords */
+#define ARGUMENTS_gather(IN, OUT, VALUE, GROUP, AND) \
+	IN(fragment, sparse) AND()          /* `slots` a pixel */ \
+	IN(uint, counts) AND()              /* per pixel: fragments in its slots */ \
+	VALUE(uint, slots) AND() \
+	IN(uint, first) AND()               /* per pixel: its place in the list */ \
+	OUT(fragment, list) AND() \
+	OUT(uint, pixels) AND()             /* per fragment in the list */ \
+	OUT(uint, after) AND()              /* read as well; as camera_pass takes it */ \
+	VALUE(camera_rectangle, rectangle) AND() \
+	VALUE(uint, width) AND() \
+	VALUE(uint, n)
+#define ARGUMENTS_shade(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(view, views) AND() \
+	IN(window_vertex, windows) AND() \
+	OUT(fragment, fragments) AND()      /* read as well */ \
+	IN(uint, pixels) AND() \
+	VALUE(uint, width) AND() \
+	VALUE(uint, height) AND() \
+	VALUE(uint, bits) AND() \
+	IN(float, visibility) AND()         /* [slot][fragment][3]: how much of a light's light arrives */ \
+	VALUE(uint, n_slots) AND()          /* 0: nobody has asked the lights yet */ \
+	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
+	VALUE(uint, n) AND()                /* fragments */ \
+	OUT(shaded, shaded)
+#define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
+	VALUE(scene_clear, clear) AND() \
+	VALUE(camera_rectangle, rectangle) AND() \
+	VALUE(uint, width) AND() \
+	VALUE(uint, bits) AND() \
+	VALUE(uint, n) AND() \
+	OUT(frame_pixel, frame)             /* read as well */
+#define ARGUMENTS_resolve(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(fragment, fragments) AND() \
+	OUT(shaded, shaded) AND()           /* read as well */ \
+	IN(uint, first) AND() \
+	IN(uint, counts) AND() \
+	VALUE(camera_rectangle, rectangle) AND() \
+	VALUE(uint, width) AND() \
+	VALUE(uint, bits) AND() \
+	VALUE(uint, n) AND() \
+	OUT(frame_pixel, frame)             /* read as well */
+#define ARGUMENTS_merge_samples(IN, OUT, VALUE, GROUP, AND) \
+	IN(frame_pixel, first) AND() \
+	IN(frame_pixel, second) AND() \
+	IN(frame_pixel, third) AND() \
+	IN(frame_pixel, fourth) AND() \
+	VALUE(uint, n) AND() \
+	OUT(frame_pixel, frame)
+#define ARGUMENTS_add_pass(IN, OUT, VALUE, GROUP, AND) \
+	IN(frame_pixel, frame) AND() \
+	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_turn) */ \
+	VALUE(uint, first) AND()            /* 1: there are no sums yet */ \
+	VALUE(uint, n) AND() \
+	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
+#define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(window_vertex, windows) AND() \
+	IN(frame_pixel, frame) AND() \
+	IN(float, sums) AND() \
+	VALUE(compose_request, request) AND() \
+	VALUE(uint, n) AND()                /* pixels */ \
+	OUT(half, halves) AND() \
+	OUT(float, floats)
+
+/* Rays to lights and into the surroundings: kernels/frame/secondary.h. */
+#define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(view, views) AND() \
+	IN(window_vertex, windows) AND() \
+	IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() \
+	VALUE(uint, width) AND() \
+	IN(shaded, shaded) AND() \
+	VALUE(uint, sample) AND() \
+	VALUE(uint, n) AND()                /* fragments */ \
+	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
+	OUT(ray, rays)
+#define ARGUMENTS_hit_ray(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(hit, hits) AND() \
+	IN(ray, rays) AND() \
+	IN(path, paths) AND() \
+	IN(uint, pixels) AND() \
+	IN(uint, wanted) AND()              /* per hit: a bit for each slot of a light */ \
+	VALUE(uint, sample) AND() \
+	VALUE(uint, n) AND()                /* hits */ \
+	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
+	OUT(ray, out)
+#define ARGUMENTS_ao_ray(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(view, views) AND() \
+	IN(window_vertex, windows) AND() \
+	IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() \
+	VALUE(uint, width) AND() \
+	IN(shaded, shaded) AND() \
+	VALUE(uint, sample) AND() \
+	VALUE(float, reach) AND() \
+	VALUE(uint, n) AND() \
+	OUT(ray, rays)
+#define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
+	IN(uint, occluded) AND() \
+	VALUE(float, weight) AND() \
+	VALUE(uint, first) AND()            /* 1: visibility holds nothing yet */ \
+	VALUE(uint, n) AND() \
+	OUT(float, visibility)              /* [3] a ray; read as well */
+#define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
+	IN(uint, occluded) AND() \
+	IN(uint, places) AND()              /* per ray: where it goes on, if it was stopped */ \
+	IN(ray, rays) AND() \
+	VALUE(float, weight) AND() \
+	VALUE(uint, n) AND() \
+	OUT(ray, shadow_rays) AND() \
+	OUT(path, shadow_paths)
+#define ARGUMENTS_shadow_walk(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(hit, hits) AND() \
+	IN(ray, rays) AND() \
+	IN(path, paths) AND() \
+	VALUE(uint, n) AND() \
+	OUT(float, visibility) AND()        /* read as well */ \
+	OUT(ray, next_rays) AND() \
+	OUT(path, next_paths) AND() \
+	OUT(uint, counts)                   /* per path: 1 where it goes on */
+#define ARGUMENTS_ao_shade(IN, OUT, VALUE, GROUP, AND) \
+	IN(float, visibility) AND() \
+	VALUE(uint, over_gl) AND() \
+	VALUE(uint, n) AND() \
+	OUT(shaded, shaded)                 /* read as well */
+
+/* Paths: the same header. */
+#define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(view, views) AND() \
+	IN(window_vertex, windows) AND() \
+	IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() \
+	VALUE(uint, width) AND() \
+	VALUE(uint, transport) AND() \
+	VALUE(uint, sample) AND() \
+	VALUE(uint, n) AND() \
+	OUT(shaded, shaded) AND()           /* read as well */ \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
+	OUT(path, next_paths) AND() \
+	OUT(uint, counts)                   /* per fragment: how many of them there are */
+#define ARGUMENTS_gather_paths(IN, OUT, VALUE, GROUP, AND) \
+	IN(ray, next_rays) AND()            /* `slots` an item */ \
+	IN(path, next_paths) AND() \
+	IN(uint, counts) AND() \
+	IN(uint, places) AND() \
+	VALUE(uint, slots) AND() \
+	VALUE(uint, n) AND() \
+	OUT(ray, rays) AND() \
+	OUT(path, paths)
+#define ARGUMENTS_sky_ray(IN, OUT, VALUE, GROUP, AND) \
+	IN(hit, hits) AND() \
+	IN(ray, rays) AND() \
+	VALUE(uint, n) AND() \
+	OUT(ray, out)
+#define ARGUMENTS_want_lights(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(hit, hits) AND() \
+	IN(ray, rays) AND() \
+	VALUE(uint, transport) AND() \
+	VALUE(uint, n) AND() \
+	OUT(uint, wanted)
+#define ARGUMENTS_shade_hit(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() \
+	IN(hit, hits) AND() \
+	IN(hit, sky) AND() \
+	VALUE(uint, has_sky) AND()          /* 0: sky is any buffer */ \
+	IN(ray, rays) AND() \
+	IN(path, paths) AND() \
+	IN(uint, pixels) AND() \
+	IN(float, visibility) AND() \
+	VALUE(uint, n_slots) AND() \
+	VALUE(uint, transport) AND() \
+	VALUE(uint, sample) AND() \
+	VALUE(uint, depth) AND()            /* bounces at most */ \
+	IN(float, background) AND()         /* [4] */ \
+	VALUE(uint, n) AND() \
+	OUT(float, radiance) AND()          /* [3] a path */ \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
+	OUT(path, next_paths) AND() \
+	OUT(uint, counts)
+#define ARGUMENTS_credit(IN, OUT, VALUE, GROUP, AND) \
+	IN(path, paths) AND() \
+	IN(float, radiance) AND() \
+	VALUE(uint, n) AND() \
+	OUT(shaded, shaded)                 /* read as well */
+
+/* Prefix sums: kernels/frame/scan.h. */
+#define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
+	IN(uint, counts) AND() \
+	VALUE(uint, count_first) AND() \
+	VALUE(uint, n) AND() \
+	OUT(uint, sums) AND() \
+	VALUE(uint, sum_first)
+#define ARGUMENTS_scan_place(IN, OUT, VALUE, GROUP, AND) \
+	IN(uint, counts) AND() \
+	VALUE(uint, count_first) AND() \
+	VALUE(uint, n) AND() \
+	IN(uint, before) AND() \
+	VALUE(uint, before_first) AND() \
+	OUT(uint, places) AND()             /* may be counts */ \
+	VALUE(uint, place_first)
+
+/* X(list): lists that are part of others, and those of kernels. */
+#define KERNEL_GROUPS(X) X(tables) X(camera_pass)
+#define KERNEL_LISTS(X) \
+	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
+	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
+	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
+	X(shade_hit) X(credit) X(ao_shade) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+
+/* --- Structs and signatures ----------------------------------------------------------------------------------------- */
+
+#define KERNEL_FIELD_IN(element, name) GLOBAL const element_##element *name;
+#define KERNEL_FIELD_OUT(element, name) GLOBAL element_##element *name;
+#define KERNEL_FIELD_VALUE(element, name) element_##element name;
+#define KERNEL_FIELD_GROUP(list, name) struct list name;
+#define KERNEL_NOTHING()
+#define KERNEL_FIELDS(list) \
+	ARGUMENTS_##list(KERNEL_FIELD_IN, KERNEL_FIELD_OUT, KERNEL_FIELD_VALUE, KERNEL_FIELD_GROUP, KERNEL_NOTHING)
+
+/* A group is a struct of its own name. */
+#define KERNEL_GROUP_STRUCT(list) struct list { KERNEL_FIELDS(list) };
+#define KERNEL_LIST_STRUCT(list) struct list##_arguments { KERNEL_FIELDS(list) };
+KERNEL_GROUPS(KERNEL_GROUP_STRUCT)
+KERNEL_LISTS(KERNEL_LIST_STRUCT)
+
+#ifdef __OPENCL_VERSION__
+
+/* A kernel's signature: __kernel void name(KERNEL_ARGUMENTS(list)). */
+#define KERNEL_PARAMETER_IN(element, name) __global const element_##element *name
+#define KERNEL_PARAMETER_OUT(element, name) __global element_##element *name
+#define KERNEL_PARAMETER_VALUE(element, name) element_##element name
+#define KERNEL_PARAMETER_GROUP(list, name) \
+	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, KERNEL_COMMA)
+#define KERNEL_COMMA() ,
+#define KERNEL_ARGUMENTS(list) \
+	ARGUMENTS_##list(KERNEL_PARAMETER_IN, KERNEL_PARAMETER_OUT, KERNEL_PARAMETER_VALUE, KERNEL_PARAMETER_GROUP, KERNEL_COMMA)
+
+/* The same arguments as a struct: const struct list_arguments a = KERNEL_STRUCT(list). */
+#define KERNEL_NAME(element, name) name
+#define KERNEL_NAME_GROUP(list, name) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
+#define KERNEL_STRUCT(list) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
+
+#else
+
+/* --- Kernels -------------------------------------------------------------------------------------------------------- */
+
+/*
+ * X(name, list): kernel NAME in a .cl file, twin NAME_c in kernels/ref/. Work items beyond the number that the list gives do nothing:
+ * OpenCL rounds the global size up to work groups.
+ */
+#define KERNELS(X) \
+	X(camera_packet, camera_packet) /* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
+	X(camera_wide, camera_wide)     /* the same, one pixel a work item (GPUs) */ \
+	X(camera_compressed, camera_compressed) /* the same, compressed nodes */ \
+	X(occlude_packet, occlude_wide) /* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
+	X(occlude_wide, occlude_wide)   /* the same, one ray a work item */ \
+	X(intersect_packet, intersect_wide) /* nearest hit, a packet a work item */ \
+	X(intersect_wide, intersect_wide) /* the same, one ray a work item */ \
+	X(occlude_binary, occlude_binary) /* one ray a work item, in numbers alone (GPUs): BVH2 */ \
+	X(intersect_binary, intersect_binary) \
+	X(occlude_compressed, occlude_compressed) /* the same, compressed nodes */ \
+	X(intersect_compressed, intersect_compressed) \
+	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
+	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
+	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
+	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
+	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
+	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
+	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \
+	X(ao_ray, ao_ray)               /* one fragment a work item: a look around */ \
+	X(shadow_sum, shadow_sum)       /* one ray to a light a work item: full visibility where nothing stopped it */ \
+	X(shadow_start, shadow_start)   /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
+	X(shadow_walk, shadow_walk)     /* one of these a work item: past what it hit */ \
+	X(scan_sum, scan_sum)           /* a chunk of counts a work item: their sum */ \
+	X(scan_place, scan_place)       /* the same: where each count's results go */ \
+	X(gather_paths, gather_paths)   /* one path a work item: its next rays into one dense list */ \
+	X(leave, leave)                 /* one fragment a work item: its mirrored, bent and scattered rays */ \
+	X(sky_ray, sky_ray)             /* one path a work item: its look at the sky where it hit nothing */ \
+	X(want_lights, want_lights)     /* one path a work item: lights to be asked for at its hit */ \
+	X(shade_hit, shade_hit)         /* one path a work item: the radiance it found and its next rays */ \
+	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
+	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
+	X(clear, clear)                 /* one pixel a work item: a Clear */ \
+	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
+	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
+	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
+	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
+	X(compose_packet, compose)      /* the same, COMPOSE_PACKET pixels a work item (CPUs) */
+
+enum kernel {
+#define KERNEL_ENUM(name, list) KERNEL_##name,
+	KERNELS(KERNEL_ENUM)
+	N_KERNELS
+};
+
+/* The twins: each does work items first .. last-1. */
+#define KERNEL_DECLARE_TWIN(name, list) void name##_c(const struct list##_arguments *a, size_t first, size_t last);
+KERNELS(KERNEL_DECLARE_TWIN)
+
+/**
+ * A twin with its arguments one by one.
+ * @param arguments  in the list's order, groups in place: a buffer's memory, or where a value stands
+ */
+typedef void kernel_twin(void *const *arguments, size_t first, size_t last);
+
+/* All kernels (kernels/ref/twins.c). */
+extern const struct kernel_entry {
+	const char *name;
+	kernel_twin *twin;
+} kernel_entries[N_KERNELS];
+
+#endif
+#endif

@@ -1,0 +1,57 @@
+/*
+ * Trees on a device, and rays through them by the kernels of any family.
+ */
+#ifndef TRACER_FRAME_TRAVERSE_H
+#define TRACER_FRAME_TRAVERSE_H
+
+#include "tracer/accel/accel.h"
+#include "tracer/device/launch.h"
+
+/* X(element, name): what stands in struct accel under these names: the pools of BLASes, and TLASes. */
+#define TRAVERSE_POOLS(X) \
+	X(node2, nodes2) X(node8, nodes8) X(node8c, nodes8c) X(triangle, triangles) X(triangle8, triangles8) X(triangle, triangles8c) \
+	X(face8, faces8)
+#define TRAVERSE_TOPS(X) X(node2, top2) X(node8, top8) X(uint, instance_list)
+
+/* A kernel needs those that its family walks. */
+struct traverse_trees {
+#define TRAVERSE_FIELD(element, name) union buffer_##element name;
+	TRAVERSE_POOLS(TRAVERSE_FIELD)
+	TRAVERSE_TOPS(TRAVERSE_FIELD)
+	union buffer_instance instances;
+};
+
+/** Copy all pools to the device, or what changes from frame to frame. @return 0 or ERR_SYSTEM (reported) */
+int traverse_upload_pools(struct device *dev, const struct accel *accel, struct traverse_trees *trees);
+int traverse_upload_tops(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
+                         struct traverse_trees *trees);
+void traverse_release(struct device *dev, struct traverse_trees *trees);
+
+/* The kernels of a family. */
+struct traverse_kernels {
+	enum kernel camera, occlude, intersect;
+};
+extern const struct traverse_kernels traverse_kernels[N_DEVICE_FAMILIES];
+
+/**
+ * Camera rays.
+ * @param kernel  KERNEL_camera_*
+ * @param r       the view's camera_rectangle
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int traverse_camera(struct device *dev, enum kernel kernel, const struct traverse_trees *trees, struct camera_rectangle r,
+                    const struct camera_pass_launch *pass);
+
+/* Rays through a space with something in it, and where the answers go: one of the two. */
+struct traverse_rays {
+	const struct accel_space *space;
+	uint32_t n;
+	union buffer_ray rays;
+	union buffer_uint occluded; /* KERNEL_occlude_* */
+	union buffer_hit hits;      /* KERNEL_intersect_* */
+};
+
+/** @return as traverse_camera */
+int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_trees *trees, const struct traverse_rays *r);
+
+#endif
