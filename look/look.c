@@ -9,6 +9,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/mat4.h"
 
 /* --- The file ------------------------------------------------------------------------------------------------------ */
 
@@ -280,19 +281,12 @@ static int changes_light(const struct light_rule *r)
 /* A position of the file in eye space. An object that this frame does not draw leaves it where it is. */
 static void place_light(const struct scene *s, const struct light_rule *r, float out[4])
 {
-	float at[4];
-
-	memcpy(at, r->position, sizeof(at));
-	memcpy(out, r->position, sizeof(at));
-	for (uint32_t i = 0; r->object && i < s->n_instances; i++) {
-		const float *m = s->instances[i].modelview;
-
-		if (!hash_begins(s->meshes[s->instances[i].mesh]->hash, r->object))
-			continue;
-		for (int row = 0; row < 4; row++)
-			out[row] = m[row] * at[0] + m[4 + row] * at[1] + m[8 + row] * at[2] + m[12 + row] * at[3];
-		return;
-	}
+	memcpy(out, r->position, 4 * sizeof(*out));
+	for (uint32_t i = 0; r->object && i < s->n_instances; i++)
+		if (hash_begins(s->meshes[s->instances[i].mesh]->hash, r->object)) {
+			mat4_transform(out, s->instances[i].modelview, r->position);
+			return;
+		}
 }
 
 static void set_light(const struct scene *s, struct scene_light *l, const struct light_rule *r)

@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/accel/soup.h"
@@ -68,24 +69,6 @@ static int out_of_memory(void)
 {
 	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 }
-
-/* Make room for `more` items behind the first `n`. */
-static int grow_array(void **array, size_t *capacity, size_t n, size_t more, size_t item_bytes)
-{
-	size_t wanted = n + more;
-	void *grown;
-
-	if (wanted <= *capacity)
-		return 0;
-	wanted += wanted / 2;
-	grown = realloc(*array, wanted * item_bytes);
-	if (!grown)
-		return out_of_memory();
-	*array = grown;
-	*capacity = wanted;
-	return 0;
-}
-#define GROW(array, capacity, n, more) grow_array((void **)&(array), &(capacity), n, more, sizeof(*(array)))
 
 int accel_create(struct accel **out)
 {
@@ -157,11 +140,8 @@ static int table_rebuild(struct accel_cache *cache)
 	while (size < 4 * cache->n)
 		size *= 2;
 	if (size > cache->table_size) {
-		uint32_t *table = realloc(cache->table, size * sizeof(*table));
-
-		if (!table)
-			return out_of_memory();
-		cache->table = table;
+		if (memory_resize(&cache->table, size, sizeof(*cache->table)))
+			return ERR_SYSTEM;
 		cache->table_size = size;
 	}
 	memset(cache->table, 0xff, cache->table_size * sizeof(*cache->table));
@@ -248,10 +228,13 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 
 	for (int part = 0; part < N_BLAS_PARTS && !err; part++) {
 		const struct pool pool = pool_of(accel, part);
-		const size_t bytes = blas_item_bytes[part];
+		const size_t bytes = blas_item_bytes[part], wanted = *pool.n + blas->n[part];
+		size_t *capacity = &accel->cache->capacities[part];
 
 		placed->first[part] = *pool.n;
-		err = grow_array(pool.items, &accel->cache->capacities[part], *pool.n, blas->n[part], bytes);
+		if (wanted > *capacity)
+			*capacity = memory_grow(pool.items, *capacity, wanted, bytes);
+		err = wanted > *capacity ? ERR_SYSTEM : 0;
 		if (!err && blas->n[part])
 			memcpy((char *)*pool.items + *pool.n * bytes, blas->parts[part], blas->n[part] * bytes);
 	}
@@ -395,7 +378,7 @@ static int add_blas(struct accel *accel, const struct order *order, struct place
 {
 	struct accel_cache *cache = accel->cache;
 	struct placed_blas placed = { .baked = order->baked, .kind = order->kind };
-	int err = GROW(cache->entries, cache->capacity, cache->n, 1);
+	int err = MEMORY_GROW(cache->entries, cache->capacity, cache->n + 1);
 
 	memcpy(placed.hash, order->mesh->hash, sizeof(placed.hash));
 	if (!err)

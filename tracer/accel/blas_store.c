@@ -15,6 +15,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/kept.h"
+#include "base/memory.h"
 #include "base/part.h"
 #include "tracer/accel/tree.h"
 
@@ -150,7 +151,7 @@ static int is_tree(const char *name)
 	return n > end && n < sizeof(((struct kept *)0)->name) && strcmp(name + n - end, SUFFIX) == 0;
 }
 
-/* The files of the folder. @return how many, in an array of the caller's; 0 also where memory is short */
+/* The files of the folder. @return how many, in an array of the caller's; 0 also where memory is short (reported) */
 static size_t list_kept(DIR *dir, struct kept **out)
 {
 	size_t n = 0, room = 0;
@@ -162,13 +163,8 @@ static size_t list_kept(DIR *dir, struct kept **out)
 
 		if (!is_tree(entry->d_name) || fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) || !S_ISREG(info.st_mode))
 			continue;
-		if (n == room) {
-			struct kept *grown = realloc(*out, (room = 2 * room + 64) * sizeof(*grown));
-
-			if (!grown)
-				return 0;
-			*out = grown;
-		}
+		if (MEMORY_GROW(*out, room, n + 1))
+			return 0;
 		(*out)[n].used = info.st_mtim;
 		(*out)[n].bytes = (uint64_t)info.st_size;
 		memcpy((*out)[n++].name, entry->d_name, strlen(entry->d_name) + 1);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/accel/soup.h"
@@ -157,15 +158,14 @@ static int list_spaces(struct accel *accel, const struct scene *scene, const str
 static int make_room(struct accel *accel, uint32_t n)
 {
 	const size_t most = 3 * (size_t)n + 1;
-	void *top2 = realloc(accel->top2, most * sizeof(*accel->top2));
-	void *top8 = realloc(accel->top8, most * sizeof(*accel->top8));
-	void *list = realloc(accel->instance_list, most * sizeof(*accel->instance_list));
+	int err = memory_resize(&accel->top2, most, sizeof(*accel->top2));
 
-	accel->top2 = top2 ? top2 : accel->top2;
-	accel->top8 = top8 ? top8 : accel->top8;
-	accel->instance_list = list ? list : accel->instance_list;
+	if (!err)
+		err = memory_resize(&accel->top8, most, sizeof(*accel->top8));
+	if (!err)
+		err = memory_resize(&accel->instance_list, most, sizeof(*accel->instance_list));
 	accel->n_top2 = accel->n_top8 = accel->n_instance_list = 0;
-	return top2 && top8 && list ? 0 : out_of_memory();
+	return err;
 }
 
 int tlas_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "tracer/bench/bench.h"
 
 /* One model of the scene: turned about y, scaled to a height, set down on the floor at x z. */
@@ -35,15 +36,8 @@ static int add_vertex(struct growing *g, float x, float y, float z)
 {
 	struct bench_mesh *m = g->mesh;
 
-	if (m->n_vertices == g->vertex_room) {
-		size_t room = g->vertex_room ? 2 * g->vertex_room : 4096;
-		void *grown = realloc(m->position, room * sizeof(*m->position));
-
-		if (!grown)
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
-		m->position = grown;
-		g->vertex_room = room;
-	}
+	if (MEMORY_GROW(m->position, g->vertex_room, m->n_vertices + (size_t)1))
+		return ERR_SYSTEM;
 	m->position[m->n_vertices][0] = x;
 	m->position[m->n_vertices][1] = y;
 	m->position[m->n_vertices][2] = z;
@@ -55,15 +49,8 @@ static int add_triangle(struct growing *g, uint32_t a, uint32_t b, uint32_t c)
 {
 	struct bench_mesh *m = g->mesh;
 
-	if (m->n_triangles == g->triangle_room) {
-		size_t room = g->triangle_room ? 2 * g->triangle_room : 4096;
-		void *grown = realloc(m->index, room * sizeof(*m->index));
-
-		if (!grown)
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
-		m->index = grown;
-		g->triangle_room = room;
-	}
+	if (MEMORY_GROW(m->index, g->triangle_room, m->n_triangles + (size_t)1))
+		return ERR_SYSTEM;
 	m->index[m->n_triangles][0] = a;
 	m->index[m->n_triangles][1] = b;
 	m->index[m->n_triangles++][2] = c;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 
 static void free_planes(struct image_channel *channel)
 {
@@ -41,12 +42,11 @@ static size_t pixel_count(const struct image *img)
 /* Room for one more channel, all zero; it counts once its plane is there. */
 static struct image_channel *next_channel(struct image *img, const char *name, int full_float)
 {
-	struct image_channel *channels = realloc(img->channels, (img->n_channels + 1) * sizeof(*channels)), *channel;
+	struct image_channel *channel;
 
-	if (!channels)
-		return no_memory(img, name);
-	img->channels = channels;
-	channel = &channels[img->n_channels];
+	if (memory_resize(&img->channels, img->n_channels + 1, sizeof(*channel)))
+		return NULL;
+	channel = &img->channels[img->n_channels];
 	memset(channel, 0, sizeof(*channel));
 	snprintf(channel->name, sizeof(channel->name), "%s", name);
 	channel->full_float = full_float;
@@ -116,11 +116,9 @@ int image_set_attribute(struct image *img, const char *name, const char *fmt, ..
 	va_list args;
 
 	if (!attribute) {
-		attribute = realloc(img->attributes, (img->n_attributes + 1) * sizeof(*attribute));
-		if (!attribute)
-			return err_report(ERR_SYSTEM, NULL, "out of memory for attribute %s", name);
-		img->attributes = attribute;
-		attribute += img->n_attributes++;
+		if (memory_resize(&img->attributes, img->n_attributes + 1, sizeof(*attribute)))
+			return ERR_SYSTEM;
+		attribute = &img->attributes[img->n_attributes++];
 		snprintf(attribute->name, sizeof(attribute->name), "%s", name);
 	}
 	va_start(args, fmt);
