@@ -34,7 +34,7 @@ VISUAL_SRC := diff/visual.c
 REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format scene look kernels/ref tracer tracer/* farm)) \
 	$(filter-out $(VISUAL_SRC),$(wildcard diff/*.c diff/*/*.c))
-COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/dispatch.c $(BUILD)/gen/page.c
+COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -135,8 +135,8 @@ $(BUILD)/gen/layout.h: $(LAYOUT).py $(LAYOUT).txt $(BUILD)/gen/gl_tokens.h
 -include $(BUILD)/gen/layout.dep
 
 # Written anew when a handler's line changes; left alone, and so not compiled again, when another one does.
-$(BUILD)/gen/dispatch.c: replay/gen.py replay/overlay.txt capture/gen/overlay.txt capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
-	$(Q)$(PYTHON) -B replay/gen.py $@ dispatch replay/overlay.txt capture/gen/overlay.txt $(sort $(REPLAY_SRC))
+$(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c: $(BUILD)/gen/%.c: replay/gen.py replay/overlay.txt capture/gen/overlay.txt capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
+	$(Q)$(PYTHON) -B replay/gen.py $@ $* replay/overlay.txt capture/gen/overlay.txt $(sort $(REPLAY_SRC))
 
 $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<
@@ -351,7 +351,7 @@ DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
 FUZZ_TARGETS := replay calls
 FUZZ_SRC := $(wildcard base/*.c scene/*.c) $(REPLAY_SRC) capture/format/sizes.c capture/format/ref.c tests/fuzz/calls.c tests/fuzz/stream.c
-FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/gen/dispatch.o $(BUILD)/fuzz/objects/gen/fuzz_commands.o
+FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/gen/commands.o $(BUILD)/fuzz/objects/gen/handlers.o $(BUILD)/fuzz/objects/gen/fuzz_commands.o
 FUZZ_CFLAGS := $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -MMD -MP -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)

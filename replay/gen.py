@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Writes build/gen/gl_tokens.h (every GL enum as a #define) and build/gen/dispatch.c (command name -> handler).
+"""Writes the sources that come from Khronos' registries.
 
-usage: gen.py OUT tokens                               the enums
-       gen.py OUT dispatch OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...   the table
+usage: gen.py OUT tokens                                                every GL enum as a #define (gl_tokens.h)
+       gen.py OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    what is known of each command (machine/commands.h)
+       gen.py OUT handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
 
-A handler is a line of the form GLS_HANDLER(glName, KIND) at the start of a line in replay/*.c. A command without one takes the
-handler of the command that the registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
-Which commands do nothing but draw, or end a frame, is said by the lines "draws" and "ends" of capture/gen/overlay.txt.
+A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. A command without one takes
+the handler of the command that the registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
+The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame.
 """
 import re
 import sys
@@ -44,18 +45,23 @@ def read_overlay(path):
     return excuses
 
 
+HANDLER = re.compile(r"^GLS_HANDLER\s*\(\s*(\w+)\s*,\s*(\w+)\s*(?:,\s*(\w+)\s*)?\)", re.M)
+
+
 def read_handlers(paths):
-    """{command: kind}"""
+    """{command: (kind, role)}"""
     handlers = {}
     for path in paths:
         with open(path) as source:
-            for number, line in enumerate(source, 1):
-                found = re.match(r"GLS_HANDLER\((\w+), (\w+)\)", line)
-                if not found:
-                    continue
-                if found[1] in handlers:
-                    sys.exit(f"{path}:{number}: a second handler of {found[1]}")
-                handlers[found[1]] = found[2]
+            text = source.read()
+        found = {text.count("\n", 0, match.start()) + 1: match for match in HANDLER.finditer(text)}
+        for number, line in enumerate(text.split("\n"), 1):
+            if re.match(r"\s*GLS_HANDLER\b", line) and number not in found:
+                sys.exit(f"{path}:{number}: not of the form GLS_HANDLER(name, KIND) or GLS_HANDLER(name, KIND, ROLE)")
+        for number, match in found.items():
+            if match[1] in handlers:
+                sys.exit(f"{path}:{number}: a second handler of {match[1]}")
+            handlers[match[1]] = match[2], match[3] or "NONE"
     return handlers
 
 
@@ -66,7 +72,7 @@ def read_drawing(path):
     return [(re.compile(line[1].strip()), "GLS_" + line[0].upper()) for line in words if line and line[0] in ("draws", "ends")]
 
 
-def dispatch(out, overlay, capture_overlay, sources):
+def table(out, what, overlay, capture_overlay, sources):
     commands = {}
     for file_name in ("gl.xml", "glx.xml"):
         commands.update(registry.read(file_name)[0])
@@ -88,29 +94,30 @@ def dispatch(out, overlay, capture_overlay, sources):
         return ""
 
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
-    lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */",
-             '#include "replay/machine/commands.h"', ""]
-    lines += [f"gls_handler gls_{name};" for name in sorted(handlers)]
-    lines += ["", "const struct gls_command gls_commands[] = {"]
+    lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */"]
+    if what == "handlers":
+        lines += ['#include "replay/gl/dispatch.h"', "", *(f"gls_handler gls_{name};" for name in sorted(handlers)), "",
+                  "gls_handler *const gls_handlers[] = {"]
+    else:
+        lines += ['#include "replay/machine/commands.h"', "", "const struct gls_command gls_commands[] = {"]
     for name in names:
         handler = resolve(name, handlers)
+        kind, role = handlers[handler] if handler else ("NONE", "NONE")
         excuse = "" if handler else resolve(name, excuses)
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
-        fields = [f'"{name}"',
-                  f"gls_{handler}" if handler else "0",
-                  f"GLS_KIND_{handlers[handler]}" if handler else "0",
-                  '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0",
-                  str(int(core)),
-                  next((what for pattern, what in drawing if pattern.fullmatch(name)), "0")]
-        lines.append("\t{ " + ", ".join(fields) + " },")
-    lines += ["};", "", "const unsigned n_gls_commands = sizeof(gls_commands) / sizeof(gls_commands[0]);"]
+        fields = [f'"{name}"', '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
+                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0")]
+        lines.append(f"\t{f'gls_{handler}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
+    lines.append("};")
+    if what == "commands":
+        lines += ["", "const unsigned n_gls_commands = sizeof(gls_commands) / sizeof(gls_commands[0]);"]
     write(out, lines)
 
 
 if __name__ == "__main__":
     if len(sys.argv) == 3 and sys.argv[2] == "tokens":
         tokens(sys.argv[1])
-    elif len(sys.argv) > 5 and sys.argv[2] == "dispatch":
-        dispatch(sys.argv[1], sys.argv[3], sys.argv[4], sys.argv[5:])
+    elif len(sys.argv) > 5 and sys.argv[2] in ("commands", "handlers"):
+        table(*sys.argv[1:5], sys.argv[5:])
     else:
         sys.exit(__doc__)

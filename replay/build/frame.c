@@ -9,6 +9,7 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "base/mat4.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/texture/image.h"
@@ -16,10 +17,9 @@
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 #include "replay/replay.h"
 
 struct gls_frame {

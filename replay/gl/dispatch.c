@@ -6,11 +6,12 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
+#include "replay/gl/context.h"
 #include "replay/gl/geometry/list.h"
-#include "replay/gl/state/attrib.h"
-#include "replay/gl/surface/draw.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/image.h"
@@ -19,44 +20,22 @@
 #include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 
 #define MAX_THREADS 65536
 
-void gls_flush(struct gls_exec *x)
-{
-	struct gls_geometry *g = &x->pending.geometry;
-	struct gls_mesh *mesh;
-	uint32_t list = x->drawn_list;
-
-	if (g->n_primitives && x->st) {
-		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->n_vertices))
-			gls_geometry_turn_quads(g);
-		mesh = gls_geometry_mesh(x, g);
-		x->drawn_list = x->pending.list;
-		if (mesh)
-			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
-		x->drawn_list = list;
-		gls_mesh_release(mesh);
-	}
-	gls_geometry_clear(g);
-}
-
 enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
 
-void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
+static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
 {
 	/* What each kind asks for (commands.h); all of it means outside Begin/End. */
 	static const uint8_t rules[] = {
 		[GLS_KIND_STATE] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_MATRIX] = OUTSIDE | DRAW_PENDING,
-		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE, [GLS_KIND_WINDOW] = 0,
+		[GLS_KIND_ARRAY] = OUTSIDE | DRAW_PENDING, [GLS_KIND_NOW] = OUTSIDE, [GLS_KIND_OBJECT] = OUTSIDE | DRAW_PENDING | STALE, [GLS_KIND_WINDOW] = 0,
 	};
 	const struct gls_command *k = &gls_commands[command];
 	struct gls_state *st = x->st;
 
 	x->command = command;
-	if (k->kind == GLS_KIND_NONE)
-		return;
 	if (rules[k->kind]) {
 		if (st->begin_mode) {
 			gls_error(x, st, GL_INVALID_OPERATION);
@@ -67,7 +46,17 @@ void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
 		if (rules[k->kind] & STALE)
 			st->dirty |= GLS_DIRTY_ALL;
 	}
-	k->handler(x, st, c);
+	gls_handlers[command](x, st, c);
+}
+
+/* The same of a call out of a list, or of one that another one stands for. */
+static void dispatch_nested(struct gls_exec *x, const struct call *c, uint32_t command)
+{
+	const uint32_t outer = x->command;
+
+	if (gls_commands[command].kind)
+		dispatch(x, c, command);
+	x->command = outer;
 }
 
 static int is_kept_in_lists(uint32_t kind)
@@ -116,7 +105,7 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 		return rc;
 	if (x->current)
 		x->current->calls++;
-	if (!k->handler) {
+	if (!k->kind) {
 		x->counts.unsupported[command] += !k->excuse;
 		return 0;
 	}
@@ -126,13 +115,13 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 			return 0;
 		}
 		if (x->st->list && is_kept_in_lists(k->kind)) {
-			if (gls_list_append(x, x->st, c))
+			if (gls_list_append(x, x->st, c, (uint32_t)command))
 				return ERR_SYSTEM;
 			if (x->st->list_mode == GL_COMPILE)
 				return 0;
 		}
 	}
-	gls_dispatch(x, c, (uint32_t)command);
+	dispatch(x, c, (uint32_t)command);
 	return x->failed;
 }
 
@@ -146,6 +135,7 @@ int gls_exec_create(struct gls_exec **out, const char *path)
 	if (!x)
 		return err_report(ERR_SYSTEM, path, "out of memory");
 	x->path = path;
+	x->dispatch = dispatch_nested;
 	x->counts.calls = calloc(n_gls_commands, sizeof(*x->counts.calls));
 	x->counts.unsupported = calloc(n_gls_commands, sizeof(*x->counts.unsupported));
 	x->counts.errors = calloc(n_gls_commands, sizeof(*x->counts.errors));
@@ -190,7 +180,7 @@ void gls_exec_destroy(struct gls_exec **exec)
 	table_free(&x->configs);
 	gls_geometry_free(&x->pending.geometry);
 	gls_geometry_free(&x->scratch.geometry);
-	free(x->scratch.assembling);
+	gls_assembler_free(x->assembler);
 	gls_mesh_cache_free(x);
 	gls_image_cache_free(x);
 	table_free(&x->maps);

@@ -2,10 +2,10 @@
 #ifndef REPLAY_GL_DISPATCH_H
 #define REPLAY_GL_DISPATCH_H
 
-#include <stdint.h>
+#include "replay/machine/commands.h"
 
-struct call;
-struct gls_exec;
+/* Of gls_commands, in the same order; NULL: none. Made by gen.py. */
+extern gls_handler *const gls_handlers[];
 
 int gls_exec_create(struct gls_exec **out, const char *path);
 void gls_exec_destroy(struct gls_exec **x);
@@ -15,11 +15,5 @@ void gls_exec_take_counts(struct gls_exec *x, struct gls_exec *other);
 
 /** Execute a call of the trace. @return 0 or ERR_SYSTEM (reported) */
 int gls_exec_call(struct gls_exec *x, const struct call *c);
-
-/** Run a command of the table as if it had been met (from lists and by handlers). */
-void gls_dispatch(struct gls_exec *x, const struct call *c, uint32_t command);
-
-/** Draw what is pending; called before any state that draws look at changes. */
-void gls_flush(struct gls_exec *x);
 
 #endif

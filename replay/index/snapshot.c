@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/gl/geometry/array.h"
-#include "replay/gl/state/attrib.h"
+#include "replay/gl/context.h"
 #include "replay/index/snapshot_parts.h"
 
 /* ---- drawables ---- */

@@ -15,6 +15,7 @@ struct gls_state;
 
 typedef void gls_handler(struct gls_exec *x, struct gls_state *st, const struct call *c);
 
+/* What the dispatcher does before a handler runs. */
 enum gls_kind {
 	GLS_KIND_NONE,
 	GLS_KIND_VERTEX, /* vertex attributes: anywhere, kept in lists, pending vertices stay pending */
@@ -23,11 +24,26 @@ enum gls_kind {
 	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
 	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; into a list goes what it drew */
 	GLS_KIND_CLIENT, /* client state: anywhere, never kept in lists, changes nothing that is pending */
-	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, objects, queries */
+	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, queries */
+	GLS_KIND_OBJECT, /* as NOW, but pending vertices are drawn first, material and view are stale: objects that draws look at */
 	GLS_KIND_WINDOW  /* window system and memory: no context needed, st may be NULL */
 };
 
-#define GLS_HANDLER(name, kind) \
+/* What display lists have to know of a command. */
+enum gls_role {
+	GLS_ROLE_NONE,
+	GLS_ROLE_BEGIN, GLS_ROLE_END,
+	GLS_ROLE_EDGE_FLAG,
+	GLS_ROLE_MATERIAL,      /* arguments: face, parameter, value */
+	GLS_ROLE_BIND_TEXTURE,
+	GLS_ROLE_CALL_LIST,
+	GLS_ROLE_TRANSFORM,     /* changes the current matrix alone, and never fails */
+	GLS_ROLE_PUSH_MATRIX, GLS_ROLE_POP_MATRIX,
+	GLS_ROLE_SELECT         /* later commands mean something else: another matrix, another texture unit */
+};
+
+/* GLS_HANDLER(name, kind) or GLS_HANDLER(name, kind, role), enumerators without their prefixes. */
+#define GLS_HANDLER(name, ...) \
 	void gls_##name(struct gls_exec *x __attribute__((unused)), struct gls_state *st __attribute__((unused)), \
 	                const struct call *c __attribute__((unused)))
 
@@ -35,11 +51,11 @@ enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does n
 
 struct gls_command {
 	const char *name;
-	gls_handler *handler; /* NULL: excused, or not done yet */
-	uint32_t kind;
-	const char *excuse;   /* why nothing needs to be done */
-	uint32_t core;        /* 1: part of GL 1.0 - 2.1 */
-	uint32_t drawing;     /* enum gls_drawing, or 0 */
+	const char *excuse; /* why nothing needs to be done; NULL: it is done, or not done yet */
+	uint32_t kind;      /* enum gls_kind; GLS_KIND_NONE: there is no handler */
+	uint32_t role;      /* enum gls_role */
+	uint32_t core;      /* 1: part of GL 1.0 - 2.1 */
+	uint32_t drawing;   /* enum gls_drawing, or 0 */
 };
 extern const struct gls_command gls_commands[]; /* sorted by name */
 extern const unsigned n_gls_commands;

@@ -36,6 +36,7 @@ struct gls_pending {
 	struct gls_geometry geometry;
 	uint64_t call; /* number of the call that began them */
 	uint32_t command, list;
+	int mixes; /* 1: quads may join other polygons, because nobody turns them (lists) */
 };
 
 /* Contents that were met before. */
@@ -53,8 +54,7 @@ struct gls_scratch {
 	size_t room;
 	uint32_t *elements; /* indices of the draw being executed */
 	size_t elements_room;
-	struct gls_geometry geometry; /* of list assembly and array draws */
-	struct gls_state *assembling; /* state that a list's vertices are run through when it is made (list.c) */
+	struct gls_geometry geometry; /* of array draws and rectangles */
 };
 
 /* Pixels that were drawn and are needed (surface/feedback.c). */
@@ -66,6 +66,11 @@ struct gls_feedback {
 	int shows_through; /* 1: some frame did show what was there before it */
 	int rewind;        /* 1: a frame needs pixels of skipped ones: all must be built from the start */
 };
+
+struct gls_exec;
+
+/** Run a command of the table as if it had been met: from a list, or as part of another one. */
+typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command);
 
 struct gls_exec {
 	const char *path;    /* of the trace, for messages */
@@ -94,6 +99,9 @@ struct gls_exec {
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 	uint64_t serial;              /* of the last scene begun */
+
+	gls_dispatcher *dispatch;     /* gl/dispatch.c stands above the handlers; they reach it through this */
+	struct gls_exec *assembler;   /* runs the vertices of a list when it is made (list.c); NULL: none yet */
 
 	struct gls_pending pending;
 	struct gls_caches caches;

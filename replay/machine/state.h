@@ -311,6 +311,15 @@ struct gls_share {
 	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */
 };
 
+/** The stack that matrix commands change. */
+struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
+/**
+ * ColorMaterial (GL 2.1 sec. 2.14.3): give a face the colour where its material follows the current one. The caller has looked
+ * whether COLOR_MATERIAL is enabled.
+ * @param side  0 front, 1 back
+ */
+void gls_track_color(const struct gls_lighting *l, unsigned side, const float color[4], struct scene_face *face);
+
 /** Record a GL error of the program (sec. 2.5): the first one sticks. */
 static inline void gls_set_error(struct gls_state *st, uint32_t error)
 {

@@ -9,9 +9,9 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "base/half.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/dispatch.h"
 #include "replay/gl/geometry/buffer.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/surface/draw.h"
@@ -21,7 +21,6 @@
 #include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 
 /* ---- array pointers ---- */
 
@@ -689,18 +688,13 @@ GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
 
 static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args, uint32_t n)
 {
+	const uint32_t command = (uint32_t)gls_command_find(name);
 	struct call c = *x->call;
-	uint32_t command = x->command;
 
 	c.args = args;
 	c.n_args = n;
-	x->command = (uint32_t)gls_command_find(name);
-	if (st->list && gls_list_append(x, st, &c) == 0 && st->list_mode == GL_COMPILE) {
-		x->command = command;
-		return;
-	}
-	gls_dispatch(x, &c, x->command);
-	x->command = command;
+	if (!st->list || gls_list_append(x, st, &c, command) || st->list_mode != GL_COMPILE)
+		x->dispatch(x, &c, command);
 }
 
 GLS_HANDLER(glArrayElement, CLIENT)
@@ -731,15 +725,4 @@ GLS_HANDLER(glArrayElement, CLIENT)
 		else
 			put_call(x, st, names[a], args + 1, 1);
 	}
-}
-
-/* ---- share groups ---- */
-
-struct gls_share *gls_share_create(void)
-{
-	struct gls_share *share = calloc(1, sizeof(*share));
-
-	if (share)
-		share->refs = 1;
-	return share;
 }

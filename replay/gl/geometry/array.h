@@ -7,7 +7,6 @@
 
 struct gls_array;
 struct gls_exec;
-struct gls_share;
 struct gls_state;
 struct trace_value;
 
@@ -21,6 +20,5 @@ void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, in
  */
 void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
                        const struct trace_value *indices, int32_t base);
-struct gls_share *gls_share_create(void);
 
 #endif

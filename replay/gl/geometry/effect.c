@@ -14,17 +14,13 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/table.h"
 #include "replay/gl/geometry/list.h"
-#include "replay/gl/geometry/vertex.h"
-#include "replay/gl/state/attrib.h"
-#include "replay/gl/state/light.h"
-#include "replay/gl/state/matrix.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 
 #define MAX_OPS (1u << 16) /* of a list, with those inlined */
 #define MAX_NESTING 8      /* of lists inlined */
@@ -56,25 +52,17 @@ struct maker {
 
 static enum action action_of(const struct gls_op *op)
 {
-	static const struct {
-		gls_handler *handler;
-		enum action action;
-	} known[] = {
-		{ gls_glTranslatef, CHANGE }, { gls_glCallList, CALL }, { gls_glBindTexture, BIND }, { gls_glPushMatrix, PUSH },
-		{ gls_glPopMatrix, POP }, { gls_glRotatef, CHANGE }, { gls_glScalef, CHANGE }, { gls_glMultMatrixf, CHANGE },
-		{ gls_glTranslated, CHANGE }, { gls_glRotated, CHANGE }, { gls_glScaled, CHANGE }, { gls_glMultMatrixd, CHANGE },
-		{ gls_glLoadIdentity, CHANGE }, { gls_glLoadMatrixf, CHANGE }, { gls_glLoadMatrixd, CHANGE },
-		{ gls_glMatrixMode, LEAVE }, { gls_glActiveTexture, LEAVE }, { gls_glPopAttrib, LEAVE },
-		{ gls_glEdgeFlag, LEAVE }, { gls_glEdgeFlagv, LEAVE },
-		{ gls_glMaterialf, KEEP }, { gls_glMaterialfv, KEEP }, { gls_glMateriali, KEEP }, { gls_glMaterialiv, KEEP },
+	static const uint8_t known[] = {
+		[GLS_ROLE_TRANSFORM] = CHANGE, [GLS_ROLE_CALL_LIST] = CALL, [GLS_ROLE_BIND_TEXTURE] = BIND, [GLS_ROLE_PUSH_MATRIX] = PUSH,
+		[GLS_ROLE_POP_MATRIX] = POP, [GLS_ROLE_SELECT] = LEAVE, [GLS_ROLE_EDGE_FLAG] = LEAVE, [GLS_ROLE_BEGIN] = LEAVE,
+		[GLS_ROLE_END] = LEAVE, [GLS_ROLE_MATERIAL] = KEEP,
 	};
 	const struct gls_command *k = &gls_commands[op->command];
 
 	if (op->form == GLS_OP_MESH)
 		return DRAW;
-	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
-		if (k->handler == known[i].handler)
-			return known[i].action;
+	if (k->role != GLS_ROLE_NONE)
+		return known[k->role];
 	return k->kind == GLS_KIND_VERTEX ? PASS : k->kind == GLS_KIND_INSIDE ? LEAVE : KEEP;
 }
 

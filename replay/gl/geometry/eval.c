@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
-#include "replay/gl/geometry/vertex.h"
 #include "base/bytes.h"
+#include "capture/format/trace.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -362,16 +362,6 @@ static void point_2(struct gls_exec *x, struct gls_state *st, int64_t i, int64_t
 GLS_HANDLER(glEvalPoint1, INSIDE) { point_1(x, st, arg_i(c, 0)); }
 GLS_HANDLER(glEvalPoint2, INSIDE) { point_2(x, st, arg_i(c, 0), arg_i(c, 1)); }
 
-static void begin(struct gls_exec *x, struct gls_state *st, uint32_t primitive)
-{
-	const struct trace_value mode = { .type = TRACE_ENUM, .i = primitive };
-	struct call call = *x->call;
-
-	call.args = &mode;
-	call.n_args = 1;
-	gls_glBegin(x, st, &call);
-}
-
 /* Is there something to draw, of a size that can be held? A mesh may have 2^20 points, those of a frame four times as many. */
 static int mesh_fits(struct gls_exec *x, int64_t across, int64_t along)
 {
@@ -393,10 +383,10 @@ GLS_HANDLER(glEvalMesh1, STATE)
 	}
 	if (!mesh_fits(x, arg_i32(c, 2) - arg_i32(c, 1) + 1, 1))
 		return;
-	begin(x, st, mode == GL_POINT ? GL_POINTS : GL_LINE_STRIP);
+	gls_begin(x, st, mode == GL_POINT ? GL_POINTS : GL_LINE_STRIP);
 	for (int64_t i = arg_i32(c, 1); i <= arg_i32(c, 2); i++)
 		point_1(x, st, i);
-	gls_glEnd(x, st, x->call);
+	gls_end(x, st);
 }
 
 /* Sec. 5.1: points, lines both ways, or strips of triangles (Mesa draws these where the specification has strips of quads). */
@@ -412,18 +402,18 @@ GLS_HANDLER(glEvalMesh2, STATE)
 	if (!mesh_fits(x, i2 - i1 + 1, j2 - j1 + 1))
 		return;
 	for (int64_t j = j1; j <= j2 - (mode == GL_FILL); j++) {
-		begin(x, st, mode == GL_POINT ? GL_POINTS : mode == GL_LINE ? GL_LINE_STRIP : GL_TRIANGLE_STRIP);
+		gls_begin(x, st, mode == GL_POINT ? GL_POINTS : mode == GL_LINE ? GL_LINE_STRIP : GL_TRIANGLE_STRIP);
 		for (int64_t i = i1; i <= i2; i++) {
 			point_2(x, st, i, j);
 			if (mode == GL_FILL)
 				point_2(x, st, i, j + 1);
 		}
-		gls_glEnd(x, st, x->call);
+		gls_end(x, st);
 	}
 	for (int64_t i = i1; i <= i2 && mode == GL_LINE; i++) {
-		begin(x, st, GL_LINE_STRIP);
+		gls_begin(x, st, GL_LINE_STRIP);
 		for (int64_t j = j1; j <= j2; j++)
 			point_2(x, st, i, j);
-		gls_glEnd(x, st, x->call);
+		gls_end(x, st);
 	}
 }

@@ -11,23 +11,20 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/arena.h"
 #include "base/err.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/dispatch.h"
 #include "replay/gl/geometry/effect.h"
-#include "replay/gl/geometry/vertex.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/gl/surface/draw.h"
-#include "replay/gl/state/light.h"
-#include "replay/gl/texture/texture.h"
-#include "base/arena.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 
 #define MAX_PACKED 16
 
@@ -150,9 +147,9 @@ static int keep_call(struct gls_list *list, const struct call *c, uint32_t comma
 	return ERR_SYSTEM;
 }
 
-int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c)
+int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command)
 {
-	if (keep_call(st->list, c, x->command, &st->client.unpack) == 0)
+	if (keep_call(st->list, c, command, &st->client.unpack) == 0)
 		return 0;
 	gls_out_of_memory(x, 0);
 	return ERR_SYSTEM;
@@ -243,7 +240,7 @@ static void run_with_pixels(struct gls_exec *x, struct gls_state *st, const stru
 	const struct gls_pixel_store unpack = st->client.unpack;
 
 	st->client.unpack = *op->unpack;
-	gls_dispatch(x, c, op->command);
+	x->dispatch(x, c, op->command);
 	st->client.unpack = unpack;
 }
 
@@ -252,8 +249,8 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	struct gls_list *list = table_find(&st->share->lists, name);
 	struct trace_value args[MAX_PACKED + 1];
 	const struct gls_effect *effect;
-	uint32_t command = x->command, n;
 	const struct gls_op *ops;
+	uint32_t n;
 	struct call c;
 
 	if (!list || x->list_depth == GLS_MAX_LIST_NESTING)
@@ -280,8 +277,7 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 		if (op->unpack)
 			run_with_pixels(x, st, op, &c);
 		else
-			gls_dispatch(x, &c, op->command);
-		x->command = command;
+			x->dispatch(x, &c, op->command);
 	}
 	if (--x->list_depth == 0)
 		x->drawn_list = 0;
@@ -296,50 +292,49 @@ struct run {
 	uint32_t stop;  /* op that did not fit, or whose vertex needs a value that is not known yet */
 };
 
-static int is_command(const struct gls_op *op, gls_handler *handler)
+static int is_a(const struct gls_op *op, enum gls_role role)
 {
-	return op->form != GLS_OP_MESH && gls_commands[op->command].handler == handler;
+	return op->form != GLS_OP_MESH && gls_commands[op->command].role == role;
 }
 
 /* May the op be part of a run? */
-static int fits_run(const struct gls_exec *x, const struct gls_op *op)
+static int fits_run(const struct gls_exec *assembler, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
-	const struct gls_geometry *g = &x->pending.geometry;
-	int open = x->scratch.assembling->begin_mode != 0;
+	const struct gls_geometry *g = &assembler->pending.geometry;
+	int open = assembler->st->begin_mode != 0;
 	enum scene_primitive kind;
 
-	if (op->form == GLS_OP_MESH || k->handler == gls_glEdgeFlag || k->handler == gls_glEdgeFlagv)
+	if (op->form == GLS_OP_MESH || k->role == GLS_ROLE_EDGE_FLAG)
 		return 0;
 	if (k->kind == GLS_KIND_VERTEX)
 		return 1;
-	if (is_command(op, gls_glEnd))
+	if (is_a(op, GLS_ROLE_END))
 		return open;
-	if (!is_command(op, gls_glBegin) || open || op->form != GLS_OP_CALL)
+	if (!is_a(op, GLS_ROLE_BEGIN) || open || op->form != GLS_OP_CALL)
 		return 0;
 	kind = gls_mode_kind((uint32_t)gls_value_int(&op->args[0]));
 	return kind && (!g->n_vertices || (g->kind == kind && g->n_vertices <= GLS_MAX_PENDING_VERTICES));
 }
 
 /*
- * Run ops [first, last) through the state of their own, as far as they make a run.
- * The geometry is left with what was collected up to run->end where `last` is that end.
+ * Run ops [first, last) through the assembler, as far as they make a run.
+ * Its geometry is left with what was collected up to run->end where `last` is that end.
  */
-static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_t first, uint32_t last, struct run *run)
+static void collect_run(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last, struct run *run)
 {
 	struct trace_value args[MAX_PACKED + 1];
-	struct gls_geometry *g = &x->pending.geometry;
-	struct call c = call_of_list(x);
+	struct gls_geometry *g = &assembler->pending.geometry;
+	struct call c = call_of_list(assembler);
 
 	gls_geometry_clear(g);
-	x->scratch.assembling->begin_mode = 0;
+	assembler->st->begin_mode = 0;
 	*run = (struct run){ .stop = first };
-	for (uint32_t i = first; i < last && fits_run(x, &list->ops[i]); i++) {
+	for (uint32_t i = first; i < last && fits_run(assembler, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
 		uint32_t n = g->n_vertices, touched = g->touched;
 		unpack_call(op, args, &c);
-		x->command = op->command;
-		gls_commands[op->command].handler(x, x->scratch.assembling, &c);
+		assembler->dispatch(assembler, &c, op->command);
 		if (n == 0 && g->n_vertices)
 			run->known = touched;
 		run->set |= touched | g->touched;
@@ -347,7 +342,7 @@ static void collect_run(struct gls_exec *x, const struct gls_list *list, uint32_
 		if (n && g->n_vertices > n && touched & ~run->known)
 			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
 		run->stop = i + 1;
-		if (is_command(op, gls_glEnd))
+		if (is_a(op, GLS_ROLE_END))
 			run->end = i + 1;
 	}
 }
@@ -363,15 +358,15 @@ static const float (*keep_values(struct gls_list *list, uint32_t mask, const flo
 	return (const float (*)[4])kept;
 }
 
-static int keep_run(struct gls_exec *x, struct gls_list *list, const struct run *run)
+static int keep_run(struct gls_exec *x, struct gls_exec *assembler, struct gls_list *list, const struct run *run)
 {
-	struct gls_geometry *g = &x->pending.geometry;
-	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = x->scratch.assembling->a.lighting.first_provokes };
+	struct gls_geometry *g = &assembler->pending.geometry;
+	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = assembler->st->a.lighting.first_provokes };
 
 	op.before = run->known & ~g->given;
 	op.after = run->set;
 	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
-	op.after_values = keep_values(list, op.after, (const float (*)[4])x->scratch.assembling->a.current.attribute);
+	op.after_values = keep_values(list, op.after, (const float (*)[4])assembler->st->a.current.attribute);
 	if (!op.before_values || !op.after_values) {
 		gls_out_of_memory(x, 0);
 		return ERR_SYSTEM;
@@ -420,7 +415,7 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 
 	do {
 		const struct gls_op *op = &list->ops[*at];
-		open = is_command(op, gls_glBegin) || (open && !is_command(op, gls_glEnd));
+		open = is_a(op, GLS_ROLE_BEGIN) || (open && !is_a(op, GLS_ROLE_END));
 		if (keep_op(out, op, x))
 			return ERR_SYSTEM;
 		(*at)++;
@@ -454,19 +449,12 @@ static int equal_args(const struct gls_op *a, const struct gls_op *b)
 	return 1;
 }
 
-static int is_material(const struct gls_op *op)
-{
-	gls_handler *handler = gls_commands[op->command].handler;
-
-	return handler == gls_glMaterialfv || handler == gls_glMaterialf || handler == gls_glMaterialiv || handler == gls_glMateriali;
-}
-
 /* Do both set something in common? Materials: face and name; textures: the target. */
 static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 {
 	int64_t p, q;
 
-	if (material != is_material(a))
+	if (material != is_a(a, GLS_ROLE_MATERIAL))
 		return 0;
 	if (!material || a->n < 2 || b->n < 2)
 		return 1;
@@ -479,10 +467,10 @@ static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
 static int is_redundant(struct remembered *r, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
-	int material = op->form == GLS_OP_CALL && is_material(op);
-	int texture = op->form == GLS_OP_CALL && is_command(op, gls_glBindTexture);
+	int material = op->form == GLS_OP_CALL && is_a(op, GLS_ROLE_MATERIAL);
+	int texture = op->form == GLS_OP_CALL && is_a(op, GLS_ROLE_BIND_TEXTURE);
 
-	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || is_command(op, gls_glBegin) || is_command(op, gls_glEnd)))
+	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || is_a(op, GLS_ROLE_BEGIN) || is_a(op, GLS_ROLE_END)))
 		return 0;
 	if (!material && !texture) {
 		r->n = 0;
@@ -517,45 +505,66 @@ static void drop_redundant(struct gls_list *list)
 static int has_begin(const struct gls_list *list)
 {
 	for (uint32_t i = 0; i < list->n; i++)
-		if (is_command(&list->ops[i], gls_glBegin))
+		if (is_a(&list->ops[i], GLS_ROLE_BEGIN))
 			return 1;
 	return 0;
+}
+
+/* ---- the assembler: a machine of its own, with one context, that vertices are run through ---- */
+
+struct assembler {
+	struct gls_exec machine; /* first */
+	struct gls_state state;
+};
+
+/* Ready for a list that is made now; NULL: out of memory. */
+static struct gls_exec *find_assembler(struct gls_exec *x)
+{
+	struct assembler *a = (struct assembler *)x->assembler;
+
+	if (!a && (a = calloc(1, sizeof(*a))))
+		x->assembler = &a->machine;
+	if (!a)
+		return NULL;
+	a->machine.path = x->path;
+	a->machine.want = 1;
+	a->machine.call = x->call;
+	a->machine.counts = x->counts; /* borrowed: what its calls meet counts as the program's */
+	a->machine.dispatch = x->dispatch;
+	a->machine.pending.mixes = 1;
+	a->machine.st = &a->state;
+	a->state.a.current.edge_flag = 1;
+	a->state.a.lighting.first_provokes = x->st->a.lighting.first_provokes;
+	return &a->machine;
+}
+
+void gls_assembler_free(struct gls_exec *assembler)
+{
+	if (assembler)
+		gls_geometry_free(&assembler->pending.geometry);
+	free(assembler);
 }
 
 /* The same list with its runs assembled, in an arena of its own. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
-	struct gls_geometry pending = x->pending.geometry;
+	struct gls_exec *assembler = find_assembler(x);
 	struct gls_list *out = calloc(1, sizeof(*out));
-	int want = x->want, failed = !out;
-	uint32_t command = x->command;
+	int failed = !out || !assembler;
 
-	if (!x->scratch.assembling)
-		x->scratch.assembling = calloc(1, sizeof(*x->scratch.assembling));
-	failed |= !x->scratch.assembling;
-	if (x->scratch.assembling) {
-		x->scratch.assembling->a.current.edge_flag = 1;
-		x->scratch.assembling->a.lighting.first_provokes = x->st->a.lighting.first_provokes;
-	}
-	x->pending.geometry = x->scratch.geometry;
-	x->want = 1;
 	for (uint32_t i = 0; i < list->n && !failed;) {
 		struct run run;
-		collect_run(x, list, i, list->n, &run);
+		collect_run(assembler, list, i, list->n, &run);
 		if (!run.end) {
 			failed = keep_ops(x, out, list, run.stop, &i) != 0;
 			continue;
 		}
 		if (run.stop > run.end) /* once more up to its end: what came after it left traces in the geometry */
-			collect_run(x, list, i, run.end, &run);
-		failed = keep_run(x, out, &run) != 0;
+			collect_run(assembler, list, i, run.end, &run);
+		failed = keep_run(x, assembler, out, &run) != 0;
 		i = run.end;
 	}
-	x->scratch.geometry = x->pending.geometry;
-	x->pending.geometry = pending;
-	x->want = want;
-	x->command = command;
-	if (failed) {
+	if (failed || assembler->failed) {
 		gls_out_of_memory(x, 0);
 		if (out)
 			gls_list_free(out);
@@ -656,7 +665,7 @@ GLS_HANDLER(glXUseXFont, WINDOW)
 		gls_unsupported(x, "a font of the X server that the trace does not hold");
 }
 
-GLS_HANDLER(glCallList, INSIDE) { gls_call_list(x, st, arg_u(c, 0)); }
+GLS_HANDLER(glCallList, INSIDE, CALL_LIST) { gls_call_list(x, st, arg_u(c, 0)); }
 
 /* Bytes of an element of CallLists (table 5.?: sec. 5.4), 0: no type. */
 static unsigned element_bytes(uint32_t type)

@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include "base/arena.h"
-#include "replay/machine/commands.h"
 
 struct call;
 struct gls_exec;
@@ -55,10 +54,11 @@ struct gls_list {
 #define GLS_MAX_LIST_NESTING 64
 void gls_list_free(struct gls_list *list);
 /** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
-int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c);
+int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command);
 /** Keep a mesh in it (takes the reference). */
 int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
-gls_handler gls_glCallList;
+/** The machine in which lists are assembled. */
+void gls_assembler_free(struct gls_exec *assembler);
 /** Run a list, where there is one of this name. */
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
 

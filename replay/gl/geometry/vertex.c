@@ -1,190 +1,22 @@
 /* Begin/End and vertex attributes (GL 2.1 sec. 2.6, 2.7). */
-#include "replay/gl/geometry/vertex.h"
-
 #include <string.h>
 
 #include "gl_tokens.h"
 #include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
-#include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
-#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-/* ---- attributes ---- */
+GLS_HANDLER(glBegin, INSIDE, BEGIN) { gls_begin(x, st, arg_u(c, 0)); }
+GLS_HANDLER(glEnd, INSIDE, END) { gls_end(x, st); }
+GLS_HANDLER(glPrimitiveRestartNV, INSIDE) { gls_restart(x, st); }
 
-void gls_color_changed(struct gls_state *st)
-{
-	const float *color = st->a.current.attribute[GLS_ATTR_COLOR];
-	const struct gls_lighting *l = &st->a.lighting;
-
-	/* Sec. 2.14.3: the tracked material parameters follow the current color. */
-	for (unsigned side = 0; side < 2; side++) {
-		struct scene_face *face = &st->a.lighting.face[side];
-		if (l->color_material_face == (side ? GL_FRONT : GL_BACK))
-			continue;
-		switch (l->color_material_mode) {
-		case GL_EMISSION:
-			memcpy(face->emission, color, 16);
-			break;
-		case GL_AMBIENT:
-			memcpy(face->ambient, color, 16);
-			break;
-		case GL_DIFFUSE:
-			memcpy(face->diffuse, color, 16);
-			break;
-		case GL_SPECULAR:
-			memcpy(face->specular, color, 16);
-			break;
-		case GL_AMBIENT_AND_DIFFUSE:
-			memcpy(face->ambient, color, 16);
-			memcpy(face->diffuse, color, 16);
-			break;
-		}
-	}
-	st->dirty |= GLS_DIRTY_MATERIAL;
-}
-
-void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4])
-{
-	memcpy(st->a.current.attribute[attribute], value, 16);
-	x->pending.geometry.touched |= 1u << attribute;
-	if (attribute == GLS_ATTR_COLOR && st->a.lighting.color_material)
-		gls_color_changed(st);
-}
-
-/* ---- vertices ---- */
-
-/* Attributes that were set since the last vertex: those whose value is another one now vary. */
-static int take_touched(struct gls_geometry *g, const struct gls_state *st)
-{
-	uint32_t candidates = g->touched & ~g->given;
-
-	for (unsigned a = 0; candidates; a++, candidates >>= 1)
-		if (candidates & 1 && memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
-			return -1;
-	g->touched = 0;
-	return 0;
-}
-
-static void add_vertex(struct gls_exec *x, const struct gls_state *st, const float position[4])
-{
-	struct gls_geometry *g = &x->pending.geometry;
-	uint32_t at = g->n_vertices;
-
-	if (at == 0) {
-		memcpy(g->constant, st->a.current.attribute, sizeof(g->constant));
-		g->touched = 0;
-		g->given = 0;
-	} else if (g->touched && take_touched(g, st)) {
-		gls_out_of_memory(x, 0);
-		return;
-	}
-	if (at == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
-		gls_out_of_memory(x, 0);
-		return;
-	}
-	memcpy(g->position + 4 * (size_t)at, position, 16);
-	if (g->given & SCENE_HAS_FACE)
-		memcpy(g->face[at], st->a.lighting.face, sizeof(*g->face));
-	for (uint32_t given = g->given & ((1u << N_GLS_ATTRIBUTES) - 1); given; given &= given - 1) {
-		unsigned a = (unsigned)__builtin_ctz(given);
-		memcpy(g->attribute[a] + 4 * (size_t)at, st->a.current.attribute[a], 16);
-	}
-	g->edge[at] = st->a.current.edge_flag != 0;
-	g->n_vertices = at + 1;
-}
-
-void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4])
-{
-	if (!st->begin_mode || !x->want)
-		return; /* outside Begin/End the result is undefined (sec. 2.6.3); Mesa draws nothing */
-	add_vertex(x, st, position);
-}
-
-/* ---- Begin and End ---- */
-
-GLS_HANDLER(glBegin, INSIDE)
-{
-	struct gls_geometry *g = &x->pending.geometry;
-	uint32_t mode = arg_u(c, 0);
-	enum scene_primitive kind = gls_mode_kind(mode);
-
-	if (st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
-		return;
-	}
-	if (!kind) {
-		gls_error(x, st, GL_INVALID_ENUM);
-		return;
-	}
-	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
-	                      (st == x->st && g->quads != (mode == GL_QUADS))))
-		gls_flush(x);
-	g->kind = kind;
-	g->quads = mode == GL_QUADS;
-	g->begin_vertex = g->n_vertices;
-	if (!g->n_vertices) {
-		x->pending.call = x->call->number;
-		x->pending.command = x->command;
-		x->pending.list = x->drawn_list;
-	}
-	st->begin_mode = mode + 1;
-}
-
-GLS_HANDLER(glEnd, INSIDE)
-{
-	struct gls_geometry *g = &x->pending.geometry;
-
-	if (!st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
-		return;
-	}
-	if (x->want) {
-		if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes))
-			gls_out_of_memory(x, 0);
-		g->n_draws++;
-	}
-	st->begin_mode = 0;
-}
-
-/* The primitive ends and another of its kind begins (NV_primitive_restart). */
-GLS_HANDLER(glPrimitiveRestartNV, INSIDE)
-{
-	struct gls_geometry *g = &x->pending.geometry;
-
-	if (!st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
-		return;
-	}
-	if (x->want && gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL,
-	                                (int)st->a.lighting.first_provokes))
-		gls_out_of_memory(x, 0);
-	g->begin_vertex = g->n_vertices;
-}
-
-/*
- * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so from there on
- * it is an attribute of the vertices.
- */
-void gls_before_material(struct gls_exec *x, struct gls_state *st)
-{
-	struct gls_geometry *g = &x->pending.geometry;
-
-	if (!st->begin_mode && g->n_vertices)
-		gls_flush(x);
-	else if (g->n_vertices && !(g->given & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
-		gls_out_of_memory(x, 0);
-	st->dirty |= GLS_DIRTY_MATERIAL;
-}
-
-GLS_HANDLER(glEdgeFlag, VERTEX)
+GLS_HANDLER(glEdgeFlag, VERTEX, EDGE_FLAG)
 {
 	st->a.current.edge_flag = arg_i(c, 0) != 0;
 }
-GLS_HANDLER(glEdgeFlagv, VERTEX)
+GLS_HANDLER(glEdgeFlagv, VERTEX, EDGE_FLAG)
 {
 	st->a.current.edge_flag = gls_value_int(arg(c, 0)) != 0;
 }
@@ -193,16 +25,12 @@ GLS_HANDLER(glEdgeFlagv, VERTEX)
 
 static void rect(struct gls_exec *x, struct gls_state *st, float x1, float y1, float x2, float y2)
 {
-	const struct trace_value mode = { .type = TRACE_ENUM, .i = GL_QUADS };
 	const float corners[4][4] = { { x1, y1, 0, 1 }, { x2, y1, 0, 1 }, { x2, y2, 0, 1 }, { x1, y2, 0, 1 } };
-	struct call begin = *x->call;
 
-	begin.args = &mode;
-	begin.n_args = 1;
-	gls_glBegin(x, st, &begin);
+	gls_begin(x, st, GL_QUADS);
 	for (unsigned i = 0; i < 4; i++)
 		gls_vertex(x, st, corners[i]);
-	gls_glEnd(x, st, &begin);
+	gls_end(x, st);
 }
 
 static void rect_v(struct gls_exec *x, struct gls_state *st, const struct call *c)

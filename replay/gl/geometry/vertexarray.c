@@ -9,12 +9,12 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
 
 void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS])
 {

@@ -3,8 +3,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
 #include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/machine/args.h"
@@ -12,6 +10,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "replay/machine/state.h"
 
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */
@@ -54,14 +53,12 @@ static int span(int64_t s0, int64_t s1, int64_t d0, int64_t d1, int64_t *from, i
 	return s0 != s1 && d0 != d1 && *to - *from <= 16384;
 }
 
-GLS_HANDLER(glBlitFramebuffer, NOW)
+GLS_HANDLER(glBlitFramebuffer, OBJECT)
 {
 	struct blit b;
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
 
-	gls_flush(x);
-	st->dirty = GLS_DIRTY_ALL;
 	if (!span(arg_i32(c, 0), arg_i32(c, 2), arg_i32(c, 4), arg_i32(c, 6), &b.from[0], &b.from[2], &b.left, &b.zoom[0]) ||
 	    !span(arg_i32(c, 1), arg_i32(c, 3), arg_i32(c, 5), arg_i32(c, 7), &b.from[1], &b.from[3], &b.low, &b.zoom[1]))
 		return;

@@ -1,6 +1,5 @@
 /* Clear (GL 2.1 sec. 4.2.3). */
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
 #include "replay/gl/pixels/accum.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/args.h"

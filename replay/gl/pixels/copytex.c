@@ -5,14 +5,17 @@
 #include "capture/format/trace.h"
 #include "replay/gl/pixels/teximage.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/texture.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "replay/machine/state.h"
 
 /* A rectangle of the screen, and where it goes in a level. */
 struct copy {

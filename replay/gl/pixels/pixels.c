@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
 #include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/texture/texformat.h"
@@ -13,6 +12,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "replay/machine/state.h"
 
 GLS_HANDLER(glBitmap, STATE)
 {

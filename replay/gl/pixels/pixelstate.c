@@ -2,12 +2,11 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 /* ---- storage, sec. 3.6.1 ---- */
 

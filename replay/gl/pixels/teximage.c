@@ -4,17 +4,18 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
+#include "base/table.h"
 #include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/texcompress.h"
 #include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/texture.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
                                            unsigned *face)
@@ -240,15 +241,13 @@ GLS_HANDLER(glTexStorage3D, STATE) { tex_storage(x, st, c, 3); }
 
 /* ---- ARB_clear_texture: one pixel, as TexImage would take it, all over a level ---- */
 
-GLS_HANDLER(glClearTexImage, NOW)
+GLS_HANDLER(glClearTexImage, OBJECT)
 {
 	const struct gls_pixel_store tight = { .alignment = 1, .swap_bytes = st->client.unpack.swap_bytes };
 	struct gls_pixels pixel = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = 1, .height = 1, .store = &tight };
 	struct gls_texture *t = table_find(&st->share->textures, arg_u(c, 0));
 	uint8_t texel[16] = { 0 };
 
-	gls_flush(x);
-	st->dirty |= GLS_DIRTY_MATERIAL;
 	if (!t || arg_i(c, 1) < 0 || arg_i(c, 1) >= GLS_MAX_LEVELS) {
 		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
@@ -293,8 +292,6 @@ static void copy_image(struct gls_exec *x, struct gls_state *st, const struct ca
 	struct gls_texture *from = table_find(&st->share->textures, arg_u(c, 0)), *to = table_find(&st->share->textures, arg_u(c, 6));
 	int64_t width = arg_i(c, 12), height = arg_i(c, 13);
 
-	gls_flush(x);
-	st->dirty |= GLS_DIRTY_MATERIAL;
 	if (arg_u(c, 1) == GL_RENDERBUFFER || arg_u(c, 7) == GL_RENDERBUFFER) {
 		gls_unsupported(x, "copies of renderbuffers");
 		return;
@@ -328,8 +325,8 @@ static void copy_image(struct gls_exec *x, struct gls_state *st, const struct ca
 	}
 }
 
-GLS_HANDLER(glCopyImageSubData, NOW) { copy_image(x, st, c); }
-GLS_HANDLER(glCopyImageSubDataNV, NOW) { copy_image(x, st, c); }
+GLS_HANDLER(glCopyImageSubData, OBJECT) { copy_image(x, st, c); }
+GLS_HANDLER(glCopyImageSubDataNV, OBJECT) { copy_image(x, st, c); }
 
 GLS_HANDLER(glGenerateMipmap, STATE)
 {

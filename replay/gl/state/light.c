@@ -1,12 +1,10 @@
 /* Lighting, materials, shading, fog (GL 2.1 sec. 2.14, 3.10). */
-#include "replay/gl/state/light.h"
-
 #include <string.h>
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
 #include "capture/format/trace.h"
-#include "replay/gl/geometry/vertex.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -194,10 +192,10 @@ static void set_material(struct gls_exec *x, struct gls_state *st, const struct 
 	}
 }
 
-GLS_HANDLER(glMaterialf, INSIDE) { set_material(x, st, c, 0); }
-GLS_HANDLER(glMaterialfv, INSIDE) { set_material(x, st, c, 0); }
-GLS_HANDLER(glMateriali, INSIDE) { set_material(x, st, c, 1); }
-GLS_HANDLER(glMaterialiv, INSIDE) { set_material(x, st, c, 1); }
+GLS_HANDLER(glMaterialf, INSIDE, MATERIAL) { set_material(x, st, c, 0); }
+GLS_HANDLER(glMaterialfv, INSIDE, MATERIAL) { set_material(x, st, c, 0); }
+GLS_HANDLER(glMateriali, INSIDE, MATERIAL) { set_material(x, st, c, 1); }
+GLS_HANDLER(glMaterialiv, INSIDE, MATERIAL) { set_material(x, st, c, 1); }
 
 GLS_HANDLER(glColorMaterial, STATE)
 {

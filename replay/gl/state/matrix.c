@@ -1,30 +1,13 @@
 /* Coordinate transformations (GL 2.1 sec. 2.11, 2.12). */
-#include "replay/gl/state/matrix.h"
-
 #include <string.h>
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
-#include "capture/format/trace.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
-
-struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
-{
-	switch (st->a.transform.matrix_mode) {
-	case GL_PROJECTION:
-		return &st->projection;
-	case GL_TEXTURE:
-		return &st->texture[st->a.texturing.active];
-	case GL_COLOR:
-		return &st->color_matrix;
-	default:
-		return &st->modelview;
-	}
-}
 
 /* The current matrix, about to change. */
 static float *change_matrix(struct gls_state *st)
@@ -52,7 +35,7 @@ static void read_matrix(const struct call *c, unsigned i, float m[16])
 	arg_floats(c, i, m, 16);
 }
 
-GLS_HANDLER(glMatrixMode, MATRIX)
+GLS_HANDLER(glMatrixMode, MATRIX, SELECT)
 {
 	uint32_t mode = arg_u(c, 0);
 
@@ -63,7 +46,7 @@ GLS_HANDLER(glMatrixMode, MATRIX)
 	st->a.transform.matrix_mode = mode;
 }
 
-GLS_HANDLER(glPushMatrix, MATRIX)
+GLS_HANDLER(glPushMatrix, MATRIX, PUSH_MATRIX)
 {
 	struct gls_matrix_stack *stack = gls_current_stack(st);
 
@@ -75,7 +58,7 @@ GLS_HANDLER(glPushMatrix, MATRIX)
 	stack->depth++;
 }
 
-GLS_HANDLER(glPopMatrix, MATRIX)
+GLS_HANDLER(glPopMatrix, MATRIX, POP_MATRIX)
 {
 	struct gls_matrix_stack *stack = gls_current_stack(st);
 
@@ -87,22 +70,22 @@ GLS_HANDLER(glPopMatrix, MATRIX)
 	stack->depth--;
 }
 
-GLS_HANDLER(glLoadIdentity, MATRIX)
+GLS_HANDLER(glLoadIdentity, MATRIX, TRANSFORM)
 {
 	memcpy(change_matrix(st), mat4_identity, 64);
 }
 
-GLS_HANDLER(glLoadMatrixf, MATRIX)
+GLS_HANDLER(glLoadMatrixf, MATRIX, TRANSFORM)
 {
 	read_matrix(c, 0, change_matrix(st));
 }
 
-GLS_HANDLER(glLoadMatrixd, MATRIX)
+GLS_HANDLER(glLoadMatrixd, MATRIX, TRANSFORM)
 {
 	read_matrix(c, 0, change_matrix(st));
 }
 
-GLS_HANDLER(glMultMatrixf, MATRIX)
+GLS_HANDLER(glMultMatrixf, MATRIX, TRANSFORM)
 {
 	float m[16];
 
@@ -110,7 +93,7 @@ GLS_HANDLER(glMultMatrixf, MATRIX)
 	multiply(st, m);
 }
 
-GLS_HANDLER(glMultMatrixd, MATRIX)
+GLS_HANDLER(glMultMatrixd, MATRIX, TRANSFORM)
 {
 	float m[16];
 
@@ -181,12 +164,12 @@ static void rotate(struct gls_state *st, float angle_deg, float rx, float ry, fl
 	multiply(st, m);
 }
 
-GLS_HANDLER(glTranslatef, MATRIX) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glTranslated, MATRIX) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glScalef, MATRIX) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glScaled, MATRIX) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glRotatef, MATRIX) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
-GLS_HANDLER(glRotated, MATRIX) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glTranslatef, MATRIX, TRANSFORM) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glTranslated, MATRIX, TRANSFORM) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glScalef, MATRIX, TRANSFORM) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glScaled, MATRIX, TRANSFORM) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
+GLS_HANDLER(glRotatef, MATRIX, TRANSFORM) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
+GLS_HANDLER(glRotated, MATRIX, TRANSFORM) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
 
 GLS_HANDLER(glFrustum, MATRIX)
 {

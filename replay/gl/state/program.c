@@ -2,7 +2,7 @@
  * Later things that a program of the fixed-function age may use beside it: shaders, several draw buffers. Draws with programs are rendered as fixed function and counted.
  */
 #include "gl_tokens.h"
-#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/attachment.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

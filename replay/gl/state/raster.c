@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"

@@ -2,9 +2,9 @@
 
 #include <stdlib.h>
 
+#include "base/table.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "base/table.h"
 
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, uint64_t name)
 {

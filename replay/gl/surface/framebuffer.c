@@ -12,14 +12,18 @@
 #include "gl_tokens.h"
 #include "base/table.h"
 #include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
+#include "replay/build/frame.h"
+#include "replay/gl/surface/attachment.h"
 #include "replay/gl/surface/surface.h"
+#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
+#include "replay/machine/state.h"
 
 #define MANY_EVENTS (1u << 16) /* of an object that nobody looks at: written to attachments, so that they do not pile up */
 
@@ -214,12 +218,6 @@ static void detach(struct gls_exec *x, struct gls_state *st, const struct gls_at
 	}
 }
 
-static void changes(struct gls_exec *x, struct gls_state *st)
-{
-	gls_flush(x);
-	st->dirty = GLS_DIRTY_ALL;
-}
-
 /* Objects have draw and read buffers of their own. */
 static void bind_draw(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
@@ -247,28 +245,26 @@ static void bind_read(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	st->a.pixel.read_buffer = fb->read_buffer;
 }
 
-GLS_HANDLER(glBindFramebuffer, NOW)
+static void bind_framebuffer(struct gls_exec *x, struct gls_state *st, uint32_t target, uint32_t name)
 {
-	uint32_t target = arg_u(c, 0);
-
 	if (target != GL_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER && target != GL_READ_FRAMEBUFFER) {
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
-	changes(x, st);
 	if (target != GL_READ_FRAMEBUFFER)
-		bind_draw(x, st, arg_u(c, 1));
+		bind_draw(x, st, name);
 	if (target != GL_DRAW_FRAMEBUFFER)
-		bind_read(x, st, arg_u(c, 1));
+		bind_read(x, st, name);
 }
-GLS_HANDLER(glBindFramebufferEXT, NOW) { gls_glBindFramebuffer(x, st, c); }
 
-GLS_HANDLER(glDeleteFramebuffers, NOW)
+GLS_HANDLER(glBindFramebuffer, OBJECT) { bind_framebuffer(x, st, arg_u(c, 0), arg_u(c, 1)); }
+GLS_HANDLER(glBindFramebufferEXT, OBJECT) { bind_framebuffer(x, st, arg_u(c, 0), arg_u(c, 1)); }
+
+GLS_HANDLER(glDeleteFramebuffers, OBJECT)
 {
 	uint64_t n;
 	const struct trace_value *names = arg_items(c, 1, &n);
 
-	changes(x, st);
 	for (uint64_t i = 0; i < n; i++) {
 		uint32_t name = (uint32_t)gls_value_int(&names[i]);
 		struct gls_framebuffer *fb = name ? table_find(&st->share->framebuffers, name) : NULL;
@@ -295,7 +291,6 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
 	}
-	changes(x, st);
 	if (!x->want)
 		gls_framebuffer_skip(x, st);
 	update(x, st->share, fb);
@@ -325,15 +320,14 @@ static void attach_image(struct gls_exec *x, struct gls_state *st, const struct 
 		attach_texture(x, st, c, arg_u(c, 3), face, arg_u(c, 4), layer);
 }
 
-GLS_HANDLER(glFramebufferTexture1D, NOW) { attach_image(x, st, c, 0); }
-GLS_HANDLER(glFramebufferTexture2D, NOW) { attach_image(x, st, c, 0); }
-GLS_HANDLER(glFramebufferTexture3D, NOW) { attach_image(x, st, c, arg_u(c, 5)); }
-GLS_HANDLER(glFramebufferTextureLayer, NOW) { attach_texture(x, st, c, arg_u(c, 2), 0, arg_u(c, 3), arg_u(c, 4)); }
-GLS_HANDLER(glFramebufferRenderbuffer, NOW) { attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) }); }
+GLS_HANDLER(glFramebufferTexture1D, OBJECT) { attach_image(x, st, c, 0); }
+GLS_HANDLER(glFramebufferTexture2D, OBJECT) { attach_image(x, st, c, 0); }
+GLS_HANDLER(glFramebufferTexture3D, OBJECT) { attach_image(x, st, c, arg_u(c, 5)); }
+GLS_HANDLER(glFramebufferTextureLayer, OBJECT) { attach_texture(x, st, c, arg_u(c, 2), 0, arg_u(c, 3), arg_u(c, 4)); }
+GLS_HANDLER(glFramebufferRenderbuffer, OBJECT) { attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) }); }
 
-GLS_HANDLER(glBindRenderbuffer, NOW)
+static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
-	uint32_t name = arg_u(c, 1);
 	struct gls_renderbuffer *r;
 
 	st->renderbuffer = name;
@@ -345,14 +339,15 @@ GLS_HANDLER(glBindRenderbuffer, NOW)
 		gls_out_of_memory(x, sizeof(*r));
 	}
 }
-GLS_HANDLER(glBindRenderbufferEXT, NOW) { gls_glBindRenderbuffer(x, st, c); }
 
-GLS_HANDLER(glDeleteRenderbuffers, NOW)
+GLS_HANDLER(glBindRenderbuffer, NOW) { bind_renderbuffer(x, st, arg_u(c, 1)); }
+GLS_HANDLER(glBindRenderbufferEXT, NOW) { bind_renderbuffer(x, st, arg_u(c, 1)); }
+
+GLS_HANDLER(glDeleteRenderbuffers, OBJECT)
 {
 	uint64_t n;
 	const struct trace_value *names = arg_items(c, 1, &n);
 
-	changes(x, st);
 	for (uint64_t i = 0; i < n; i++) {
 		uint32_t name = (uint32_t)gls_value_int(&names[i]);
 
@@ -375,15 +370,14 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 	}
 	if (samples > 1 && gls_format_is_float(format))
 		gls_unsupported(x, "floats of several samples a pixel: their means are clamped");
-	changes(x, st);
 	update_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
 	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height,
 	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 }; /* no driver gives fewer than are asked for */
 }
 
-GLS_HANDLER(glRenderbufferStorage, NOW) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }
-GLS_HANDLER(glRenderbufferStorageMultisample, NOW)
+GLS_HANDLER(glRenderbufferStorage, OBJECT) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }
+GLS_HANDLER(glRenderbufferStorageMultisample, OBJECT)
 {
 	if (arg_i(c, 1) > SCENE_SAMPLES)
 		gls_unsupported(x, "more than four samples a pixel: four are taken");
@@ -392,14 +386,12 @@ GLS_HANDLER(glRenderbufferStorageMultisample, NOW)
 
 /* ---- textures, which may be attached ---- */
 
-GLS_HANDLER(glDeleteTextures, NOW)
+GLS_HANDLER(glDeleteTextures, OBJECT)
 {
 	uint64_t n;
 	const struct trace_value *names = arg_items(c, 1, &n);
 	struct gls_texture *t;
 
-	gls_flush(x);
-	st->dirty |= GLS_DIRTY_MATERIAL;
 	for (uint64_t i = 0; i < n; i++) {
 		uint32_t name = (uint32_t)gls_value_int(&names[i]);
 		if (!name)

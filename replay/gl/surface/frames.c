@@ -1,11 +1,14 @@
 /* Ends of frames: what is shown, what is deferred, what is lost. */
 #include "replay/gl/surface/frames.h"
 
+#include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/front.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/surface/surface.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 #include "replay/replay.h"
 
 #define MANY_EVENTS (1u << 14) /* of frames that nobody wants: made one picture, so that they do not pile up */

@@ -9,8 +9,12 @@
 #include "replay/gl/surface/surface.h"
 
 #include "base/err.h"
+#include "replay/build/frame.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/picture.h"
 #include "replay/replay.h"
+
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/errors.h"

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "capture/format/trace.h"
 #include "replay/gl/texture/texformat.h"
 
 struct rgba {

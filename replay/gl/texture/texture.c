@@ -6,17 +6,15 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
-#include "replay/gl/geometry/buffer.h"
-#include "replay/gl/geometry/list.h"
-#include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/texture/image.h"
+#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
 
 #define MAX_SIZE 16384
 #define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */
@@ -142,7 +140,7 @@ static struct gls_texture *addressed(struct gls_exec *x, struct gls_state *st, u
 	return NULL;
 }
 
-GLS_HANDLER(glActiveTexture, STATE)
+GLS_HANDLER(glActiveTexture, STATE, SELECT)
 {
 	uint32_t unit = arg_u(c, 0) - GL_TEXTURE0;
 
@@ -154,7 +152,7 @@ GLS_HANDLER(glActiveTexture, STATE)
 		gls_error(x, st, GL_INVALID_ENUM);
 }
 
-GLS_HANDLER(glBindTexture, STATE)
+GLS_HANDLER(glBindTexture, STATE, BIND_TEXTURE)
 {
 	uint32_t token = arg_u(c, 0), name = arg_u(c, 1);
 	unsigned face;
@@ -362,13 +360,11 @@ GLS_HANDLER(glBindSampler, STATE)
 	st->a.texturing.units[arg_u(c, 0)].sampler = arg_u(c, 1);
 }
 
-GLS_HANDLER(glDeleteSamplers, NOW)
+GLS_HANDLER(glDeleteSamplers, OBJECT)
 {
 	uint64_t n;
 	const struct trace_value *names = arg_items(c, 1, &n);
 
-	gls_flush(x);
-	st->dirty |= GLS_DIRTY_MATERIAL;
 	for (uint64_t i = 0; i < n; i++) {
 		uint32_t name = (uint32_t)gls_value_int(&names[i]);
 
@@ -448,36 +444,4 @@ uint32_t gls_texture_missing(const struct gls_texture *t)
 			if (t->levels[face][level].missing)
 				return t->levels[face][level].missing;
 	return 0;
-}
-
-/* ---- the end of a share group ---- */
-
-void gls_share_release(struct gls_share *share)
-{
-	if (--share->refs)
-		return;
-	for (size_t i = 0; i < share->lists.room; i++)
-		if (share->lists.entries[i].value)
-			gls_list_free(share->lists.entries[i].value);
-	for (size_t i = 0; i < share->textures.room; i++)
-		gls_texture_free(share->textures.entries[i].value);
-	for (size_t i = 0; i < share->buffers.room; i++) {
-		struct gls_buffer *b = share->buffers.entries[i].value;
-		if (b)
-			free(b->data);
-		free(b);
-	}
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
-		gls_texture_free(share->defaults[i]);
-	table_free(&share->lists);
-	table_free(&share->textures);
-	table_free(&share->buffers);
-	for (size_t i = 0; i < share->framebuffers.room; i++)
-		gls_framebuffer_free(share->framebuffers.entries[i].value);
-	for (size_t i = 0; i < share->renderbuffers.room; i++)
-		gls_renderbuffer_free(share->renderbuffers.entries[i].value);
-	table_free(&share->programs);
-	table_free(&share->framebuffers);
-	table_free(&share->renderbuffers);
-	free(share);
 }

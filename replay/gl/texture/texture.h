@@ -14,7 +14,6 @@
 
 struct gls_texture_image;
 
-gls_handler gls_glActiveTexture, gls_glBindTexture;
 
 struct gls_texture {
 	uint32_t name, target; /* target: enum gls_texture_target; N_GLS_TEXTURE_TARGETS before the first bind */
@@ -75,6 +74,5 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 uint32_t gls_texture_missing(const struct gls_texture *t);
 
 void gls_texture_free(struct gls_texture *t);
-void gls_share_release(struct gls_share *share);
 
 #endif

@@ -1,75 +1,21 @@
 /* Contexts, drawables and frame ends: GLX 1.4 and EGL as far as a recording shows them; markers of our own recorder. */
-#include "replay/gl/state/context.h"
+#include "replay/gl/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/table.h"
 #include "capture/format/trace.h"
-#include "replay/gl/dispatch.h"
-#include "replay/gl/geometry/array.h"
-#include "replay/gl/state/attrib.h"
-#include "replay/gl/state/config.h"
+#include "replay/gl/context.h"
+#include "replay/gl/geometry/pending.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-#include "base/table.h"
-
-#define MAX_CONTEXTS 4096
-
-static struct gls_context *find_context(struct gls_exec *x, uint64_t handle)
-{
-	for (size_t i = x->n_contexts; handle && i-- > 0;)
-		if (x->contexts[i]->handle == handle && !x->contexts[i]->destroyed)
-			return x->contexts[i];
-	return NULL;
-}
-
-static struct gls_context *create_context(struct gls_exec *x, uint64_t handle, uint64_t share, const struct trace_value *config,
-                                          const char *api)
-{
-	struct gls_context *ctx, *other = find_context(x, share), **grown;
-
-	if (!handle)
-		return NULL;
-	if (x->n_contexts == MAX_CONTEXTS) {
-		gls_unsupported(x, "more than 4096 contexts");
-		return NULL;
-	}
-	ctx = calloc(1, sizeof(*ctx));
-	grown = realloc(x->contexts, (x->n_contexts + 1) * sizeof(*grown));
-	if (grown)
-		x->contexts = grown;
-	if (!ctx || !grown || gls_state_init(&ctx->state)) {
-		free(ctx);
-		gls_out_of_memory(x, sizeof(*ctx));
-		return NULL;
-	}
-	ctx->handle = handle;
-	ctx->share_handle = share;
-	ctx->api = api;
-	if (config)
-		gls_config_apply(x, &ctx->state, config);
-	if (other) {
-		ctx->state.share = other->state.share;
-		ctx->state.share->refs++;
-		ctx->shares = other->shares = 1;
-	} else {
-		ctx->state.share = gls_share_create();
-		if (!ctx->state.share) {
-			gls_out_of_memory(x, sizeof(struct gls_share));
-			gls_state_free(&ctx->state);
-			free(ctx);
-			return NULL;
-		}
-	}
-	x->contexts[x->n_contexts++] = ctx;
-	return ctx;
-}
 
 void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
 {
@@ -89,9 +35,9 @@ void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t draw
 /* A context that was made before the recording began. */
 static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, const char *api)
 {
-	struct gls_context *ctx = find_context(x, handle);
+	struct gls_context *ctx = gls_context_find(x, handle);
 
-	return ctx ? ctx : create_context(x, handle, 0, NULL, api);
+	return ctx ? ctx : gls_context_create(x, handle, 0, NULL, api);
 }
 
 static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
@@ -107,7 +53,7 @@ static void make_current(struct gls_exec *x, const struct call *c, unsigned draw
 
 static void destroy_context(struct gls_exec *x, const struct call *c, unsigned context)
 {
-	struct gls_context *ctx = find_context(x, (uint64_t)arg_i(c, context));
+	struct gls_context *ctx = gls_context_find(x, (uint64_t)arg_i(c, context));
 
 	/* Current ones live on until they are released (GLX 1.4 sec. 3.3.7); the handle may come back for a new one. */
 	if (ctx)
@@ -125,15 +71,15 @@ static void swap(struct gls_exec *x, uint64_t drawable)
 
 GLS_HANDLER(glXCreateContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXCreateNewContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), arg(c, 1), "GLX");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
 }
 GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
@@ -144,7 +90,7 @@ GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state betw
 
 GLS_HANDLER(eglCreateContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "EGL");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "EGL");
 }
 GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
@@ -160,15 +106,15 @@ GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW)
 /* OSMesa draws into the program's memory: each context is its own drawable. */
 GLS_HANDLER(OSMesaCreateContext, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
 }
 GLS_HANDLER(OSMesaCreateContextExt, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 4), NULL, "OSMesa");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 4), NULL, "OSMesa");
 }
 GLS_HANDLER(OSMesaCreateContextAttribs, WINDOW)
 {
-	create_context(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
 }
 GLS_HANDLER(OSMesaDestroyContext, WINDOW) { destroy_context(x, c, 0); }
 GLS_HANDLER(OSMesaMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 0, "OSMesa"); }
@@ -178,7 +124,7 @@ GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
-GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, (uint64_t)gls_value_int(&c->ret), 0, NULL, "WGL"); }
+GLS_HANDLER(wglCreateContext, WINDOW) { gls_context_create(x, (uint64_t)gls_value_int(&c->ret), 0, NULL, "WGL"); }
 GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 1, "WGL"); }
 
 /* ---- markers of our recorder (capture/format/trace.md) and of rtMaterialEXT ---- */

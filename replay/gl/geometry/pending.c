@@ -1,0 +1,177 @@
+#include "replay/gl/geometry/pending.h"
+
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/draw.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+
+void gls_flush(struct gls_exec *x)
+{
+	struct gls_geometry *g = &x->pending.geometry;
+	struct gls_mesh *mesh;
+	uint32_t list = x->drawn_list;
+
+	if (g->n_primitives && x->st) {
+		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->n_vertices))
+			gls_geometry_turn_quads(g);
+		mesh = gls_geometry_mesh(x, g);
+		x->drawn_list = x->pending.list;
+		if (mesh)
+			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
+		x->drawn_list = list;
+		gls_mesh_release(mesh);
+	}
+	gls_geometry_clear(g);
+}
+
+/* ---- attributes ---- */
+
+void gls_color_changed(struct gls_state *st)
+{
+	for (unsigned side = 0; side < 2; side++)
+		gls_track_color(&st->a.lighting, side, st->a.current.attribute[GLS_ATTR_COLOR], &st->a.lighting.face[side]);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+}
+
+void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4])
+{
+	memcpy(st->a.current.attribute[attribute], value, 16);
+	x->pending.geometry.touched |= 1u << attribute;
+	if (attribute == GLS_ATTR_COLOR && st->a.lighting.color_material)
+		gls_color_changed(st);
+}
+
+/*
+ * Materials may change between Begin and End (sec. 2.6.3): each vertex is lit with the one that is current then, so from there on
+ * it is an attribute of the vertices.
+ */
+void gls_before_material(struct gls_exec *x, struct gls_state *st)
+{
+	struct gls_geometry *g = &x->pending.geometry;
+
+	if (!st->begin_mode && g->n_vertices)
+		gls_flush(x);
+	else if (g->n_vertices && !(g->given & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
+		gls_out_of_memory(x, 0);
+	st->dirty |= GLS_DIRTY_MATERIAL;
+}
+
+/* ---- vertices ---- */
+
+/* Attributes that were set since the last vertex: those whose value is another one now vary. */
+static int take_touched(struct gls_geometry *g, const struct gls_state *st)
+{
+	uint32_t candidates = g->touched & ~g->given;
+
+	for (unsigned a = 0; candidates; a++, candidates >>= 1)
+		if (candidates & 1 && memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
+			return -1;
+	g->touched = 0;
+	return 0;
+}
+
+static void add_vertex(struct gls_exec *x, const struct gls_state *st, const float position[4])
+{
+	struct gls_geometry *g = &x->pending.geometry;
+	uint32_t at = g->n_vertices;
+
+	if (at == 0) {
+		memcpy(g->constant, st->a.current.attribute, sizeof(g->constant));
+		g->touched = 0;
+		g->given = 0;
+	} else if (g->touched && take_touched(g, st)) {
+		gls_out_of_memory(x, 0);
+		return;
+	}
+	if (at == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
+		gls_out_of_memory(x, 0);
+		return;
+	}
+	memcpy(g->position + 4 * (size_t)at, position, 16);
+	if (g->given & SCENE_HAS_FACE)
+		memcpy(g->face[at], st->a.lighting.face, sizeof(*g->face));
+	for (uint32_t given = g->given & ((1u << N_GLS_ATTRIBUTES) - 1); given; given &= given - 1) {
+		unsigned a = (unsigned)__builtin_ctz(given);
+		memcpy(g->attribute[a] + 4 * (size_t)at, st->a.current.attribute[a], 16);
+	}
+	g->edge[at] = st->a.current.edge_flag != 0;
+	g->n_vertices = at + 1;
+}
+
+void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4])
+{
+	if (!st->begin_mode || !x->want)
+		return; /* outside Begin/End the result is undefined (sec. 2.6.3); Mesa draws nothing */
+	add_vertex(x, st, position);
+}
+
+/* ---- Begin and End ---- */
+
+void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
+{
+	struct gls_pending *p = &x->pending;
+	struct gls_geometry *g = &p->geometry;
+	enum scene_primitive kind = gls_mode_kind(mode);
+
+	if (st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	if (!kind) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
+	                      (!p->mixes && g->quads != (mode == GL_QUADS))))
+		gls_flush(x);
+	g->kind = kind;
+	g->quads = mode == GL_QUADS;
+	g->begin_vertex = g->n_vertices;
+	if (!g->n_vertices) {
+		p->call = x->call->number;
+		p->command = x->command;
+		p->list = x->drawn_list;
+	}
+	st->begin_mode = mode + 1;
+}
+
+/* Cut what the open Begin has collected into triangles, lines or points. */
+static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
+{
+	struct gls_geometry *g = &x->pending.geometry;
+
+	if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes))
+		gls_out_of_memory(x, 0);
+}
+
+void gls_end(struct gls_exec *x, struct gls_state *st)
+{
+	if (!st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	if (x->want) {
+		cut_primitives(x, st);
+		x->pending.geometry.n_draws++;
+	}
+	st->begin_mode = 0;
+}
+
+void gls_restart(struct gls_exec *x, struct gls_state *st)
+{
+	struct gls_geometry *g = &x->pending.geometry;
+
+	if (!st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
+		return;
+	}
+	if (x->want)
+		cut_primitives(x, st);
+	g->begin_vertex = g->n_vertices;
+}

@@ -1,0 +1,33 @@
+/*
+ * Pending vertices (GL 2.1 sec. 2.6, 2.7): what Begin/End collects until somebody draws it.
+ *
+ * Pairs of Begin and End with the same kind of primitive share one mesh, as long as no state changes that draws look at.
+ */
+#ifndef REPLAY_GL_GEOMETRY_PENDING_H
+#define REPLAY_GL_GEOMETRY_PENDING_H
+
+#include <stdint.h>
+
+struct gls_exec;
+struct gls_state;
+
+/** Draw what is pending. Called before state changes that draws look at; the dispatcher does so for most commands. */
+void gls_flush(struct gls_exec *x);
+
+/** Set a current attribute. */
+void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
+/** A vertex of the open Begin; ignored outside of one. */
+void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);
+
+/** mode: a GL token. Errors as glBegin has them. */
+void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode);
+void gls_end(struct gls_exec *x, struct gls_state *st);
+/** The primitive ends and another one of its kind begins (NV_primitive_restart). */
+void gls_restart(struct gls_exec *x, struct gls_state *st);
+
+/** The current colour has changed: tracked material parameters follow it (sec. 2.14.3). */
+void gls_color_changed(struct gls_state *st);
+/** A material parameter is about to change, perhaps between Begin and End. */
+void gls_before_material(struct gls_exec *x, struct gls_state *st);
+
+#endif
