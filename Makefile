@@ -30,10 +30,10 @@ RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c cap
 RECORDER_GEN := tables/commands tables/enums thunks
 RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c) \
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
-VISUAL_SRC := diff/visual.c
-REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
+VISUAL_SRC := replay/verbs/visual.c
+REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format scene look kernels/ref tracer tracer/* farm)) \
-	$(filter-out $(VISUAL_SRC),$(wildcard diff/*.c diff/*/*.c))
+	$(wildcard diff/*.c diff/*/*.c)
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)

@@ -5,6 +5,14 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/verbs.h"
+#include "diff/diff.h"
+#include "replay/draw_names.h"
+
+/* diff/ opens no replay: replay/ tells it what draws were. */
+static int diff_with_names(int argc, char **argv)
+{
+	return diff_main(argc, argv, replay_name_draws);
+}
 
 static const struct verb {
 	const char *name;
@@ -21,7 +29,7 @@ static const struct verb {
 	{ "export", export_main, "a frame as glTF, for other programs" },
 	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
-	{ "diff", diff_main, "score traced frames against rasterized ones, or any two sets" },
+	{ "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
 	{ "farm", farm_main, "render on many machines: array jobs of Slurm, or scripts" },
 	{ "devices", devices_main, "list the OpenCL devices" },

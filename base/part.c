@@ -77,6 +77,31 @@ void part_drop(const char *part)
 	forget(part);
 }
 
+int part_open(struct part_file *file, const char *path)
+{
+	int err = part_begin(path, file->part, sizeof(file->part));
+
+	if (err)
+		return err;
+	file->path = path;
+	file->stream = fopen(file->part, "wb");
+	if (file->stream)
+		return 0;
+	err = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+	forget(file->part);
+	return err;
+}
+
+int part_close(struct part_file *file, int err)
+{
+	if (ferror(file->stream) | fclose(file->stream) && !err)
+		err = err_report(ERR_SYSTEM, file->path, "cannot be written: %s", strerror(errno));
+	if (!err)
+		return part_finish(file->part, file->path);
+	part_drop(file->part);
+	return err;
+}
+
 void part_drop_all(void)
 {
 	pthread_mutex_lock(&lock); /* never given back: nobody begins another one */

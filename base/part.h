@@ -7,7 +7,25 @@
 #ifndef BASE_PART_H
 #define BASE_PART_H
 
+#include <limits.h>
 #include <stddef.h>
+#include <stdio.h>
+
+/* A stream for a file that appears whole. */
+struct part_file {
+	FILE *stream;
+	const char *path; /* its final name; borrowed */
+	char part[PATH_MAX + 128];
+};
+
+/** @param path  kept until part_close. @return 0 or ERR_SYSTEM (reported) */
+int part_open(struct part_file *file, const char *path);
+
+/**
+ * The file is whole: close it and give it its final name. Remove it where `err` says that something has failed before.
+ * @return err, or ERR_SYSTEM (reported)
+ */
+int part_close(struct part_file *file, int err);
 
 /**
  * Name an unfinished file.

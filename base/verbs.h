@@ -20,8 +20,8 @@ int render_main(int argc, char **argv);  /* tracer/render/render.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* tracer/devices.c */
 int bench_main(int argc, char **argv);   /* tracer/bench/bench.c */
-int raster_main(int argc, char **argv);  /* diff/raster.c */
-int diff_main(int argc, char **argv);    /* diff/diff.c */
+int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
+/* relume diff also takes what it must not know: diff/diff.h. */
 
 #endif

@@ -1,5 +1,5 @@
 /* relume diff: score traced frames against their references, or any two sets of images. */
-#include "base/verbs.h"
+#include "diff/diff.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/err.h"
 #include "base/frames.h"
@@ -21,8 +20,7 @@
 #include "diff/report/report.h"
 #include "diff/score/score.h"
 #include "diff/pictures/set.h"
-#include "diff/rules.h"
-#include "replay/replay.h"
+#include "diff/rules/rules.h"
 
 /* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
 #define MAX_ASKED 1000000
@@ -320,63 +318,24 @@ static int score_all(struct set *ref, struct set *traced, const struct baseline 
 	return w.err;
 }
 
-/** What a draw used, as far as the scene tells: program object, and the texels of its first texture. */
-static void describe_draw(const struct scene *scene, struct score_blame *b)
+/** Give the blamed draws their calls' names. What the trace does not tell stays unnamed: the scores stand without it. */
+static int name_blamed_draws(const char *trace, draw_namer *namer, struct output_run *run)
 {
-	const struct scene_instance *found = NULL;
+	struct draw_name *names = calloc(run->n_scores * SCORE_MAX_BLAME, sizeof(*names));
+	size_t n = 0;
 
-	for (uint32_t i = 0; i < scene->n_instances; i++)
-		if (scene->instances[i].draw <= b->draw && (!found || scene->instances[i].draw >= found->draw))
-			found = &scene->instances[i];
-	if (!found)
-		return;
-
-	const struct scene_material *m = &scene->materials[found->material];
-
-	b->has_program = m->program != 0;
-	if (m->unit_count) {
-		const struct scene_texture *t = scene->textures[scene->units[m->unit_first].texture];
-
-		b->texture = XXH64(t->texels, t->n_bytes, 0);
-	}
-}
-
-/**
- * Give the blamed draws their calls' names, where the references belong to a trace. What the trace does not say stays
- * unnamed: the scores stand without it.
- */
-static void name_blamed_draws(const char *trace, struct output_run *run)
-{
-	struct replay *rp = NULL;
-	struct scene *scene;
-	size_t i = 0;
-
-	for (;;) {
-		while (i < run->n_scores && run->scores[i].n_blame == 0)
-			i++;
-		if (i == run->n_scores || (!rp && replay_open(&rp, trace) != 0))
-			break;
-		struct score *s = &run->scores[i];
-		int want = replay_frame(rp) == s->frame;
-
-		if (replay_next_frame(rp, want, &scene) <= 0)
-			break;
-		if (!want)
-			continue;
-		for (uint32_t b = 0; b < s->n_blame; b++) {
-			uint32_t draw = s->blame[b].draw;
-
-			if (draw && draw <= scene->n_draws && scene->draws) {
-				s->blame[b].call = scene->draws[draw].call;
-				s->blame[b].call_number = scene->draws[draw].call_number;
-				s->blame[b].list = scene->draws[draw].list;
-				describe_draw(scene, &s->blame[b]);
-			}
-		}
-		scene_release(&scene);
-		i++;
-	}
-	replay_close(&rp);
+	if (!names)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < run->n_scores; i++)
+		for (uint32_t b = 0; b < run->scores[i].n_blame; b++)
+			names[n++] = (struct draw_name){ .frame = run->scores[i].frame, .draw = run->scores[i].blame[b].draw };
+	namer(trace, names, n);
+	n = 0;
+	for (size_t i = 0; i < run->n_scores; i++)
+		for (uint32_t b = 0; b < run->scores[i].n_blame; b++)
+			run->scores[i].blame[b].name = names[n++];
+	free(names);
+	return 0;
 }
 
 /** "relume" and all words of the verb, for the page; the caller's, NULL without memory. getopt has sorted the words. */
@@ -460,7 +419,7 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 	return err;
 }
 
-int diff_main(int argc, char **argv)
+int diff_main(int argc, char **argv, draw_namer *namer)
 {
 	struct options o = { 0 };
 	struct set ref = { 0 }, traced = { 0 };
@@ -498,7 +457,7 @@ int diff_main(int argc, char **argv)
 
 	err = score_all(&ref, &traced, &baseline, frames, &run);
 	if (!err && ref.trace)
-		name_blamed_draws(ref.trace, &run);
+		err = name_blamed_draws(ref.trace, namer, &run);
 	if (!err)
 		err = write_all(&o, &run, &ref, &traced);
 	code = exit_code(&run);

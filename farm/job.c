@@ -199,29 +199,20 @@ void farm_job_free(struct farm_job *job)
 
 int farm_job_save(const struct farm_job *job)
 {
-	char path[PATH_MAX + 16], part[PATH_MAX + 128];
-	FILE *file;
+	char path[PATH_MAX + 16];
+	struct part_file file;
 	int err = folder_make(job->folder);
 
 	snprintf(path, sizeof(path), "%s/arguments", job->folder);
 	if (!err)
-		err = part_begin(path, part, sizeof(part));
+		err = part_open(&file, path);
 	if (err)
 		return err;
-	file = fopen(part, "w");
-	if (!file)
-		return err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
-	fwrite(job->directory, 1, strlen(job->directory) + 1, file);
-	/* The words as they were typed: getopt_long has sorted its own array, which means the same. */
+	fwrite(job->directory, 1, strlen(job->directory) + 1, file.stream);
+	/* The words may have been sorted by getopt_long, which means the same. */
 	for (int i = 0; i < job->n_words; i++)
-		fwrite(job->words[i], 1, strlen(job->words[i]) + 1, file);
-	err = ferror(file);
-	if (fclose(file) || err) {
-		err = err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
-		part_drop(part);
-		return err;
-	}
-	return part_finish(part, path);
+		fwrite(job->words[i], 1, strlen(job->words[i]) + 1, file.stream);
+	return part_close(&file, 0);
 }
 
 /* The file's text, ended by NUL beyond its size; the caller's. */

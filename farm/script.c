@@ -1,6 +1,5 @@
 #include "farm/script.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
@@ -247,23 +246,11 @@ int farm_script_print(const struct farm_job *job, FILE *out)
 
 int farm_script_save(const struct farm_job *job)
 {
-	char path[PATH_MAX + 16], part[PATH_MAX + 128];
-	FILE *file;
+	char path[PATH_MAX + 16];
+	struct part_file file;
 	int err;
 
 	snprintf(path, sizeof(path), "%s/job.sh", job->folder);
-	err = part_begin(path, part, sizeof(part));
-	if (err)
-		return err;
-	file = fopen(part, "w");
-	if (!file)
-		return err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
-	err = farm_script_print(job, file);
-	if (ferror(file) | fclose(file) && !err)
-		err = err_report(ERR_SYSTEM, path, "cannot write: %s", strerror(errno));
-	if (err) {
-		part_drop(part);
-		return err;
-	}
-	return part_finish(part, path);
+	err = part_open(&file, path);
+	return err ? err : part_close(&file, farm_script_print(job, file.stream));
 }

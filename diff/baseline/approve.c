@@ -13,9 +13,9 @@
 #include "base/folder.h"
 #include "base/frames.h"
 #include "base/options.h"
+#include "base/part.h"
 #include "diff/baseline/baseline.h"
 #include "diff/score/gates.h"
-#include "diff/report/output.h"
 #include "diff/pictures/set.h"
 
 struct options {
@@ -139,10 +139,10 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 	image_free(&image);
 }
 
-/** Copy a file under a temporary name, then rename it. */
+/** Copy a file; the copy appears when it is whole. */
 static int copy_file(const char *from, const char *to)
 {
-	struct output_file file;
+	struct part_file file;
 	FILE *in = fopen(from, "rb");
 	char block[65536];
 	size_t n;
@@ -150,19 +150,14 @@ static int copy_file(const char *from, const char *to)
 
 	if (!in)
 		return err_report(ERR_INPUT, from, "cannot be read");
-	if (output_open(&file, to) != 0) {
-		fclose(in);
-		return ERR_SYSTEM;
+	err = part_open(&file, to);
+	if (!err) {
+		while ((n = fread(block, 1, sizeof(block), in)) > 0)
+			fwrite(block, 1, n, file.stream);
+		err = part_close(&file, ferror(in) ? err_report(ERR_INPUT, from, "cannot be read whole") : 0);
 	}
-	while ((n = fread(block, 1, sizeof(block), in)) > 0)
-		fwrite(block, 1, n, file.stream);
-	err = ferror(in) ? err_report(ERR_INPUT, from, "cannot be read whole") : 0;
 	fclose(in);
-	if (err) {
-		output_close(&file, 0);
-		return err;
-	}
-	return output_close(&file, 1);
+	return err;
 }
 
 static int approve_frame(struct update *u, const struct set_entry *entry, const struct image *img, char *channels)

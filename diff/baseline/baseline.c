@@ -12,7 +12,8 @@
 
 #include "base/config.h"
 #include "base/err.h"
-#include "diff/report/output.h"
+#include "base/json.h"
+#include "base/part.h"
 
 static const cyaml_schema_field_t frame_fields[] = {
 	CYAML_FIELD_UINT("frame", CYAML_FLAG_DEFAULT, struct baseline_frame, frame),
@@ -249,19 +250,21 @@ int baseline_look_up(const struct baseline *b, const struct image *img, uint64_t
 /** Text between double quotes, as YAML has it. */
 static void write_text(FILE *out, const char *key, const char *text)
 {
+	struct json json = { .out = out };
+
 	fprintf(out, "%s: ", key);
-	output_json_string(text, out);
+	json_string(&json, text);
 	fputc('\n', out);
 }
 
 int baseline_write(const char *folder, const struct baseline_variant *v)
 {
-	struct output_file file;
+	struct part_file file;
 	char path[4096];
 
 	if (snprintf(path, sizeof(path), "%s/baseline.yaml", folder) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, folder, "the name is too long");
-	if (output_open(&file, path) != 0)
+	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	fputs("format: relume-baseline\nversion: 1\n", file.stream);
 	write_text(file.stream, "device", v->device);
@@ -280,5 +283,5 @@ int baseline_write(const char *folder, const struct baseline_variant *v)
 			fprintf(file.stream, "file: %s, ", f->file);
 		fprintf(file.stream, "channels: \"%s\"}\n", f->channels);
 	}
-	return output_close(&file, 1);
+	return part_close(&file, 0);
 }

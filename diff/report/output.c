@@ -5,48 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/err.h"
-
-int output_open(struct output_file *file, const char *path)
-{
-	*file = (struct output_file){ .path = strdup(path) };
-	if (!file->path || asprintf(&file->temporary, "%s.%ld.tmp", path, (long)getpid()) < 0) {
-		file->temporary = NULL;
-		err_report(ERR_SYSTEM, path, "out of memory");
-		goto fail;
-	}
-	file->stream = fopen(file->temporary, "wb");
-	if (!file->stream) {
-		err_report(ERR_SYSTEM, path, "%s", strerror(errno));
-		goto fail;
-	}
-	return 0;
-fail:
-	free(file->path);
-	free(file->temporary);
-	*file = (struct output_file){ 0 };
-	return ERR_SYSTEM;
-}
-
-int output_close(struct output_file *file, int keep)
-{
-	int err = 0;
-
-	if (!file->stream)
-		return 0;
-	if ((ferror(file->stream) | fclose(file->stream)) && keep)
-		err = err_report(ERR_SYSTEM, file->path, "cannot be written whole: %s", strerror(errno));
-	else if (keep && rename(file->temporary, file->path) != 0)
-		err = err_report(ERR_SYSTEM, file->path, "%s", strerror(errno));
-	if (!keep || err)
-		unlink(file->temporary);
-	free(file->path);
-	free(file->temporary);
-	*file = (struct output_file){ 0 };
-	return err;
-}
+#include "base/part.h"
 
 void output_order(const struct output_run *run, size_t *out)
 {
@@ -83,14 +44,14 @@ static void output_blame_text(const struct score_blame *b, char *out, size_t siz
 {
 	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
 
-	if (b->draw && b->call && n < size)
-		n += (size_t)snprintf(out + n, size - n, ", %s (call %" PRIu64 ")", b->call, b->call_number);
-	if (b->draw && b->list && n < size)
-		n += (size_t)snprintf(out + n, size - n, ", list %u", b->list);
-	if (b->draw && b->has_program && n < size)
+	if (b->draw && b->name.call && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", %s (call %" PRIu64 ")", b->name.call, b->name.call_number);
+	if (b->draw && b->name.list && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", list %u", b->name.list);
+	if (b->draw && b->name.has_program && n < size)
 		n += (size_t)snprintf(out + n, size - n, " with a program object");
-	if (b->draw && b->texture && n < size)
-		n += (size_t)snprintf(out + n, size - n, ", texture %016" PRIx64, b->texture);
+	if (b->draw && b->name.texture && n < size)
+		n += (size_t)snprintf(out + n, size - n, ", texture %016" PRIx64, b->name.texture);
 	if (b->is_approved && n < size)
 		snprintf(out + n, size - n, ", in the approved frame,");
 }
@@ -318,13 +279,13 @@ static void json_score(const struct score *s, FILE *out)
 
 		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", b ? ", " : "",
 		        by->draw, by->pixels, by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
-		if (by->call)
-			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->call, by->call_number,
-			        by->has_program ? "true" : "false");
-		if (by->call && by->list)
-			fprintf(out, ", \"list\": %u", by->list);
-		if (by->call && by->texture)
-			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->texture);
+		if (by->name.call)
+			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->name.call, by->name.call_number,
+			        by->name.has_program ? "true" : "false");
+		if (by->name.call && by->name.list)
+			fprintf(out, ", \"list\": %u", by->name.list);
+		if (by->name.call && by->name.texture)
+			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->name.texture);
 		fputc('}', out);
 	}
 	fputs("]}", out);
@@ -360,16 +321,16 @@ void output_json_stream(const struct output_run *run, FILE *out)
 
 int output_json(const struct output_run *run, const char *path)
 {
-	struct output_file file;
+	struct part_file file;
 
 	if (strcmp(path, "-") == 0) {
 		output_json_stream(run, stdout);
 		return fflush(stdout) == 0 ? 0 : err_report(ERR_SYSTEM, "standard output", "%s", strerror(errno));
 	}
-	if (output_open(&file, path) != 0)
+	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	output_json_stream(run, file.stream);
-	return output_close(&file, 1);
+	return part_close(&file, 0);
 }
 
 /* JUnit. */
@@ -433,9 +394,9 @@ int output_junit(const struct output_run *run, const char *path)
 	uint64_t errors = run->counts[SCORE_FRAME_UNREADABLE];
 	uint64_t skipped = run->counts[SCORE_FRAME_FLAKY];
 	uint64_t failures = run->n_scores - run->counts[SCORE_FRAME_PASSED] - errors - skipped;
-	struct output_file file;
+	struct part_file file;
 
-	if (output_open(&file, path) != 0)
+	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	fprintf(file.stream, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"relume diff ");
 	output_escaped(run->traced, file.stream);
@@ -444,7 +405,7 @@ int output_junit(const struct output_run *run, const char *path)
 	for (size_t i = 0; i < run->n_scores; i++)
 		junit_case(&run->scores[i], file.stream);
 	fputs("  </testsuite>\n</testsuites>\n", file.stream);
-	return output_close(&file, 1);
+	return part_close(&file, 0);
 }
 
 /* Annotations. */

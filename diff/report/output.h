@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "diff/score/score.h"
-#include "diff/rules.h"
+#include "diff/rules/rules.h"
 
 /* A whole comparison. */
 struct output_run {
@@ -22,17 +22,6 @@ struct output_run {
 	uint64_t counts[N_SCORE_OUTCOMES];
 	double seconds;
 };
-
-/** A file that appears under its name only when it is whole. */
-struct output_file {
-	FILE *stream;
-	char *path, *temporary;
-};
-
-/** Create a file beside its final name. @return 0 or ERR_SYSTEM (reported) */
-int output_open(struct output_file *file, const char *path);
-/** Close and rename (`keep` 1) or remove it; `keep` 0 is also the failure path. @return 0 or ERR_SYSTEM (reported) */
-int output_close(struct output_file *file, int keep);
 
 /** Indices of scores: those that did not pass first, each part by frame. out has n_scores elements. */
 void output_order(const struct output_run *run, size_t *out);

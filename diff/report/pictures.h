@@ -7,7 +7,7 @@
 #include "diff/report/output.h"
 #include "diff/score/score.h"
 #include "diff/pictures/set.h"
-#include "diff/rules.h"
+#include "diff/rules/rules.h"
 
 enum picture_kind {
 	PICTURE_REFERENCE,  /* as recorded */

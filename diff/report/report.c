@@ -7,6 +7,7 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/part.h"
 #include "diff/pictures/oiio.h"
 #include "diff/report/ordered.h"
 #include "diff/report/pictures.h"
@@ -205,11 +206,11 @@ fail:
 static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
 {
 	const char *marker = strstr(report_page, DATA_MARKER), *place = strstr(marker, PICTURES_MARKER), *rest;
-	struct output_file file;
-	int err;
+	struct part_file file;
+	int err = part_open(&file, path);
 
-	if (output_open(&file, path) != 0)
-		return ERR_SYSTEM;
+	if (err)
+		return err;
 	fwrite(report_page, 1, (size_t)(marker - report_page), file.stream);
 	fputs("const run = ", file.stream);
 	output_json_stream(run, file.stream);
@@ -218,11 +219,7 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	fwrite(rest, 1, (size_t)(place - rest), file.stream);
 	err = write_all_pictures(run, ref, traced, file.stream);
 	fputs(place + strlen(PICTURES_MARKER), file.stream);
-	if (err) {
-		output_close(&file, 0);
-		return err;
-	}
-	return output_close(&file, 1);
+	return part_close(&file, err);
 }
 
 int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir)

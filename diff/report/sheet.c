@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/part.h"
 #include "diff/pictures/oiio.h"
 #include "diff/report/pictures.h"
 
@@ -120,7 +121,7 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 	const struct score *rows[MAX_ROWS];
 	size_t n_rows = choose_frames(run, rows), bytes;
 	struct sheet sheet = { .cell_w = 1, .cell_h = 1 };
-	struct output_file file;
+	struct part_file file;
 	uint8_t *png = NULL;
 	int err = 0;
 
@@ -143,10 +144,10 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 	if (!err)
 		err = oiio_encode_png(sheet.rgb, sheet.width, sheet.height, 3, 6, &png, &bytes);
 	if (!err)
-		err = output_open(&file, path);
+		err = part_open(&file, path);
 	if (!err) {
 		fwrite(png, 1, bytes, file.stream);
-		err = output_close(&file, 1);
+		err = part_close(&file, 0);
 	}
 	free(png);
 	free(sheet.rgb);

@@ -21,6 +21,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/draw_names.h"
 #include "tracer/image/image.h"
 
 #define SCORE_DEPTH_EPSILON (1.0 / (1 << 21))       /* 8 steps of a 24-bit depth buffer */
@@ -89,13 +90,9 @@ struct score_info {
 struct score_blame {
 	uint32_t draw;        /* id */
 	uint64_t pixels;      /* failing ones it holds */
-	const char *call;     /* its name, a static string; NULL: not known */
-	uint64_t call_number; /* in the trace; valid where call is */
+	struct draw_name name; /* what it was in the recording */
 	int is_approved;      /* 1: the draw that the approved frame shows there; the traced frame shows another one */
 	uint32_t x0, y0, x1, y1; /* box around its failing pixels, last ones included */
-	int has_program;      /* 1: it used a program object; valid where call is */
-	uint32_t list;        /* display list that it came from, 0: none; valid where call is */
-	uint64_t texture;     /* XXH64 of the texels of its first texture unit, 0: none; valid where call is */
 };
 
 struct score {

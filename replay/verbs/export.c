@@ -1,9 +1,6 @@
 /* relume export: a frame as glTF 2.0. */
-#include <errno.h>
 #include <inttypes.h>
-#include <limits.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/err.h"
 #include "base/folder.h"
@@ -58,26 +55,17 @@ static void report_losses(const char *where, const struct gltf_losses *l)
 static int write_file(const char *path, const struct scene *scene)
 {
 	struct gltf_losses losses;
-	char part[PATH_MAX];
-	FILE *out;
+	struct part_file file;
 	int rc = folder_make_for(path);
 
 	if (!rc)
-		rc = part_begin(path, part, sizeof(part));
+		rc = part_open(&file, path);
+	if (!rc)
+		rc = part_close(&file, gltf_write(file.stream, path, scene, &losses));
 	if (rc)
 		return rc;
-	out = fopen(part, "wb");
-	if (!out)
-		return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
-	rc = gltf_write(out, path, scene, &losses);
-	if (fclose(out) && !rc)
-		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
-	if (rc) {
-		part_drop(part);
-		return rc;
-	}
 	report_losses(path, &losses);
-	return part_finish(part, path);
+	return 0;
 }
 
 int export_main(int argc, char **argv)

@@ -1,4 +1,4 @@
-#include "diff/rules.h"
+#include "diff/rules/rules.h"
 
 #include <fnmatch.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /*
  * relume raster: reference frames of a trace by a real OpenGL. apitrace's glretrace replays the trace and saves the back
- * buffer just before the calls that end the frames asked for; replay/ says which calls these are.
+ * buffer just before the calls that end the frames asked for; the replay says which calls these are.
  */
 #include "base/verbs.h"
 
