@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 
 static int compare_first(const void *a, const void *b)
 {
@@ -57,13 +58,10 @@ int frame_list_parse(const char *text, struct frame_list *out)
 	const char *p = text;
 
 	for (;;) {
-		struct frame_range *grown = realloc(list.ranges, (list.n_ranges + 1) * sizeof(*grown));
-
-		if (!grown) {
+		if (memory_resize(&list.ranges, list.n_ranges + 1, sizeof(*list.ranges))) {
 			frame_list_free(&list);
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
+			return ERR_SYSTEM;
 		}
-		list.ranges = grown;
 		if (!parse_range(&p, &list.ranges[list.n_ranges]) || (*p != ',' && *p != '\0')) {
 			frame_list_free(&list);
 			return err_report(ERR_USAGE, NULL, "'%s' is no frame range; write 7, 1-500, 1-500x5, "

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/part.h"
 
 enum { MAGIC_BYTES = 8, HEADER_BYTES = 28, MAX_SIDE = 65536 };
@@ -27,12 +28,8 @@ static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 {
 	/* Grown at powers of two: n_entries is its own record of the capacity. */
 	if ((ref->n_entries & (ref->n_entries - 1)) == 0) {
-		size_t room = ref->n_entries ? ref->n_entries * 2 : 1;
-		struct ref_entry *more = realloc(ref->entries, room * sizeof(*more));
-
-		if (!more)
-			return err_report(ERR_SYSTEM, ref->path, "out of memory");
-		ref->entries = more;
+		if (memory_resize(&ref->entries, ref->n_entries ? ref->n_entries * 2 : 1, sizeof(*entry)))
+			return ERR_SYSTEM;
 	}
 	ref->entries[ref->n_entries++] = *entry;
 	return 0;

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/frames.h"
 #include "diff/pictures/oiio.h"
 
@@ -28,15 +29,13 @@ void set_free(struct set *set)
 /** Add an entry; `path` is copied. */
 static int add_entry(struct set *set, uint64_t frame, const char *path)
 {
-	struct set_entry *grown = realloc(set->entries, (set->n_entries + 1) * sizeof(*grown));
 	char *copy = NULL;
 
-	if (!grown)
-		return err_report(ERR_SYSTEM, set->name, "out of memory");
-	set->entries = grown;
+	if (memory_resize(&set->entries, set->n_entries + 1, sizeof(*set->entries)))
+		return ERR_SYSTEM;
 	if (path && !(copy = strdup(path)))
 		return err_report(ERR_SYSTEM, set->name, "out of memory");
-	grown[set->n_entries++] = (struct set_entry){ frame, copy };
+	set->entries[set->n_entries++] = (struct set_entry){ frame, copy };
 	return 0;
 }
 

@@ -8,6 +8,7 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/mat4.h"
 #include "base/table.h"
 #include "capture/format/trace.h"
@@ -42,23 +43,11 @@ struct gls_scene {
 	atomic_uint refs;
 };
 
-/* ---- arrays that grow ---- */
-
-static int grow(void *array, uint32_t *room, uint32_t n, size_t size)
+static int make_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
 {
-	void **p = array, *grown;
-	uint32_t wanted = *room ? *room : 16;
-
-	if (n < *room)
-		return 0;
-	while (wanted <= n)
-		wanted *= 2;
-	grown = realloc(*p, wanted * size);
-	if (!grown)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for a scene");
-	*p = grown;
-	*room = wanted;
-	return 0;
+	if (wanted > *room)
+		*room = (uint32_t)memory_grow(array, *room, wanted, size);
+	return wanted > *room ? ERR_SYSTEM : 0;
 }
 
 /* The index of equal bytes in an array, appending them where they are new; SCENE_NONE: out of memory. */
@@ -71,7 +60,7 @@ static uint32_t intern(struct table *t, void *array, uint32_t *n, uint32_t *room
 	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
 		if (memcmp(*p + (found - 1) * size, value, size) == 0)
 			return (uint32_t)(found - 1);
-	if (grow(array, room, *n, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+	if (make_room(array, room, *n + 1, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
 		return SCENE_NONE;
 	memcpy(*p + *n * size, value, size);
 	return (*n)++;
@@ -90,7 +79,7 @@ static uint32_t intern_run(struct table *t, void *array, uint32_t *n, uint32_t *
 	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
 		if (*n - (found - 1) >= count && memcmp(*p + (found - 1) * size, values, count * size) == 0)
 			return (uint32_t)(found - 1);
-	if (grow(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+	if (make_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
 		return SCENE_NONE;
 	memcpy(*p + *n * size, values, count * size);
 	*n += count;
@@ -164,7 +153,7 @@ static uint32_t texture_slot(struct gls_exec *x, struct gls_frame *f, struct gls
 	image->used_frame = x->frame;
 	if (image->slot_frame == f->serial)
 		return image->slot;
-	if (grow(&s->textures, &f->room.textures, s->n_textures, sizeof(*s->textures)))
+	if (MEMORY_GROW(s->textures, f->room.textures, s->n_textures + 1))
 		return SCENE_NONE;
 	atomic_fetch_add(&image->refs, 1);
 	s->textures[s->n_textures] = &image->texture;
@@ -447,7 +436,7 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 	mesh->used_frame = x->frame;
 	if (mesh->slot_frame == f->serial)
 		return mesh->slot;
-	if (grow(&s->meshes, &f->room.meshes, s->n_meshes, sizeof(*s->meshes)))
+	if (MEMORY_GROW(s->meshes, f->room.meshes, s->n_meshes + 1))
 		return SCENE_NONE;
 	atomic_fetch_add(&mesh->refs, 1);
 	s->meshes[s->n_meshes] = &mesh->mesh;
@@ -461,7 +450,7 @@ static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t co
 	struct scene *s = f->out;
 
 	for (uint32_t i = 0; i < n; i++) {
-		if (grow(&s->draws, &f->room.draws, f->next_draw, sizeof(*s->draws)))
+		if (MEMORY_GROW(s->draws, f->room.draws, f->next_draw + 1))
 			return ERR_SYSTEM;
 		s->draws[f->next_draw++] = (struct scene_draw){ gls_commands[command].name, call_number, x->drawn_list };
 	}
@@ -537,7 +526,7 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 		clear.buffers &= 4;
 		if (!clear.buffers)
 			continue;
-		if (grow(&f->out->clears, &f->room.clears, f->out->n_clears, sizeof(clear))) {
+		if (MEMORY_GROW(f->out->clears, f->room.clears, f->out->n_clears + 1)) {
 			gls_out_of_memory(x, 0);
 			break;
 		}
@@ -560,7 +549,7 @@ static int add_rectangle(struct gls_exec *x, struct gls_frame *f, const struct g
 	struct scene *s = f->out;
 	struct scene_rectangle *r;
 
-	if (grow(&s->rectangles, &f->room.rectangles, s->n_rectangles, sizeof(*r)))
+	if (MEMORY_GROW(s->rectangles, f->room.rectangles, s->n_rectangles + 1))
 		return 0;
 	r = &s->rectangles[s->n_rectangles];
 	*r = *e->rectangle;
@@ -584,7 +573,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	s = f->out;
 	first_draw = f->next_draw;
 	if (name_draws(x, f, e->command, e->call_number, mesh->n_draws) ||
-	    grow(&s->instances, &f->room.instances, s->n_instances, sizeof(*s->instances)))
+	    MEMORY_GROW(s->instances, f->room.instances, s->n_instances + 1))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
 		f->view = find_view(target->surface, st, e->attribs);
@@ -657,7 +646,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	clear.before_instance = s->n_instances;
 	clear.draw = f->next_draw;
 	if (name_draws(x, f, x->command, x->call->number, 1) ||
-	    grow(&s->clears, &f->room.clears, s->n_clears, sizeof(*s->clears))) {
+	    MEMORY_GROW(s->clears, f->room.clears, s->n_clears + 1)) {
 		gls_out_of_memory(x, 0);
 		return;
 	}
@@ -695,7 +684,7 @@ static struct gls_frame *make_frame(struct gls_exec *x)
 	scene = NULL;
 	f->next_draw = 1;
 	f->serial = ++x->serial;
-	if (grow(&f->out->draws, &f->room.draws, 0, sizeof(struct scene_draw)))
+	if (MEMORY_GROW(f->out->draws, f->room.draws, 1u))
 		goto fail;
 	f->out->draws[0] = (struct scene_draw){ "", 0, 0 };
 	return f;

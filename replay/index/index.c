@@ -11,6 +11,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/progress.h"
@@ -78,20 +79,6 @@ static int out_of_memory(const struct index *index)
 	return err_report(ERR_SYSTEM, index->trace, "out of memory for its index");
 }
 
-static int grow(void *array, size_t *room, size_t n, size_t size)
-{
-	void **p = array, *grown;
-
-	if (n < *room)
-		return 0;
-	grown = realloc(*p, (2 * n + 64) * size);
-	if (!grown)
-		return ERR_SYSTEM;
-	*p = grown;
-	*room = 2 * n + 64;
-	return 0;
-}
-
 /* --- Blobs --------------------------------------------------------------------------------------------------------- */
 
 static const struct blob *find_blob(const struct index *index, const uint64_t name[2])
@@ -111,8 +98,8 @@ static int add_blob(struct index *index, const struct blob *blob)
 
 	while (table_find(&index->known, key))
 		key++;
-	if (grow(&index->blobs, &index->room_blobs, index->n_blobs, sizeof(*blob)))
-		return out_of_memory(index);
+	if (MEMORY_GROW(index->blobs, index->room_blobs, index->n_blobs + 1))
+		return ERR_SYSTEM;
 	index->blobs[index->n_blobs++] = *blob;
 	return table_set(&index->known, key, (void *)(uintptr_t)index->n_blobs);
 }
@@ -161,10 +148,11 @@ static int stage_blob(void *user, const uint64_t name[2], const void *data, size
 	}
 	while (table_find(&index->waiting, key))
 		key++;
-	if (!index->packed || pack_blob(data, n, index->packed, &blob.packed) ||
-	    grow(&index->staged, &index->room_staged, index->n_staged, sizeof(blob)) ||
-	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1)))
+	if (!index->packed || pack_blob(data, n, index->packed, &blob.packed))
 		return out_of_memory(index);
+	if (MEMORY_GROW(index->staged, index->room_staged, index->n_staged + 1) ||
+	    table_set(&index->waiting, key, (void *)(uintptr_t)(index->n_staged + 1)))
+		return ERR_SYSTEM;
 	index->staged[index->n_staged++] = blob;
 	index->added += blob.packed;
 	if (fwrite(index->packed, 1, blob.packed, index->file) != blob.packed)
@@ -388,9 +376,8 @@ static int add_checkpoint(struct index *index, struct replay *rp)
 	if (rc == 0)
 		rc = index->added <= index->most ? keep_staged(index) : 1;
 	if (rc == 0 && index->file) {
-		if (grow(&index->checkpoints, &index->room_checkpoints, index->n_checkpoints, sizeof(c)))
-			rc = out_of_memory(index);
-		else
+		rc = MEMORY_GROW(index->checkpoints, index->room_checkpoints, index->n_checkpoints + 1);
+		if (rc == 0)
 			index->checkpoints[index->n_checkpoints++] = c;
 	}
 	drop_staged(index);
@@ -403,8 +390,8 @@ static int add_frame(struct index *index, struct replay *rp)
 	struct trace_place place;
 
 	trace_reader_place(replay_reader(rp), &place);
-	if (grow(&index->frames, &index->room_frames, index->n_frames, sizeof(*index->frames)))
-		return out_of_memory(index);
+	if (MEMORY_GROW(index->frames, index->room_frames, index->n_frames + 1))
+		return ERR_SYSTEM;
 	index->frames[index->n_frames++] = (struct frame_end){ place.number - 1, place.offset };
 	return 0;
 }

@@ -6,6 +6,7 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/mat4.h"
 #include "capture/format/trace.h"
 #include "replay/machine/state.h"
@@ -29,16 +30,6 @@ void gls_geometry_free(struct gls_geometry *g)
 	memset(g, 0, sizeof(*g));
 }
 
-static int resize(void *pointer, size_t n, size_t size)
-{
-	void **p = pointer, *grown = realloc(*p, n * size);
-
-	if (!grown)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %zu vertices or primitives", n);
-	*p = grown;
-	return 0;
-}
-
 int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives)
 {
 	if (n_vertices > 0x10000000u || n_primitives > 0x10000000u)
@@ -47,25 +38,25 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 		uint32_t room = g->room_vertices ? g->room_vertices : 256;
 		while (room < g->n_vertices + n_vertices)
 			room *= 2;
-		if (resize(&g->position, room, 16) || resize(&g->edge, room, 1))
+		if (memory_resize(&g->position, room, 16) || memory_resize(&g->edge, room, 1))
 			return ERR_SYSTEM;
 		for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-			if (g->attribute[a] && resize(&g->attribute[a], room, 16))
+			if (g->attribute[a] && memory_resize(&g->attribute[a], room, 16))
 				return ERR_SYSTEM;
-		if (g->face && resize(&g->face, room, sizeof(*g->face)))
+		if (g->face && memory_resize(&g->face, room, sizeof(*g->face)))
 			return ERR_SYSTEM;
 		g->room_vertices = room;
 	}
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		if (g->given >> a & 1 && !g->attribute[a] && resize(&g->attribute[a], g->room_vertices, 16))
+		if (g->given >> a & 1 && !g->attribute[a] && memory_resize(&g->attribute[a], g->room_vertices, 16))
 			return ERR_SYSTEM;
-	if (g->given & SCENE_HAS_FACE && !g->face && resize(&g->face, g->room_vertices, sizeof(*g->face)))
+	if (g->given & SCENE_HAS_FACE && !g->face && memory_resize(&g->face, g->room_vertices, sizeof(*g->face)))
 		return ERR_SYSTEM;
 	if (g->n_primitives + n_primitives > g->room_primitives) {
 		uint32_t room = g->room_primitives ? g->room_primitives : 256;
 		while (room < g->n_primitives + n_primitives)
 			room *= 2;
-		if (resize(&g->index, room, 12) || resize(&g->primitive_draw, room, 4) || resize(&g->edge_flags, room, 1))
+		if (memory_resize(&g->index, room, 12) || memory_resize(&g->primitive_draw, room, 4) || memory_resize(&g->edge_flags, room, 1))
 			return ERR_SYSTEM;
 		g->room_primitives = room;
 	}

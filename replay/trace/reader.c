@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/arena.h"
 #include "base/bytes.h"
 #include "replay/trace/container.h"
@@ -274,15 +275,9 @@ static void **slot_of(struct trace_reader *r, enum sig_kind kind, uint64_t id)
 /* A signature is whole: note where it ends, so that one knows before which places of the file it stands. */
 static void define(struct trace_reader *r, enum sig_kind kind, uint64_t id, void *sig)
 {
-	if (r->n_definitions == r->definitions_room) {
-		size_t room = r->definitions_room ? 2 * r->definitions_room : 64;
-		struct definition *grown = realloc(r->definitions, room * sizeof(*grown));
-		if (!grown) {
-			r->status = err_report(ERR_SYSTEM, r->path, "out of memory");
-			return;
-		}
-		r->definitions = grown;
-		r->definitions_room = room;
+	if (MEMORY_GROW(r->definitions, r->definitions_room, r->n_definitions + 1)) {
+		r->status = ERR_SYSTEM;
+		return;
 	}
 	r->definitions[r->n_definitions++] =
 		(struct definition){ kind, id, r->piece_start + (uint64_t)(r->p - r->piece) };

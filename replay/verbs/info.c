@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "base/json.h"
@@ -26,14 +27,8 @@ static int add_frame(struct frame_ranges *r, uint64_t frame)
 		r->ranges[r->n - 1][1] = frame;
 		return 0;
 	}
-	if (r->n == r->room) {
-		void *grown = realloc(r->ranges, (2 * r->room + 16) * sizeof(*r->ranges));
-
-		if (!grown)
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
-		r->ranges = grown;
-		r->room = 2 * r->room + 16;
-	}
+	if (MEMORY_GROW(r->ranges, r->room, r->n + 1))
+		return ERR_SYSTEM;
 	r->ranges[r->n][0] = r->ranges[r->n][1] = frame;
 	r->n++;
 	return 0;

@@ -18,6 +18,7 @@
 
 #include "base/beside.h"
 #include "base/err.h"
+#include "base/memory.h"
 #include "base/folder.h"
 #include "base/frames.h"
 #include "base/options.h"
@@ -80,15 +81,8 @@ static int parse_options(int argc, char **argv, struct options *o)
 
 static int add_end(struct frame_ends *ends, uint64_t frame, uint64_t call)
 {
-	if (ends->n == ends->capacity) {
-		size_t capacity = ends->capacity ? 2 * ends->capacity : 64;
-		struct frame_end *grown = realloc(ends->ends, capacity * sizeof(*grown));
-
-		if (!grown)
-			return err_report(ERR_SYSTEM, NULL, "out of memory");
-		ends->ends = grown;
-		ends->capacity = capacity;
-	}
+	if (MEMORY_GROW(ends->ends, ends->capacity, ends->n + 1))
+		return ERR_SYSTEM;
 	ends->ends[ends->n++] = (struct frame_end){ frame, call };
 	return 0;
 }
