@@ -344,7 +344,7 @@ static inline float tile_sample(const struct tile *t, int axis)
  * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
  * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the point.
  */
-static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, float3 extent)
+static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, struct vec3 extent)
 {
 	__global const struct view *view = t->view;
 	__global const float *p = view->projection;
@@ -412,7 +412,8 @@ static inline uint push_children(const struct frustum8 *f, __global const struct
 
 static inline struct frustum8 instance_frustum(const struct tile *t, __global const struct instance *instance)
 {
-	const float3 extent = fabs(vload3(0, instance->centre)) + instance->radius;
+	const float r = instance->radius;
+	const struct vec3 extent = v3(fabs(instance->centre[0]) + r, fabs(instance->centre[1]) + r, fabs(instance->centre[2]) + r);
 
 	return frustum8_from(tile_frustum(t, instance->eye_from_obj, extent), FAR_PLANE);
 }

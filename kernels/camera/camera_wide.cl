@@ -18,7 +18,7 @@ struct pixel {
 	__global struct fragment *out; /* the pixel's column, or its nearest */
 	uint mode, height, after;
 	int x, y;
-	float3 o, d;
+	struct vec3 o, d;
 	float d_scale, near_w, far_w, t_max;
 	uint count, steps;
 	struct fragment nearest;
@@ -101,31 +101,36 @@ static inline void try_triangle(struct pixel *p, uint index, __global const stru
 		keep_nearest(p, &f);
 }
 
-static inline float3 invert(float3 d)
+static inline float invert(float d)
 {
-	return 1.0f / select(copysign((float3)(1e-20f), d), d, fabs(d) > 1e-20f);
+	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
+}
+
+static inline struct vec3 invert_all(struct vec3 d)
+{
+	return v3(invert(d.x), invert(d.y), invert(d.z));
 }
 
 /* Whether the ray meets a box, widened by pad, and where. */
-static inline int meets_box(float3 lo, float3 hi, float3 o, float3 inverse, float pad, float t_max, float *enter)
+static inline int meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad, float t_max, float *enter)
 {
-	const float3 t0 = (lo - pad - o) * inverse, t1 = (hi + pad - o) * inverse;
-	const float3 first = fmin(t0, t1), last = fmax(t0, t1);
+	const float x0 = (lo.x - pad - o.x) * inverse.x, x1 = (hi.x + pad - o.x) * inverse.x;
+	const float y0 = (lo.y - pad - o.y) * inverse.y, y1 = (hi.y + pad - o.y) * inverse.y;
+	const float z0 = (lo.z - pad - o.z) * inverse.z, z1 = (hi.z + pad - o.z) * inverse.z;
 
-	*enter = fmax(fmax(first.x, first.y), fmax(first.z, 0.0f));
+	*enter = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), 0.0f));
 	/* A little more, for rounding in t; an empty side has lo > hi. */
-	return lo.x <= hi.x && *enter <= fmin(fmin(last.x, last.y), fmin(last.z, t_max)) * 1.00001f;
+	return lo.x <= hi.x && *enter <= fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmin(fmax(z0, z1), t_max)) * 1.00001f;
 }
 
 /* The same for one side of a binary node. */
-static inline int meets_side(__global const struct node2 *node, uint side, float3 o, float3 inverse, float pad, float t_max,
+static inline int meets_side(__global const struct node2 *node, uint side, struct vec3 o, struct vec3 inverse, float pad, float t_max,
                       float *enter)
 {
-	return meets_box((float3)(node->lo[side][0], node->lo[side][1], node->lo[side][2]),
-	                 (float3)(node->hi[side][0], node->hi[side][1], node->hi[side][2]), o, inverse, pad, t_max, enter);
+	return meets_box(v3_load(node->lo[side]), v3_load(node->hi[side]), o, inverse, pad, t_max, enter);
 }
 
-static inline void walk_binary(struct pixel *p, uint index, float3 o, float3 inverse)
+static inline void walk_binary(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
@@ -171,7 +176,7 @@ static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
  * Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: o is where the view looks in the
  * window, a point.
  */
-static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3 inverse, int is_screen)
+static inline void walk_compressed(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
 	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
@@ -189,9 +194,8 @@ static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3
 
 			if (!node8c_box(node, slot, lo, hi))
 				continue;
-			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), o.xy, instance->pad) :
-			                !meets_box((float3)(lo[0], lo[1], lo[2]), (float3)(hi[0], hi[1], hi[2]), o, inverse, instance->pad,
-			                           p->t_max, &enter))
+			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), (float2)(o.x, o.y), instance->pad) :
+			                !meets_box(v3(lo[0], lo[1], lo[2]), v3(hi[0], hi[1], hi[2]), o, inverse, instance->pad, p->t_max, &enter))
 				continue;
 			count = node8c_child(node, slot, &first);
 			group.y |= count ? 0u : 1u << i;
@@ -215,9 +219,9 @@ static inline void walk_compressed(struct pixel *p, uint index, float3 o, float3
 INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
 {
 	__global const float *m = p->instances[index].obj_from_eye;
-	const float3 r0 = (float3)(m[0], m[1], m[2]), r1 = (float3)(m[4], m[5], m[6]), r2 = (float3)(m[8], m[9], m[10]);
-	const float3 o = (float3)(dot(r0, p->o) + m[3], dot(r1, p->o) + m[7], dot(r2, p->o) + m[11]);
-	const float3 inverse = invert((float3)(dot(r0, p->d), dot(r1, p->d), dot(r2, p->d)));
+	const struct vec3 r0 = v3_load(m), r1 = v3_load(m + 4), r2 = v3_load(m + 8);
+	const struct vec3 o = v3(v3_dot(r0, p->o) + m[3], v3_dot(r1, p->o) + m[7], v3_dot(r2, p->o) + m[11]);
+	const struct vec3 inverse = invert_all(v3(v3_dot(r0, p->d), v3_dot(r1, p->d), v3_dot(r2, p->d)));
 
 	if (is_compressed)
 		walk_compressed(p, index, o, inverse, 0);
@@ -228,7 +232,7 @@ INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
 INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
                       __global const uint *instance_list)
 {
-	const float3 inverse = invert(p->d);
+	const struct vec3 inverse = invert_all(p->d);
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 	float enter;
 
@@ -280,7 +284,7 @@ INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 	const float2 at = pixel_spot(p);
 
 	if (is_compressed)
-		walk_compressed(p, index, (float3)(at, 0), (float3)(1), 1);
+		walk_compressed(p, index, v3(at.x, at.y, 0), v3(1, 1, 1), 1);
 	else
 		walk_screen_binary(p, index, at);
 }
@@ -295,10 +299,10 @@ static inline int make_ray(struct pixel *p)
 	const float4 near = vload4(0, m) * x + vload4(1, m) * y + (vload4(3, m) - vload4(2, m));
 	const float4 far = vload4(0, m) * x + vload4(1, m) * y + (vload4(3, m) + vload4(2, m));
 
-	p->o = near.xyz / near.w;
-	p->d = far.xyz * near.w - near.xyz * far.w;
+	p->o = v3(near.x / near.w, near.y / near.w, near.z / near.w);
+	p->d = v3(far.x * near.w - near.x * far.w, far.y * near.w - near.y * far.w, far.z * near.w - near.z * far.w);
 	p->d_scale = fmax(fabs(p->d.x), fmax(fabs(p->d.y), fabs(p->d.z)));
-	p->d /= p->d_scale;
+	p->d = v3(p->d.x / p->d_scale, p->d.y / p->d_scale, p->d.z / p->d_scale);
 	p->near_w = near.w;
 	p->far_w = far.w;
 	p->t_max = 1e30f;

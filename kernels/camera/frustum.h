@@ -8,8 +8,7 @@
 #ifndef KERNELS_CAMERA_FRUSTUM_H
 #define KERNELS_CAMERA_FRUSTUM_H
 
-#include "scene/scene.h"
-#include "kernels/shared.h"
+#include "kernels/common.h"
 #include "kernels/rays/lanes.h"
 
 /* Inside is where a x + b y + c z + d >= 0, for every lane. p: positive part of a coefficient, n: negative part. */
@@ -39,12 +38,16 @@ static inline int side_exists(__global const struct node2 *node, uint side)
 }
 
 /* How far from the origin the tree under `root` reaches, along each axis. */
-static inline float3 frustum_extent(__global const struct node2 *root)
+static inline struct vec3 frustum_extent(__global const struct node2 *root)
 {
-	const float3 left = fmax(fabs(vload3(0, root->lo[0])), fabs(vload3(0, root->hi[0])));
-	const float3 right = fmax(fabs(vload3(0, root->lo[1])), fabs(vload3(0, root->hi[1])));
+	float extent[3];
 
-	return side_exists(root, 1) ? fmax(left, right) : left;
+	for (int i = 0; i < 3; i++) {
+		extent[i] = fmax(fabs(root->lo[0][i]), fabs(root->hi[0][i]));
+		if (side_exists(root, 1))
+			extent[i] = fmax(extent[i], fmax(fabs(root->lo[1][i]), fabs(root->hi[1][i])));
+	}
+	return v3(extent[0], extent[1], extent[2]);
 }
 
 /*
@@ -52,7 +55,7 @@ static inline float3 frustum_extent(__global const struct node2 *root)
  * done to them, at any point that lies no farther from the origin than `extent`, is given back.
  */
 static inline struct frustum frustum_make(float8 a, float8 b, float8 c, float8 d, float8 abs_a, float8 abs_b, float8 abs_c,
-                                   float8 abs_d, float3 extent)
+                                   float8 abs_d, struct vec3 extent)
 {
 	struct frustum f;
 

@@ -7,6 +7,7 @@
  * order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are private: of the room they have for the deepest tree
  * a ray touches only the few entries that it needs.
  */
+#include "kernels/common.h"
 #include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/walk.h"
@@ -41,7 +42,7 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 /* --- Binary trees ------------------------------------------------------------------------------------------------- */
 
 /* Whether the ray meets a box, and where it enters. An empty one has lo > hi. */
-static inline int meets_box(const struct walk *w, float3 lo, float3 hi, float *enter)
+static inline int meets_box(const struct walk *w, struct vec3 lo, struct vec3 hi, float *enter)
 {
 	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x), far_x = fma(w->ix < 0 ? lo.x : hi.x, w->far_ix, w->far_x);
 	const float near_y = fma(w->iy < 0 ? hi.y : lo.y, w->iy, w->near_y), far_y = fma(w->iy < 0 ? lo.y : hi.y, w->far_iy, w->far_y);
@@ -71,8 +72,8 @@ static inline int next_leaf(const struct walk *w, __global const struct node2 *n
 		const float4 a = row[0], b = row[1], c = row[2];
 		const uint4 d = as_uint4(row[3]); /* child[2], count[2] */
 		struct entry left, right;
-		const int meets_left = meets_box(w, a.xyz, (float3)(b.zw, c.x), &left.enter);
-		const int meets_right = meets_box(w, (float3)(a.w, b.xy), c.yzw, &right.enter);
+		const int meets_left = meets_box(w, v3(a.x, a.y, a.z), v3(b.z, b.w, c.x), &left.enter);
+		const int meets_right = meets_box(w, v3(a.w, b.x, b.y), v3(c.y, c.z, c.w), &right.enter);
 
 		left.child = d.x, left.count = d.z;
 		right.child = d.y, right.count = d.w;
