@@ -9,7 +9,7 @@
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
-#include "replay/gl/texture/unpack.h"
+#include "replay/gl/texture/transfer.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -40,7 +40,8 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 				continue;
 			if (l->base_format != GL_DEPTH_COMPONENT) {
 				gls_picture_color(p, from, v);
-				gls_store_pixel(st, format, v, texel);
+				gls_transfer_color(st, v);
+				gls_format_store(format, v, texel);
 				continue;
 			}
 			v[0] = gls_transfer_depth(st, far > 0 ? (float)p->depth[from] / far : 0);

@@ -6,6 +6,7 @@
 #include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/transfer.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
@@ -141,7 +142,8 @@ static void copy_texel(const struct gls_state *st, const struct scene_picture *p
 		memcpy(texel, v, 4);
 	} else {
 		gls_picture_color(p, from, v);
-		gls_store_pixel(st, gls_format_find(kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA), v, texel);
+		gls_transfer_color(st, v);
+		gls_format_store(gls_format_find(kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA), v, texel);
 	}
 }
 

@@ -1,4 +1,5 @@
 /* Pixel storage modes, pixel transfer and pixel maps (GL 2.1 sec. 3.6.1, 3.6.3). */
+#include <stddef.h>
 #include <string.h>
 
 #include "gl_tokens.h"
@@ -12,58 +13,31 @@
 
 static void pixel_store(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
+#define AT(field) offsetof(struct gls_pixel_store, field)
+	static const struct { uint32_t pack, unpack; size_t place; } modes[] = {
+		{ GL_PACK_SWAP_BYTES, GL_UNPACK_SWAP_BYTES, AT(swap_bytes) }, { GL_PACK_LSB_FIRST, GL_UNPACK_LSB_FIRST, AT(lsb_first) },
+		{ GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH, AT(row_length) }, { GL_PACK_SKIP_ROWS, GL_UNPACK_SKIP_ROWS, AT(skip_rows) },
+		{ GL_PACK_SKIP_PIXELS, GL_UNPACK_SKIP_PIXELS, AT(skip_pixels) }, { GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT, AT(alignment) },
+		{ GL_PACK_IMAGE_HEIGHT, GL_UNPACK_IMAGE_HEIGHT, AT(image_height) }, { GL_PACK_SKIP_IMAGES, GL_UNPACK_SKIP_IMAGES, AT(skip_images) },
+	};
+	uint32_t name = arg_u(c, 0);
 	int64_t value = arg_i(c, 1);
-	uint32_t pname = arg_u(c, 0);
-	struct gls_pixel_store *s = pname >= GL_PACK_SWAP_BYTES && pname <= GL_PACK_ALIGNMENT ? &st->client.pack
-	                                                                                     : &st->client.unpack;
 
-	if (value < 0 || value > (1 << 24)) {
-		gls_error(x, st, GL_INVALID_VALUE);
-		return;
-	}
-	switch (pname) {
-	case GL_PACK_SWAP_BYTES:
-	case GL_UNPACK_SWAP_BYTES:
-		s->swap_bytes = value != 0;
-		break;
-	case GL_PACK_LSB_FIRST:
-	case GL_UNPACK_LSB_FIRST:
-		s->lsb_first = value != 0;
-		break;
-	case GL_PACK_ROW_LENGTH:
-	case GL_UNPACK_ROW_LENGTH:
-		s->row_length = (int32_t)value;
-		break;
-	case GL_PACK_SKIP_ROWS:
-	case GL_UNPACK_SKIP_ROWS:
-		s->skip_rows = (int32_t)value;
-		break;
-	case GL_PACK_SKIP_PIXELS:
-	case GL_UNPACK_SKIP_PIXELS:
-		s->skip_pixels = (int32_t)value;
-		break;
-	case GL_PACK_ALIGNMENT:
-	case GL_UNPACK_ALIGNMENT:
-		if (value != 1 && value != 2 && value != 4 && value != 8)
+	for (size_t i = 0; value >= 0 && value <= 1 << 24 && i < sizeof(modes) / sizeof(modes[0]); i++) {
+		struct gls_pixel_store *s = name == modes[i].pack ? &st->client.pack : &st->client.unpack;
+		int boolean = modes[i].place == AT(swap_bytes) || modes[i].place == AT(lsb_first);
+		int32_t word = boolean ? value != 0 : (int32_t)value;
+
+		if (name != modes[i].pack && name != modes[i].unpack)
+			continue;
+		if (modes[i].place == AT(alignment) && value != 1 && value != 2 && value != 4 && value != 8)
 			gls_error(x, st, GL_INVALID_VALUE);
 		else
-			s->alignment = (int32_t)value;
-		break;
-	case GL_UNPACK_IMAGE_HEIGHT:
-		st->client.unpack.image_height = (int32_t)value;
-		break;
-	case GL_UNPACK_SKIP_IMAGES:
-		st->client.unpack.skip_images = (int32_t)value;
-		break;
-	case GL_PACK_IMAGE_HEIGHT:
-		st->client.pack.image_height = (int32_t)value;
-		break;
-	case GL_PACK_SKIP_IMAGES:
-		st->client.pack.skip_images = (int32_t)value;
-		break;
-	default:
-		gls_error(x, st, GL_INVALID_ENUM);
+			memcpy((uint8_t *)s + modes[i].place, &word, sizeof(word));
+		return;
 	}
+	gls_error(x, st, value < 0 || value > 1 << 24 ? GL_INVALID_VALUE : GL_INVALID_ENUM);
+#undef AT
 }
 
 GLS_HANDLER(glPixelStorei, CLIENT) { pixel_store(x, st, c); }
@@ -73,55 +47,28 @@ GLS_HANDLER(glPixelStoref, CLIENT) { pixel_store(x, st, c); }
 
 static void set_transfer(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
-	struct gls_pixel *p = &st->a.pixel;
+#define AT(field) offsetof(struct gls_pixel, field)
+	static const struct { uint32_t name; enum { FLOAT, INTEGER, BOOLEAN } kind; size_t place; } parameters[] = {
+		{ GL_RED_SCALE, FLOAT, AT(scale[0]) }, { GL_RED_BIAS, FLOAT, AT(bias[0]) },
+		{ GL_GREEN_SCALE, FLOAT, AT(scale[1]) }, { GL_GREEN_BIAS, FLOAT, AT(bias[1]) },
+		{ GL_BLUE_SCALE, FLOAT, AT(scale[2]) }, { GL_BLUE_BIAS, FLOAT, AT(bias[2]) },
+		{ GL_ALPHA_SCALE, FLOAT, AT(scale[3]) }, { GL_ALPHA_BIAS, FLOAT, AT(bias[3]) },
+		{ GL_DEPTH_SCALE, FLOAT, AT(depth_scale) }, { GL_DEPTH_BIAS, FLOAT, AT(depth_bias) },
+		{ GL_INDEX_SHIFT, INTEGER, AT(index_shift) }, { GL_INDEX_OFFSET, INTEGER, AT(index_offset) },
+		{ GL_MAP_COLOR, BOOLEAN, AT(map_color) }, { GL_MAP_STENCIL, BOOLEAN, AT(map_stencil) },
+	};
+#undef AT
 	float value = arg_f(c, 1);
 
-	switch (arg_u(c, 0)) {
-	case GL_RED_SCALE:
-		p->scale[0] = value;
-		break;
-	case GL_GREEN_SCALE:
-		p->scale[1] = value;
-		break;
-	case GL_BLUE_SCALE:
-		p->scale[2] = value;
-		break;
-	case GL_ALPHA_SCALE:
-		p->scale[3] = value;
-		break;
-	case GL_RED_BIAS:
-		p->bias[0] = value;
-		break;
-	case GL_GREEN_BIAS:
-		p->bias[1] = value;
-		break;
-	case GL_BLUE_BIAS:
-		p->bias[2] = value;
-		break;
-	case GL_ALPHA_BIAS:
-		p->bias[3] = value;
-		break;
-	case GL_DEPTH_SCALE:
-		p->depth_scale = value;
-		break;
-	case GL_DEPTH_BIAS:
-		p->depth_bias = value;
-		break;
-	case GL_MAP_COLOR:
-		p->map_color = value != 0;
-		break;
-	case GL_MAP_STENCIL:
-		p->map_stencil = value != 0;
-		break;
-	case GL_INDEX_SHIFT:
-		p->index_shift = (int32_t)arg_i(c, 1);
-		break;
-	case GL_INDEX_OFFSET:
-		p->index_offset = (int32_t)arg_i(c, 1);
-		break;
-	default:
-		gls_error(x, st, GL_INVALID_ENUM);
+	for (size_t i = 0; i < sizeof(parameters) / sizeof(parameters[0]); i++) {
+		int32_t word = parameters[i].kind == BOOLEAN ? value != 0 : (int32_t)arg_i(c, 1);
+
+		if (parameters[i].name != arg_u(c, 0))
+			continue;
+		memcpy((uint8_t *)&st->a.pixel + parameters[i].place, parameters[i].kind == FLOAT ? (const void *)&value : &word, sizeof(word));
+		return;
 	}
+	gls_error(x, st, GL_INVALID_ENUM);
 }
 
 GLS_HANDLER(glPixelTransferf, STATE) { set_transfer(x, st, c); }

@@ -285,6 +285,7 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	uint32_t name = arg_u(c, 0) == GL_READ_FRAMEBUFFER ? st->read_framebuffer : st->draw_framebuffer, point = arg_u(c, 1);
 	struct gls_texture *t = a->texture ? table_find(&st->share->textures, a->texture) : NULL;
 	struct gls_framebuffer *fb = name ? find(x, st, name) : NULL;
+	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever its level is */
 	int color = gls_attachment_color(point);
 
 	if (!fb || (a->texture && (!t || a->level >= GLS_MAX_LEVELS))) {
@@ -296,18 +297,14 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	update(x, st->share, fb);
 	if (t)
 		t->attached = 1;
+	if (a->texture || a->renderbuffer)
+		kept = *a;
 	if (color >= 0)
-		fb->attached[color] = *a;
+		fb->attached[color] = kept;
 	if (point == GL_DEPTH_ATTACHMENT || point == GL_DEPTH_STENCIL_ATTACHMENT)
-		fb->attached[DEPTH] = *a;
+		fb->attached[DEPTH] = kept;
 	if (point == GL_STENCIL_ATTACHMENT || point == GL_DEPTH_STENCIL_ATTACHMENT)
-		fb->attached[STENCIL] = *a;
-}
-
-static void attach_texture(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t texture, uint32_t face,
-                           uint32_t level, uint32_t layer)
-{
-	attach(x, st, c, &(struct gls_attachment){ texture, 0, texture ? face : 0, texture ? level : 0, texture ? layer : 0 });
+		fb->attached[STENCIL] = kept;
 }
 
 static void attach_image(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t layer)
@@ -317,13 +314,16 @@ static void attach_image(struct gls_exec *x, struct gls_state *st, const struct 
 	if (arg_u(c, 3) && gls_texture_target_of(arg_u(c, 2), &face) < 0)
 		gls_error(x, st, GL_INVALID_ENUM);
 	else
-		attach_texture(x, st, c, arg_u(c, 3), face, arg_u(c, 4), layer);
+		attach(x, st, c, &(struct gls_attachment){ arg_u(c, 3), 0, face, arg_u(c, 4), layer });
 }
 
 GLS_HANDLER(glFramebufferTexture1D, OBJECT) { attach_image(x, st, c, 0); }
 GLS_HANDLER(glFramebufferTexture2D, OBJECT) { attach_image(x, st, c, 0); }
 GLS_HANDLER(glFramebufferTexture3D, OBJECT) { attach_image(x, st, c, arg_u(c, 5)); }
-GLS_HANDLER(glFramebufferTextureLayer, OBJECT) { attach_texture(x, st, c, arg_u(c, 2), 0, arg_u(c, 3), arg_u(c, 4)); }
+GLS_HANDLER(glFramebufferTextureLayer, OBJECT)
+{
+	attach(x, st, c, &(struct gls_attachment){ arg_u(c, 2), 0, 0, arg_u(c, 3), arg_u(c, 4) });
+}
 GLS_HANDLER(glFramebufferRenderbuffer, OBJECT) { attach(x, st, c, &(struct gls_attachment){ .renderbuffer = arg_u(c, 3) }); }
 
 static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, uint32_t name)

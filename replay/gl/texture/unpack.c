@@ -8,6 +8,7 @@
 #include "capture/format/trace.h"
 #include "replay/gl/geometry/buffer.h"
 #include "replay/gl/texture/texformat.h"
+#include "replay/gl/texture/transfer.h"
 #include "replay/machine/args.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
@@ -188,52 +189,6 @@ int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y)
 	return at < p->n && p->data[at] >> (s->lsb_first ? bit & 7 : 7 - (bit & 7)) & 1;
 }
 
-/* ---- pixel transfer, sec. 3.6.5 ---- */
-
-/* Scale and bias, then the colour maps. */
-static void transfer_color(const struct gls_state *st, float rgba[4])
-{
-	const struct gls_pixel *p = &st->a.pixel;
-
-	for (unsigned i = 0; i < 4; i++) {
-		const struct gls_pixel_map *m = &st->pixel_maps[GL_PIXEL_MAP_R_TO_R - GL_PIXEL_MAP_I_TO_I + i];
-
-		rgba[i] = rgba[i] * p->scale[i] + p->bias[i];
-		if (p->map_color) {
-			float v = rgba[i] > 0 ? rgba[i] < 1 ? rgba[i] : 1 : 0;
-			rgba[i] = m->size ? m->values[(uint32_t)(v * (float)(m->size - 1) + 0.5f)] : 0;
-		}
-	}
-}
-
-static int transfers_colors(const struct gls_pixel *p)
-{
-	for (unsigned i = 0; i < 4; i++)
-		if (p->scale[i] != 1 || p->bias[i] != 0)
-			return 1;
-	return p->map_color != 0;
-}
-
-float gls_transfer_depth(const struct gls_state *st, float depth)
-{
-	float v = depth * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
-
-	return v > 0 ? v < 1 ? v : 1 : 0;
-}
-
-uint32_t gls_transfer_index(const struct gls_state *st, uint32_t index)
-{
-	int32_t shift = st->a.pixel.index_shift;
-
-	return (shift >= 0 ? index << (shift & 31) : index >> (-shift & 31)) + (uint32_t)st->a.pixel.index_offset;
-}
-
-void gls_store_pixel(const struct gls_state *st, const struct gls_format *to, float rgba[4], uint8_t *out)
-{
-	transfer_color(st, rgba);
-	gls_format_store(to, rgba, out);
-}
-
 /* ---- stencil values and indices ---- */
 
 void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out)
@@ -244,12 +199,12 @@ void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out)
 		for (uint32_t x = 0; x < p->width; x++) {
 			size_t at = place_of(p, group, x, y);
 
-			/* the lowest byte of the last word */
-			*out++ = at <= p->n && group <= p->n - at ? p->data[at + group - (p->store->swap_bytes ? 1 : 4)] : 0;
+			/* the lowest byte of the last word, where there is a word */
+			*out++ = group >= 4 && at <= p->n && group <= p->n - at ? p->data[at + group - (p->store->swap_bytes ? 1 : 4)] : 0;
 		}
 }
 
-/* A colour or stencil index after transfer. size: bytes of one, where it is no bit */
+/* A colour or stencil index, shifted and offset. size: bytes of one, where it is no bit */
 static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p, size_t size, uint32_t x, uint32_t y)
 {
 	size_t at = place_of(p, size, x, y);
@@ -267,17 +222,8 @@ static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p,
 	return gls_transfer_index(st, value);
 }
 
-static uint8_t map_index(const struct gls_pixel_map *m, uint32_t index)
-{
-	float v = m->size ? m->values[index & (m->size - 1)] : 0;
-
-	return (uint8_t)(v > 0 ? v < 1 ? v * 255 + 0.5f : 255 : 0);
-}
-
 int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, uint8_t *out)
 {
-	const struct gls_pixel_map *stencil = &st->pixel_maps[GL_PIXEL_MAP_S_TO_S - GL_PIXEL_MAP_I_TO_I];
-	const struct gls_pixel_map *colors = &st->pixel_maps[GL_PIXEL_MAP_I_TO_R - GL_PIXEL_MAP_I_TO_I];
 	size_t size = plain_bytes(p->type);
 
 	if (p->type == GL_HALF_FLOAT || p->type == GL_UNSIGNED_INT_24_8 || p->type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV ||
@@ -288,13 +234,11 @@ int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, u
 			uint32_t value = index_at(st, p, size, x, y);
 
 			if (p->format == GL_STENCIL_INDEX) {
-				if (st->a.pixel.map_stencil && stencil->size)
-					value = token_of_float(stencil->values[value & (stencil->size - 1)]);
+				value = gls_transfer_stencil(st, value);
 				memcpy(out, &value, 4);
-				continue;
+			} else {
+				gls_transfer_color_index(st, value, out);
 			}
-			for (unsigned k = 0; k < 4; k++)
-				out[k] = map_index(&colors[k], value);
 		}
 	return 0;
 }
@@ -439,7 +383,7 @@ static int describe(struct unpacking *u)
 		return 0;
 	u->group = u->packed ? u->packed->bytes : u->from->n * u->component;
 	u->step = to->numbers ? 16 : 4;
-	u->transfers = transfers_colors(&u->st->a.pixel);
+	u->transfers = gls_transfer_changes_colors(u->st);
 	u->is_plain = (p->type == GL_UNSIGNED_BYTE || (p->type == GL_FLOAT && !p->store->swap_bytes)) && !u->transfers &&
 	              !u->is_depth && !to->bits[0] && !to->bits[3] && !to->s3tc && !to->numbers;
 	if (u->is_plain)
@@ -469,7 +413,7 @@ static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t
 			rgba[f->to[k]] = v[k];
 	}
 	if (u->transfers)
-		transfer_color(u->st, rgba);
+		gls_transfer_color(u->st, rgba);
 	gls_format_store(u->to, rgba, out);
 }
 

@@ -11,7 +11,6 @@
 
 struct call;
 struct gls_exec;
-struct gls_format;
 struct gls_pixel_store;
 struct gls_state;
 
@@ -49,14 +48,5 @@ void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out);
 
 /** A bit of a bitmap (sec. 3.7): type BITMAP, whatever p->type says. */
 int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y);
-
-/** A colour through pixel transfer (sec. 3.6.5; rgba is changed) into a texel. */
-void gls_store_pixel(const struct gls_state *st, const struct gls_format *to, float rgba[4], uint8_t *out);
-
-/** The same of a depth: scale, bias, clamp. */
-float gls_transfer_depth(const struct gls_state *st, float depth);
-
-/** The same of an index: shift and offset. */
-uint32_t gls_transfer_index(const struct gls_state *st, uint32_t index);
 
 #endif
