@@ -1,8 +1,8 @@
 /*
- * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept here as pixels. Values are 16 bits, 32767 for 1, cut off
- * towards 0, as Mesa has them. As Mesa has it, too, a drawable that can hold sRGB colours is summed up in linear light.
+ * The accumulation buffer (GL 2.1 sec. 4.2.4): sums of pictures, kept as pixels. As in Mesa, values are 16 bits, 32767 for 1, rounded
+ * towards 0; the colours of a drawable that can hold sRGB are summed in linear light.
  *
- * Where a frame is not built, sums are missing from then on until all of the buffer is loaded or cleared.
+ * A frame that is not built leaves the sums missing, until the whole buffer is loaded or cleared.
  */
 #include "replay/gl/pixels/accum.h"
 
@@ -26,7 +26,7 @@ struct area {
 	int64_t x0, y0, x1, y1;
 };
 
-/* The drawable, its buffer in its present size, and what of it the scissor lets through. NULL: none, or out of memory */
+/* The drawable, with a buffer of its present size. area: what the scissor leaves of it. NULL: none, or out of memory */
 static struct gls_drawable *open_buffer(struct gls_exec *x, struct gls_state *st, struct area *area)
 {
 	struct gls_drawable *d = st->draw_framebuffer ? NULL : gls_drawable_of(x, st->drawable);
@@ -64,7 +64,7 @@ static int16_t clamp16(float v)
 	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
 }
 
-/* What a stored byte of a component (3: alpha) counts. */
+/* What a stored byte of a component (3: alpha) stands for. */
 static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
 {
 	float v = (float)byte / 255;
@@ -72,7 +72,7 @@ static float value_of(const struct gls_state *st, uint8_t byte, unsigned compone
 	return st->srgb && component < 3 ? gls_linear_from_srgb(v) : v;
 }
 
-/* Each value of the area becomes itself times `scale`, plus `offset`, plus the colour there times `factor`. */
+/* Each value of the area becomes value * scale + offset + colour * factor. p: the colours, or NULL */
 static void change(const struct gls_state *st, struct gls_drawable *d, const struct area *a, float scale,
                    const float offset[4], const struct scene_picture *p, float factor)
 {
@@ -90,7 +90,7 @@ static void change(const struct gls_state *st, struct gls_drawable *d, const str
 		}
 }
 
-/* RETURN: fragments that the scissor and the colour mask alone touch. */
+/* RETURN: only the scissor and the colour mask touch these fragments. */
 static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a, float value)
 {
 	uint32_t width = (uint32_t)(a->x1 - a->x0), height = (uint32_t)(a->y1 - a->y0);

@@ -43,7 +43,7 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		                   15);
 }
 
-/* One direction: the source's lower end, the place of it, and how much larger it gets. @return 0 where nothing is left */
+/* One direction of a blit: the source in ascending order, where its lower end goes, and the magnification. @return 0: nothing is left */
 static int span(int64_t s0, int64_t s1, int64_t d0, int64_t d1, int64_t *from, int64_t *to, float *start, float *zoom)
 {
 	*from = s0 < s1 ? s0 : s1;

@@ -51,7 +51,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 		}
 }
 
-/* Copy to a level; without pixels it is missing from now on. */
+/* Copy to a level. Where no pixels are to be had, the level is missing from now on. */
 static void copy_screen(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face, int64_t level,
                         const struct copy *c)
 {

@@ -32,7 +32,7 @@ GLS_HANDLER(glBitmap, STATE)
 		texels = gls_scratch(x, (size_t)p.width * p.height * 4);
 		for (uint32_t i = 0; texels && i < p.width * p.height; i++)
 			memset(texels + 4 * (size_t)i, gls_unpack_bit(&p, i % p.width, i / p.width) ? 255 : 0, 4);
-		/* the lower left corner goes to whole pixels, downwards; a little up as Mesa has it against rounding */
+		/* The lower left corner is rounded down to whole pixels; Mesa adds a little first, against rounding errors. */
 		if (texels)
 			gls_draw_rectangle(x, st, &(struct gls_rectangle){ SCENE_BITMAP, p.width, p.height, floorf(at[0] + 0.0001f - arg_f(c, 2)),
 			                                                   floorf(at[1] + 0.0001f - arg_f(c, 3)), { 1, 1 }, texels });
@@ -41,7 +41,7 @@ GLS_HANDLER(glBitmap, STATE)
 	at[1] += arg_f(c, 5);
 }
 
-/* Pixels at the raster position, zoomed. */
+/* Pixels drawn at the raster position, with PixelZoom. */
 static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width, uint32_t height,
                                                const uint8_t *texels)
 {
@@ -122,7 +122,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	gls_draw_rectangle(x, st, &r);
 }
 
-/* A place of the screen as a texel of a copy; outside of it nothing is defined: 0. */
+/* A pixel of the screen as a texel; 0 off the screen, where nothing is defined. */
 static void copy_texel(const struct gls_state *st, const struct scene_picture *p, uint32_t kind, int64_t x, int64_t y,
                        uint8_t *texel)
 {

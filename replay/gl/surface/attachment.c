@@ -16,16 +16,17 @@
 
 enum { DEPTH = GLS_ATTACHMENT_DEPTH, STENCIL = GLS_ATTACHMENT_STENCIL };
 
+/* An attachment, found. */
 struct target {
 	uint32_t width, height, format;
-	struct gls_renderbuffer *renderbuffer; /* either this */
-	struct gls_texture *texture;           /* or this and the next two */
+	struct gls_renderbuffer *renderbuffer; /* either this, */
+	struct gls_texture *texture;           /* or these three */
 	struct gls_level *level;
-	size_t first; /* texel */
-	int sample;   /* of a renderbuffer's pixels, from 1 on; 0: their mean */
+	size_t first; /* texel of the level */
+	int sample;   /* of a renderbuffer's pixels, from 1 on; 0: the mean of all */
 };
 
-/* @return 0 where there is none, or it has no pixels */
+/* @return 0: nothing is attached, or it has no pixels */
 static int find_target(const struct gls_share *share, const struct gls_attachment *a, struct target *out)
 {
 	memset(out, 0, sizeof(*out));
@@ -108,7 +109,7 @@ int gls_attachments_describe(const struct gls_share *share, const struct gls_att
 	return any;
 }
 
-/* What of a picture a target's sample means; NULL: nothing is known of it. */
+/* The picture of a target's sample; NULL: there is none. */
 static struct scene_picture *sample_of(const struct target *t, struct scene_picture *p)
 {
 	return !p || !t->sample ? p : p->samples ? &p->samples[t->sample - 1] : NULL;
@@ -181,13 +182,13 @@ static void load_stencil(const struct target *t, struct scene_picture *p)
 		memcpy(p->stencil + (size_t)y * p->width, from + (size_t)y * t->width, p->width);
 }
 
-/* What the attachments hold of a sample (see struct target). */
+/* What attachments hold of one sample, or of the mean (struct target). */
 static void load_sample(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], int color, int sample,
                         const struct gls_surface *s, struct scene_picture *p)
 {
 	struct target t;
 
-	/* A larger surface than this buffer's own cannot be: it is the smallest of all. A read buffer may be smaller still. */
+	/* A surface is as small as the smallest of what it draws to. A read buffer may be smaller still: then nothing is loaded. */
 	if (color >= 0 && find_target(share, &attached[color], &t) && t.width >= s->width && t.height >= s->height) {
 		t.sample = sample;
 		load_color(&t, p);
@@ -220,7 +221,7 @@ struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_sh
 	return p;
 }
 
-/* Room for what was drawn to a renderbuffer. NULL: out of memory */
+/* Where a renderbuffer keeps what was drawn; made where there is no room yet. NULL: out of memory */
 static struct scene_picture *content_of(struct gls_exec *x, const struct target *t)
 {
 	struct gls_renderbuffer *r = t->renderbuffer;

@@ -9,7 +9,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-/* 1 where a draw can change something of a surface: depth and stencil, where colours go elsewhere. */
+/* 1 where an event can change a surface. If its colours go elsewhere, only depth and stencil count. */
 static int is_reached(const struct gls_target *target, const struct gls_event *e)
 {
 	const struct gls_attribs *a = e->attribs;

@@ -1,8 +1,9 @@
 /*
  * Framebuffer objects: render to texture.
  *
- * Attachments hold the truth. The events of an object are rendered and written to them when somebody looks at one of them; what
- * comes after begins from them. A frame that was not built leaves them missing, as a screen copy does (copytex.c).
+ * Attachments hold the truth. An object only collects events; they are rendered and written to its attachments when somebody looks at
+ * one of these. Later events begin from the attachments. A frame that was not built leaves them missing, as a screen copy does
+ * (copytex.c).
  */
 #include "replay/gl/surface/framebuffer.h"
 
@@ -25,13 +26,13 @@
 #include "replay/machine/picture.h"
 #include "replay/machine/state.h"
 
-#define MANY_EVENTS (1u << 16) /* of an object that nobody looks at: written to attachments, so that they do not pile up */
+#define MANY_EVENTS (1u << 16) /* that an object collects before they are written to its attachments */
 
 enum { DEPTH = GLS_ATTACHMENT_DEPTH, STENCIL = GLS_ATTACHMENT_STENCIL };
 
 /* ---- bringing attachments up to date ---- */
 
-/* Colours as 1 << number: a draw buffer, and others drawn beside it. */
+/* Colours (1 << number): a draw buffer, and others beside it. */
 static uint32_t colors_of(uint32_t buffer, uint32_t others)
 {
 	int color = gls_attachment_color(buffer);
@@ -39,15 +40,16 @@ static uint32_t colors_of(uint32_t buffer, uint32_t others)
 	return others | (color >= 0 ? 1u << color : 0);
 }
 
-/* Those that the surface's events draw to. */
+/* Those that the collected events draw to. */
 static uint32_t drawn_colors(const struct gls_framebuffer *fb)
 {
 	return colors_of(fb->drawn_buffer, fb->drawn_too);
 }
 
 /*
- * Render what was drawn so far, and write it back. Fixed function gives all colours the same fragments (GL 2.1 sec. 3.11.2): they
- * differ in what was there before, so that where it shows the events are rendered once for each; depth and stencil come out alike.
+ * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours (GL 2.1 sec.
+ * 3.11.2). They differ only in what was there before: where that shows, the events are rendered once for each colour. Depth and stencil
+ * are the same each time.
  */
 static void update_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
@@ -74,7 +76,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 	gls_attachments_store(x, share, fb->attached, p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
 }
 
-/* The same where anything was drawn at all; begin anew. */
+/* The same where there are events; then begin anew. */
 static void update(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {
 	struct gls_surface *s = &fb->surface;
@@ -87,7 +89,7 @@ static void update(struct gls_exec *x, const struct gls_share *share, struct gls
 	s->skipped = 0;
 }
 
-/* Update all objects but one that have something attached. */
+/* Update all objects but one (NULL: all) to which this is attached. */
 static void update_sharing(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment *what,
                            const struct gls_framebuffer *but)
 {
@@ -205,7 +207,7 @@ void gls_renderbuffer_free(struct gls_renderbuffer *r)
 	free(r);
 }
 
-/* Detach a texture or renderbuffer that is deleted. */
+/* A texture or renderbuffer is deleted. */
 static void detach(struct gls_exec *x, struct gls_state *st, const struct gls_attachment *what)
 {
 	update_sharing(x, st->share, what, NULL);
@@ -218,7 +220,7 @@ static void detach(struct gls_exec *x, struct gls_state *st, const struct gls_at
 	}
 }
 
-/* Objects have draw and read buffers of their own. */
+/* Each object has a draw buffer and a read buffer of its own. */
 static void bind_draw(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_framebuffer *old = find(x, st, st->draw_framebuffer), *fb = find(x, st, name);
@@ -373,7 +375,7 @@ static void storage(struct gls_exec *x, struct gls_state *st, uint32_t format, i
 	update_sharing(x, st->share, &(struct gls_attachment){ .renderbuffer = st->renderbuffer }, NULL);
 	gls_picture_release(r->content);
 	*r = (struct gls_renderbuffer){ .internal_format = format, .width = (uint32_t)width, .height = (uint32_t)height,
-	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 }; /* no driver gives fewer than are asked for */
+	                                .samples = samples > 0 ? SCENE_SAMPLES : 0 }; /* drivers give at least what is asked for */
 }
 
 GLS_HANDLER(glRenderbufferStorage, OBJECT) { storage(x, st, arg_u(c, 1), arg_i(c, 2), arg_i(c, 3), 0); }
@@ -384,7 +386,7 @@ GLS_HANDLER(glRenderbufferStorageMultisample, OBJECT)
 	storage(x, st, arg_u(c, 2), arg_i(c, 3), arg_i(c, 4), arg_i(c, 1));
 }
 
-/* ---- textures, which may be attached ---- */
+/* ---- deletion of textures: they may be attached ---- */
 
 GLS_HANDLER(glDeleteTextures, OBJECT)
 {

@@ -1,4 +1,4 @@
-/* Ends of frames: what is shown, what is deferred, what is lost. */
+/* Ends of frames: one is shown, deferred, or skipped. */
 #include "replay/gl/surface/frames.h"
 
 #include "replay/build/frame.h"
@@ -11,7 +11,7 @@
 #include "replay/machine/state.h"
 #include "replay/replay.h"
 
-#define MANY_EVENTS (1u << 14) /* of frames that nobody wants: made one picture, so that they do not pile up */
+#define MANY_EVENTS (1u << 14) /* of deferred frames, before their scene ends */
 
 static struct gls_drawable *swapped(struct gls_exec *x)
 {
@@ -20,7 +20,7 @@ static struct gls_drawable *swapped(struct gls_exec *x)
 	return gls_window_of(x, x->st ? x->st : &none, x->swapped);
 }
 
-/* What the frame that has ended shows. */
+/* What the frame that has ended shows: the back buffer, but for a frame without a swap that drew to the front. */
 static struct gls_surface *shown(struct gls_exec *x, struct gls_drawable *d)
 {
 	return x->unswapped && x->st && gls_front_is_drawn(x->st) ? gls_front_part(x, d) : &d->surface;

@@ -1,11 +1,12 @@
 /*
- * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with a swap
- * is what the back buffer holds; one that ends without is what is drawn to at its end, be it the front buffer.
+ * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with a swap shows
+ * the back buffer, which is then in the front buffer, as GL has it (Mesa's software rasterizers leave there what was there before,
+ * 22.3.6). One that ends without a swap shows what is drawn to at its end, be it the front buffer.
  *
- * The two have colours of their own, and share depth and stencil. As long as nobody draws to the front buffer or reads it, it
- * costs a reference to what the last swap put there. From then until the next swap both are surfaces that get every event: with
- * colours where DrawBuffer says so, and else with what it does to depth and stencil. What the front buffer shows of earlier
- * events is made only when the replay has started again for it (x->feedback.fronts, feedback.c).
+ * Each has its own colours; both share depth and stencil. While nobody draws to the front buffer or reads it, it costs a reference to
+ * what the last swap put there. Afterwards the two are apart: until the next swap both surfaces get every event, its colours where
+ * DrawBuffer says so, its depth and stencil always. What the front buffer shows of earlier events is made only after the replay has
+ * started again for it (x->feedback.fronts, surface.c).
  */
 #include "replay/gl/surface/front.h"
 
@@ -67,7 +68,7 @@ static void merge(struct scene_picture *to, const struct scene_picture *colors, 
 	memcpy(to->stencil, rest->stencil, n);
 }
 
-/* The colours that the front buffer has had, over depth and stencil as the back buffer's events leave them. */
+/* The front buffer's colours, with depth and stencil as the back buffer's events leave them. */
 static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *front, struct gls_surface *back)
 {
 	const struct scene_picture *colors = gls_surface_read(x, front), *rest = colors ? gls_surface_read(x, back) : NULL;

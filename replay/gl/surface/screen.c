@@ -13,7 +13,7 @@
 static void describe(struct gls_surface *s, const struct gls_drawable *d, const struct gls_state *st)
 {
 	if (s->deferred && (s->width != d->width || s->height != d->height)) {
-		gls_surface_free(s); /* a window of another size has nothing of the old one's */
+		gls_surface_free(s); /* a window of another size keeps nothing */
 		s->deferred = 0;
 	}
 	s->width = d->width;

@@ -1,10 +1,9 @@
 /*
- * What is drawn to, as pixels. Whoever set a supplier (replay.h) renders them, from the scene of all events so far, and only when
- * somebody asks.
+ * Pixels of surfaces. The supplier (replay.h) renders them from the scene of all events so far, and only when somebody asks.
  *
- * A frame may show what the one before left. What a surface held before its events is therefore kept: as a picture where one was
- * made, else as the scene that would make it. Where frames were skipped it is not known; the frame that turns out to need it sets
- * x->feedback.rewind, and replay.c starts again and builds every frame.
+ * A frame may show what the one before left. A surface therefore keeps what it held before its events: as a picture where one was
+ * made, else as the scene that would make it. After skipped frames nobody knows it. A frame that turns out to need it sets
+ * x->feedback.rewind; replay.c then starts again and builds every frame.
  */
 #include "replay/gl/surface/surface.h"
 
@@ -58,7 +57,7 @@ static int has_size(const struct scene_picture *p, const struct scene *s)
 	return p->width == s->width && p->height == s->height;
 }
 
-/* A window of another size has nothing of the old one's, even where its size has changed within a frame. */
+/* A window of another size keeps nothing, even where its size has changed within a frame. */
 static void check_size(struct gls_surface *surface, struct scene *s)
 {
 	if ((surface->picture && !has_size(&surface->picture->picture, s)) ||
@@ -71,9 +70,9 @@ static void check_size(struct gls_surface *surface, struct scene *s)
 }
 
 /*
- * Give the scene of a surface what was there before it, where that shows through.
- * @param snapshot  receives what the scene makes where that had to be found out, or NULL: a reference for the caller
- * @return 1 the scene is whole; 0 it is not, and cannot be made so now
+ * Give a surface's scene what was there before it, where that shows through.
+ * @param snapshot  receives a reference to what the scene shows, if that had to be rendered to find out; else NULL
+ * @return 1: the scene is whole; 0: it is not, and cannot be made so now
  */
 static int find_start(struct gls_exec *x, struct gls_surface *surface, struct scene *s, struct gls_picture **snapshot)
 {
@@ -82,7 +81,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
 		return 1;
 	if (!surface->picture) {
-		/* It may be that nothing shows through: a sky over all of it. */
+		/* Perhaps nothing shows through: a sky covers it all. */
 		int try = s->n_instances && !(x->feedback.shows_through && surface->before);
 
 		if (try && !(*snapshot = render(x, s)))

@@ -65,7 +65,7 @@ static struct chain find_chain(const struct gls_texture *t, unsigned face)
 	return (struct chain){ n, 1 };
 }
 
-/* What all faces have. */
+/* The levels that all faces have. */
 static struct chain find_chains(const struct gls_texture *t)
 {
 	struct chain all = find_chain(t, 0);
@@ -195,7 +195,7 @@ void gls_texture_image_release(struct gls_texture_image *image)
 		free(image);
 }
 
-/* Screen copies make a new image each frame: drop those that the cache alone holds and nobody drew for a while. */
+/* Screen copies make a new image each frame. */
 void gls_image_cache_trim(struct gls_exec *x)
 {
 	if (x->caches.image_bytes < IMAGE_KEEP_BYTES || x->frame % IMAGE_KEEP_FRAMES)

@@ -1,6 +1,6 @@
 /*
- * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below it with linear filtering: a texel
- * is what lies at its centre, between two neighbours in each direction, in places of 1/256 texel, rounded after each step.
+ * Generated mipmaps (sec. 3.8.8 leaves the filter open). Mesa draws each level from the one below it with linear filtering: a texel's
+ * centre lies between two texels in each direction. Weights are multiples of 1/256; results are rounded after each direction.
  */
 #include "replay/gl/texture/mipmap.h"
 
@@ -101,8 +101,8 @@ static void halve(const struct gls_level *from, uint32_t w, uint32_t h, uint8_t 
 }
 
 /*
- * What Mesa cannot draw to it averages as it is stored, two by two texels, of which the last are left out where their number is odd;
- * integers are rounded down.
+ * Formats that Mesa cannot draw to it averages as they are stored, two by two texels. The last of an odd number of texels is left
+ * out; integers are rounded down.
  */
 static int is_averaged(const struct gls_format *f)
 {
@@ -128,7 +128,7 @@ static void average_level(const struct gls_level *from, struct gls_level *to, co
 		for (unsigned c = 0; c < 4; c++) {
 			v[c] = sum[c] / (float)count;
 			if (!format->numbers)
-				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* of eight texels the parts are eighths */
+				v[c] = floorf(v[c] * 255 + 0.0625f) / 255; /* the mean of eight texels has eighths */
 		}
 		gls_format_store(format, v, to->texels + to->texel_bytes * i);
 	}

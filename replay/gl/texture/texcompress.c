@@ -30,7 +30,7 @@ static unsigned wide(unsigned value, unsigned bits)
 	return (value << (8 - bits) | value >> (2 * bits - 8)) & 255;
 }
 
-/* A part of the way from one number to another, as llvmpipe goes it: in 1/256, rounded down. */
+/* Between two numbers, part / of on the way, as llvmpipe interpolates: in 1/256, rounded down. */
 static int between(int a, int b, int part, int of)
 {
 	return a + (((b - a) * (part * 256 / of)) >> 8);
@@ -43,7 +43,7 @@ static struct rgba third(struct rgba a, struct rgba b, int part)
 	return a;
 }
 
-/* The same as Mesa has it in FXT1: rounded to the nearest, but halves down. */
+/* The same for FXT1, as Mesa does it: rounded to nearest, halves down. */
 static struct rgba blend(struct rgba a, struct rgba b, unsigned part, unsigned of)
 {
 	for (unsigned i = 0; i < 4; i++)
@@ -64,7 +64,7 @@ static struct rgba color_565(unsigned word)
 	return (struct rgba){ { wide(word >> 11, 5), wide(word >> 5 & 63, 6), wide(word & 31, 5), 255 } };
 }
 
-/* Colours of a block, 8 bytes. through: a transparent fourth colour is meant so; four: there are always four colours */
+/* Colours of a block, 8 bytes. through: the fourth colour may be transparent; four: there are always four colours */
 static void s3tc_colors(const uint8_t *block, int through, int four, uint8_t out[16][4])
 {
 	unsigned w0 = bits_at(block, 0, 16), w1 = bits_at(block, 16, 16);
@@ -82,7 +82,7 @@ static void s3tc_colors(const uint8_t *block, int through, int four, uint8_t out
 		put(&c[bits_at(block, 32 + 2 * i, 2)], out[i]);
 }
 
-/* Alpha of DXT5, and channels of RGTC: eight levels between two, or six of them, the lowest and the highest number. */
+/* Alpha of DXT5 and channels of RGTC: eight levels from one number to another; or six, then the lowest and the highest number. */
 static int channel(const uint8_t *block, unsigned i, int is_signed)
 {
 	int a0 = is_signed ? (int8_t)block[0] : block[0], a1 = is_signed ? (int8_t)block[1] : block[1];

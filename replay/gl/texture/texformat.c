@@ -7,8 +7,8 @@
 #include "gl_tokens.h"
 
 /*
- * What Mesa stores of each format: formats of at least 8 bits a channel keep 8 here. Of the small ones llvmpipe has R3_G3_B2 to
- * RGB5_A1 as they are named (RGBA2 has 4 bits), and luminance and alpha of 8 bits alone, but for LUMINANCE4_ALPHA4.
+ * What Mesa stores of each format. Formats of 8 bits a channel or more keep 8 here. Of smaller ones, llvmpipe has R3_G3_B2 to RGB5_A1
+ * as their names say (but RGBA2 with 4 bits); luminance and alpha always have 8 bits, but for LUMINANCE4_ALPHA4.
  */
 static const struct gls_format formats[] = {
 	{ 1, GL_LUMINANCE, { 0 }, 0, 0, 0, 0 },
@@ -211,7 +211,7 @@ uint32_t gls_texel_bytes(uint32_t internal_format)
 	return f && f->numbers ? 16 : 4;
 }
 
-/* Few bits as eight: repeated as long as there is room. */
+/* Few bits as eight: they are repeated. */
 static uint8_t widen(unsigned value, unsigned bits)
 {
 	unsigned v = value << (8 - bits);
@@ -221,7 +221,7 @@ static uint8_t widen(unsigned value, unsigned bits)
 	return (uint8_t)v;
 }
 
-/* A number of 8 bits as one of fewer would read. */
+/* A number as 8 bits, after it was kept in fewer. */
 static uint8_t coarse(float value, unsigned bits)
 {
 	float steps = (float)((1u << bits) - 1);
@@ -230,7 +230,7 @@ static uint8_t coarse(float value, unsigned bits)
 	return widen((unsigned)(value * steps + 0.5f), bits);
 }
 
-/* A float of so many bits of mantissa and five of exponent, of which the lowest has no leading one. */
+/* A float as one with this many bits of mantissa and 5 of exponent holds it; the lowest exponent has no leading one. */
 static float few_bits(float value, int bits, int rounds)
 {
 	int exponent;
@@ -241,7 +241,7 @@ static float few_bits(float value, int bits, int rounds)
 	return (rounds ? rintf(value / step) : truncf(value / step)) * step;
 }
 
-/* What a format can hold of numbers (EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is Mesa's). */
+/* Numbers as a format holds them. EXT_packed_float and EXT_texture_shared_exponent leave the rounding open: it is Mesa's. */
 static void hold(uint32_t numbers, float v[4])
 {
 	float steps = numbers == GLS_SNORM8 ? 127 : 32767, most = 0, step;
@@ -306,7 +306,7 @@ void gls_format_store(const struct gls_format *f, const float rgba[4], uint8_t *
 	memcpy(out, v, sizeof(v));
 }
 
-/* A number of 8 bits in fewer, as llvmpipe draws it: rounded only where there are four of them, or almost. */
+/* 8 bits in fewer, as llvmpipe draws them: more than four are cut off, four and fewer rounded. */
 static uint8_t drawn(unsigned v, unsigned bits)
 {
 	return widen(bits > 4 ? v >> (8 - bits) : ((v >> bits) * ((1u << bits) - 1) + (1u << (7 - bits))) >> (8 - bits), bits);

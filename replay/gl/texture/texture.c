@@ -85,7 +85,7 @@ struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, 
 	return st->share->defaults[target];
 }
 
-/* What is bound, without making what was never asked for. */
+/* What is bound; NULL where nobody has asked for it yet. */
 static struct gls_texture *bound_if_any(const struct gls_state *st, uint32_t name, unsigned target)
 {
 	struct gls_texture *t = name ? table_find(&st->share->textures, name) : st->share->defaults[target];
@@ -324,7 +324,7 @@ GLS_HANDLER(glTexParameteriv, STATE) { set_parameter(x, st, c, 1); }
 
 /* ---- sampler objects, GL 3.3 sec. 3.8.2 ---- */
 
-/* They have the parameters of textures, and lie in the table of textures beyond all names of textures. */
+/* A sampler object is a texture without levels. In the table of textures its key lies beyond all names of textures. */
 #define SAMPLER_KEY(name) ((uint64_t)1 << 32 | (name))
 
 const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t)
@@ -384,7 +384,7 @@ GLS_HANDLER(glSamplerParameteriv, STATE) { set_parameter_of(x, st, find_sampler(
 
 /* ---- levels, sec. 3.8.1 ---- */
 
-/* Textures of one dimension are not compressed. */
+/* 1D textures are not compressed. */
 static uint32_t uncompressed(uint32_t internal_format)
 {
 	switch (internal_format) {
@@ -410,7 +410,7 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 	size_t bytes;
 
 	if (!gls_base_format(internal_format)) {
-		/* Mesa takes more formats than GL 2.1 has; those of other kinds hold no colours for fixed function. */
+		/* Mesa takes more formats than GL 2.1 has; the others hold no colours that fixed function could use. */
 		gls_unsupported(x, "textures of this internal format");
 		return NULL;
 	}

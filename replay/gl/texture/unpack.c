@@ -15,7 +15,7 @@
 
 /* ---- client formats, tables 3.5 and 3.6 ---- */
 
-/* Which of R G B A each component of a group is; 4: luminance (all of RGB), 5: depth. */
+/* What each component of a pixel is: 0 .. 3 R G B A, 4 luminance (all of RGB), 5 depth. */
 struct format {
 	uint32_t token;
 	unsigned n;
@@ -38,7 +38,7 @@ static const struct format *find_format(uint32_t token)
 	return NULL;
 }
 
-/* Packed types (table 3.8): bits of each component from the first one on, first in the highest bits unless reversed. */
+/* Packed types (table 3.8): how many bits each component has. The first one has the highest bits unless they are reversed. */
 struct packed {
 	uint32_t token;
 	unsigned bytes, n, bits[4], reversed;
@@ -98,7 +98,7 @@ static uint32_t load(const uint8_t *p, size_t n, int swap)
 	return value;
 }
 
-/* One component as a float (table 2.9); of depths packed with stencil values the depth. */
+/* One component as a float (table 2.9); of packed depth and stencil the depth. */
 static float plain_component(const uint8_t *p, uint32_t type, int swap)
 {
 	size_t bytes = plain_bytes(type);
@@ -243,11 +243,10 @@ int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, u
 	return 0;
 }
 
-/* ---- bytes and floats that nothing transfers ---- */
+/* ---- bytes and floats that pixel transfer leaves alone ---- */
 
 /*
- * Bytes and floats that nothing transfers end as bytes in other places: for each of a texel's four the member of the group that
- * it is, or one of these.
+ * They only change places. For each of a texel's four bytes: which component of the pixel it is, or one of these.
  */
 enum { ZERO_BYTE = 4, FULL_BYTE };
 
@@ -275,7 +274,7 @@ static void places_of(const struct format *f, uint32_t base, uint8_t place[4])
 		place[3] = place[0];
 }
 
-/* Places as numbers of four bytes: a member times its number stands in all its places; `rest` are the other bytes. */
+/* Places as factors: a component times its factor stands in all its places of a texel; `rest` has the other bytes. */
 struct spread {
 	uint32_t member[4], rest;
 };
@@ -358,16 +357,16 @@ struct unpacking {
 	const struct gls_state *st;
 	const struct gls_pixels *p;
 	const struct format *from;
-	const struct packed *packed; /* NULL: each component has its own bytes, this many: */
-	size_t component, group;     /* and a pixel this many */
+	const struct packed *packed; /* NULL: each component has bytes of its own */
+	size_t component, group;     /* bytes of a component, of a pixel */
 	const struct gls_format *to;
 	size_t step;                 /* bytes of a texel */
 	int transfers, is_depth;
-	int is_plain;                /* 1: rows are only put in other places: */
+	int is_plain;                /* 1: components only change places: */
 	uint8_t place[4];
 };
 
-/* @return 0: these pixels are not done */
+/* @return 0: no format and type that this file knows */
 static int describe(struct unpacking *u)
 {
 	const struct gls_pixels *p = u->p;
