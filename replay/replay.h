@@ -56,20 +56,12 @@ int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
 int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
 
 /**
- * Makes pixels for a replay: what GL itself drew of a scene (mode gl), from scene->start on where that is there.
- * @param scene    part of a frame, or a whole one; borrowed
- * @param picture  of the scene's size, arrays there and undefined; to be filled
- * @return 0 or ERR_* (reported): the replay then fails
- */
-typedef int replay_supply(void *user, const struct scene *scene, struct scene_picture *picture);
-
-/**
  * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are
  * not cleared). Called in the thread that calls replay_next_frame, from within it. Without a supplier such operations are
  * counted (replay_unsupported). With one, a wanted frame that needs pixels of skipped frames makes the replay start again
  * from the trace's beginning and build every frame: right, if slow.
  */
-void replay_set_supplier(struct replay *rp, replay_supply *supply, void *user);
+void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
 
 /**
  * Build the frames up to and with `last`: do they need pixels of frames that were skipped? Told without rendering: a frame that

@@ -326,5 +326,13 @@ struct scene {
 	} *draws;
 };
 
+/**
+ * Makes pixels of a scene for who needs them back: what GL itself drew, from scene->start on where that is there.
+ * @param scene    part of a frame, or a whole one; borrowed
+ * @param picture  of the scene's size, arrays there and undefined; to be filled
+ * @return 0 or ERR_* (reported)
+ */
+typedef int scene_supply(void *user, const struct scene *scene, struct scene_picture *picture);
+
 #endif
 #endif

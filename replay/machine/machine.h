@@ -59,7 +59,7 @@ struct gls_scratch {
 
 /* Pixels that were drawn and are needed (surface/feedback.c). */
 struct gls_feedback {
-	int (*supply)(void *user, const struct scene *scene, struct scene_picture *out); /* replay.h; NULL: nobody makes pixels */
+	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
 	int fronts;        /* 1: what front buffers show is looked at */
 	int missing;       /* 1: some texture has pixels missing that were drawn in skipped frames */

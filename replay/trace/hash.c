@@ -2,10 +2,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/err.h"
+
+#define NAMED_BYTES ((uint64_t)1 << 20)
 
 int hash_file(const char *path, uint64_t limit, XXH3_state_t *state)
 {
@@ -27,21 +30,40 @@ int hash_file(const char *path, uint64_t limit, XXH3_state_t *state)
 	return rc;
 }
 
-int hash_whole(const char *path, uint64_t out[2])
+/* The bytes of a file up to a limit, then `more`. */
+static int digest(const char *path, uint64_t limit, const void *more, size_t n, XXH128_hash_t *hash)
 {
 	XXH3_state_t *state = XXH3_createState();
-	XXH128_hash_t hash;
 	int rc = state ? 0 : err_report(ERR_SYSTEM, path, "out of memory");
 
 	if (!rc) {
 		XXH3_128bits_reset(state);
-		rc = hash_file(path, UINT64_MAX, state);
+		rc = hash_file(path, limit, state);
 	}
 	if (!rc) {
-		hash = XXH3_128bits_digest(state);
-		out[0] = hash.low64;
-		out[1] = hash.high64;
+		XXH3_128bits_update(state, more, n);
+		*hash = XXH3_128bits_digest(state);
 	}
 	XXH3_freeState(state);
+	return rc;
+}
+
+int hash_whole(const char *path, uint64_t out[2])
+{
+	XXH128_hash_t hash = { 0, 0 };
+	int rc = digest(path, UINT64_MAX, "", 0, &hash);
+
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+	return rc;
+}
+
+int hash_name(const char *path, uint64_t size, char out[33])
+{
+	XXH128_hash_t hash;
+	int rc = digest(path, NAMED_BYTES, &size, sizeof(size), &hash);
+
+	if (!rc)
+		snprintf(out, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
 	return rc;
 }

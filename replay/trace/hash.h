@@ -1,4 +1,4 @@
-/* Bytes of a file into a hash: what a trace is known by, and whether it is still the same. */
+/* Hashes of a file: what a trace is known by, and whether it is still the same. */
 #ifndef REPLAY_TRACE_HASH_H
 #define REPLAY_TRACE_HASH_H
 
@@ -6,7 +6,14 @@
 #include <xxhash.h>
 
 /**
- * Hash a file from its begin, in small pieces.
+ * Name of a trace: XXH3-128 over its first MiB and its size.
+ * @param out  receives 32 hex digits
+ * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int hash_name(const char *path, uint64_t size, char out[33]);
+
+/**
+ * Hash a file from its beginning, in small pieces.
  * @param limit  bytes at most
  * @param state  XXH3-128, begun by the caller, who may go on with it
  * @return 0 or ERR_INPUT (reported)

@@ -8,9 +8,11 @@
 #include "base/err.h"
 #include "base/options.h"
 #include "base/verbs.h"
-#include "replay/index/index.h"
 #include "base/json.h"
-#include "replay/replay.h"
+#include "replay/index/index_build.h"
+#include "replay/index/index_check.h"
+#include "replay/play/player.h"
+#include "replay/trace/hash.h"
 
 struct asked {
 	int force, check, json;
@@ -84,13 +86,16 @@ int index_main(int argc, char **argv)
 	struct options_line line;
 	struct index *index = NULL;
 	struct index_facts facts;
-	struct replay *rp = NULL;
+	struct player player = { 0 };
+	char hash[33];
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		rc = replay_open(&rp, line.words[0]);
+		rc = player_open(&player, line.words[0]);
 	if (!rc)
-		rc = index_open(&index, line.words[0], replay_trace_hash(rp), o.force ? INDEX_FORCE : INDEX_KEEP, rp);
+		rc = hash_name(line.words[0], trace_reader_size(player.reader), hash);
+	if (!rc)
+		rc = index_open(&index, line.words[0], hash, o.force ? INDEX_FORCE : INDEX_KEEP, &player);
 	if (!rc) {
 		facts = index_facts(index);
 		if (o.json)
@@ -101,6 +106,6 @@ int index_main(int argc, char **argv)
 			rc = index_check(index);
 	}
 	index_close(&index);
-	replay_close(&rp);
+	player_close(&player);
 	return rc > 0 ? 0 : -rc;
 }

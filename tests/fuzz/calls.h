@@ -52,7 +52,7 @@ size_t calls_used(const uint8_t *slot);
 /* Who makes pixels of scenes. */
 struct calls_painter {
 	void (*paint)(void *user, const struct scene *scene); /* of each frame */
-	replay_supply *supply;                                /* for calls that read what was drawn */
+	scene_supply *supply;                                /* for calls that read what was drawn */
 	int skips; /* 1: of every fourth length of a sequence every other frame is skipped */
 	void *user;
 };

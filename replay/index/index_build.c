@@ -1,0 +1,246 @@
+#include "replay/index/index_build.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/memory.h"
+#include "base/part.h"
+#include "base/progress.h"
+#include "replay/index/index_file.h"
+#include "replay/index/pack.h"
+#include "replay/play/player.h"
+
+#define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
+#define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
+
+/* ---- checkpoints ---- */
+
+/* Add a checkpoint if it is worth its bytes (see the head of index.h). */
+static int add_checkpoint(struct index *index, struct player *p)
+{
+	struct snapshot_blobs blobs = index_blobs(index);
+	struct index_checkpoint c = { .frame = p->exec->frame };
+	uint64_t most = trace_reader_offset(p->reader) + ALWAYS_BYTES;
+	struct bytes state = { .n = 0 };
+	XXH128_hash_t hash;
+	int rc;
+
+	index->added = 0;
+	index->most = most > index->end ? most - index->end : 0;
+	if (!trace_reader_place(p->reader, &c.place))
+		return 0;
+	rc = snapshot_save(p->exec, &blobs, &state);
+	if (rc == 0) {
+		hash = XXH3_128bits(state.data, state.n);
+		c.name[0] = hash.low64;
+		c.name[1] = hash.high64;
+		c.bytes = state.n;
+		rc = index_stage_blob(index, c.name, state.data, state.n);
+	}
+	if (rc == 0)
+		rc = index->added <= index->most ? index_keep_staged(index) : 1;
+	if (rc == 0 && index->file) {
+		rc = MEMORY_GROW(index->checkpoints, index->room_checkpoints, index->n_checkpoints + 1);
+		if (rc == 0)
+			index->checkpoints[index->n_checkpoints++] = c;
+	}
+	index_drop_staged(index);
+	free(state.data);
+	return rc < 0 ? rc : 0;
+}
+
+static int add_frame(struct index *index, struct player *p)
+{
+	struct trace_place place;
+
+	trace_reader_place(p->reader, &place);
+	if (MEMORY_GROW(index->frames, index->room_frames, index->n_frames + 1))
+		return ERR_SYSTEM;
+	index->frames[index->n_frames++] = (struct index_frame){ place.number - 1, place.offset };
+	return 0;
+}
+
+/* How far apart checkpoints stand at least: looking at a large state takes its time as well. */
+static uint64_t spacing(uint64_t state_bytes)
+{
+	return state_bytes / 4 > SPACING_BYTES ? state_bytes / 4 : SPACING_BYTES;
+}
+
+/*
+ * Calls since the last checkpoint before which there is no other: a byte that the state has grown by takes as long to restore as a
+ * byte and a quarter of calls to replay (medians of recordings of eight programs).
+ */
+static uint64_t soonest(uint64_t grown_bytes)
+{
+	return grown_bytes + grown_bytes / 4;
+}
+
+/* How large is the state that a checkpoint would keep? */
+static int measure(struct player *p, uint64_t *bytes)
+{
+	const struct snapshot_blobs scale = { .count = bytes };
+	struct bytes state = { .n = 0 };
+	int rc;
+
+	*bytes = 0;
+	rc = snapshot_save(p->exec, &scale, &state);
+	*bytes += state.n;
+	free(state.data);
+	return rc < 0 ? rc : 0;
+}
+
+static int scan(struct index *index, struct player *p)
+{
+	uint64_t next = SPACING_BYTES; /* where a checkpoint may be due */
+	uint64_t last = 0, kept = 0, bytes; /* where the last one was, the bytes of its state; those of the state now */
+	struct scene *none;
+	int rc;
+
+	while ((rc = player_next_frame(p, 0, &none)) == 1) {
+		rc = add_frame(index, p);
+		if (!rc && index->file && index->frames[index->n_frames - 1].offset >= next) {
+			uint64_t offset = index->frames[index->n_frames - 1].offset;
+
+			rc = measure(p, &bytes);
+			next = last + soonest(bytes > kept ? bytes - kept : 0);
+			if (!rc && offset >= next) {
+				rc = add_checkpoint(index, p);
+				last = offset;
+				kept = bytes;
+				next = offset + spacing(bytes);
+			}
+		}
+		if (rc)
+			return rc;
+	}
+	index->calls = p->exec->n_calls;
+	index->damaged = rc == ERR_INPUT;
+	return rc == ERR_INPUT && index->n_frames ? 0 : rc;
+}
+
+/* ---- the file ---- */
+
+static void put_toc(const struct index *index, struct bytes *out)
+{
+	bytes_put_u64(out, index->calls);
+	bytes_put_u64(out, (uint64_t)index->damaged);
+	bytes_put_u64(out, index->n_frames);
+	bytes_put(out, index->frames, index->n_frames * sizeof(*index->frames));
+	bytes_put_u64(out, index->n_checkpoints);
+	bytes_put(out, index->checkpoints, index->n_checkpoints * sizeof(*index->checkpoints));
+	bytes_put_u64(out, index->n_blobs);
+	bytes_put(out, index->blobs, index->n_blobs * sizeof(*index->blobs));
+	bytes_put_u64(out, index->n_signatures);
+	bytes_put(out, index->signatures, index->n_signatures);
+}
+
+static int write_toc(struct index *index)
+{
+	struct index_header *h = &index->header;
+	struct bytes toc = { .n = 0 };
+	XXH128_hash_t hash;
+	char *packed = NULL;
+	size_t n;
+	int rc = ERR_SYSTEM;
+
+	index_undelta(index->frames, index->n_frames, -1);
+	put_toc(index, &toc);
+	index_undelta(index->frames, index->n_frames, 1);
+	if (toc.failed || !(packed = malloc(pack_room(toc.n))) || pack_blob((const char *)toc.data, toc.n, packed, &n)) {
+		rc = index_out_of_memory(index);
+		goto done;
+	}
+	hash = XXH3_128bits(packed, n);
+	h->toc_offset = index->end;
+	h->toc_packed = n;
+	h->toc_bytes = toc.n;
+	h->toc_hash[0] = hash.low64;
+	h->toc_hash[1] = hash.high64;
+	if (fwrite(packed, 1, n, index->file) == n && fseek(index->file, 0, SEEK_SET) == 0 &&
+	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0 &&
+	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped there */
+		rc = 0;
+	else
+		index_lose_file(index);
+done:
+	free(toc.data);
+	free(packed);
+	return index->file ? rc : 0;
+}
+
+/* An unfinished file to write into. @return 1, with its name and the final one; 0: none can be written there */
+static int begin_file(struct index *index, int cached, char path[PATH_MAX], char part[PATH_MAX])
+{
+	const struct index_header empty = { .layout = 0 };
+	struct stat info;
+
+	if (!index_place(index, cached, path))
+		return 0;
+	if (cached && folder_make_for(path))
+		return 0;
+	if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+		return 0;
+	if (part_begin(path, part, PATH_MAX))
+		return 0;
+	index->file = fopen(part, "w+b");
+	if (index->file && fwrite(&empty, sizeof(empty), 1, index->file) == 1) {
+		index->end = sizeof(empty);
+		return 1;
+	}
+	if (index->file)
+		fclose(index->file);
+	index->file = NULL;
+	part_drop(part);
+	return 0;
+}
+
+/* fresh: a replay to scan with, or NULL */
+static int make(struct index *index, struct player *fresh)
+{
+	char path[PATH_MAX], part[PATH_MAX];
+	double start = progress_clock_s();
+	struct player own = { 0 }, *p = fresh ? fresh : &own;
+	int kept = begin_file(index, 0, path, part) || begin_file(index, 1, path, part), rc;
+
+	if (!kept)
+		err_warn(index->trace, "its index cannot be written, neither beside it nor into the cache folder; the next run "
+		         "makes it again");
+	rc = fresh ? 0 : player_open(p, index->trace);
+	if (!rc)
+		rc = trace_reader_hash_begin(p->reader);
+	if (!rc)
+		rc = scan(index, p);
+	if (!rc)
+		rc = trace_reader_signatures(p->reader, &index->signatures, &index->n_signatures);
+	if (!rc)
+		rc = trace_reader_hash_end(p->reader, index->header.whole_hash);
+	if (!rc && index->file)
+		rc = write_toc(index);
+	player_close(&own);
+	index->build_s = progress_clock_s() - start;
+	if (kept && (rc || !index->file)) {
+		part_drop(part);
+	} else if (kept) {
+		/* Where it cannot get its name, this process has it all the same. */
+		if (part_finish(part, path) == 0 && !(index->path = strdup(path)))
+			rc = index_out_of_memory(index);
+	}
+	return rc;
+}
+
+int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct player *fresh)
+{
+	int rc = index_create(out, path, hash);
+
+	if (rc || (mode == INDEX_KEEP && index_load(*out)))
+		return rc;
+	rc = make(*out, fresh);
+	if (rc)
+		index_close(out);
+	return rc;
+}

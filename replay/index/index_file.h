@@ -1,0 +1,97 @@
+/*
+ * The file of an index, as those see it who read it (index.c), write it (index_build.c) and compare it (index_check.c).
+ *
+ * A header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a table of contents
+ * with a checksum, packed alike. Snapshots are blobs as well. Numbers are as this machine has them.
+ */
+#ifndef REPLAY_INDEX_INDEX_FILE_H
+#define REPLAY_INDEX_INDEX_FILE_H
+
+#include <stdio.h>
+
+#include "replay/index/index.h"
+#include "replay/index/snapshot.h"
+
+#define INDEX_MAGIC "RELIDX3\n" /* the number changes with this file's form */
+
+struct index_header {
+	char magic[8];
+	uint64_t layout;
+	uint64_t trace_bytes, trace_mtime_ns;
+	char trace_hash[32]; /* hex digits, not ended */
+	uint64_t whole_hash[2];
+	uint64_t toc_offset, toc_packed, toc_bytes, toc_hash[2];
+};
+
+struct index_blob {
+	uint64_t name[2], offset, packed;
+};
+
+struct index_checkpoint {
+	uint64_t frame;
+	struct trace_place place;
+	uint64_t name[2], bytes; /* of the snapshot */
+};
+
+struct index_frame {
+	uint64_t call, offset;
+};
+
+struct index {
+	char *trace, *path;
+	FILE *file; /* blobs; NULL: nowhere to write them */
+	uint64_t end; /* of the blobs written so far */
+	struct index_header header;
+	struct index_blob *blobs;
+	struct table known; /* low half of a name -> number of its blob + 1 */
+	size_t n_blobs, room_blobs;
+	struct index_checkpoint *checkpoints;
+	size_t n_checkpoints, room_checkpoints;
+	struct index_frame *frames;
+	size_t n_frames, room_frames;
+	uint64_t calls;
+	int damaged;
+	uint8_t *signatures;
+	size_t n_signatures;
+	double build_s; /* 0: it was there */
+
+	/* The checkpoint that is being weighed. Its new blobs are written behind the others; they stay if it does. */
+	uint64_t added; /* their bytes */
+	uint64_t most;  /* upper bound on those: more are not worth a checkpoint */
+	struct index_blob *staged;
+	size_t n_staged, room_staged;
+	struct table waiting; /* as known, of those */
+	char *packed; /* room for one */
+	size_t room_packed;
+};
+
+/** Report that there is no memory. @return ERR_SYSTEM */
+int index_out_of_memory(const struct index *index);
+
+/** The file cannot be written any more (said): the index goes on in memory, without checkpoints. */
+void index_lose_file(struct index *index);
+
+/** Frames to differences (sign -1), which are small numbers that pack well, and back (1). */
+void index_undelta(struct index_frame *frames, size_t n, int sign);
+
+/* ---- blobs ---- */
+
+/** Blobs of snapshots: put stages them. */
+struct snapshot_blobs index_blobs(struct index *index);
+
+/** Know a blob that is in the file. @return 0 or ERR_SYSTEM (reported) */
+int index_add_blob(struct index *index, const struct index_blob *blob);
+
+/** Pack a blob that is not there yet, and write it behind those staged before. @return 0 or ERR_SYSTEM (reported) */
+int index_stage_blob(void *index, const uint64_t name[2], const void *data, size_t n);
+
+/** Staged blobs join the others. @return 0 or ERR_SYSTEM (reported) */
+int index_keep_staged(struct index *index);
+
+/** Forget staged blobs: what is written next goes over them. */
+void index_drop_staged(struct index *index);
+
+/** The n bytes of a blob, to be freed with free(); NULL: they are not there, or damaged (reported) */
+uint8_t *index_get_blob(void *index, const uint64_t name[2], size_t n);
+
+#endif

@@ -1,0 +1,131 @@
+#include "replay/play/player.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/gl/texture/image.h"
+
+int player_open(struct player *p, const char *path)
+{
+	int rc;
+
+	*p = (struct player){ .path = strdup(path) };
+	rc = p->path ? trace_reader_open(&p->reader, path) : err_report(ERR_SYSTEM, path, "out of memory");
+	if (!rc)
+		rc = gls_exec_create(&p->exec, p->path);
+	if (rc)
+		player_close(p);
+	return rc;
+}
+
+void player_close(struct player *p)
+{
+	gls_exec_destroy(&p->exec);
+	trace_reader_close(&p->reader);
+	free(p->path);
+	*p = (struct player){ 0 };
+}
+
+void player_set_supplier(struct player *p, scene_supply *supply, void *user)
+{
+	p->exec->feedback.supply = p->supply = supply;
+	p->exec->feedback.supply_user = p->supply_user = user;
+}
+
+int player_try_frame(struct player *p, int want, struct scene **scene)
+{
+	struct gls_exec *x = p->exec;
+	const struct call *call;
+	int rc;
+
+	x->want = want || p->build_all;
+	x->frame_ended = 0;
+	if (want)
+		gls_frame_end_deferred(x);
+	while (!x->frame_ended) {
+		rc = trace_reader_next(p->reader, &call);
+		if (rc <= 0)
+			return rc;
+		rc = gls_exec_call(x, call);
+		if (rc)
+			return rc;
+		if (x->feedback.rewind)
+			return 1;
+	}
+	if (want)
+		*scene = gls_frame_finish(x);
+	else if (x->want)
+		gls_frame_defer(x);
+	else
+		gls_frame_skip(x);
+	if (x->feedback.rewind)
+		return 1;
+	if (x->failed || (want && !*scene))
+		return x->failed ? x->failed : err_report(ERR_SYSTEM, p->path, "out of memory");
+	x->frame++;
+	gls_mesh_cache_trim(x);
+	gls_image_cache_trim(x);
+	return 1;
+}
+
+/* Start again, and build every frame. */
+static int rewind_and_build(struct player *p)
+{
+	int rc, fronts = p->exec->feedback.fronts;
+
+	gls_exec_destroy(&p->exec);
+	trace_reader_close(&p->reader);
+	rc = trace_reader_open(&p->reader, p->path);
+	if (!rc)
+		rc = gls_exec_create(&p->exec, p->path);
+	if (rc)
+		return rc;
+	p->exec->feedback.supply = p->supply;
+	p->exec->feedback.supply_user = p->supply_user;
+	p->exec->feedback.fronts = fronts;
+	p->build_all = 1;
+	return 1;
+}
+
+int player_next_frame(struct player *p, int want, struct scene **scene)
+{
+	uint64_t frame = p->exec->frame;
+	int rc;
+
+	*scene = NULL;
+	rc = player_try_frame(p, want, scene);
+	/* A second time where only the first replay finds out that the program looks at front buffers. */
+	for (int i = 0; i < 2 && rc == 1 && p->exec->feedback.rewind; i++) {
+		rc = rewind_and_build(p);
+		while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame)
+			rc = player_try_frame(p, want && p->exec->frame == frame, scene);
+	}
+	return rc;
+}
+
+void player_use(struct player *p, struct gls_exec *x)
+{
+	gls_exec_take_counts(x, p->exec);
+	x->feedback.supply = p->supply;
+	x->feedback.supply_user = p->supply_user;
+	x->feedback.fronts = p->exec->feedback.fronts;
+	gls_exec_destroy(&p->exec);
+	p->exec = x;
+}
+
+int player_start_again(struct player *p)
+{
+	struct gls_exec *x;
+	int rc = gls_exec_create(&x, p->path);
+
+	if (rc)
+		return rc;
+	table_free(&p->exec->counts.unknown); /* its keys go with the reader */
+	player_use(p, x);
+	trace_reader_close(&p->reader);
+	return trace_reader_open(&p->reader, p->path);
+}

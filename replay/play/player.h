@@ -1,0 +1,43 @@
+/*
+ * A trace, executed frame by frame from its beginning: a reader, a state machine, and the loop that takes calls from one to the
+ * other. Indexes are built and checked with it; replay.h adds seeking and counts.
+ *
+ * Frame n (from 0) ends with the trace's n-th swap of buffers.
+ */
+#ifndef REPLAY_PLAY_PLAYER_H
+#define REPLAY_PLAY_PLAYER_H
+
+#include "replay/machine/machine.h"
+#include "replay/trace/reader.h"
+#include "scene/scene.h"
+
+/* All zero: closed. */
+struct player {
+	char *path;
+	struct trace_reader *reader;
+	struct gls_exec *exec;
+	scene_supply *supply; /* NULL: nobody makes pixels */
+	void *supply_user;
+	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
+};
+
+/** @return 0, ERR_INPUT or ERR_SYSTEM (reported); the player is closed then */
+int player_open(struct player *p, const char *path);
+void player_close(struct player *p);
+
+/** As replay_set_supplier. */
+void player_set_supplier(struct player *p, scene_supply *supply, void *user);
+
+/** As replay_next_frame. */
+int player_next_frame(struct player *p, int want, struct scene **scene);
+
+/** The same, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
+int player_try_frame(struct player *p, int want, struct scene **scene);
+
+/** Go on with another state machine, which the player then owns. What was counted so far goes on being counted. */
+void player_use(struct player *p, struct gls_exec *x);
+
+/** Go back to the trace's beginning. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
+int player_start_again(struct player *p);
+
+#endif
