@@ -7,11 +7,9 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "tracer/device/cl_error.h"
 #include "tracer/device/cl_program.h"
 #include "kernels/embed.h"
-
-/* Not in the core header: what the ICD loader says when no driver is installed. */
-#define CL_PLATFORM_NOT_FOUND (-1001)
 
 #define MAX_PLATFORMS 16
 #define MAX_DEVICES 64
@@ -45,37 +43,6 @@ struct cl_buffer {
 	cl_mem mem;
 	size_t bytes;
 };
-
-static const char *error_name(cl_int code)
-{
-	static const struct {
-		cl_int code;
-		const char *name;
-	} names[] = {
-#define NAME(x) { x, #x }
-		NAME(CL_DEVICE_NOT_FOUND), NAME(CL_DEVICE_NOT_AVAILABLE), NAME(CL_COMPILER_NOT_AVAILABLE),
-		NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE), NAME(CL_OUT_OF_RESOURCES), NAME(CL_OUT_OF_HOST_MEMORY),
-		NAME(CL_BUILD_PROGRAM_FAILURE), NAME(CL_DEVICE_PARTITION_FAILED), NAME(CL_INVALID_VALUE),
-		NAME(CL_INVALID_PLATFORM), NAME(CL_INVALID_DEVICE), NAME(CL_INVALID_CONTEXT),
-		NAME(CL_INVALID_COMMAND_QUEUE), NAME(CL_INVALID_MEM_OBJECT), NAME(CL_INVALID_BUILD_OPTIONS),
-		NAME(CL_INVALID_PROGRAM), NAME(CL_INVALID_PROGRAM_EXECUTABLE), NAME(CL_INVALID_KERNEL_NAME),
-		NAME(CL_INVALID_KERNEL), NAME(CL_INVALID_ARG_INDEX), NAME(CL_INVALID_ARG_VALUE),
-		NAME(CL_INVALID_ARG_SIZE), NAME(CL_INVALID_KERNEL_ARGS), NAME(CL_INVALID_WORK_GROUP_SIZE),
-		NAME(CL_INVALID_GLOBAL_WORK_SIZE), NAME(CL_INVALID_BUFFER_SIZE), NAME(CL_INVALID_OPERATION),
-		NAME(CL_INVALID_DEVICE_PARTITION_COUNT), NAME(CL_PLATFORM_NOT_FOUND),
-#undef NAME
-	};
-
-	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
-		if (names[i].code == code)
-			return names[i].name;
-	return "an unnamed OpenCL error";
-}
-
-int cl_report(cl_int code, const char *what)
-{
-	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
-}
 
 /*
  * PoCL learns cores and memory from hwloc, and hwloc from /sys; in a chroot or container without it PoCL 3.1 ends the

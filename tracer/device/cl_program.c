@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "base/kept.h"
 #include "kernels/embed.h"
+#include "tracer/device/cl_error.h"
 
 /* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";

@@ -1,6 +1,6 @@
 /*
  * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left what the driver made of
- * it. For cl.c alone, which lends its errors' names.
+ * it. For cl.c alone.
  */
 #ifndef TRACER_DEVICE_CL_PROGRAM_H
 #define TRACER_DEVICE_CL_PROGRAM_H
@@ -29,8 +29,5 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
  * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)
  */
 int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out);
-
-/** Report an OpenCL error by its name. @return ERR_SYSTEM */
-int cl_report(cl_int code, const char *what);
 
 #endif
