@@ -181,7 +181,7 @@ typedef float element_float;
 	OUT(half, halves) AND() \
 	OUT(float, floats)
 
-/* Rays to lights and into the surroundings: kernels/frame/secondary.h. */
+/* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() \
 	IN(view, views) AND() \
@@ -247,7 +247,7 @@ typedef float element_float;
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
-/* Paths: the same header. */
+/* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() \
 	IN(view, views) AND() \

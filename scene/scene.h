@@ -223,14 +223,14 @@ struct scene_clear {
 	uint32_t floats;       /* as in the material: the colour may be beyond [0,1] */
 };
 
-#ifndef __OPENCL_VERSION__
-
-enum scene_primitive { SCENE_POINTS = 1, SCENE_LINES = 2, SCENE_TRIANGLES = 3 }; /* = vertices per primitive */
-
 enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit */
 	SCENE_HAS_NORMAL = 1, SCENE_HAS_COLOR = 2, SCENE_HAS_SECONDARY = 4, SCENE_HAS_FOG_COORD = 8,
 	SCENE_HAS_TEXCOORD = 16, SCENE_HAS_FACE = SCENE_HAS_TEXCOORD << SCENE_MAX_UNITS
 };
+
+#ifndef __OPENCL_VERSION__
+
+enum scene_primitive { SCENE_POINTS = 1, SCENE_LINES = 2, SCENE_TRIANGLES = 3 }; /* = vertices per primitive */
 
 /*
  * Geometry in object space, found by content: equal bytes are one mesh for as long as it is in use. Quads, strips, fans

@@ -81,7 +81,7 @@ static inline float compose_effect(float rest, float of)
  */
 #define COMPOSE_CODE_REACH 0.43f /* of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code */
 
-static inline float compose_settled(float gl)
+static inline float compose_nudged(float gl)
 {
 	float steps = gl * 255.0f, code = M_RINT(steps);
 
@@ -195,17 +195,17 @@ static inline void compose_load(const struct tables *t, GLOBAL const struct wind
 }
 
 /* GL's number goes off the borders between codes, and what equals it with it: no effect comes of it. */
-static inline void compose_settle(struct compose_lanes *l, uint32_t c)
+static inline void compose_nudge(struct compose_lanes *l, uint32_t c)
 {
-	float gl[COMPOSE_LANES], settled[COMPOSE_LANES];
+	float gl[COMPOSE_LANES], nudged[COMPOSE_LANES];
 
 	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
 		gl[k] = l->display[COLOR_GL + c][k];
-		settled[k] = compose_settled(gl[k]);
+		nudged[k] = compose_nudged(gl[k]);
 	}
 	for (uint32_t i = COLOR_GL + c; i < COLOR_ALBEDO; i += 3u)
 		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-			l->display[i][k] = l->display[i][k] == gl[k] ? settled[k] : l->display[i][k];
+			l->display[i][k] = l->display[i][k] == gl[k] ? nudged[k] : l->display[i][k];
 }
 
 /* The normal as a colour, in place of GL's. */
@@ -261,7 +261,7 @@ static inline void compose_item(const struct compose_arguments *a, uint32_t firs
 		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? pixel * PASS_PARTS : 0u), r, k, &l);
 	}
 	for (uint32_t c = 0u; c < 3u; c++)
-		compose_settle(&l, c);
+		compose_nudge(&l, c);
 	if (r->normals)
 		compose_normals(&l);
 	for (uint32_t i = 0u; i < N_COLORS; i++)

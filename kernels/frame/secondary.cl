@@ -1,5 +1,5 @@
-/* Rays from fragments and hits: see kernels/frame/secondary.h. */
-#include "kernels/frame/secondary.h"
+/* Rays from fragments and hits: see kernels/frame/shadow.h and path.h. */
+#include "kernels/frame/path.h"
 
 __kernel void shadow_ray(KERNEL_ARGUMENTS(shadow_ray))
 {

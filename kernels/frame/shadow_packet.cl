@@ -2,7 +2,7 @@
  * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: as in shade_packet.cl, what rays from a
  * triangle share is found once.
  */
-#include "kernels/frame/secondary.h"
+#include "kernels/frame/shadow.h"
 
 __kernel void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
 {

@@ -24,7 +24,7 @@ struct point {
 };
 
 /* Texturing of a point, and its fog: all of its colour that light has no part in. */
-struct coat {
+struct texturing {
 	struct vec4 sample[SCENE_MAX_UNITS]; /* by GL's unit number */
 	float fog_factor;
 };
@@ -287,7 +287,7 @@ static inline struct lit point_lit_again(const struct tables *t, const struct po
 }
 
 /* The colour at the point that the draw gave its vertices. */
-static inline struct vec4 point_given_color(const struct tables *t, const struct point *p)
+static inline struct vec4 point_current_color(const struct tables *t, const struct point *p)
 {
 	struct vec4 last = tables_color(t, p->geometry, p->number[2]);
 
@@ -320,13 +320,13 @@ static inline struct lit point_lit_here(const struct tables *t, const struct poi
 		return point_lit_from_vertices(p);
 	if (!p->material->lighting)
 		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
-		                    tables_face(t, p->geometry, p->number[2], side), point_given_color(t, p), side, seen);
+		                    tables_face(t, p->geometry, p->number[2], side), point_current_color(t, p), side, seen);
 	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
 	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f),
 	                    side ? v3_scale(n, -1.0f) : n, tables_face(t, p->geometry, p->number[2], side),
-	                    point_given_color(t, p), side, seen);
+	                    point_current_color(t, p), side, seen);
 }
 
 static inline struct vec4 point_texcoord(const struct tables *t, const struct point *p, uint32_t i,
@@ -431,71 +431,101 @@ static inline float point_fog(const struct point *p)
 	return clamp01(M_EXP(-m->fog_density * c));
 }
 
-/*
- * Sample a point's textures. view: NULL for secondary hits, which have no neighbours: their finest level is taken.
- * setup: NULL where the point is no fragment of a triangle. x, row: the pixel, row 0 at the bottom; height: of the window.
- * kept: NULL, or what earlier fragments of the same triangle have left.
- */
-static inline void point_coat(const struct tables *t, const struct point *p, GLOBAL const struct view *view,
-                              const struct clip_setup *setup, struct point_kept *kept, uint32_t x, uint32_t row, uint32_t height,
-                              struct coat *coat)
+/* Where a fragment lies in its window, and what is known of its triangle. */
+struct point_window {
+	GLOBAL const struct view *view;
+	const struct clip_setup *setup; /* NULL: it is of no triangle */
+	struct point_kept *kept;        /* NULL, or what earlier fragments of the same triangle have left */
+	uint32_t x, row, height;        /* its pixel, row 0 at the bottom; of the window */
+};
+
+/* The quad of pixels that llvmpipe takes slopes from: even columns, even rows counted from the top. */
+struct point_quad {
+	float x, y, middle;  /* middle: from there to where planes count from */
+	int have_weights;
+	float weight[3][3];  /* of points that are of no triangle's setup */
+};
+
+/* Texture coordinates of unit i. planes: receives what they follow, where there is a setup */
+static inline struct vec4 point_unit_coord(const struct tables *t, const struct point *p, uint32_t i, const struct point_window *w,
+                                           const struct point_quad *quad, struct point_planes *planes)
+{
+	const int keeps = w && w->kept && i == 0u;
+
+	if (!w || !w->setup)
+		return point_texcoord(t, p, i, p->weight);
+	if (keeps && w->kept->have_planes) {
+		*planes = w->kept->planes;
+	} else {
+		point_texcoord_planes(t, p, i, w->setup, planes);
+		if (keeps) {
+			w->kept->planes = *planes;
+			w->kept->have_planes = 1;
+		}
+	}
+	return point_texcoord_at(planes, (float)w->x + quad->middle, (float)(w->height - 1u - w->row) + quad->middle);
+}
+
+/* Their slopes. c: at the point; planes: as above */
+static inline struct texture_slope point_unit_slope(const struct tables *t, const struct point *p, uint32_t i,
+                                                    const struct point_window *w, struct point_quad *quad, struct vec4 c,
+                                                    const struct point_planes *planes)
+{
+	GLOBAL const struct texture_image *image = &t->textures[t->units[p->material->unit_first + i].texture];
+	const uint32_t number = (uint32_t)quad->y << 16 | (uint32_t)quad->x, slot = w->x / 2u % POINT_KEPT_QUADS;
+	/* On a cube each pixel has slopes of its own. */
+	const int keeps = w->kept && i == 0u && w->setup && image->target != GL_TEXTURE_CUBE_MAP;
+	struct texture_slope slope;
+
+	if (keeps && w->kept->quad[slot] == number)
+		return w->kept->slope[slot];
+	if (w->setup) {
+		slope = texture_slope(image, c, point_texcoord_at(planes, quad->x + quad->middle, quad->y + quad->middle),
+		                      point_texcoord_at(planes, quad->x + 1.0f + quad->middle, quad->y + quad->middle),
+		                      point_texcoord_at(planes, quad->x + quad->middle, quad->y + 1.0f + quad->middle));
+		if (keeps) {
+			w->kept->quad[slot] = number;
+			w->kept->slope[slot] = slope;
+		}
+		return slope;
+	}
+	if (!quad->have_weights) {
+		float x = quad->x + 0.5f, y = (float)w->height - (quad->y + 0.5f);
+
+		point_weights_at(p, w->view, x, y, quad->weight[0]);
+		point_weights_at(p, w->view, x + 1.0f, y, quad->weight[1]);
+		point_weights_at(p, w->view, x, y - 1.0f, quad->weight[2]);
+		quad->have_weights = 1;
+	}
+	return texture_slope(image, c, point_texcoord(t, p, i, quad->weight[0]), point_texcoord(t, p, i, quad->weight[1]),
+	                     point_texcoord(t, p, i, quad->weight[2]));
+}
+
+/* Sample a point's textures. w: NULL for secondary hits, which have no neighbours: their finest level is taken. */
+static inline void point_texture(const struct tables *t, const struct point *p, const struct point_window *w,
+                                 struct texturing *texturing)
 {
 	GLOBAL const struct scene_material *m = p->material;
-	/* llvmpipe's quads: even columns, even rows counted from the top. */
-	const float y = (float)(height - 1u - row), quad_x = (float)(x & ~1u), quad_y = (float)((height - 1u - row) & ~1u);
-	const float middle = setup ? 0.5f - clip_origin(view) : 0.0f;
-	float quad[3][3];
-	int have_quad = 0;
+	struct point_quad quad;
 
+	quad.have_weights = 0;
+	if (w) {
+		quad.x = (float)(w->x & ~1u);
+		quad.y = (float)((w->height - 1u - w->row) & ~1u);
+		quad.middle = w->setup ? 0.5f - clip_origin(w->view) : 0.0f;
+	}
 	for (uint32_t i = 0u; i < m->unit_count; i++) {
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
+		const int have_slope = w && texture_needs_slope(t, unit);
 		struct point_planes planes;
-		struct vec4 c;
 		struct texture_slope slope;
-		int have_slope = view && texture_needs_slope(t, unit);
-		/* On a cube each pixel has slopes of its own. */
-		int keeps = kept && i == 0u && setup, keeps_slope = keeps && t->textures[unit->texture].target != GL_TEXTURE_CUBE_MAP;
-		const uint32_t quad_number = (uint32_t)quad_y << 16 | (uint32_t)quad_x, slot = x / 2u % POINT_KEPT_QUADS;
+		struct vec4 c = point_unit_coord(t, p, i, w, &quad, &planes);
 
-		if (setup) {
-			if (keeps && kept->have_planes) {
-				planes = kept->planes;
-			} else {
-				point_texcoord_planes(t, p, i, setup, &planes);
-				if (keeps) {
-					kept->planes = planes;
-					kept->have_planes = 1;
-				}
-			}
-			c = point_texcoord_at(&planes, (float)x + middle, y + middle);
-		} else {
-			c = point_texcoord(t, p, i, p->weight);
-		}
-		if (have_slope && keeps_slope && kept->quad[slot] == quad_number) {
-			slope = kept->slope[slot];
-		} else if (have_slope && setup) {
-			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord_at(&planes, quad_x + middle, quad_y + middle),
-			                      point_texcoord_at(&planes, quad_x + 1.0f + middle, quad_y + middle),
-			                      point_texcoord_at(&planes, quad_x + middle, quad_y + 1.0f + middle));
-			if (keeps_slope) {
-				kept->quad[slot] = quad_number;
-				kept->slope[slot] = slope;
-			}
-		} else if (have_slope) {
-			if (!have_quad) {
-				float qx = quad_x + 0.5f, qy = (float)height - (quad_y + 0.5f);
-
-				point_weights_at(p, view, qx, qy, quad[0]);
-				point_weights_at(p, view, qx + 1.0f, qy, quad[1]);
-				point_weights_at(p, view, qx, qy - 1.0f, quad[2]);
-				have_quad = 1;
-			}
-			slope = texture_slope(&t->textures[unit->texture], c, point_texcoord(t, p, i, quad[0]),
-			                      point_texcoord(t, p, i, quad[1]), point_texcoord(t, p, i, quad[2]));
-		}
-		coat->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
+		if (have_slope)
+			slope = point_unit_slope(t, p, i, w, &quad, c, &planes);
+		texturing->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
 	}
-	coat->fog_factor = m->fog ? point_fog(p) : 1.0f;
+	texturing->fog_factor = m->fog ? point_fog(p) : 1.0f;
 }
 
 /* Base format that environments go by: depths count as what they are sampled as (sec. 3.8.14). */
@@ -507,7 +537,7 @@ static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const st
 }
 
 /* Texture environments, colour sum and fog over a lit colour; clamped. fog_factor: 1 leaves the colour as it is */
-static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct coat *coat,
+static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                               const struct lit *lit, float fog_factor)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -515,10 +545,10 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 
 	for (uint32_t i = 0u; i < m->unit_count; i++) {
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
-		struct vec4 sample = coat->sample[unit->unit];
+		struct vec4 sample = texturing->sample[unit->unit];
 
 		color = unit->env_mode == GL_COMBINE || unit->env_mode == GL_COMBINE4_NV ?
-		                combine_full(unit, color, sample, lit->color, coat->sample) :
+		                combine_full(unit, color, sample, lit->color, texturing->sample) :
 		                combine_plain(unit->env_mode, point_unit_format(t, unit), color, sample, v4_load(unit->env_color));
 	}
 	if (m->color_sum || (m->lighting && m->separate_specular))
@@ -536,14 +566,14 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 	return color;
 }
 
-static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct coat *coat,
+static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                        const struct lit *lit)
 {
-	return point_finish_in_fog(t, p, coat, lit, coat->fog_factor);
+	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor);
 }
 
 /* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
-static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p, const struct coat *coat, struct lit lit)
+static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p, const struct texturing *texturing, struct lit lit)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	int side = point_side(p);
@@ -558,12 +588,12 @@ static inline struct vec4 point_albedo_of(const struct tables *t, const struct p
 		                                          v4_load(tables_face(t, p->geometry, p->number[1], side)->diffuse),
 		                                          v4_load(tables_face(t, p->geometry, p->number[2], side)->diffuse)));
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
-	return point_finish_in_fog(t, p, coat, &lit, 1.0f);
+	return point_finish_in_fog(t, p, texturing, &lit, 1.0f);
 }
 
-static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct coat *coat)
+static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct texturing *texturing)
 {
-	return point_albedo_of(t, p, coat, point_lit_from_vertices(p));
+	return point_albedo_of(t, p, texturing, point_lit_from_vertices(p));
 }
 
 /* 1 where a user clip plane (sec. 2.12) cuts the point away. */

@@ -108,7 +108,7 @@ static inline float pixel_stored(float x)
  * A number on the verge between two of 8 bits, moved off it to the side that the frame buffer's rounding takes: by at most 0.04 of
  * their distance, so that the half floats and the encoding of a picture cannot turn it over. 0.3 is 76.5, and 76 for Mesa.
  */
-static inline float pixel_settle(float x)
+static inline float pixel_nudge(float x)
 {
 	float codes = clamp01(x) * 255.0f, code = M_RINT(codes), rest = codes - code;
 
@@ -361,7 +361,7 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 		for (uint32_t c = 0u; c < 4u; c++) {
 			if (!(clear->color_mask >> c & 1u))
 				continue;
-			pixel->gl[c] = clear->floats ? clear->color[c] : pixel_settle(clamp01(clear->color[c]));
+			pixel->gl[c] = clear->floats ? clear->color[c] : pixel_nudge(clamp01(clear->color[c]));
 			if (c < 3u)
 				pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = pixel->gl[c];
 		}

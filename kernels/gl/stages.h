@@ -35,21 +35,21 @@ static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 }
 
 /* Shares of the material's lights that arrive at the item. */
-static inline void stage_seen(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
+static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
 {
 	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++)
 		seen[slot] = v3(1.0f, 1.0f, 1.0f);
 	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++)
-		seen[slot] = v3_load(arriving + (slot * n + item) * 3u);
+		seen[slot] = v3_load(visibility + (slot * n + item) * 3u);
 }
 
 /* 1 where any of them is dimmed. */
-static inline int stage_dimmed(GLOBAL const float *arriving, uint32_t n_slots, uint32_t n, uint32_t item)
+static inline int stage_dimmed(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item)
 {
 	int dimmed = 0;
 
 	for (uint32_t slot = 0u; slot < n_slots && slot < SCENE_MAX_LIGHTS; slot++) {
-		struct vec3 share = v3_load(arriving + (slot * n + item) * 3u);
+		struct vec3 share = v3_load(visibility + (slot * n + item) * 3u);
 
 		dimmed |= (share.x < 1.0f) | (share.y < 1.0f) | (share.z < 1.0f);
 	}
@@ -220,27 +220,26 @@ struct stage_kept {
 };
 
 /* The triangle of a fragment. Not kept: what is cut to the view, as other pixels may lie in other parts of it. */
-static inline void stage_keep(const struct tables *t, GLOBAL const struct view *views, GLOBAL const struct window_vertex *windows,
-                              uint32_t x, uint32_t y, uint32_t height, uint32_t bits, int needs_depth, const struct fragment *f,
-                              int keeps, struct stage_kept *kept)
+static inline void stage_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f, int keeps,
+                              struct stage_kept *kept)
 {
-	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0;
+	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0, needs_depth = a->n_slots == 0u;
 
 	if (keeps && kept->instance == f->instance && kept->primitive == f->primitive)
 		return;
 	kept->instance = cut ? SCENE_NONE : f->instance;
 	kept->primitive = f->primitive;
-	kept->p = point_of_triangle(t, windows, f, kept->w_inv);
+	kept->p = point_of_triangle(&a->tables, a->windows, f, kept->w_inv);
 	kept->have_lit = kept->have_setup = 0;
 	point_keep_nothing(&kept->sampling);
 	if (needs_depth || kept->p.material->unit_count)
-		kept->have_setup = stage_setup(&views[kept->p.geometry->view], windows, &kept->p, x, y, height, cut, &kept->setup);
+		kept->have_setup = stage_setup(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y, a->height, cut, &kept->setup);
 	if (needs_depth && kept->have_setup) {
 		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
 
 		kept->depth = clip_plane_through(&kept->setup.edges, z);
 		kept->offset = kept->p.material->polygon_offset & 4u && !(kept->p.geometry->flags & GEOMETRY_EXPANDED) ?
-		                       stage_offset(kept->p.material, &kept->setup.edges, z, bits) : 0.0f;
+		                       stage_offset(kept->p.material, &kept->setup.edges, z, a->bits) : 0.0f;
 	}
 }
 
@@ -283,7 +282,7 @@ static inline void stage_unsnap(GLOBAL const struct view *view, const struct sta
  * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
  * What is not lit by GL shows its colour as it is.
  */
-static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct coat *coat,
+static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                          const struct vec3 *seen)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -294,7 +293,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 
 	if (!point_takes_light(p)) {
 		lit = point_lit_from_vertices(p);
-		c = point_finish(t, p, coat, &lit);
+		c = point_finish(t, p, texturing, &lit);
 		return v3_add(v3(c.x, c.y, c.z), v3_load(m->surface.emission));
 	}
 	for (uint32_t i = 0u; i < list.count; i++) {
@@ -305,7 +304,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 		if (cosine > 0.0f)
 			sum = v3_add(sum, v3_mul(v3_scale(v3_load(light->diffuse), strength * cosine), seen[i]));
 	}
-	c = point_albedo(t, p, coat);
+	c = point_albedo(t, p, texturing);
 	sum = v3_add(v3_mul(sum, v3(c.x, c.y, c.z)), v3_load(m->surface.emission));
 	return m->lighting ? v3_add(v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission), sum) : sum;
 }
@@ -344,16 +343,16 @@ static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 col
 }
 
 /* What is added to GL's own lighting: `color` in its place, from the way of lighting. */
-static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct coat *coat,
+static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                       uint32_t transport, const struct vec3 *seen, struct vec4 color)
 {
 	struct lit lit;
 
 	if (transport == TRANSPORT_PATH)
-		return stage_radiance(t, p, coat, seen);
+		return stage_radiance(t, p, texturing, seen);
 	if (transport == TRANSPORT_RELIGHT || p->material->surface.relit) {
 		lit = point_lit_here(t, p, seen);
-		color = point_finish(t, p, coat, &lit);
+		color = point_finish(t, p, texturing, &lit);
 	}
 	return v3_add(v3(color.x, color.y, color.z), v3_load(p->material->surface.emission));
 }
@@ -401,62 +400,94 @@ static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32
 	          (float)(texel >> 24) / 255.0f);
 }
 
+/* What is to be done with a fragment, and for pixel rectangles its depth. group, kind: their texel; kind 0: it is of none */
+static inline void stage_store_flags(const struct shade_arguments *a, const struct point *p, uint32_t lights,
+                                     GLOBAL const uint32_t *group, uint32_t kind, GLOBAL struct shaded *out)
+{
+	if (kind == SCENE_DEPTH_PIXELS)
+		out->depth = clamp01(M_FLOAT(*group));
+	if (kind == SCENE_STENCIL_PIXELS) {
+		out->depth = (float)(*group & 255u);
+		out->flags = SHADED_THERE | SHADED_STENCIL;
+		return;
+	}
+	out->flags = SHADED_THERE | (p->front ? SHADED_FRONT : 0u) | stage_wanted(p, stage_lights(&a->tables, p, a->transport, lights));
+}
+
+/*
+ * A fragment that is seen for the first time: the weights of its attributes and its depth as its triangle or line has them.
+ * @return 0: nothing is drawn there, by clip planes or stipples
+ */
+static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct stage_kept *kept,
+                                    struct fragment *f)
+{
+	GLOBAL const struct view *view = &a->views[kept->p.geometry->view];
+	const int clipped = userclip_outside(view, a->windows, &kept->p, (int32_t)x, (int32_t)y, (float)a->height);
+
+	if (kept->have_setup)
+		stage_unsnap(view, kept, x, y, a->height, f);
+	else
+		stage_line(&a->tables, a->views, x, a->height - 1u - y, f);
+	return !clipped && !stage_undrawn(&kept->p, x, a->height - 1u - y) && !stage_stippled_away(&a->tables, &kept->p, x, y);
+}
+
 /*
  * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
- * n_slots > 0 gives fragments that asked their colour with what arrives of the lights. transport: TRANSPORT_*.
+ * n_slots > 0 gives fragments that asked their colour with the lights' visibility. transport: TRANSPORT_*.
  * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
  * or nothing (kept->instance SCENE_NONE).
  */
 static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct stage_kept *kept)
 {
 	const struct tables *t = &a->tables;
-	struct fragment f;
-	GLOBAL const struct view *view;
 	GLOBAL struct shaded *out = &a->shaded[item];
-	uint32_t x, y;
+	GLOBAL const uint32_t *group = t->texels;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
-	struct point p;
-	struct coat coat;
+	struct point_window window;
+	struct texturing texturing;
 	struct lit from_vertices, lit;
+	struct fragment f;
+	struct point p;
 	struct vec4 color;
 	float coverage;
-	int clipped = 0, uncovered;
-	GLOBAL const uint32_t *group = t->texels;
-	uint32_t kind = 0u;
+	uint32_t x, y, kind = 0u;
+	int drawn = 1;
 
 	if (a->n_slots && (!stage_dimmed(a->visibility, a->n_slots, a->n, item) || !(out->flags & SHADED_THERE)))
 		return;
 	stage_seen(a->visibility, a->n_slots, a->n, item, seen);
+
+	/* Where it lies, and whether it is drawn. */
 	f = a->fragments[item];
 	x = a->pixels[item] % a->width;
 	y = a->pixels[item] / a->width;
-	stage_keep(t, a->views, a->windows, x, y, a->height, a->bits, !a->n_slots, &f, keeps, kept);
+	stage_keep(a, x, y, &f, keeps, kept);
 	p = kept->p;
-	view = &a->views[p.geometry->view];
 	if (!a->n_slots) {
-		clipped = userclip_outside(view, a->windows, &p, (int32_t)x, (int32_t)y, (float)a->height);
-		if (kept->have_setup)
-			stage_unsnap(view, kept, x, y, a->height, &f);
-		else
-			stage_line(t, a->views, x, a->height - 1u - y, &f);
+		drawn = stage_place_first(a, x, y, kept, &f);
 		a->fragments[item] = f;
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
-	uncovered = !(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE); /* a line's border leaves depth even where it ends */
-	if (!a->n_slots && (clipped || stage_undrawn(&p, x, a->height - 1u - y) || stage_stippled_away(t, &p, x, y) || uncovered)) {
+	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border leaves depth even where it ends */
+		drawn = a->n_slots != 0u;
+	if (drawn && p.geometry->flags & GEOMETRY_PIXELS) {
+		group = stage_pixel_group(t, &p, &f, &kind);
+		drawn = kind != SCENE_BITMAP || *group;
+	}
+	if (!drawn) {
 		out->flags = 0u;
 		return;
 	}
-	if (p.geometry->flags & GEOMETRY_PIXELS) {
-		group = stage_pixel_group(t, &p, &f, &kind);
-		if (kind == SCENE_BITMAP && !*group) {
-			out->flags = 0u;
-			return;
-		}
-	}
-	point_coat(t, &p, view, kept->have_setup ? &kept->setup : (const struct clip_setup *)0,
-	           keeps ? &kept->sampling : (struct point_kept *)0, x, y, a->height, &coat);
+
+	/* Its colour: lit, textured, in fog. */
+	window.view = &a->views[p.geometry->view];
+	window.setup = kept->have_setup ? &kept->setup : (const struct clip_setup *)0;
+	window.kept = keeps ? &kept->sampling : (struct point_kept *)0;
+	window.x = x;
+	window.row = y;
+	window.height = a->height;
+	point_texture(t, &p, &window, &texturing);
 	if (a->n_slots && !p.material->surface.relit) {
 		stage_keep_lit(t, seen, keeps, kept);
 		lit = from_vertices = point_lit_between(&p, kept->lit);
@@ -465,25 +496,18 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	}
 	if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)
 		lit.color = stage_texel_color(group, kind);
-	color = point_finish(t, &p, &coat, &lit);
-	color = v4(pixel_settle(color.x), pixel_settle(color.y), pixel_settle(color.z), color.w);
+	color = point_finish(t, &p, &texturing, &lit);
+	color = v4(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
-	stage_store_direct(out, stage_relit(t, &p, &coat, a->transport, seen, color));
+	stage_store_direct(out, stage_relit(t, &p, &texturing, a->transport, seen, color));
 	if (a->n_slots)
 		return;
 	color.w *= coverage;
 	v4_store(out->gl, color);
-	color = point_albedo_of(t, &p, &coat, from_vertices);
+	color = point_albedo_of(t, &p, &texturing, from_vertices);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = f.depth;
-	if (kind == SCENE_DEPTH_PIXELS)
-		out->depth = clamp01(M_FLOAT(*group));
-	if (kind == SCENE_STENCIL_PIXELS) {
-		out->depth = (float)(*group & 255u);
-		out->flags = SHADED_THERE | SHADED_STENCIL;
-		return;
-	}
-	out->flags = SHADED_THERE | (p.front ? SHADED_FRONT : 0u) | stage_wanted(&p, stage_lights(t, &p, a->transport, from_vertices.lights));
+	stage_store_flags(a, &p, from_vertices.lights, group, kind, out);
 }
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */

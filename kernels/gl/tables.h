@@ -8,18 +8,18 @@
 /* A vertex attribute: the mesh's own, or the current one where the mesh has none. `v` counts in the mesh. */
 static inline struct vec4 tables_color(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
-	return g->attributes & 2u ? v4_load(t->attributes + g->color + v * 4u) : v4_load(t->currents[g->current].color);
+	return g->attributes & SCENE_HAS_COLOR ? v4_load(t->attributes + g->color + v * 4u) : v4_load(t->currents[g->current].color);
 }
 
 static inline struct vec4 tables_secondary(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
-	return g->attributes & 4u ? v4_load(t->attributes + g->secondary + v * 4u) :
+	return g->attributes & SCENE_HAS_SECONDARY ? v4_load(t->attributes + g->secondary + v * 4u) :
 	                            v4_load(t->currents[g->current].secondary);
 }
 
 static inline struct vec3 tables_normal(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
-	return g->attributes & 1u ? v3_load(t->attributes + g->normal + v * 3u) :
+	return g->attributes & SCENE_HAS_NORMAL ? v3_load(t->attributes + g->normal + v * 3u) :
 	                            v3_load(t->currents[g->current].normal);
 }
 
@@ -28,20 +28,20 @@ static inline GLOBAL const struct scene_face *tables_face(const struct tables *t
 {
 	GLOBAL const struct scene_material *m = &t->materials[g->material];
 
-	if (g->attributes & 0x1000u)
+	if (g->attributes & SCENE_HAS_FACE)
 		return (GLOBAL const struct scene_face *)(t->attributes + g->face) + 2u * v + (back ? 1u : 0u);
 	return back ? &m->back : &m->front;
 }
 
 static inline float tables_fog_coord(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
-	return g->attributes & 8u ? t->attributes[g->fog_coord + v] : t->currents[g->current].fog_coord;
+	return g->attributes & SCENE_HAS_FOG_COORD ? t->attributes[g->fog_coord + v] : t->currents[g->current].fog_coord;
 }
 
 static inline struct vec4 tables_texcoord(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v,
                                           uint32_t unit)
 {
-	return g->attributes & (16u << unit) ? v4_load(t->attributes + g->texcoord[unit] + v * 4u) :
+	return g->attributes & (SCENE_HAS_TEXCOORD << unit) ? v4_load(t->attributes + g->texcoord[unit] + v * 4u) :
 	                                       v4_load(t->currents[g->current].texcoord[unit]);
 }
 

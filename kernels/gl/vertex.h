@@ -28,9 +28,9 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
  * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where vertices
  * carry the colour, and 0 where it is the current one.
  */
-static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t carried)
+static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t per_vertex)
 {
-	if (carried)
+	if (per_vertex)
 		c = v4(c.x < 1.0f ? c.x : 1.0f, c.y < 1.0f ? c.y : 1.0f, c.z < 1.0f ? c.z : 1.0f, c.w < 1.0f ? c.w : 1.0f);
 	return v4_clamp01(c);
 }
@@ -51,15 +51,15 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	lit.color = tables_color(t, g, v);
 	lit.secondary = tables_secondary(t, g, v);
 	if (!(m->unclamped & 2u)) {
-		lit.color = vertex_clamp(lit.color, g->attributes & 2u);
-		lit.secondary = vertex_clamp(lit.secondary, g->attributes & 4u);
+		lit.color = vertex_clamp(lit.color, g->attributes & SCENE_HAS_COLOR);
+		lit.secondary = vertex_clamp(lit.secondary, g->attributes & SCENE_HAS_SECONDARY);
 	}
 	lit.lights = 0u;
 	return lit;
 }
 
 /* Texture coordinate generation, sec. 2.11.4; `u` the unit vector from the eye to the vertex, `n` the eye normal. */
-static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32_t c, float given, struct vec4 obj,
+static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32_t c, float coord, struct vec4 obj,
                                     struct vec4 eye, struct vec3 u, struct vec3 n)
 {
 	struct vec3 r = v3_sub(u, v3_scale(n, 2.0f * v3_dot(n, u)));
@@ -78,7 +78,7 @@ static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32
 	case GL_NORMAL_MAP:
 		return c == 0u ? n.x : c == 1u ? n.y : n.z;
 	default:
-		return given;
+		return coord;
 	}
 }
 

@@ -1,5 +1,5 @@
 /* C twins of kernels/frame/secondary.cl and shadow_packet.cl. */
-#include "kernels/frame/secondary.h"
+#include "kernels/frame/path.h"
 
 void shadow_ray_c(const struct shadow_ray_arguments *a, size_t first, size_t last)
 {

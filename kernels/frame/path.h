@@ -1,0 +1,346 @@
+/*
+ * One work item of each kernel that follows light beyond GL: mirrored, bent by glass, scattered from surface to surface. From the list
+ * of fragments (kernels/gl/stages.h) and on lists of paths (struct path). A path's next rays are written apart, so many places each,
+ * and gathered into the next list in the order of their paths: the paths of a fragment stay side by side, and sums do not depend on
+ * scheduling.
+ */
+#ifndef KERNELS_FRAME_PATH_H
+#define KERNELS_FRAME_PATH_H
+
+#include "kernels/frame/shadow.h"
+
+/* Less of a pixel than this is not followed: a quarter of a step of 8 bits. */
+#define PATH_LEAST 0.0009765625f
+
+/* gather_paths: next rays to their places in the new list. */
+static inline void gather_paths_item(const struct gather_paths_arguments *a, uint32_t item)
+{
+	for (uint32_t i = 0u; i < a->counts[item]; i++) {
+		a->rays[a->places[item] + i] = a->next_rays[item * a->slots + i];
+		a->paths[a->places[item] + i] = a->next_paths[item * a->slots + i];
+	}
+}
+
+/* Where a point's next rays are written. */
+struct branches {
+	GLOBAL struct ray *rays;
+	GLOBAL struct path *paths;
+	uint32_t count;
+	struct path from; /* the path that ends here; its weight is what arrives */
+};
+
+/* The next place of the list, its ray still to be written, or NULL: too little to be followed. */
+static inline GLOBAL struct ray *branch(struct branches *b, struct vec3 weight, uint32_t kind, uint32_t medium)
+{
+	GLOBAL struct path *next = &b->paths[b->count];
+
+	if (!(v3_most(weight) > PATH_LEAST))
+		return (GLOBAL struct ray *)0;
+	*next = b->from;
+	v3_store(next->weight, weight);
+	next->kind = kind;
+	next->medium = medium;
+	next->depth = b->from.depth + 1u;
+	return &b->rays[b->count++];
+}
+
+/* A direction kept on the side of the surface where it belongs: smooth normals may send it into the plane. */
+static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
+{
+	float into = v3_dot(d, plane);
+
+	return into < 0.0f ? v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))) : d;
+}
+
+static inline void branch_mirror(struct branches *b, const struct point *p, struct vec3 d, struct vec3 weight,
+                                 uint32_t kind, uint32_t seed, uint32_t sample)
+{
+	struct vec3 n = point_normal(p), plane = point_plane_normal(p);
+	float roughness = p->material->surface.roughness, u, v;
+	GLOBAL struct ray *ray = branch(b, weight, kind, b->from.medium);
+	struct vec3 away;
+
+	if (!ray)
+		return;
+	away = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n)));
+	if (roughness > 0.0f) {
+		sample_square(seed + SAMPLE_GLOSS, sample, &u, &v);
+		away = v3_normalize(v3_add(away, v3_scale(sample_disk(away, u, v), roughness)));
+	}
+	plane = v3_dot(plane, d) > 0.0f ? v3_scale(plane, -1.0f) : plane;
+	stage_ray(p, branch_on_side(away, plane), d, ray);
+}
+
+/* What a surface does with light that arrives along d: shares that it mirrors and lets through; the rest it scatters. */
+struct split {
+	float mirrored, through, base;
+	float eta, cosine, cosine_beyond;
+};
+
+static inline struct split split_light(const struct point *p, struct vec3 d)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	struct split s;
+	float fresnel = 0.0f;
+
+	s.mirrored = clamp01(m->surface.reflect);
+	s.through = M_MIN(clamp01(m->surface.transmit), 1.0f - s.mirrored);
+	s.base = 1.0f - s.mirrored - s.through;
+	s.eta = p->front ? 1.0f / glass_ior(m) : glass_ior(m);
+	s.cosine = clamp01(-v3_dot(point_normal(p), d));
+	s.cosine_beyond = 0.0f;
+	if (s.through > 0.0f)
+		fresnel = glass_fresnel(s.eta, s.cosine, &s.cosine_beyond);
+	s.mirrored += s.through * fresnel;
+	s.through *= 1.0f - fresnel;
+	return s;
+}
+
+/* Through the surface, bent (Snell). */
+static inline void branch_through(struct branches *b, const struct point *p, struct vec3 d, const struct split *s,
+                                  struct vec3 weight, uint32_t kind)
+{
+	struct vec3 n = point_normal(p), plane = point_plane_normal(p), on;
+	GLOBAL struct ray *ray = branch(b, weight, kind, p->front ? (uint32_t)p->geometry->material : SCENE_NONE);
+
+	if (!ray)
+		return;
+	on = v3_normalize(v3_add(v3_scale(d, s->eta), v3_scale(n, s->eta * s->cosine - s->cosine_beyond)));
+	plane = v3_dot(plane, d) < 0.0f ? v3_scale(plane, -1.0f) : plane;
+	stage_ray(p, branch_on_side(on, plane), d, ray);
+}
+
+static inline void branch_scatter(struct branches *b, const struct point *p, struct vec3 d, struct vec3 weight,
+                                  uint32_t kind, uint32_t seed, uint32_t sample)
+{
+	struct vec3 plane = point_plane_normal(p), on;
+	GLOBAL struct ray *ray;
+	float u, v;
+
+	sample_square(seed + SAMPLE_BOUNCE, sample, &u, &v);
+	on = sample_cosine(point_normal(p), u, v);
+	plane = v3_dot(plane, d) > 0.0f ? v3_scale(plane, -1.0f) : plane;
+	ray = branch(b, weight, kind, b->from.medium);
+	if (ray)
+		stage_ray(p, branch_on_side(on, plane), d, ray);
+}
+
+static inline struct vec3 path_weight(const struct path *path)
+{
+	return v3(path->weight[0], path->weight[1], path->weight[2]);
+}
+
+/* leave: a fragment's first rays, and what of its own colour stays. */
+static inline void leave_item(const struct leave_arguments *a, uint32_t item)
+{
+	const struct tables *t = &a->tables;
+	struct fragment f = a->fragments[item];
+	GLOBAL struct shaded *s = &a->shaded[item];
+	uint32_t seed = sample_hash(a->pixels[item]);
+	struct branches b;
+	struct vec3 d, mirrored;
+	struct split split;
+	struct texturing texturing;
+	struct point p;
+
+	a->counts[item] = 0u;
+	if (!(s->flags & SHADED_THERE))
+		return;
+	p = point_from_fragment(t, a->windows, &f);
+	if (p.geometry->flags & GEOMETRY_EXPANDED)
+		return;
+	if (a->transport < TRANSPORT_DIFFUSE && !(p.material->surface.reflect > 0.0f || p.material->surface.transmit > 0.0f))
+		return;
+	b.rays = a->next_rays + item * PATHS_PER_FRAGMENT;
+	b.paths = a->next_paths + item * PATHS_PER_FRAGMENT;
+	b.count = 0u;
+	b.from.target = item;
+	b.from.depth = 0u;
+	b.from.medium = SCENE_NONE;
+	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	split = split_light(&p, d);
+	mirrored = v3_scale(v3_load(s->direct), 1.0f - split.mirrored);
+	v3_store(s->mirrored, mirrored);
+	v3_store(s->beauty, v3_sub(mirrored, v3_scale(v3_load(s->direct), split.through)));
+	if (a->transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
+		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, a->sample);
+	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, a->sample);
+	if (split.through > 0.0f) {
+		point_texture(t, &p, (const struct point_window *)0, &texturing);
+		branch_through(&b, &p, d, &split, v3_scale(glass_tint(t, &p, &texturing), split.through), PATH_REFRACT);
+	}
+	a->counts[item] = b.count;
+}
+
+/* sky_ray: what hit nothing looks on from the viewer's place: skies are drawn around that, and mean infinity. */
+static inline void sky_ray_item(const struct sky_ray_arguments *a, uint32_t item)
+{
+	stage_no_ray(&a->out[item]);
+	if (a->hits[item].instance != SCENE_NONE)
+		return;
+	v3_store(a->out[item].d, v3_load(a->rays[item].d));
+	a->out[item].t_min = 0.0f;
+	a->out[item].t_max = 1.0e30f;
+}
+
+
+/* want_lights: what lights a path's hit must ask for. */
+static inline void want_lights_item(const struct want_lights_arguments *a, uint32_t item)
+{
+	const struct tables *t = &a->tables;
+	struct hit hit = a->hits[item];
+	struct point p;
+
+	a->wanted[item] = 0u;
+	if (hit.instance == SCENE_NONE)
+		return;
+	p = point_from_hit(t, &hit, v3_load(a->rays[item].d));
+	a->wanted[item] = stage_wanted(&p, stage_lights(t, &p, a->transport, point_lit_from_vertices(&p).lights));
+}
+
+/* The colour of what a path hit, with what arrives of the lights. */
+static inline struct vec4 hit_color(const struct tables *t, const struct point *p, const struct texturing *texturing,
+                                    uint32_t transport, const struct vec3 *seen, int dimmed)
+{
+	struct lit lit;
+	struct vec4 color;
+	struct vec3 c;
+
+	lit = dimmed && !p->material->surface.relit ? point_lit_again(t, p, seen) : point_lit_from_vertices(p);
+	color = point_finish(t, p, texturing, &lit);
+	c = stage_relit(t, p, texturing, transport, seen, color);
+	return v4(c.x, c.y, c.z, color.w);
+}
+
+/* What is seen where nothing was hit: the sky's surface, if there is one, or the colour the frame was cleared with. */
+static inline struct vec3 hit_nothing(const struct tables *t, GLOBAL const struct hit *sky, GLOBAL const struct ray *ray,
+                                      uint32_t has_sky, GLOBAL const float *background)
+{
+	struct hit hit;
+	struct point p;
+	struct texturing texturing;
+	struct lit lit;
+	struct vec4 color;
+
+	if (!has_sky || sky->instance == SCENE_NONE)
+		return v3_load(background);
+	hit = *sky;
+	p = point_from_hit(t, &hit, v3_load(ray->d));
+	point_texture(t, &p, (const struct point_window *)0, &texturing);
+	lit = point_lit_from_vertices(&p);
+	color = point_finish(t, &p, &texturing, &lit);
+	return v3(color.x, color.y, color.z);
+}
+
+/* Onwards past a surface that does not stop the ray: nothing is bent, and it is no bounce. */
+static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, float t, struct vec3 weight)
+{
+	GLOBAL struct ray *ray = branch(b, weight, b->from.kind, b->from.medium);
+
+	if (!ray)
+		return;
+	b->paths[b->count - 1u].depth = b->from.depth;
+	*ray = *from;
+	ray->t_min = ray_beyond(t);
+}
+
+/*
+ * One of the ways on, as often as it carries light. What depth allows is the caller's question.
+ */
+static inline void branch_one(const struct tables *t, struct branches *b, const struct point *p, struct vec3 d,
+                              const struct split *s, const struct texturing *texturing, struct vec3 weight, uint32_t seed,
+                              uint32_t sample)
+{
+	struct vec4 albedo;
+	float u, v;
+
+	sample_square(seed + SAMPLE_CHOICE, sample, &u, &v);
+	if (u < s->mirrored) {
+		branch_mirror(b, p, d, weight, b->from.kind, seed, sample);
+	} else if (u < s->mirrored + s->through) {
+		branch_through(b, p, d, s, v3_mul(weight, glass_tint(t, p, texturing)), b->from.kind);
+	} else if (point_takes_light(p)) {
+		albedo = point_albedo(t, p, texturing);
+		branch_scatter(b, p, d, v3_mul(weight, v3(albedo.x, albedo.y, albedo.z)), b->from.kind, seed, sample);
+	}
+}
+
+/*
+ * shade_hit: what a path found, into radiance[item]; and the rays that go on from there.
+ */
+static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t item)
+{
+	const struct tables *t = &a->tables;
+	struct hit hit = a->hits[item];
+	GLOBAL float *out = a->radiance + item * 3u;
+	struct vec3 d = v3_load(a->rays[item].d), seen[SCENE_MAX_LIGHTS], weight, own;
+	struct branches b;
+	struct point p;
+	struct texturing texturing;
+	struct split split;
+	struct vec4 color;
+	uint32_t seed;
+	int dimmed;
+
+	b.from = a->paths[item];
+	b.rays = a->next_rays + item * PATHS_PER_HIT;
+	b.paths = a->next_paths + item * PATHS_PER_HIT;
+	b.count = 0u;
+	a->counts[item] = 0u;
+	weight = path_weight(&b.from);
+	if (hit.instance == SCENE_NONE) {
+		v3_store(out, v3_mul(weight, hit_nothing(t, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
+		return;
+	}
+	v3_store(out, v3(0.0f, 0.0f, 0.0f));
+	p = point_from_hit(t, &hit, d);
+	stage_seen(a->visibility, a->n_slots, a->n, item, seen);
+	dimmed = stage_dimmed(a->visibility, a->n_slots, a->n, item);
+	point_texture(t, &p, (const struct point_window *)0, &texturing);
+	color = hit_color(t, &p, &texturing, a->transport, seen, dimmed);
+	if (p.material->surface.hidden & 2u || transparency_is_hole(&p, color.w)) {
+		branch_on(&b, &a->rays[item], hit.t, weight);
+		a->counts[item] = b.count;
+		return;
+	}
+	if (b.from.medium != SCENE_NONE)
+		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - a->rays[item].t_min));
+	split = split_light(&p, d);
+	own = v3(color.x, color.y, color.z);
+	if (p.material->blend && !(split.through > 0.0f)) {
+		own = transparency_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
+		branch_on(&b, &a->rays[item], hit.t, v3_mul(v3_scale(weight, split.base), transparency_of_blend(p.material, color)));
+	}
+	v3_store(out, v3_mul(weight, v3_scale(own, split.base)));
+	seed = stage_seed(&a->paths[item], a->pixels, 0u);
+	if (b.from.depth < a->depth && a->transport == TRANSPORT_PATH && !b.count) {
+		branch_one(t, &b, &p, d, &split, &texturing, weight, seed, a->sample);
+	} else if (b.from.depth < a->depth && a->transport != TRANSPORT_PATH) {
+		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, seed, a->sample);
+		if (split.through > 0.0f)
+			branch_through(&b, &p, d, &split,
+			               v3_mul(v3_scale(weight, split.through), glass_tint(t, &p, &texturing)), b.from.kind);
+	}
+	a->counts[item] = b.count;
+}
+
+/* credit: what the paths of a fragment found, into its parts. The first path of each fragment sums them up in order. */
+static inline void credit_item(const struct credit_arguments *a, uint32_t item)
+{
+	uint32_t target = a->paths[item].target;
+	GLOBAL struct shaded *s = &a->shaded[target];
+
+	if (item > 0u && a->paths[item - 1u].target == target)
+		return;
+	for (uint32_t i = item; i < a->n && a->paths[i].target == target; i++) {
+		struct vec3 light = v3_load(a->radiance + i * 3u);
+
+		if (a->paths[i].kind == PATH_DIFFUSE)
+			v3_store(s->direct, v3_add(v3_load(s->direct), light));
+		if (a->paths[i].kind != PATH_REFRACT)
+			v3_store(s->mirrored, v3_add(v3_load(s->mirrored), light));
+		v3_store(s->beauty, v3_add(v3_load(s->beauty), light));
+	}
+}
+
+#endif

@@ -1,0 +1,106 @@
+/*
+ * What lets light through: holes, blended surfaces, glass. Rays to lights lose by it what it holds back; paths go on behind it.
+ */
+#ifndef KERNELS_FRAME_TRANSPARENCY_H
+#define KERNELS_FRAME_TRANSPARENCY_H
+
+#include "kernels/gl/stages.h"
+
+/* What comes of a colour over a destination, without clamping: light has no 8 bits to be rounded to. */
+static inline struct vec3 transparency_blend(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
+{
+	struct vec4 c = blend_floats(m, s, d);
+
+	return v3(c.x, c.y, c.z);
+}
+
+/* Transmittance of a blended surface: how much the outcome follows the destination. */
+static inline struct vec3 transparency_of_blend(GLOBAL const struct scene_material *m, struct vec4 color)
+{
+	struct vec3 c = v3_sub(transparency_blend(m, color, v4(1.0f, 1.0f, 1.0f, 1.0f)),
+	                       transparency_blend(m, color, v4(0.0f, 0.0f, 0.0f, 0.0f)));
+
+	return v3(clamp01(c.x), clamp01(c.y), clamp01(c.z));
+}
+
+/* 1 where GL draws nothing of the primitive at this point: clipped, or its alpha test fails. */
+static inline int transparency_is_hole(const struct point *p, float alpha)
+{
+	return point_clipped(p) || (p->material->alpha_test && !pixel_compare(p->material->alpha_func, blend_round(alpha),
+	                                                                   blend_round(p->material->alpha_ref)));
+}
+
+/* Unpolarised light that a boundary reflects (Fresnel); eta: index on this side over that beyond, cosine on this side. */
+static inline float glass_fresnel(float eta, float cosine, float *cosine_beyond)
+{
+	float k = 1.0f - eta * eta * (1.0f - cosine * cosine), across, along;
+
+	*cosine_beyond = 0.0f;
+	if (!(k > 0.0f))
+		return 1.0f; /* total reflection */
+	*cosine_beyond = M_SQRT(k);
+	across = (eta * cosine - *cosine_beyond) / (eta * cosine + *cosine_beyond);
+	along = (cosine - eta * *cosine_beyond) / (cosine + eta * *cosine_beyond);
+	return 0.5f * (across * across + along * along);
+}
+
+static inline float glass_ior(GLOBAL const struct scene_material *m)
+{
+	return m->surface.ior > 0.0f ? m->surface.ior : 1.0f;
+}
+
+/* The colour of a surface that lets light through: half of it at each of the two surfaces of a body. */
+static inline struct vec3 glass_tint(const struct tables *t, const struct point *p, const struct texturing *texturing)
+{
+	struct vec4 c = point_albedo(t, p, texturing);
+
+	return v3(M_SQRT(clamp01(c.x)), M_SQRT(clamp01(c.y)), M_SQRT(clamp01(c.z)));
+}
+
+static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, float length)
+{
+	return v3(M_EXP(-m->surface.absorb[0] * length), M_EXP(-m->surface.absorb[1] * length),
+	          M_EXP(-m->surface.absorb[2] * length));
+}
+
+/* Transmittance of the surface that a ray to a light hit; 1 where it casts no shadow. */
+static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray)
+{
+	struct vec3 d = v3_load(ray->d), none = v3(0.0f, 0.0f, 0.0f), all = v3(1.0f, 1.0f, 1.0f), pass;
+	struct point p = point_from_hit(t, hit, d);
+	GLOBAL const struct scene_material *m = p.material;
+	struct texturing texturing;
+	struct lit lit;
+	struct vec4 color;
+	float cosine, beyond;
+
+	if (m->surface.hidden & 1u)
+		return all;
+	if (!m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask)
+		return none;
+	point_texture(t, &p, (const struct point_window *)0, &texturing);
+	lit = point_lit_from_vertices(&p);
+	color = point_finish(t, &p, &texturing, &lit);
+	if (transparency_is_hole(&p, color.w))
+		return all;
+	if (m->surface.transmit > 0.0f) {
+		cosine = M_ABS(v3_dot(point_normal(&p), v3_normalize(d)));
+		pass = v3_scale(glass_tint(t, &p, &texturing), clamp01(m->surface.transmit) *
+		                (1.0f - glass_fresnel(1.0f / glass_ior(m), cosine, &beyond)));
+		if (!p.front) /* on its way out: through the body since the last surface */
+			pass = v3_mul(pass, glass_absorb(m, (hit->t - ray->t_min) * M_SQRT(v3_dot(d, d))));
+		return pass;
+	}
+	if (!m->blend)
+		return none;
+	/* Blended draws that leave no depth are light or film (glows, blob shadows), nothing that stands in light's way. */
+	return m->depth_write ? transparency_of_blend(m, color) : all;
+}
+
+/* The place on a ray from where the next surface is looked for: the same ray meets the last one at the same t again. */
+static inline float ray_beyond(float t)
+{
+	return t > 0.0f ? M_FLOAT(M_BITS(t) + 1u) : 1.0e-37f;
+}
+
+#endif
