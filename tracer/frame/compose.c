@@ -35,6 +35,23 @@ static const struct channel {
 };
 #define N_CHANNELS (sizeof(channels) / sizeof(channels[0]))
 
+int tracer_check_aov(const char *aov)
+{
+	const char *at = aov;
+
+	while (at && *at) {
+		size_t n = strcspn(at, ","), known = 0;
+
+		for (int i = 0; compose_groups[i]; i++)
+			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
+		if (!known)
+			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, "
+			                  "reflect, refract, Z, N, P, albedo, id and layers", (int)n, at);
+		at += n + (at[n] == ',');
+	}
+	return 0;
+}
+
 int compose_wants(const char *aov, const char *group)
 {
 	size_t n = strlen(group);
@@ -100,6 +117,45 @@ static int fetch(struct job *job, const struct channel *c, const struct compose_
 	return device_read(tr->dev, c->full ? tr->buffers.floats.buffer : tr->buffers.halves.buffer, place * bytes, plane, bytes);
 }
 
+/*
+ * Eye space stands for the world: OpenEXR's worldToCamera is left-handed (+z forward), its worldToNDC has x and y in
+ * [0,1] with y down; both for row vectors, whose rows are our columns.
+ */
+static int describe_camera(const struct job *job, struct image *img)
+{
+	const float *p;
+	float ndc[16];
+
+	if (job->scene->n_views == 0)
+		return 0;
+	p = job->scene->views[0].projection;
+	for (int col = 0; col < 4; col++) {
+		float w = p[4 * col + 3];
+
+		ndc[4 * col] = 0.5f * (p[4 * col] + w);
+		ndc[4 * col + 1] = 0.5f * (w - p[4 * col + 1]);
+		ndc[4 * col + 2] = p[4 * col + 2];
+		ndc[4 * col + 3] = w;
+	}
+	if (image_set_attribute(img, "worldToCamera", "1 0 0 0 0 1 0 0 0 0 -1 0 0 0 0 1"))
+		return ERR_SYSTEM;
+	return image_set_attribute(img, "worldToNDC", "%g %g %g %g %g %g %g %g %g %g %g %g %g %g %g %g", (double)ndc[0],
+	                           (double)ndc[1], (double)ndc[2], (double)ndc[3], (double)ndc[4], (double)ndc[5],
+	                           (double)ndc[6], (double)ndc[7], (double)ndc[8], (double)ndc[9], (double)ndc[10],
+	                           (double)ndc[11], (double)ndc[12], (double)ndc[13], (double)ndc[14], (double)ndc[15]);
+}
+
+static int describe_image(const struct job *job, struct image *img)
+{
+	int err = image_set_attribute(img, "relume:frame", "%llu", (unsigned long long)job->scene->frame);
+
+	if (!err)
+		err = image_set_attribute(img, "relume:device", "%s", device_name(job->tr->dev));
+	if (!err)
+		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
+	return err ? err : describe_camera(job, img);
+}
+
 int compose_image(struct job *job, struct image *img)
 {
 	uint32_t halves, floats;
@@ -114,5 +170,5 @@ int compose_image(struct job *job, struct image *img)
 		err = run_compose(job, &r);
 	for (size_t i = 0; i < N_CHANNELS && !err; i++)
 		err = fetch(job, &channels[i], &r, img);
-	return err;
+	return err ? err : describe_image(job, img);
 }

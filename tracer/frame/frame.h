@@ -1,6 +1,5 @@
 /*
- * Inside of the wavefront (trace.c, upload.c, geometry.c, secondary.c): the tracer, a frame on its way through it, and how kernels
- * are launched. Functions return 0 or ERR_SYSTEM (reported).
+ * What the files of this room share: the tracer with its buffers on the device, and a frame on its way through it.
  */
 #ifndef TRACER_FRAME_FRAME_H
 #define TRACER_FRAME_FRAME_H
@@ -9,7 +8,6 @@
 #include <stdint.h>
 
 #include "tracer/accel/accel.h"
-#include "tracer/frame/expand.h"
 #include "tracer/frame/pool.h"
 #include "tracer/frame/prepare.h"
 #include "tracer/frame/trace.h"
@@ -34,6 +32,7 @@ struct frame_buffers {
 	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: where pixels have several, each one's own */
 };
 
+/* What trace.h hides. */
 struct tracer {
 	struct device *dev;
 	struct accel *accel;
@@ -46,6 +45,8 @@ struct tracer {
 	struct tracer_undrawn undrawn;
 	uint64_t drawn_serial, drawn_events; /* scene whose pixels buffers.frame holds: serial, and how many events it had */
 };
+
+struct expanded;
 
 /* One frame on its way. */
 struct job {
@@ -66,47 +67,14 @@ struct job {
 	uint32_t turn;           /* of other passes: which pixels take part (sample_turn) */
 };
 
-/* --- upload.c: what of a scene the device needs ------------------------------------------------------------------- */
-
-/** Attributes and indices of the frame's meshes into the pools, and their places into the geometries. */
-int place_attributes(struct job *job);
-int place_indices(struct job *job);
-
-/** Materials, lights, texture units and textures, current values, stipples. */
-int upload_state(struct job *job);
-
-/** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */
-int upload_trees(struct job *job);
-
-/* --- geometry.c: vertices and trees --------------------------------------------------------------------------------- */
-
-/** Run the vertex stage, make triangles of lines and points, build the frame's trees; all of it on the device. Needs upload_state. */
-int place_geometry(struct job *job);
-
-/* --- secondary.c: rays from the fragments in the list -------------------------------------------------------------- */
-
-/** What rays from a view's fragments may hit: its surfaces, or its skies; NULL: nothing. */
-const struct accel_space *space_of_view(const struct job *job, uint32_t view, int sky);
-
-/** How points are lit and where their rays go: TRANSPORT_*. */
-uint32_t transport_of(const struct tracer_options *options);
-
-/** Ask all lights from all n fragments of the list: buffers.visibility[slot][fragment], three shares each. */
-int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n);
-
-/** How open the surroundings of all n fragments are, in place of their colours or over them. */
-int trace_openness(struct job *job, const struct accel_space *space, uint32_t n);
-
-/** Follow the mirrored, bent and scattered rays of all n fragments, bounce by bounce, into their parts. */
-int trace_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
-
-/* --- Small change ------------------------------------------------------------------------------------------------- */
-
 /* Room for `count` elements in one of the tracer's buffers, by its name; and their content. */
 #define frame_reserve(tr, name, count) launch_reserve((tr)->dev, (tr)->buffers.name, count)
 #define frame_upload(tr, name, data, count) launch_upload((tr)->dev, (tr)->buffers.name, data, count)
 
 /** What every shading kernel takes. */
 struct tables_launch frame_tables(const struct tracer *tr);
+
+/** The buffer of one of the pixels' samples; where they have but one, the frame itself. */
+union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
 
 #endif

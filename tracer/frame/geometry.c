@@ -1,9 +1,12 @@
+#include "tracer/frame/geometry.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "tracer/frame/frame.h"
+#include "tracer/frame/expand.h"
+#include "tracer/frame/upload.h"
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------- */
 
@@ -34,7 +37,7 @@ static int upload_vertex_stage(struct job *job)
 {
 	struct tracer *tr = job->tr;
 	struct prepared *p = &job->prepared;
-	int err = place_attributes(job);
+	int err = upload_attributes(job);
 
 	if (!err)
 		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
@@ -245,7 +248,7 @@ static int build_trees(struct job *job)
 	if (!err)
 		err = frame_upload(tr, views, p->views, p->n_views);
 	if (!err)
-		err = place_indices(job);
+		err = upload_indices(job);
 	if (!err)
 		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
 	if (!err)
@@ -253,7 +256,7 @@ static int build_trees(struct job *job)
 	return err;
 }
 
-int place_geometry(struct job *job)
+int geometry_place(struct job *job)
 {
 	int err = upload_vertex_stage(job);
 

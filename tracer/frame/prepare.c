@@ -303,7 +303,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
 	if (instance->flags & INSTANCE_SECONDARY)
 		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
-		                m->surface.hidden;
+		                       m->surface.hidden;
 }
 
 /* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */
@@ -355,8 +355,8 @@ static uint32_t multisampled(const struct scene *scene, uint32_t instance)
 	return scene->materials[scene->instances[instance].material].multisample;
 }
 
-/* A run of instances that one pass answers, before instances are made. */
-struct run {
+/* Instances that one pass answers, before instances are made. */
+struct cut {
 	uint32_t first, end, mode;
 	uint32_t clear_first, clear_count;
 };
@@ -364,7 +364,7 @@ struct run {
 /* Most passes over one view between clears; where draws alternate more often, one of columns answers for the rest. */
 #define MAX_PASSES 4
 
-static uint32_t cut_runs(const struct scene *scene, struct run *runs)
+static uint32_t cut_scene(const struct scene *scene, struct cut *cuts)
 {
 	uint32_t n = 0, clear = 0, group = 0;
 
@@ -378,21 +378,21 @@ static uint32_t cut_runs(const struct scene *scene, struct run *runs)
 		            multisampled(scene, i) != multisampled(scene, i - 1);
 		if (new_group)
 			group = n;
-		if (!new_group && runs[n - 1].mode == mode) {
-			runs[n - 1].end = i + 1;
+		if (!new_group && cuts[n - 1].mode == mode) {
+			cuts[n - 1].end = i + 1;
 			continue;
 		}
 		if (n - group >= MAX_PASSES) {
-			runs[group + 1].end = i + 1;
-			runs[group + 1].mode = CAMERA_COLUMN;
+			cuts[group + 1].end = i + 1;
+			cuts[group + 1].mode = CAMERA_COLUMN;
 			n = group + 2;
 			continue;
 		}
-		runs[n++] = (struct run){ i, i + 1, mode, clear, clears - clear };
+		cuts[n++] = (struct cut){ i, i + 1, mode, clear, clears - clear };
 		clear = clears;
 	}
 	if (clear < scene->n_clears)
-		runs[n++] = (struct run){ scene->n_instances, scene->n_instances, CAMERA_COLUMN, clear, scene->n_clears - clear };
+		cuts[n++] = (struct cut){ scene->n_instances, scene->n_instances, CAMERA_COLUMN, clear, scene->n_clears - clear };
 	return n;
 }
 
@@ -422,8 +422,8 @@ static int draws_to_window(const struct scene *scene, uint32_t instance)
 int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out)
 {
 	size_t most = 2 * (size_t)scene->n_instances + 1;
-	struct run *runs = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*runs));
-	uint32_t n_runs;
+	struct cut *cuts = malloc((scene->n_instances + (size_t)scene->n_clears + 1) * sizeof(*cuts));
+	uint32_t n_cuts;
 
 	out->segments = calloc(most + scene->n_clears, sizeof(*out->segments));
 	out->instances = calloc(most, sizeof(*out->instances));
@@ -433,24 +433,24 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	out->views = calloc(most, sizeof(*out->views));
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
 	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
-	if (!runs || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
+	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
 	    !out->scene_views || !out->skies || find_skies(scene, out->skies) != 0)
 		goto fail;
-	n_runs = cut_runs(scene, runs);
-	for (uint32_t r = 0; r < n_runs; r++) {
+	n_cuts = cut_scene(scene, cuts);
+	for (uint32_t r = 0; r < n_cuts; r++) {
 		struct segment *segment = &out->segments[out->n_segments++];
 
-		*segment = (struct segment){ .clear_first = runs[r].clear_first, .clear_count = runs[r].clear_count,
-			                     .view = SCENE_NONE, .mode = runs[r].mode, .instance_first = out->n_instances };
-		if (runs[r].first == runs[r].end || !draws_to_window(scene, runs[r].first))
+		*segment = (struct segment){ .clear_first = cuts[r].clear_first, .clear_count = cuts[r].clear_count,
+			                     .view = SCENE_NONE, .mode = cuts[r].mode, .instance_first = out->n_instances };
+		if (cuts[r].first == cuts[r].end || !draws_to_window(scene, cuts[r].first))
 			continue;
-		segment->multisample = multisampled(scene, runs[r].first);
+		segment->multisample = multisampled(scene, cuts[r].first);
 		segment->view = out->n_views;
-		out->scene_views[out->n_views] = scene->views[scene->instances[runs[r].first].view];
+		out->scene_views[out->n_views] = scene->views[scene->instances[cuts[r].first].view];
 		make_view(&out->scene_views[out->n_views], shift, &out->views[out->n_views]);
 		out->n_views++;
 		for (int screen = 0; screen < 2; screen++)
-			for (uint32_t i = runs[r].first; i < runs[r].end; i++)
+			for (uint32_t i = cuts[r].first; i < cuts[r].end; i++)
 				add_shapes(scene, out, segment, i, screen);
 		out->views[segment->view].screen_first =
 			segment->instance_first + segment->instance_count - segment->screen_count;
@@ -462,10 +462,10 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	for (uint32_t i = 0; i < out->n_instances; i++)
 		for (uint32_t v = 0; v < out->geometries[i].vertex_count; v++)
 			out->owner[out->geometries[i].vertex_first + v] = i;
-	free(runs);
+	free(cuts);
 	return 0;
 fail:
-	free(runs);
+	free(cuts);
 	prepared_free(out);
 	return err_report(ERR_SYSTEM, NULL, "out of memory for a frame of %u instances", scene->n_instances);
 }

@@ -1,11 +1,11 @@
-/* Rays from the fragments of the list: to the lights, into the surroundings, from mirror to mirror and through glass. */
-#include "tracer/frame/frame.h"
+#include "tracer/frame/secondary.h"
+
 #include "tracer/frame/scan.h"
 
 /* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
 #define MOST_LAYERS 32u
 
-const struct accel_space *space_of_view(const struct job *job, uint32_t view, int sky)
+const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky)
 {
 	for (uint32_t i = 0; i < job->n_spaces; i++)
 		if (job->spaces[i].space == job->prepared.scene_views[view].space && job->spaces[i].sky == sky &&
@@ -14,7 +14,7 @@ const struct accel_space *space_of_view(const struct job *job, uint32_t view, in
 	return NULL;
 }
 
-uint32_t transport_of(const struct tracer_options *options)
+uint32_t secondary_transport(const struct tracer_options *options)
 {
 	if (options->mode == TRACER_PATH)
 		return TRANSPORT_PATH;
@@ -187,7 +187,7 @@ static uint32_t light_rays(const struct job *job)
 	return wide && job->options->mode != TRACER_PATH ? job->options->rays : 1;
 }
 
-int trace_shadows(struct job *job, const struct accel_space *space, uint32_t n)
+int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -236,7 +236,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 
 /* --- Openness ------------------------------------------------------------------------------------------------------ */
 
-int trace_openness(struct job *job, const struct accel_space *space, uint32_t n)
+int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -313,12 +313,12 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 	                                           .counts = b->next_counts));
 }
 
-int trace_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct list list = path_list(job);
-	uint32_t transport = transport_of(job->options);
+	uint32_t transport = secondary_transport(job->options);
 	int err = frame_upload(tr, background, job->background, 4);
 
 	if (!err)

@@ -1,12 +1,12 @@
-/* A frame's meshes, state, textures and trees on their way to the device. */
+#include "tracer/frame/upload.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "gl_tokens.h"
-#include "tracer/frame/frame.h"
 
-int place_attributes(struct job *job)
+int upload_attributes(struct job *job)
 {
 	const struct scene *scene = job->scene;
 	struct pool_item *items = calloc(scene->n_meshes + (size_t)1, sizeof(*items));
@@ -28,7 +28,7 @@ int place_attributes(struct job *job)
 }
 
 /* Meshes are the scene's and those that lines and points became. */
-int place_indices(struct job *job)
+int upload_indices(struct job *job)
 {
 	const struct scene *scene = job->scene;
 	struct prepared *p = &job->prepared;

@@ -1,0 +1,22 @@
+/* Rays from the fragments of the list: to lights, into the surroundings, mirrored, through glass. Functions return 0 or ERR_SYSTEM (reported). */
+#ifndef TRACER_FRAME_SECONDARY_H
+#define TRACER_FRAME_SECONDARY_H
+
+#include "tracer/frame/frame.h"
+
+/** What rays from a view's fragments may hit: its surfaces, or its skies; NULL: nothing. */
+const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky);
+
+/** How points are lit and where their rays go: TRANSPORT_*. */
+uint32_t secondary_transport(const struct tracer_options *options);
+
+/** Ask all lights from all n fragments of the list: buffers.visibility[slot][fragment], of red, green and blue. */
+int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** How open the surroundings of all n fragments are, in place of their colours or over them. */
+int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** Follow the mirrored, bent and scattered rays of all n fragments, bounce by bounce, into their parts. */
+int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
+
+#endif

@@ -1,0 +1,298 @@
+#include "tracer/frame/segment.h"
+
+#include <string.h>
+
+#include "kernels/frame/sample.h"
+#include "kernels/gl/pixel.h"
+#include "tracer/frame/secondary.h"
+
+static struct camera_rectangle view_rectangle(const struct job *job, const struct view *view)
+{
+	return camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2], view->scissor[3], job->width,
+	                        job->height);
+}
+
+static uint32_t rectangle_area(struct camera_rectangle r)
+{
+	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
+}
+
+void segment_draw_to(struct job *job, uint32_t sample, uint32_t note)
+{
+	job->frame = frame_sample(job, sample);
+	job->bits = (job->bits & 0xffffffu) | note;
+}
+
+static int clear_sample(struct job *job, const struct scene_clear *clear)
+{
+	struct camera_rectangle r = camera_rectangle(clear->scissor[0], clear->scissor[1], clear->scissor[2],
+	                                             clear->scissor[3], job->width, job->height);
+	uint32_t n = rectangle_area(r);
+
+	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = r, .width = job->width, .bits = job->bits,
+	                                            .n = n, .frame = *job->frame));
+}
+
+static int run_clear(struct job *job, const struct scene_clear *clear)
+{
+	int err = 0;
+
+	if (clear->target != 0)
+		return 0;
+	if (clear->buffers & 1)
+		memcpy(job->background, clear->color, sizeof(job->background));
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		segment_draw_to(job, i, 0);
+		err = clear_sample(job, clear);
+	}
+	return err;
+}
+
+/* Whether of the buffers that it clears nothing is left. */
+static int clears_whole(const struct job *job, const struct scene_clear *clear)
+{
+	const int32_t *s = clear->scissor;
+	const uint32_t stencil = pixel_bits_mask(pixel_stencil_bits(job->bits));
+
+	return clear->target == 0 && s[0] <= 0 && s[1] <= 0 && s[0] + s[2] >= (int32_t)job->width &&
+	       s[1] + s[3] >= (int32_t)job->height && (!(clear->buffers & 1) || (clear->color_mask & 15) == 15) &&
+	       (!(clear->buffers & 4) || (clear->stencil_mask & stencil) == stencil);
+}
+
+int segment_clear_all(struct job *job, uint32_t *n_done)
+{
+	const struct segment *segment = job->prepared.segments;
+	struct scene_clear clear = { .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
+		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
+
+	for (*n_done = 0; job->prepared.n_segments && *n_done < segment->clear_count; ++*n_done) {
+		const struct scene_clear *next = &job->scene->clears[segment->clear_first + *n_done];
+
+		if (!clears_whole(job, next))
+			break;
+		if (next->buffers & 1)
+			memcpy(clear.color, next->color, sizeof(clear.color));
+		if (next->buffers & 2)
+			clear.depth = next->depth;
+		if (next->buffers & 4)
+			clear.stencil = next->stencil;
+	}
+	return run_clear(job, &clear);
+}
+
+static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+
+	return traverse_camera(tr->dev, traverse_kernels[device_family(tr->dev)].camera, &tr->trees, r,
+	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
+	                              .height = job->height, .mode = segment->mode, .window = b->windows, .clip = b->clips,
+	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));
+}
+
+/* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay together. */
+#define LIST_BLOCK 8
+
+/* Up to `limit`, a step of blocks from `at` on; the first ends at a multiple. */
+static int32_t block_end(int32_t at, int32_t limit)
+{
+	const int32_t end = at - at % LIST_BLOCK + LIST_BLOCK;
+
+	return end < limit ? end : limit;
+}
+
+/*
+ * Where each pixel's fragments go in the dense list, in buffers.first: block by block of pixels.
+ * @param n_list  receives how many there are
+ * @param more    receives 1 where a pixel's slots were all filled: its column may go on
+ */
+static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t *n_list, int *more)
+{
+	struct tracer *tr = job->tr;
+	uint32_t next = 0;
+	int err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
+
+	*more = 0;
+	for (int32_t y0 = r.y0; y0 < r.y1 && !err; y0 = block_end(y0, r.y1))
+		for (int32_t x0 = r.x0; x0 < r.x1; x0 = block_end(x0, r.x1))
+			for (int32_t y = y0; y < block_end(y0, r.y1); y++)
+				for (int32_t x = x0; x < block_end(x0, r.x1); x++) {
+					size_t pixel = (size_t)y * job->width + (size_t)x;
+
+					if (job->pass && sample_turn((uint32_t)pixel) != job->turn)
+						tr->counts[pixel] = 0;
+					tr->first[pixel] = next;
+					next += tr->counts[pixel];
+					*more |= slots > 1 && tr->counts[pixel] == slots;
+				}
+	*n_list = next;
+	if (!err && job->pass)
+		err = frame_upload(tr, counts, tr->counts, job->n_pixels);
+	return err ? err : frame_upload(tr, first, tr->first, job->n_pixels);
+}
+
+static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t n_list)
+{
+	struct tracer *tr = job->tr;
+	uint32_t n = rectangle_area(r);
+	const struct frame_buffers *b = &tr->buffers;
+	int err = frame_reserve(tr, fragments, n_list);
+
+	if (!err)
+		err = frame_reserve(tr, pixels, n_list);
+	if (!err)
+		err = frame_reserve(tr, shaded, n_list);
+	if (err)
+		return err;
+	return launch_gather(tr->dev, n, LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
+	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after, .rectangle = r,
+	                                        .width = job->width, .n = n));
+}
+
+static int run_shade(struct job *job, uint32_t slots, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct shade_launch *a =
+		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
+		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
+		       .n_slots = slots, .transport = secondary_transport(job->options), .n = n, .shaded = b->shaded);
+
+	if (device_family(tr->dev) == FAMILY_PACKETS)
+		return launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
+	return launch_shade(tr->dev, n, a);
+}
+
+static int run_resolve(struct job *job, struct camera_rectangle r)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	uint32_t n = rectangle_area(r);
+
+	return launch_resolve(tr->dev, n, LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded,
+	                                         .first = b->first, .counts = b->counts, .rectangle = r, .width = job->width,
+	                                         .bits = job->bits, .n = n, .frame = *job->frame));
+}
+
+/* The fragments of the list: GL's colours, then what rays from them find. */
+static int shade_list(struct job *job, uint32_t view, uint32_t n)
+{
+	const struct accel_space *space = secondary_space(job, view, 0);
+	enum tracer_mode mode = job->options->mode;
+	int err = run_shade(job, 0, n);
+
+	if (err || !space || mode == TRACER_GL || mode == TRACER_NORMALS)
+		return err;
+	if (mode == TRACER_AO || mode == TRACER_AO_PHONG)
+		return secondary_openness(job, space, n);
+	if (job->prepared.n_light_slots) {
+		err = secondary_shadows(job, space, n);
+		if (!err)
+			err = run_shade(job, job->prepared.n_light_slots, n);
+	}
+	if (!err && job->options->depth && (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE))
+		err = secondary_paths(job, space, secondary_space(job, view, 1), n);
+	return err;
+}
+
+/* What the segment's draws leave on the sample that is drawn; of draws that cover pixels, on all of them. */
+static int run_draws(struct job *job, const struct segment *segment)
+{
+	struct tracer *tr = job->tr;
+	struct camera_rectangle r = view_rectangle(job, &job->prepared.views[segment->view]);
+	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
+	int more = 1, err;
+
+	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
+	err = frame_upload(tr, after, tr->counts, job->n_pixels);
+	if (!err)
+		err = frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
+	while (more && !err) {
+		err = run_camera(job, segment, r);
+		if (!err)
+			err = place_fragments(job, r, slots, &n_list, &more);
+		if (err || n_list == 0)
+			break;
+		err = run_gather(job, r, slots, n_list);
+		if (!err)
+			err = shade_list(job, segment->view, n_list);
+		for (uint32_t i = 0; i < (segment->multisample ? 1 : job->n_samples) && !err; i++) {
+			if (!segment->multisample)
+				segment_draw_to(job, i, i ? PIXEL_FOLLOWS : 0);
+			err = run_resolve(job, r);
+		}
+	}
+	return err;
+}
+
+/*
+ * Where llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D have four samples: 1/256 pixel right of and below a pixel's centre. Rows
+ * count from the top of windows and from the bottom of framebuffer objects.
+ */
+static const int32_t sample_places[SCENE_SAMPLES][2] = { { -32, -96 }, { 96, -32 }, { -96, 32 }, { 32, 96 } };
+
+/*
+ * Under multisampling llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels before a scissor
+ * rectangle pass, where they lie in the same tile. Columns and rows counted from where it counts.
+ */
+static int32_t leaks(int32_t first, int32_t place)
+{
+	return first > 0 && first % 64 != 0 && place > 0;
+}
+
+/* Let a segment's view look at a sample's places. */
+static int look_at_sample(struct job *job, const struct segment *segment, uint32_t sample)
+{
+	struct view *view = &job->prepared.views[segment->view];
+	const int32_t *place = sample_places[sample], *scissor = job->prepared.scene_views[segment->view].scissor;
+	int32_t from_below = job->scene->samples_from_below != 0, left = leaks(scissor[0], place[0]);
+	int32_t row = leaks(from_below ? scissor[1] : (int32_t)job->height - scissor[1] - scissor[3], place[1]);
+
+	view->sample[0] = place[0];
+	view->sample[1] = from_below ? place[1] : -place[1];
+	view->scissor[0] = scissor[0] - left;
+	view->scissor[1] = scissor[1] - (from_below ? row : 0);
+	view->scissor[2] = scissor[2] + left;
+	view->scissor[3] = scissor[3] + row;
+	return device_write(job->tr->dev, job->tr->buffers.views.buffer, segment->view * sizeof(*view), view, sizeof(*view));
+}
+
+int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared)
+{
+	int err = 0;
+
+	for (uint32_t i = n_cleared; i < segment->clear_count && !err; i++)
+		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
+	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
+		return err;
+	if (rectangle_area(view_rectangle(job, &job->prepared.views[segment->view])) == 0)
+		return 0;
+	segment_draw_to(job, 0, segment->multisample && job->pass ? (job->pass % SCENE_SAMPLES + 1) << 24 : 0);
+	if (!segment->multisample || job->n_samples == 1)
+		return run_draws(job, segment);
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		segment_draw_to(job, i, (i + 1) << 24);
+		err = look_at_sample(job, segment, i);
+		if (!err)
+			err = run_draws(job, segment);
+	}
+	return err;
+}
+
+int segment_merge_samples(struct job *job)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return launch_merge_samples(job->tr->dev, job->n_pixels,
+	                            LAUNCH(merge_samples, .first = b->samples[0], .second = b->samples[1], .third = b->samples[2],
+	                                   .fourth = b->samples[3], .n = job->n_pixels, .frame = b->frame));
+}
+
+int segment_add_pass(struct job *job, uint32_t first)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return launch_add_pass(job->tr->dev, job->n_pixels, LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
+	                                                           .n = job->n_pixels, .sums = b->sums));
+}

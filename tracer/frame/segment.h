@@ -1,0 +1,29 @@
+/*
+ * Segments (tracer/frame/prepare.h): clears, camera rays, fragments gathered and shaded, per-fragment operations. Draws end in the
+ * sample job->frame. Functions return 0 or ERR_SYSTEM (reported).
+ */
+#ifndef TRACER_FRAME_SEGMENT_H
+#define TRACER_FRAME_SEGMENT_H
+
+#include "tracer/frame/frame.h"
+
+/** Draw to one of the pixels' samples from now on. @param note  what the kernels are told of it (pixel_sample, PIXEL_FOLLOWS) */
+void segment_draw_to(struct job *job, uint32_t sample, uint32_t note);
+
+/**
+ * What nobody cleared is black, far and nothing. Where the first segment begins with clears of the whole picture, as most frames do,
+ * theirs is done at once.
+ * @param n_done  receives how many of its clears that are
+ */
+int segment_clear_all(struct job *job, uint32_t *n_done);
+
+/** Clear and draw. @param n_cleared  how many of its clears are done */
+int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared);
+
+/** The samples of all pixels into the frame. */
+int segment_merge_samples(struct job *job);
+
+/** The pixels of this pass to those of the passes before. @param first  1: there are none */
+int segment_add_pass(struct job *job, uint32_t first);
+
+#endif
