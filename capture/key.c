@@ -13,7 +13,7 @@
 
 enum { LOOK_EVERY_NS = 20000000, KEYMAP_BYTES = 32 };
 
-/* Found at run time: the command needs no X but for this. */
+/* Found at run time: nothing else in the command needs X. */
 static struct {
 	void *(*open_display)(const char *);
 	int (*close_display)(void *);

@@ -1,6 +1,6 @@
 /*
- * A key that switches recording on and off. A process of its own watches it, so that the loss of the display ends that process
- * and nothing else; the key reaches the program as well.
+ * A key that switches recording on and off. It reaches the program as well. A process of its own watches it, so the loss of the
+ * display ends that process and nothing else.
  */
 #ifndef CAPTURE_KEY_H
 #define CAPTURE_KEY_H

@@ -79,16 +79,16 @@ static const struct options_row rows[] = {
 	  options_text, AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
 	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace begins with all "
-	  "that they need and calls them 0 to B-A; the program goes on", take_frames, .at = 0 },
+	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
-	{ "start-key", 0, "KEY", "the same; the key (F9, Pause, r, ...; as X calls it) switches as SIGUSR2 does", options_text, AT(start_key) },
-	{ "frame-end", 0, "CALL", "a frame ends with each swap and, for programs that do not swap, with each: flush, finish, clear (of "
-	  "the color buffer), or readpixels after something was drawn (swap: with nothing else; OSMesa: with flush and finish); the "
-	  "frame is then the buffer that is drawn to, front or back", options_text, AT(frame_end), .words = frame_ends },
+	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
+	{ "frame-end", 0, "CALL", "what ends a frame besides a swap, once something was drawn: flush, finish, clear (of the color "
+	  "buffer), or readpixels (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn "
+	  "to, front or back", options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
 	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace so large (K, M and G count 1024, 1024^2, "
 	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },
-	{ "no-children", 0, NULL, "record only the process that is started, not those that it starts", options_flag, AT(no_children) },
+	{ "no-children", 0, NULL, "record only this process, not those that it starts", options_flag, AT(no_children) },
 	{ "quit-after", 0, "N", "end the recording and the program after N frames, and exit with 0", take_count, AT(quit_after) },
 	{ "env", 0, "NAME=VALUE", "set a variable for the program; may be repeated", take_variable, .at = 0 },
 };
@@ -100,7 +100,7 @@ static const struct options_table table = {
 	        "Run a program and record its OpenGL calls (GLX, EGL, OSMesa) into a trace in apitrace's format.\n"
 	        "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
 	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
-	        "again at the end of a frame; what the program makes and sets meanwhile is kept, so that what follows is whole.\n",
+	        "again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is complete.\n",
 	.rows = rows,
 	.n_rows = sizeof(rows) / sizeof(rows[0]),
 	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
@@ -154,7 +154,7 @@ static int find_recorder(char *out, size_t size)
 	return rc;
 }
 
-/* The new name of a sidecar or a further process' trace. */
+/* The name of a sidecar, or of a further process' trace. */
 static void name_beside(char *out, size_t size, const char *trace, const char *suffix)
 {
 	size_t stem = strlen(trace);
@@ -164,7 +164,7 @@ static void name_beside(char *out, size_t size, const char *trace, const char *s
 	snprintf(out, size, "%.*s%s", (int)stem, trace, suffix);
 }
 
-/* Makes place for the trace: an earlier recording goes, and that the folder can be written is known before the start. */
+/* Remove an earlier recording, and find out before the start whether the folder can be written. */
 static int clear_output(const struct options *o)
 {
 	char path[PATH_MAX];
@@ -195,7 +195,7 @@ static int clear_output(const struct options *o)
 	}
 }
 
-/* The figures lie in a nameless file of ours, which the program opens by way of our process: nothing is left behind. */
+/* The figures lie in a nameless file, which the program opens through our process. Nothing is left behind. */
 static int make_stats(char *path, size_t size, struct recorder_stats **out)
 {
 	void (*old)(int) = signal(SIGXFSZ, SIG_IGN);
@@ -251,7 +251,7 @@ static void set_environment(const struct options *o, const char *recorder, const
 static volatile sig_atomic_t child_pid;
 static struct recorder_stats *shared; /* for the handler */
 
-/* SIGALRM only wakes the wait below. */
+/* SIGALRM only wakes wait_for_child. */
 static void forward(int signal)
 {
 	if (signal == SIGUSR2)
@@ -269,7 +269,7 @@ static uint32_t at_most(uint32_t n, uint32_t limit)
 	return n < limit ? n : limit;
 }
 
-/* 1 where a recorded process was told to end after its frames. */
+/* 1 where a recorder has told its program to end. */
 static int was_told_to_quit(const struct recorder_stats *stats)
 {
 	for (uint32_t i = 0; i < at_most(stats->n_processes, STATS_MAX_PROCESSES); i++)
@@ -278,7 +278,7 @@ static int was_told_to_quit(const struct recorder_stats *stats)
 	return 0;
 }
 
-/* Waits for the program; one that was told to quit and does not is killed after a while. */
+/* Wait for the program; kill it some time after it was told to quit. */
 static int wait_for_child(const struct recorder_stats *stats)
 {
 	struct itimerval every_second = { { 1, 0 }, { 1, 0 } }, off = { { 0, 0 }, { 0, 0 } };
@@ -292,8 +292,8 @@ static int wait_for_child(const struct recorder_stats *stats)
 	return status;
 }
 
-/* Runs the program. Returns its wait status, or -1 with errno where it could not be started. */
-static int run(const struct options *o, const char *recorder, const char *stats_path, const struct recorder_stats *stats)
+/* Returns the program's wait status, or -1 with errno where it cannot be started. */
+static int run_program(const struct options *o, const char *recorder, const char *stats_path, const struct recorder_stats *stats)
 {
 	struct sigaction action = { .sa_handler = forward }, old[N_FORWARDED];
 	int pipe_fds[2], error = 0, status = 0;
@@ -339,7 +339,7 @@ static int run(const struct options *o, const char *recorder, const char *stats_
 	return error ? -1 : status;
 }
 
-/* One line for each process that drew, then what went by unrecorded. */
+/* One line for each process that drew, then the commands that were not recorded. */
 static void print_summary(const struct recorder_stats *stats)
 {
 	uint32_t n = at_most(stats->n_processes, STATS_MAX_PROCESSES);
@@ -376,7 +376,7 @@ int record_main(int argc, char **argv)
 	    (rc = make_stats(stats_path, sizeof(stats_path), &stats)))
 		return -rc;
 	shared = stats;
-	status = run(&o, recorder, stats_path, stats);
+	status = run_program(&o, recorder, stats_path, stats);
 	if (status < 0) {
 		rc = err_report(ERR_SYSTEM, o.program[0], "cannot start: %s", strerror(errno));
 		goto done;
@@ -386,7 +386,7 @@ int record_main(int argc, char **argv)
 		if (stats->processes[i].failed)
 			rc = ERR_SYSTEM;
 	if (was_told_to_quit(stats))
-		status = 0; /* how it took the signal is its own affair */
+		status = 0; /* however it took the signal */
 	if (WIFSIGNALED(status))
 		rc = -(128 + WTERMSIG(status));
 	else if (WEXITSTATUS(status))

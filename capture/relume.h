@@ -24,7 +24,7 @@ enum rtMaterialKindEXT {
 	RT_GLASS_EXT = 2   /* amount: part that is let through, [0,1]; ior: index of refraction, 1.5 for window glass */
 };
 
-/** What is drawn from here on is made of: applies until the next call, to every context. */
+/** The material of what is drawn until the next call, in every context. */
 static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, float ior)
 {
 	void (*record)(int, float, float);
@@ -35,8 +35,8 @@ static inline void rtMaterialEXT(enum rtMaterialKindEXT kind, float amount, floa
 }
 
 /**
- * The scene's static part has been drawn once: in every frame in which this context draws after the call, meshes that do not move
- * become kd-trees. Never changes a picture.
+ * The static part of the scene has been drawn once. In later frames of this context, meshes that do not move become kd-trees. It
+ * never changes a picture.
  */
 static inline void rtBuildKdTreeEXT(void)
 {

@@ -1,6 +1,7 @@
 /*
- * What the recorder tells the command that started it: a small file that both map, so that the figures outlive the program
- * however it ends. Every recorded process has a slot; commands that passed through unrecorded are counted by name for all.
+ * What the recorder tells the command that started it: a small file that both map, so the figures outlive the program however
+ * it ends. Every recorded process has a slot. Commands that passed through unrecorded are counted by name, for all processes
+ * together.
  */
 #ifndef CAPTURE_STATS_H
 #define CAPTURE_STATS_H
@@ -8,7 +9,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-/* What ends a frame besides a swap, which always does: the words of `record --frame-end`, in this order. */
+/* What ends a frame besides a swap: the words of `record --frame-end`, in this order. */
 enum frame_trigger { FRAME_SWAP, FRAME_FLUSH, FRAME_FINISH, FRAME_CLEAR, FRAME_READPIXELS, N_FRAME_TRIGGERS };
 #define FRAME_TRIGGER_NAMES { "swap", "flush", "finish", "clear", "readpixels", NULL }
 
@@ -28,7 +29,7 @@ struct stats_unknown {
 
 struct recorder_stats {
 	_Atomic uint32_t toggles; /* how often the command was told to switch recording on or off */
-	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables: what did not fit is not shown */
+	_Atomic uint32_t n_processes, n_unknown; /* may exceed the tables; what does not fit is lost */
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];
 };

@@ -21,9 +21,9 @@
 #include "capture/write/writer.h"
 #include "real.h"
 
-enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a larger one comes from an index that is garbage */
+enum { MAX_ARRAY_BYTES = 1 << 30 }; /* a garbage index makes a larger one */
 
-/* What the trace has set for a slot: nothing need be written where it is what the draw needs. */
+/* What the trace has set for a slot. Where that is what the draw needs, nothing is written. */
 struct written {
 	struct array array;
 	unsigned buffer; /* the recorder's own; 0: not known */
@@ -41,7 +41,7 @@ void arrays_forget(void)
 	array_state_changed();
 }
 
-/* A pointer into client memory is not written and changes nothing in the trace; an offset is and does. */
+/* The trace gets offsets, but no pointers into client memory. */
 void arrays_pointer_set(void)
 {
 	if (array_state_pointer_is_offset())
@@ -80,7 +80,7 @@ static void record_array(int slot, const struct array *a, long bytes, unsigned o
 	self.written[slot].offset = offset;
 }
 
-/* 1 where the trace's array is already this one. */
+/* 1 where the trace has this array already. */
 static int is_written(int slot, const struct array *a, unsigned own, long offset)
 {
 	const struct written *w = &self.written[slot];
@@ -101,7 +101,7 @@ static void bind(struct bindings *b, unsigned buffer)
 	b->buffer = buffer;
 }
 
-/* Elements of a draw; of arrays that advance by instance, `instances` counted from `base_instance` on. */
+/* Elements of a draw. Arrays that advance by instance use `instances` elements from `base_instance` on. */
 struct drawn {
 	struct indices_range range;
 	long base_instance, instances;
@@ -109,7 +109,7 @@ struct drawn {
 
 static const struct drawn nothing = { { LONG_MAX, -1 }, 0, 1 };
 
-/* Arrays that lie in one another (structs of position, normal, colour) share memory: where it starts, and where an element ends. */
+/* Members of one struct (position, normal, colour) share memory: returns its start, and where an element ends. */
 static const uint8_t *shared_start(const struct array *a, long *element_end)
 {
 	const uint8_t *start = a->pointer, *end = a->pointer + array_element_bytes(a);
@@ -124,7 +124,7 @@ static const uint8_t *shared_start(const struct array *a, long *element_end)
 		start = other->pointer < start ? other->pointer : start;
 		end = other->pointer + array_element_bytes(other) > end ? other->pointer + array_element_bytes(other) : end;
 	}
-	if (end - start > a->stride) /* they overlap otherwise than as members of a struct */
+	if (end - start > a->stride) /* they overlap, but not as members of a struct */
 		start = a->pointer, end = a->pointer + array_element_bytes(a);
 	*element_end = end - start;
 	return start;
@@ -193,7 +193,7 @@ static int needed(void)
 	if (self.epoch != writer_epoch() || self.turn != context_turn()) {
 		self.epoch = writer_epoch();
 		self.turn = context_turn();
-		arrays_forget(); /* another trace or context, which has nothing of what was written to the one before */
+		arrays_forget(); /* another trace or context has none of what was written */
 	}
 	array_state_refresh();
 	return array_state.n_client > 0;
@@ -294,7 +294,7 @@ static void add_indirect(struct drawn *d, const uint32_t *words, int elements, u
 	d->instances = instances > d->instances ? instances : d->instances;
 }
 
-/* Draws whose parameters lie in memory (ARB_draw_indirect). Where a buffer of them cannot be read, the draw is an error, too. */
+/* ARB_draw_indirect: parameters in memory. Where a buffer of them cannot be read, the draw is an error, too. */
 static void add_all_indirect(struct drawn *d, const void *indirect, int draws, int stride, int elements, unsigned type)
 {
 	int buffered = indirect_in_buffer();
@@ -336,7 +336,7 @@ void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draw
 	record_arrays(&d);
 }
 
-/* InterleavedArrays sets pointers, which are written when drawn, and which arrays are enabled, which is written here. */
+/* InterleavedArrays sets pointers, to be written at the draw, and enables arrays: that is written here. */
 void arrays_interleaved(void)
 {
 	arrays_pointer_set();

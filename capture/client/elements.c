@@ -11,7 +11,7 @@
 #include "capture/write/writer.h"
 #include "tables/commands.h"
 
-/* Between Begin and End of arrays of both kinds: the trace has those in client memory disabled. */
+/* Between Begin and End, with arrays in client memory and in buffers: the trace has the former disabled. */
 static __thread int apart __attribute__((tls_model("initial-exec")));
 
 /* The trace's array is enabled or disabled. */
@@ -23,7 +23,7 @@ static void record_enabled(int slot, int on)
 		fake_call(on ? CMD_glEnableClientState : CMD_glDisableClientState, "e", array_names_of(slot)->enable);
 }
 
-/* All arrays in client memory, so that the trace's ArrayElement takes from buffers only. */
+/* Switch all arrays in client memory, so that the trace's ArrayElement takes from buffers only. */
 static void record_client_enabled(int on)
 {
 	unsigned active = array_state_unit(), now = active;
@@ -76,7 +76,7 @@ static int type_column(unsigned type)
 	return TYPE_NONE;
 }
 
-/* By kind, size - 1 and type of an array. 0: GL has none, as no array is so. */
+/* By kind, size - 1 and type of an array. 0: GL has no such array. */
 enum { KIND_ATTRIBUTE = ARRAY_TEXTURE + 1, KIND_VERTEX, N_KINDS };
 static const unsigned short element_commands[N_KINDS][4][N_TYPES] = {
 	[ARRAY_NORMAL] = { [2] = { CMD_glNormal3bv, CMD_glNormal3sv, CMD_glNormal3iv, CMD_glNormal3fv, CMD_glNormal3dv } },
@@ -161,11 +161,11 @@ static void record_element(int slot, const struct array *a, int index)
 int elements_in_buffer(int index)
 {
 	if (!writer_active() || !array_state.known || !array_state.n_client)
-		return 1; /* all of it in buffers: readers can do it themselves */
+		return 1; /* all arrays lie in buffers: readers do it themselves */
 	for (int slot = 0; slot < N_ARRAYS && index >= 0; slot++) {
 		const struct array *a = &array_state.arrays[slot];
 
-		/* What is in buffers comes before a vertex of client memory, and after all else. */
+		/* Arrays in buffers come before a vertex of client memory, and after all else. */
 		if (apart && slot == ARRAY_VERTEX && a->enabled && !a->buffer)
 			fake_call(CMD_glArrayElement, "i", index);
 		if (a->enabled && !a->buffer && a->pointer)

@@ -16,7 +16,7 @@
 
 enum { BATCH = 16384 };
 
-/* The trace has a buffer of ours bound for the indices of the draw to come. */
+/* The trace has a buffer of ours bound for the indices of the next draw. */
 static __thread int own_indices __attribute__((tls_model("initial-exec")));
 
 static int are_in_buffer(void)
@@ -65,7 +65,7 @@ void indices_widen(struct indices_range *range, const void *indices, int count, 
 	range->last = highest + base > range->last ? highest + base : range->last;
 }
 
-/* Returns what is known of them. */
+/* Returns the place for what is known of them, or NULL. */
 static struct mirror_indices *bind_own(const void *indices, long bytes)
 {
 	struct mirror_indices *known;

@@ -31,7 +31,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct map maps[MAX_MAPS];
 static _Atomic int n_maps;
 
-/* `from` is the program's memory, or the recorder's own where `own` holds. */
+/* `own`: 1 where `from` is the recorder's own memory, not the program's. */
 static void record_memory(const uint8_t *to, const uint8_t *from, long bytes, int own)
 {
 	uint8_t *p = to && bytes > 0 ? writer_enter_memcpy() : NULL;
@@ -62,7 +62,7 @@ static struct map *find(const void *data)
 	return NULL;
 }
 
-/* What differs in [from, end) goes into the trace and the copy: of each block the part from its first byte that does to its last. */
+/* Write what differs in [from, end), and copy it: in each block, from the first byte that differs to the last. */
 static void compare(struct map *m, long from, long end)
 {
 	uint8_t now[BLOCK];
@@ -105,7 +105,7 @@ static void write_changes(struct map *m)
 		compare_watched(m);
 		return;
 	}
-	/* Pages can be watched once they have been touched: tried after one look, two, four, and so on. */
+	/* Only touched pages can be watched: try after one look, two, four, and so on. */
 	m->looks++;
 	if ((m->looks & (m->looks - 1)) == 0)
 		watch_begin(&m->watch, m->data, m->data + m->bytes);
@@ -146,7 +146,7 @@ void maps_begun(const void *data, long bytes, unsigned access)
 	pthread_mutex_lock(&lock);
 	m = find(data);
 	if (m)
-		drop(m); /* its memory has gone and come back unnoticed */
+		drop(m); /* it has ended unnoticed */
 	m = find(NULL);
 	if (m)
 		begin(m, data, bytes);
@@ -169,7 +169,7 @@ void maps_read(void)
 	pthread_mutex_unlock(&lock);
 }
 
-/* 1 where the mapping was a persistent one; all of it is written. */
+/* Write all of a persistent mapping and forget it. 0 where it was none. */
 static int ended(const void *data)
 {
 	struct map *m;
@@ -197,7 +197,7 @@ static int buffer_get(unsigned target, unsigned pname)
 	return value;
 }
 
-/* Where the buffer that is bound to the target is mapped. */
+/* Where the target's buffer is mapped. */
 static const uint8_t *mapped_at(unsigned target)
 {
 	void *data = NULL;

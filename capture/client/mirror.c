@@ -16,23 +16,23 @@
 #include "tables/commands.h"
 
 enum { N_MIRRORS = 1 << 12, N_PROBES = 8, BLOCK = 1 << 17 };
-enum { PATIENCE = 16, SAMPLE = 8 };     /* contents in a row that were new before only every eighth is looked up */
-enum { CREDIT = 64 };                   /* mirrors made before their array is drawn again; refunded where it is */
+enum { PATIENCE = 16, SAMPLE = 8 };     /* after so many new contents in a row, only every eighth is looked up */
+enum { CREDIT = 64 };                   /* mirrors that may be made before their array is drawn again; refunded when it is */
 enum { WATCH_AFTER = 64, WATCH_NEVER = 1 << 30 }; /* draws in a row that found the same bytes */
-enum { REWRITTEN = 8 };                 /* times that most of what was watched was written, the same bytes again */
+enum { REWRITTEN = 8 };                 /* times that most watched pages were written with the same bytes */
 #define MAX_MIRRORED_BYTES (256l << 20) /* of one context, here and on replay */
 
 struct mirror {
 	const uint8_t *data;
 	unsigned buffer;   /* 0: drawn from once */
 	int unproven;      /* made on credit, not drawn from since */
-	unsigned misses;   /* contents since the last one that had come back */
+	unsigned misses;   /* contents since the last one that came back */
 	long room;         /* of the buffer */
-	long first, end;   /* what the buffer holds and `copy` with it */
+	long first, end;   /* what the buffer and `copy` hold */
 	uint8_t *copy;     /* `copy_bytes` mapped */
 	size_t copy_bytes;
 	struct mirror_indices indices;
-	struct watch watch; /* within what is held: pages that are only looked at once they are written */
+	struct watch watch; /* within what is held: pages to be read only after a store */
 	int equal;          /* draws since the last difference */
 	int patience;       /* draws before the array is watched */
 	int rewritten;
@@ -47,7 +47,7 @@ struct mirror_table {
 	struct mirror mirrors[N_MIRRORS];
 };
 
-/* The mirror goes; `told` where the trace hears of it. */
+/* End a mirror. `told`: 1 to delete the trace's buffer. */
 static void drop(struct mirror_table *t, struct mirror *m, int told)
 {
 	uint8_t *p = m->buffer && told ? writer_enter_fake(CMD_glDeleteBuffers) : NULL;
@@ -97,7 +97,7 @@ static struct mirror_table *current_table(void)
 	return t;
 }
 
-/* The array's mirror; a new one, or another's place, where it has none. */
+/* The array's mirror. Where it has none: a new one, perhaps in another's place. */
 static struct mirror *find(struct mirror_table *t, const uint8_t *data)
 {
 	uint64_t at = ((uintptr_t)data >> 2) * 0x9E3779B97F4A7C15u >> 40;
@@ -117,8 +117,8 @@ static struct mirror *find(struct mirror_table *t, const uint8_t *data)
 }
 
 /*
- * Where what the program has is not what the mirror holds, to within a block: the start of the difference in [first, end), or
- * `end` where there is none. Bytes that the mirror does not hold yet differ.
+ * The first difference between program and mirror in [first, end), to within a block; `end` where there is none. Bytes that the
+ * mirror does not hold yet differ.
  */
 static long difference(struct mirror_table *t, const struct mirror *m, long first, long end)
 {
@@ -169,7 +169,7 @@ static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, lo
 		return 0;
 	if (first >= to || end <= from)
 		return 1;
-	/* Pages as a whole, as each is told only once. */
+	/* Whole pages: the kernel tells of each only once. */
 	from = first <= from ? from : from + ((first - from) & -4096l);
 	to = end >= to ? to : from + ((end - from + 4095) & -4096l);
 	n = watch_take_written(&m->watch, (uintptr_t)m->data + (uintptr_t)from, (uintptr_t)m->data + (uintptr_t)to, written, 8);
@@ -180,7 +180,7 @@ static int is_unchanged(struct mirror_table *t, struct mirror *m, long first, lo
 		if (difference(t, m, at, piece_end) < piece_end)
 			return 0;
 	}
-	if (2 * bytes > to - from && ++m->rewritten > REWRITTEN) { /* a fault a page costs more than reading it */
+	if (2 * bytes > to - from && ++m->rewritten > REWRITTEN) { /* a fault per page costs more than reading the page */
 		m->patience = WATCH_NEVER;
 		watch_end(&m->watch);
 	}
@@ -201,7 +201,7 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 	return 1;
 }
 
-/* What is in staging from `first` on becomes what the buffer holds; from `changed` on it differs from what it held. */
+/* Bring the buffer up to date with staging, which holds [first, end) and differs from `changed` on. */
 static int update(struct mirror_table *t, struct mirror *m, unsigned target, long first, long end, long changed, int *bound)
 {
 	int fresh = make_room(t, m, end), made = !m->buffer;
@@ -209,7 +209,7 @@ static int update(struct mirror_table *t, struct mirror *m, unsigned target, lon
 
 	if (fresh < 0)
 		return 0;
-	/* Not more than what differs, by words. */
+	/* Only the words that differ. */
 	while (changed < end && changed >= m->first && changed < m->end && m->copy[changed] == t->staging[changed - first])
 		changed++;
 	changed &= ~3l;
@@ -262,7 +262,7 @@ unsigned mirror_buffer(unsigned target, const void *data, long first, long end, 
 	new = !m->data;
 	m->data = data;
 	m->patience = m->patience ? m->patience : WATCH_AFTER;
-	/* What is held stays one piece. */
+	/* What is held stays in one piece. */
 	if (m->buffer && first > m->end)
 		first = m->end;
 	if (m->buffer && end < m->first)
@@ -288,7 +288,7 @@ unsigned mirror_buffer(unsigned target, const void *data, long first, long end, 
 	if (!memory_grow(&t->staging, &t->staging_bytes, (size_t)(end - first)))
 		return 0;
 	memory_read(t->staging, (const uint8_t *)data + first, (size_t)(end - first));
-	/* Other contents than before: those that come back are found by content. */
+	/* New contents: look them up, as they may come back. */
 	if (first == 0 && (held || !wanted) && (m->misses++ < PATIENCE || m->misses % SAMPLE == 0)) {
 		unsigned buffer = content_buffer(target, t->staging, end, bound);
 

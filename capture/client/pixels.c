@@ -10,7 +10,7 @@
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
 
-/* The trace has a buffer of ours bound that holds the pixels of the call to come. */
+/* The trace has a buffer of ours bound that holds the pixels of the next call. */
 static __thread int own_pixels __attribute__((tls_model("initial-exec")));
 
 static const struct layout_names {
@@ -114,7 +114,7 @@ long pixels_read_bytes(unsigned format, unsigned type, int width, int height)
 	return packed_bytes(2, format, type, width, height, 1);
 }
 
-/* The questions may be errors, where the program's call was one. */
+/* Where the program's call was an error, so may be these. */
 long pixels_texture_bytes(unsigned target, int level, unsigned format, unsigned type)
 {
 	int width, height, depth = 1, dims = 2;

@@ -22,18 +22,18 @@ enum { FIRST_ROOM = 1 << 18, MAX_ROOM = 1 << 26 }; /* of a thread's buffer */
 #define MAX_KEPT_BYTES (128l << 20)                /* of one context */
 
 /*
- * Names of lists, counted down: a GL that gives out the name after the highest one in use (Mesa) gives the program none that
- * we take later. Far above the names that programs choose for themselves; where one does choose such a name, ours end.
+ * Names of lists, counted down. A GL that gives out the name after the highest one in use (Mesa) then gives the program none that
+ * we take later. Programs choose far lower names for themselves; where one does choose such a name, we make no more lists.
  */
 enum { FIRST_NAME = 0xFFFFFF, LAST_NAME = 0xF00000 };
 
 struct run {
 	XXH128_hash_t hash;
 	uint32_t bytes;         /* 0: the slot is free */
-	int seen;               /* drawn so often; 2: or oftener */
+	int seen;               /* times drawn, at most 2 */
 	unsigned list;          /* 0: it has none */
-	const uint8_t *records; /* of a run that has a list: what it consists of */
-	struct run *next;       /* the run that came after it the last time */
+	const uint8_t *records; /* of a run that has a list */
+	struct run *next;       /* the one that followed last time */
 };
 
 struct block { /* the head of a piece of the arena */
@@ -47,7 +47,7 @@ struct runs_table {
 	int compiling;          /* the program makes a list */
 	long kept_bytes;
 	int n_lists;
-	int credit;             /* runs that may have a list before they are drawn again: refunded by those that are */
+	int credit;             /* lists that may be made before their run is drawn again; refunded when it is */
 	struct block *arena;
 	uint8_t *arena_at, *arena_end;
 	struct run *last;       /* the run before; &head at the start */
@@ -130,7 +130,7 @@ static void write_record(unsigned command, const uint8_t *at, unsigned bytes)
 	writer_call_end(p);
 }
 
-/* 1 where what the record sets is set again by one of the following: nothing is drawn in between. */
+/* 1 where one of the next records sets the same, with no vertex in between. */
 static int is_overwritten(const uint8_t *at, const uint8_t *end)
 {
 	enum { LOOK_AHEAD = 12 };
@@ -138,7 +138,7 @@ static int is_overwritten(const uint8_t *at, const uint8_t *end)
 
 	memcpy(&first, at, sizeof(first));
 	if (commands[first & 0xFFFF].shape[0] == 'e' || strncmp(commands[first & 0xFFFF].name, "glVertexAttrib", 14) == 0)
-		return 0; /* material, texture unit or attribute: set what an argument says */
+		return 0; /* an argument says what these set: material, texture unit, attribute */
 	for (int i = 0; i < LOOK_AHEAD; i++) {
 		memcpy(&word, at, sizeof(word));
 		at += 4 + (((word >> 16) + 3) & ~3u);
@@ -168,7 +168,7 @@ static void write_records(const uint8_t *at, size_t bytes)
 
 /* Keeping records */
 
-/* Something else is to be written: what there is of the run goes first, and the rest is written call by call. */
+/* Another call comes: write the run as far as it goes, and the rest call by call. */
 static void write_open_run(void)
 {
 	const uint8_t *from = runs_self.expect ? self.guess->records : self.room;
@@ -273,7 +273,7 @@ static struct runs_table *current_table(void)
 	return t;
 }
 
-/* The run's slot, a new one where it was never seen. */
+/* The run's slot, a new one for a new run; NULL: no room. */
 static struct run *look_up(struct runs_table *t, const uint8_t *records, size_t bytes)
 {
 	XXH128_hash_t hash = XXH3_128bits(records, bytes);
@@ -294,9 +294,9 @@ static struct run *look_up(struct runs_table *t, const uint8_t *records, size_t 
 }
 
 /*
- * Mesa's lists are not quite what they hold: quads are split along the other diagonal, which shows in the last bit of a pixel here
- * and there, and line loops go astray. Called between Begin and End, a list's calls take the way of immediate mode: so Begin and
- * End of these stay outside of the list.
+ * Mesa's lists do not draw quite what they hold. They split quads along the other diagonal, which shows in the last bit of some
+ * pixels, and line loops go astray. A list that is called between Begin and End draws as immediate mode does, so Begin and End of
+ * these stay outside the list.
  */
 static int stays_outside(const uint8_t *records)
 {

@@ -12,7 +12,7 @@
 
 enum { PAGE = 4096, MIN_PAGES = 4, MAX_WATCHES = 256, LOW_FD = 100 /* the program's own descriptors keep their numbers */ };
 
-/* Of Linux 6.7's linux/fs.h and linux/userfaultfd.h, which are newer than Debian 12's. */
+/* From Linux 6.7's linux/fs.h and linux/userfaultfd.h, newer than Debian 12's. */
 struct scanned {
 	uint64_t start, end, categories;
 };
@@ -29,7 +29,7 @@ enum { FAULTS_USER_ONLY = 1 };
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct {
 	int faults, pages;       /* descriptors; open where `pid` is not 0 */
-	_Atomic int tried, pid;  /* a child's memory is another */
+	_Atomic int tried, pid;  /* a child has other memory */
 	struct watch watches[MAX_WATCHES];
 } all;
 
@@ -63,7 +63,7 @@ static int available(void)
 	return 0;
 }
 
-/* Pieces of [from, end) that `s` asks for; -1: not known. */
+/* How many pieces of [from, end) `s` asks for; -1: not known. */
 static int scan(struct scan *s, uintptr_t from, uintptr_t end, struct scanned *out, int max)
 {
 	s->size = sizeof(*s);
@@ -75,7 +75,7 @@ static int scan(struct scan *s, uintptr_t from, uintptr_t end, struct scanned *o
 	return ioctl(all.pages, SCAN_PAGES, s);
 }
 
-/* 1 where all of it is private memory that is there, protected now. */
+/* 1 where all of it is present private memory, and now protected. */
 static int protect(const struct watch *w)
 {
 	struct scan written = { .flags = SCAN_PROTECT, .category_mask = PAGE_WRITTEN, .return_mask = PAGE_WRITTEN };
@@ -144,7 +144,7 @@ int watch_take_written(const struct watch *w, uintptr_t from, uintptr_t end, str
 		return -1;
 	for (int i = 0; i < n; i++)
 		written[i] = (struct watch){ pieces[i].start, pieces[i].end };
-	/* There was no room for more: what is left has not been looked at. */
+	/* No room for more: the rest was not looked at. */
 	if (s.walk_end < end)
 		written[n++] = (struct watch){ s.walk_end, end };
 	return n;

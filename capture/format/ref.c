@@ -26,7 +26,7 @@ static uint64_t get_le(const uint8_t *p, unsigned n)
 
 static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 {
-	/* Grown at powers of two: n_entries is its own record of the capacity. */
+	/* Grows at powers of two, so n_entries tells the capacity. */
 	if ((ref->n_entries & (ref->n_entries - 1)) == 0) {
 		if (memory_resize(&ref->entries, ref->n_entries ? ref->n_entries * 2 : 1, sizeof(*entry)))
 			return ERR_SYSTEM;
@@ -35,7 +35,7 @@ static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 	return 0;
 }
 
-/* Reads records up to the last whole one; what follows a cut is not an error. */
+/* Reads records up to the last whole one; a cut is no error. */
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
 	uint64_t at = MAGIC_BYTES;
@@ -111,7 +111,7 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 {
 	size_t low = 0, high = ref->n_entries;
 
-	/* Frames ascend, so the first record of the frame is found by halving. */
+	/* Frames ascend: find the frame's first record by bisection. */
 	while (low < high) {
 		size_t mid = low + (high - low) / 2;
 

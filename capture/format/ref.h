@@ -4,8 +4,8 @@
  * File NAME.ref beside NAME.trace, little-endian:
  *   magic   8 bytes "RELREF1\n"
  *   record* u32 kind, u32 width, u32 height, u64 frame, u64 packed_bytes, then packed_bytes of one raw Snappy block
- * kind 1: colour, RGBA, 8 bits each; of a window with several samples a pixel their mean, as it is shown.
- * kind 2: window depth, one float each, [0,1]; of several samples what glReadPixels gives.
+ * kind 1: colour, RGBA, 8 bits each; the mean of a pixel's samples, as the window shows it.
+ * kind 2: window depth, one float each, [0,1]; with several samples what glReadPixels gives.
  * Rows run from the bottom row up, as GL delivers them, without padding. Frames ascend; a frame's records follow
  * each other. A file cut at any byte is valid up to the last whole record.
  */

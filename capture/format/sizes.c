@@ -78,7 +78,7 @@ long count_of_pname(unsigned pname)
 	}
 }
 
-/* Components a pixel format has; 0 for what is no format. */
+/* Components of a pixel format; 0: no such format. */
 static long components(unsigned format)
 {
 	switch (format) {
@@ -246,7 +246,7 @@ static long map_components(unsigned target)
 	case GL_MAP2_TEXTURE_COORD_4:
 	case GL_MAP2_VERTEX_4:
 		return 4;
-	default: /* GL_NV_vertex_program's maps of generic attributes have four */
+	default: /* maps of generic attributes (GL_NV_vertex_program) */
 		return (target >= GL_MAP1_VERTEX_ATTRIB0_4_NV && target <= GL_MAP1_VERTEX_ATTRIB15_4_NV) ||
 		       (target >= GL_MAP2_VERTEX_ATTRIB0_4_NV && target <= GL_MAP2_VERTEX_ATTRIB15_4_NV) ? 4 : 0;
 	}

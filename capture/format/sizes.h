@@ -1,6 +1,6 @@
 /*
- * How much memory an argument points to: one function for each form that Khronos' registry leaves to the reader (COMPSIZE).
- * Calls no GL and knows no state, so the recorder, the replay and the tests share it.
+ * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They call no GL
+ * and know no state, so the recorder, the replay and the tests share them.
  */
 #ifndef CAPTURE_FORMAT_SIZES_H
 #define CAPTURE_FORMAT_SIZES_H
@@ -13,10 +13,10 @@ struct pixel_layout {
 	int row_length, image_height, skip_rows, skip_pixels, skip_images, alignment;
 };
 
-/** Values of a vector parameter or query by its name (GL_POSITION: 4); 1 for what is not known. */
+/** Values of a vector parameter or query by its name (GL_POSITION: 4); 1 where the name is unknown. */
 long count_of_pname(unsigned pname);
 
-/** Bytes of one element of a type (GL_FLOAT: 4); 0 for what is no type. Packed pixel types count as a whole pixel. */
+/** Bytes of one element of a type (GL_FLOAT: 4); 0: no such type. A packed pixel type counts as a whole pixel. */
 long type_bytes(unsigned type);
 
 /** Bytes of one pixel; 0 where format and type do not say (GL_BITMAP: less than a byte). */
@@ -25,7 +25,7 @@ long image_pixel_bytes(unsigned format, unsigned type);
 /**
  * Bytes from the pointer to the end of the last pixel that GL reads.
  * @param dims  1 to 3: what the call has (rows skipped and images skipped count only from 2 and 3 on)
- * @return 0 where there are no pixels, or format, type or layout are no such thing
+ * @return 0 where there are no pixels, or where format, type or layout make no sense
  */
 long image_bytes(const struct pixel_layout *layout, int dims, unsigned format, unsigned type, int width, int height,
                  int depth);
@@ -40,7 +40,7 @@ long clear_buffer_count(unsigned buffer);
 long map1_count(unsigned target, int stride, int order);
 long map2_count(unsigned target, int ustride, int uorder, int vstride, int vorder);
 
-/** Bytes of a text with a length beside it that may say "to its NUL" by being 0 (marker), or below 0 (debug text). */
+/** Bytes of a text with its length beside it. A length of 0 (marker) or below 0 (debug text) means up to the NUL. */
 static inline long marker_bytes(int length, const void *text)
 {
 	return length > 0 || !text ? length : (long)strlen(text);

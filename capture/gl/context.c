@@ -74,7 +74,7 @@ static int has_word(const char *list, const char *name)
 
 static const struct {
 	unsigned feature;
-	int version;            /* 10 * major + minor from which on it is part of GL */
+	int version;            /* 10 * major + minor of the first GL that has it */
 	const char *extensions[3];
 } feature_table[] = {
 	{ HAS_3D, 12, { "GL_EXT_texture3D" } },

@@ -2,6 +2,7 @@
 #include "capture/gl/current.h"
 
 #include <GL/gl.h>
+#include <stddef.h>
 
 #include "capture/gl/context.h"
 #include "capture/gl/drawable.h"
@@ -20,10 +21,13 @@ static void record_rectangle(unsigned command, unsigned pname)
 	fake_call(command, "iiii", r[0], r[1], r[2], r[3]);
 }
 
-/* GL sets viewport and scissor to the drawable when a context is first made current: that is how a reader learns its size. */
-static void select_context(void *handle)
+/* GL sets viewport and scissor to the drawable when a context is first made current. From these a reader learns its size. */
+static void made_current(int ok, const struct drawable_target *target, void *context)
 {
-	if (!context_select(handle))
+	if (!ok || !writer_active())
+		return;
+	frame_draw_to(target);
+	if (!context_select(context))
 		return;
 	record_rectangle(CMD_glViewport, GL_VIEWPORT);
 	record_rectangle(CMD_glScissor, GL_SCISSOR_BOX);
@@ -34,27 +38,19 @@ static void select_context(void *handle)
 
 void current_made_glx(int ok, void *display, unsigned long drawable, void *context)
 {
-	if (!ok || !writer_active())
-		return;
-	frame_drawable_glx(display, drawable);
-	select_context(context);
+	made_current(ok, &(struct drawable_target){ .system = DRAWABLE_GLX, .display = display, .id = drawable }, context);
 }
 
 void current_made_egl(unsigned ok, void *display, void *surface, void *context)
 {
-	if (!ok || !writer_active())
-		return;
-	frame_drawable_egl(display, surface);
-	select_context(context);
+	made_current(ok != 0, &(struct drawable_target){ .system = DRAWABLE_EGL, .display = display, .id = (uintptr_t)surface }, context);
 }
 
 void current_made_osmesa(unsigned ok, void *context, int width, int height)
 {
-	if (!ok)
-		return;
-	resolve_prefer_osmesa();
-	if (!writer_active())
-		return;
-	frame_drawable_osmesa(context, width, height);
-	select_context(context);
+	struct drawable_target target = { DRAWABLE_OSMESA, NULL, (uintptr_t)context, width, height };
+
+	if (ok)
+		resolve_prefer_osmesa();
+	made_current(ok != 0, &target, context);
 }

@@ -69,8 +69,8 @@ void drawable_may_have_changed(void)
 }
 
 /*
- * The size of an X window. By XCB and not by Xlib, where asking for a drawable that is gone calls the program's error
- * handler, which ends the program. Both libraries are the ones that Mesa's GLX has loaded.
+ * Ask for the size of an X window through XCB. Xlib calls the program's error handler, which ends the program, where a drawable is
+ * gone. Mesa's GLX has loaded both libraries.
  */
 struct geometry_reply { /* the X protocol's GetGeometry reply */
 	uint8_t response_type, depth;
@@ -116,34 +116,23 @@ static void ask_window_size(void *display, struct drawable *d)
 	free(error);
 }
 
-/* 1 where the size is asked for now. */
-static int begin_asking(struct drawable *d, int exact)
+void drawable_ask(struct drawable *d, const struct drawable_target *target, int exact)
 {
 	uint64_t now = clock_ns();
 
+	if (target->system == DRAWABLE_GLX && (!target->display || !d->window))
+		return;
 	if (!size_may_differ && d->width && !exact && now - d->asked_ns <= ASK_SIZE_AFTER_NS)
-		return 0;
+		return;
 	size_may_differ = 0;
 	d->asked_ns = now;
-	return 1;
-}
-
-void drawable_ask_glx(struct drawable *d, void *display, int exact)
-{
-	if (!display || !d->window || !begin_asking(d, exact))
-		return;
 	writer_nest();
-	ask_window_size(display, d);
-	writer_unnest();
-}
-
-void drawable_ask_egl(struct drawable *d, void *display, int exact)
-{
-	if (!begin_asking(d, exact))
-		return;
-	writer_nest();
-	real_eglQuerySurface(display, (void *)d->id, EGL_WIDTH_, &d->width);
-	real_eglQuerySurface(display, (void *)d->id, EGL_HEIGHT_, &d->height);
+	if (target->system == DRAWABLE_GLX) {
+		ask_window_size(target->display, d);
+	} else {
+		real_eglQuerySurface(target->display, (void *)d->id, EGL_WIDTH_, &d->width);
+		real_eglQuerySurface(target->display, (void *)d->id, EGL_HEIGHT_, &d->height);
+	}
 	writer_unnest();
 }
 

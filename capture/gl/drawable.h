@@ -12,6 +12,16 @@ struct drawable {
 	uint64_t asked_ns;
 };
 
+enum drawable_system { DRAWABLE_NONE, DRAWABLE_GLX, DRAWABLE_EGL, DRAWABLE_OSMESA };
+
+/** What a thread draws to. */
+struct drawable_target {
+	enum drawable_system system;
+	void *display;
+	uintptr_t id;
+	int width, height; /* OSMesa's, which has no drawables */
+};
+
 /** Drawable number `id`, made at need; it stays. NULL: no memory. */
 struct drawable *drawable_find(uintptr_t id);
 
@@ -23,8 +33,7 @@ void drawable_may_have_changed(void);
  * Ask for the size, a trip to the X server: not at each frame, but when the program has set a viewport, or after a while.
  * @param exact  1: ask now
  */
-void drawable_ask_glx(struct drawable *d, void *display, int exact);
-void drawable_ask_egl(struct drawable *d, void *display, int exact);
+void drawable_ask(struct drawable *d, const struct drawable_target *target, int exact);
 
 /** Calls that draw nothing, by which glretrace's window learns of the size that a viewport has given it. */
 void drawable_make_size_known(void);

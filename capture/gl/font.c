@@ -46,7 +46,7 @@ static void find_xlib(void)
 			x_found = 0;
 }
 
-/* A character's metrics; NULL where the font has none of that code. */
+/* A character's metrics; NULL where the font has no such character. */
 static const XCharStruct *find_character(const XFontStruct *font, unsigned code)
 {
 	unsigned columns = font->max_char_or_byte2 - font->min_char_or_byte2 + 1;
@@ -61,7 +61,7 @@ static const XCharStruct *find_character(const XFontStruct *font, unsigned code)
 	return font->per_char ? &font->per_char[(row - font->min_byte1) * columns + column - font->min_char_or_byte2] : &font->max_bounds;
 }
 
-/* Into zeros: GL's rows go from the bottom up, here each in whole bytes, the leftmost pixel in the highest bit. */
+/* `bits` is all zeros. GL's rows go from the bottom up; each has whole bytes, the leftmost pixel in the highest bit. */
 static void draw_character(Display *display, const XFontStruct *font, unsigned code, const XCharStruct *c, unsigned width, unsigned height,
                            uint8_t *bits)
 {
@@ -95,8 +95,8 @@ static void record_list(unsigned list, const XCharStruct *c, int width, int heig
 }
 
 /*
- * How far the list of a character without pixels moves the raster position: Mesa's own glXUseXFont refuses to store bitmaps of no
- * pixels (with an error), and its lists then stand still. Calling such a list draws nothing.
+ * How far the list of a character without pixels moves the raster position. Mesa's own glXUseXFont fails to store bitmaps of no
+ * pixels, and its lists then do not move it. Calling such a list draws nothing.
  */
 static float ask_advance(unsigned list, float otherwise)
 {
@@ -143,17 +143,17 @@ static void record_lists(unsigned long name, int first, int count, int list)
 	XFontStruct *font;
 	Display *display;
 
-	/* Where GLX refuses, there are no lists: one is being made, or there is no context. */
+	/* GLX makes no lists while the program makes one, or without a context. */
 	if (count <= 0 || count > MAX_CHARACTERS || first < 0 || !context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
 		return;
 	pthread_once(&x_once, find_xlib);
-	writer_nest(); /* what is asked here is not the program's */
+	writer_nest(); /* the program does not ask this */
 	display = real_glXGetCurrentDisplay();
 	font = display && x_found ? x.XQueryFont(display, name) : NULL;
 	writer_unnest();
 	if (!font)
 		return;
-	font->fid = name; /* by which a graphics context is given the font */
+	font->fid = name; /* a graphics context gets the font by this */
 	restore_make_neutral(0);
 	for (int i = 0; i < count; i++)
 		record_character(display, font, (unsigned)(first + i), (unsigned)(list + i));

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "capture/gl/context.h"
-#include "capture/gl/drawable.h"
 #include "capture/gl/marker.h"
 #include "capture/gl/reference.h"
 #include "capture/gl/restore.h"
@@ -21,8 +20,6 @@
 #include "capture/write/report.h"
 #include "capture/write/writer.h"
 #include "tables/commands.h"
-
-enum system { SYSTEM_NONE, SYSTEM_GLX, SYSTEM_EGL, SYSTEM_OSMESA };
 
 static _Atomic uint64_t program_frames; /* recorded or not */
 static _Atomic int marked_width, marked_height; /* of the last size marker */
@@ -34,11 +31,8 @@ static struct {
 } wish;
 
 static __thread struct {
-	enum system system;
-	void *display;
-	uintptr_t drawable;
-	int width, height;     /* OSMesa's, which has no drawables */
-	int in_primitive;      /* between Begin and End: no call of ours may come there */
+	struct drawable_target target;
+	int in_primitive;      /* between Begin and End, where no call of ours may come */
 	int unswapped;         /* the frame that ends does so without a swap */
 	int drawn, primitives; /* since the last frame: anything at all, anything but clears */
 } self __attribute__((tls_model("initial-exec")));
@@ -59,73 +53,49 @@ static void frame_end(uintptr_t drawable, int width, int height)
 	}
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)clock_ns());
 	marker_write(text);
-	if (drawable == self.drawable && context_current() && reference_wanted(writer_frames()))
+	if (drawable == self.target.id && context_current() && reference_wanted(writer_frames()))
 		reference_read(writer_frames(), width, height, self.unswapped);
 	writer_frame_ends();
 }
 
-void frame_end_glx(void *display, unsigned long drawable)
+static void frame_end_of(const struct drawable_target *target)
 {
-	struct drawable *d = drawable && writer_active() ? drawable_find(drawable) : NULL;
+	struct drawable *d = target->id && writer_active() ? drawable_find(target->id) : NULL;
 	int saved = errno;
 
 	if (!d)
 		return;
-	drawable_ask_glx(d, display, reference_wanted(writer_frames()));
-	frame_end(drawable, d->width, d->height);
-	errno = saved;
-}
-
-void frame_end_egl(void *display, void *surface)
-{
-	struct drawable *d = surface && writer_active() ? drawable_find((uintptr_t)surface) : NULL;
-	int saved = errno;
-
-	if (!d)
-		return;
-	drawable_ask_egl(d, display, reference_wanted(writer_frames()));
+	drawable_ask(d, target, reference_wanted(writer_frames()));
 	frame_end(d->id, d->width, d->height);
 	errno = saved;
 }
 
-/* What is current */
-
-static void set_current(enum system system, void *display, uintptr_t drawable)
+void frame_end_glx(void *display, unsigned long drawable)
 {
-	self.system = system;
-	self.display = display;
-	self.drawable = drawable;
-	self.width = self.height = 0;
+	frame_end_of(&(struct drawable_target){ .system = DRAWABLE_GLX, .display = display, .id = drawable });
+}
+
+void frame_end_egl(void *display, void *surface)
+{
+	frame_end_of(&(struct drawable_target){ .system = DRAWABLE_EGL, .display = display, .id = (uintptr_t)surface });
+}
+
+void frame_draw_to(const struct drawable_target *target)
+{
+	self.target = *target;
 	self.in_primitive = 0;
 }
 
-void frame_drawable_glx(void *display, unsigned long drawable)
-{
-	set_current(SYSTEM_GLX, display, drawable);
-}
-
-void frame_drawable_egl(void *display, void *surface)
-{
-	set_current(SYSTEM_EGL, display, (uintptr_t)surface);
-}
-
-void frame_drawable_osmesa(void *context, int width, int height)
-{
-	set_current(SYSTEM_OSMESA, NULL, (uintptr_t)context);
-	self.width = width;
-	self.height = height;
-}
-
-/* A frame ends, and only a made-up call tells. */
+/* A frame ends without a swap: a made-up call says so. */
 static void frame_end_current(void)
 {
+	const struct drawable_target *t = &self.target;
+
 	self.unswapped = 1;
-	if (self.system == SYSTEM_GLX && self.drawable)
-		frame_end_glx(self.display, self.drawable);
-	else if (self.system == SYSTEM_EGL && self.drawable)
-		frame_end_egl(self.display, (void *)self.drawable);
+	if ((t->system == DRAWABLE_GLX || t->system == DRAWABLE_EGL) && t->id)
+		frame_end_of(t);
 	else
-		frame_end(self.drawable, self.width, self.height); /* OSMesa's, or none: framebuffer objects are drawn to */
+		frame_end(t->id, t->width, t->height); /* OSMesa's, or none: framebuffer objects are drawn to */
 	self.unswapped = 0;
 	fake_call(CMD_glFrameTerminatorGREMEDY, "");
 	frame_ended();
@@ -157,8 +127,8 @@ void frame_may_end(enum frame_trigger trigger, int truth)
 	int saved = errno, wanted = trigger == wish.trigger;
 
 	if (trigger == FRAME_FLUSH || trigger == FRAME_FINISH) {
-		/* OSMesa has no call that ends a frame but these. */
-		wanted |= wish.trigger == FRAME_SWAP && self.system == SYSTEM_OSMESA;
+		/* OSMesa has no other call that ends a frame. */
+		wanted |= wish.trigger == FRAME_SWAP && self.target.system == DRAWABLE_OSMESA;
 		writer_flush_sometimes();
 	}
 	if (wanted && truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive &&
@@ -199,7 +169,7 @@ __attribute__((constructor)) static void read_wishes(void)
 		skip_begin();
 }
 
-/* What follows from a frame that is in the trace. */
+/* A frame is in the trace: end what was to end after it. */
 static void frame_recorded(uint64_t frames)
 {
 	if ((wish.max_frames && frames >= wish.max_frames) || (wish.quit_after && frames >= wish.quit_after))
@@ -215,19 +185,11 @@ static void frame_recorded(uint64_t frames)
 	}
 }
 
-/* The size of what is current, asked when it was last swapped, or none. */
-static void current_size(int *width, int *height)
-{
-	struct drawable *d = self.system != SYSTEM_OSMESA && self.drawable ? drawable_find(self.drawable) : NULL;
-
-	*width = d ? d->width : self.system == SYSTEM_OSMESA ? self.width : 0;
-	*height = d ? d->height : self.system == SYSTEM_OSMESA ? self.height : 0;
-}
-
 void frame_ended(void)
 {
 	uint64_t frames, next;
-	int width, height;
+	const struct drawable_target *t = &self.target;
+	struct drawable *d;
 
 	self.drawn = self.primitives = self.in_primitive = 0;
 	if (!writer_active())
@@ -241,9 +203,9 @@ void frame_ended(void)
 	if (is_wanted(next) == !skip_active() || !writer_active())
 		return;
 	if (skip_active()) {
-		current_size(&width, &height);
+		d = t->system != DRAWABLE_OSMESA && t->id ? drawable_find(t->id) : NULL;
 		skip_end();
-		restore_drawn(width, height);
+		restore_drawn(d ? d->width : t->width, d ? d->height : t->height);
 	} else {
 		skip_begin();
 	}

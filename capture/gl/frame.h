@@ -2,12 +2,11 @@
 #ifndef CAPTURE_GL_FRAME_H
 #define CAPTURE_GL_FRAME_H
 
+#include "capture/gl/drawable.h"
 #include "capture/stats.h"
 
 /** What this thread draws to from now on. */
-void frame_drawable_glx(void *display, unsigned long drawable);
-void frame_drawable_egl(void *display, void *surface);
-void frame_drawable_osmesa(void *context, int width, int height);
+void frame_draw_to(const struct drawable_target *target);
 
 /** Before a swap is written, and after it. */
 void frame_end_glx(void *display, unsigned long drawable);

@@ -25,7 +25,7 @@ void reading_begin(struct reading_state *s)
 		                                                               GL_FRAMEBUFFER_BINDING);
 		if (s->framebuffer)
 			real_glBindFramebuffer(read_target(), 0);
-		/* What is drawn to says what there are: buffers, bits, samples. */
+		/* Buffers, bits and samples are asked of the draw framebuffer. */
 		s->draw_framebuffer = context_has(HAS_READ_FRAMEBUFFER) ? context_get(GL_DRAW_FRAMEBUFFER_BINDING) : 0;
 		if (s->draw_framebuffer)
 			real_glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
@@ -82,9 +82,8 @@ void reading_end(const struct reading_state *s)
 }
 
 /*
- * A window with several samples a pixel shows their mean, and glReadPixels need not: Mesa's software rasterizers give one sample
- * (22.3.6). So what the window will show is made as the driver makes it at the swap, by a blit, in a renderbuffer that lives while it
- * is read.
+ * A window with several samples a pixel shows their mean. glReadPixels need not: Mesa's software rasterizers return one sample
+ * (22.3.6). So a blit into a temporary renderbuffer makes what the window will show, as the driver does at the swap.
  */
 static void read_resolved(int width, int height, void *pixels)
 {

@@ -64,7 +64,7 @@ static void put_le(uint8_t *p, uint64_t v, unsigned n)
 	}
 }
 
-/* The file is opened for each record: a program may close descriptors that are not its own. */
+/* Opens the file for each record: a program may close descriptors that are not its own. */
 static void append(const void *data, size_t bytes)
 {
 	int fd = open(r.path, O_WRONLY | O_CREAT | O_CLOEXEC | (r.bytes ? 0 : O_TRUNC), 0666), error = 0;
@@ -102,7 +102,7 @@ static void write_record(enum ref_kind kind, uint64_t frame, int width, int heig
 	append(record, packed + HEADER_BYTES);
 }
 
-/* 0 where the pixels of a frame have room and the file is begun. */
+/* Begin the file and make room for a frame's pixels. Returns 0, or -1. */
 static int make_ready(int width, int height)
 {
 	if (!r.path[0]) {
@@ -117,7 +117,7 @@ static int make_ready(int width, int height)
 	return 0;
 }
 
-/* What is drawn to in a window with a back buffer is its front buffer, alone or too. */
+/* 1 where the window has a back buffer and yet is drawn to its front buffer. */
 static int draws_to_front(void)
 {
 	int buffer = context_has(HAS_DESKTOP) && context_get(GL_DOUBLEBUFFER) ? context_get(GL_DRAW_BUFFER) : GL_BACK;
@@ -131,7 +131,7 @@ void reference_read(uint64_t frame, int width, int height, int unswapped)
 	struct reading_state state = { 0 };
 	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
 
-	/* While a list is compiled the selection of the buffer to read would go into the list. */
+	/* A list that is being compiled would take the selection of the buffer. */
 	if (list || width <= 0 || height <= 0)
 		return;
 	pthread_mutex_lock(&lock);

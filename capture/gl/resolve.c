@@ -20,7 +20,7 @@ static long absent(void)
 	return 0;
 }
 
-/* Libraries; a family's commands are looked for in this order. */
+/* Where a family's commands are looked for, in this order. */
 static const struct library {
 	const char *prefix, *name, *get_proc_address;
 } libraries[] = {
@@ -47,7 +47,7 @@ __attribute__((RESOLVE_BEFORE_ALL)) void resolve_dlsym(void)
 	for (size_t i = 0; !resolve_real_dlsym && i < sizeof(versions) / sizeof(versions[0]); i++)
 		resolve_real_dlsym = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", versions[i]);
 	if (!resolve_real_dlsym)
-		abort(); /* no libc that we know: nothing in this process would work */
+		abort(); /* an unknown libc: nothing in this process would work */
 }
 
 void *resolve_in(void *library, const char *name)
@@ -92,7 +92,7 @@ static void *find(const char *name)
 			found = find_in(&libraries[i], name, RTLD_NOLOAD);
 	if (!found)
 		found = resolve_real_dlsym(RTLD_NEXT, name);
-	/* What the program has loaded itself goes before what we load for it. */
+	/* Libraries that the program has loaded come before those that we load for it. */
 	for (size_t i = 0; !found && i < N_LIBRARIES; i++)
 		if (family(&libraries[i], name))
 			found = find_in(&libraries[i], name, RTLD_NOLOAD);
@@ -107,7 +107,7 @@ void *resolve_command(unsigned command)
 	int saved = errno;
 	void *found;
 
-	writer_nest(); /* what a library does while it is loaded is not the program's */
+	writer_nest(); /* calls that a library makes while it loads are not the program's */
 	found = find(commands[command].name);
 	writer_unnest();
 	if (!found)

@@ -119,7 +119,7 @@ void restore_make_neutral(int back)
 
 /* Textures */
 
-/* Rows lie close in both directions. 0 where there is no such level. */
+/* Rows lie close on both sides. 0 where there is no such level. */
 static int restore_level(unsigned target, int level)
 {
 	int width = context_get_level(target, level, GL_TEXTURE_WIDTH), height = context_get_level(target, level, GL_TEXTURE_HEIGHT);
@@ -132,7 +132,7 @@ static int restore_level(unsigned target, int level)
 	if (width <= 0 || height <= 0 || depth <= 0)
 		return 0;
 	if (context_get_level(target, level, GL_TEXTURE_COMPRESSED))
-		return 1; /* nothing is drawn to such a one */
+		return 1; /* GL draws to none of these */
 	if (context_get_level(target, level, GL_TEXTURE_DEPTH_SIZE)) {
 		int stencil = context_get_level(target, level, GL_TEXTURE_STENCIL_SIZE);
 
@@ -178,7 +178,7 @@ static void restore_texture(const struct texture *t)
 
 /* The window */
 
-/* Within PushAttrib and PopAttrib: fragments reach the buffers as they are. */
+/* Within PushAttrib and PopAttrib: let fragments reach the buffers unchanged. */
 static void make_pass_through(void)
 {
 	static const unsigned caps[] = { GL_ALPHA_TEST, GL_BLEND, GL_DITHER, GL_FOG, GL_LIGHTING, GL_COLOR_LOGIC_OP, GL_SCISSOR_TEST,
@@ -225,7 +225,7 @@ static void draw_pixels(int width, int height, unsigned format, unsigned type)
 	munmap(pixels, (size_t)bytes);
 }
 
-/* `framebuffer`: what the program draws to, which is not the window where it is not 0. */
+/* `framebuffer`: what the program draws to; 0 is the window. */
 static void restore_window(int width, int height, unsigned framebuffer)
 {
 	unsigned draw_target = context_has(HAS_READ_FRAMEBUFFER) ? GL_DRAW_FRAMEBUFFER : GL_FRAMEBUFFER;
@@ -264,7 +264,7 @@ void restore_drawn(int width, int height)
 	if (!context_has(HAS_FIXED_FUNCTION) || context_get(GL_LIST_INDEX))
 		return;
 	context_errors_before();
-	drawable_make_size_known(); /* at its place in what is left out a clear was not written */
+	drawable_make_size_known(); /* where it was due, the frame was left out and so was its clear */
 	restore_make_neutral(0);
 	reading_begin(&state);
 	real_glPixelStorei(GL_PACK_ALIGNMENT, 1); /* put back with all else */

@@ -11,7 +11,7 @@
 
 enum { PAGE = 4096 };
 
-/* Where a sandbox forbids process_vm_readv, the same by a file. */
+/* For sandboxes that forbid process_vm_readv. */
 static ssize_t copy_by_file(void *to, const void *from, size_t bytes)
 {
 	int fd = open("/proc/self/mem", O_RDONLY | O_CLOEXEC);
@@ -22,7 +22,7 @@ static ssize_t copy_by_file(void *to, const void *from, size_t bytes)
 	return n;
 }
 
-/* One kernel copy; returns the bytes copied, 0 at an unreadable start. */
+/* One copy by the kernel. Returns its bytes, 0 where the start is unreadable. */
 static size_t copy(void *to, const void *from, size_t bytes)
 {
 	struct iovec local = { to, bytes }, remote = { (void *)from, bytes };
@@ -58,7 +58,7 @@ size_t memory_read(void *to, const void *from, size_t bytes)
 
 size_t memory_text_bytes(const char *text)
 {
-	char part[PAGE / 16]; /* pieces end where pages do: one is readable as a whole or not at all */
+	char part[PAGE / 16]; /* a piece lies in one page, so it is readable as a whole or not at all */
 	size_t bytes = 0;
 
 	for (;;) {

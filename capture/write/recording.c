@@ -11,7 +11,7 @@
 
 struct recording recording;
 
-/* Ends the recording early, once, where something went wrong with the file. */
+/* End the recording, once, where the file has failed. */
 static void look_for_errors(void)
 {
 	struct sink_state sink = sink_state();

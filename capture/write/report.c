@@ -30,7 +30,7 @@ void report_say(const char *fmt, ...)
 		n = (int)sizeof(text) - 2;
 	text[n++] = '\n';
 	if (write(STDERR_FILENO, text, (size_t)n) < 0)
-		errno = saved; /* nobody listens: nothing to be done */
+		errno = saved; /* nobody listens */
 	errno = saved;
 }
 

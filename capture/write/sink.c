@@ -25,7 +25,7 @@ enum { N_CHUNKS = 8, AT_ONCE = 16 << 10, LOW_FD = 100, MAX_PROCESSES = 10000, ST
 static struct {
 	uint8_t *chunks[N_CHUNKS];
 	size_t used[N_CHUNKS];
-	_Atomic uint32_t handed, written; /* chunks so far; those between wait for the thread. Futexes, both */
+	_Atomic uint32_t handed, written; /* chunks so far; those between wait for the thread. Both are futexes */
 	_Atomic int waiting;              /* somebody waits for `written` */
 	_Atomic pid_t thread;             /* 0: there is none */
 	int tried;                        /* to start it */
@@ -53,7 +53,7 @@ static void fail(int error, const char *what)
 		sink.what = "cannot write, nor cut off the last part";
 }
 
-/* A program may close descriptors that it does not know, and get the number again for a file of its own. 0 or an errno. */
+/* A program may close our descriptor and get its number for a file of its own. Returns 0 or an errno. */
 static int own_file(void)
 {
 	struct stat st;
@@ -78,7 +78,7 @@ int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
 	const char *at = data;
 	struct rlimit limit;
 
-	/* Beyond this limit the kernel would send the program SIGXFSZ. */
+	/* The kernel sends SIGXFSZ to a program that writes beyond this. */
 	if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && offset + bytes > limit.rlim_cur)
 		return EFBIG;
 	while (bytes) {
@@ -96,8 +96,8 @@ int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset)
 }
 
 /*
- * A process that is killed leaves whole chunks only: a write of many pages can be cut short by the kill, so the length, without
- * which there is no chunk, goes out after what it is the length of.
+ * A killed process leaves whole chunks only. A kill can cut a write of many pages short, so the length, without which there is no
+ * chunk, goes out last.
  */
 static void append(size_t packed)
 {
@@ -181,7 +181,7 @@ static void take_one(void)
 		futex(&sink.written, FUTEX_WAKE, INT_MAX, NULL);
 }
 
-static void *run(void *nothing)
+static void *pack_chunks(void *nothing)
 {
 	(void)nothing;
 	sink.thread = (pid_t)syscall(SYS_gettid);
@@ -196,7 +196,7 @@ static void *run(void *nothing)
 	return NULL;
 }
 
-/* The program's signals are not for it. Where it cannot be started the caller does its work. */
+/* It takes no signals of the program. Where it cannot start, the caller does its work. */
 static void start_thread(void)
 {
 	pthread_attr_t attributes;
@@ -211,13 +211,13 @@ static void start_thread(void)
 	sigfillset(&all);
 	pthread_sigmask(SIG_SETMASK, &all, &before);
 	sink.thread = -1; /* on its way */
-	if (pthread_create(&thread, &attributes, run, NULL))
+	if (pthread_create(&thread, &attributes, pack_chunks, NULL))
 		sink.thread = 0;
 	pthread_sigmask(SIG_SETMASK, &before, NULL);
 	pthread_attr_destroy(&attributes);
 }
 
-/* Until no more than so many chunks wait. */
+/* Wait until at most so many chunks are left. */
 static void wait_for_thread(uint32_t at_most)
 {
 	const struct timespec patience = { 0, WAIT_NS };
@@ -227,7 +227,7 @@ static void wait_for_thread(uint32_t at_most)
 		sink.waiting = 1;
 		if (futex(&sink.written, FUTEX_WAIT, written, &patience) && errno == ETIMEDOUT && sink.thread > 0 &&
 		    syscall(SYS_tgkill, getpid(), sink.thread, 0) && errno == ESRCH)
-			sink.thread = 0; /* a copy of the process that fork does not know of has no such thread */
+			sink.thread = 0; /* a copy of the process made without fork has no such thread */
 		while (!sink.thread && sink.handed != sink.written)
 			take_one();
 	}
@@ -286,7 +286,7 @@ uint8_t *sink_open(const char *name)
 	int saved = errno, error;
 
 	for (int i = 0; i < N_CHUNKS && !sink.chunks[N_CHUNKS - 1]; i++)
-		sink.chunks[i] = memory_map(SINK_CHUNK); /* pages come into being when they are used */
+		sink.chunks[i] = memory_map(SINK_CHUNK); /* costs memory only once it is used */
 	if (!sink.packed)
 		sink.packed = memory_map(snappy_max_compressed_length(SINK_CHUNK) + 4);
 	error = !sink.chunks[N_CHUNKS - 1] || !sink.packed ? ENOMEM : create_file(name);

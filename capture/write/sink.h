@@ -1,13 +1,12 @@
 /*
  * Runs inside the traced program. Where the trace goes: chunks of plain bytes in, packed chunks in the file.
  *
- * A chunk that is full is handed to a thread, which packs and writes it while the program goes on. At the end of a frame the
- * rest is handed over before the program's buffers are swapped and waited for after that, so that a frame whose swap has
- * returned is in the kernel's hands, and packing costs no time where the swap takes longer. Little data is packed and written
- * on the spot: waking a thread would take longer.
+ * A thread packs and writes full chunks while the program goes on. At the end of a frame the rest is handed over before the
+ * swap and waited for after it. So the kernel has every frame that was swapped, and packing costs no time where the swap takes
+ * longer. Little data is packed and written on the spot: waking a thread would take longer.
  *
- * One caller at a time (the writer's lock). Errors stay: from the first on nothing more is written, and what is not whole in
- * the file is cut off. Every function keeps errno.
+ * One caller at a time (the writer's lock). The first error ends all writing, and what is not whole in the file is cut off. Every
+ * function keeps errno.
  */
 #ifndef CAPTURE_WRITE_SINK_H
 #define CAPTURE_WRITE_SINK_H
@@ -25,7 +24,7 @@ struct sink_state {
 };
 
 /**
- * Create NAME.trace, or NAME.1.trace and so on where that is there: the first process that calls GL gets the name asked for.
+ * Create NAME.trace, or NAME.1.trace and so on where that exists: the first process that calls GL gets the name.
  * @return the first chunk to fill, SINK_CHUNK bytes; NULL where there is no file (sink_state says why)
  */
 uint8_t *sink_open(const char *name);
@@ -38,7 +37,7 @@ uint8_t *sink_write(size_t bytes);
 
 struct sink_state sink_state(void);
 
-/** In the child of a fork: the file is the parent's. What the parent handed over must have been waited for (sink_write). */
+/** In the child of a fork: leave the file to the parent, which must have waited for what it handed over (sink_write). */
 void sink_leave(void);
 
 /**

@@ -45,7 +45,7 @@ uint8_t *put_chars(uint8_t *p, const char *s)
 	return p + n;
 }
 
-/* A signature holds one name and is written with the first value that needs it. */
+/* A signature holds one name. The first value that needs it writes it. */
 static uint8_t *put_enum_entry(uint8_t *p, unsigned number)
 {
 	*p++ = TRACE_ENUM;
@@ -177,7 +177,7 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 	if (!strings)
 		return put_null(p);
 	p = put_array_head(p, count);
-	for (long i = 0; i < count; i++) { /* a call that GL refuses may have anything here */
+	for (long i = 0; i < count; i++) { /* in a call that GL refuses, anything may be here */
 		const char *text;
 		int length = -1;
 
@@ -202,7 +202,7 @@ uint8_t *put_zeros(uint8_t *p, const void *data, long n)
 	return put_room(p);
 }
 
-/* Elements of one type: `value` writes v[i]. Room is looked after every so many, none takes more than 128 bytes. */
+/* Elements of one type: `value` writes v[i], in 128 bytes at most, so 16 fit the margin. */
 #define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
 	uint8_t *put_array_##suffix(uint8_t *p, type const *v, long n)                                                        \
 	{                                                                                                                     \

@@ -30,12 +30,12 @@ static char wanted_path[STATS_PATH_BYTES]; /* RELUME_TRACE */
 static _Atomic uint32_t n_threads;
 static int only_this_process; /* no child of it gets a trace */
 
-/* initial-exec: reached without a call, and the library is there from the start. */
+/* initial-exec: reached without a call, as the library is loaded from the start. */
 static __thread struct {
 	unsigned depth;  /* > 0: inside the writer or nested, nothing is recorded */
 	unsigned number; /* 1-based */
 	void (*waiting)(void); /* writes calls that wait */
-	int frame_ends;        /* the call it makes next does so */
+	int frame_ends;        /* the next call does so */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Opening */
@@ -81,7 +81,7 @@ static uint8_t *put_call_signature(uint8_t *p, const struct command *command)
 	return put_room(p);
 }
 
-/* Locks, and opens the trace where this is the first call. NULL, unlocked, where nothing is recorded. */
+/* Lock, and open the trace at the first call. NULL, unlocked, where nothing is recorded. */
 static uint8_t *begin(void)
 {
 	int saved;
@@ -222,7 +222,7 @@ void writer_frame_ends(void)
 	self.frame_ends = 1;
 }
 
-/* The call that ends a frame has been written: packing goes on while it is made. */
+/* The call that ends a frame is written: pack it while the call is made. */
 static void hand_over_frame(void)
 {
 	uint8_t *p = begin();
@@ -330,7 +330,7 @@ int writer_sidecar(char *out, size_t size, const char *suffix)
 
 /* Beginning and end of the process */
 
-/* A child's copy of the process has no thread: what was handed to it is waited for. */
+/* The child has no thread of the sink: wait for what that has. */
 static void lock_for_child(void)
 {
 	lock_take();
@@ -338,7 +338,7 @@ static void lock_for_child(void)
 		sink_write(0);
 }
 
-/* A child gets a trace of its own with its first call; what the parent has not written stays the parent's. */
+/* A child gets a trace of its own with its first call; what is unwritten stays the parent's. */
 static void start_child(void)
 {
 	lock_leave();

@@ -15,13 +15,13 @@
 /** Begin a call. Returns the write position, or NULL where the call is not recorded (recording off, or a nested call). */
 uint8_t *writer_enter(unsigned command);
 
-/** Begin a call that the recorder makes up; it is executed by readers like any other. */
+/** Begin a call that the recorder makes up; readers execute it like any other. */
 uint8_t *writer_enter_fake(unsigned command);
 
-/** Begin apitrace's own memcpy(dest, src, n): bytes that the program stored where no call shows it. */
+/** Begin apitrace's own memcpy(dest, src, n): bytes that the program stored without a call. */
 uint8_t *writer_enter_memcpy(void);
 
-/** End a call of which nothing comes back. */
+/** End a call that returns nothing. */
 void writer_call_end(uint8_t *p);
 
 /** End the first half of a call. Returns what writer_leave wants. */
@@ -31,32 +31,32 @@ uint64_t writer_enter_end(uint8_t *p);
 uint8_t *writer_leave(uint64_t call);
 void writer_leave_end(uint8_t *p);
 
-/** Between these, calls of this thread are the window system library's own and not recorded. */
+/** Between these, this thread's calls are the window system library's own and not recorded. */
 void writer_nest(void);
 void writer_unnest(void);
 
-/** Calls of which `left_out` says 1 are not written, until this is called with NULL. */
+/** Leave out the calls for which `left_out` returns 1. NULL: none. */
 void writer_skip(int (*left_out)(unsigned command));
 
-/** Called once, before the next call of this thread is begun: calls that wait to be written. NULL: none wait any more. */
+/** Call `flush` once, before this thread's next call begins, to write calls that wait. NULL: none wait any more. */
 void writer_wait_with(void (*flush)(void));
 
-/** Which trace of this process it is that is being written, from 1 on: what was written to an earlier one is not there. */
+/** The number of this process' trace, from 1 on; it changes after a fork. A new trace has nothing of the one before. */
 unsigned writer_epoch(void);
 
-/** 1 where a call made now by this thread would be recorded. */
+/** 1 where a call that this thread makes now is recorded. */
 int writer_active(void);
 
-/** A command passed through that is not recorded. */
+/** Count a command that passes through unrecorded. */
 void writer_count_unknown(unsigned command);
 
-/** The call that this thread makes next ends a frame. */
+/** This thread's next call ends a frame. */
 void writer_frame_ends(void);
 
 /** A frame is complete: hand everything to the kernel, so that it outlives the process. Returns the frames so far. */
 uint64_t writer_frame_ended(void);
 
-/** Hand what is complete to the kernel where the last time is a while ago. */
+/** The same of what is complete, where the last time is a while ago. */
 void writer_flush_sometimes(void);
 
 /** Frames completed so far: the number of the frame being drawn. */
@@ -65,10 +65,10 @@ uint64_t writer_frames(void);
 /** Bytes of the trace in the file. */
 uint64_t writer_bytes(void);
 
-/** End the recording, all of it written; calls pass through from here on. */
+/** Write everything and end the recording; calls pass through from here on. */
 void writer_end(void);
 
-/** This process was told to stop the program and did: the command reports success. */
+/** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);
 
 /**
