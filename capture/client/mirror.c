@@ -201,8 +201,8 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 	return 1;
 }
 
-/* Bring the buffer up to date with staging, which holds [first, end) and differs from `changed` on. */
-static int update(struct mirror_table *t, struct mirror *m, unsigned target, long first, long end, long changed, int *bound)
+/* Bring the buffer up to date with staging, which holds [first, end) and differs from `changed` on; it is bound then. */
+static int update(struct mirror_table *t, struct mirror *m, unsigned target, long first, long end, long changed)
 {
 	int fresh = make_room(t, m, end), made = !m->buffer;
 	long whole_end = end;
@@ -234,7 +234,6 @@ static int update(struct mirror_table *t, struct mirror *m, unsigned target, lon
 	m->end = end > m->end ? end : m->end;
 	m->indices.bytes = 0;
 	content_bind(target, m->buffer);
-	*bound = 1;
 	if (fresh) {
 		int whole = m->first == 0 && m->end == m->room;
 
@@ -297,8 +296,9 @@ unsigned mirror_buffer(unsigned target, const void *data, long first, long end, 
 		if (buffer)
 			return buffer;
 	}
-	if (!wanted || !update(t, m, target, first, end, changed, bound))
+	if (!wanted || !update(t, m, target, first, end, changed))
 		return 0;
+	*bound = 1;
 	if (new) {
 		t->credit--;
 		m->unproven = 1;

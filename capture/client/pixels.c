@@ -43,8 +43,7 @@ int pixels_in_buffer(void)
 	return context_has(HAS_PIXEL_BUFFERS) && context_get(GL_PIXEL_UNPACK_BUFFER_BINDING);
 }
 
-uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
-                   int depth)
+uint8_t *put_image(uint8_t *p, const void *pixels, const struct pixel_box *box)
 {
 	struct pixel_layout layout;
 
@@ -53,10 +52,10 @@ uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, un
 	if (pixels_in_buffer())
 		return put_opaque(p, pixels);
 	layout = read_layout(&unpack);
-	return put_blob(p, pixels, image_bytes(&layout, dims, format, type, width, height, depth));
+	return put_blob(p, pixels, image_bytes(&layout, box));
 }
 
-void pixels_used(const void *pixels, int dims, unsigned format, unsigned type, int width, int height, int depth)
+void pixels_used(const void *pixels, const struct pixel_box *box)
 {
 	struct pixel_layout layout;
 	unsigned buffer;
@@ -65,8 +64,7 @@ void pixels_used(const void *pixels, int dims, unsigned format, unsigned type, i
 	if (!pixels || !writer_active() || !context_has(HAS_PIXEL_BUFFERS) || !context_has(HAS_FIXED_FUNCTION) || pixels_in_buffer())
 		return;
 	layout = read_layout(&unpack);
-	buffer = content_of_memory(GL_PIXEL_UNPACK_BUFFER, pixels,
-	                           image_bytes(&layout, dims, format, type, width, height, depth), &bound);
+	buffer = content_of_memory(GL_PIXEL_UNPACK_BUFFER, pixels, image_bytes(&layout, box), &bound);
 	if (buffer && !bound)
 		content_bind(GL_PIXEL_UNPACK_BUFFER, buffer);
 	own_pixels = buffer != 0;
@@ -81,10 +79,9 @@ void pixels_written(void)
 
 long pixels_stipple_count(void)
 {
-	struct pixel_layout layout;
+	struct pixel_layout layout = read_layout(&unpack);
 
-	layout = read_layout(&unpack);
-	return image_bytes(&layout, 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1);
+	return image_bytes(&layout, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1 });
 }
 
 /* Read back */
@@ -99,39 +96,39 @@ uint8_t *put_returned(uint8_t *p, const void *data, long bytes)
 	return bytes < 0 ? put_opaque(p, data) : put_blob(p, data, bytes);
 }
 
-static long packed_bytes(int dims, unsigned format, unsigned type, int width, int height, int depth)
+static long packed_bytes(const struct pixel_box *box)
 {
 	struct pixel_layout layout;
 
 	if (is_packed_in_buffer() || !context_current())
 		return -1;
 	layout = read_layout(&pack);
-	return image_bytes(&layout, dims, format, type, width, height, depth);
+	return image_bytes(&layout, box);
 }
 
 long pixels_read_bytes(unsigned format, unsigned type, int width, int height)
 {
-	return packed_bytes(2, format, type, width, height, 1);
+	return packed_bytes(&(struct pixel_box){ 2, format, type, width, height, 1 });
 }
 
 /* Where the program's call was an error, so may be these. */
 long pixels_texture_bytes(unsigned target, int level, unsigned format, unsigned type)
 {
-	int width, height, depth = 1, dims = 2;
+	struct pixel_box box = { .dims = 2, .format = format, .type = type, .depth = 1 };
 
 	if (!context_has(HAS_DESKTOP))
 		return -1;
 	context_errors_before();
-	width = context_get_level(target, level, GL_TEXTURE_WIDTH);
-	height = context_get_level(target, level, GL_TEXTURE_HEIGHT);
-	if (context_has(HAS_3D))
-		depth = context_get_level(target, level, GL_TEXTURE_DEPTH);
-	context_errors_after();
+	box.width = context_get_level(target, level, GL_TEXTURE_WIDTH);
+	box.height = context_get_level(target, level, GL_TEXTURE_HEIGHT);
 	if (target == GL_TEXTURE_1D)
-		dims = 1;
+		box.dims = 1;
 	else if (target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY)
-		dims = 3;
-	return packed_bytes(dims, format, type, width, height, dims == 3 ? depth : 1);
+		box.dims = 3;
+	if (box.dims == 3 && context_has(HAS_3D))
+		box.depth = context_get_level(target, level, GL_TEXTURE_DEPTH);
+	context_errors_after();
+	return packed_bytes(&box);
 }
 
 long pixels_compressed_bytes(unsigned target, int level)

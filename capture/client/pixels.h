@@ -7,17 +7,18 @@
 
 #include <stdint.h>
 
+#include "capture/format/sizes.h"
+
 /** 1 where pixel pointers are offsets in a bound unpack buffer. */
 int pixels_in_buffer(void);
 
 /** Pixels in client memory, or the offset. */
-uint8_t *put_image(uint8_t *p, const void *pixels, int dims, unsigned format, unsigned type, int width, int height,
-                   int depth);
+uint8_t *put_image(uint8_t *p, const void *pixels, const struct pixel_box *box);
 /**
  * Before a call whose pixels may have been seen before, and after it. Pixels that come again are stored once (content.h): the call
  * is written with an offset in a buffer that holds them.
  */
-void pixels_used(const void *pixels, int dims, unsigned format, unsigned type, int width, int height, int depth);
+void pixels_used(const void *pixels, const struct pixel_box *box);
 void pixels_written(void);
 
 long pixels_stipple_count(void);

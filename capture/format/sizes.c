@@ -191,23 +191,22 @@ long image_pixel_bytes(unsigned format, unsigned type)
 	return packed ? packed : components(format) * type_bytes(type);
 }
 
-long image_bytes(const struct pixel_layout *layout, int dims, unsigned format, unsigned type, int width, int height,
-                 int depth)
+long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box)
 {
-	long bits = type == GL_BITMAP ? components(format) : 8 * image_pixel_bytes(format, type);
-	long pixels = layout->row_length > 0 ? layout->row_length : width;
-	long rows = dims > 2 && layout->image_height > 0 ? layout->image_height : height;
+	long bits = box->type == GL_BITMAP ? components(box->format) : 8 * image_pixel_bytes(box->format, box->type);
+	long pixels = layout->row_length > 0 ? layout->row_length : box->width;
+	long rows = box->dims > 2 && layout->image_height > 0 ? layout->image_height : box->height;
 	long row_bytes, skipped_bytes, last_bytes;
 
-	if (width <= 0 || height <= 0 || depth <= 0 || bits <= 0 || layout->alignment < 1 || layout->skip_pixels < 0 ||
+	if (box->width <= 0 || box->height <= 0 || box->depth <= 0 || bits <= 0 || layout->alignment < 1 || layout->skip_pixels < 0 ||
 	    layout->skip_rows < 0 || layout->skip_images < 0)
 		return 0;
 	row_bytes = (pixels * bits + 7) / 8;
 	row_bytes = (row_bytes + layout->alignment - 1) / layout->alignment * layout->alignment;
-	skipped_bytes = (dims > 1 ? layout->skip_rows * row_bytes : 0) +
-	                (dims > 2 ? layout->skip_images * rows * row_bytes : 0);
-	last_bytes = ((layout->skip_pixels + (long)width) * bits + 7) / 8;
-	return skipped_bytes + ((depth - 1L) * rows + height - 1L) * row_bytes + last_bytes;
+	skipped_bytes = (box->dims > 1 ? layout->skip_rows * row_bytes : 0) +
+	                (box->dims > 2 ? layout->skip_images * rows * row_bytes : 0);
+	last_bytes = ((layout->skip_pixels + (long)box->width) * bits + 7) / 8;
+	return skipped_bytes + ((box->depth - 1L) * rows + box->height - 1L) * row_bytes + last_bytes;
 }
 
 long call_lists_bytes(int n, unsigned type)

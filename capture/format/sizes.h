@@ -22,13 +22,18 @@ long type_bytes(unsigned type);
 /** Bytes of one pixel; 0 where format and type do not say (GL_BITMAP: less than a byte). */
 long image_pixel_bytes(unsigned format, unsigned type);
 
+/** The pixels of a call. `dims` is 1 to 3; skipped rows count from 2 on, skipped images with 3. */
+struct pixel_box {
+	int dims;
+	unsigned format, type;
+	int width, height, depth;
+};
+
 /**
  * Bytes from the pointer to the end of the last pixel that GL reads.
- * @param dims  1 to 3: what the call has (rows skipped and images skipped count only from 2 and 3 on)
  * @return 0 where there are no pixels, or where format, type or layout make no sense
  */
-long image_bytes(const struct pixel_layout *layout, int dims, unsigned format, unsigned type, int width, int height,
-                 int depth);
+long image_bytes(const struct pixel_layout *layout, const struct pixel_box *box);
 
 /** Bytes of glCallLists' list names. */
 long call_lists_bytes(int n, unsigned type);

@@ -218,7 +218,7 @@ class Generator:
                                f"{fields[1] if len(fields) > 1 else 'NULL'})",
             "blob": lambda: f"put_blob(p_, {name}, (long)({rest}))",
             "room": lambda: f"put_zeros(p_, {name}, (long)({rest}))",
-            "image": lambda: f"put_image(p_, {name}, {', '.join(fields)})",
+            "image": lambda: f"put_image(p_, {name}, &(struct pixel_box){{ {', '.join(fields)} }})",
             "indices": lambda: f"put_indices(p_, {name}, {fields[0]}, {fields[1]})",
             "indirect": lambda: f"put_indirect(p_, {name}, (long)({rest}))",
             "multi_indices": lambda: f"put_multi_indices(p_, (const void *const *){name}, {', '.join(fields)})",

@@ -62,9 +62,9 @@ static const XCharStruct *find_character(const XFontStruct *font, unsigned code)
 }
 
 /* `bits` is all zeros. GL's rows go from the bottom up; each has whole bytes, the leftmost pixel in the highest bit. */
-static void draw_character(Display *display, const XFontStruct *font, unsigned code, const XCharStruct *c, unsigned width, unsigned height,
-                           uint8_t *bits)
+static void draw_character(Display *display, const XFontStruct *font, unsigned code, const XCharStruct *c, uint8_t *bits)
 {
+	unsigned width = (unsigned)(c->rbearing - c->lbearing), height = (unsigned)(c->ascent + c->descent);
 	XGCValues values = { .font = font->fid };
 	XChar2b name = { (unsigned char)(code >> 8), (unsigned char)code };
 	Pixmap pixmap = x.XCreatePixmap(display, DefaultRootWindow(display), width, height, 1);
@@ -132,7 +132,7 @@ static void record_character(Display *display, const XFontStruct *font, unsigned
 		return;
 	}
 	writer_nest();
-	draw_character(display, font, code, c, (unsigned)width, (unsigned)height, bits);
+	draw_character(display, font, code, c, bits);
 	writer_unnest();
 	record_list(list, c, width, height, c->width, bits);
 	munmap(bits, bytes);

@@ -139,7 +139,7 @@ static int restore_level(unsigned target, int level)
 		format = stencil ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT;
 		type = stencil ? GL_UNSIGNED_INT_24_8 : GL_FLOAT;
 	}
-	bytes = image_bytes(&close_layout, 3, format, type, width, height, depth);
+	bytes = image_bytes(&close_layout, &(struct pixel_box){ 3, format, type, width, height, depth });
 	pixels = bytes > 0 ? memory_map((size_t)bytes) : NULL;
 	if (!pixels)
 		return 0;
@@ -212,7 +212,7 @@ static void make_pass_through(void)
 
 static void draw_pixels(int width, int height, unsigned format, unsigned type)
 {
-	long bytes = image_bytes(&close_layout, 2, format, type, width, height, 1);
+	long bytes = image_bytes(&close_layout, &(struct pixel_box){ 2, format, type, width, height, 1 });
 	void *pixels = bytes > 0 ? memory_map((size_t)bytes) : NULL;
 
 	if (!pixels)

@@ -11,18 +11,18 @@ START_TEST(test_rows_are_padded_but_for_the_last)
 {
 	struct pixel_layout packed = { .alignment = 1 };
 
-	ck_assert_int_eq(image_bytes(&packed, 2, GL_RGB, GL_UNSIGNED_BYTE, 5, 3, 1), 45);
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_RGB, GL_UNSIGNED_BYTE, 5, 3, 1), 16 + 16 + 15);
-	ck_assert_int_eq(image_bytes(&initial, 1, GL_LUMINANCE, GL_UNSIGNED_BYTE, 7, 1, 1), 7);
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_RGBA, GL_FLOAT, 2, 2, 1), 64);
+	ck_assert_int_eq(image_bytes(&packed, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 5, 3, 1 }), 45);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 5, 3, 1 }), 16 + 16 + 15);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 1, GL_LUMINANCE, GL_UNSIGNED_BYTE, 7, 1, 1 }), 7);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGBA, GL_FLOAT, 2, 2, 1 }), 64);
 }
 END_TEST
 
 START_TEST(test_bitmaps_count_bits)
 {
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1), 128);
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_COLOR_INDEX, GL_BITMAP, 9, 2, 1), 4 + 2);
-	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ .alignment = 1, .skip_pixels = 7 }, 2, GL_COLOR_INDEX, GL_BITMAP, 2, 1, 1), 2);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 32, 32, 1 }), 128);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 9, 2, 1 }), 4 + 2);
+	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ .alignment = 1, .skip_pixels = 7 }, &(struct pixel_box){ 2, GL_COLOR_INDEX, GL_BITMAP, 2, 1, 1 }), 2);
 }
 END_TEST
 
@@ -30,11 +30,11 @@ START_TEST(test_layout_reaches_where_gl_reads)
 {
 	struct pixel_layout sub = { .alignment = 1, .row_length = 10, .skip_rows = 2, .skip_pixels = 3 };
 
-	ck_assert_int_eq(image_bytes(&sub, 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1), (2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }), (2 + 2) * 40 + (3 + 4) * 4);
 	sub.image_height = 6;
 	sub.skip_images = 1;
-	ck_assert_int_eq(image_bytes(&sub, 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 2), (6 + 6 + 2 + 2) * 40 + (3 + 4) * 4);
-	ck_assert_int_eq(image_bytes(&sub, 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1), (2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 3, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 2 }), (6 + 6 + 2 + 2) * 40 + (3 + 4) * 4);
+	ck_assert_int_eq(image_bytes(&sub, &(struct pixel_box){ 2, GL_RGBA, GL_UNSIGNED_BYTE, 4, 3, 1 }), (2 + 2) * 40 + (3 + 4) * 4);
 }
 END_TEST
 
@@ -49,11 +49,11 @@ END_TEST
 
 START_TEST(test_nonsense_is_nothing)
 {
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_RGB, GL_UNSIGNED_BYTE, -1, 3, 1), 0);
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 0, 1), 0);
-	ck_assert_int_eq(image_bytes(&initial, 2, 0xFFFF, GL_UNSIGNED_BYTE, 3, 3, 1), 0);
-	ck_assert_int_eq(image_bytes(&initial, 2, GL_RGB, 0xFFFF, 3, 3, 1), 0);
-	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ 0 }, 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 3, 1), 0);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, -1, 3, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 0, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, 0xFFFF, GL_UNSIGNED_BYTE, 3, 3, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&initial, &(struct pixel_box){ 2, GL_RGB, 0xFFFF, 3, 3, 1 }), 0);
+	ck_assert_int_eq(image_bytes(&(struct pixel_layout){ 0 }, &(struct pixel_box){ 2, GL_RGB, GL_UNSIGNED_BYTE, 3, 3, 1 }), 0);
 	ck_assert_int_eq(call_lists_bytes(-3, GL_INT), 0);
 	ck_assert_int_eq(call_lists_bytes(3, 0), 0);
 	ck_assert_int_eq(map1_count(GL_MAP1_VERTEX_3, 2, 4), 0);
