@@ -28,8 +28,7 @@ class Overlay:
     def __init__(self, path):
         self.path = path
         self.types, self.lengths, self.suffixes = {}, {}, []
-        self.args, self.hooks, self.passes, self.commands = [], {"when": [], "before": [], "result": [], "after": []}, [], {}
-        self.runs, self.draws = [], []
+        self.commands, self.lines = {}, {word: [] for word in self.STATEMENTS}
         with open(path, encoding="utf-8") as stream:
             for number, line in enumerate(stream, 1):
                 line = line.strip()
@@ -38,6 +37,10 @@ class Overlay:
 
     def fail(self, number, text):
         raise InputError(f"{self.path}:{number}: {text}")
+
+    # statement: (regular expressions, what else it takes)
+    STATEMENTS = {"arg": (2, "a kind"), "when": (1, "an expression"), "before": (1, "an expression"), "result": (1, "an expression"),
+                  "after": (1, "an expression"), "pass": (1, "a reason"), "run": (1, ""), "draws": (1, ""), "ends": (1, "")}
 
     def statement(self, number, line):
         word, _, rest = line.partition(" ")
@@ -54,27 +57,14 @@ class Overlay:
             if not equals:
                 self.fail(number, "len needs ' = '")
             self.lengths[text.strip()] = expression.strip()
-        elif word == "arg":
-            fields = rest.split(None, 2)
-            if len(fields) != 3:
-                self.fail(number, "arg needs commands, parameter and kind")
-            self.args.append((number, self.pattern(number, fields[0]), self.pattern(number, fields[1]), fields[2]))
-        elif word in self.hooks:
-            fields = rest.split(None, 1)
-            if len(fields) != 2:
-                self.fail(number, f"{word} needs commands and an expression")
-            self.hooks[word].append((number, self.pattern(number, fields[0]), fields[1]))
-        elif word == "pass":
-            fields = rest.split(None, 1)
-            if len(fields) != 2:
-                self.fail(number, "pass needs commands and a reason")
-            self.passes.append((number, self.pattern(number, fields[0]), fields[1]))
-        elif word == "run":
-            self.runs.append((number, self.pattern(number, rest), ""))
-        elif word in ("draws", "ends"):
-            self.draws.append((number, self.pattern(number, rest), ""))
         elif word == "command":
             self.command(number, rest)
+        elif word in self.STATEMENTS:
+            patterns, more = self.STATEMENTS[word]
+            fields = rest.split(None, patterns) if more else [rest, ""]
+            if len(fields) != patterns + 1:
+                self.fail(number, f"{word} needs commands{', a parameter' if patterns > 1 else ''} and {more}")
+            self.lines[word].append((number, *(self.pattern(number, text) for text in fields[:patterns]), fields[-1]))
         else:
             self.fail(number, f"there is no statement '{word}'")
 
@@ -101,12 +91,13 @@ class Overlay:
 
     def check_used(self, commands):
         """Each line must match something: a misspelt name would otherwise be silent."""
-        for number, names, params, _ in self.args:
-            if not any(params.fullmatch(p.name) for c in commands.values() if names.fullmatch(c.name) for p in c.params):
-                self.fail(number, "no command has such a parameter")
-        for number, names, _ in self.passes + self.runs + self.draws + sum(self.hooks.values(), []):
-            if not any(names.fullmatch(name) for name in commands):
-                self.fail(number, "no command has such a name")
+        for word, lines in self.lines.items():
+            for number, names, *params, _ in lines:
+                found = [c for c in commands.values() if names.fullmatch(c.name)]
+                if word == "arg" and not any(params[0].fullmatch(p.name) for c in found for p in c.params):
+                    self.fail(number, "no command has such a parameter")
+                if not found:
+                    self.fail(number, "no command has such a name")
 
 
 class Unknown(Exception):
@@ -232,7 +223,7 @@ class Generator:
         return code(), None
 
     def argument(self, command, param):
-        for _, names, params, kind in reversed(self.overlay.args):
+        for _, names, params, kind in reversed(self.overlay.lines["arg"]):
             if names.fullmatch(command.name) and params.fullmatch(param.name):
                 return self.described(command, param, self.positions(command, kind))
         if not param.pointer:
@@ -269,7 +260,7 @@ class Generator:
         return re.sub(r"\$(\d+)", lambda m: command.params[int(m.group(1))].name, code)
 
     def hook(self, word, command):
-        for _, names, code in self.overlay.hooks[word]:
+        for _, names, code in self.overlay.lines[word]:
             if names.fullmatch(command.name):
                 yield self.positions(command, code)
 
@@ -278,7 +269,7 @@ class Generator:
                          for p in command.params) or "void"
 
     def why_passed(self, command):
-        for _, names, reason in self.overlay.passes:
+        for _, names, reason in self.overlay.lines["pass"]:
             if names.fullmatch(command.name):
                 return reason
         try:
@@ -294,7 +285,7 @@ class Generator:
 
     def shape(self, command):
         """struct command's shape, [(member of a packed struct, parameter, its elements)]; None where it is in no run."""
-        if not any(names.fullmatch(command.name) for _, names, _ in self.overlay.runs):
+        if not any(names.fullmatch(command.name) for _, names, _ in self.overlay.lines["run"]):
             return None
         shape, members = "", []
         for param in command.params:
@@ -307,7 +298,7 @@ class Generator:
                 if kind == "enum" and param.group in self.small_groups:
                     letter = "p"
                 if any(names.fullmatch(command.name) and params.fullmatch(param.name) and kind.startswith("symbol")
-                       for _, names, params, kind in self.overlay.args):
+                       for _, names, params, kind in self.overlay.lines["arg"]):
                     letter = "y"
                 shape += letter
                 members.append((base, param.name, None))
@@ -439,7 +430,7 @@ def main(overlay_path, directory):
         arguments = "".join(p.name + "\\0" for p in command.params)
         shape = gen.shape(command)
         table.append(f'\t{{ "{name}", {len(command.params)}, "{arguments}", ' + (f'"{shape[0]}"' if shape else "NULL")
-                     + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.draws) else ", 0 },"))
+                     + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.lines["draws"] + gen.overlay.lines["ends"]) else ", 0 },"))
     write(directory, "tables/commands.c", table + ["};"])
 
     real = [BANNER + '#ifndef GEN_REAL_H\n#define GEN_REAL_H\n\n#include "capture/gl/resolve.h"\n#include "tables/commands.h"\n']
