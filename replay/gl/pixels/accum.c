@@ -72,19 +72,24 @@ static float value_of(const struct gls_state *st, uint8_t byte, unsigned compone
 	return st->srgb && component < 3 ? gls_linear_from_srgb(v) : v;
 }
 
-/* Each value of the area becomes value * scale + offset + colour * factor. p: the colours, or NULL */
-static void change(const struct gls_state *st, struct gls_drawable *d, const struct area *a, float scale,
-                   const float offset[4], const struct scene_picture *p, float factor)
+/* What becomes of a value: value * scale + offset + colour * factor. */
+struct change {
+	float scale, offset[4], factor;
+};
+
+/* p: the colours, or NULL */
+static void change_area(const struct gls_state *st, struct gls_drawable *d, const struct area *a, const struct change *by,
+                        const struct scene_picture *p)
 {
 	for (int64_t y = a->y0; y < a->y1; y++)
 		for (int64_t x = a->x0; x < a->x1; x++) {
 			size_t at = 4 * ((size_t)y * d->accum_width + (size_t)x);
 
 			for (unsigned c = 0; c < 4; c++) {
-				float v = (float)clamp16((float)d->accum[at + c] * scale) + offset[c];
+				float v = (float)clamp16((float)d->accum[at + c] * by->scale) + by->offset[c];
 
 				if (p && x < p->width && y < p->height)
-					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)y * p->width + (size_t)x) + c], c) * factor * ONE);
+					v += (float)clamp16(value_of(st, p->rgba[4 * ((size_t)y * p->width + (size_t)x) + c], c) * by->factor * ONE);
 				d->accum[at + c] = clamp16(v);
 			}
 		}
@@ -111,7 +116,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 GLS_HANDLER(glAccum, STATE)
 {
 	uint32_t op = arg_u(c, 0);
-	float value = arg_f(c, 1), none[4] = { 0 }, every[4];
+	const float value = arg_f(c, 1), every = (float)clamp16(value * ONE);
 	const struct scene_picture *p = NULL;
 	struct area area;
 	struct gls_drawable *d;
@@ -134,25 +139,23 @@ GLS_HANDLER(glAccum, STATE)
 		return;
 	if (op == GL_LOAD && is_whole(d, &area))
 		d->accum_missing = 0;
-	for (unsigned i = 0; i < 4; i++)
-		every[i] = (float)clamp16(value * ONE);
 	if (op == GL_RETURN && d->accum_missing && x->feedback.supply)
 		x->feedback.rewind = 1;
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)
-		change(st, d, &area, 1, every, NULL, 0);
+		change_area(st, d, &area, &(struct change){ 1, { every, every, every, every }, 0 }, NULL);
 	else if (op == GL_MULT)
-		change(st, d, &area, value, none, NULL, 0);
+		change_area(st, d, &area, &(struct change){ .scale = value }, NULL);
 	else
-		change(st, d, &area, op == GL_ACCUM, none, p, value);
+		change_area(st, d, &area, &(struct change){ .scale = op == GL_ACCUM, .factor = value }, p);
 }
 
 void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_drawable *d = NULL;
 	struct area area;
-	float to[4];
+	struct change to = { 0 };
 
 	if (!gls_renders(st))
 		return;
@@ -161,8 +164,8 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 	if (!x->want || !(d = open_buffer(x, st, &area)))
 		return;
 	for (unsigned i = 0; i < 4; i++)
-		to[i] = (float)clamp16(st->a.accum.clear[i] * ONE);
-	change(st, d, &area, 0, to, NULL, 0);
+		to.offset[i] = (float)clamp16(st->a.accum.clear[i] * ONE);
+	change_area(st, d, &area, &to, NULL);
 	if (is_whole(d, &area))
 		d->accum_missing = 0;
 }

@@ -1,10 +1,11 @@
-#ifndef REPLAY_GL_SURFACE_ACCUM_H
-#define REPLAY_GL_SURFACE_ACCUM_H
+/* The accumulation buffer (GL 2.1 sec. 4.2.4). */
+#ifndef REPLAY_GL_PIXELS_ACCUM_H
+#define REPLAY_GL_PIXELS_ACCUM_H
 
 struct gls_exec;
 struct gls_state;
 
-/** Clear the accumulation buffer (accum.c). */
+/** Clear what the scissor lets through of the accumulation buffer, to the value of ClearAccum. */
 void gls_accum_clear(struct gls_exec *x, struct gls_state *st);
 
 #endif

@@ -14,7 +14,7 @@
 
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */
-	float left, low, zoom[2];
+	float corner[2], zoom[2];
 };
 
 static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
@@ -39,18 +39,24 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		                           kind == SCENE_DEPTH_PIXELS ? (const void *)&depth : (const void *)&stencil, bytes);
 	}
 	if (texels)
-		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, b->left, b->low, { b->zoom[0], b->zoom[1] }, texels },
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, b->corner[0], b->corner[1], { b->zoom[0], b->zoom[1] }, texels },
 		                   15);
 }
 
-/* One direction of a blit: the source in ascending order, where its lower end goes, and the magnification. @return 0: nothing is left */
-static int span(int64_t s0, int64_t s1, int64_t d0, int64_t d1, int64_t *from, int64_t *to, float *start, float *zoom)
+/*
+ * One direction (0: x, 1: y): the source in ascending order, where its lower end goes, and the magnification. The call gives both
+ * ends of the source, then of the place, for x and y in turn.
+ * @return 0: nothing is left
+ */
+static int find_span(const struct call *c, unsigned direction, struct blit *b)
 {
-	*from = s0 < s1 ? s0 : s1;
-	*to = s0 < s1 ? s1 : s0;
-	*start = (float)(s0 < s1 ? d0 : d1);
-	*zoom = s0 == s1 ? 0 : (float)(d1 - d0) / (float)(s1 - s0);
-	return s0 != s1 && d0 != d1 && *to - *from <= 16384;
+	int64_t s0 = arg_i32(c, direction), s1 = arg_i32(c, direction + 2), d0 = arg_i32(c, direction + 4), d1 = arg_i32(c, direction + 6);
+
+	b->from[direction] = s0 < s1 ? s0 : s1;
+	b->from[direction + 2] = s0 < s1 ? s1 : s0;
+	b->corner[direction] = (float)(s0 < s1 ? d0 : d1);
+	b->zoom[direction] = s0 == s1 ? 0 : (float)(d1 - d0) / (float)(s1 - s0);
+	return s0 != s1 && d0 != d1 && b->from[direction + 2] - b->from[direction] <= GLS_MAX_RECTANGLE;
 }
 
 GLS_HANDLER(glBlitFramebuffer, OBJECT)
@@ -59,10 +65,7 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
 
-	if (!span(arg_i32(c, 0), arg_i32(c, 2), arg_i32(c, 4), arg_i32(c, 6), &b.from[0], &b.from[2], &b.left, &b.zoom[0]) ||
-	    !span(arg_i32(c, 1), arg_i32(c, 3), arg_i32(c, 5), arg_i32(c, 7), &b.from[1], &b.from[3], &b.low, &b.zoom[1]))
-		return;
-	if (!x->want)
+	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;
 	if (arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1))
 		gls_unsupported(x, "linear filtering: the nearest pixel is taken");

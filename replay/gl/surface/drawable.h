@@ -1,3 +1,4 @@
+/* Windows and pbuffers. */
 #ifndef REPLAY_GL_SURFACE_DRAWABLE_H
 #define REPLAY_GL_SURFACE_DRAWABLE_H
 

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
 #include "replay/gl/texture/texformat.h"
 
 struct rgba {
