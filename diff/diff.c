@@ -18,7 +18,8 @@
 #include "diff/report/output.h"
 #include "diff/report/pictures.h"
 #include "diff/report/report.h"
-#include "diff/score/score.h"
+#include "diff/score/gates.h"
+#include "diff/score/picture.h"
 #include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
 

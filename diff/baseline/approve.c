@@ -15,7 +15,7 @@
 #include "base/options.h"
 #include "base/part.h"
 #include "diff/baseline/baseline.h"
-#include "diff/score/gates.h"
+#include "diff/score/picture.h"
 #include "diff/pictures/set.h"
 
 struct options {
@@ -125,7 +125,7 @@ static void print_change(const struct update *u, const struct baseline_frame *ol
 		int worst = 0;
 
 		for (size_t i = 0; i < n; i++) {
-			int d = gate_code_difference(was.rgb + 3 * i, now.rgb + 3 * i);
+			int d = score_code_difference(was.rgb + 3 * i, now.rgb + 3 * i);
 
 			count += d > 0;
 			worst = d > worst ? d : worst;

@@ -3,11 +3,13 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "base/part.h"
+#include "diff/score/gates.h"
 
 void output_order(const struct output_run *run, size_t *out)
 {
@@ -19,8 +21,10 @@ void output_order(const struct output_run *run, size_t *out)
 				out[n++] = i;
 }
 
-void output_gate_text(const struct score_gate *gate, const struct score_gate_info *info, char *out, size_t size)
+void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
 {
+	const struct score_gate_info *info = &score_gates[id];
+	const struct score_gate *gate = &s->gates[id];
 	size_t used = 0;
 
 	out[0] = '\0';
@@ -85,7 +89,7 @@ static void print_failure(const struct score *s, FILE *out)
 	for (int g = 0; g < N_GATES; g++) {
 		if (s->gates[g].state < SCORE_WARNED)
 			continue;
-		output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
 		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
 	}
@@ -99,15 +103,19 @@ static void print_failure(const struct score *s, FILE *out)
 	}
 }
 
-/** Value of a gate's figure in a column, "-" where it was not measured, "!" behind it where it failed. */
-static void print_figure(const struct score *s, enum score_gate_id g, int figure, FILE *out)
+/** The figures that have a column: values, "-" where they were not measured, "!" behind them where the gate failed; or headings. */
+static void print_columns(const struct score *s, FILE *out)
 {
-	char text[32] = "- ";
+	for (int g = 0; g < N_GATES; g++)
+		for (int f = 0; f < score_gates[g].n_figures; f++) {
+			const char *column = score_gates[g].figures[f].column;
+			char text[32] = "- ";
 
-	if (s->gates[g].state != SCORE_NOT_MEASURED)
-		snprintf(text, sizeof(text), "%.4g%c", s->gates[g].value[figure],
-		         s->gates[g].state == SCORE_FAILED ? '!' : ' ');
-	fprintf(out, " %9s", text);
+			if (s && s->gates[g].state != SCORE_NOT_MEASURED)
+				snprintf(text, sizeof(text), "%.4g%c", s->gates[g].value[f], s->gates[g].state == SCORE_FAILED ? '!' : ' ');
+			if (column)
+				fprintf(out, " %9s", s ? text : column);
+		}
 }
 
 void output_table(const struct output_run *run, FILE *out)
@@ -119,8 +127,9 @@ void output_table(const struct output_run *run, FILE *out)
 		return;
 	}
 	output_order(run, order);
-	fprintf(out, "%7s %-10s %9s %9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "frame", "outcome", "fidelity", "R1 %", "R2 %",
-	        "R3 px", "R4 IoU", "R5 px", "E1 px", "E2 px", "P FLIP", "beauty");
+	fprintf(out, "%7s %-10s %9s", "frame", "outcome", "fidelity");
+	print_columns(NULL, out);
+	fprintf(out, " %9s\n", "beauty");
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[order[i]];
 
@@ -130,14 +139,7 @@ void output_table(const struct output_run *run, FILE *out)
 				fprintf(out, " %8.3f%%", 100 * s->fidelity);
 			else
 				fprintf(out, " %9s", "- ");
-			print_figure(s, GATE_R1, 0, out);
-			print_figure(s, GATE_R2, 0, out);
-			print_figure(s, GATE_R3, 0, out);
-			print_figure(s, GATE_R4, 0, out);
-			print_figure(s, GATE_R5, 0, out);
-			print_figure(s, GATE_E1, 0, out);
-			print_figure(s, GATE_E2, 0, out);
-			print_figure(s, GATE_P, 0, out);
+			print_columns(s, out);
 			if (isnan(s->info.beauty_flip))
 				fprintf(out, " %9s", "- ");
 			else
@@ -231,6 +233,29 @@ static void json_gate(const struct score_gate *gate, const struct score_gate_inf
 	fputc('}', out);
 }
 
+static const struct {
+	const char *name;
+	size_t at; /* in struct score_info */
+} infos[] = {
+#define INFO(name) { #name, offsetof(struct score_info, name) }
+	INFO(gl_psnr_db), INFO(gl_ssim), INFO(gl_rmse), INFO(gl_mrse), INFO(gl_yee), INFO(beauty_flip), INFO(beauty_psnr_db),
+	INFO(beauty_ms_ssim), INFO(beauty_ciede_p95),
+};
+
+static void json_blame(const struct score_blame *by, FILE *out)
+{
+	fprintf(out, "{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", by->draw, by->pixels,
+	        by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
+	if (by->name.call)
+		fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->name.call, by->name.call_number,
+		        by->name.has_program ? "true" : "false");
+	if (by->name.call && by->name.list)
+		fprintf(out, ", \"list\": %u", by->name.list);
+	if (by->name.call && by->name.texture)
+		fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->name.texture);
+	fputc('}', out);
+}
+
 static void json_score(const struct score *s, FILE *out)
 {
 	fprintf(out, "    {\"frame\": %" PRIu64 ", \"outcome\": \"%s\", \"width\": %u, \"height\": %u, ", s->frame,
@@ -245,23 +270,10 @@ static void json_score(const struct score *s, FILE *out)
 		json_gate(&s->gates[g], &score_gates[g], out);
 	}
 	fputs("},\n     \"info\": {", out);
-	json_number("gl_psnr_db", s->info.gl_psnr_db, out);
-	fputs(", ", out);
-	json_number("gl_ssim", s->info.gl_ssim, out);
-	fputs(", ", out);
-	json_number("gl_rmse", s->info.gl_rmse, out);
-	fputs(", ", out);
-	json_number("gl_mrse", s->info.gl_mrse, out);
-	fputs(", ", out);
-	json_number("gl_yee", s->info.gl_yee, out);
-	fputs(", ", out);
-	json_number("beauty_flip", s->info.beauty_flip, out);
-	fputs(", ", out);
-	json_number("beauty_psnr_db", s->info.beauty_psnr_db, out);
-	fputs(", ", out);
-	json_number("beauty_ms_ssim", s->info.beauty_ms_ssim, out);
-	fputs(", ", out);
-	json_number("beauty_ciede_p95", s->info.beauty_ciede_p95, out);
+	for (size_t i = 0; i < sizeof(infos) / sizeof(infos[0]); i++) {
+		fputs(i ? ", " : "", out);
+		json_number(infos[i].name, *(const double *)((const char *)&s->info + infos[i].at), out);
+	}
 	fputs(", \"effect_share\": {", out);
 	for (int e = 0; e < N_SCORE_EFFECTS; e++) {
 		fputs(e ? ", " : "", out);
@@ -275,18 +287,8 @@ static void json_score(const struct score *s, FILE *out)
 	}
 	fputs("\"blame\": [", out);
 	for (uint32_t b = 0; b < s->n_blame; b++) {
-		const struct score_blame *by = &s->blame[b];
-
-		fprintf(out, "%s{\"draw\": %u, \"pixels\": %" PRIu64 ", \"approved\": %s, \"box\": [%u, %u, %u, %u]", b ? ", " : "",
-		        by->draw, by->pixels, by->is_approved ? "true" : "false", by->x0, by->y0, by->x1, by->y1);
-		if (by->name.call)
-			fprintf(out, ", \"call\": \"%s\", \"call_number\": %" PRIu64 ", \"program\": %s", by->name.call, by->name.call_number,
-			        by->name.has_program ? "true" : "false");
-		if (by->name.call && by->name.list)
-			fprintf(out, ", \"list\": %u", by->name.list);
-		if (by->name.call && by->name.texture)
-			fprintf(out, ", \"texture\": \"%016" PRIx64 "\"", by->name.texture);
-		fputc('}', out);
+		fputs(b ? ", " : "", out);
+		json_blame(&s->blame[b], out);
 	}
 	fputs("]}", out);
 }
@@ -381,7 +383,7 @@ static void junit_case(const struct score *s, FILE *out)
 
 		if (s->gates[g].state != SCORE_FAILED)
 			continue;
-		output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "%s ", score_gates[g].name);
 		output_escaped(text, out);
 		fputc('\n', out);
@@ -440,7 +442,7 @@ void output_annotations(const struct output_run *run, FILE *out)
 		for (int g = 0; g < N_GATES; g++) {
 			if (s->gates[g].state < SCORE_WARNED)
 				continue;
-			output_gate_text(&s->gates[g], &score_gates[g], text, sizeof(text));
+			output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 			fprintf(out, "%%0A%s %s: ", score_gates[g].name, score_gates[g].title);
 			annotation_text(text, out);
 		}

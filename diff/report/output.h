@@ -33,7 +33,7 @@ void output_table(const struct output_run *run, FILE *out);
 void output_summary(const struct output_run *run, FILE *out);
 
 /** The gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
-void output_gate_text(const struct score_gate *gate, const struct score_gate_info *info, char *out, size_t size);
+void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size);
 
 /**
  * JSON: every figure and bar. Numbers that were not measured or are infinite are null.

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "diff/score/flip.h"
+#include "diff/score/picture.h"
 
 #define DIFFERENCE_GAIN 8
 

@@ -5,7 +5,7 @@
 #define DIFF_REPORT_PICTURES_H
 
 #include "diff/report/output.h"
-#include "diff/score/score.h"
+#include "diff/score/maps.h"
 #include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
 

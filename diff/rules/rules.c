@@ -11,6 +11,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "diff/pictures/oiio.h"
+#include "diff/score/gates.h"
 
 /* As the file has it. */
 
@@ -54,14 +55,10 @@ struct yaml_file {
 	uint32_t n_presets, n_rules, n_flaky;
 };
 
-static const cyaml_strval_t gate_names[] = {
-	{ "V", GATE_V }, { "R1", GATE_R1 }, { "R1b", GATE_R1B }, { "R2", GATE_R2 }, { "R3", GATE_R3 }, { "R4", GATE_R4 },
-	{ "R5", GATE_R5 }, { "E1", GATE_E1 }, { "E2", GATE_E2 }, { "E3", GATE_E3 }, { "P", GATE_P }, { "B", GATE_B },
-};
-static const cyaml_strval_t effect_names[] = {
-	{ "shadow", EFFECT_SHADOW }, { "relight", EFFECT_RELIGHT }, { "reflect", EFFECT_REFLECT },
-	{ "refract", EFFECT_REFRACT }, { "any", EFFECT_ANY },
-};
+#define GATE_WORD(id, name, ...) { name, GATE_##id },
+static const cyaml_strval_t gate_names[] = { SCORE_GATES(GATE_WORD) };
+#define EFFECT_WORD(id, name) { name, EFFECT_##id },
+static const cyaml_strval_t effect_names[] = { SCORE_EFFECTS(EFFECT_WORD) };
 
 #define OPTIONAL_STRING(key, type, member) \
 	CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, type, member, 1, CYAML_UNLIMITED)

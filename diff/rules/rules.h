@@ -1,5 +1,5 @@
 /*
- * relume-diff.yaml: what is compared how, by recording and by frame. Its form is described in diff/README.md.
+ * relume-diff.yaml: what is compared how, by recording and by frame. Its form is described in diff/rules/README.md.
  *
  * Every rule whose glob and frames match applies, in the order of the file; a rule's preset comes before the rule itself,
  * and what a preset inherits before the preset. Later bars win; lists of rectangles and channels add up.

@@ -1,16 +1,14 @@
 /* Gate B: the traced frame against the one that was approved. */
-#include "diff/score/gates.h"
+#include "diff/score/measures.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
 
-#include "base/err.h"
+#include "diff/score/flip.h"
+#include "diff/score/picture.h"
 
-#define BAR_RELATIVE 0x1p-9  /* as far as a half can be off by two roundings */
-#define BAR_ABSOLUTE 0x1p-14 /* linear; a fifth of the darkest display code */
-#define BAR_OFF 0.01         /* per cent of pixels */
-#define BAR_HDR_FLIP 0.01
+#define OFF_RELATIVE 0x1p-9  /* as far as a half can be off by two roundings */
+#define OFF_ABSOLUTE 0x1p-14 /* linear; a fifth of the darkest display code */
 
 static const char *const layers[] = { "beauty", "gl", "shadow", "relight", "reflect", "refract" };
 
@@ -19,12 +17,15 @@ static int is_off(float a, float b)
 {
 	double size = fmax(fabs((double)a), fabs((double)b));
 
-	return !(fabs((double)a - (double)b) <= BAR_RELATIVE * size + BAR_ABSOLUTE);
+	return !(fabs((double)a - (double)b) <= OFF_RELATIVE * size + OFF_ABSOLUTE);
 }
 
-int gate_baseline(const struct score_picture *ref, const struct image *img, const struct score_approved *approved,
-                  const struct score_options *options, uint8_t *blamed, struct score *s)
+int gate_baseline(struct gate_frame *f)
 {
+	const struct score_picture *ref = f->ref;
+	const struct image *img = f->img;
+	const struct score_approved *approved = f->approved;
+	uint8_t *blamed = f->blamed;
 	const size_t n = (size_t)img->width * img->height;
 	const struct image *was = approved ? approved->image : NULL;
 	const float *now_rgb[3], *was_rgb[3];
@@ -33,53 +34,50 @@ int gate_baseline(const struct score_picture *ref, const struct image *img, cons
 	int err = 0;
 
 	if (!approved) {
-		gate_note(s, GATE_B, "no approved frame");
+		gate_note(f, GATE_B, "no approved frame");
 		return 0;
 	}
 	if (approved->same_hashes) {
-		gate_measure(options, s, GATE_B, 0, 0, BAR_OFF);
-		gate_measure(options, s, GATE_B, 1, 0, BAR_HDR_FLIP);
-		gate_note(s, GATE_B, "every channel has its approved hash");
+		gate_measure(f, GATE_B, 0, 0);
+		gate_measure(f, GATE_B, 1, 0);
+		gate_note(f, GATE_B, "every channel has its approved hash");
 		return 0;
 	}
 	if (!was && !approved->same_device) {
-		gate_note(s, GATE_B, "another device, and only hashes are approved");
+		gate_note(f, GATE_B, "another device, and only hashes are approved");
 		return 0;
 	}
 	if (was && (was->width != img->width || was->height != img->height)) {
-		s->gates[GATE_B].state = SCORE_FAILED;
-		gate_note(s, GATE_B, "size %u x %u, approved %u x %u", img->width, img->height, was->width, was->height);
+		gate_fail(f, GATE_B, "size %u x %u, approved %u x %u", img->width, img->height, was->width, was->height);
 		return 0;
 	}
-	if (was && gate_find_layer(img, "beauty", now_rgb) && gate_find_layer(was, "beauty", was_rgb)) {
+	if (was && score_find_layer(img, "beauty", now_rgb) && score_find_layer(was, "beauty", was_rgb)) {
 		for (size_t l = 0; l < sizeof(layers) / sizeof(layers[0]); l++)
-			if (gate_find_layer(img, layers[l], now_rgb) && gate_find_layer(was, layers[l], was_rgb))
+			if (score_find_layer(img, layers[l], now_rgb) && score_find_layer(was, layers[l], was_rgb))
 				for (size_t i = 0; i < n; i++)
 					for (int c = 0; c < 3; c++)
-						if (is_off(now_rgb[c][i], was_rgb[c][i]) && !gate_ignores(ref, i))
+						if (is_off(now_rgb[c][i], was_rgb[c][i]) && !score_ignores(ref, i))
 							blamed[i] |= 2;
 		for (size_t i = 0; i < n; i++) {
-			count += !gate_ignores(ref, i);
+			count += !score_ignores(ref, i);
 			off += blamed[i] >> 1;
 			blamed[i] = blamed[i] != 0;
 		}
-		gate_find_layer(img, "beauty", now_rgb);
-		gate_find_layer(was, "beauty", was_rgb);
+		score_find_layer(img, "beauty", now_rgb);
+		score_find_layer(was, "beauty", was_rgb);
 		err = flip_compare_hdr(was_rgb, now_rgb, img->width, img->height, NULL, &flip);
 		if (err)
 			return err;
-		gate_measure(options, s, GATE_B, 0, 100 * (double)off / fmax(1, (double)count), BAR_OFF);
-		gate_measure(options, s, GATE_B, 1, flip, BAR_HDR_FLIP);
+		gate_measure(f, GATE_B, 0, 100 * (double)off / fmax(1, (double)count));
+		gate_measure(f, GATE_B, 1, flip);
 	}
 	if (!approved->same_channels) {
-		s->gates[GATE_B].state = SCORE_FAILED;
-		gate_note(s, GATE_B, "the channels are not the approved ones: %.90s", approved->changed);
+		gate_fail(f, GATE_B, "the channels are not the approved ones: %.90s", approved->changed);
 	} else if (approved->same_device) {
 		/* the same device gives the same bytes */
-		s->gates[GATE_B].state = SCORE_FAILED;
-		gate_note(s, GATE_B, "the same device, but other hashes: %.90s", approved->changed);
+		gate_fail(f, GATE_B, "the same device, but other hashes: %.90s", approved->changed);
 	} else {
-		gate_note(s, GATE_B, "another device; %" PRIu64 " pixels off", off);
+		gate_note(f, GATE_B, "another device; %" PRIu64 " pixels off", off);
 	}
 	return 0;
 }

@@ -1,5 +1,5 @@
 /* Which draws hold the pixels that fail. */
-#include "diff/score/gates.h"
+#include "diff/score/measures.h"
 
 #include <stdlib.h>
 
@@ -62,10 +62,13 @@ static void count_votes(struct vote *votes, size_t n, uint32_t width, int is_app
 	}
 }
 
-int gate_blame(const struct score_picture *traced, const struct score_approved *approved, const uint8_t *blamed,
-               size_t n, struct score *s)
+int gate_blame(const struct gate_frame *f)
 {
-	const struct image *was = approved ? approved->image : NULL;
+	const struct score_picture *traced = &f->traced;
+	const struct image *was = f->approved ? f->approved->image : NULL;
+	const uint8_t *blamed = f->blamed;
+	const size_t n = (size_t)f->ref->width * f->ref->height;
+	struct score *s = f->score;
 	const float *old = was && was->width == traced->width && was->height == traced->height
 		? image_channel(was, "id") : NULL;
 	struct vote *votes;

@@ -1,13 +1,15 @@
 /* Gates E1 to E3: does what the beauty adds to OpenGL's picture add up, has it a reason, is there enough of it. */
-#include "diff/score/gates.h"
+#include "diff/score/measures.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define BAR_CLOSURE_HALF 0x1p-9 /* E1 */
-#define BAR_CLOSURE_FLOAT 1e-5
+#include "diff/score/picture.h"
+
+/* E1: how far a sum may be off, relative to its size. */
+#define OFF_HALF 0x1p-9
+#define OFF_FLOAT 1e-5
 
 static const struct image_channel *find_channel(const struct image *img, const char *layer, int c)
 {
@@ -67,96 +69,148 @@ static int left_out_effects(const struct image *img, const char **first)
 	return 0;
 }
 
-void gate_effects(const struct score_picture *ref, const struct image *img, const struct score_options *options,
-                  uint8_t *blamed, struct score *s)
+/* The layers of a frame, and how far sums of them may be off. */
+struct layers {
+	const struct image_channel *channels[3][N_LAYERS];
+	double relative, absolute;
+	int any_effect;
+};
+
+/** @return 0 where beauty or gl is missing */
+static int find_layers(const struct image *img, struct layers *out)
 {
 	static const char *const names[N_LAYERS] = { "", "gl", "shadow", "relight", "reflect", "refract" };
-	const struct image_channel *ch[3][N_LAYERS];
 	const size_t n = (size_t)img->width * img->height;
-	uint64_t open = 0, unexplained = 0, touched[N_SCORE_EFFECTS] = { 0 };
-	double relative = BAR_CLOSURE_FLOAT, absolute = 1e-12, worst = 0;
-	const char *left_out = NULL;
-	int any_effect = 0;
+	int halves = 0, all_halves = 1;
+
+	*out = (struct layers){ .relative = OFF_FLOAT, .absolute = 1e-12 };
+	for (int c = 0; c < 3; c++)
+		for (int l = 0; l < N_LAYERS; l++) {
+			const struct image_channel *channel = find_channel(img, names[l], c);
+
+			out->channels[c][l] = channel;
+			out->any_effect |= l >= LAYER_SHADOW && channel;
+			halves |= channel && !channel->full_float;
+			if (!channel && l <= LAYER_GL)
+				return 0;
+		}
+	for (int c = 0; c < 3 && all_halves && !halves; c++)
+		all_halves = holds_halves(out->channels[c][LAYER_BEAUTY], n) && holds_halves(out->channels[c][LAYER_GL], n);
+	if (halves || all_halves) {
+		out->relative = OFF_HALF;
+		out->absolute = 0x1p-23; /* four times half a step of halfs below 2^-14 */
+	}
+	return 1;
+}
+
+/* What is to be said of one pixel: bits of effects that touch it, then these. */
+enum { PIXEL_OPEN = 1 << N_SCORE_EFFECTS, PIXEL_DIFFERS = 2 << N_SCORE_EFFECTS };
+
+static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
+{
+	unsigned found = 0;
 
 	for (int c = 0; c < 3; c++) {
-		for (int l = 0; l < N_LAYERS; l++) {
-			ch[c][l] = find_channel(img, names[l], c);
-			any_effect |= l >= LAYER_SHADOW && ch[c][l];
-			if (ch[c][l] && !ch[c][l]->full_float) {
-				relative = BAR_CLOSURE_HALF;
-				absolute = 0x1p-23; /* four times half a step of halfs below 2^-14 */
-			}
-		}
-		if (!ch[c][LAYER_BEAUTY] || !ch[c][LAYER_GL]) {
-			for (int g = GATE_E1; g <= GATE_E3; g++)
-				gate_note(s, (enum score_gate_id)g, "the frame has no channels R and gl.R");
-			return;
-		}
-	}
+		const struct image_channel *const *ch = l->channels[c];
+		double beauty = effect_at(ch[LAYER_BEAUTY], i, 0), gl = effect_at(ch[LAYER_GL], i, 0);
+		double shadow = effect_at(ch[LAYER_SHADOW], i, 1);
+		double more[3] = { effect_at(ch[LAYER_RELIGHT], i, 0), effect_at(ch[LAYER_REFLECT], i, 0), effect_at(ch[LAYER_REFRACT], i, 0) };
+		double sum = gl * shadow + more[0] + more[1] + more[2];
+		double size = fabs(gl * shadow) + fabs(more[0]) + fabs(more[1]) + fabs(more[2]);
+		double allowed = l->relative * fmax(size, fabs(beauty)) + l->absolute;
 
-	int halves = 1;
-
-	for (int c = 0; c < 3 && halves; c++)
-		halves = holds_halves(ch[c][LAYER_BEAUTY], n) && holds_halves(ch[c][LAYER_GL], n);
-	if (halves) {
-		relative = BAR_CLOSURE_HALF;
-		absolute = 0x1p-23;
+		if (!(fabs(beauty - sum) <= allowed))
+			found |= PIXEL_OPEN;
+		*worst = fmax(*worst, fabs(beauty - sum) / allowed);
+		if (!(fabs(beauty - gl) <= l->relative * fmax(fabs(gl), fabs(beauty)) + l->absolute))
+			found |= PIXEL_DIFFERS;
+		found |= shadow != 1 ? 1u << EFFECT_SHADOW : 0;
+		for (int k = 0; k < 3; k++)
+			found |= more[k] != 0 ? 1u << (EFFECT_RELIGHT + k) : 0;
 	}
+	return found & ((1u << EFFECT_ANY) - 1) ? found | 1u << EFFECT_ANY : found;
+}
+
+void gate_count_effects(struct gate_frame *f)
+{
+	const size_t n = (size_t)f->img->width * f->img->height;
+	uint64_t touched[N_SCORE_EFFECTS] = { 0 };
+	struct gate_closure *closure = &f->closure;
+	struct layers layers;
+
+	closure->has_layers = find_layers(f->img, &layers);
+	if (!closure->has_layers)
+		return;
+	closure->relative = layers.relative;
+	closure->any_effect = layers.any_effect;
 	for (size_t i = 0; i < n; i++) {
-		if (gate_ignores(ref, i))
+		unsigned found;
+		int is_open, is_unexplained;
+
+		if (score_ignores(f->ref, i))
 			continue;
-		int is_open = 0, differs = 0, effect[N_SCORE_EFFECTS] = { 0 };
-
-		for (int c = 0; c < 3; c++) {
-			double beauty = effect_at(ch[c][LAYER_BEAUTY], i, 0), gl = effect_at(ch[c][LAYER_GL], i, 0);
-			double shadow = effect_at(ch[c][LAYER_SHADOW], i, 1);
-			double more[3] = { effect_at(ch[c][LAYER_RELIGHT], i, 0), effect_at(ch[c][LAYER_REFLECT], i, 0),
-			                   effect_at(ch[c][LAYER_REFRACT], i, 0) };
-			double sum = gl * shadow + more[0] + more[1] + more[2];
-			double size = fabs(gl * shadow) + fabs(more[0]) + fabs(more[1]) + fabs(more[2]);
-			double bar = relative * fmax(size, fabs(beauty)) + absolute;
-
-			is_open |= !(fabs(beauty - sum) <= bar);
-			worst = fmax(worst, fabs(beauty - sum) / bar);
-			differs |= !(fabs(beauty - gl) <= relative * fmax(fabs(gl), fabs(beauty)) + absolute);
-			effect[EFFECT_SHADOW] |= shadow != 1;
-			for (int k = 0; k < 3; k++)
-				effect[EFFECT_RELIGHT + k] |= more[k] != 0;
-		}
-		for (int k = 0; k < EFFECT_ANY; k++)
-			effect[EFFECT_ANY] |= effect[k];
+		found = look_at_pixel(&layers, i, &closure->worst);
+		is_open = !!(found & PIXEL_OPEN);
+		is_unexplained = found & PIXEL_DIFFERS && !(found & 1u << EFFECT_ANY);
 		for (int k = 0; k < N_SCORE_EFFECTS; k++)
-			touched[k] += (uint64_t)effect[k];
-		open += (uint64_t)is_open;
-		unexplained += differs && !effect[EFFECT_ANY];
-		blamed[i] |= is_open || (differs && !effect[EFFECT_ANY]);
+			touched[k] += found >> k & 1;
+		closure->open += (uint64_t)is_open;
+		closure->unexplained += (uint64_t)is_unexplained;
+		f->blamed[i] |= is_open || is_unexplained;
 	}
 	for (int k = 0; k < N_SCORE_EFFECTS; k++)
-		s->info.effect_share[k] = (double)touched[k] / (double)n;
+		f->score->info.effect_share[k] = (double)touched[k] / (double)n;
+}
 
-	if (open && left_out_effects(img, &left_out)) {
-		gate_note(s, GATE_E1, "the frame was rendered without %s channels", left_out);
-		gate_note(s, GATE_E2, "the frame was rendered without %s channels", left_out);
-	} else {
-		gate_measure(options, s, GATE_E1, 0, (double)open, 0);
-		gate_note(s, GATE_E1, "worst is %.3g of the bar (relative %s)%s", worst, relative == BAR_CLOSURE_HALF ? "2^-9" : "1e-5",
-		     any_effect ? "" : "; no effect channels: beauty must equal gl");
-		gate_measure(options, s, GATE_E2, 0, (double)unexplained, 0);
-	}
+/** 1 where sums of layers say something; else the gate's note says why not. */
+static int can_close(struct gate_frame *f, enum score_gate_id id)
+{
+	const char *left_out = NULL;
 
+	if (!f->closure.has_layers)
+		gate_note(f, id, "the frame has no channels R and gl.R");
+	else if (f->closure.open && left_out_effects(f->img, &left_out))
+		gate_note(f, id, "the frame was rendered without %s channels", left_out);
+	else
+		return 1;
+	return 0;
+}
+
+int gate_closure(struct gate_frame *f)
+{
+	if (!can_close(f, GATE_E1))
+		return 0;
+	gate_measure(f, GATE_E1, 0, (double)f->closure.open);
+	gate_note(f, GATE_E1, "worst is %.3g of the bar (relative %s)%s", f->closure.worst, f->closure.relative == OFF_HALF ? "2^-9" : "1e-5",
+	          f->closure.any_effect ? "" : "; no effect channels: beauty must equal gl");
+	return 0;
+}
+
+int gate_unexplained(struct gate_frame *f)
+{
+	if (can_close(f, GATE_E2))
+		gate_measure(f, GATE_E2, 0, (double)f->closure.unexplained);
+	return 0;
+}
+
+int gate_ranges(struct gate_frame *f)
+{
 	int outside = 0;
 
-	for (size_t k = 0; k < options->n_ranges; k++) {
-		const struct score_range *r = &options->ranges[k];
-		double share = s->info.effect_share[r->effect];
+	if (!f->closure.has_layers || !f->options->n_ranges) {
+		gate_note(f, GATE_E3, f->closure.has_layers ? "no range asked for" : "the frame has no channels R and gl.R");
+		return 0;
+	}
+	for (size_t k = 0; k < f->options->n_ranges; k++) {
+		const struct score_range *r = &f->options->ranges[k];
+		double share = f->score->info.effect_share[r->effect];
+
 		/* an unset bound is NAN, and nothing lies beyond it */
 		if (share < r->low || share > r->high) {
 			outside++;
-			gate_note(s, GATE_E3, "%s touches %.3f %% of the pixels", score_effect_names[r->effect], 100 * share);
+			gate_note(f, GATE_E3, "%s touches %.3f %% of the pixels", score_effect_names[r->effect], 100 * share);
 		}
 	}
-	if (options->n_ranges)
-		gate_measure(options, s, GATE_E3, 0, outside, 0);
-	else
-		gate_note(s, GATE_E3, "no range asked for");
+	gate_measure(f, GATE_E3, 0, outside);
+	return 0;
 }

@@ -2,13 +2,14 @@
  * FLIP, as the paper has it: filter both pictures as the eye does, compare colours by HyAB, compare edges and points,
  * and let features amplify colour. Section numbers are those of Andersson et al. 2020.
  */
-#include "diff/score/score.h"
+#include "diff/score/flip.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "diff/score/picture.h"
 
 /* Pictures are compared in bands of rows, so that all planes of one stay in the cache; filters reach HALO rows further. */
 enum { MAX_RADIUS = 16, HALO = MAX_RADIUS, BAND = 128 };

@@ -1,66 +1,71 @@
-/* What the gates share: entering figures, and differences of codes. Only the gates' own files include it. */
+/*
+ * What the gates share: their names and bars, what they look at, and entering what they measured.
+ */
 #ifndef DIFF_SCORE_GATES_H
 #define DIFF_SCORE_GATES_H
 
-#include <math.h>
-#include <stdlib.h>
-
+#include "diff/score/maps.h"
 #include "diff/score/score.h"
+
+struct score_figure {
+	const char *name;   /* "share over 2/255" */
+	const char *unit;   /* "%", "px", "" */
+	int at_least;       /* 1: the bar is a lower bound, 0: an upper one */
+	double bar;         /* the default one */
+	double share;       /* the bar is no lower than this share of the frame's pixels */
+	const char *column; /* its heading in the table; NULL: it has none */
+};
+
+struct score_gate_info {
+	const char *name;  /* "R1b" */
+	const char *title; /* "blended pixels" */
+	int needs_reference;
+	int n_figures;
+	struct score_figure figures[SCORE_MAX_FIGURES];
+};
+
+extern const struct score_gate_info score_gates[N_GATES];
+extern const char *const score_effect_names[N_SCORE_EFFECTS];
+
+/* A frame, as the gates see it. */
+struct gate_frame {
+	const struct score_picture *ref; /* rgb NULL: there is no reference */
+	const struct image *img;
+	const struct score_options *options;
+	const struct score_approved *approved; /* NULL: there is none */
+	const char *layer;                     /* of img, that is compared */
+	struct score *score;
+
+	/* Not yet there when validity is measured. */
+	struct score_picture traced; /* the layer */
+	struct score_maps maps;      /* empty without a reference */
+	uint8_t *blamed;             /* [height][width]: gates set 1 where a pixel fails */
+
+	/* Interior, blended and band pixels, as color.c counts them. */
+	struct gate_colors {
+		uint64_t count[3], failing[3], gross;
+	} colors;
+	/* Pixels where the channels do not add up, as effects.c counts them. */
+	struct gate_closure {
+		int has_layers;  /* 0: beauty or gl is missing, and nothing is counted */
+		int any_effect;  /* 1: there is an effect channel */
+		double relative; /* how far numbers may be off */
+		double worst;    /* largest error, in units of what is allowed */
+		uint64_t open, unexplained;
+	} closure;
+};
 
 /**
  * Enter one figure beside its bar, or beside the one that options give in its place. The gate fails where any figure
  * misses its bar (NaN misses every bar) or is better than what was thought possible, and warns where it misses only
  * the bar for warnings.
  */
-void gate_measure(const struct score_options *options, struct score *s, enum score_gate_id id, int figure, double value,
-                  double bar);
+void gate_measure(const struct gate_frame *f, enum score_gate_id id, int figure, double value);
 
 /** Set the gate's note. */
-void gate_note(struct score *s, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+void gate_note(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 
-/** The planes of layer.R, layer.G, layer.B ("beauty": R, G, B); 0 where one is missing. */
-int gate_find_layer(const struct image *img, const char *layer, const float *planes[3]);
-
-/** 1 where the depths are all steps of a 16-bit depth buffer. */
-int gate_depth_is_16_bit(const float *depth, size_t n);
-
-/** Number of blended layers at a pixel; 0 without the channel. */
-float gate_layers_at(const struct score_picture *traced, size_t i);
-
-/** Largest difference of three codes. */
-static inline int gate_code_difference(const uint8_t *a, const uint8_t *b)
-{
-	int worst = 0;
-
-	for (int c = 0; c < 3; c++) {
-		int d = abs(a[c] - b[c]);
-
-		worst = d > worst ? d : worst;
-	}
-	return worst;
-}
-
-static inline int gate_ignores(const struct score_picture *ref, size_t i)
-{
-	return ref->ignore && ref->ignore[i];
-}
-
-/* One file each. All return 0 or ERR_SYSTEM (reported). `blamed` [height][width]: set to 1 where a pixel fails. */
-
-/** R4 (silhouette.c). */
-int gate_silhouette(const struct score_picture *ref, const struct score_picture *traced,
-                    const struct score_options *options, struct score *s);
-
-/** E1 to E3 (effects.c). */
-void gate_effects(const struct score_picture *ref, const struct image *img, const struct score_options *options,
-                  uint8_t *blamed, struct score *s);
-
-/** B (approved.c). */
-int gate_baseline(const struct score_picture *ref, const struct image *img, const struct score_approved *approved,
-                  const struct score_options *options, uint8_t *blamed, struct score *s);
-
-/** Which draws hold the blamed pixels (blame.c); `approved` may be NULL. */
-int gate_blame(const struct score_picture *traced, const struct score_approved *approved, const uint8_t *blamed,
-               size_t n, struct score *s);
+/** Fail the gate, whatever its figures; the note says why. */
+void gate_fail(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -1,4 +1,4 @@
-#include "diff/score/score.h"
+#include "diff/score/metrics.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -21,15 +21,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "diff/score/gate_table.h"
 #include "scene/draw_names.h"
 #include "tracer/image/image.h"
 
 #define SCORE_DEPTH_EPSILON (1.0 / (1 << 21))       /* 8 steps of a 24-bit depth buffer */
 #define SCORE_DEPTH_EPSILON_16 (1.0 / (1 << 13))    /* 8 steps of a 16-bit one */
 
-enum score_gate_id {
-	GATE_V, GATE_R1, GATE_R1B, GATE_R2, GATE_R3, GATE_R4, GATE_R5, GATE_E1, GATE_E2, GATE_E3, GATE_P, GATE_B, N_GATES
-};
+#define SCORE_GATE_ID(id, ...) GATE_##id,
+enum score_gate_id { SCORE_GATES(SCORE_GATE_ID) N_GATES };
 
 /* NOT_MEASURED is not PASSED: it says that the inputs do not hold what the gate looks at. WARNED decides nothing. */
 enum score_state { SCORE_NOT_MEASURED, SCORE_PASSED, SCORE_WARNED, SCORE_FAILED, N_SCORE_STATES };
@@ -40,20 +40,7 @@ extern const char *const score_state_names[N_SCORE_STATES];
 
 enum { SCORE_MAX_FIGURES = 2, SCORE_MAX_BLAME = 8, SCORE_MAX_RANGES = 4 };
 
-/* What a gate measures; the order of figures is that of struct score_gate. */
-struct score_gate_info {
-	const char *name;  /* "R1b" */
-	const char *title; /* "blended pixels" */
-	int n_figures;
-	struct {
-		const char *name; /* "share over 2/255" */
-		const char *unit; /* "%", "px", "" */
-		int at_least;     /* 1: the bar is a lower bound, 0: an upper one */
-	} figures[SCORE_MAX_FIGURES];
-};
-
-extern const struct score_gate_info score_gates[N_GATES];
-
+/* One gate of one frame; figures are those of gate_table.h. */
 struct score_gate {
 	enum score_state state;
 	double value[SCORE_MAX_FIGURES], bar[SCORE_MAX_FIGURES]; /* valid unless NOT_MEASURED */
@@ -74,9 +61,8 @@ enum score_outcome {
 
 extern const char *const score_outcome_names[N_SCORE_OUTCOMES];
 
-enum score_effect { EFFECT_SHADOW, EFFECT_RELIGHT, EFFECT_REFLECT, EFFECT_REFRACT, EFFECT_ANY, N_SCORE_EFFECTS };
-
-extern const char *const score_effect_names[N_SCORE_EFFECTS];
+#define SCORE_EFFECT_ID(id, name) EFFECT_##id,
+enum score_effect { SCORE_EFFECTS(SCORE_EFFECT_ID) N_SCORE_EFFECTS };
 
 /* Figures that never decide; NAN where not measured. */
 struct score_info {
@@ -160,19 +146,6 @@ struct score_options {
 };
 
 /**
- * Take a layer out of an image as display codes, and its depth ("gl.depth"), "id" and "layers" if there.
- *
- * @param layer  "gl" means gl.R gl.G gl.B; "beauty" means R G B
- * @param out    all zero; planes are borrowed from img; free with score_picture_free
- * @return 0, ERR_INPUT (not reported: no such layer) or ERR_SYSTEM (reported)
- */
-int score_picture_from_image(const struct image *img, const char *layer, struct score_picture *out);
-void score_picture_free(struct score_picture *pic);
-
-/** One linear number as a display code; NaN gives 0, beyond [0,1] is clamped. */
-uint8_t score_code_from_linear(float linear);
-
-/**
  * Score one traced frame.
  *
  * @param ref     the reference
@@ -184,80 +157,5 @@ uint8_t score_code_from_linear(float linear);
  */
 int score_frame(const struct score_picture *ref, const struct image *img, uint64_t frame,
                 const struct score_options *options, const struct score_approved *approved, struct score *out);
-
-/** Per-pixel differences, for pictures of them. Both: [height][width]. */
-struct score_maps {
-	uint8_t *difference; /* largest channel difference, codes, plain */
-	uint8_t *residual;   /* what R2's symmetric minimum over 3x3 pixels leaves of it, codes */
-	uint8_t *failing;    /* 1 where the pixel fails R1, R1b or R2 */
-	uint8_t *band;       /* 1: edge band */
-};
-
-/**
- * The maps behind gates R1 to R3 of two pictures of one size.
- * @param out  all zero; free with score_maps_free
- * @return 0 or ERR_SYSTEM (reported)
- */
-int score_make_maps(const struct score_picture *ref, const struct score_picture *traced,
-                    const struct score_options *options, struct score_maps *out);
-void score_maps_free(struct score_maps *maps);
-
-/* Metrics (metrics.c); pictures are [height][width][3] codes. */
-
-/** Peak signal-to-noise ratio over all channels, dB; INFINITY where equal. */
-double metric_psnr_db(const uint8_t *a, const uint8_t *b, size_t n_pixels);
-
-/** Root of the mean squared difference over all channels, in [0,1]. */
-double metric_rmse(const uint8_t *a, const uint8_t *b, size_t n_pixels);
-
-/** Mean relative squared error over all channels, (test - ref)^2 / (ref^2 + 0.01), of linear numbers. */
-double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels);
-
-/**
- * Structural similarity on luma (Rec.709 weights on codes): Wang et al. 2004, 11x11 Gaussian of sigma 1.5, K .01 and
- * .03, mean over windows that lie inside the picture; NAN below 11 pixels or without memory.
- */
-double metric_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height);
-
-/** Multi-scale SSIM (Wang et al. 2003) over five scales; NAN below 176 pixels or without memory. */
-double metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height);
-
-/** CIE L*a*b* (D65) of linear Rec.709. */
-void metric_lab_from_linear(const double rgb[3], double lab[3]);
-
-/** Colour difference CIEDE2000 (Sharma, Wu and Dalal 2005), all k = 1. */
-double metric_ciede2000(const double lab1[3], const double lab2[3]);
-
-/** 95th percentile of CIEDE2000 over all pixels; NAN without memory. */
-double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels);
-
-/* FLIP (flip.c). */
-
-/** Pixels per degree at 0.7 m from a display 3840 px and 0.7 m wide. */
-#define FLIP_PIXELS_PER_DEGREE 67.0206432f
-
-/**
- * Perceived difference of two pictures when flipped between (Andersson et al., "FLIP: A Difference Evaluator for
- * Alternating Images", HPG 2020).
- *
- * @param a, b   [height][width][3], codes (sRGB)
- * @param error  receives [height][width], [0,1]; NULL: only the mean is wanted
- * @param mean   receives the mean
- * @return 0 or ERR_SYSTEM (reported)
- */
-int flip_compare(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, float *error, double *mean);
-
-/**
- * The same for linear pictures of any range: the largest error over four exposures from 2^0.083 to 2^3.557 of a film
- * curve (Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics 2021). The exposures are
- * fixed, where its authors derive them from the reference: frames stay comparable, and black ones have a score.
- *
- * @param a, b   planes R, G, B of linear Rec.709, [height][width] each
- */
-int flip_compare_hdr(const float *const a[3], const float *const b[3], uint32_t width, uint32_t height, float *error,
-                     double *mean);
-
-/** Colour of a value in [0,1] on the map "magma" (matplotlib), as codes. */
-void flip_magma(float value, uint8_t rgb[3]);
 
 #endif

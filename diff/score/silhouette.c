@@ -1,5 +1,5 @@
 /* Gate R4: which pixels are covered at all, whatever their colour. */
-#include "diff/score/gates.h"
+#include "diff/score/measures.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "base/err.h"
-
-#define BAR_IOU 0.999
-#define BAR_BLOB 4
+#include "diff/score/picture.h"
 
 /* A pixel is covered where it differs from the background by more than HIGH, not covered up to LOW: fog or blending
  * that fades into the background must not flip between the two by rounding. */
@@ -88,16 +86,16 @@ static float background_depth(const struct score_picture *traced, size_t n)
 /* How surely a pixel shows more than the background: 0 not, 1 maybe, 2 surely. */
 static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth, const uint8_t *background)
 {
-	int d = background ? gate_code_difference(pic->rgb + 3 * i, background) : 0;
+	int d = background ? score_code_difference(pic->rgb + 3 * i, background) : 0;
 
 	if (use_depth && pic->depth[i] != far_depth)
 		return 2;
 	return d > COVER_HIGH ? 2 : d > COVER_LOW ? 1 : 0;
 }
 
-int gate_silhouette(const struct score_picture *ref, const struct score_picture *traced,
-                    const struct score_options *options, struct score *s)
+int gate_silhouette(struct gate_frame *f)
 {
+	const struct score_picture *ref = f->ref, *traced = &f->traced;
 	const size_t n = (size_t)ref->width * ref->height;
 	const int use_depth = ref->depth && traced->depth;
 	const float far_depth = use_depth ? background_depth(traced, n) : 1;
@@ -119,13 +117,13 @@ int gate_silhouette(const struct score_picture *ref, const struct score_picture 
 	if (err)
 		goto fail;
 	if (!use_depth && !found[0]) {
-		gate_note(s, GATE_R4, "depth is not on both sides, and every pixel is covered");
+		gate_note(f, GATE_R4, "depth is not on both sides, and every pixel is covered");
 		goto fail;
 	}
 
 	for (size_t i = 0; i < n; i++) {
 		marks[i] = 0;
-		if (gate_ignores(ref, i))
+		if (score_ignores(ref, i))
 			continue;
 		int a = coverage(ref, i, use_depth, far_depth, found[0] ? background[0] : NULL);
 		int b = coverage(traced, i, use_depth, far_depth, found[1] ? background[1] : NULL);
@@ -137,9 +135,9 @@ int gate_silhouette(const struct score_picture *ref, const struct score_picture 
 	err = largest_blob(marks, (int)ref->width, (int)ref->height, &largest);
 	if (err)
 		goto fail;
-	gate_measure(options, s, GATE_R4, 0, both + unmatched ? (double)both / (double)(both + unmatched) : 1, BAR_IOU);
-	gate_measure(options, s, GATE_R4, 1, (double)largest, BAR_BLOB);
-	gate_note(s, GATE_R4, "%s; %" PRIu64 " px covered, %" PRIu64 " unmatched",
+	gate_measure(f, GATE_R4, 0, both + unmatched ? (double)both / (double)(both + unmatched) : 1);
+	gate_measure(f, GATE_R4, 1, (double)largest);
+	gate_note(f, GATE_R4, "%s; %" PRIu64 " px covered, %" PRIu64 " unmatched",
 	     use_depth ? "from depth and colour"
 	               : ref->depth ? "no gl.depth in the frame: from difference to the background colour"
 	                            : "no depth reference: from difference to the background colour",

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diff/score/score.h"
+#include "diff/score/flip.h"
 #include "tests/case.h"
 
 enum { WIDTH = 64, HEIGHT = 48, N = WIDTH * HEIGHT };

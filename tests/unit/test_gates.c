@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diff/score/score.h"
+#include "diff/score/gates.h"
+#include "diff/score/maps.h"
+#include "diff/score/picture.h"
 #include "tests/case.h"
 
 enum { WIDTH = 160, HEIGHT = 120, N = WIDTH * HEIGHT };

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "diff/score/score.h"
+#include "diff/score/metrics.h"
 #include "tests/case.h"
 
 static const struct { double a[3], b[3], difference; } sharma[] = {

@@ -1,0 +1,31 @@
+/* The maps that the gates on colour count: differences, edges, what fails. */
+#ifndef DIFF_SCORE_MAPS_H
+#define DIFF_SCORE_MAPS_H
+
+#include "diff/score/score.h"
+
+/** Per-pixel differences, for pictures of them. Both: [height][width]. */
+struct score_maps {
+	uint8_t *difference; /* largest channel difference, codes, plain */
+	uint8_t *residual;   /* what R2's symmetric minimum over 3x3 pixels leaves of it, codes */
+	uint8_t *failing;    /* 1 where the pixel fails R1, R1b or R2 */
+	uint8_t *band;       /* 1: edge band */
+};
+
+/**
+ * The maps behind gates R1 to R3 of two pictures of one size.
+ * @param out  all zero; free with score_maps_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int score_make_maps(const struct score_picture *ref, const struct score_picture *traced,
+                    const struct score_options *options, struct score_maps *out);
+void score_maps_free(struct score_maps *maps);
+
+
+/** 1 where the depths are all steps of a 16-bit depth buffer. */
+int score_depth_is_16_bit(const float *depth, size_t n);
+
+/** Number of blended layers at a pixel; 0 without the channel. */
+float score_layers_at(const struct score_picture *traced, size_t i);
+
+#endif

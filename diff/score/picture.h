@@ -1,0 +1,44 @@
+/* Pictures to compare, taken out of images as display codes. */
+#ifndef DIFF_SCORE_PICTURE_H
+#define DIFF_SCORE_PICTURE_H
+
+#include <stdlib.h>
+
+#include "diff/score/score.h"
+
+/**
+ * Take a layer out of an image as display codes, and its depth ("gl.depth"), "id" and "layers" if there.
+ *
+ * @param layer  "gl" means gl.R gl.G gl.B; "beauty" means R G B
+ * @param out    all zero; planes are borrowed from img; free with score_picture_free
+ * @return 0, ERR_INPUT (not reported: no such layer) or ERR_SYSTEM (reported)
+ */
+int score_picture_from_image(const struct image *img, const char *layer, struct score_picture *out);
+void score_picture_free(struct score_picture *pic);
+
+/** One linear number as a display code; NaN gives 0, beyond [0,1] is clamped. */
+uint8_t score_code_from_linear(float linear);
+
+/** The planes of layer.R, layer.G, layer.B ("beauty": R, G, B); 0 where one is missing. */
+int score_find_layer(const struct image *img, const char *layer, const float *planes[3]);
+
+/** Largest difference of three codes. */
+static inline int score_code_difference(const uint8_t *a, const uint8_t *b)
+{
+	int worst = 0;
+
+	for (int c = 0; c < 3; c++) {
+		int d = abs(a[c] - b[c]);
+
+		worst = d > worst ? d : worst;
+	}
+	return worst;
+}
+
+/** 1 where a reference says that nothing is compared. */
+static inline int score_ignores(const struct score_picture *ref, size_t i)
+{
+	return ref->ignore && ref->ignore[i];
+}
+
+#endif

@@ -1,0 +1,55 @@
+/* Gate V: is the frame a valid answer to the reference at all? */
+#include "diff/score/measures.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diff/score/picture.h"
+
+/** The first reason why the frame is no valid answer to the reference, in the gate's note; counts odd numbers. */
+int gate_validity(struct gate_frame *f)
+{
+	const struct score_picture *ref = f->ref;
+	const struct image *img = f->img;
+	const size_t n = (size_t)img->width * img->height;
+	const char *number = image_attribute(img, "relume:frame");
+	const char *odd_channel = NULL;
+	const float *planes[3];
+	uint64_t odd = 0;
+
+	for (size_t c = 0; c < img->n_channels; c++) {
+		const float *values = image_values(img, c);
+
+		for (size_t i = 0; i < n; i++) {
+			if (values && isfinite(values[i]))
+				continue;
+			odd++;
+			if (!odd_channel)
+				odd_channel = img->channels[c].name;
+		}
+	}
+	gate_measure(f, GATE_V, 0, (double)odd);
+	if (odd_channel)
+		gate_note(f, GATE_V, "first in channel %s", odd_channel);
+
+	if (img->width != ref->width || img->height != ref->height) {
+		gate_fail(f, GATE_V, "size %u x %u, but the reference is %u x %u", img->width, img->height, ref->width, ref->height);
+	} else if (!score_find_layer(img, f->layer, planes)) {
+		gate_fail(f, GATE_V, "there is no layer \"%s\"", f->layer);
+	} else if (strcmp(f->layer, "gl") == 0 && !score_find_layer(img, "beauty", planes)) {
+		gate_fail(f, GATE_V, "a traced frame, but without channels R, G and B");
+	} else if (number && strtoull(number, NULL, 10) != f->score->frame) {
+		gate_fail(f, GATE_V, "the file says that it is frame %.20s, not %" PRIu64, number, f->score->frame);
+	} else if (n == 0) {
+		gate_fail(f, GATE_V, "the picture is empty");
+	}
+	for (size_t i = 0; i < f->options->n_channels; i++) {
+		if (image_channel(img, f->options->channels[i]))
+			continue;
+		gate_fail(f, GATE_V, "there is no channel \"%.40s\"", f->options->channels[i]);
+		break;
+	}
+	return 0;
+}
