@@ -1,5 +1,6 @@
 /*
- * A BLAS (bottom level acceleration structure): all trees over one mesh in the forms that kernels walk, as parts that go into the pools of struct accel.
+ * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels walk. Its parts go into the
+ * pools of struct accel.
  */
 #ifndef TRACER_ACCEL_BLAS_H
 #define TRACER_ACCEL_BLAS_H
@@ -7,7 +8,7 @@
 #include "kernels/shared.h"
 #include "tracer/accel/tree.h"
 
-/* Which eight-wide trees there are beside the binary ones. */
+/* Eight-wide trees beside the binary ones. */
 #define ACCEL_ROWS 1u       /* nodes8, triangles8, faces8 */
 #define ACCEL_COMPRESSED 2u /* nodes8c, triangles8c */
 
@@ -25,26 +26,26 @@ enum blas_part {
 /** Size of an item of each part. */
 extern const size_t blas_item_bytes[N_BLAS_PARTS];
 
-/* Indices inside nodes are relative to the first item of the part that they lead to. */
+/* Indices in nodes are relative to the first item of the part they point into. */
 struct blas {
 	void *parts[N_BLAS_PARTS]; /* NULL where there is nothing */
 	size_t n[N_BLAS_PARTS];
-	struct bvh_box box;   /* around all; empty where there is nothing to hit */
-	uint64_t topology[2]; /* hash of the mesh's indices where the tree may be fitted to other vertices; 0 0: it may not */
-	double built_cost;    /* bvh_cost when the tree was built, not fitted; with a topology only */
+	struct bvh_box box;   /* around everything; empty where there is nothing to hit */
+	uint64_t topology[2]; /* hash of the mesh's indices, where the tree may be fitted to other vertices; else 0 0 */
+	double built_cost;    /* bvh_cost of the tree as it was built; with a topology only */
 };
 
 /**
- * Make the parts out of a binary tree.
+ * Make the parts from a binary tree.
  *
- * @param wide  of ACCEL_ROWS and ACCEL_COMPRESSED
- * @param out   receives parts, n and box, to be freed with blas_free, also after an error; what else it holds stays
+ * @param wide  which of ACCEL_ROWS and ACCEL_COMPRESSED to make
+ * @param out   receives parts, n and box; free with blas_free, also after an error; its other fields stay
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_make(const struct soup *soup, const struct tree *tree, unsigned wide, struct blas *out);
 void blas_free(struct blas *blas);
 
-/** Memory that the parts take. */
+/** Memory of all parts. */
 size_t blas_bytes(const struct blas *blas);
 
 #endif

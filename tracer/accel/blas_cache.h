@@ -1,8 +1,8 @@
 /*
- * Bottom levels that the workers of one process share, found by content: each is made once, by whoever wants it first. Others
- * wait for that one, and copy it into their pools.
+ * BLASes that the workers of one process share, found by content. Whoever wants one first makes it; others wait for it and copy
+ * it into their pools.
  *
- * It holds about so many bytes as it is told; what was unused for longest goes. All functions may be called from any thread.
+ * The cache keeps to a number of bytes; the BLAS unused for longest goes first. All functions may be called from any thread.
  */
 #ifndef TRACER_ACCEL_BLAS_CACHE_H
 #define TRACER_ACCEL_BLAS_CACHE_H
@@ -11,7 +11,7 @@
 
 struct blas_cache;
 
-/* What a BLAS is found by. */
+/* The content a BLAS is found by. */
 struct blas_key {
 	uint64_t hash[2]; /* of the mesh */
 	uint32_t kind;    /* enum accel_kind */
@@ -21,7 +21,7 @@ struct blas_key {
 #define BLAS_CACHE_BYTES (256u << 20)
 
 /**
- * @param most  bytes that it may hold beside what is in use
+ * @param most  bytes that it may hold beside those in use
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_cache_create(size_t most, struct blas_cache **out);
@@ -30,23 +30,23 @@ int blas_cache_create(size_t most, struct blas_cache **out);
 void blas_cache_destroy(struct blas_cache **cache);
 
 /**
- * Find a BLAS, waiting where someone else is making it.
+ * Find a BLAS; wait where someone else is making it.
  *
- * @param out  receives it; unchanged until blas_cache_release(), which the caller owes. NULL: there is none, and the caller is to make it:
- *             blas_cache_publish() or blas_cache_abandon() is owed instead
+ * @param out  receives it; it stays as it is until blas_cache_release, which the caller owes. NULL: there is none; the caller makes
+ *             it, and owes blas_cache_publish or blas_cache_abandon instead
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_cache_acquire(struct blas_cache *cache, const struct blas_key *key, const struct blas **out);
 void blas_cache_release(struct blas_cache *cache, const struct blas *blas);
 
 /**
- * What blas_cache_acquire() asked for.
+ * Hand over the BLAS that blas_cache_acquire found missing.
  * @param blas  moved into the cache and left empty
- * @return where it is now; as blas_cache_acquire() gives it, blas_cache_release() is owed
+ * @return where it is now; blas_cache_release is owed
  */
 const struct blas *blas_cache_publish(struct blas_cache *cache, const struct blas_key *key, struct blas *blas);
 
-/** It will not come: one of those who wait makes it. */
+/** The BLAS will not come: one of those who wait makes it. */
 void blas_cache_abandon(struct blas_cache *cache, const struct blas_key *key);
 
 #endif

@@ -38,7 +38,7 @@
 	ROW(KD, "kd", bvh_build_kd, 3, 1024, "a kd-tree") \
 	ROW(LBVH, "lbvh", bvh_build_linear, 0, 65536, "along a Morton curve: the quickest to build")
 
-/* How the trees of meshes are built. What lives for one frame only gets binned ones whatever is asked for. */
+/* How the trees of meshes are built. Meshes that live for one frame get binned ones, whatever is asked for. */
 #define TREE_BUILDER_KIND(kind, ...) ACCEL_##kind,
 enum accel_kind { TREE_BUILDERS(TREE_BUILDER_KIND) N_ACCEL_KINDS };
 
@@ -55,8 +55,8 @@ struct bvh_input {
 
 /**
  * Build a tree.
- * @param out  nodes and order have room for max(room, 1) each, n for builders that cut none; what is in them, n_nodes (at least 1) and
- *             n_order are filled in
+ * @param out  nodes and order have room for max(room, 1) items each, max(n, 1) for builders that cut none. Filled in: both,
+ *             n_nodes (at least 1) and n_order
  * @return 0 or ERR_SYSTEM (reported)
  */
 typedef int tree_builder(const struct bvh_input *in, struct tree *out);
@@ -66,16 +66,16 @@ TREE_BUILDERS(TREE_BUILDER_DECLARE)
 /** Names by kind; NULL ends them. */
 extern const char *const accel_kind_names[N_ACCEL_KINDS + 1];
 
-/** To be raised whenever a builder gives another tree for the same triangles: kept trees of other versions are not used. */
+/** Raise it whenever a builder gives another tree for the same triangles: kept trees of other versions are not used. */
 #define TREE_VERSION 1u
 
 /**
- * Build a tree, or find it.
+ * Find a tree in the store, or build it.
  *
  * @param soup   triangles; boxes that are not those of triangles (soup.bounded) are never cut
  * @param hash   of all that the soup was made from
- * @param store  where it may lie, and is left if building it takes longer than reading it; NULL: nowhere
- * @param out    receives the tree, to be freed with tree_free, also after an error
+ * @param store  looked into, and written to, where building takes longer than reading; NULL: there is none
+ * @param out    receives the tree; free with tree_free, also after an error
  * @return 0 or ERR_SYSTEM (reported). That a tree cannot be kept is no error
  */
 int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out);

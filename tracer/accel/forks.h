@@ -1,5 +1,5 @@
 /*
- * Work that gives rise to more work, done by several threads: subtrees of a tree under construction.
+ * Tasks that add more tasks, done by several threads: subtrees of a tree under construction.
  */
 #ifndef TRACER_ACCEL_FORKS_H
 #define TRACER_ACCEL_FORKS_H
@@ -7,7 +7,7 @@
 #include <pthread.h>
 #include <stddef.h>
 
-/** Do one piece. May call forks_add. */
+/** Do one task. May call forks_add. */
 typedef void forks_do(void *arg, const void *task);
 
 struct forks {
@@ -21,20 +21,20 @@ struct forks {
 };
 
 /**
- * @param task_bytes  size of a piece's description, copied about
- * @param room        most pieces that ever wait
+ * @param task_bytes  size of a task's description, which is copied
+ * @param room        most tasks that ever wait
  * @return 0 or ERR_SYSTEM (reported)
  */
 int forks_init(struct forks *forks, size_t task_bytes, size_t room);
 void forks_free(struct forks *forks);
 
-/** Another piece. From any thread. */
+/** Add a task, from any thread. */
 void forks_add(struct forks *forks, const void *task);
 
 /**
- * Do all pieces and what they give rise to; back when there are none.
- * @param threads  at most so many, the caller's own one of them; 0: as many as there are processors. Where a thread cannot be
- *                 had, the others do its work
+ * Do all tasks and those that they add; return when there are none.
+ * @param threads  at most so many, the caller's own included; 0: as many as there are processors. Where a thread does not
+ *                 start, the others do its work
  */
 void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg);
 

@@ -1,7 +1,7 @@
 /*
  * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): where the sides of the
- * best division of a part still overlap, cut its space by a plane instead, and let both sides hold a triangle that the plane
- * cuts, each with the box of its own piece. For sah_build.inc.
+ * best division of a part still overlap, a plane cuts its space instead. Both sides then hold the triangles that it cuts, each
+ * with the box of its own piece. For sah_build.inc.
  */
 #ifndef TRACER_ACCEL_SBVH_SPLIT_H
 #define TRACER_ACCEL_SBVH_SPLIT_H
@@ -50,7 +50,7 @@ static inline vec4 set_lane(vec4 v, int axis, float x)
 
 /*
  * The boxes of the two pieces of a triangle, within the box of the piece that is cut. They are a little larger than the
- * pieces, by what counts as a hit beside a triangle (accel.c widens boxes by the same).
+ * pieces, by what counts as a hit beside a triangle (soup.c widens boxes by as much).
  */
 static inline void cut_triangle(const struct triangle *t, box8 whole, int axis, float at, box8 *left, box8 *right)
 {

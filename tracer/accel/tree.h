@@ -23,7 +23,7 @@ struct tree {
  *
  * @param old   of as many triangles as there are now
  * @param most  SAH cost (bvh_cost) up to which the tree is worth keeping
- * @param out   receives the tree, to be freed with tree_free, also after an error; empty where it costs more
+ * @param out   receives the tree; free with tree_free, also after an error; empty where it would cost more
  * @return 0 or ERR_SYSTEM (reported)
  */
 int tree_refit(const struct tree *old, const struct soup *soup, double most, struct tree *out);

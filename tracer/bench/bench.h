@@ -1,7 +1,7 @@
 /*
- * A fixed scene of about 250,000 triangles and the rays to measure it with: camera rays of one picture, shadow rays from
- * what they hit to one point light, and short rays all about (as ambient occlusion sends them). Shared by `relume bench`
- * and by the comparison with other tracers in tests/bench/.
+ * A fixed scene of about 250,000 triangles and rays to measure it with: camera rays of one picture, shadow rays from what
+ * they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench` uses it, and so
+ * does the comparison with other tracers in tests/bench/.
  */
 #ifndef TRACER_BENCH_BENCH_H
 #define TRACER_BENCH_BENCH_H
@@ -19,8 +19,8 @@ struct bench_mesh {
 };
 
 /**
- * Make the mesh: three bunnies, two cows, two spots and three teapots on a floor, read from OBJ files; where a file
- * cannot be read, bumpy spheres stand in for all of them.
+ * Make the mesh: three bunnies, two cows, two spots and three teapots on a floor, read from OBJ files. Where a file
+ * cannot be read, bumpy spheres stand in for all.
  * @param models  folder of the OBJ files, or NULL
  * @return 0 or ERR_SYSTEM (reported)
  */
@@ -36,7 +36,7 @@ struct bench {
 	struct view view; /* of the camera rays; pixels are numbered from the bottom row */
 	struct ray *rays[N_BENCH_RAY_KINDS]; /* eight consecutive ones belong to neighbouring pixels */
 	uint32_t n_rays[N_BENCH_RAY_KINDS];
-	double build_s; /* what building the acceleration structure took */
+	double build_s; /* time to build the acceleration structure */
 
 	struct bench_state *state; /* private */
 };
@@ -47,7 +47,7 @@ struct bench {
  * @return 0 or ERR_SYSTEM (reported)
  */
 int bench_create(struct device *dev, const char *models, uint32_t width, uint32_t height, struct bench **out);
-/** The same over a mesh in eye space of the caller's, which belongs to the bench from now on, whatever is returned. */
+/** The same over the caller's mesh, in eye space. The bench owns it from now on, also after an error. */
 int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width, uint32_t height, struct bench **out);
 void bench_destroy(struct bench **bench);
 
@@ -59,10 +59,10 @@ void bench_destroy(struct bench **bench);
  */
 int bench_camera(struct bench *bench, enum kernel kernel, double *seconds);
 
-/** The rays of one kind through one of the occlude or intersect kernels; rays and trees are on the device already. */
+/** Send the rays of one kind through an occlude or intersect kernel. Rays and trees are on the device already. */
 int bench_rays(struct bench *bench, enum kernel kernel, enum bench_ray_kind kind, double *seconds);
 
-/** What the last run gave: how many pixels or rays hit something. @return 0 or ERR_SYSTEM (reported) */
+/** How many pixels or rays hit something in the last run. @return 0 or ERR_SYSTEM (reported) */
 int bench_count_camera_hits(struct bench *bench, uint32_t *n);
 int bench_count_ray_hits(struct bench *bench, enum kernel kernel, enum bench_ray_kind kind, uint32_t *n);
 
@@ -73,7 +73,7 @@ struct bench_tree {
 	size_t bytes;         /* of what the device's family of kernels walks */
 };
 
-/** Trace from now on through a tree of some kind, built anew. @return 0 or ERR_SYSTEM (reported) */
+/** Build a tree of another kind and trace through it from now on. @return 0 or ERR_SYSTEM (reported) */
 int bench_rebuild(struct bench *bench, enum accel_kind kind, struct bench_tree *out);
 
 /** The median of n figures; sorts them. */

@@ -7,9 +7,9 @@
 #include "tracer/bench/bench.h"
 
 /**
- * Build the bench's mesh into trees of several kinds and send its rays through each, in turn, n times; print the medians: the time to
- * build (by the clock, and of all processors together), the SAH cost, how many items leaves hold for each triangle, the memory of what the device's kernels walk, and
- * millions of camera, shadow and incoherent rays a second.
+ * Build trees of several kinds over the bench's mesh and send its rays through each, in turn, n times. Print the medians: time to
+ * build (by the clock, and of all processors together), SAH cost, items in leaves per triangle, memory of what the device's
+ * kernels walk, and millions of camera, shadow and incoherent rays a second.
  *
  * @param kinds  bit 1 << enum accel_kind
  * @return 0 or ERR_SYSTEM (reported)

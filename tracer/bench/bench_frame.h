@@ -9,8 +9,8 @@
 #include "tracer/frame/trace.h"
 
 /**
- * Render a frame of a recording 1 + n times and print the means of the last n: the whole, each kernel, copies, and what is
- * neither (the host's own work: trees, matrices, composing). Each kernel is waited for.
+ * Render a frame of a recording 1 + n times and print the means of the last n: the whole frame, each kernel, copies, and the
+ * rest, which is the host's own work (trees, matrices, composing). Waits for each kernel.
  * @return 0 or ERR_* (reported)
  */
 int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum tracer_mode mode, size_t n, int json);

@@ -1,7 +1,6 @@
 /*
- * Lines and points as triangles in the window, where Mesa's llvmpipe puts them: lines are quads of the line's width,
- * cut at their ends by the diamond-exit rule (GL 2.1 sec. 3.4), or under multisampling rectangles along them; points are
- * squares (sec. 3.3), under multisampling too. Polygons drawn as lines or points (sec. 3.5.4) go the same way, edge by edge.
+ * Lines (expand_line.h), points and pixel rectangles (expand_point.h) as triangles in the window, where Mesa's llvmpipe puts
+ * them. Polygons drawn as lines or points (GL 2.1 sec. 3.5.4) go the same way, edge by edge.
  */
 #ifndef TRACER_FRAME_EXPAND_H
 #define TRACER_FRAME_EXPAND_H
@@ -10,15 +9,15 @@
 #include "scene/scene.h"
 #include "tracer/frame/prepare.h"
 
-/* One instance's primitives to be expanded, after the vertex stage. All borrowed. */
+/* One instance's primitives after the vertex stage. All borrowed. */
 struct expand_input {
 	const struct scene_mesh *mesh;
 	const struct scene_material *material;
 	const struct scene_unit *units; /* the material's own */
 	const struct view *view;
 	enum prepared_shape shape;
-	const struct scene_rectangle *rectangles; /* [mesh vertices], or NULL: no pixels drawn as pixels */
-	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons that are not drawn in this shape */
+	const struct scene_rectangle *rectangles; /* [mesh vertices]; NULL: it draws no bitmaps or pixel rectangles */
+	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons not drawn in this shape */
 	uint32_t height, depth_bits;
 	uint32_t from_below; /* scene.samples_from_below */
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
@@ -34,7 +33,7 @@ struct expanded {
 	uint32_t *index, *primitive_draw;
 	uint32_t n_vertices, n_primitives, n_texcoords;
 	uint32_t room; /* quads */
-	struct scene_mesh mesh; /* the same as a mesh: positions, indices, draw numbers, hash */
+	struct scene_mesh mesh; /* borrows position, index and primitive_draw; with a hash */
 };
 
 /** @param out  all zero; free with expanded_free. @return 0 or ERR_SYSTEM (reported) */

@@ -1,7 +1,7 @@
 /*
- * The compression "ZIP" of OpenEXR by libdeflate, in place of OpenEXRCore's own step: the same chunks in less than half the
- * time, which is most of what a simple frame costs. Bytes of a chunk are split into those at even and at odd places, each
- * replaced by its difference from the one before plus 128, and deflated in zlib's wrapping (OpenEXR, "Technical
+ * OpenEXR's "ZIP" compression by libdeflate, in place of OpenEXRCore's own step: the same chunks in less than half the
+ * time, which is most of what a simple frame costs. A chunk's bytes are split into those at even and at odd places, each is
+ * replaced by its difference from the one before plus 128, and all are deflated in zlib's wrapping (OpenEXR, "Technical
  * Introduction"; OpenEXR File Layout).
  */
 #ifndef TRACER_IMAGE_EXR_ZIP_H
@@ -14,7 +14,7 @@
 struct libdeflate_compressor;
 struct libdeflate_decompressor;
 
-/* Lives as long as a pipeline that it hangs at. All zero to begin with. */
+/* Lives as long as the pipeline that uses it. All zero at first. */
 struct exr_zip {
 	struct libdeflate_compressor *compressor;
 	struct libdeflate_decompressor *decompressor;
@@ -28,7 +28,7 @@ void exr_zip_encode_with(exr_encode_pipeline_t *encode, struct exr_zip *zip);
 /** Let a decoding pipeline of a ZIP or ZIPS part, its routines chosen, expand with `zip`. */
 void exr_zip_decode_with(exr_decode_pipeline_t *decode, struct exr_zip *zip);
 
-/** After the pipeline is destroyed. */
+/** Call it after the pipeline is destroyed. */
 void exr_zip_free(struct exr_zip *zip);
 
 #endif

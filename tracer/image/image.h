@@ -13,8 +13,8 @@
 struct image_channel {
 	char name[32];
 	int full_float;   /* 1: stored as 32-bit float in a file, 0: half */
-	float *values;    /* [height][width]; NULL as long as nobody has asked for those of `halves` */
-	uint16_t *halves; /* the same as the bits of halves, or NULL: what the renderer makes, and files take as it is */
+	float *values;    /* [height][width]; NULL until somebody asks for `halves` as floats */
+	uint16_t *halves; /* the same as half floats, or NULL: what the renderer makes, and files take as it is */
 };
 
 struct image_attribute {
@@ -39,13 +39,13 @@ void image_free(struct image *img);
  */
 float *image_add_channel(struct image *img, const char *name, int full_float);
 
-/** Add a channel of halves, not yet set. @return its plane, as image_add_channel; who changes it must not have asked for floats */
+/** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats were asked for */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
-/** The plane of a channel as floats, or NULL where there is none of that name, or no memory (reported). */
+/** The plane of a channel as floats. NULL: there is none of that name, or no memory (reported) */
 float *image_channel(const struct image *img, const char *name);
 
-/** The same of channel number i. */
+/** The same for channel number i. */
 float *image_values(const struct image *img, size_t i);
 
 /** Set a text attribute, replacing one of the same name. @return 0 or ERR_SYSTEM (reported) */
@@ -56,9 +56,9 @@ int image_set_attribute(struct image *img, const char *name, const char *fmt, ..
 const char *image_attribute(const struct image *img, const char *name);
 
 /**
- * Write as OpenEXR: one part, ZIP (exr_zip.h), half or float as the channels say, channels sorted by name, written to a
- * temporary name beside `path` and renamed when whole. Same image, same bytes. Attributes are strings, but for
- * worldToCamera and worldToNDC, whose text is 16 numbers in the file's order (rows of a matrix for row vectors).
+ * Write as OpenEXR: one part, ZIP (exr_zip.h), half or float as the channels say, channels sorted by name. Writes to a
+ * temporary name beside `path` and renames it when whole. Same image, same bytes. Attributes are strings, except
+ * worldToCamera and worldToNDC: their text is 16 numbers in the file's order (rows of a matrix for row vectors).
  * @return 0, or ERR_SYSTEM (reported; nothing is left under either name)
  */
 int image_write_exr(const struct image *img, const char *path);
@@ -70,7 +70,7 @@ int image_write_exr(const struct image *img, const char *path);
  */
 int image_read_exr(struct image *img, const char *path);
 
-/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; odd beyond [0,1]. */
+/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);
 

@@ -1,12 +1,12 @@
 /*
- * The frames of a run on their way, in parallel: one thread decodes the recording into scenes, workers trace them, writers
- * pack and write pictures. Queues between them are bounded, so memory does not grow with the run.
+ * Renders frames in parallel: one thread decodes the recording into scenes, workers trace them, writers pack and write
+ * pictures. Queues between them are bounded, so memory does not grow with the number of frames.
  *
  *     replay -> [scenes] -> workers (one tracer each, several to a device) -> [pictures] -> writers -> files
  *
- * Devices take scenes as they come free, so each does as much as it is fast. What a frame looks like depends on its scene
- * alone: files are the same bytes whatever the number of workers. A device that fails hands its scene to the others and is
- * not used again; with the last one the run fails.
+ * Devices take scenes as they become free, so faster ones do more. A frame depends on its scene alone: files are the same bytes
+ * whatever the number of workers. A device that fails hands its scene to the others and is not used again; with the last device
+ * the run fails.
  */
 #ifndef TRACER_RENDER_PIPELINE_H
 #define TRACER_RENDER_PIPELINE_H
@@ -28,13 +28,13 @@ struct pipeline {
 	double start_s;          /* when the run began (progress_clock_s) */
 	struct stamp stamp;
 	struct progress *progress;
-	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller's, free() */
-	struct tracer_undrawn undrawn; /* filled in: what was met that is not drawn */
+	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller frees it */
+	struct tracer_undrawn undrawn; /* filled in: what the scenes had that is not drawn */
 };
 
 /**
  * Render the frames that the settings ask for.
- * @return 0, also where a signal ended it early (watch_signal); ERR_INPUT, ERR_SYSTEM (reported)
+ * @return 0, also where a signal ended the run early (watch_signal); ERR_INPUT, ERR_SYSTEM (reported)
  */
 int pipeline_run(struct pipeline *p);
 

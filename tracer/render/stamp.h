@@ -1,5 +1,5 @@
 /*
- * What a frame's file says about where it comes from, and whether a file that is there is the one that would be made.
+ * What a frame's file says about its origin, and whether an existing file is the one that would be made.
  */
 #ifndef TRACER_RENDER_STAMP_H
 #define TRACER_RENDER_STAMP_H
@@ -16,7 +16,7 @@ int stamp_image(const struct stamp *stamp, struct image *img);
 enum stamp_state { STAMP_MISSING, STAMP_DAMAGED, STAMP_OTHER, STAMP_SAME };
 
 /**
- * Look at a frame's file. Every byte of its pixels is unpacked: torn, cut and zeroed files are found.
+ * Check a frame's file. Unpacks every byte of its pixels, and so finds torn, cut and zeroed files.
  * @return STAMP_MISSING; STAMP_DAMAGED (reported); STAMP_OTHER: of another trace, frame, settings or version; STAMP_SAME
  */
 enum stamp_state stamp_check(const struct stamp *stamp, uint64_t frame, const char *path);

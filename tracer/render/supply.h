@@ -1,6 +1,6 @@
 /*
- * Pixels for a replay that asks for them (scene_supply): a tracer of its own, on a queue of its own of a device that others
- * use as well, made when the first picture is asked for. Used by the thread that decodes.
+ * Gives a replay the pixels that it asks for (scene_supply): a tracer on a queue of its own, on a device that others use too.
+ * Both are made for the first picture. Only the thread that decodes uses it.
  */
 #ifndef TRACER_RENDER_SUPPLY_H
 #define TRACER_RENDER_SUPPLY_H
@@ -15,7 +15,7 @@ struct supply {
 	struct tracer *tracer; /* owned */
 };
 
-/** A scene_supply; user is a struct supply with nothing but its parent and cache set. */
+/** A scene_supply; user is a struct supply, whose caller sets parent and cache. */
 int supply_picture(void *user, const struct scene *scene, struct scene_picture *picture);
 void supply_free(struct supply *supply);
 

@@ -1,9 +1,9 @@
 /*
- * What may end a frame, or the run, from outside: signals, the time limit of a frame, the memory limit. One thread looks
- * for all of them and breaks off devices (device_interrupt); who was broken off asks here why.
+ * What may end a frame, or the run, from outside: signals, the time limit of a frame, the memory limit. One thread watches
+ * for all of them and interrupts devices (device_interrupt). A worker whose device was interrupted asks here why.
  *
- * First SIGINT or SIGTERM: the run is to stop, frames on devices are broken off. A second one, or twenty seconds without an
- * end: unfinished files are removed and the process ends at once, with 128 + the signal's number.
+ * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without an
+ * end, removes unfinished files and ends the process at once, with 128 + the signal's number.
  */
 #ifndef TRACER_RENDER_WATCH_H
 #define TRACER_RENDER_WATCH_H
@@ -18,14 +18,14 @@
 struct watch;
 
 /**
- * Start watching. Blocks both signals in the calling thread, so that threads made later have them blocked too: call it first.
+ * Start watching. Blocks both signals in the calling thread; threads started later inherit that: call it first.
  * @param frame_s       seconds that a frame may take, 0: any
  * @param memory_bytes  memory that the process may take while a single frame is under way, 0: any
  * @return 0 or ERR_SYSTEM (reported)
  */
 int watch_start(struct watch **out, double frame_s, uint64_t memory_bytes);
 
-/** Stop watching; signals that came are not delivered again. */
+/** Stop watching. Signals that came are not delivered again. */
 void watch_stop(struct watch **w);
 
 /** The signal that asked for an end, or 0. */
@@ -34,13 +34,13 @@ int watch_signal(const struct watch *w);
 /** 1 once no new frame may begin: a signal came, or watch_give_up was called. */
 int watch_is_over(const struct watch *w);
 
-/** Something failed for good: break off everything. */
+/** Something failed for good: interrupt everything. */
 void watch_give_up(struct watch *w);
 
-/** Announce a device of the run. @return its seat, or -1: all are taken */
+/** Add a device of the run. @return its seat, or -1: all are taken */
 int watch_add(struct watch *w, struct device *dev);
 
-/** A frame begins or ends on a seat. watch_end returns 1 where the frame was given up for its time (and resumes the device). */
+/** A frame begins or ends on a seat. watch_end returns 1 where the frame ran out of time (and resumes the device). */
 void watch_begin(struct watch *w, int seat, uint64_t frame);
 int watch_end(struct watch *w, int seat);
 
