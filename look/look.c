@@ -13,7 +13,7 @@
 
 /* --- The file ------------------------------------------------------------------------------------------------------ */
 
-/* Pointers are NULL where the file does not say. */
+/* Pointers are NULL for keys that the file does not have. */
 struct match {
 	const char *texture, *mesh, *draws, *call;
 	const uint32_t *list;
@@ -41,7 +41,7 @@ struct light_rule {
 struct rules {
 	struct surface_rule *surfaces;
 	struct light_rule *lights;
-	uint32_t surfaces_count, lights_count; /* names that libcyaml asks for */
+	uint32_t surfaces_count, lights_count; /* libcyaml wants these names */
 };
 
 struct look {
@@ -98,7 +98,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 
 static const cyaml_schema_value_t rules_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct rules, rules_fields) };
 
-/* --- What libcyaml does not ask ------------------------------------------------------------------------------------ */
+/* --- Checks that libcyaml does not make ---------------------------------------------------------------------------- */
 
 static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
                         float least, float most)
@@ -278,7 +278,7 @@ static int changes_light(const struct light_rule *r)
 	return !r->light || r->off || r->position || r->ambient || r->diffuse || r->specular || r->attenuation || r->spot;
 }
 
-/* A position of the file in eye space. An object that this frame does not draw leaves it where it is. */
+/* A light's position in eye space. It stays as written where the frame does not draw its object. */
 static void place_light(const struct scene *s, const struct light_rule *r, float out[4])
 {
 	memcpy(out, r->position, 4 * sizeof(*out));
@@ -305,7 +305,7 @@ static void set_light(const struct scene *s, struct scene_light *l, const struct
 	}
 }
 
-/* GL's lights of a material under the rules, and those that are added. @return how many, at most SCENE_MAX_LIGHTS */
+/* A material's lights: GL's under the rules, and added ones. @return how many, at most SCENE_MAX_LIGHTS */
 static uint32_t list_lights(const struct rules *rules, const struct scene *s, const struct scene_material *m,
                             struct scene_light out[SCENE_MAX_LIGHTS])
 {
@@ -347,7 +347,7 @@ static void size_lights(const struct rules *rules, struct scene *s)
 				s->lights[i].radius = *rules->lights[k].radius;
 }
 
-/* One instance's material with its surface changed, as a material of its own where it is. */
+/* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static void change_instance(const struct look *look, const struct scene *scene, struct scene *out, uint32_t i,
                             int lights_change)
 {

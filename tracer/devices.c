@@ -1,4 +1,4 @@
-/* relume devices: what there is to render on. */
+/* relume devices: lists the devices that can render. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -12,27 +12,27 @@
 #include "tracer/accel/tlas.h"
 
 /*
- * Trees are fitted to a mesh that moves from so many triangles on (below, building is as quick), as long as they cost at most so
- * much more than when they were built.
+ * A moving mesh of this many triangles or more keeps its tree, with new boxes, while that costs at most REFIT_COST times the
+ * tree that was built. Below, building is as quick.
  */
 #define REFIT_TRIANGLES 256
 #define REFIT_COST 1.25
-/* Frames that a BLAS nobody used stays in the pools, and which share of them such ones may be: closing gaps moves all that follows. */
+/* An unused BLAS stays for so many frames, and longer while such ones are at most this share: closing a gap moves all that follows. */
 #define KEEP_FRAMES 16
 #define UNUSED_SHARE 0.5
 
-/* Smaller ones each worker makes for itself: that is as quick as waiting for another one. */
+/* Each worker makes smaller BLASes for itself: that is as quick as waiting. */
 #define SHARE_TRIANGLES 256
 
-/* One BLAS: where it lies in the pools. Entries are in the order of the pools. */
+/* A BLAS in the pools. Entries are in the order of the pools. */
 struct placed_blas {
 	uint64_t hash[2];
 	enum accel_kind kind;
-	int baked; /* of this frame only */
+	int baked; /* for this frame only */
 	uint64_t last_use;
-	uint64_t fitted; /* frame in which its tree was fitted to another mesh */
+	uint64_t fitted; /* last frame in which another mesh took over its tree */
 	size_t first[N_BLAS_PARTS];
-	struct blas blas; /* its parts are in the pools, not here */
+	struct blas blas; /* without its parts, which are in the pools */
 };
 
 struct accel_cache {
@@ -165,7 +165,7 @@ static struct placed_blas *find_blas(const struct accel_cache *cache, const uint
 	}
 }
 
-/* Move a BLAS down to the ends of what is kept, and these up by it. */
+/* Move a BLAS down to the ends of those kept so far, which then end behind it. */
 static void move_down(struct accel *accel, struct placed_blas *placed, size_t ends[N_BLAS_PARTS])
 {
 	for (int part = 0; part < N_BLAS_PARTS; part++) {
@@ -181,7 +181,7 @@ static void move_down(struct accel *accel, struct placed_blas *placed, size_t en
 	}
 }
 
-/* Is there much that was not used for a while? */
+/* Are BLASes that were not used for a while more than their share? */
 static int much_is_unused(const struct accel *accel)
 {
 	const struct accel_cache *cache = accel->cache;
@@ -193,7 +193,7 @@ static int much_is_unused(const struct accel *accel)
 	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
 }
 
-/* Take out what was not used for a while where that is much, and what was baked for the last frame; close the gaps. */
+/* Remove BLASes that were not used for a while, if they are many, and those baked for the last frame; close the gaps. */
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
@@ -245,7 +245,7 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 	return err;
 }
 
-/* By what a mesh of the same triangles with other vertices is known; 0 0 where no tree is to be fitted to it. */
+/* The same for two meshes of the same triangles with other vertices; 0 0: the tree is not to be fitted to other vertices. */
 static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
 {
 	XXH128_hash_t hash;
@@ -259,8 +259,8 @@ static void find_topology(const struct scene_mesh *mesh, const struct soup *soup
 }
 
 /*
- * The tree to fit to a mesh that nobody has seen: one of the same triangles, not used in this frame, used last before. Where there are
- * several, meshes find theirs in the order in which they were first drawn, each its own. NULL: there is none.
+ * The BLAS whose tree fits a new mesh: one of the same triangles, not used in this frame, most recently used before. Of several,
+ * each mesh finds its own, in the order in which they were first drawn. NULL: there is none.
  */
 static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
 {
@@ -279,7 +279,7 @@ static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind
 	return best;
 }
 
-/* The tree of a mesh whose vertices have moved. *out is empty where it is better built. */
+/* The tree of a mesh that has moved. *out stays empty where building is better. */
 static int refit(const struct accel *accel, const struct placed_blas *moved, const struct soup *soup, struct tree *out)
 {
 	const struct triangle *triangles = accel->triangles + moved->first[BLAS_TRIANGLES];
@@ -297,7 +297,7 @@ static int refit(const struct accel *accel, const struct placed_blas *moved, con
 	return err;
 }
 
-/* What a BLAS is asked for. */
+/* A BLAS to be made. */
 struct order {
 	const struct scene_mesh *mesh;
 	const float (*positions)[4];
@@ -306,8 +306,8 @@ struct order {
 };
 
 /*
- * A tree for a soup: fitted, found or built. What moves gets a binned tree, quick to build, and is not kept on disk.
- * @param own  receives 1 where it depends on what this accel saw before
+ * A tree for a soup: fitted, found or built. Moving meshes get a binned tree, which is quick to build and not kept on disk.
+ * @param own  receives 1 where the tree depends on what this accel saw before
  */
 static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct blas *blas, struct tree *out,
                      int *own)
@@ -330,7 +330,7 @@ static int find_tree(struct accel *accel, const struct soup *soup, const struct 
 	return err;
 }
 
-/* @param out, own  as of find_tree; *out to be freed, also after an error */
+/* @param own  as for find_tree. @param out  free it, also after an error */
 static int make_blas(struct accel *accel, const struct order *order, struct blas *out, int *own)
 {
 	struct soup soup;
@@ -348,7 +348,7 @@ static int make_blas(struct accel *accel, const struct order *order, struct blas
 	return err;
 }
 
-/* Into the pools, from what all workers share or for this one alone. */
+/* Put a BLAS into the pools: one that all workers share, or one of our own. */
 static int place_blas(struct accel *accel, const struct order *order, struct placed_blas *placed)
 {
 	struct blas_cache *cache = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->shared;
@@ -407,7 +407,7 @@ static enum accel_kind accel_kind_of(const struct accel *accel, const struct ins
 	return is_of_frame(instance) ? ACCEL_BVH : accel->kind;
 }
 
-/* The BLAS of one instance; its places go into the instance and its box, in BLAS space, to *box. */
+/* Find or add an instance's BLAS. Its places go into the instance, its box, in BLAS space, into *box. */
 static int place_instance(struct accel *accel, const struct scene_mesh *mesh, const float (*eye_vertices)[4],
                           struct instance *instance, struct bvh_box *box)
 {

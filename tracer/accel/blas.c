@@ -25,7 +25,7 @@ static void *make_part(struct blas *blas, enum blas_part part, size_t n)
 	return blas->parts[part];
 }
 
-/* A part turned out to have fewer items. */
+/* Give back the room of a part beyond its n items. */
 static void cut_part(struct blas *blas, enum blas_part part, size_t n)
 {
 	void *less = realloc(blas->parts[part], n * blas_item_bytes[part] + 1);

@@ -6,14 +6,14 @@
 
 #include "base/err.h"
 
-#define SLOTS 4096u /* of the hash table; some tens of thousands of meshes are no more than a dozen each */
+#define SLOTS 4096u /* of the hash table; tens of thousands of meshes make about a dozen entries each */
 
 struct entry {
 	struct blas blas; /* the first member: entries are found by it */
 	struct blas_key key;
 	size_t bytes;
-	unsigned users;  /* who copies from it */
-	int made;        /* 0: someone is at it */
+	unsigned users;  /* how many copy from it */
+	int made;        /* 0: someone is making it */
 	struct entry *next;             /* in the same slot */
 	struct entry *older, *younger;  /* made ones, by last use */
 };
@@ -98,7 +98,7 @@ void blas_cache_destroy(struct blas_cache **cache)
 	free(g);
 }
 
-/* --- Taking and giving ---------------------------------------------------------------------------------------------- */
+/* --- Acquiring and publishing --------------------------------------------------------------------------------------- */
 
 static struct entry *add(struct blas_cache *cache, const struct blas_key *key)
 {

@@ -20,7 +20,7 @@
 #include "tracer/accel/tree.h"
 
 #define SUFFIX ".tree"
-/* How much more is written before the folder is counted again, and how full it is afterwards, as shares of its bound. */
+/* Count the folder again after writing this share of its bound; then leave it this full. */
 #define COUNT_SHARE 16
 #define FULL_SHARE(most) ((most) / 4 * 3)
 
@@ -32,8 +32,8 @@ struct counts {
 struct blas_store {
 	char folder[PATH_MAX - 96];
 	uint64_t most, added; /* added: bytes since the folder was counted last */
-	int counted, lost;    /* lost: nothing can be written */
-	pthread_mutex_t lock; /* of what is written, and of the fields above */
+	int counted, lost;    /* lost: the folder cannot be written */
+	pthread_mutex_t lock; /* of writing, and of the fields above */
 };
 
 int blas_store_open(const char *folder, uint64_t most, struct blas_store **out)
@@ -73,7 +73,7 @@ static size_t bytes_of(struct counts n)
 	return sizeof(n) + n.n_nodes * sizeof(struct node2) + n.n_order * sizeof(uint32_t);
 }
 
-/* Of all that the content depends on: nodes of another layout or byte order are other ones. */
+/* Hash everything the content depends on: nodes of another layout or byte order differ. */
 static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 {
 	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
@@ -85,7 +85,7 @@ static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 
 /* --- Reading ------------------------------------------------------------------------------------------------------- */
 
-/* A file's content as a tree. @return 0: it is none */
+/* Make a tree of a file's content. @return 0: it is none */
 static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree *out)
 {
 	struct counts counts;
@@ -121,7 +121,7 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 	found = unpack(bytes, n, key->n_triangles, out);
 	free(bytes);
 	if (found)
-		utimensat(AT_FDCWD, path, NULL, 0); /* used just now; where that is not allowed, nothing is removed either */
+		utimensat(AT_FDCWD, path, NULL, 0); /* the time of last use; where we may not set it, we may not remove files either */
 	else
 		tree_free(out);
 	return found;
@@ -151,7 +151,7 @@ static int is_tree(const char *name)
 	return n > end && n < sizeof(((struct kept *)0)->name) && strcmp(name + n - end, SUFFIX) == 0;
 }
 
-/* The files of the folder. @return how many, in an array of the caller's; 0 also where memory is short (reported) */
+/* List the files of the folder. @return how many, in an array that the caller frees; 0 also where memory is short (reported) */
 static size_t list_kept(DIR *dir, struct kept **out)
 {
 	size_t n = 0, room = 0;
@@ -172,7 +172,7 @@ static size_t list_kept(DIR *dir, struct kept **out)
 	return n;
 }
 
-/* Count the folder, and remove what was unused for longest where it holds more than it may. Others may do the same. */
+/* Count the folder; where it exceeds its bound, remove the files unused for longest. Others may do so at the same time. */
 static void keep_bound(struct blas_store *store)
 {
 	DIR *dir = opendir(store->folder);
@@ -200,7 +200,7 @@ static void keep_bound(struct blas_store *store)
 
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
 
-/* @return 0; the errno that says why not; -1 (reported) */
+/* @return 0; an errno that says why it failed; -1 (reported) */
 static int save(struct blas_store *store, const char *path, const struct blas_store_key *key, const struct tree *tree)
 {
 	const struct counts counts = { tree->n_nodes, tree->n_order };
@@ -230,7 +230,7 @@ void blas_store_save(struct blas_store *store, const struct blas_store_key *key,
 	int failed;
 
 	if (bytes > store->most / 4)
-		return; /* many others would go for it */
+		return; /* too many others would have to go */
 	path_of(store, key, path);
 	pthread_mutex_lock(&store->lock);
 	if (!store->lost) {

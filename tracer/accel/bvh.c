@@ -49,7 +49,7 @@ double bvh_cost(const struct node2 *nodes, uint32_t n_nodes)
 	return root > 0 ? BVH_COST_NODE + sum / root : BVH_COST_NODE;
 }
 
-/* The box of one side, whose child's boxes are right already. */
+/* The box of one side. The boxes of its child are right already. */
 static struct bvh_box fit_side(const struct node2 *nodes, const struct node2 *node, int side, const struct bvh_box *boxes,
                                const uint32_t *order)
 {
@@ -109,7 +109,7 @@ static int branch_is_empty(struct branch b)
 	return !b.node->count[b.side] && !b.node->child[b.side];
 }
 
-/* The up to eight branches below a binary node: the largest is opened until there are eight, or only leaves. */
+/* Up to eight branches below a binary node: open the largest until there are eight, or only leaves. */
 static int open_branches(const struct collapse *c, const struct node2 *node, struct branch out[8])
 {
 	int n = 0;

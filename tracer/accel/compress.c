@@ -8,7 +8,7 @@
 #include "kernels/rays/compressed.h"
 #include "tracer/accel/bvh.h"
 
-/* The least exponent of a float that is no denormal. Boxes are bounded (soup.h), so that a grid for them is always found. */
+/* The least exponent of a normal float. Boxes are bounded (soup.h): a grid for them always exists. */
 #define LEAST_EXPONENT 1u
 
 /* One lane of a node in rows. */
@@ -18,8 +18,8 @@ static int lane_is_used(const struct node8 *node, int lane)
 }
 
 /*
- * Which slot each lane goes to: again and again, of all lanes and slots that are left, the pair that fits best, that is where the
- * lane's middle lies farthest along the slot's diagonal. -1: nothing in this lane.
+ * Which slot each lane goes to. Repeatedly take, of all lanes and slots left, the pair that fits best: the lane's middle lies
+ * farthest along the slot's diagonal. -1: the lane is empty.
  */
 static void choose_slots(const struct node8 *node, int slot_of[8])
 {
@@ -65,7 +65,7 @@ static void choose_slots(const struct node8 *node, int slot_of[8])
 	}
 }
 
-/* The bytes between which a lane's box lies along an axis. @return 0: the grid's steps are too small for it */
+/* Find the two bytes around a lane's box along an axis. @return 0: the grid's steps are too small */
 static int quantise(float origin, float step, float lo, float hi, uint32_t *byte_lo, uint32_t *byte_hi)
 {
 	const float from = floorf((lo - origin) / step), to = ceilf((hi - origin) / step);
@@ -74,7 +74,7 @@ static int quantise(float origin, float step, float lo, float hi, uint32_t *byte
 		return 0;
 	*byte_lo = from > 0 ? (uint32_t)from : 0;
 	*byte_hi = to > 0 ? (uint32_t)to : 0;
-	/* As planes are computed again, whatever was rounded. */
+	/* Correct for rounding: kernels compute planes by node8c_plane. */
 	while (*byte_lo && node8c_plane(origin, step, *byte_lo) > lo)
 		--*byte_lo;
 	while (*byte_hi < 256 && node8c_plane(origin, step, *byte_hi) < hi)
@@ -87,7 +87,7 @@ static void set_byte(uint32_t words[2], int slot, uint32_t byte)
 	words[slot >> 2] = (words[slot >> 2] & ~(255u << 8 * (slot & 3))) | byte << 8 * (slot & 3);
 }
 
-/* Boxes along one axis on a grid. @return 0: its steps are too small */
+/* Put boxes on a grid along one axis. @return 0: its steps are too small */
 static int quantise_lanes(const struct node8 *in, int axis, const int slot_of[8], uint32_t exponent, struct node8c *out)
 {
 	for (int lane = 0; lane < 8; lane++) {
@@ -103,7 +103,7 @@ static int quantise_lanes(const struct node8 *in, int axis, const int slot_of[8]
 	return 1;
 }
 
-/* The same on the finest one that holds them all. */
+/* Put boxes on the finest grid that holds all. */
 static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8], struct node8c *out)
 {
 	float lo = BVH_EMPTY_LO, hi = BVH_EMPTY_HI;
@@ -125,8 +125,8 @@ static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8]
 /* --- Which nodes become one ---------------------------------------------------------------------------------------- */
 
 /*
- * What a subtree costs as at most so many children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n] of
- * them for its left side; 0: with one less. left[1] for the eight children of the node that it becomes by itself.
+ * What a subtree costs as at most n children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n] of
+ * them go to its left side; 0: n - 1 children are as good. left[1] is for the eight children of a node of its own.
  */
 struct plan {
 	float cost[8]; /* [1..7] */
@@ -163,7 +163,7 @@ static float share(const struct node2 *node, const struct plan *plans, uint32_t 
 	return best;
 }
 
-/* area: of the box around the node. */
+/* area: of the node's box. */
 static void plan_node(const struct node2 *node, const struct plan *plans, float area, struct plan *out)
 {
 	out->cost[1] = share(node, plans, 8, &out->left[1]) + BVH_COST_NODE * area;
@@ -178,13 +178,13 @@ static void plan_node(const struct node2 *node, const struct plan *plans, float 
 
 /* --- Nodes --------------------------------------------------------------------------------------------------------- */
 
-/* Where a node comes from: a binary one, or items that are too many for a leaf, in a box. */
+/* What a node is made from: a binary node, or items in a box that are too many for a leaf. */
 struct source {
 	uint32_t first, count; /* count 0: a binary node */
 	float lo[3], hi[3];
 };
 
-/* What is being written. */
+/* The tree that is being written. */
 struct compression {
 	const struct node2 *nodes2;
 	const struct plan *plans;         /* [nodes2] */
@@ -195,7 +195,7 @@ struct compression {
 	uint32_t n_nodes, n_out;
 };
 
-/* One side of a binary node as at most n children, appended to the lanes of a node in rows. */
+/* Append one side of a binary node, as at most n children, to the lanes of a node in rows. */
 static void add_lanes(const struct compression *c, const struct node2 *node, int side, uint32_t n, struct node8 *out, uint32_t *lane)
 {
 	const struct plan *plan = &c->plans[node->child[side]];
@@ -217,7 +217,7 @@ static void add_lanes(const struct compression *c, const struct node2 *node, int
 	out->count[(*lane)++] = node->count[side];
 }
 
-/* A binary node with what lies below it as a node in rows. */
+/* A binary node, with nodes below it opened, as a node in rows. */
 static struct node8 collapse(const struct compression *c, uint32_t index)
 {
 	const uint32_t left = c->plans[index].left[1];

@@ -77,7 +77,6 @@ void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg)
 		threads = processors < 1 ? 1 : (unsigned)processors;
 	forks->run = run;
 	forks->arg = arg;
-	/* What waits now has begun as far as a thread that finds nothing to do is concerned. */
 	for (unsigned i = 1; i < threads && i < MAX_THREADS; i++)
 		started += pthread_create(&others[started], NULL, work, forks) == 0;
 	work(forks);

@@ -2,8 +2,8 @@
  * Linear bounding volume hierarchies (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): items along a Morton curve, divided
  * wherever the highest bit changes.
  *
- * The levels down to parts of GRAIN items are laid out first, by one thread; each part then goes to any thread, which fills a
- * range of nodes of its own. What is in which node follows from the sorted codes alone.
+ * One thread lays out the levels down to parts of GRAIN items. Then threads take parts, and fill a range of nodes for each.
+ * The sorted codes alone decide what is in which node.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -20,32 +20,32 @@
 #define DIGITS (1u << DIGIT_BITS)
 #define PASSES 4
 #define GRAIN 4096u
-#define SORT_ALONE 65536u /* fewer are sorted by one thread, quicker than several would agree after each pass */
+#define SORT_ALONE 65536u /* one thread sorts fewer: several would wait for one another after each pass */
 #define IS_PART 0xffffffffu
 
-/* An item by the place of its centre on the curve. */
+/* An item, by its centre's place on the curve. */
 struct place {
 	uint64_t code; /* 3 * AXIS_BITS bits */
 	uint32_t item;
 };
 
-/* A subtree to be filled by one thread: items first .. first + count - 1, nodes from `first` on, `used` in the end. */
+/* A subtree that one thread fills: items first .. first + count - 1, nodes from `first` on, `used` of them in the end. */
 struct part {
 	uint32_t first, count, depth;
 	uint32_t used, place; /* place: where its nodes go in the end */
-	uint32_t child, n_items; /* what leads to it, its nodes numbered as they lie */
+	uint32_t child, n_items; /* child and count for its parent, nodes numbered as they lie */
 	box8 box;
 };
 
 struct build {
 	const struct bvh_box *boxes;
 	uint32_t n, leaf_max;
-	struct place *from, *to; /* sorting: exchanged after each pass */
-	uint32_t *counts;        /* [thread chunk][DIGITS]: of a digit, then where it goes */
+	struct place *from, *to; /* for sorting; they swap after each pass */
+	uint32_t *counts;        /* [chunk][DIGITS]: how often a digit occurs, then where it goes */
 	uint32_t chunk, n_chunks, shift;
 	struct bvh_box *bounds;  /* [chunk] around centres */
 	float lo[3], scale;
-	box8 *sorted;            /* [n] boxes in the order of the items: read one after the other, as nodes are made */
+	box8 *sorted;            /* [n] boxes in the items' order: nodes read one after the other */
 	struct node2 *nodes;     /* [n - 1] of the parts */
 	struct node2 *out;
 	struct part *parts;
@@ -91,7 +91,7 @@ static void find_bounds(void *arg, const void *task)
 	b->bounds[chunk] = bounds;
 }
 
-/* Cells of the curve are cubes: an axis along which there is little has something to say only where cells are small. */
+/* Cells of the curve are cubes: an axis of little extent counts only where cells are small. */
 static void set_scale(struct build *b)
 {
 	struct bvh_box all = b->bounds[0];
@@ -155,7 +155,7 @@ static void run_chunks(struct build *b, struct forks *forks, unsigned threads, f
 	forks_run(forks, threads, run, b);
 }
 
-/* By code, and of equal codes by item: passes keep the order of the one before. */
+/* Sort by code, equal codes by item: each pass keeps the order of the one before. */
 static void sort(struct build *b, struct forks *forks, unsigned threads)
 {
 	run_chunks(b, forks, threads, find_bounds);
@@ -182,13 +182,13 @@ static void sort(struct build *b, struct forks *forks, unsigned threads)
 
 /* --- Nodes --------------------------------------------------------------------------------------------------------- */
 
-/* Where two to n items are divided: behind the last one whose code has the highest bit that changes at 0. */
+/* Where to divide items: behind the last one with a 0 in the highest bit of the code that changes. */
 static uint32_t find_split(const struct build *b, uint32_t first, uint32_t count, uint32_t depth)
 {
 	const uint64_t changes = b->from[first].code ^ b->from[first + count - 1].code;
 	uint32_t lo = first, hi = first + count - 1, log2 = 32 - (uint32_t)__builtin_clz(count - 1);
 
-	/* By number where codes have nothing to say, or where that is all that the depth left allows. */
+	/* Halves by number where all codes are the same, or where little depth is left. */
 	if (!changes || depth + log2 + 1 >= BVH_MAX_DEPTH)
 		return first + count / 2;
 	while (lo + 1 < hi) {
@@ -215,9 +215,9 @@ static void set_side(struct node2 *node, int side, box8 box, uint32_t child, uin
 }
 
 /*
- * The subtree over some items, from the part's next node on. A subtree of at most leaf_max items that costs more than a leaf
+ * Write the subtree over some items, from the part's next node on. A subtree of at most leaf_max items that costs more than a leaf
  * becomes one, unless it `must` be a node.
- * @return its cost, areas not divided; *child and *count are what leads to it
+ * @return its cost, areas not divided; *child and *count_out are for its parent
  */
 static float emit(const struct build *b, struct part *part, uint32_t first, uint32_t count, uint32_t depth, int must,
                   box8 *box, uint32_t *child, uint32_t *count_out)
@@ -269,7 +269,7 @@ static void fill_part(void *arg, const void *task)
 	emit(b, part, part->first, part->count, part->depth, part->count == b->n, &part->box, &part->child, &part->n_items);
 }
 
-/* The levels above the parts, into `nodes` from 0 on; sides that are parts hold their number for now, with a count of IS_PART. */
+/* Write the levels above the parts into `nodes`, from 0 on. Sides that are parts hold the part's number for now, and count IS_PART. */
 static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32_t first, uint32_t count, uint32_t depth,
                     uint32_t *child, uint32_t *count_out)
 {
@@ -295,7 +295,7 @@ static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32
 	}
 }
 
-/* A part's nodes to their place. */
+/* Move a part's nodes to their place. */
 static void move_part(void *arg, const void *task)
 {
 	const struct build *b = arg;
@@ -311,7 +311,7 @@ static void move_part(void *arg, const void *task)
 	}
 }
 
-/* What leads from the levels above to the parts, and the boxes there. */
+/* Link the levels above to the parts, and set their boxes. */
 static void close_top(const struct build *b, uint32_t n_top)
 {
 	for (uint32_t i = n_top; i-- > 0;)
@@ -340,7 +340,7 @@ static void run_parts(struct build *b, struct forks *forks, unsigned threads, fo
 	forks_run(forks, threads, run, b);
 }
 
-/* Over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their items */
+/* Build over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their items */
 static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threads)
 {
 	uint32_t n_top = 0, child, count, n;
@@ -364,7 +364,7 @@ static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threa
 int bvh_build_linear(const struct bvh_input *in, struct tree *out)
 {
 	const uint32_t n = in->n;
-	/* At each of the levels, parts of 2 * GRAIN items and more are divided. */
+	/* Each level divides parts of 2 * GRAIN items and more. */
 	const uint32_t most_parts = BVH_MAX_DEPTH * (n / (2 * GRAIN) + 1) + 1;
 	const unsigned threads = n < 2 * GRAIN ? 1 : in->threads;
 	struct build b = { .boxes = in->boxes, .n = n, .leaf_max = in->leaf_max, .out = out->nodes, .order = out->order, .chunk = 4 * GRAIN };

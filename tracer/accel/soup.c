@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 
-/* A position as a point; 0 where it has no finite place. Sets *bounded to 0 where w <= 0. */
+/* Make a point of a position. Clears *bounded where w <= 0. @return 0: it has no finite place */
 static int point_of(const float p[4], float out[3], int *bounded)
 {
 	if (p[3] == 1.0f) {
@@ -51,7 +51,7 @@ static int set_triangle(const float (*positions)[4], const uint32_t vertex[3], u
 		box->hi[a] = fmaxf(p[0][a], fmaxf(p[1][a], p[2][a]));
 	}
 	for (int a = 0; a < 3 && bounded; a++) {
-		/* What counts as a hit may lie this far outside (kernels/rays/rays.h): rounding must not hide it. */
+		/* A hit may lie this far outside the triangle (kernels/rays/rays.h): rounding must not hide it. */
 		const float pad = RAYS_EDGE_SLACK * (fabsf(triangle->e1[a]) + fabsf(triangle->e2[a])) +
 		                  2.5e-7f * fmaxf(fabsf(box->lo[a]), fabsf(box->hi[a]));
 

@@ -17,7 +17,7 @@ static int out_of_memory(void)
 	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 }
 
-/* Eye-space box of an instance whose BLAS has box `obj`, widened by the instance's pad where that is asked for. */
+/* Eye-space box of an instance. obj: the box of its BLAS; pad: how much to widen that. */
 static void eye_box(const struct instance *instance, const struct bvh_box *obj, float pad, struct bvh_box *out)
 {
 	for (int row = 0; row < 3; row++) {
@@ -30,7 +30,7 @@ static void eye_box(const struct instance *instance, const struct bvh_box *obj, 
 			lo += x < y ? x : y;
 			hi += x < y ? y : x;
 		}
-		/* Room for what rounding does to a ray on its way into object space. */
+		/* Rounding moves rays on their way into object space. */
 		lo -= 1e-6 * (fabs(lo) + (hi - lo));
 		hi += 1e-6 * (fabs(hi) + (hi - lo));
 		out->lo[row] = (float)(lo > -SOUP_UNBOUNDED ? lo : -SOUP_UNBOUNDED);
@@ -38,7 +38,7 @@ static void eye_box(const struct instance *instance, const struct bvh_box *obj, 
 	}
 }
 
-/* What a top level is built from. */
+/* What a TLAS is built from. */
 struct top {
 	struct bvh_box *boxes;
 	uint32_t *items; /* instances */
@@ -61,7 +61,7 @@ static void top_add(struct top *top, uint32_t item, const struct instance *insta
 	top->items[top->n++] = item;
 }
 
-/* Append a binary tree over `top`, and a wide one when asked for. */
+/* Append a binary tree over `top`, and an eight-wide one if `wide`. */
 static int build_top(struct accel *accel, struct top *top, int wide)
 {
 	struct node2 *nodes2 = accel->top2 + accel->n_top2;
@@ -127,7 +127,7 @@ static int build_space_top(struct accel *accel, const struct scene *scene, const
 	return err;
 }
 
-/* The eye spaces of the scene's views, each once, and once more for its skies. */
+/* List the eye spaces of the scene's views, each once, and once more for its skies. */
 static int list_spaces(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n)
 {
 	uint32_t skies = 0;

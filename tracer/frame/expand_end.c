@@ -29,7 +29,7 @@ static void mix_floats(const float *a, const float *b, float wa, float wb, float
 		out[i] = a[i] * wa + b[i] * wb;
 }
 
-/* Attributes wa a + wb b; the place in the window stays to be found. */
+/* Attributes wa a + wb b. The place in the window is still a's. */
 static struct expand_end mix_ends(const struct expand_end *a, const struct expand_end *b, float wa, float wb)
 {
 	struct expand_end e = *a;
@@ -44,7 +44,7 @@ static struct expand_end mix_ends(const struct expand_end *a, const struct expan
 	return e;
 }
 
-/* As the vertex stage does, but not snapped. Mesa's clipper projects the ends that it makes without fused operations. */
+/* As in the vertex stage, but not snapped. Mesa's clipper projects the ends that it makes without fused operations. */
 static float scale_and_move(float scale, float x, float move, int fused)
 {
 	return fused ? fmaf(scale, x, move) : scale * x + move;
@@ -75,7 +75,7 @@ static void move_floats(float *from, const float *to, float t, size_t n)
 		from[i] += t * (to[i] - from[i]);
 }
 
-/* An end moved towards the other one, in Mesa's order of operations. */
+/* Move an end towards another, in Mesa's order of operations. */
 static void move_end(struct expand_end *e, const struct expand_end *to, float t)
 {
 	move_floats(e->v.clip, to->v.clip, t, 4);

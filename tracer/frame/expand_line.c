@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "tracer/frame/expand_quad.h"
 
-/* The place of a coordinate in its pixel, from the centre. */
+/* Where a coordinate lies in its pixel, from the centre. */
 static float from_centre(float x)
 {
 	return x - floorf(x) - 0.5f;
@@ -19,9 +19,9 @@ static int same_way(float place, float d, int is_y)
 }
 
 /*
- * Does a line that runs by d_major and d_minor draw the pixel of an end that lies at (major, minor) in it?
- * The diamond-exit rule (sec. 3.4.1: the line draws a pixel whose diamond it leaves) as llvmpipe has it. In doubt it looks
- * where the line passes the pixel's middle, with the slope turned over, and counts the low border in for steep lines' second ends.
+ * Does a line in direction (d_major, d_minor) draw the pixel of its end, which lies at (major, minor) in that pixel?
+ * The diamond-exit rule (sec. 3.4.1: a line draws a pixel if it leaves its diamond) as llvmpipe has it. In doubt llvmpipe looks
+ * where the line passes the pixel's middle, with the slope inverted, and for steep lines' second ends includes the low border.
  * edge: the minor coordinate from the pixel's border.
  */
 static int draws_end(float major, float minor, float edge, float d_major, float d_minor, int first, int steep)
@@ -38,7 +38,7 @@ static int draws_end(float major, float minor, float edge, float d_major, float 
 	return crossing < 1 && (crossing > 0 || (crossing == 0 && steep && !first));
 }
 
-/* How far an end moves along the major axis, so that the quad covers the pixel's centre if the end's pixel is drawn. */
+/* How far to move an end along the major axis: the quad must cover the pixel's centre exactly if the line draws the end's pixel. */
 static float end_shift(float x, float y, float d_major, float d_minor, int first, int steep)
 {
 	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
@@ -54,7 +54,7 @@ static float end_shift(float x, float y, float d_major, float d_minor, int first
 
 #define EVERYWHERE 1e6f /* pixels: beyond all windows */
 
-/* Add an end's corner, with the end as it is and what of the line is drawn: see GEOMETRY_LINE. */
+/* Add an end's corner, with the end itself and the part of the line that is drawn: see GEOMETRY_LINE. */
 static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int second, int32_t x,
                             int32_t y, const float drawn[3])
 {
@@ -93,7 +93,7 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	expand_add_triangles(in, out, draw);
 }
 
-/* As snap, where pixels have samples: counted from their corner. */
+/* As expand_snap, for pixels with samples: counted from their corner. */
 static int32_t snap_sampled(float pixels)
 {
 	float x = pixels * 256;
@@ -101,7 +101,7 @@ static int32_t snap_sampled(float pixels)
 	return (int32_t)(x >= 0 ? x + 0.5f : x - 0.5f);
 }
 
-/* Pixels of one axis that llvmpipe (22.3.6) draws of a rectangle along a line; it rounds both sides of their range up. */
+/* Pixels along one axis that llvmpipe (22.3.6) draws of a line's rectangle; it rounds both ends of the range up. */
 struct extent {
 	int32_t first, end;
 };
@@ -118,7 +118,7 @@ static struct extent extent_of(const int32_t *v, int edge)
 	return (struct extent){ (least + 255 + edge) >> 8, (most + 255 + edge) >> 8 };
 }
 
-/* The first pixel that is drawn: rectangles are filled tile by tile, from the tile of their extent's first pixel on. */
+/* The first pixel drawn: llvmpipe fills rectangles tile by tile, from the tile of their first pixel on. */
 static float first_drawn(struct extent e)
 {
 	return e.first % 64 == 0 ? (float)e.first : -EVERYWHERE;
@@ -167,10 +167,10 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 
 	if (!(length >= 0))
 		return;
-	/* Not divided by the length: lines drawn back over themselves show the last bits, and one without a length lies flat. */
+	/* Not divided by the length: lines drawn back over themselves show the last bits, and one of no length lies flat. */
 	dx = cosf(angle);
 	dy = sinf(angle);
-	/* From the corner on whose diagonal Mesa cuts the quad: where w differs along the line the two parts bend apart. */
+	/* Start at the corner on whose diagonal Mesa cuts the quad: where w varies along the line, the two triangles differ. */
 	for (int k = 0; k < 4; k++) {
 		const struct expand_end *e = k >= 2 ? b : a;
 		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;

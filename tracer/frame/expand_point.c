@@ -24,15 +24,15 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 {
 	const struct scene_material *m = in->material;
 	int32_t width = (int32_t)fmaxf(e->v.size[0] * 256 + 0.5f, 256), x = expand_snap(e->x) - width / 2, y = expand_snap(e->y) - width / 2;
-	/* Under multisampling llvmpipe takes a sprite's middle half a pixel off where it is. */
+	/* Under multisampling llvmpipe has a sprite's middle half a pixel off. */
 	float off = m->multisample ? 128 / (float)width : 0;
 
-	/* Other than sprites, and under multisampling, they are whole pixels (sec. 3.3.1), of widths and places rounded as llvmpipe does it. */
+	/* Without sprites and multisampling, points are whole pixels (sec. 3.3.1), their width and place rounded as llvmpipe does. */
 	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
 		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
 		x = (((expand_snap(e->x) + middle) >> 8) - pixels / 2) * 256;
-		y = (((expand_snap(e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* what is on an edge belongs above it */
+		y = (((expand_snap(e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to the pixel above */
 		width = pixels * 256;
 	}
 	for (int k = 0; k < 4; k++) {
@@ -70,8 +70,8 @@ int expand_point(const struct expand_input *in, struct expanded *out, struct exp
 #define FARTHEST 32768.0f /* pixels from a window's corner: twice what any window has */
 
 /*
- * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis: beyond, places
- * have no number in 1/256 pixel. What is as wide as that all by itself ends there.
+ * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis. Farther places do
+ * not fit into 1/256 pixel. A single row or column that reaches that far ends there.
  */
 static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float place[2])
 {

@@ -53,8 +53,8 @@ void expand_add_corner(const struct expand_input *in, struct expanded *out, cons
 }
 
 /*
- * The corners are in the order of Mesa's draw module, which decides
- * the last bits of what is interpolated: turning one exchanges its first two, as llvmpipe does.
+ * Corners are in the order of Mesa's draw module, which decides the last bits of interpolated values. Turning a triangle swaps
+ * its first two, as llvmpipe does.
  */
 void expand_add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw)
 {

@@ -10,7 +10,7 @@
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------- */
 
-/* Run the vertex stage with room behind its results for what lines and points will become. */
+/* Run the vertex stage, with room behind its results for the vertices of expanded lines and points. */
 static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra_texcoords)
 {
 	struct tracer *tr = job->tr;
@@ -157,7 +157,7 @@ static int expand_all(struct job *job)
 		n_vertices += job->expanded[i].n_vertices;
 		n_texcoords += job->expanded[i].n_texcoords;
 	}
-	if (!err && n_vertices) /* once more, with room: buffers that grow forget */
+	if (!err && n_vertices) /* run it again, with room: a buffer loses its content when it grows */
 		err = run_vertices(job, n_vertices, n_texcoords);
 	if (!err)
 		err = upload_expanded(job);
@@ -166,7 +166,7 @@ static int expand_all(struct job *job)
 
 /* --- Trees ------------------------------------------------------------------------------------------------------ */
 
-/* Eye-space positions of the instances whose trees are built there; NULL in *out where there are none. */
+/* Eye-space positions of baked instances; *out is NULL where there are none. */
 static int read_baked(struct job *job, float (**out)[4])
 {
 	struct prepared *p = &job->prepared;
@@ -195,7 +195,7 @@ static int read_baked(struct job *job, float (**out)[4])
 	return err;
 }
 
-/* Order numbers run on through the frame's instances in draw order, whatever became of them. */
+/* Number primitives through the frame's instances in draw order, as many as they have after expansion. */
 static int number_primitives(struct job *job)
 {
 	const struct scene *scene = job->scene;

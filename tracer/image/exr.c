@@ -1,4 +1,4 @@
-/* struct image to and from OpenEXR files, by OpenEXRCore (written against 3.1.5; its traps are named where met). */
+/* struct image to and from OpenEXR files, by OpenEXRCore (written against 3.1.5; comments name its traps). */
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <errno.h>
 #include <half.h>
@@ -15,7 +15,7 @@
 
 #define MAX_PIXELS ((uint64_t)1 << 30)
 
-/* What the library said last on this thread: it reports through a callback, we report once, with the file's name. */
+/* The library's last message on this thread. It reports through a callback; we report once, with the file's name. */
 static _Thread_local char exr_said[160];
 
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *message)
@@ -33,7 +33,7 @@ static exr_context_initializer_t context_setup(void)
 	return setup;
 }
 
-/* The text for a failed call. */
+/* Why a call failed. */
 static const char *reason(exr_result_t rc)
 {
 	return exr_said[0] ? exr_said : exr_get_default_error_message(rc);
@@ -140,8 +140,8 @@ static exr_result_t define_part(exr_context_t file, const struct image *img)
 }
 
 /*
- * The rows of a chunk as the file has them: line by line, channel by channel. The library's own packing asks for each number what
- * to make of it.
+ * Pack the rows of a chunk as the file has them: line by line, channel by channel. The library's own packing decides for each
+ * number anew how to convert it.
  */
 static exr_result_t pack_rows(exr_encode_pipeline_t *encode)
 {
@@ -265,7 +265,7 @@ fail:
 
 /* --- Reading --------------------------------------------------------------------------------------------------- */
 
-/* Size and channels; refuses what struct image cannot hold. */
+/* Read size and channels; refuse what struct image cannot hold. */
 static int read_layout(exr_context_t file, struct image *img, const char *path, int32_t *y_first)
 {
 	const exr_attr_chlist_t *channels;

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEVEL 4 /* a fifth more bytes than zlib's 6 and several times faster */
+#define LEVEL 4 /* a fifth more bytes than zlib's level 6, and several times faster */
 
-/* A buffer of at least `size` bytes; what was in it is lost. */
+/* Make a buffer of at least `size` bytes; its content is lost. */
 static int reserve(uint8_t **buffer, size_t *have, size_t size)
 {
 	if (*have >= size)
@@ -17,7 +17,7 @@ static int reserve(uint8_t **buffer, size_t *have, size_t size)
 	return *buffer != NULL;
 }
 
-/* Optimised as loops over vectors of bytes, which -O2 leaves as they stand. */
+/* O3 makes vector loops of these; -O2 does not. */
 __attribute__((optimize("O3"))) static void split_and_difference(const uint8_t *restrict in, uint8_t *restrict out, size_t n)
 {
 	const size_t half = (n + 1) / 2;
@@ -54,7 +54,7 @@ static exr_result_t compress_chunk(exr_encode_pipeline_t *encode)
 	if (!zip->compressor || !reserve(&zip->split, &zip->split_size, n) || !reserve(&zip->packed, &zip->packed_size, n))
 		return EXR_ERR_OUT_OF_MEMORY;
 	split_and_difference(encode->packed_buffer, zip->split, n);
-	/* Readers take a chunk of its raw size for raw bytes, so that one which does not shrink is stored. */
+	/* Readers take a chunk of its raw size for raw bytes: store one that does not shrink. */
 	encode->compressed_bytes = n ? libdeflate_zlib_compress(zip->compressor, zip->split, n, zip->packed, n - 1) : 0;
 	encode->compressed_buffer = zip->packed;
 	encode->compressed_alloc_size = 0; /* ours, not the pipeline's */

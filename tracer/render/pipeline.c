@@ -22,10 +22,10 @@ struct pipeline_state {
 	struct queue scenes, pictures;
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
-	int writer_said;        /* a writer has reported its failure */
+	int writer_said;      /* a writer has reported its failure */
 	unsigned workers;     /* still at work */
 	unsigned in_flight;   /* scenes handed out and not yet on disk */
-	uint64_t frame_bytes; /* memory that a frame on its way takes, as far as seen; 0: not known yet */
+	uint64_t frame_bytes; /* most memory that a frame in flight took so far; 0: not known yet */
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
 	int begun; /* a scene was handed out */
@@ -45,7 +45,7 @@ struct picture {
 	double seconds;
 };
 
-/* The first failure ends the run; what others say while it ends is no news. */
+/* The first failure ends the run; later ones only follow from it. */
 static void fail(struct pipeline_state *state, int err)
 {
 	pthread_mutex_lock(&state->lock);
@@ -56,7 +56,7 @@ static void fail(struct pipeline_state *state, int err)
 	queue_close(&state->scenes);
 }
 
-/* A scene or picture is off the way. */
+/* A scene or picture is done with. */
 static void land(struct pipeline_state *state)
 {
 	uint64_t now = watch_memory();
@@ -79,7 +79,7 @@ static void note(struct pipeline_state *state, uint64_t frame, const char *outco
 /* --- Decoding ------------------------------------------------------------------------------------------------------ */
 
 /*
- * Wait until another frame may be on its way within the memory limit. The first one goes alone and shows what a frame takes.
+ * Wait until the memory limit allows another frame in flight. The first goes alone and shows what a frame takes.
  */
 static void wait_for_memory(struct pipeline_state *state)
 {
@@ -91,7 +91,7 @@ static void wait_for_memory(struct pipeline_state *state)
 		struct timespec until;
 
 		clock_gettime(CLOCK_REALTIME, &until);
-		until.tv_sec++; /* a signal is seen within a second */
+		until.tv_sec++; /* notice a signal within a second */
 		pthread_cond_timedwait(&state->landed, &state->lock, &until);
 	}
 	state->in_flight++;
@@ -106,7 +106,7 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 	       stamp_check(&state->p->stamp, frame, path) == STAMP_SAME;
 }
 
-/* Execute up to a frame and hand out its scene. @return 1; 0 the recording ends before it; ERR_* */
+/* Replay up to a frame and hand out its scene. @return 1; 0: the recording ends before it; ERR_* */
 static int hand_out(struct pipeline_state *state, uint64_t frame)
 {
 	struct scene *scene = NULL;
@@ -171,7 +171,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	return late ? LATE : BROKEN;
 }
 
-/* A frame was given up: the run goes on, and will have failed. */
+/* A frame ran out of time: the run goes on, and fails in the end. */
 static void give_up(struct pipeline_state *state, const struct picture *picture)
 {
 	err_report(ERR_SYSTEM, NULL, "frame %llu: given up after %.1f s (--timeout-per-frame)",
@@ -207,7 +207,7 @@ static void add_undrawn(struct pipeline_state *state, const struct tracer *trace
 	pthread_mutex_unlock(&state->lock);
 }
 
-/* Deal with one scene. @return 1, or 0: the device has failed, and this worker with it. *tracer may be NULL afterwards */
+/* Trace one scene. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
 static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene)
 {
 	struct pipeline_state *state = w->state;
@@ -273,7 +273,7 @@ static int write_picture(struct pipeline_state *state, struct picture *picture)
 	char path[MAX_PATH_BYTES];
 	int err = stamp_image(&state->p->stamp, &picture->img);
 
-	/* what was left out on purpose explains nothing that is missing */
+	/* says which channels were left out on purpose */
 	if (!err && state->p->settings->tracer.aov)
 		err = image_set_attribute(&picture->img, "relume:aov", "%s", state->p->settings->tracer.aov);
 
@@ -291,7 +291,7 @@ static void *write_all(void *arg)
 
 	err_share(&state->writer_said);
 	while ((picture = queue_take(&state->pictures))) {
-		/* After a signal, what is traced is still written; after a failure it would only fail again. */
+		/* After a signal, write what is traced. After a failure it would only fail again. */
 		int err = state->err ? state->err : write_picture(state, picture);
 
 		if (!err)
@@ -307,7 +307,7 @@ static void *write_all(void *arg)
 
 /* --- All together -------------------------------------------------------------------------------------------------- */
 
-/* Packing a file takes about as long as one core takes to trace it: with one writer for two cores, tracing waits now and then. */
+/* A core packs a file in about the time it traces one: with one writer for two cores, tracing waits now and then. */
 static unsigned writer_count(void)
 {
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -315,7 +315,7 @@ static unsigned writer_count(void)
 	return cores < 1 ? 1 : cores < MAX_WRITERS ? (unsigned)cores : MAX_WRITERS;
 }
 
-/* Every worker has a queue of its own on its device: the first one the device as it was opened, the others share it. */
+/* Every worker has a queue of its own on its device: the first uses the device as it was opened, the others share it. */
 static int seat_workers(struct pipeline_state *state, struct worker *workers, size_t n)
 {
 	struct pipeline *p = state->p;

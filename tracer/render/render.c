@@ -12,15 +12,15 @@
 
 #define MAX_PATH_BYTES 4096
 
-/* What the recording has of what was asked for. */
+/* How much of what was asked for the recording has. */
 struct extent {
 	uint64_t end;   /* frames of the recording */
-	uint64_t total; /* frames to deal with */
-	int short_of;   /* 1: it is damaged, and frames behind that were asked for */
+	uint64_t total; /* frames to render */
+	int short_of;   /* 1: it is damaged, and frames behind the damage were asked for */
 };
 
-/* Frames asked for that are not there; the list cut down to the chunk asked for. @return 1: the chunk holds no frame */
-static int settle_frames(struct settings *s, struct replay *replay, struct extent *x)
+/* Check that the frames asked for are there; cut the list down to the chunk asked for. @return 1: the chunk holds no frame */
+static int choose_frames(struct settings *s, struct replay *replay, struct extent *x)
 {
 	int damaged = 0, err = replay_frame_count(replay, &x->end, &damaged);
 
@@ -38,7 +38,7 @@ static int settle_frames(struct settings *s, struct replay *replay, struct exten
 	return err;
 }
 
-/* Say what would be done. */
+/* Print what a real run would do. */
 static int rehearse(const struct settings *s, const struct stamp *stamp, uint64_t total)
 {
 	static const char *const words[] = { "render", "render, it is damaged", "render, it was made otherwise", "leave" };
@@ -60,7 +60,7 @@ static unsigned default_jobs(void)
 {
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 
-	/* One frame's kernels run while another one is prepared, read back or cleared up by a single core. */
+	/* A device runs one frame's kernels while a single core prepares, reads back or clears up another frame. */
 	return cores <= 4 ? 2 : cores >= 16 ? 8 : (unsigned)cores / 2;
 }
 
@@ -124,7 +124,7 @@ static int render(struct settings *s)
 	if (!err && !s->no_cache)
 		err = blas_store_open(s->cache, s->cache_bytes ? s->cache_bytes : BLAS_STORE_BYTES, &s->tracer.store);
 	if (!err)
-		err = settle_frames(s, p.replay, &x);
+		err = choose_frames(s, p.replay, &x);
 	if (!err) {
 		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
 		p.end = x.end;

@@ -90,7 +90,7 @@ static void look_at_times(struct watch *w)
 	pthread_mutex_unlock(&w->lock);
 }
 
-/* A frame that needs too much by itself cannot be helped by running fewer at once. */
+/* Running fewer frames at once does not help one that needs too much by itself. */
 static void look_at_memory(struct watch *w)
 {
 	uint64_t frame = 0, now = watch_memory();
@@ -147,8 +147,8 @@ int watch_start(struct watch **out, double frame_s, uint64_t memory_bytes)
 	sigaddset(&w->signals, SIGINT);
 	sigaddset(&w->signals, SIGTERM);
 	pthread_sigmask(SIG_BLOCK, &w->signals, &w->before);
-	signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of that file */
-	signal(SIGPIPE, SIG_IGN); /* and nobody reading the progress is none */
+	signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of that file only */
+	signal(SIGPIPE, SIG_IGN); /* nobody need read the progress */
 	if (pthread_create(&w->thread, NULL, look, w) != 0) {
 		pthread_sigmask(SIG_SETMASK, &w->before, NULL);
 		pthread_mutex_destroy(&w->lock);
