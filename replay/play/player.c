@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/dispatch.h"
+#include "replay/machine/commands.h"
 #include "replay/gl/surface/frames.h"
 #include "replay/gl/texture/image.h"
 
@@ -14,7 +15,7 @@ int player_open(struct player *p, const char *path)
 	int rc;
 
 	*p = (struct player){ .path = strdup(path) };
-	rc = p->path ? trace_reader_open(&p->reader, path) : err_report(ERR_SYSTEM, path, "out of memory");
+	rc = p->path ? trace_reader_open(&p->reader, path, gls_command_find) : err_report(ERR_SYSTEM, path, "out of memory");
 	if (!rc)
 		rc = gls_exec_create(&p->exec, p->path);
 	if (rc)
@@ -79,7 +80,7 @@ static int rewind_and_build(struct player *p)
 
 	gls_exec_destroy(&p->exec);
 	trace_reader_close(&p->reader);
-	rc = trace_reader_open(&p->reader, p->path);
+	rc = trace_reader_open(&p->reader, p->path, gls_command_find);
 	if (!rc)
 		rc = gls_exec_create(&p->exec, p->path);
 	if (rc)
@@ -127,5 +128,5 @@ int player_start_again(struct player *p)
 	table_free(&p->exec->counts.unknown); /* its keys go with the reader */
 	player_use(p, x);
 	trace_reader_close(&p->reader);
-	return trace_reader_open(&p->reader, p->path);
+	return trace_reader_open(&p->reader, p->path, gls_command_find);
 }

@@ -13,15 +13,10 @@
 struct trace_reader;
 
 /* What trace_value.sig points to. */
-struct trace_enum_sig {
+struct trace_values_sig { /* of an ENUM or a BITMASK */
 	uint32_t n;
 	const char **names;
-	int64_t *values;
-};
-struct trace_bitmask_sig {
-	uint32_t n;
-	const char **names;
-	uint64_t *values;
+	uint64_t *values; /* an enum's are signed */
 };
 struct trace_struct_sig {
 	const char *name;
@@ -29,11 +24,15 @@ struct trace_struct_sig {
 	const char **members;
 };
 
+/** The number of a command by its name; -1: it has none. What calls' signatures say is up to the caller. */
+typedef int32_t trace_find(const char *name);
+
 /**
  * Open a trace and read its header.
+ * @param find  numbers commands (call_sig.command); NULL: all are -1
  * @return 0, ERR_INPUT (reported: missing, a folder, empty, a picture, not a trace, of a newer format) or ERR_SYSTEM
  */
-int trace_reader_open(struct trace_reader **out, const char *path);
+int trace_reader_open(struct trace_reader **out, const char *path, trace_find *find);
 void trace_reader_close(struct trace_reader **r);
 
 /**

@@ -154,25 +154,18 @@ static void put_names(struct trace_out *o, const char *name, const char *const *
 		put_text(o, names[i]);
 }
 
-static void put_enum_signature(struct trace_out *o, const struct trace_enum_sig *sig)
+/* Of an enum or a bitmask. */
+static void put_values_signature(struct trace_out *o, enum trace_sig_kind kind, const struct trace_values_sig *sig)
 {
-	if (!put_signature(o, TRACE_SIG_ENUM, sig))
+	if (!put_signature(o, kind, sig))
 		return;
 	put_uint(o, sig->n);
 	for (uint32_t i = 0; i < sig->n; i++) {
 		put_text(o, sig->names[i]);
-		put_number(o, sig->values[i]);
-	}
-}
-
-static void put_bitmask_signature(struct trace_out *o, const struct trace_bitmask_sig *sig)
-{
-	if (!put_signature(o, TRACE_SIG_BITMASK, sig))
-		return;
-	put_uint(o, sig->n);
-	for (uint32_t i = 0; i < sig->n; i++) {
-		put_text(o, sig->names[i]);
-		put_uint(o, sig->values[i]);
+		if (kind == TRACE_SIG_ENUM)
+			put_number(o, (int64_t)sig->values[i]);
+		else
+			put_uint(o, sig->values[i]);
 	}
 }
 
@@ -201,11 +194,11 @@ static void put_value(struct trace_out *o, const struct trace_value *v)
 		put(o, v->blob, v->count);
 		break;
 	case TRACE_ENUM:
-		put_enum_signature(o, v->sig);
+		put_values_signature(o, TRACE_SIG_ENUM, v->sig);
 		put_number(o, v->i);
 		break;
 	case TRACE_BITMASK:
-		put_bitmask_signature(o, v->sig);
+		put_values_signature(o, TRACE_SIG_BITMASK, v->sig);
 		put_uint(o, v->u);
 		break;
 	case TRACE_STRUCT:

@@ -32,7 +32,7 @@ static void print_string(FILE *out, const char *s, uint64_t n)
 
 static void print_bitmask(FILE *out, const struct trace_value *v)
 {
-	const struct trace_bitmask_sig *sig = v->sig;
+	const struct trace_values_sig *sig = v->sig;
 	uint64_t left = v->u;
 	int first = 1;
 
@@ -173,7 +173,7 @@ int dump_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		rc = trace_reader_open(&reader, line.words[0]);
+		rc = trace_reader_open(&reader, line.words[0], NULL);
 	if (rc)
 		goto done;
 	last = frame_list_last(&o.calls);

@@ -76,8 +76,8 @@ static int put_attributes(struct early *e)
 static int put_discard(struct early *e, uint64_t thread, int on)
 {
 	static const char *arg_names[] = { "cap" }, *names[] = { "GL_RASTERIZER_DISCARD" };
-	static int64_t values[] = { GL_RASTERIZER_DISCARD };
-	static const struct trace_enum_sig caps = { 1, names, values };
+	static uint64_t values[] = { GL_RASTERIZER_DISCARD };
+	static const struct trace_values_sig caps = { 1, names, values };
 	static const struct call_sig sigs[] = { { .name = "glDisable", .n_args = 1, .arg_names = arg_names },
 		                                { .name = "glEnable", .n_args = 1, .arg_names = arg_names } };
 	const struct trace_value cap = { .type = TRACE_ENUM, .sig = &caps, .i = GL_RASTERIZER_DISCARD };

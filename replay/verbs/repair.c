@@ -67,7 +67,7 @@ static int repair(const char *path, const char *new)
 	struct trace_out *out = NULL;
 	struct trace_place end;
 	uint64_t unread, unfinished;
-	int rc = trace_reader_open(&r, path);
+	int rc = trace_reader_open(&r, path, gls_command_find);
 
 	if (!rc)
 		rc = trace_out_open(&out, new, path, r);

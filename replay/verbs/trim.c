@@ -142,7 +142,7 @@ static int trim(struct trim *t)
 	char ref[PATH_MAX], new_ref[PATH_MAX];
 	struct trace_reader *r = NULL;
 	uint64_t bytes, whole_bytes;
-	int rc = trace_reader_open(&r, t->path), have_ref = 0;
+	int rc = trace_reader_open(&r, t->path, gls_command_find), have_ref = 0;
 
 	if (!rc)
 		rc = trace_out_open(&t->out, t->new, t->path, r);

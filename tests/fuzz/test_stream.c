@@ -54,7 +54,7 @@ static long count_calls(const uint8_t *stream, size_t size)
 	ck_assert(write(file, "at", 2) == 2 && write(file, &length, 4) == 4 && write(file, packed, n) == (ssize_t)n);
 	close(file);
 	free(packed);
-	ck_assert_int_eq(trace_reader_open(&r, path), 0);
+	ck_assert_int_eq(trace_reader_open(&r, path, NULL), 0);
 	while ((rc = trace_reader_next(r, &call)) == 1)
 		calls++;
 	if (rc < 0 || trace_reader_is_cut(r))

@@ -1,0 +1,136 @@
+/*
+ * A reader, as its own files see it, and the bytes that it reads: numbers, strings and blocks of the unpacked stream.
+ *
+ * Reading stops at the first failure or at the end: r->status is then set, and every function gives zeros. Callers look at it
+ * where a loop or an index depends on what was read.
+ */
+#ifndef REPLAY_TRACE_READER_BYTES_H
+#define REPLAY_TRACE_READER_BYTES_H
+
+#include <string.h>
+
+#include "base/arena.h"
+#include "capture/format/tags.h"
+#include "replay/trace/reader.h"
+
+#define READER_MAX_ARGS 256      /* of a call; GL's longest has 17 */
+#define READER_MAX_PROPERTIES 64
+
+/* A call that was entered and has not been delivered. */
+struct reader_call {
+	struct call call;
+	struct trace_value args[READER_MAX_ARGS];
+	struct arena arena;
+	int in_use;
+};
+
+/* Signatures of one kind by id. */
+struct reader_sigs {
+	void **items;
+	size_t n;
+};
+
+/* A signature that was met, and where it ends in the unpacked stream. */
+struct reader_definition {
+	enum trace_sig_kind kind;
+	uint64_t id, offset;
+};
+
+struct trace_reader {
+	char *path;
+	trace_find *find; /* NULL: no command is known */
+	struct container *container;
+	const uint8_t *p, *end; /* the piece being read */
+	uint64_t piece_start;   /* logical offset of the piece's first byte */
+	const uint8_t *piece;
+	int status;             /* 0: going; 1: the bytes ended; < 0 ERR_* */
+	int ended, cut;
+	unsigned version;
+	uint64_t next_number;
+
+	struct arena sigs; /* signatures and properties */
+	struct reader_sigs tables[N_TRACE_SIG_KINDS];
+	struct reader_definition *definitions; /* in the order of the file */
+	size_t n_definitions, definitions_room;
+	const char *properties[READER_MAX_PROPERTIES][2];
+	size_t n_properties;
+
+	struct reader_call **pending; /* owned; a pool */
+	size_t n_pending;
+	struct reader_call *entered;   /* the last one, most often the next to return; borrowed */
+	struct reader_call *delivered; /* freed by the next read */
+};
+
+/** The trace is damaged here (reported once). @return r->status */
+int reader_fail(struct trace_reader *r, const char *what);
+
+/** arena_alloc; NULL: out of memory (reported) */
+void *reader_alloc(struct trace_reader *r, struct arena *a, size_t n);
+
+/** The next piece of the unpacked stream. @return 1, or 0 at its end and after failures */
+int reader_refill(struct trace_reader *r);
+
+static inline unsigned reader_byte(struct trace_reader *r)
+{
+	if (__builtin_expect(r->p == r->end, 0) && !reader_refill(r))
+		return 0;
+	return *r->p++;
+}
+
+/** A number of up to 8 bytes, of which 8 can be read. @return behind it; NULL: it is longer */
+static inline const uint8_t *reader_quick_uint(const uint8_t *p, uint64_t *value)
+{
+	uint64_t w, last;
+
+	if (__builtin_expect(*p < 0x80, 1)) {
+		*value = *p;
+		return p + 1;
+	}
+	if (p[1] < 0x80) {
+		*value = (p[0] & 0x7fu) | (uint64_t)p[1] << 7;
+		return p + 2;
+	}
+	if (p[2] < 0x80) {
+		*value = (p[0] & 0x7fu) | (p[1] & 0x7fu) << 7 | (uint64_t)p[2] << 14;
+		return p + 3;
+	}
+	memcpy(&w, p, 8);
+	last = ~w & 0x8080808080808080u; /* the top bit of the last byte, and others above it */
+	if (!last)
+		return NULL;
+	w &= (last ^ (last - 1)) & 0x7f7f7f7f7f7f7f7fu;
+	w = (w & 0x007f007f007f007fu) | (w & 0x7f007f007f007f00u) >> 1; /* groups of 7 bits become 14, 28, 56 */
+	w = (w & 0x00003fff00003fffu) | (w & 0x3fff00003fff0000u) >> 2;
+	*value = (w & 0x0fffffffu) | (w & 0x0fffffff00000000u) >> 4;
+	return p + (__builtin_ctzll(last) >> 3) + 1;
+}
+
+/** Any number. */
+uint64_t reader_long_uint(struct trace_reader *r);
+
+/** The same. Nearly all are of one byte. */
+static inline uint64_t reader_uint(struct trace_reader *r)
+{
+	return __builtin_expect(r->p != r->end && *r->p < 0x80, 1) ? *r->p++ : reader_long_uint(r);
+}
+
+void reader_bytes_over_pieces(struct trace_reader *r, uint8_t *to, size_t n);
+
+/** n bytes. Inline, so that a number's bytes are moved by an instruction. */
+static inline void reader_bytes(struct trace_reader *r, void *out, size_t n)
+{
+	if (__builtin_expect((size_t)(r->end - r->p) < n, 0)) {
+		reader_bytes_over_pieces(r, out, n);
+		return;
+	}
+	memcpy(out, r->p, n);
+	r->p += n;
+}
+
+/** n bytes into an arena, NUL-terminated. The count is not believed: room grows with the bytes that are really there. */
+uint8_t *reader_block(struct trace_reader *r, struct arena *a, uint64_t n);
+
+/** A string with its length in front, which `count` receives unless it is NULL. */
+const char *reader_string(struct trace_reader *r, struct arena *a, uint64_t *count);
+
+#endif

@@ -1,0 +1,292 @@
+#include "replay/trace/reader_calls.h"
+
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "replay/trace/container.h"
+#include "replay/trace/reader_sigs.h"
+#include "replay/trace/reader_values.h"
+
+#define MAX_PENDING 1024       /* calls that have not returned */
+#define ARENA_KEEP (64u << 20) /* a call's memory that is kept for the next one */
+
+/* ---- details ---- */
+
+static void skip_backtrace(struct trace_reader *r, struct arena *a)
+{
+	uint64_t n = reader_uint(r);
+
+	for (uint64_t i = 0; i < n && r->status == 0; i++) {
+		if (!reader_frame_sig(r))
+			continue;
+		for (unsigned tag = reader_byte(r); tag != TRACE_FRAME_END && r->status == 0; tag = reader_byte(r)) {
+			if (tag <= TRACE_FRAME_FILE)
+				reader_string(r, a, NULL);
+			else if (tag <= TRACE_FRAME_OFFSET)
+				reader_uint(r);
+			else
+				reader_fail(r, "a stack frame of unknown form");
+		}
+	}
+}
+
+static void read_details(struct trace_reader *r, struct reader_call *p)
+{
+	struct call *call = &p->call;
+
+	for (;;) {
+		unsigned tag = reader_byte(r);
+		uint64_t index;
+		if (r->status)
+			return;
+		switch (tag) {
+		case TRACE_DETAIL_END:
+			return;
+		case TRACE_DETAIL_ARGUMENT:
+			index = reader_uint(r);
+			if (index >= READER_MAX_ARGS) {
+				reader_fail(r, "an argument's number is out of all measure");
+				return;
+			}
+			for (; call->n_args <= index; call->n_args++)
+				p->args[call->n_args].type = TRACE_NONE;
+			reader_value(r, &p->arena, &p->args[index], 0);
+			if (r->status)
+				p->args[index].type = TRACE_NONE;
+			break;
+		case TRACE_DETAIL_RESULT:
+			reader_value(r, &p->arena, &call->ret, 0);
+			if (r->status)
+				call->ret.type = TRACE_NONE;
+			break;
+		case TRACE_DETAIL_BACKTRACE:
+			skip_backtrace(r, &p->arena);
+			break;
+		case TRACE_DETAIL_FLAGS:
+			call->flags |= (uint32_t)reader_uint(r);
+			break;
+		default:
+			reader_fail(r, "a detail of unknown kind");
+		}
+		if (r->status)
+			return;
+	}
+}
+
+/*
+ * Details at p as long as they are quick ones.
+ * @param whole  receives 1: these were all; 0: read_details goes on
+ * @return behind them
+ */
+static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending, int *whole)
+{
+	const uint8_t *next, *const end = r->end;
+	const uint32_t n_args = pending->call.n_args < 0x80 ? pending->call.n_args : 0x80;
+	struct trace_value *v;
+
+	*whole = 0;
+	while (end - p >= READER_QUICK_BYTES + 2) {
+		if (*p == TRACE_DETAIL_ARGUMENT && p[1] < n_args) {
+			v = &pending->args[p[1]];
+			next = p + 2;
+		} else if (*p == TRACE_DETAIL_RESULT) {
+			v = &pending->call.ret;
+			next = p + 1;
+		} else {
+			*whole = *p == TRACE_DETAIL_END;
+			p += *whole;
+			break;
+		}
+		next = *next == TRACE_ARRAY ? reader_quick_array(r, next, &pending->arena, v) : reader_quick_scalar(r, next, v);
+		if (!next)
+			break;
+		p = next;
+	}
+	return p;
+}
+
+/* ---- events ---- */
+
+static struct reader_call *new_pending(struct trace_reader *r)
+{
+	struct reader_call **grown, *p;
+
+	if (r->entered && !r->entered->in_use)
+		return r->entered;
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (!r->pending[i]->in_use)
+			return r->entered = r->pending[i];
+	if (r->n_pending == MAX_PENDING) {
+		reader_fail(r, "too many calls that never returned");
+		return NULL;
+	}
+	grown = realloc(r->pending, (r->n_pending + 1) * sizeof(*grown));
+	if (grown)
+		r->pending = grown;
+	p = grown ? calloc(1, sizeof(*p)) : NULL;
+	if (!p) {
+		r->status = err_report(ERR_SYSTEM, r->path, "out of memory");
+		return NULL;
+	}
+	r->pending[r->n_pending++] = p;
+	return r->entered = p;
+}
+
+void reader_release_call(struct reader_call *p)
+{
+	if (p->arena.current)
+		arena_reset(&p->arena, ARENA_KEEP);
+	p->in_use = 0;
+}
+
+static void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
+{
+	const uint32_t n = sig->n_args;
+
+	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = n, .args = p->args, .ret.type = TRACE_NONE };
+	for (uint32_t i = 0; i < n; i++)
+		p->args[i].type = TRACE_NONE;
+}
+
+/* The details of an ENTER event, from r->p on, and its end. */
+static void end_enter(struct trace_reader *r, struct reader_call *p)
+{
+	read_details(r, p);
+	if (r->status) {
+		reader_release_call(p);
+		return;
+	}
+	p->call.number = r->next_number++;
+	p->in_use = 1;
+}
+
+static void read_enter(struct trace_reader *r)
+{
+	struct reader_call *p = new_pending(r);
+	const struct call_sig *sig;
+	uint64_t thread;
+
+	if (!p)
+		return;
+	thread = r->version >= 4 ? reader_uint(r) : 0;
+	sig = reader_call_sig(r);
+	if (!sig)
+		return;
+	begin_call(p, thread, sig);
+	end_enter(r, p);
+}
+
+/* @return the call that has returned, or NULL: failed, or a call that nobody knows */
+static struct reader_call *read_leave(struct trace_reader *r)
+{
+	uint64_t number = reader_uint(r);
+	struct reader_call *p = NULL, unknown;
+
+	if (r->entered && r->entered->in_use && r->entered->call.number == number)
+		p = r->entered;
+	for (size_t i = 0; i < r->n_pending && !p; i++)
+		if (r->pending[i]->in_use && r->pending[i]->call.number == number)
+			p = r->pending[i];
+	if (p) {
+		read_details(r, p);
+		/* Cut within the return: the call itself is whole, and end_of_calls delivers it. */
+		return r->status ? NULL : p;
+	}
+	memset(&unknown, 0, sizeof(unknown));
+	read_details(r, &unknown);
+	arena_free(&unknown.arena);
+	return NULL;
+}
+
+/*
+ * The next call, if its ENTER begins the quick way and its LEAVE follows at once. Whatever is not so is left to the usual
+ * way, which goes on where r->p is then.
+ * @return the call that has returned, or NULL: the next event is to be read, or failed
+ */
+static struct reader_call *quick_call(struct trace_reader *r)
+{
+	const uint8_t *p = r->p;
+	const struct call_sig *sig;
+	struct reader_call *entered;
+	uint64_t thread, number;
+	int whole;
+
+	if (r->end - p < READER_QUICK_BYTES || *p != TRACE_ENTER || r->version < 4)
+		return NULL;
+	p = reader_quick_uint(p + 1, &thread);
+	p = p ? reader_quick_uint(p, &number) : NULL;
+	sig = p ? reader_known_sig(r, TRACE_SIG_CALL, number) : NULL;
+	entered = sig ? new_pending(r) : NULL;
+	if (!entered)
+		return NULL;
+	begin_call(entered, thread, sig);
+	p = quick_details(r, p, entered, &whole);
+	if (whole) {
+		entered->call.number = r->next_number++;
+		entered->in_use = 1;
+	} else {
+		r->p = p;
+		end_enter(r, entered);
+		if (r->status)
+			return NULL;
+		p = r->p;
+	}
+	r->p = p;
+	if (r->end - p < READER_QUICK_BYTES || *p != TRACE_LEAVE || !(p = reader_quick_uint(p + 1, &number)) || number != entered->call.number)
+		return NULL;
+	p = quick_details(r, p, entered, &whole);
+	r->p = p;
+	if (!whole)
+		read_details(r, entered);
+	return r->status ? NULL : entered;
+}
+
+/* At the end: calls that were entered and never left, in order. */
+static struct reader_call *end_of_calls(struct trace_reader *r)
+{
+	struct reader_call *oldest = NULL;
+
+	if (r->status == 1 && !r->ended) {
+		r->ended = 1;
+		r->cut |= container_is_cut(r->container);
+		if (r->cut)
+			err_warn(r->path, "the file is cut short after call %llu; frames before it are whole",
+			         (unsigned long long)r->next_number);
+	}
+	for (size_t i = 0; i < r->n_pending; i++)
+		if (r->pending[i]->in_use && (!oldest || r->pending[i]->call.number < oldest->call.number))
+			oldest = r->pending[i];
+	if (oldest)
+		oldest->call.incomplete = 1;
+	return oldest;
+}
+
+/* The usual way. @return the call that has returned by it, or NULL */
+static struct reader_call *read_event(struct trace_reader *r)
+{
+	unsigned event = reader_byte(r);
+
+	if (event == TRACE_LEAVE)
+		return read_leave(r);
+	if (event == TRACE_ENTER)
+		read_enter(r);
+	else
+		reader_fail(r, "an event of unknown kind");
+	return NULL;
+}
+
+struct reader_call *reader_next_call(struct trace_reader *r)
+{
+	struct reader_call *p = NULL;
+
+	while (!p && r->status == 0) {
+		if (r->p == r->end && !reader_refill(r))
+			break;
+		p = quick_call(r);
+		if (!p && r->status == 0 && r->p != r->end)
+			p = read_event(r);
+		if (r->status == 1)
+			r->cut = 1;
+	}
+	return !p && r->status == 1 ? end_of_calls(r) : p;
+}
