@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include "replay/replay.h"
+#include "scene/release.h"
 #include "scene/scene.h"
 
 /* What the scene tells of a draw: program object, and the texels of its first texture. */

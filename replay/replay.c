@@ -13,6 +13,7 @@
 #include "replay/machine/commands.h"
 #include "replay/play/player.h"
 #include "replay/trace/hash.h"
+#include "scene/release.h"
 
 #define FEW_FRAMES 8 /* a way so short is executed, without the index */
 

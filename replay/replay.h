@@ -71,9 +71,6 @@ void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
  */
 int replay_needs_skipped(struct replay *rp, uint64_t last);
 
-/** Give a scene back; NULL is allowed. Sets *scene to NULL. May run in any thread. */
-void scene_release(struct scene **scene);
-
 /** Number of the frame that the next replay_next_frame will finish; so far executed frames. */
 uint64_t replay_frame(const struct replay *rp);
 

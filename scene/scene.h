@@ -324,6 +324,8 @@ struct scene {
 		uint64_t call_number;
 		uint32_t list; /* the display list that it came from, as the program called it; 0: none */
 	} *draws;
+
+	void (*release)(struct scene *scene); /* how its maker takes a reference back (release.h); NULL: nobody counts */
 };
 
 /**

@@ -21,7 +21,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 #include "replay/machine/state.h"
-#include "replay/replay.h"
+#include "scene/release.h"
 
 struct gls_frame {
 	struct scene *out; /* NULL between frames */
@@ -232,30 +232,6 @@ static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surfa
 	return fragments | vertices << 1;
 }
 
-/* Sec. 2.14.3: a material parameter that follows the current color shows the color of this draw. */
-static void track_color(const struct gls_lighting *l, struct scene_face *face, unsigned side, const float color[4])
-{
-	if (!l->color_material || l->color_material_face == (side ? GL_FRONT : GL_BACK))
-		return;
-	switch (l->color_material_mode) {
-	case GL_EMISSION:
-		memcpy(face->emission, color, 16);
-		break;
-	case GL_SPECULAR:
-		memcpy(face->specular, color, 16);
-		break;
-	case GL_AMBIENT:
-		memcpy(face->ambient, color, 16);
-		break;
-	case GL_DIFFUSE:
-		memcpy(face->diffuse, color, 16);
-		break;
-	default:
-		memcpy(face->ambient, color, 16);
-		memcpy(face->diffuse, color, 16);
-	}
-}
-
 static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t *count)
 {
 	struct scene *s = f->out;
@@ -286,8 +262,10 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 	m->separate_specular = l->separate_specular;
 	m->front = l->face[0];
 	m->back = l->face[1];
-	track_color(l, &m->front, 0, color);
-	track_color(l, &m->back, 1, color);
+	if (l->color_material) {
+		gls_track_color(l, 0, color, &m->front);
+		gls_track_color(l, 1, color, &m->back);
+	}
 	m->color_material = l->color_material ? l->color_material_face : 0;
 	m->color_material_mode = l->color_material_mode;
 }
@@ -672,6 +650,30 @@ static void free_frame(struct gls_frame *f)
 	free(f);
 }
 
+static void release_reference(struct scene *s)
+{
+	if (atomic_fetch_sub(&((struct gls_scene *)s)->refs, 1) != 1)
+		return;
+	for (uint32_t i = 0; i < s->n_meshes; i++)
+		gls_mesh_release((struct gls_mesh *)(uintptr_t)s->meshes[i]);
+	for (uint32_t i = 0; i < s->n_textures; i++)
+		gls_texture_image_release((struct gls_texture_image *)(uintptr_t)s->textures[i]);
+	gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
+	free(s->instances);
+	free(s->materials);
+	free(s->units);
+	free(s->lights);
+	free(s->currents);
+	free(s->views);
+	free(s->clears);
+	free(s->stipples);
+	free(s->rectangles);
+	free(s->meshes);
+	free(s->textures);
+	free(s->draws);
+	free(s);
+}
+
 static struct gls_frame *make_frame(struct gls_exec *x)
 {
 	struct gls_frame *f = calloc(1, sizeof(*f));
@@ -680,6 +682,7 @@ static struct gls_frame *make_frame(struct gls_exec *x)
 	if (!f || !scene)
 		goto fail;
 	atomic_init(&scene->refs, 1);
+	scene->scene.release = release_reference;
 	f->out = &scene->scene;
 	scene = NULL;
 	f->next_draw = 1;
@@ -779,31 +782,4 @@ struct scene *gls_scene_reference(struct scene *s)
 {
 	atomic_fetch_add(&((struct gls_scene *)s)->refs, 1);
 	return s;
-}
-
-void scene_release(struct scene **scene)
-{
-	struct scene *s = *scene;
-
-	*scene = NULL;
-	if (!s || atomic_fetch_sub(&((struct gls_scene *)s)->refs, 1) != 1)
-		return;
-	for (uint32_t i = 0; i < s->n_meshes; i++)
-		gls_mesh_release((struct gls_mesh *)(uintptr_t)s->meshes[i]);
-	for (uint32_t i = 0; i < s->n_textures; i++)
-		gls_texture_image_release((struct gls_texture_image *)(uintptr_t)s->textures[i]);
-	gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
-	free(s->instances);
-	free(s->materials);
-	free(s->units);
-	free(s->lights);
-	free(s->currents);
-	free(s->views);
-	free(s->clears);
-	free(s->stipples);
-	free(s->rectangles);
-	free(s->meshes);
-	free(s->textures);
-	free(s->draws);
-	free(s);
 }

@@ -9,6 +9,7 @@
 #include "base/verbs.h"
 #include "scene/gltf.h"
 #include "replay/replay.h"
+#include "scene/release.h"
 
 struct export {
 	uint64_t frame;

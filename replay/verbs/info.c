@@ -10,6 +10,7 @@
 #include "base/verbs.h"
 #include "base/json.h"
 #include "replay/replay.h"
+#include "scene/release.h"
 
 #define TOP_CALLS 20
 

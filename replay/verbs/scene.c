@@ -6,6 +6,7 @@
 #include "base/verbs.h"
 #include "replay/replay.h"
 #include "scene/json.h"
+#include "scene/release.h"
 
 struct asked {
 	uint64_t frame;

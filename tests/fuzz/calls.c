@@ -1,4 +1,5 @@
 #include "tests/fuzz/calls.h"
+#include "scene/release.h"
 
 #include <math.h>
 #include <stdio.h>

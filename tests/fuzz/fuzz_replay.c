@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "replay/replay.h"
+#include "scene/release.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/stream.h"
 

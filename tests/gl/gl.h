@@ -23,6 +23,7 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 #include "replay/replay.h"
+#include "scene/release.h"
 #include "tests/case.h"
 #include "replay/gl/surface/frames.h"
 

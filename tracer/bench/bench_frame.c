@@ -1,4 +1,5 @@
 #include "tracer/bench/bench_frame.h"
+#include "scene/release.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,5 @@
 #include "tracer/render/pipeline.h"
+#include "scene/release.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

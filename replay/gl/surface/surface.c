@@ -13,6 +13,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 #include "replay/replay.h"
+#include "scene/release.h"
 
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
