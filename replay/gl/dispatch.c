@@ -25,7 +25,7 @@
 
 enum { OUTSIDE = 1, DRAW_PENDING = 2, STALE = 4 };
 
-static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
+static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
 	/* What each kind asks for (commands.h); all of it means outside Begin/End. */
 	static const uint8_t rules[] = {
@@ -36,6 +36,7 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
 	struct gls_state *st = x->st;
 
 	x->command = command;
+	x->unpack = unpack;
 	if (rules[k->kind]) {
 		if (st->begin_mode) {
 			gls_error(x, st, GL_INVALID_OPERATION);
@@ -50,12 +51,12 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command)
 }
 
 /* The same of a call out of a list, or of one that another one stands for. */
-static void dispatch_nested(struct gls_exec *x, const struct call *c, uint32_t command)
+static void dispatch_nested(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
 	const uint32_t outer = x->command;
 
 	if (gls_commands[command].kind)
-		dispatch(x, c, command);
+		dispatch(x, c, command, unpack);
 	x->command = outer;
 }
 
@@ -121,7 +122,7 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 				return 0;
 		}
 	}
-	dispatch(x, c, (uint32_t)command);
+	dispatch(x, c, (uint32_t)command, NULL);
 	return x->failed;
 }
 

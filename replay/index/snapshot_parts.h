@@ -9,7 +9,7 @@
 
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/geometry/buffer.h"
+#include "replay/machine/buffer.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/framebuffer.h"

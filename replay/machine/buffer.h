@@ -1,6 +1,6 @@
 /* Buffer objects (GL 2.1 sec. 2.9). */
-#ifndef REPLAY_GL_GEOMETRY_BUFFER_H
-#define REPLAY_GL_GEOMETRY_BUFFER_H
+#ifndef REPLAY_MACHINE_BUFFER_H
+#define REPLAY_MACHINE_BUFFER_H
 
 #include <stddef.h>
 #include <stdint.h>

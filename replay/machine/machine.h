@@ -69,8 +69,8 @@ struct gls_feedback {
 
 struct gls_exec;
 
-/** Run a command of the table as if it had been met: from a list, or as part of another one. */
-typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command);
+/** Run a command of the table as if it had been met: from a list, or as part of another one. unpack: as in gls_exec. */
+typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack);
 
 struct gls_exec {
 	const char *path;    /* of the trace, for messages */
@@ -93,6 +93,7 @@ struct gls_exec {
 
 	const struct call *call;      /* being executed */
 	uint32_t command;             /* its index */
+	const struct gls_pixel_store *unpack; /* how its pixels lie in client memory; NULL: as the state says */
 	uint32_t drawn_list;          /* the outermost list being called; 0: none */
 	unsigned list_depth;
 	uint64_t repeated, repeated_frame; /* what calls made of themselves in that frame: gls_is_beyond_measure */
@@ -110,5 +111,11 @@ struct gls_exec {
 	uint64_t n_calls, without_context;
 	struct gls_counts counts;
 };
+
+/** How the pixels of the call being executed lie in client memory: those of a list, as they lay when it was made (sec. 5.4). */
+static inline const struct gls_pixel_store *gls_client_store(const struct gls_exec *x, const struct gls_state *st)
+{
+	return x->unpack ? x->unpack : &st->client.unpack;
+}
 
 #endif

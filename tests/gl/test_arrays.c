@@ -5,7 +5,7 @@
 #include "base/bytes.h"
 #include "replay/index/snapshot.h"
 #include "tests/gl/gl.h"
-#include "replay/gl/geometry/buffer.h"
+#include "replay/machine/buffer.h"
 
 static const float square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
 static const uint8_t colors[4][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 255, 0 } };

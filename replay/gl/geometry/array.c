@@ -12,10 +12,10 @@
 #include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
-#include "replay/gl/geometry/buffer.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/geometry.h"
@@ -694,7 +694,7 @@ static void put_call(struct gls_exec *x, struct gls_state *st, const char *name,
 	c.args = args;
 	c.n_args = n;
 	if (!st->list || gls_list_append(x, st, &c, command) || st->list_mode != GL_COMPILE)
-		x->dispatch(x, &c, command);
+		x->dispatch(x, &c, command, NULL);
 }
 
 GLS_HANDLER(glArrayElement, CLIENT)

@@ -1,5 +1,3 @@
-#include "replay/gl/geometry/buffer.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,6 +5,7 @@
 #include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"

@@ -235,15 +235,6 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 	set_attributes(x, st, op->after, op->after_values);
 }
 
-static void run_with_pixels(struct gls_exec *x, struct gls_state *st, const struct gls_op *op, const struct call *c)
-{
-	const struct gls_pixel_store unpack = st->client.unpack;
-
-	st->client.unpack = *op->unpack;
-	x->dispatch(x, c, op->command);
-	st->client.unpack = unpack;
-}
-
 void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_list *list = table_find(&st->share->lists, name);
@@ -274,10 +265,7 @@ void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 		} else {
 			unpack_call(op, args, &c);
 		}
-		if (op->unpack)
-			run_with_pixels(x, st, op, &c);
-		else
-			x->dispatch(x, &c, op->command);
+		x->dispatch(x, &c, op->command, op->unpack);
 	}
 	if (--x->list_depth == 0)
 		x->drawn_list = 0;
@@ -334,7 +322,7 @@ static void collect_run(struct gls_exec *assembler, const struct gls_list *list,
 		const struct gls_op *op = &list->ops[i];
 		uint32_t n = g->n_vertices, touched = g->touched;
 		unpack_call(op, args, &c);
-		assembler->dispatch(assembler, &c, op->command);
+		assembler->dispatch(assembler, &c, op->command, NULL);
 		if (n == 0 && g->n_vertices)
 			run->known = touched;
 		run->set |= touched | g->touched;

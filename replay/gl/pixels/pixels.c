@@ -17,7 +17,7 @@
 
 GLS_HANDLER(glBitmap, STATE)
 {
-	struct gls_pixels p = { .width = arg_u(c, 0), .height = arg_u(c, 1), .store = &st->client.unpack };
+	struct gls_pixels p = { .width = arg_u(c, 0), .height = arg_u(c, 1), .store = gls_client_store(x, st) };
 	float *at = st->a.current.raster_position;
 	uint8_t *texels;
 
@@ -84,7 +84,7 @@ static int is_drawable(const struct gls_exec *x, const struct gls_state *st, uin
 GLS_HANDLER(glDrawPixels, STATE)
 {
 	struct gls_pixels p = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = arg_u(c, 0), .height = arg_u(c, 1),
-		                .store = &st->client.unpack };
+		                .store = gls_client_store(x, st) };
 	int indices = p.format == GL_COLOR_INDEX || p.format == GL_STENCIL_INDEX, rc;
 	uint32_t kind = kind_of(p.format);
 	struct gls_rectangle r;
@@ -113,9 +113,9 @@ GLS_HANDLER(glDrawPixels, STATE)
 	if (!indices || gls_unpack_indices(st, &p, texels)) {
 		rc = gls_unpack_pixels(x, st, &p, kind == SCENE_DEPTH_PIXELS ? GL_DEPTH_COMPONENT :
 		                                  kind == SCENE_FLOAT_PIXELS ? GL_RGBA32F : GL_RGBA, texels);
-		if (rc == -2 && st->client.unpack.buffer) /* nor is anything drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
+		if (rc == -2 && p.store->buffer) /* nor is anything drawn (sec. 4.3.1, ARB_pixel_buffer_object) */
 			gls_error(x, st, GL_INVALID_OPERATION);
-		if (rc == -1 || (rc == -2 && st->client.unpack.buffer))
+		if (rc == -1 || (rc == -2 && p.store->buffer))
 			return;
 	}
 	r = at_raster_position(st, kind, p.width, p.height, texels);

@@ -7,6 +7,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 /* ---- storage, sec. 3.6.1 ---- */
@@ -117,7 +118,7 @@ static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct cal
 	}
 	memset(m, 0, sizeof(*m));
 	m->size = size;
-	if (st->client.unpack.buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
+	if (gls_client_store(x, st)->buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
 		gls_unsupported(x, "pixel maps beyond what the recording holds");
 	for (uint32_t i = 0; i < size && !indices && type != GL_FLOAT; i++)
 		m->values[i] /= type == GL_UNSIGNED_SHORT ? 65535.0f : 4294967295.0f;

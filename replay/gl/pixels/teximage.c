@@ -15,6 +15,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
@@ -49,10 +50,10 @@ static struct gls_level_form form_of(const struct call *c, unsigned n_dims)
 }
 
 /* The pixels of a TexImage or TexSubImage. format: the argument's number; type and data follow */
-static struct gls_pixels pixels_of(struct gls_state *st, const struct call *c, unsigned format, unsigned n_dims, const int64_t size[3])
+static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned format, unsigned n_dims, const int64_t size[3])
 {
 	struct gls_pixels p = { .format = arg_u(c, format), .type = arg_u(c, format + 1), .width = (uint32_t)size[0],
-		.height = (uint32_t)size[1], .depth = n_dims > 2 ? (uint32_t)size[2] : 0, .store = &st->client.unpack };
+		.height = (uint32_t)size[1], .depth = n_dims > 2 ? (uint32_t)size[2] : 0, .store = gls_client_store(x, st) };
 
 	p.data = gls_pixel_source(st, c, format + 2, &p.n);
 	return p;
@@ -68,7 +69,7 @@ static void tex_image(struct gls_exec *x, struct gls_state *st, const struct cal
 
 	if (!l)
 		return;
-	p = pixels_of(st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
+	p = pixels_of(x, st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
 	if (p.data && gls_unpack_pixels(x, st, &p, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
 	if (p.data && gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL)
@@ -119,7 +120,7 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 			return;
 		}
 	}
-	p = pixels_of(st, c, 2 + 2 * n_dims, n_dims, size);
+	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	if (!p.data || !size[0] || !size[1] || !size[2])
 		return;
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
@@ -243,7 +244,7 @@ GLS_HANDLER(glTexStorage3D, STATE) { tex_storage(x, st, c, 3); }
 
 GLS_HANDLER(glClearTexImage, OBJECT)
 {
-	const struct gls_pixel_store tight = { .alignment = 1, .swap_bytes = st->client.unpack.swap_bytes };
+	const struct gls_pixel_store tight = { .alignment = 1, .swap_bytes = gls_client_store(x, st)->swap_bytes };
 	struct gls_pixels pixel = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = 1, .height = 1, .store = &tight };
 	struct gls_texture *t = table_find(&st->share->textures, arg_u(c, 0));
 	uint8_t texel[16] = { 0 };

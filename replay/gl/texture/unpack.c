@@ -6,10 +6,10 @@
 #include "gl_tokens.h"
 #include "base/half.h"
 #include "capture/format/trace.h"
-#include "replay/gl/geometry/buffer.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
 #include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
