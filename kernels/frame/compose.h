@@ -8,7 +8,7 @@
 #ifndef KERNELS_FRAME_COMPOSE_H
 #define KERNELS_FRAME_COMPOSE_H
 
-#include "kernels/gl/fragment.h"
+#include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
 #ifndef COMPOSE_LANES

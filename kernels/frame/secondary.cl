@@ -4,7 +4,7 @@
 __kernel void shadow_ray(KERNEL_ARGUMENTS(shadow_ray))
 {
 	const struct shadow_ray_arguments a = KERNEL_STRUCT(shadow_ray);
-	struct stage_kept_plane kept;
+	struct shadow_kept kept;
 
 	if (get_global_id(0) < n_rays)
 		shadow_ray_item(&a, (uint32_t)get_global_id(0), 0, &kept);

@@ -12,7 +12,7 @@ __kernel void gather(KERNEL_ARGUMENTS(gather))
 __kernel void shade(KERNEL_ARGUMENTS(shade))
 {
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
-	struct stage_kept kept;
+	struct setup_kept kept;
 
 	if (get_global_id(0) < n)
 		shade_item(&a, (uint32_t)get_global_id(0), 0, &kept);

@@ -9,7 +9,7 @@ __kernel void shade_packet(KERNEL_ARGUMENTS(shade))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
-	struct stage_kept kept[SHADE_TRIANGLES];
+	struct setup_kept kept[SHADE_TRIANGLES];
 
 	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
 		kept[i].instance = SCENE_NONE;

@@ -66,7 +66,7 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 }
 
 /* What rays from the fragments of a triangle share, found for the first of them. */
-struct stage_kept_plane {
+struct shadow_kept {
 	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
 	struct point p;               /* but for its weights */
 	float w_inv[3];
@@ -77,7 +77,7 @@ struct stage_kept_plane {
  * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted.
  * sample: which of the rays to each light, over all passes of the frame. keeps, kept: as for shade_item.
  */
-static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps, struct stage_kept_plane *kept)
+static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps, struct shadow_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	uint32_t slot = item / a->n, i = item % a->n;

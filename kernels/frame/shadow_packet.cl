@@ -8,7 +8,7 @@ __kernel void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shadow_ray_arguments a = KERNEL_STRUCT(shadow_ray);
-	struct stage_kept_plane kept[SHADE_TRIANGLES];
+	struct shadow_kept kept[SHADE_TRIANGLES];
 
 	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
 		kept[i].instance = SCENE_NONE;

@@ -8,9 +8,7 @@
 #define KERNELS_GL_STAGES_H
 
 #include "kernels/camera/camera.h"
-#include "kernels/common.h"
-#include "kernels/gl/fragment.h"
-#include "kernels/gl/pixel.h"
+#include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
 
 /* Pixel number of a work item in a rectangle. */
@@ -77,205 +75,6 @@ static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 	GLOBAL const float *drawn = p->vertex[0]->secondary[1];
 
 	return p->geometry->flags & GEOMETRY_LINE && ((float)x < drawn[0] || (float)row < drawn[1] || (float)row > drawn[2]);
-}
-
-/* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
-static inline float stage_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
-{
-	const float first = clip_first(e, z), dz01 = first - clip_second(e, z), dz20 = z[2] - first;
-	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
-	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
-	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
-	                          M_ABS((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
-
-	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
-}
-
-/*
- * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
- * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners. What is no
- * line stays as it is. y from the top.
- * Under multisampling all of its direction counts, and llvmpipe takes the ends half a pixel off where they are, but not the places
- * that it asks for.
- */
-static inline void stage_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
-                              struct fragment *f)
-{
-	GLOBAL const struct view *view;
-	float x, y, middle_x, middle_y;
-	struct point p;
-	struct vec4 a, b, c;
-	int second[3];
-	float dx, dy, one_over_area, along_x, along_y, share;
-
-	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
-	if (!(p.geometry->flags & GEOMETRY_LINE))
-		return;
-	view = &views[p.geometry->view];
-	x = clip_from_origin(view, (int32_t)pixel_x, view->sample[0]);
-	y = clip_from_origin(view, (int32_t)pixel_y, -view->sample[1]);
-	middle_x = clip_from_origin(view, (int32_t)pixel_x, 0);
-	middle_y = clip_from_origin(view, (int32_t)pixel_y, 0);
-	a = b = v4_load(p.vertex[0]->color[1]);
-	for (int i = 0; i < 3; i++) {
-		c = v4_load(p.vertex[i]->color[1]);
-		second[i] = c.w > 0.5f;
-		if (second[i])
-			b = c;
-		else
-			a = c;
-	}
-	dx = a.x - b.x;
-	dy = a.y - b.y;
-	one_over_area = 1.0f / (dx * dx + dy * dy);
-	if (view->sample[0] | view->sample[1]) {
-		/* as it is */
-	} else if (M_ABS(dx) >= M_ABS(dy)) {
-		dx *= 1.0f + (dy / dx) * (dy / dx);
-		dy = 0.0f;
-	} else {
-		dy *= 1.0f + (dx / dy) * (dx / dy);
-		dx = 0.0f;
-	}
-	along_x = (a.z - b.z) * dx * one_over_area;
-	along_y = (a.z - b.z) * dy * one_over_area;
-	f->depth = clamp01(M_FMA(along_y, y, M_FMA(along_x, x, a.z - (along_x * (a.x - 0.5f) + along_y * (a.y - 0.5f)))));
-	share = -(dx * one_over_area * (middle_x - (a.x - 0.5f)) + dy * one_over_area * (middle_y - (a.y - 0.5f)));
-	f->b1 = f->b2 = 0.0f;
-	if (second[0])
-		share = 1.0f - share;
-	if (second[1] == second[0])
-		f->b2 = share;
-	else
-		f->b1 = share;
-}
-
-/*
- * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices; llvmpipe takes attributes and
- * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from clip
- * coordinates; of what leaves the view volume (cut), from the part that covers the pixel. @return 0: a line, a sliver
- */
-static inline int stage_setup(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
-                              uint32_t x, uint32_t y, uint32_t height, int cut, struct clip_setup *setup)
-{
-	struct clip_polygon polygon;
-	uint32_t part = 2u;
-	float w_inv[3];
-
-	if (p->geometry->flags & GEOMETRY_LINE)
-		return 0;
-	if (cut) {
-		clip_triangle(view, (float)height, v4_load(p->vertex[0]->clip), v4_load(p->vertex[1]->clip), v4_load(p->vertex[2]->clip),
-		              &polygon);
-		while (part < polygon.n && !clip_covers(polygon.corner[part - 1u].window, polygon.corner[part].window,
-		                                        polygon.corner[0].window, clip_spot(view, (int32_t)x, (int32_t)y)))
-			part++;
-		if (part >= polygon.n)
-			return 0;
-		setup->cuts = polygon.cuts;
-	} else {
-		setup->cuts.n = 0u;
-	}
-	for (uint32_t i = 0u; i < 3u; i++) {
-		struct clip_corner *c = &setup->corner[i];
-
-		if (cut) {
-			*c = polygon.corner[i == 2u ? 0u : part - 1u + i];
-		} else {
-			c->clip = v4_load(p->vertex[i]->clip);
-			c->number = i;
-			c->b1 = i == 1u ? 1.0f : 0.0f;
-			c->b2 = i == 2u ? 1.0f : 0.0f;
-			if (p->geometry->flags & GEOMETRY_SMOOTH_LINE) {
-				c->place[0] = p->vertex[i]->size[0];
-				c->place[1] = p->vertex[i]->size[1];
-			} else {
-				clip_place(view, c->clip, (float)height, c->place);
-			}
-			c->window = windows[p->geometry->vertex_first + p->number[i]];
-		}
-		w_inv[i] = c->window.w_inv;
-		setup->px[i] = c->place[0] - clip_origin(view);
-		setup->py[i] = c->place[1] - clip_origin(view);
-	}
-	if (clip_is_sliver(clip_place_area(setup->px, setup->py)))
-		return 0;
-	setup->edges = clip_edges_of(setup->px, setup->py);
-	setup->w_inv = clip_plane_through(&setup->edges, w_inv);
-	return 1;
-}
-
-/* What the fragments of a triangle share, found for the first of them and kept for those that follow it in the list. */
-struct stage_kept {
-	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
-	struct point p;               /* but for its weights */
-	float w_inv[3];
-	int have_setup, have_lit;
-	struct clip_setup setup;
-	struct clip_plane depth;
-	float offset;                 /* of polygons; 0: none */
-	struct point_kept sampling;
-	struct vec3 seen[SCENE_MAX_LIGHTS]; /* of lights, where its vertices were lit again */
-	struct lit lit[3];
-};
-
-/* The triangle of a fragment. Not kept: what is cut to the view, as other pixels may lie in other parts of it. */
-static inline void stage_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f, int keeps,
-                              struct stage_kept *kept)
-{
-	const int cut = (f->primitive & FRAGMENT_PERSPECTIVE) != 0, needs_depth = a->n_slots == 0u;
-
-	if (keeps && kept->instance == f->instance && kept->primitive == f->primitive)
-		return;
-	kept->instance = cut ? SCENE_NONE : f->instance;
-	kept->primitive = f->primitive;
-	kept->p = point_of_triangle(&a->tables, a->windows, f, kept->w_inv);
-	kept->have_lit = kept->have_setup = 0;
-	point_keep_nothing(&kept->sampling);
-	if (needs_depth || kept->p.material->unit_count)
-		kept->have_setup = stage_setup(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y, a->height, cut, &kept->setup);
-	if (needs_depth && kept->have_setup) {
-		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
-
-		kept->depth = clip_plane_through(&kept->setup.edges, z);
-		kept->offset = kept->p.material->polygon_offset & 4u && !(kept->p.geometry->flags & GEOMETRY_EXPANDED) ?
-		                       stage_offset(kept->p.material, &kept->setup.edges, z, a->bits) : 0.0f;
-	}
-}
-
-/* The vertices lit again; what lights show to a fragment they mostly show to the next one too. */
-static inline void stage_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct stage_kept *kept)
-{
-	int same = keeps && kept->have_lit;
-
-	for (uint32_t i = 0u; i < SCENE_MAX_LIGHTS; i++) {
-		same &= seen[i].x == kept->seen[i].x && seen[i].y == kept->seen[i].y && seen[i].z == kept->seen[i].z;
-		kept->seen[i] = seen[i];
-	}
-	if (!same)
-		point_light_corners(t, &kept->p, seen, kept->lit);
-	kept->have_lit = 1;
-}
-
-/*
- * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place where the
- * view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
- */
-static inline void stage_unsnap(GLOBAL const struct view *view, const struct stage_kept *kept, uint32_t x, uint32_t y, uint32_t height,
-                                struct fragment *f)
-{
-	const struct clip_setup *setup = &kept->setup;
-	float px[3], py[3], area = clip_place_area(setup->px, setup->py);
-
-	f->depth = clamp01(clip_plane_in(&kept->depth, view, (float)height, (int32_t)x, (int32_t)y) + kept->offset);
-	for (uint32_t i = 0u; i < 3u; i++) {
-		px[i] = setup->px[i] - clip_from_origin(view, (int32_t)x, 0);
-		py[i] = setup->py[i] - clip_from_origin(view, (int32_t)(height - 1u - y), 0);
-	}
-	f->b1 = -(px[2] * py[0] - px[0] * py[2]) / area;
-	f->b2 = -(px[0] * py[1] - px[1] * py[0]) / area;
-	if (f->primitive & FRAGMENT_PERSPECTIVE)
-		clip_weights(&setup->corner[0], &setup->corner[1], &setup->corner[2], f->b1, f->b2, &f->b1, &f->b2);
 }
 
 /*
@@ -418,16 +217,16 @@ static inline void stage_store_flags(const struct shade_arguments *a, const stru
  * A fragment that is seen for the first time: the weights of its attributes and its depth as its triangle or line has them.
  * @return 0: nothing is drawn there, by clip planes or stipples
  */
-static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct stage_kept *kept,
+static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct setup_kept *kept,
                                     struct fragment *f)
 {
 	GLOBAL const struct view *view = &a->views[kept->p.geometry->view];
 	const int clipped = userclip_outside(view, a->windows, &kept->p, (int32_t)x, (int32_t)y, (float)a->height);
 
 	if (kept->have_setup)
-		stage_unsnap(view, kept, x, y, a->height, f);
+		setup_unsnap(view, kept, x, y, a->height, f);
 	else
-		stage_line(&a->tables, a->views, x, a->height - 1u - y, f);
+		setup_line(&a->tables, a->views, x, a->height - 1u - y, f);
 	return !clipped && !stage_undrawn(&kept->p, x, a->height - 1u - y) && !stage_stippled_away(&a->tables, &kept->p, x, y);
 }
 
@@ -437,7 +236,7 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
  * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
  * or nothing (kept->instance SCENE_NONE).
  */
-static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct stage_kept *kept)
+static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	GLOBAL struct shaded *out = &a->shaded[item];
@@ -461,7 +260,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	f = a->fragments[item];
 	x = a->pixels[item] % a->width;
 	y = a->pixels[item] / a->width;
-	stage_keep(a, x, y, &f, keeps, kept);
+	setup_keep(a, x, y, &f, keeps, kept);
 	p = kept->p;
 	if (!a->n_slots) {
 		drawn = stage_place_first(a, x, y, kept, &f);
@@ -489,7 +288,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	window.height = a->height;
 	point_texture(t, &p, &window, &texturing);
 	if (a->n_slots && !p.material->surface.relit) {
-		stage_keep_lit(t, seen, keeps, kept);
+		setup_keep_lit(t, seen, keeps, kept);
 		lit = from_vertices = point_lit_between(&p, kept->lit);
 	} else {
 		lit = from_vertices = point_lit_from_vertices(&p);

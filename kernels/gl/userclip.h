@@ -6,7 +6,7 @@
 #ifndef KERNELS_GL_USERCLIP_H
 #define KERNELS_GL_USERCLIP_H
 
-#include "kernels/gl/fragment.h"
+#include "kernels/gl/point.h"
 
 #define USERCLIP_CORNERS (CLIP_MAX_CORNERS + SCENE_MAX_CLIP_PLANES)
 

@@ -3,7 +3,7 @@
 
 void shadow_ray_c(const struct shadow_ray_arguments *a, size_t first, size_t last)
 {
-	struct stage_kept_plane kept;
+	struct shadow_kept kept;
 
 	for (size_t i = first; i < last && i < a->n_rays; i++)
 		shadow_ray_item(a, (uint32_t)i, 0, &kept);

@@ -9,7 +9,7 @@ void gather_c(const struct gather_arguments *a, size_t first, size_t last)
 
 void shade_c(const struct shade_arguments *a, size_t first, size_t last)
 {
-	struct stage_kept kept;
+	struct setup_kept kept;
 
 	for (size_t i = first; i < last && i < a->n; i++)
 		shade_item(a, (uint32_t)i, 0, &kept);

@@ -1,0 +1,341 @@
+/*
+ * A point of a triangle: where it is, how it is lit. It is a fragment under a pixel centre or what a secondary ray hit; the text is the
+ * same.
+ */
+#ifndef KERNELS_GL_POINT_H
+#define KERNELS_GL_POINT_H
+
+#include "gl_tokens.h"
+#include "kernels/common.h"
+#include "kernels/gl/clip.h"
+#include "kernels/gl/tables.h"
+#include "kernels/gl/vertex.h"
+
+/* A point of a triangle. */
+struct point {
+	GLOBAL const struct geometry *geometry;
+	GLOBAL const struct scene_material *material;
+	GLOBAL const struct shaded_vertex *vertex[3];
+	uint32_t number[3]; /* the vertices in the mesh */
+	float weight[3];    /* of the vertices, in object space: perspective-correct */
+	int front;
+};
+
+static inline void point_vertices(const struct tables *t, struct point *p, uint32_t instance, uint32_t primitive)
+{
+	p->geometry = &t->geometries[instance];
+	p->material = &t->materials[p->geometry->material];
+	for (uint32_t i = 0u; i < 3u; i++) {
+		p->number[i] = t->indices[p->geometry->index + primitive * 3u + i];
+		p->vertex[i] = &t->vertices[p->geometry->vertex_first + p->number[i]];
+	}
+}
+
+static inline struct vec3 point_corner(const struct point *p, int i)
+{
+	GLOBAL const float *e = p->vertex[i]->eye;
+
+	return e[3] == 1.0f ? v3_load(e) : v3_scale(v3_load(e), 1.0f / e[3]);
+}
+
+/*
+ * The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. Length 0 where
+ * there is none: no area, or corners that are no numbers.
+ */
+static inline struct vec3 point_plane_normal(const struct point *p)
+{
+	struct vec3 a = point_corner(p, 0);
+	struct vec3 n = v3_normalize(v3_cross(v3_sub(point_corner(p, 1), a), v3_sub(point_corner(p, 2), a)));
+
+	return v3_dot(n, n) > 0.0f ? n : v3(0.0f, 0.0f, 0.0f);
+}
+
+/* (x, y, w) of a clip-space vertex: lines through the eye, which clipping does not disturb. */
+static inline struct vec3 point_clip_xyw(const struct point *p, int i)
+{
+	GLOBAL const float *c = p->vertex[i]->clip;
+
+	return v3(c[0], c[1], c[3]);
+}
+
+/* 1 where a fragment's triangle shows its front. w: window vertices of its geometry */
+static inline int point_shows_front(const struct point *p, GLOBAL const struct window_vertex *w)
+{
+	int clockwise;
+
+	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
+	if (w[p->number[0]].w_inv > 0.0f && w[p->number[1]].w_inv > 0.0f && w[p->number[2]].w_inv > 0.0f) {
+		float x0 = (float)w[p->number[0]].x, y0 = (float)w[p->number[0]].y;
+
+		clockwise = ((float)w[p->number[1]].x - x0) * ((float)w[p->number[2]].y - y0) -
+		                    ((float)w[p->number[2]].x - x0) * ((float)w[p->number[1]].y - y0) <
+		            0.0f;
+	} else {
+		clockwise = v3_dot(v3_cross(point_clip_xyw(p, 0), point_clip_xyw(p, 1)), point_clip_xyw(p, 2)) < 0.0f;
+	}
+	return clockwise == (p->material->front_face == GL_CW);
+}
+
+/* The point under a fragment but for its weights: what it shares with all others of its triangle. w_inv: of the three vertices */
+static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                             const struct fragment *f, float *w_inv)
+{
+	struct point p;
+	GLOBAL const struct window_vertex *w;
+
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	w = windows + p.geometry->vertex_first;
+	for (int i = 0; i < 3; i++) {
+		w_inv[i] = w[p.number[i]].w_inv;
+		p.weight[i] = 0.0f;
+	}
+	p.front = point_shows_front(&p, w);
+	return p;
+}
+
+/* The point under a fragment. Not by way of point_of_triangle: compilers for CPUs then keep all of it in memory. */
+static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
+                                               const struct fragment *f)
+{
+	struct point p;
+	GLOBAL const struct window_vertex *w;
+
+	point_vertices(t, &p, f->instance, FRAGMENT_PRIMITIVE(*f));
+	w = windows + p.geometry->vertex_first;
+	fragment_weights(*f, w[p.number[0]].w_inv, w[p.number[1]].w_inv, w[p.number[2]].w_inv, p.weight);
+	p.front = point_shows_front(&p, w);
+	return p;
+}
+
+/* The point that a ray hit; its front side is the one GL would see from the ray's origin. */
+static inline struct point point_from_hit(const struct tables *t, const struct hit *hit, struct vec3 direction)
+{
+	struct point p;
+
+	point_vertices(t, &p, hit->instance, hit->primitive);
+	p.weight[0] = 1.0f - hit->b1 - hit->b2;
+	p.weight[1] = hit->b1;
+	p.weight[2] = hit->b2;
+	p.front = (v3_dot(point_plane_normal(&p), direction) > 0.0f) == (p.material->front_face == GL_CW);
+	return p;
+}
+
+static inline struct vec3 point_position(const struct point *p)
+{
+	return v3_add(v3_add(v3_scale(point_corner(p, 0), p->weight[0]), v3_scale(point_corner(p, 1), p->weight[1])),
+	              v3_scale(point_corner(p, 2), p->weight[2]));
+}
+
+/* Unit normal for effects: GL's interpolated one where the draw is lit, else the plane's; on the side that is seen. */
+static inline struct vec3 point_normal(const struct point *p)
+{
+	struct vec3 n = point_plane_normal(p), smooth;
+
+	n = v3_scale(n, (p->material->front_face == GL_CW) == p->front ? -1.0f : 1.0f);
+	if (!p->material->lighting)
+		return n;
+	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
+	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
+	                             v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	if (!(v3_dot(smooth, smooth) > 0.0f)) /* none, or an infinite one (vertex_eye_normal) */
+		return n;
+	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
+}
+
+/* A point's triangle in eye space: what rays from it need, whatever the point. */
+struct point_plane {
+	struct vec3 corner[3], normal; /* point_plane_normal */
+	float length[3], area;         /* of the edge opposite of each corner; of the parallelogram */
+};
+
+static inline struct point_plane point_plane_of(const struct point *p)
+{
+	struct point_plane plane;
+	struct vec3 edge[3], cross;
+
+	for (int i = 0; i < 3; i++)
+		plane.corner[i] = point_corner(p, i);
+	plane.normal = point_plane_normal(p);
+	edge[0] = v3_sub(plane.corner[2], plane.corner[1]);
+	edge[1] = v3_sub(plane.corner[0], plane.corner[2]);
+	edge[2] = v3_sub(plane.corner[1], plane.corner[0]);
+	cross = v3_cross(edge[2], edge[0]);
+	plane.area = M_SQRT(v3_dot(cross, cross));
+	for (int i = 0; i < 3; i++)
+		plane.length[i] = M_SQRT(v3_dot(edge[i], edge[i]));
+	return plane;
+}
+
+static inline struct vec3 point_place(const struct point_plane *plane, const float *weight)
+{
+	return v3_add(v3_add(v3_scale(plane->corner[0], weight[0]), v3_scale(plane->corner[1], weight[1])),
+	              v3_scale(plane->corner[2], weight[2]));
+}
+
+/*
+ * Weights of a place inside of the triangle, at least `inset` away from its edges, where the triangle is that wide: the
+ * point's own unless it lies at an edge, or beyond one that covers its pixel by the snapping of vertices.
+ */
+static inline void point_inset_weights(const struct point *p, const struct point_plane *plane, float inset, float *weight)
+{
+	float sum = 0.0f;
+
+	for (int i = 0; i < 3; i++) {
+		float length = plane->length[i];
+		float least = inset * length * 3.0f < plane->area ? inset * length / plane->area : 1.0f / 3.0f;
+
+		weight[i] = M_MAX(p->weight[i], least);
+		sum += weight[i];
+	}
+	for (int i = 0; i < 3; i++)
+		weight[i] /= sum;
+}
+
+/*
+ * Where secondary rays start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
+ * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
+ * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
+ * tenth of a pixel's footprint in common windows.
+ *
+ * Coverage and depth go by vertices snapped to 1/256 pixel, so that a pixel's point may lie a little outside of its
+ * triangle, or behind a wall that meets it: the ray would start behind the next wall and a lit junction show dark
+ * pixels. The point is therefore first taken back into its triangle, and then, by as much again, against `from`, the
+ * direction of the ray that led to it: what lies before it on that ray was seen through, so nothing stands there. Not so
+ * where `towards` leads away through the other side of the triangle.
+ */
+static inline struct vec3 point_ray_origin(const struct point *p, const struct point_plane *plane, struct vec3 towards,
+                                           struct vec3 from)
+{
+	struct vec3 at = point_place(plane, p->weight), n = plane->normal, back = v3_scale(v3_normalize(from), -1.0f);
+	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f, weight[3];
+
+	n = v3_dot(n, towards) < 0.0f ? v3_scale(n, -1.0f) : n;
+	point_inset_weights(p, plane, size, weight);
+	at = point_place(plane, weight);
+	if (v3_dot(n, back) > 0.0f)
+		at = v3_add(at, v3_scale(back, size));
+	return v3_add(at, v3_scale(n, size));
+}
+
+/* 1 where a user clip plane (sec. 2.12) cuts the point away. */
+static inline int point_clipped(const struct point *p)
+{
+	for (uint32_t i = 0u; i < SCENE_MAX_CLIP_PLANES; i++) {
+		struct vec4 plane;
+		float d;
+
+		if (!(p->material->clip_plane_mask >> i & 1u))
+			continue;
+		plane = v4_load(p->material->clip_plane_eye[i]);
+		d = v4_dot(plane, v4_load(p->vertex[0]->eye)) * p->weight[0] +
+		    v4_dot(plane, v4_load(p->vertex[1]->eye)) * p->weight[1] +
+		    v4_dot(plane, v4_load(p->vertex[2]->eye)) * p->weight[2];
+		if (d < 0.0f)
+			return 1;
+	}
+	return 0;
+}
+
+/* --- Light ----------------------------------------------------------------------------------------------------- */
+
+static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct vec4 b, struct vec4 c)
+{
+	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), p->weight[1]), v4_scale(v4_sub(c, a), p->weight[2]))); /* equals give themselves */
+}
+
+/* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */
+static inline int point_side(const struct point *p)
+{
+	return p->material->lighting && p->material->two_side && !p->front;
+}
+
+static inline struct lit point_lit_from_vertices(const struct point *p)
+{
+	int side = point_side(p);
+	struct lit lit;
+
+	if (p->material->shade_model == GL_FLAT) {
+		lit.color = v4_load(p->vertex[2]->color[side]);
+		lit.secondary = v4_load(p->vertex[2]->secondary[side]);
+		lit.lights = p->vertex[2]->lit[side];
+		return lit;
+	}
+	lit.color = point_mix(p, v4_load(p->vertex[0]->color[side]), v4_load(p->vertex[1]->color[side]),
+	                      v4_load(p->vertex[2]->color[side]));
+	lit.secondary = point_mix(p, v4_load(p->vertex[0]->secondary[side]), v4_load(p->vertex[1]->secondary[side]),
+	                          v4_load(p->vertex[2]->secondary[side]));
+	lit.lights = p->vertex[0]->lit[side] | p->vertex[1]->lit[side] | p->vertex[2]->lit[side];
+	return lit;
+}
+
+/* The vertices lit again, with shares of the lights' diffuse and specular light; of flat shading the last one alone. */
+static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen, struct lit *lit)
+{
+	for (int i = p->material->shade_model == GL_FLAT ? 2 : 0; i < 3; i++)
+		lit[i] = vertex_color(t, p->geometry, p->vertex[i], p->number[i], point_side(p), seen);
+}
+
+/* point_lit_from_vertices, of vertices that point_light_corners has lit. */
+static inline struct lit point_lit_between(const struct point *p, const struct lit *lit)
+{
+	struct lit out = lit[2];
+
+	if (p->material->shade_model == GL_FLAT)
+		return out;
+	out.color = point_mix(p, lit[0].color, lit[1].color, lit[2].color);
+	out.secondary = point_mix(p, lit[0].secondary, lit[1].secondary, lit[2].secondary);
+	return out;
+}
+
+static inline struct lit point_lit_again(const struct tables *t, const struct point *p, const struct vec3 *seen)
+{
+	struct lit lit[3];
+
+	point_light_corners(t, p, seen, lit);
+	return point_lit_between(p, lit);
+}
+
+/* The colour at the point that the draw gave its vertices. */
+static inline struct vec4 point_current_color(const struct tables *t, const struct point *p)
+{
+	struct vec4 last = tables_color(t, p->geometry, p->number[2]);
+
+	return p->material->shade_model == GL_FLAT ? last : point_mix(p, tables_color(t, p->geometry, p->number[0]),
+	                                                              tables_color(t, p->geometry, p->number[1]), last);
+}
+
+/* The lights of a point beyond GL: its own where a rule has given it some. */
+static inline struct light_list point_lights(const struct point *p)
+{
+	GLOBAL const struct scene_material *m = p->material;
+
+	return m->surface.relit ? light_list(m->surface.light_first, m->surface.light_count) :
+	                          light_list(m->light_first, m->light_count);
+}
+
+/* Whether light has a part in a point's colour. */
+static inline int point_takes_light(const struct point *p)
+{
+	return (p->material->lighting || p->material->surface.relit) && !(p->geometry->flags & GEOMETRY_EXPANDED);
+}
+
+/* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */
+static inline struct lit point_lit_here(const struct tables *t, const struct point *p, const struct vec3 *seen)
+{
+	int side = point_side(p);
+	struct vec3 at = point_position(p), n;
+
+	if (!point_takes_light(p))
+		return point_lit_from_vertices(p);
+	if (!p->material->lighting)
+		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
+		                    tables_face(t, p->geometry, p->number[2], side), point_current_color(t, p), side, seen);
+	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
+	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
+	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f),
+	                    side ? v3_scale(n, -1.0f) : n, tables_face(t, p->geometry, p->number[2], side),
+	                    point_current_color(t, p), side, seen);
+}
+
+#endif
