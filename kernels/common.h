@@ -1,8 +1,8 @@
 /*
- * The common subset of C11 and OpenCL C 1.2 that shading is written in: names for address spaces and mathematics, small
- * vectors. Text that includes only this and shared.h compiles as kernel and as C twin.
+ * Shading is written in the common subset of C11 and OpenCL C 1.2. This header gives it names for mathematics, and small vectors. Text
+ * that includes only this and shared.h compiles as kernel and as C twin.
  *
- * Contraction is off on both sides (-ffp-contract=off; the pragma below): the twin is then the kernel's specification.
+ * Both sides compile without contraction (-ffp-contract=off; the pragma below): the twin is the kernel's specification.
  */
 #ifndef KERNELS_COMMON_H
 #define KERNELS_COMMON_H

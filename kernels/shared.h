@@ -1,6 +1,6 @@
 /*
- * Structs that the host and the kernels share, beside those of scene.h. Included by C and by OpenCL C 1.2: plain
- * structs of 4-byte fields, no pointers. Sizes are asserted on the host (tracer/device/device.c).
+ * Structs that host and kernels share, beside those of scene.h. C and OpenCL C 1.2 include this file, so structs are plain: fields of
+ * 4 bytes, no pointers. SHARED_SIZE asserts their sizes when C includes it.
  *
  * Terms
  *   order      number of a primitive in the frame's draw order (scene.h)
@@ -15,8 +15,8 @@
 typedef ushort uint16_t;
 #define GLOBAL __global
 #define SHARED_SIZE(type, bytes)
-/* A function that is compiled into each kernel that calls it, wherever constants make it another one there. Interpreters of
- * kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know compilers' own words. */
+/* Marks a function that kernels call with constants: each kernel then gets a version of its own, without the branches that its
+ * constants rule out. Interpreters of kernels (LANES_PORTABLE, kernels/rays/lanes.h) do not know the attribute. */
 #ifdef LANES_PORTABLE
 #define INLINED static inline
 #else
@@ -44,10 +44,10 @@ struct hit {
 SHARED_SIZE(struct hit, 20);
 
 /*
- * What a primitive leaves at a pixel centre. b1, b2 are weights of vertices 1 and 2 on the SCREEN (linear in window
- * space, not perspective-correct); attributes divide by w (GL 2.1 equation 3.6). Where a vertex has no place in the
- * window (window_vertex.w_inv == 0) they are weights in the volume instead, perspective-correct as they stand, and
- * FRAGMENT_PERSPECTIVE says so. fragment_weights knows both.
+ * A primitive at a pixel centre. b1, b2 are weights of vertices 1 and 2 on the SCREEN: linear in window space, not
+ * perspective-correct; attributes divide by w (GL 2.1 equation 3.6). Where a vertex has no place in the window
+ * (window_vertex.w_inv == 0), FRAGMENT_PERSPECTIVE is set and they are weights in the volume, perspective-correct as they stand.
+ * fragment_weights knows both.
  */
 #define FRAGMENT_PERSPECTIVE 0x80000000u
 #define FRAGMENT_PRIMITIVE(fragment) ((fragment).primitive & ~FRAGMENT_PERSPECTIVE)
@@ -91,17 +91,17 @@ SHARED_SIZE(struct node8, 256);
 
 /*
  * An eight-wide node in 80 bytes, five loads of a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray traversal on GPUs
- * through compressed wide BVHs"): the children's boxes on a grid of 8 bits an axis over the node's own, each at least as large as
- * the one it stands for. Slot s holds the child that lies farthest along the diagonal whose bits are s (bit a set: along +a), so
- * that a ray meets slots about in the order of s ^ its octant, with nothing to sort. kernels/rays/compressed.h reads it.
+ * through compressed wide BVHs"). The children's boxes lie on a grid of 8 bits an axis over the node's box; each box contains the one
+ * it stands for. Slot s holds the child that lies farthest along diagonal s (bit a set: along +a). A ray then meets slots about in
+ * the order of s ^ its octant, with nothing to sort. kernels/rays/compressed.h reads it.
  */
 struct node8c {
 	float origin[3];    /* lower corner of the grid */
 	uint32_t exponents; /* bytes: of the grid's steps along x, y, z, as in a float; the last: a bit for each slot that is a node */
 	uint32_t child_first;    /* nodes among the children stand one after the other, in the order of their slots */
 	uint32_t triangle_first; /* in triangles8c */
-	uint32_t meta[2];        /* a byte a slot, little end first: 0 for a node or nothing; else NODE8C_LEAF, 32 times (its triangles - 1)
-	                            and the first of them, counted from triangle_first */
+	uint32_t meta[2];        /* a byte a slot, little end first: 0 for a node or nothing; else NODE8C_LEAF | (triangles - 1) << 5 |
+	                            the first triangle, counted from triangle_first */
 	uint32_t lo[3][2], hi[3][2]; /* a byte a slot; nothing: lo 255, hi 0 */
 };
 SHARED_SIZE(struct node8c, 80);
@@ -210,19 +210,19 @@ SHARED_SIZE(struct shaded_vertex, 128);
 /* bits of geometry.flags */
 #define GEOMETRY_EXPANDED 1u /* lines or points made into triangles after the vertex stage: nothing to light again */
 /*
- * Smooth ones: their vertices' color[1], which nothing else uses, holds where they are for the coverage (stage_coverage).
- *   line   pixels across the line, half its width and a half, pixels along it from its middle, half its length and a half;
- *          of lines shorter than a pixel the last two are shrunk so that they fade as they get shorter. Its size[] is where
- *          the corner is in the window, in pixels, y from the top, not snapped: clip would lose the last bits
+ * Smooth ones: nothing else uses their vertices' color[1], so it holds their place for the coverage (stage_coverage).
+ *   line   pixels across the line; half its width and a half; pixels along it from its middle; half its length and a half. For lines
+ *          shorter than a pixel the last two are smaller, so that lines fade as they get shorter. size[] holds the corner's place
+ *          in the window, in pixels, y from the top, not snapped: clip would lose the last bits
  *   point  x and y in its circle of radius 1
  */
 #define GEOMETRY_SMOOTH_LINE 2u
 #define GEOMETRY_SMOOTH_POINT 4u
-/* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and SCENE_BITMAP etc. */
+/* Bitmaps and pixel rectangles: color[1] holds the pixel's column and row, the texture's number, and the kind (SCENE_BITMAP ..). */
 #define GEOMETRY_PIXELS 8u
 /*
- * Lines: color[1] of each corner holds where its end is in the window (x, y from the top, depth) and 0 at the first, 1 at the second;
- * secondary[1] which pixels are drawn at all: first column, first and last row from the top.
+ * Lines: color[1] of each corner holds its end's place in the window (x, y from the top, depth), then 0 at the first end, 1 at the
+ * second. secondary[1] says which pixels are drawn at all: first column, first and last row from the top.
  */
 #define GEOMETRY_LINE 16u
 
@@ -256,10 +256,10 @@ SHARED_SIZE(struct texture_image, 96);
 /* The fragment's colours as the per-fragment operations take them. */
 struct shaded {
 	float gl[4];       /* GL's own: texturing, colour sum and fog done, clamped */
-	float shadowed[3]; /* the same with the shadowed lights dimmed or off */
+	float shadowed[3]; /* gl with the visibility of its lights */
 	float direct[3];   /* the same lit per pixel, where that is asked for, and by light from other surfaces */
-	float mirrored[3]; /* the same with what mirrors show */
-	float beauty[3];   /* the same with what is seen through glass */
+	float mirrored[3]; /* direct with mirror reflections */
+	float beauty[3];   /* mirrored with refractions */
 	float albedo[3];   /* the surface under white light, without fog */
 	float depth;       /* window depth after polygon offset, [0,1] */
 	uint32_t flags;    /* SHADED_*; 0: there is no fragment */
@@ -273,15 +273,15 @@ SHARED_SIZE(struct shaded, 84);
 #define SHADED_WANTS(slot) (0x100u << (slot)) /* light `slot` of the material's list needs a shadow ray */
 
 /*
- * What a ray carries on its way from a fragment: how much of the light it finds counts, and where. The ray itself stands
- * in a buffer of its own, at the same place.
+ * A path from a fragment: the share of the radiance it finds that counts, and where to. Its ray stands in a buffer of its own, at the
+ * same place.
  */
 struct path {
 	float weight[3];
 	uint32_t target; /* fragment in the list; for rays to lights: slot * n + item */
-	uint32_t kind;   /* PATH_*: to which of the fragment's parts its light belongs */
-	uint32_t depth;  /* bounces so far, the fragment's own not counted */
-	uint32_t medium; /* material of the body that it travels in, or SCENE_NONE */
+	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to */
+	uint32_t depth;  /* bounces so far, without the fragment's own */
+	uint32_t medium; /* material of the body it travels in, or SCENE_NONE */
 };
 SHARED_SIZE(struct path, 28);
 
@@ -289,7 +289,7 @@ SHARED_SIZE(struct path, 28);
 #define PATH_REFLECT 1u
 #define PATH_REFRACT 2u
 
-/* Rays that leave a fragment, and a hit, at most: mirrored, let through, scattered. */
+/* Upper bounds of the rays that leave a fragment, and a hit: mirrored, let through, scattered. */
 #define PATHS_PER_FRAGMENT 3u
 #define PATHS_PER_HIT 2u
 
@@ -313,7 +313,7 @@ struct frame_pixel {
 };
 SHARED_SIZE(struct frame_pixel, 124);
 
-/* What a pixel still holds from before the scene, where the scene does not say what that was. */
+/* What of a pixel is from before the scene, and unknown. */
 #define PIXEL_UNKNOWN_COLOR 1u
 #define PIXEL_UNKNOWN_DEPTH 2u
 #define PIXEL_UNKNOWN_STENCIL 4u
@@ -321,8 +321,8 @@ SHARED_SIZE(struct frame_pixel, 124);
 #define PIXEL_BEFORE 16u      /* its colour comes from before the scene, and is known; cleared with the colour only */
 
 /*
- * Planes of a finished picture, as the kernel compose leaves them: the top row first, one kind as halves, the other as floats.
- * Names in tracer/frame/compose.c.
+ * Planes of a finished picture, as the kernel compose leaves them, top row first: some as halves, the others as floats.
+ * tracer/frame/compose.c names them.
  */
 #define COMPOSE_BEAUTY 0u /* R G B A */
 #define COMPOSE_GL 4u     /* R G B A */
@@ -354,8 +354,8 @@ SHARED_SIZE(struct compose_request, 152);
 /* Pixels of a work item of compose_packet. */
 #define COMPOSE_PACKET 8u
 
-/* Fragments of a work item of shade_packet, rays of one of shadow_ray_packet: a block of the list (tracer/frame/trace.c) where each pixel
- * has one. And triangles that it keeps, by their numbers: neighbours mostly have numbers close together. */
+/* Fragments of a work item of shade_packet, and rays of one of shadow_ray_packet: where each pixel has one fragment, a block of the
+ * list (tracer/frame/segment.c). And triangles that it keeps, by number: neighbours mostly have numbers close together. */
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u
 

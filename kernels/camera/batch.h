@@ -1,8 +1,8 @@
 /*
- * Sixteen triangles at once on their way to a tile's pixels: what of them the tile can see, and their edges and depths as rows
- * of pixels take them. One triangle a lane. OpenCL C only.
+ * Sets up sixteen triangles at once for a tile's pixels, one triangle a lane: which of them the tile can see, and their edges and
+ * depths for rows of pixels. OpenCL C only.
  *
- * A tile meets few pixels of each triangle, so that what is done once a triangle weighs as much as what is done for its pixels.
+ * A tile meets few pixels of each triangle: setting up a triangle costs as much as drawing its pixels.
  */
 #ifndef KERNELS_CAMERA_BATCH_H
 #define KERNELS_CAMERA_BATCH_H
@@ -29,7 +29,7 @@ struct batch {
 	packi step_x[3], step_y[3];   /* 1/256 square pixel a pixel */
 	long16 value[2];              /* of edges 1 and 2 at the tile's first pixel, exact, 1/65536 square pixel */
 	packi small;                  /* lanes whose functions fit into 32 bits wherever they are inside */
-	packi rest[2];                /* of them, where whole stands for the function: what is to be added to 256 times it */
+	packi rest[2];                /* of small lanes: the function is 256 whole + rest */
 	packf inverse;                /* 1 / twice the area, in their unit */
 	packi x_first, x_last, y_first, y_last; /* pixels of the tile that the triangle's box holds */
 	packf z, along_b1, along_b2;  /* depth from weights */

@@ -17,9 +17,9 @@
  *
  * CAMERA_NEAREST_*: fragments[pixel] is the one of least window depth, in steps of 2^-24 (24-bit depth buffer); of
  * equals the first in draw order with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.
- * A triangle seen edge-on covers pixels by its snapped vertices alone, and its plane, which gives the depth (gl_clip.h), may
- * stand nearer there than any vertex does, as in llvmpipe. Its box does not tell of that: where something lies before the
- * box, such a fragment is found or left out as the tree has it.
+ * A triangle seen edge-on covers pixels by its snapped vertices alone. Its plane gives the depth (kernels/gl/clip.h) and may stand
+ * nearer there than any vertex, as in llvmpipe. Its box does not show that: where something lies before the box, it depends on the
+ * tree whether such a fragment is found.
  * CAMERA_COLUMN: fragments[pixel * CAMERA_COLUMN_MAX ..] are the first CAMERA_COLUMN_MAX fragments whose order number is
  * at least after[pixel], ascending. A caller that wants all starts with after = 0 and goes on with the last order + 1
  * as long as CAMERA_COLUMN_MAX come.

@@ -1,9 +1,9 @@
 /*
  * camera_packet: a tile of 32 x 32 pixels a work item. See kernels/camera/camera.h.
  *
- * The tile's rays go through the trees as one frustum against eight boxes at once, nearest child first, cut off behind the farthest
- * of the tile's nearest fragments. Triangles of leaves wait until there are sixteen, which are set up at once (kernels/camera/batch.h); what
- * is left of them is decided block by block, four rows of four pixels at once: small triangles meet few of those.
+ * The tile's rays go through the trees as one frustum against eight boxes at once, nearest child first. Of the tile's nearest
+ * fragments the farthest cuts the frustum off. Triangles of leaves wait until there are sixteen, and are then set up at once
+ * (kernels/camera/batch.h). Each is then drawn block by block, four rows of four pixels at once: small triangles meet few blocks.
  */
 #include "kernels/camera/batch.h"
 #include "kernels/camera/camera.h"
@@ -21,7 +21,7 @@
 #define BLOCK_X (PACK_LANES & 3)
 #define BLOCK_Y (PACK_LANES >> 2)
 
-/* What they hold. NEAREST: the nearest fragment; its depth is NO_DEPTH where there is none. COLUMN: how many fragments so far. */
+/* The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many fragments so far. */
 #define NO_DEPTH 2.0f
 struct pack {
 	packu order, instance, primitive;
@@ -29,7 +29,10 @@ struct pack {
 	packi counts;
 };
 
-/* Faces that wait, numbers in the mesh: sixteen are drawn as soon as as many others are here, whose vertices are on their way meanwhile. */
+/*
+ * Triangles that wait, by their numbers in the mesh. The first sixteen are drawn when sixteen more have come: the vertices of the
+ * later ones are prefetched meanwhile.
+ */
 #define PENDING_FULL 32
 struct pending {
 	uint n, primitive[PENDING_FULL + 8], vertex[3][PENDING_FULL + 8];
@@ -380,7 +383,8 @@ struct entry {
 	uint child, count;
 };
 
-/* Push what of a node the tile may see, so that what reaches farthest before the far plane is popped first. nodes, faces: the instance's. */
+/* Push the children of a node that the tile may see; the one that reaches farthest before the far plane is popped first. nodes, faces:
+ * the instance's. */
 static inline uint push_children(const struct frustum8 *f, __global const struct node8 *nodes, __global const struct face8 *faces,
                                  uint index, struct entry *stack, uint depth)
 {

@@ -59,7 +59,7 @@ static inline float coverage_depth(__global const struct view *view, uint height
 	return clamp01(clip_plane_in(&plane, view, (float)height, x, y));
 }
 
-/* A vertex lies outside of the view volume: what is left of the triangle is asked. i0, i1, i2: places in clip. */
+/* A vertex lies outside of the view volume: ask the clipped triangle. i0, i1, i2: places in clip. */
 static inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0, uint i1, uint i2,
                             uint flags, int exact, int x, int y, float *b1, float *b2, float *depth)
 {

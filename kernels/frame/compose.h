@@ -69,7 +69,7 @@ static inline float compose_rounded(float x)
 
 /* --- Planes ------------------------------------------------------------------------------------------------------- */
 
-/* What is left to explain, rounded as it is stored; what rounding alone leaves is no effect. */
+/* The rest of a sum, rounded as it is stored; what rounding alone leaves is no effect. */
 static inline float compose_effect(float rest, float of)
 {
 	return M_ABS(rest) > M_ABS(of) * 0.001953125f ? compose_rounded(rest) : 0.0f;

@@ -26,7 +26,7 @@ struct branches {
 	GLOBAL struct ray *rays;
 	GLOBAL struct path *paths;
 	uint32_t count;
-	struct path from; /* the path that ends here; its weight is what arrives */
+	struct path from; /* the path that ends here */
 };
 
 /* The next place of the list, its ray still to be written, or NULL: too little to be followed. */
@@ -130,7 +130,7 @@ static inline struct vec3 path_weight(const struct path *path)
 	return v3(path->weight[0], path->weight[1], path->weight[2]);
 }
 
-/* leave: a fragment's first rays, and what of its own colour stays. */
+/* leave: a fragment's first rays, and the rest of its own colour. */
 static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -198,7 +198,7 @@ static inline void want_lights_item(const struct want_lights_arguments *a, uint3
 	a->wanted[item] = stage_wanted(&p, stage_lights(t, &p, a->transport, point_lit_from_vertices(&p).lights));
 }
 
-/* The colour of what a path hit, with what arrives of the lights. */
+/* The colour of a path's hit, with the visibility of its lights. */
 static inline struct vec4 hit_color(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                     uint32_t transport, const struct vec3 *seen, int dimmed)
 {
@@ -212,7 +212,7 @@ static inline struct vec4 hit_color(const struct tables *t, const struct point *
 	return v4(c.x, c.y, c.z, color.w);
 }
 
-/* What is seen where nothing was hit: the sky's surface, if there is one, or the colour the frame was cleared with. */
+/* The colour where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared with. */
 static inline struct vec3 hit_nothing(const struct tables *t, GLOBAL const struct hit *sky, GLOBAL const struct ray *ray,
                                       uint32_t has_sky, GLOBAL const float *background)
 {

@@ -1,6 +1,6 @@
 /*
- * Samples that do not depend on when or where they are taken: a sequence that fills the unit square evenly, turned by a
- * number of each pixel and purpose.
+ * Samples that depend on neither time nor place: a sequence fills the unit square evenly, and each pixel and purpose turns it by a
+ * number of its own.
  */
 #ifndef KERNELS_FRAME_SAMPLE_H
 #define KERNELS_FRAME_SAMPLE_H

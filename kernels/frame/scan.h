@@ -1,10 +1,10 @@
 /*
- * Where each of many items' results go when they stand densely: sums of all counts before (Blelloch 1990, "Prefix sums and their
- * applications"). Included by C and OpenCL C.
+ * Prefix sums (Blelloch 1990, "Prefix sums and their applications"): the place of each item's results in a dense list is the sum of
+ * all counts before. Included by C and OpenCL C.
  *
- * A work item sums SCAN_CHUNK consecutive counts; its sums are counts again, until there is one: the total. On the way back down
- * each sum is replaced by what stands before it. Additions of integers in a fixed order of launches, none of which
- * waits for another work item: nothing depends on scheduling.
+ * A work item sums SCAN_CHUNK consecutive counts. The sums are counts again, until there is one: the total. On the way back down
+ * the sum of all before replaces each sum. Integers are added in a fixed order of launches, and no work item waits for another:
+ * nothing depends on scheduling.
  *
  * scan_sum: sums[sum_first + i] = counts[count_first + SCAN_CHUNK i] + .. as far as n counts go
  *

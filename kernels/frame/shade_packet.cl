@@ -1,7 +1,6 @@
 /*
- * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: neighbours mostly lie in the same
- * triangle, and what they share is found once: three tenths less time in a hall of 262,267 triangles, two fifths less in a box of 34
- * (PoCL, 800 x 600).
+ * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs. Neighbours mostly lie in the same
+ * triangle, whose set-up is found once. kernels/README.md has the figures.
  */
 #include "kernels/gl/stages.h"
 

@@ -153,7 +153,7 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 	a->rays[item].t_max = a->reach;
 }
 
-/* --- What came of them ----------------------------------------------------------------------------------------- */
+/* --- Results --------------------------------------------------------------------------------------------------- */
 
 /*
  * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list.

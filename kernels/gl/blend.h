@@ -1,7 +1,7 @@
 /*
- * Blending (GL 2.1 sec. 4.1.8) as a frame buffer of 8 bits a channel does it, in integers of 8 bits: the source is rounded
- * before it is blended, not after. The specification leaves the arithmetic open; this is llvmpipe's (Mesa 22.3.6), so that
- * what is blended many times over, a trail or a cloud of particles, does not drift away from what the program showed.
+ * Blending (GL 2.1 sec. 4.1.8) as a frame buffer of 8 bits a channel does it, in integers of 8 bits: the source is rounded before
+ * blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails and clouds of
+ * particles blend many times over, and must not drift away from the program's picture.
  */
 #ifndef KERNELS_GL_BLEND_H
 #define KERNELS_GL_BLEND_H

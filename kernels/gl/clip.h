@@ -2,8 +2,8 @@
  * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view volume.
  *
  * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out from its
- * first corner. New corners are snapped to 1/256 pixel like all others, so that edges and depth of what leaves the window are
- * those of its parts: over a wall that reaches from the horizon to behind the viewer the difference can be seen.
+ * first corner. New corners are snapped to 1/256 pixel like all others: edges and depth are those of the parts. The difference shows
+ * on a wall that reaches from the horizon to behind the viewer.
  */
 #ifndef KERNELS_GL_CLIP_H
 #define KERNELS_GL_CLIP_H
@@ -31,7 +31,7 @@ struct clip_cuts {
 	float t[CLIP_MAX_CUTS];
 };
 
-/* A corner of what is left of a triangle. */
+/* A corner of a clipped triangle. */
 struct clip_corner {
 	struct vec4 clip;
 	uint32_t number;             /* 0 to 2: the triangle's, else see struct clip_cuts */
@@ -92,7 +92,7 @@ static inline float clip_place_area(const float *px, const float *py)
 	return (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
 }
 
-/* So thin that only its snapped form, which is what was covered, says anything. */
+/* So thin that only its snapped form counts, which decided about coverage. */
 static inline int clip_is_sliver(float area)
 {
 	return !(M_ABS(area) > 1.0e-6f);

@@ -115,7 +115,7 @@ static inline float pixel_nudge(float x)
 	return M_ABS(rest) > 0.46f ? (code + (rest > 0.0f ? 0.46f : -0.46f)) / 255.0f : x;
 }
 
-/* What of a source colour ends in the frame buffer over a destination; the mask is the caller's. */
+/* The colour that the frame buffer gets from a source over a destination; the mask is the caller's. */
 static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	if (!m->blend && !m->logic_op)
@@ -162,7 +162,7 @@ static inline uint32_t pixel_alpha_bits(uint32_t bits)
 	return bits >> 16 & 255u;
 }
 
-/* Tests of sec. 4.1.4 to 4.1.6, with what they leave in stencil and depth buffer. @return 1: the fragment is drawn */
+/* Tests of sec. 4.1.4 to 4.1.6, and their changes to stencil and depth buffer. @return 1: the fragment is drawn */
 static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                               GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
@@ -259,7 +259,7 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 	pixel_part(m, s->shadowed, opacity, alpha, pixel->shadowed, 0);
 	pixel_part(m, s->direct, opacity, alpha, pixel->direct, 0);
 	pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, 0);
-	/* What is seen through glass is traced; blending would show it once more. */
+	/* Refractions are traced; blending would show them once more. */
 	pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, m->surface.transmit > 0.0f);
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;

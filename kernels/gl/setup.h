@@ -21,11 +21,11 @@ static inline float setup_offset(GLOBAL const struct scene_material *m, const st
 }
 
 /*
- * A fragment of a line: what a line has changes along its longer axis only, in llvmpipe's order of operations, and goes on beyond
- * its ends. Corners are the ends themselves, so the share of the second is shared out among those of its corners. What is no
- * line stays as it is. y from the top.
- * Under multisampling all of its direction counts, and llvmpipe takes the ends half a pixel off where they are, but not the places
- * that it asks for.
+ * A fragment of a line: attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its
+ * ends. The triangle's corners are the ends themselves: the second end's share goes to one of its corners. Other fragments stay
+ * as they are. y from the top.
+ * Under multisampling all of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the places that it
+ * asks for.
  */
 static inline void setup_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x, uint32_t pixel_y,
                               struct fragment *f)
@@ -80,9 +80,9 @@ static inline void setup_line(const struct tables *t, GLOBAL const struct view *
 }
 
 /*
- * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices; llvmpipe takes attributes and
- * depth from the unsnapped ones (nearest filtering and steep faces show the difference), so they are found again from clip
- * coordinates; of what leaves the view volume (cut), from the part that covers the pixel. @return 0: a line, a sliver
+ * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices, but llvmpipe takes attributes and
+ * depth from the unsnapped ones: nearest filtering and steep faces show the difference. So they are found again from clip
+ * coordinates. A triangle that leaves the view volume (cut) counts by the part that covers the pixel. @return 0: a line, a sliver
  */
 static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows, const struct point *p,
                               uint32_t x, uint32_t y, uint32_t height, int cut, struct clip_setup *setup)
@@ -148,7 +148,7 @@ struct setup_kept {
 	struct lit lit[3];
 };
 
-/* The triangle of a fragment. Not kept: what is cut to the view, as other pixels may lie in other parts of it. */
+/* The triangle of a fragment. Clipped ones are not kept: other pixels may lie in other parts. */
 static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f, int keeps,
                               struct setup_kept *kept)
 {

@@ -32,7 +32,7 @@ static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 	a->after[pixel] = n == a->slots ? a->sparse[pixel * a->slots + n - 1u].order + 1u : SCENE_NONE;
 }
 
-/* Shares of the material's lights that arrive at the item. */
+/* Visibility of the material's lights at the item. */
 static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item, struct vec3 *seen)
 {
 	for (uint32_t slot = 0u; slot < SCENE_MAX_LIGHTS; slot++)
@@ -79,7 +79,7 @@ static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 
 /*
  * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
- * What is not lit by GL shows its colour as it is.
+ * A surface that GL does not light shows its colour as it is.
  */
 static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                          const struct vec3 *seen)
@@ -141,7 +141,7 @@ static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 col
 	v3_store(out->beauty, color);
 }
 
-/* What is added to GL's own lighting: `color` in its place, from the way of lighting. */
+/* The colour by the way of lighting that is asked for. color: by GL's own */
 static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                       uint32_t transport, const struct vec3 *seen, struct vec4 color)
 {
@@ -173,7 +173,7 @@ static inline float stage_coverage(const struct point *p)
 	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
 }
 
-/* What of a bitmap or pixel rectangle lies under a fragment: its texel. */
+/* The texel of a bitmap or pixel rectangle under a fragment. */
 static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
                                                        uint32_t *kind)
 {

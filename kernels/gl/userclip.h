@@ -30,7 +30,7 @@ static inline float userclip_distance(const struct userclip_plane *plane, const 
 	return plane->d[0] * (1.0f - c->b1 - c->b2) + plane->d[1] * c->b1 + plane->d[2] * c->b2;
 }
 
-/* The corner of a cut, from the one that is nearer to the plane; d: their distances, of which one is negative. */
+/* The corner of a cut, from the one that is nearer to the plane. d: their distances, one of them negative */
 static inline struct clip_corner userclip_cut(GLOBAL const struct view *view, float height, const struct clip_corner *a,
                                               const struct clip_corner *b, float d_a, float d_b)
 {

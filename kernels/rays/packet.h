@@ -2,10 +2,10 @@
  * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
  * occlude_packet and intersect_packet.
  *
- * Boxes: with i = 1/d, a plane at p is met at t = p * i - o * i. Both products are kept in two roundings, so that no box is
- * missed by rounding (far planes with p * i < 0 come nearer by what i is made larger; o * i gives that back). Which of a
- * box's planes is met first depends on the signs of d alone; a packet whose rays differ in signs tries both orders. A ray
- * sleeps where t_max is below t_min.
+ * Boxes: with i = 1/d, a ray meets a plane at p at t = p * i - o * i. Both products are kept in two roundings, so that rounding
+ * misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). The signs of d alone decide
+ * which of a box's planes comes first; a packet of rays with different signs tries both orders. A ray sleeps where t_max is
+ * below t_min.
  */
 #ifndef KERNELS_RAYS_PACKET_H
 #define KERNELS_RAYS_PACKET_H
@@ -99,9 +99,9 @@ static inline packi packet_meets(const struct packet *p, packf end, __global con
 }
 
 /*
- * What the rays of a packet of one octant have in common: per axis the corner of their origins that lets them enter a box first, the
- * one that lets them leave it last, and least and greatest 1/d. A box that all of it misses no ray meets (interval arithmetic:
- * Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"): eight boxes are asked at once, whatever the number of rays.
+ * Bounds of the rays of a packet of one octant: per axis the corner of their origins that enters a box first, the one that leaves it
+ * last, and least and greatest 1/d. No ray meets a box that the beam misses (interval arithmetic: Reshetov, Soupikov and Hurley 2005,
+ * "Multi-level ray tracing algorithm"). A beam tests eight boxes at once, whatever the number of rays.
  */
 struct beam {
 	float near_o[3], far_o[3], least[3], greatest[3], t_min, t_max;
@@ -123,7 +123,7 @@ static inline float sum_of(packf x)
 	return four.x + four.y + (four.z + four.w);
 }
 
-/* Bounds of what n packets' awake rays have: least values, and the least of what they are negated. */
+/* Bounds of a value of n packets' awake rays: the least, and the least of the negated values. */
 struct bounds {
 	packf least, opposite;
 };

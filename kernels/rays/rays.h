@@ -4,8 +4,8 @@
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
  * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
- * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing; nor do rays of which o / d, part by part, has no
- * place in RAYS_RANGE (d of next to nothing counts as 1e-20), in eye space or an instance's: boxes could not be told apart.
+ * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing. Nor do rays with a component of o / d
+ * beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts as 1e-20): boxes could not be told apart.
  *
  * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
  * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth

@@ -1,13 +1,10 @@
 /*
  * occlude_packet, intersect_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of sixteen that share
- * one stack. Where all have one octant, boxes are first asked eight at a time against the beam around all rays, those that it meets
- * then one by one by the packets. Where only a few rays of a packet go on, each does on its own against eight boxes at once. See
+ * one stack. Where all rays have one octant, the beam around them first tests eight boxes at a time; the packets then test the boxes
+ * that it meets one by one. Where only a few rays of a packet go on, each tests eight boxes at once on its own. See
  * kernels/rays/rays.h.
  *
- * Tried on a processor with AVX-512, and left: rays sorted by octant or finer over 256 to 16384 of them (a twentieth less time at best,
- * sorting not counted); nodes and leaves prefetched when they are pushed (nothing); misses seen before the quotient of the triangle test
- * (a tenth more: nobody foresees the branch); two single rays at once in sixteen lanes (up to two fifths more); eight-wide trees of least
- * cost as compress.c makes them, and leaves of fewer triangles (nothing, and up to a fifth more: leaves come from memory).
+ * kernels/README.md lists what was tried on a processor with AVX-512 and left.
  */
 #include "kernels/kernels.h"
 #include "kernels/rays/rays.h"

@@ -19,8 +19,8 @@ struct walk {
 };
 
 /*
- * How far boxes are looked at: a little beyond the nearest hit so far, as what rounding makes of a triangle's t may lie before its
- * box. Else which of two nearly equal hits counts would depend on the tree.
+ * Boxes count up to here, a little beyond the nearest hit so far: a triangle's t may be rounded to before its box. Without that
+ * slack the tree would decide between two nearly equal hits.
  */
 static inline float walk_end(const struct walk *w)
 {

@@ -189,7 +189,7 @@ static int cover_placed(const struct pixel *p, uint32_t flags, const struct wind
 	return 1;
 }
 
-/* A vertex lies outside of the view volume: what is left of the triangle is asked. c: clip coordinates. */
+/* A vertex lies outside of the view volume: ask the clipped triangle. c: clip coordinates. */
 static int cover_clipped(const struct pixel *p, uint32_t flags, const float *const c[3], struct fragment *f)
 {
 	struct clip_polygon polygon;

@@ -1,7 +1,5 @@
 /*
- * OpenCL 1.2 behind tracer/device/device.h: every clXxx call of the project is in cl.c and cl_program.c. For device.c alone.
- *
- * Errors are reported with OpenCL's own name for them.
+ * OpenCL 1.2 behind tracer/device/device.h: cl.c and cl_program.c make all clXxx calls of the project. For device.c alone.
  */
 #ifndef TRACER_DEVICE_CL_H
 #define TRACER_DEVICE_CL_H

@@ -1,6 +1,6 @@
 /*
- * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left what the driver made of
- * it. For cl.c alone.
+ * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left them compiled. For cl.c
+ * alone.
  */
 #ifndef TRACER_DEVICE_CL_PROGRAM_H
 #define TRACER_DEVICE_CL_PROGRAM_H
@@ -17,7 +17,7 @@ struct cl_keeping {
 
 /**
  * Keep programs from now on. PoCL does that itself, and is left to it unless `always`.
- * @param folder  copied; made when something is to be written into it; one whose name is too long is as good as none
+ * @param folder  copied; made when the first program is kept; ignored when its name is too long
  */
 void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping);
 

@@ -305,7 +305,7 @@ static double clock_of(clockid_t clock)
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* When something begins, as what had been spent by then; nothing where nobody asks. */
+/* What has been spent when something begins; zeros without a profile. */
 static struct device_spent begin(const struct device *dev)
 {
 	struct device_spent s = { 0, 0, 0, 0 };

@@ -87,9 +87,9 @@ void device_close_list(struct device ***devices, size_t *n);
 int device_share(struct device *dev, struct device **out);
 
 /**
- * Break off: from now on device_run, device_write and device_read do nothing and return ERR_SYSTEM without a report. May be
- * called from any thread; what is running on the device runs to its end. What the frame under way had placed on the device
- * is in no certain state: make a new tracer after device_resume.
+ * Break off: from now on launches, device_write and device_read do nothing and return ERR_SYSTEM without a report. Any thread may call
+ * this. A kernel that is running runs to its end. Buffers of the frame under way are in no certain state: make a new tracer after
+ * device_resume.
  */
 void device_interrupt(struct device *dev);
 void device_resume(struct device *dev);
@@ -107,8 +107,8 @@ void device_choose_family(struct device *dev, enum device_family family);
 extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by NULL */
 
 /**
- * Keep what the device's compiler makes of the kernels in a folder, for other runs; processes may share it. Before its first
- * kernel runs. A driver that is known to keep it itself (PoCL) is left to it unless `always`. Does nothing on the reference device.
+ * Keep compiled kernels in a folder, for other runs; processes may share it. Call it before the device's first kernel runs. PoCL keeps
+ * them itself, and is left to it unless `always`. Does nothing on the reference device.
  * @param folder  copied
  */
 void device_keep_programs(struct device *dev, const char *folder, int always);
@@ -118,8 +118,8 @@ unsigned device_programs_found(const struct device *dev);
 
 /**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
- * Drivers hand out memory that is not there and fail when it is used: what this device and all shared from it hold together is
- * counted here.
+ * Drivers hand out memory that is not there and fail when it is used. So this device counts all buffers of its own and of those
+ * shared from it.
  * @return 0 or ERR_SYSTEM (reported with the size, and what the device has)
  */
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes);
@@ -149,7 +149,7 @@ struct device_profile {
 };
 
 /**
- * Add what is done from now on to a profile; each kernel is waited for, so that everything takes longer.
+ * Count all that is done from now on in a profile. Each kernel is waited for, so everything takes longer.
  * @param profile  kept and written until the next call; NULL: no longer
  */
 void device_set_profile(struct device *dev, struct device_profile *profile);

@@ -118,8 +118,8 @@ static int fetch(struct job *job, const struct channel *c, const struct compose_
 }
 
 /*
- * Eye space stands for the world: OpenEXR's worldToCamera is left-handed (+z forward), its worldToNDC has x and y in
- * [0,1] with y down; both for row vectors, whose rows are our columns.
+ * Eye space stands for the world. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in [0,1] with y
+ * down. Both are for row vectors: their rows are our columns.
  */
 static int describe_camera(const struct job *job, struct image *img)
 {

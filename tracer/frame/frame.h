@@ -43,7 +43,7 @@ struct tracer {
 	uint32_t *counts, *first; /* [pixels], host copies */
 	size_t n_counted;
 	struct tracer_undrawn undrawn;
-	uint64_t drawn_serial, drawn_events; /* scene whose pixels buffers.frame holds: serial, and how many events it had */
+	uint64_t drawn_serial, drawn_events; /* of the scene that buffers.frame holds */
 };
 
 struct expanded;

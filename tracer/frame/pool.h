@@ -1,6 +1,6 @@
 /*
- * A device buffer that keeps things found by content (vertex arrays, indices, texels) for as long as they fit: what a
- * frame shares with the one before is not copied again.
+ * A device buffer that keeps arrays by content (vertex arrays, indices, texels) as long as they fit. A frame copies only what the
+ * frame before did not have.
  */
 #ifndef TRACER_FRAME_POOL_H
 #define TRACER_FRAME_POOL_H

@@ -150,9 +150,9 @@ void prepare_fill_indices(const void *object, uint32_t *words)
 /* --- Instances --------------------------------------------------------------------------------------------------- */
 
 /*
- * By how much an instance's boxes must grow so that no pixel is missed whose centre a snapped triangle covers: vertices
- * move by up to 1/512 pixel on each axis. That step, at the farthest corner of the mesh's box, in object units; and a
- * little for the rounding of large coordinates.
+ * Padding of an instance's boxes. Snapping moves vertices by up to 1/512 pixel on each axis, and camera rays must find every triangle
+ * that covers a pixel centre then. The padding is that step at the farthest corner of the mesh's box, in object units, and a little
+ * for the rounding of large coordinates.
  */
 static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, const struct instance *instance,
                      const struct view *view)

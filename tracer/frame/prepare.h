@@ -1,6 +1,6 @@
 /*
- * A frame as the wavefront takes it: scene instances with their matrices and flags, and the order in which things happen,
- * cut into segments that one camera pass each can answer.
+ * A frame as the wavefront takes it: scene instances with their matrices and flags, and the frame's events in order, cut into
+ * segments. One camera pass answers for each segment.
  */
 #ifndef TRACER_FRAME_PREPARE_H
 #define TRACER_FRAME_PREPARE_H
@@ -25,8 +25,8 @@ struct prepared {
 	struct segment *segments;
 	uint32_t n_segments;
 
-	/* [n_instances]: one of each for every instance. An instance whose faces have different polygon modes comes
-	   twice. primitive_first, node and triangle places are not yet known. */
+	/* [n_instances]: one of each for every instance. An instance comes twice where its faces have different polygon modes.
+	   primitive_first, node and triangle places are not known yet. */
 	struct instance *instances;
 	struct geometry *geometries;
 	enum prepared_shape *shapes;
@@ -48,7 +48,7 @@ struct prepared {
 
 /**
  * Prepare a frame.
- * @param shift  by how much its picture is moved, pixels: pixel centres then show what lies beside them
+ * @param shift  moves the picture, pixels: pixel centres then show what lies beside them
  * @param out  all zero; filled on success; free with prepared_free
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -5,7 +5,7 @@
 /* log64 of 2^32, rounded up, and the counts themselves. */
 #define MAX_LEVELS 7
 
-/* Counts, sums of 64 of these, sums of 64 of those ... one sum. All but the first lie one after the other in the scratch buffer. */
+/* Counts, then sums of 64 counts, sums of 64 sums, until there is one sum. All but the counts lie one after the other in `scratch`. */
 struct level {
 	union buffer_uint buffer;
 	uint32_t first, n;

@@ -7,7 +7,7 @@
 #include "tracer/device/launch.h"
 
 /**
- * Where n items' results begin when they stand densely, in the items' order.
+ * Places of n items' results in a dense list, in the items' order.
  * @param counts   uint[n]: how many results each item has; together less than 2^32
  * @param places   made large enough; receives uint[n]. Not `counts`
  * @param scratch  a buffer that nothing else is kept in

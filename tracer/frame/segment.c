@@ -196,7 +196,7 @@ static int shade_list(struct job *job, uint32_t view, uint32_t n)
 	return err;
 }
 
-/* What the segment's draws leave on the sample that is drawn; of draws that cover pixels, on all of them. */
+/* Draw a segment to the present sample; without multisampling, to all samples. */
 static int run_draws(struct job *job, const struct segment *segment)
 {
 	struct tracer *tr = job->tr;

@@ -143,7 +143,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = look_apply(options->look, scene, &changed);
 		job.scene = &changed;
 	}
-	/* The pass through pixel centres comes last: what is no mean is its own. */
+	/* The pass through pixel centres comes last: values that are no means are its own. */
 	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--)
 		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++) {
 			err = trace_pass(&job);

@@ -28,7 +28,7 @@ struct tracer_options {
 	enum tracer_mode mode;
 	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
 	unsigned depth;   /* bounces at most */
-	unsigned samples; /* of a pixel, spread otherwise in each (kernels/frame/sample.h), of which it is the mean; 0 counts as 1 */
+	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0 counts as 1 */
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float reach;      /* of openness, eye-space units; 0: without end */
 	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */

@@ -140,7 +140,7 @@ int upload_state(struct job *job)
 	return err;
 }
 
-/* One pool of those of meshes: what is not there yet, or all of it where the buffer has to grow. */
+/* One pool of BLASes: the part that is not there yet, or all of it where the buffer has to grow. */
 static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buffer **buffer)
 {
 	const struct accel_pool pool = accel_pool(tr->accel, part);
@@ -161,7 +161,7 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	return device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
 }
 
-/* What the device's kernels walk of them. */
+/* The pools that the device's kernels walk. */
 static int upload_mesh_trees(struct tracer *tr)
 {
 	struct traverse_trees *t = &tr->trees;
