@@ -9,6 +9,7 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "base/half.h"
+#include "base/norm.h"
 #include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
@@ -289,7 +290,7 @@ static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized
 		return normalized ? u16 / 65535.0f : u16;
 	case GL_INT:
 		memcpy(&i32, p, 4);
-		return normalized ? (float)((2.0 * i32 + 1) / 4294967295.0) : (float)i32;
+		return normalized ? norm_int(i32) : (float)i32;
 	case GL_UNSIGNED_INT:
 		memcpy(&u32, p, 4);
 		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/norm.h"
 #include "capture/format/trace.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
@@ -71,7 +72,7 @@ static float convert(float value, double exact, enum conversion how)
 	case USHORT:
 		return (float)(exact / 65535);
 	case INT:
-		return (float)((2 * exact + 1) / 4294967295.0);
+		return norm_int(exact);
 	case UINT:
 		return (float)(exact / 4294967295.0);
 	default:

@@ -3,6 +3,7 @@
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
+#include "base/norm.h"
 #include "capture/format/trace.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
@@ -79,7 +80,7 @@ static void set_light_int(struct gls_exec *x, struct gls_state *st, const struct
 	for (unsigned i = 0; i < n; i++) {
 		numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
 		if (pname == GL_AMBIENT || pname == GL_DIFFUSE || pname == GL_SPECULAR)
-			numbers[i].f = (float)((2.0 * v[i] + 1) / 4294967295.0);
+			numbers[i].f = norm_int(v[i]);
 	}
 	args[2].count = n;
 	args[2].items = numbers;
@@ -102,7 +103,7 @@ static void set_light_model(struct gls_exec *x, struct gls_state *st, const stru
 	switch (arg_u(c, 0)) {
 	case GL_LIGHT_MODEL_AMBIENT:
 		for (unsigned i = 0; i < 4; i++)
-			l->model_ambient[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			l->model_ambient[i] = normalized ? norm_int(v[i]) : v[i];
 		break;
 	case GL_LIGHT_MODEL_LOCAL_VIEWER:
 		l->local_viewer = v[0] != 0;
@@ -153,7 +154,7 @@ static void set_material(struct gls_exec *x, struct gls_state *st, const struct 
 	}
 	arg_floats(c, 2, v, 4);
 	for (unsigned i = 0; i < 4 && normalized && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
-		v[i] = (float)((2.0 * v[i] + 1) / 4294967295.0);
+		v[i] = norm_int(v[i]);
 	if (pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128)) {
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
@@ -268,7 +269,7 @@ static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call 
 		break;
 	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
 		for (unsigned i = 0; i < 4; i++)
-			fog->color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			fog->color[i] = normalized ? norm_int(v[i]) : v[i];
 		break;
 	case GL_FOG_COORD_SRC:
 		if (token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH)

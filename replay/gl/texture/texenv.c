@@ -3,6 +3,7 @@
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
+#include "base/norm.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -63,7 +64,7 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 		break;
 	case GL_TEXTURE_ENV_COLOR:
 		for (unsigned i = 0; i < 4; i++)
-			e->env_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			e->env_color[i] = normalized ? norm_int(v[i]) : v[i];
 		break;
 	case GL_COMBINE_RGB:
 		e->combine_rgb = token;

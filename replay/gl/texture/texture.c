@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/norm.h"
 #include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/gl/texture/image.h"
@@ -305,7 +306,7 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 		set_number(x, st, t, p, v[0]);
 	else if (arg_u(c, 1) == GL_TEXTURE_BORDER_COLOR)
 		for (unsigned i = 0; i < 4; i++)
-			t->parameters.border_color[i] = normalized ? (float)((2.0 * v[i] + 1) / 4294967295.0) : v[i];
+			t->parameters.border_color[i] = normalized ? norm_int(v[i]) : v[i];
 	else if (arg_u(c, 1) == GL_TEXTURE_SWIZZLE_RGBA)
 		set_swizzles(x, st, t, v);
 	else

@@ -5,6 +5,7 @@
 
 #include "gl_tokens.h"
 #include "base/half.h"
+#include "base/norm.h"
 #include "capture/format/trace.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
@@ -121,7 +122,7 @@ static float plain_component(const uint8_t *p, uint32_t type, int swap)
 	case GL_UNSIGNED_INT:
 		return (float)(u / 4294967295.0);
 	case GL_INT:
-		return (float)((2.0 * (int32_t)u + 1) / 4294967295.0);
+		return norm_int((int32_t)u);
 	default:
 		memcpy(&f, &u, 4);
 		return f;
