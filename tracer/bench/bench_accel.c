@@ -17,7 +17,7 @@ struct row {
 /* Build one kind and send all rays through it. */
 static int measure(struct bench *b, enum accel_kind kind, size_t slot, struct row *row)
 {
-	const struct traverse_kernels *kernels = &traverse_kernels[device_family(b->dev)];
+	const struct traverse_family *kernels = &traverse_families[device_family(b->dev)];
 	double first;
 	int err;
 

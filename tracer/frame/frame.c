@@ -4,9 +4,6 @@
 
 #include "base/err.h"
 
-/* The trees that a family of kernels walks beside the binary ones. */
-static const unsigned wide_trees[N_DEVICE_FAMILIES] = { [FAMILY_PACKETS] = ACCEL_ROWS, [FAMILY_COMPRESSED] = ACCEL_COMPRESSED };
-
 int tracer_create(struct tracer **out, struct device *dev)
 {
 	struct tracer *tr = calloc(1, sizeof(*tr));
@@ -18,7 +15,7 @@ int tracer_create(struct tracer **out, struct device *dev)
 		free(tr);
 		return ERR_SYSTEM;
 	}
-	tr->accel->wide = wide_trees[device_family(dev)];
+	tr->accel->wide = traverse_families[device_family(dev)].wide;
 	*out = tr;
 	return 0;
 }

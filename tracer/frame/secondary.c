@@ -29,7 +29,7 @@ static int occlude(struct job *job, const struct accel_space *space, union buffe
 	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .occluded = occluded };
 	struct device *dev = job->tr->dev;
 
-	return traverse_rays(dev, traverse_kernels[device_family(dev)].occlude, &job->tr->trees, &r);
+	return traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r);
 }
 
 /* Their nearest hits. */
@@ -38,7 +38,7 @@ static int intersect(struct job *job, const struct accel_space *space, union buf
 	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
 	struct device *dev = job->tr->dev;
 
-	return traverse_rays(dev, traverse_kernels[device_family(dev)].intersect, &job->tr->trees, &r);
+	return traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r);
 }
 
 /* --- Lists -------------------------------------------------------------------------------------------------------- */

@@ -85,7 +85,7 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 
-	return traverse_camera(tr->dev, traverse_kernels[device_family(tr->dev)].camera, &tr->trees, r,
+	return traverse_camera(tr->dev, traverse_families[device_family(tr->dev)].camera, &tr->trees, r,
 	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
 	                              .height = job->height, .mode = segment->mode, .window = b->windows, .clip = b->clips,
 	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));

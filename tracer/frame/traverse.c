@@ -3,10 +3,10 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 
-const struct traverse_kernels traverse_kernels[N_DEVICE_FAMILIES] = {
-	[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_packet },
-	[FAMILY_BINARY] = { KERNEL_camera_wide, KERNEL_occlude_binary, KERNEL_intersect_binary },
-	[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed },
+const struct traverse_family traverse_families[N_DEVICE_FAMILIES] = {
+	[FAMILY_PACKETS] = { KERNEL_camera_packet, KERNEL_occlude_packet, KERNEL_intersect_packet, ACCEL_ROWS },
+	[FAMILY_BINARY] = { KERNEL_camera_wide, KERNEL_occlude_binary, KERNEL_intersect_binary, 0 },
+	[FAMILY_COMPRESSED] = { KERNEL_camera_compressed, KERNEL_occlude_compressed, KERNEL_intersect_compressed, ACCEL_COMPRESSED },
 };
 
 #define UPLOAD(element, name) \

@@ -27,11 +27,12 @@ int traverse_upload_tops(struct device *dev, const struct accel *accel, const st
                          struct traverse_trees *trees);
 void traverse_release(struct device *dev, struct traverse_trees *trees);
 
-/* The kernels of a family. */
-struct traverse_kernels {
+/* A family's kernels, and the trees that they walk beside the binary ones. */
+struct traverse_family {
 	enum kernel camera, occlude, intersect;
+	unsigned wide; /* as accel.wide */
 };
-extern const struct traverse_kernels traverse_kernels[N_DEVICE_FAMILIES];
+extern const struct traverse_family traverse_families[N_DEVICE_FAMILIES];
 
 /**
  * Camera rays.
