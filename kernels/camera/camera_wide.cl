@@ -311,59 +311,62 @@ static inline int make_ray(struct pixel *p)
 }
 
 /*
- * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
+ * p: with its trees, the rest is set here. Each kernel compiles this for its kind of trees alone, and has stacks of that kind.
  */
-INLINED void do_pixel(int is_compressed, uint view_index, __global const struct view *views, uint width, uint height, uint mode,
-                      __global const struct instance *instances, __global const struct node2 *top,
-                      __global const uint *instance_list, __global const struct node2 *nodes,
-                      __global const struct node8c *compressed, __global const struct triangle *triangles,
-                      __global const struct window_vertex *window, __global const float *clip, __global const uint *after,
-                      __global struct fragment *fragments, __global uint *counts)
+INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pass *pass, __global const struct node2 *top,
+                      __global const uint *instance_list)
 {
-	__global const struct view *view = &views[view_index];
+	__global const struct view *view = &pass->views[pass->view_index];
 	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
-	                                                   view->scissor[3], width, height);
+	                                                   view->scissor[3], pass->width, pass->height);
 	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0);
-	struct pixel p;
 	uint pixel;
 
 	if (item >= camera_wide_items(r))
 		return;
-	p.view = view;
-	p.instances = instances;
-	p.nodes = nodes;
-	p.compressed = compressed;
-	p.triangles = triangles;
-	p.window = window;
-	p.clip = clip;
-	p.mode = mode;
-	p.height = height;
-	p.x = r.x0 + (int)(item % columns);
-	p.y = r.y0 + (int)(item / columns);
-	pixel = (uint)p.y * width + (uint)p.x;
-	p.after = mode == CAMERA_COLUMN ? after[pixel] : 0;
-	p.out = fragments + (mode == CAMERA_COLUMN ? (size_t)pixel * CAMERA_COLUMN_MAX : pixel);
-	p.count = p.steps = 0;
-	p.nearest.order = p.nearest.instance = p.nearest.primitive = SCENE_NONE;
-	p.nearest.b1 = p.nearest.b2 = 0;
-	p.nearest.depth = 1;
-	if (view->tlas_count && make_ray(&p))
-		walk_top(&p, is_compressed, top + view->tlas_first, instance_list);
+	p->view = view;
+	p->window = pass->window;
+	p->clip = pass->clip;
+	p->mode = pass->mode;
+	p->height = pass->height;
+	p->x = r.x0 + (int)(item % columns);
+	p->y = r.y0 + (int)(item / columns);
+	pixel = (uint)p->y * pass->width + (uint)p->x;
+	p->after = p->mode == CAMERA_COLUMN ? pass->after[pixel] : 0;
+	p->out = pass->fragments + (p->mode == CAMERA_COLUMN ? (size_t)pixel * CAMERA_COLUMN_MAX : pixel);
+	p->count = p->steps = 0;
+	p->nearest.order = p->nearest.instance = p->nearest.primitive = SCENE_NONE;
+	p->nearest.b1 = p->nearest.b2 = 0;
+	p->nearest.depth = 1;
+	if (view->tlas_count && make_ray(p))
+		walk_top(p, is_compressed, top + view->tlas_first, instance_list);
 	for (uint i = 0; i < view->screen_count; i++)
-		walk_screen(&p, view->screen_first + i, is_compressed);
-	if (mode != CAMERA_COLUMN)
-		*p.out = p.nearest;
-	counts[pixel] = p.count;
+		walk_screen(p, view->screen_first + i, is_compressed);
+	if (p->mode != CAMERA_COLUMN)
+		*p->out = p->nearest;
+	pass->counts[pixel] = p->count;
 }
 
 __kernel void camera_wide(KERNEL_ARGUMENTS(camera_wide))
 {
-	do_pixel(0, view_index, views, width, height, mode, instances, top, instance_list, nodes, 0, triangles, window, clip, after,
-	         fragments, counts);
+	const struct camera_pass pass = KERNEL_STRUCT(camera_pass);
+	struct pixel p;
+
+	p.instances = instances;
+	p.nodes = nodes;
+	p.compressed = 0;
+	p.triangles = triangles;
+	do_pixel(0, &p, &pass, top, instance_list);
 }
 
 __kernel void camera_compressed(KERNEL_ARGUMENTS(camera_compressed))
 {
-	do_pixel(1, view_index, views, width, height, mode, instances, top, instance_list, 0, nodes, triangles, window, clip, after,
-	         fragments, counts);
+	const struct camera_pass pass = KERNEL_STRUCT(camera_pass);
+	struct pixel p;
+
+	p.instances = instances;
+	p.nodes = 0;
+	p.compressed = nodes;
+	p.triangles = triangles;
+	do_pixel(1, &p, &pass, top, instance_list);
 }
