@@ -1,4 +1,4 @@
-/* Texture environments and combiners (GL 2.1 sec. 3.8.13): what a unit makes of the colour that reaches it. */
+/* Texture environments and combiners (GL 2.1 sec. 3.8.13): a unit changes the colour that reaches it. */
 #ifndef KERNELS_GL_COMBINE_H
 #define KERNELS_GL_COMBINE_H
 
@@ -17,7 +17,7 @@ static inline int combine_has_alpha(uint32_t base_format)
 	       base_format == GL_RGBA;
 }
 
-/* What functions must be clamped after: Mesa does it where they can leave [0,1] although their arguments do not. */
+/* Functions to clamp after: Mesa does so where they can leave [0,1] although their arguments do not. */
 static inline int combine_leaves_range(uint32_t function)
 {
 	return function != GL_REPLACE && function != GL_MODULATE && function != GL_INTERPOLATE;

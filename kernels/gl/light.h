@@ -46,7 +46,7 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
 }
 
-/* How much of a light arrives at a place before anything stands in its way, and the unit vector towards it. */
+/* Attenuation of a light at a place, spot factor included, and the unit vector towards it. */
 static inline float light_strength(GLOBAL const struct scene_light *light, struct vec3 at, struct vec3 *to_light)
 {
 	struct vec3 to = v3_load(light->position_eye);
@@ -75,8 +75,8 @@ static inline float light_strength(GLOBAL const struct scene_light *light, struc
  * face    the side's material
  * vertex_color  the current colour at the vertex, for color material
  * list    lights[list.first .. +list.count) light it, whatever the material says
- * matte_only  1: nothing but the vertex colour counts of the material
- * seen    NULL, or for each light of the list the share of its diffuse and specular light that arrives
+ * matte_only  1: of the material only the vertex colour counts
+ * seen    NULL, or each light's visibility: the share of its diffuse and specular light that counts
  */
 static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
                                       struct light_list list, int matte_only, struct vec4 eye, struct vec3 normal,

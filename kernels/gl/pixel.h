@@ -1,9 +1,9 @@
 /*
- * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel, run side by side for GL's own
- * colours and for each step from them to the beauty (struct shaded). All follow the decisions of the first.
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel. They run side by side for GL's own colours and for
+ * each step from there to the beauty (struct shaded); GL's colours decide for all.
  *
- * A colour that is read back (blending, logic op) is first rounded to 8 bits, as the frame buffer would have it; one that
- * is written without being read stays as it is.
+ * Operations that read a colour back (blending, logic op) first round it to 8 bits, as the frame buffer does. Other colours stay as
+ * they are.
  */
 #ifndef KERNELS_GL_PIXEL_H
 #define KERNELS_GL_PIXEL_H
@@ -40,8 +40,8 @@ static inline uint32_t pixel_bits_mask(uint32_t bits)
 }
 
 /*
- * Depth as a buffer of so many bits holds it, rounded to even as Mesa has it; more than 24 bits are those of the number itself
- * (the last one is always 0, and all of them for 1).
+ * Depth as a buffer of so many bits holds it, rounded to even as Mesa does. Beyond 24 bits it is the float's own bits; the last one is
+ * then always 0, and 1 has all bits set.
  */
 static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
 {
@@ -105,8 +105,8 @@ static inline float pixel_stored(float x)
 }
 
 /*
- * A number on the verge between two of 8 bits, moved off it to the side that the frame buffer's rounding takes: by at most 0.04 of
- * their distance, so that the half floats and the encoding of a picture cannot turn it over. 0.3 is 76.5, and 76 for Mesa.
+ * Moves a number off the border between two 8-bit codes, to the side that the frame buffer rounds to, by at most 0.04 codes. A
+ * picture's half floats and encoding then cannot change its code. 0.3 is 76.5, and 76 for Mesa.
  */
 static inline float pixel_nudge(float x)
 {
@@ -130,9 +130,9 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 }
 
 /*
- * Bits of the frame buffer, as the kernels get them: depth | stencil << 8 | alpha << 16, and of one with several samples a pixel the
- * number of the one that is drawn, from 1 on, << 24. With PIXEL_FOLLOWS colours go where the first sample's tests let them, and no
- * test is made: so llvmpipe (22.3.6) draws what is drawn without multisampling to a frame buffer with samples.
+ * Bits of the frame buffer, as kernels get them: depth | stencil << 8 | alpha << 16. With several samples a pixel, the number of the
+ * drawn sample, from 1 on, << 24. With PIXEL_FOLLOWS a sample makes no tests of its own: its colours go where the first sample's
+ * tests let them. That is how llvmpipe (22.3.6) draws without multisampling to a frame buffer with samples.
  */
 #define PIXEL_FOLLOWS 0x80000000u
 
@@ -220,7 +220,7 @@ static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL cons
 	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
 }
 
-/* Whether a fragment reaches the colour of a pixel; what the first sample decides is kept for others that follow it. */
+/* Whether a fragment reaches the colour of a pixel. The first sample's decision is kept for those that follow it. */
 static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
                                uint32_t bits)
 {
@@ -280,8 +280,8 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 /* --- Samples into pixels ------------------------------------------------------------------------------------------ */
 
 /*
- * A channel of four samples as one number: the mean of what each holds in 8 bits, rounded, in the order of operations in which
- * Mesa (22.3.6) resolves (util_make_fs_msaa_resolve). Where all hold the same it is the first one's number, as it stands.
+ * A channel of four samples as one number: the mean of their 8-bit codes, rounded, in Mesa's order of operations (22.3.6,
+ * util_make_fs_msaa_resolve). Where all are equal it is the first one's number, as it stands.
  */
 static inline float pixel_average(const float *samples)
 {
@@ -297,7 +297,7 @@ static inline float pixel_average(const float *samples)
 	return same ? samples[0] : pixel_stored(sum * 0.25f);
 }
 
-/* A part's mean: as far off the resolved colour as the samples' parts are off their colours, so that equals stay equal. */
+/* A part's mean differs from the resolved colour by the mean of the samples' differences: equals stay equal. */
 static inline float pixel_average_part(float gl, const float *gls, const float *parts)
 {
 	float off = (parts[0] - gls[0]) + (parts[1] - gls[1]) + (parts[2] - gls[2]) + (parts[3] - gls[3]);
@@ -306,8 +306,8 @@ static inline float pixel_average_part(float gl, const float *gls, const float *
 }
 
 /*
- * Four samples of a pixel into one: colours and parts their means, albedo that of what was drawn; depth and stencil are the
- * first sample's. The surface is that of the first sample that has one.
+ * Resolve four samples of a pixel: the means of colours and parts, the albedo of drawn samples, depth and stencil of the first sample,
+ * the surface of the first sample that has one.
  */
 static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
                                GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,

@@ -1,6 +1,6 @@
 /*
- * A point of a triangle: where it is, how it is lit. It is a fragment under a pixel centre or what a secondary ray hit; the text is the
- * same.
+ * A point of a triangle: where it is, how it is lit. It may be a fragment under a pixel centre or the hit of a secondary ray; the text
+ * is the same.
  */
 #ifndef KERNELS_GL_POINT_H
 #define KERNELS_GL_POINT_H
@@ -76,7 +76,7 @@ static inline int point_shows_front(const struct point *p, GLOBAL const struct w
 	return clockwise == (p->material->front_face == GL_CW);
 }
 
-/* The point under a fragment but for its weights: what it shares with all others of its triangle. w_inv: of the three vertices */
+/* The point under a fragment without its weights, as all points of its triangle share it. w_inv: of the three vertices */
 static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                              const struct fragment *f, float *w_inv)
 {
@@ -142,7 +142,7 @@ static inline struct vec3 point_normal(const struct point *p)
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }
 
-/* A point's triangle in eye space: what rays from it need, whatever the point. */
+/* A triangle in eye space, as rays from any of its points need it. */
 struct point_plane {
 	struct vec3 corner[3], normal; /* point_plane_normal */
 	float length[3], area;         /* of the edge opposite of each corner; of the parallelogram */
@@ -173,8 +173,8 @@ static inline struct vec3 point_place(const struct point_plane *plane, const flo
 }
 
 /*
- * Weights of a place inside of the triangle, at least `inset` away from its edges, where the triangle is that wide: the
- * point's own unless it lies at an edge, or beyond one that covers its pixel by the snapping of vertices.
+ * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They are the point's
+ * own, unless the point lies at an edge, or beyond one because vertices are snapped.
  */
 static inline void point_inset_weights(const struct point *p, const struct point_plane *plane, float inset, float *weight)
 {
@@ -197,11 +197,11 @@ static inline void point_inset_weights(const struct point *p, const struct point
  * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
  * tenth of a pixel's footprint in common windows.
  *
- * Coverage and depth go by vertices snapped to 1/256 pixel, so that a pixel's point may lie a little outside of its
- * triangle, or behind a wall that meets it: the ray would start behind the next wall and a lit junction show dark
- * pixels. The point is therefore first taken back into its triangle, and then, by as much again, against `from`, the
- * direction of the ray that led to it: what lies before it on that ray was seen through, so nothing stands there. Not so
- * where `towards` leads away through the other side of the triangle.
+ * Coverage and depth go by vertices snapped to 1/256 pixel. So a pixel's point may lie a little outside its triangle, or behind
+ * a wall that meets it: the ray would start behind the next wall, and a lit corner would show dark pixels. The point therefore
+ * first moves back into its triangle, and then, by as much again, against `from`, the direction of the ray that led to it: that
+ * ray passed there, so nothing stands there. The second step is left out where `towards` leads away through the other side of
+ * the triangle.
  */
 static inline struct vec3 point_ray_origin(const struct point *p, const struct point_plane *plane, struct vec3 towards,
                                            struct vec3 from)
@@ -268,14 +268,14 @@ static inline struct lit point_lit_from_vertices(const struct point *p)
 	return lit;
 }
 
-/* The vertices lit again, with shares of the lights' diffuse and specular light; of flat shading the last one alone. */
+/* The vertices lit again, with the lights' visibility; under flat shading the last one alone. */
 static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen, struct lit *lit)
 {
 	for (int i = p->material->shade_model == GL_FLAT ? 2 : 0; i < 3; i++)
 		lit[i] = vertex_color(t, p->geometry, p->vertex[i], p->number[i], point_side(p), seen);
 }
 
-/* point_lit_from_vertices, of vertices that point_light_corners has lit. */
+/* As point_lit_from_vertices, from vertices that point_light_corners has lit. */
 static inline struct lit point_lit_between(const struct point *p, const struct lit *lit)
 {
 	struct lit out = lit[2];
@@ -295,7 +295,7 @@ static inline struct lit point_lit_again(const struct tables *t, const struct po
 	return point_lit_between(p, lit);
 }
 
-/* The colour at the point that the draw gave its vertices. */
+/* The current colour (glColor) at the point. */
 static inline struct vec4 point_current_color(const struct tables *t, const struct point *p)
 {
 	struct vec4 last = tables_color(t, p->geometry, p->number[2]);

@@ -101,8 +101,8 @@ static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBA
 	return t->texels + image->level_first[level] + (((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x) * image->words;
 }
 
-/* Four bytes, red lowest, as numbers. Multiplied, not divided: products on the verge of the next 8-bit number then fall
- * to the same side as Mesa's. */
+/* Four bytes, red lowest, as numbers. Multiplied, not divided, so that products at the border of the next 8-bit code fall on Mesa's
+ * side. */
 static inline struct vec4 texture_unpack(uint32_t texel)
 {
 	const float scale = 1.0f / 255.0f;
@@ -131,9 +131,9 @@ static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const str
 }
 
 /*
- * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places in 1/256
- * texel, and each interpolation rounded to 8 bits. The specification leaves the precision open; the difference to exact
- * filtering is up to 1.5/255, and over a large textured area it is seen by gate P.
+ * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places count in 1/256
+ * texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact filtering differs by up to
+ * 1.5/255, which gate P sees on a large textured area.
  */
 
 /* Four channels at once. weight: of b, 0 to 255 for [0,1) */
@@ -340,7 +340,7 @@ static inline int texture_needs_slope(const struct tables *t, GLOBAL const struc
 	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
-/* What a step of a direction is on its face, in texels: the quotient rule. */
+/* A step of a direction on its face, in texels: the quotient rule. */
 static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, float size)
 {
 	int face = texture_cube_face(c);
@@ -501,7 +501,7 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 	return texture_level(t, image, unit, (uint32_t)level, linear, c, face);
 }
 
-/* What a unit's texture gives at coordinates s t r q. slope: NULL where there is none: the finest level. */
+/* Sample a unit's texture at coordinates s t r q. slope: NULL takes the finest level. */
 static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
                                          const struct texture_slope *slope)
 {

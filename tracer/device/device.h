@@ -1,6 +1,6 @@
 /*
- * A device: where kernels run and buffers live. Either an OpenCL device, or "reference": the scalar C twins of
- * kernels/ref, in this process. The tracer is written once against this header and does not know which one it has.
+ * A device: where kernels run and buffers live. It is an OpenCL device, or "reference": the scalar C twins of kernels/ref, in this
+ * process. The tracer is written once against this header and does not know which one it has. launch.h launches kernels.
  */
 #ifndef TRACER_DEVICE_DEVICE_H
 #define TRACER_DEVICE_DEVICE_H
@@ -10,10 +10,7 @@
 
 #include "kernels/kernels.h"
 
-/*
- * Families of traversal kernels: what runs fast differs by kind of device. All find the same.
- *   X(NAME, word)
- */
+/* X(NAME, word): families of traversal kernels. Kinds of device differ in which runs fast; all find the same. */
 #define DEVICE_FAMILIES(X) \
 	X(PACKETS, packets)       /* many rays a work item in vectors, eight-wide nodes in rows: CPUs */ \
 	X(BINARY, binary)         /* one ray a work item, binary trees */ \

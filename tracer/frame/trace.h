@@ -1,9 +1,9 @@
 /*
  * The wavefront: a scene becomes a picture on a device.
  *
- * Per frame: vertex stage; acceleration structures; then segment by segment (prepare.h), in draw order: clears, camera
- * rays, fragments gathered, shaded, lit again where shadow rays were stopped, mirrors followed, and all of it put
- * through the per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
+ * Per frame: vertex stage, acceleration structures, then segment by segment (prepare.h) in draw order. A segment clears, traces camera
+ * rays, gathers and shades fragments, lights those again whose shadow rays were stopped, follows mirrors, and puts all through the
+ * per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
  */
 #ifndef TRACER_FRAME_TRACE_H
 #define TRACER_FRAME_TRACE_H
