@@ -40,22 +40,18 @@ typedef float element_float;
 /* A frame's data as shading reads it. */
 #define ARGUMENTS_tables(IN, OUT, VALUE, GROUP, AND) \
 	IN(geometry, geometries) AND()      /* per instance */ \
-	IN(scene_material, materials) AND() \
-	IN(scene_light, lights) AND() \
-	IN(scene_unit, units) AND() \
+	IN(scene_material, materials) AND() IN(scene_light, lights) AND() IN(scene_unit, units) AND() \
 	IN(scene_current, currents) AND() \
 	IN(float, attributes) AND()         /* vertex arrays of all meshes */ \
 	IN(uint, indices) AND()             /* and their indices */ \
 	IN(shaded_vertex, vertices) AND()   /* what the vertex stage made of them */ \
 	IN(float, texcoords) AND()          /* [4] for each vertex and enabled unit */ \
-	IN(texture_image, textures) AND() \
-	IN(uint, texels) AND() \
+	IN(texture_image, textures) AND() IN(uint, texels) AND() \
 	IN(uint, stipples)                  /* 32 rows each */
 
 /* Camera rays: kernels/camera/camera.h. Kernels differ in what their trees are made of. */
 #define ARGUMENTS_camera_pass(IN, OUT, VALUE, GROUP, AND) \
-	VALUE(uint, view_index) AND() \
-	IN(view, views) AND() \
+	VALUE(uint, view_index) AND() IN(view, views) AND() \
 	VALUE(uint, width) AND()            /* of the drawable */ \
 	VALUE(uint, height) AND() \
 	VALUE(uint, mode) AND()             /* CAMERA_NEAREST_LESS, CAMERA_NEAREST_LEQUAL or CAMERA_COLUMN */ \
@@ -65,32 +61,24 @@ typedef float element_float;
 	OUT(fragment, fragments) AND() \
 	OUT(uint, counts)                   /* per pixel: fragments written */
 #define ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node, triangle) \
-	GROUP(camera_pass, pass) AND() \
-	IN(instance, instances) AND() \
+	GROUP(camera_pass, pass) AND() IN(instance, instances) AND() \
 	IN(node2, top) AND()                /* accel.top2 */ \
-	IN(uint, instance_list) AND() \
-	IN(node, nodes) AND() \
-	IN(triangle, triangles)
+	IN(uint, instance_list) AND() IN(node, nodes) AND() IN(triangle, triangles)
 #define ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8, face8)
 #define ARGUMENTS_camera_wide(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node2, triangle)
 #define ARGUMENTS_camera_compressed(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node8c, triangle)
 
 /* Other rays: kernels/rays/rays.h. _packet and _wide share trees. */
 #define ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	VALUE(uint, n_rays) AND() \
-	IN(ray, rays) AND() \
+	VALUE(uint, n_rays) AND() IN(ray, rays) AND() \
 	VALUE(uint, top_first) AND()        /* accel_space.top8_first; _binary and _compressed: top2_first */ \
-	IN(top_node, top) AND() \
-	IN(uint, instance_list) AND() \
-	IN(instance, instances) AND() \
-	IN(node, nodes) AND() \
+	IN(top_node, top) AND() IN(uint, instance_list) AND() IN(instance, instances) AND() IN(node, nodes) AND() \
 	IN(triangle, triangles) AND()
 #define ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	OUT(uint, occluded)                 /* 1 where anything is hit, else 0 */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	OUT(hit, hits)
+	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) OUT(hit, hits)
 #define ARGUMENTS_occlude_wide(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
 #define ARGUMENTS_occlude_binary(IN, OUT, VALUE, GROUP, AND) \
@@ -106,11 +94,9 @@ typedef float element_float;
 
 /* Shading. In these, `n` counts what there is one work item for, unless noted. */
 #define ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(view, views) AND() \
+	GROUP(tables, tables) AND() IN(view, views) AND() \
 	IN(uint, owners) AND()              /* per vertex: its instance */ \
-	VALUE(uint, height) AND() \
-	VALUE(uint, n) AND() \
+	VALUE(uint, height) AND() VALUE(uint, n) AND() \
 	OUT(shaded_vertex, shaded) AND()    /* tables.vertices */ \
 	OUT(window_vertex, windows) AND() \
 	OUT(float, clips) AND()             /* [4] */ \
@@ -123,48 +109,29 @@ typedef float element_float;
 	OUT(fragment, list) AND() \
 	OUT(uint, pixels) AND()             /* per fragment in the list */ \
 	OUT(uint, after) AND()              /* read as well; as camera_pass takes it */ \
-	VALUE(camera_rectangle, rectangle) AND() \
-	VALUE(uint, width) AND() \
-	VALUE(uint, n)
+	VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() VALUE(uint, n)
 #define ARGUMENTS_shade(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(view, views) AND() \
-	IN(window_vertex, windows) AND() \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
 	OUT(fragment, fragments) AND()      /* read as well */ \
-	IN(uint, pixels) AND() \
-	VALUE(uint, width) AND() \
-	VALUE(uint, height) AND() \
-	VALUE(uint, bits) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() \
 	IN(float, visibility) AND()         /* [slot][fragment][3]: how much of a light's light arrives */ \
 	VALUE(uint, n_slots) AND()          /* 0: nobody has asked the lights yet */ \
 	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
 	VALUE(uint, n) AND()                /* fragments */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
-	VALUE(scene_clear, clear) AND() \
-	VALUE(camera_rectangle, rectangle) AND() \
-	VALUE(uint, width) AND() \
-	VALUE(uint, bits) AND() \
-	VALUE(uint, n) AND() \
+	VALUE(scene_clear, clear) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
+	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_resolve(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(fragment, fragments) AND() \
+	GROUP(tables, tables) AND() IN(fragment, fragments) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
-	IN(uint, first) AND() \
-	IN(uint, counts) AND() \
-	VALUE(camera_rectangle, rectangle) AND() \
-	VALUE(uint, width) AND() \
-	VALUE(uint, bits) AND() \
-	VALUE(uint, n) AND() \
+	IN(uint, first) AND() IN(uint, counts) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
+	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_merge_samples(IN, OUT, VALUE, GROUP, AND) \
-	IN(frame_pixel, first) AND() \
-	IN(frame_pixel, second) AND() \
-	IN(frame_pixel, third) AND() \
-	IN(frame_pixel, fourth) AND() \
-	VALUE(uint, n) AND() \
-	OUT(frame_pixel, frame)
+	IN(frame_pixel, first) AND() IN(frame_pixel, second) AND() IN(frame_pixel, third) AND() \
+	IN(frame_pixel, fourth) AND() VALUE(uint, n) AND() OUT(frame_pixel, frame)
 #define ARGUMENTS_add_pass(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, frame) AND() \
 	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_turn) */ \
@@ -172,91 +139,52 @@ typedef float element_float;
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(window_vertex, windows) AND() \
-	IN(frame_pixel, frame) AND() \
-	IN(float, sums) AND() \
+	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() IN(float, sums) AND() \
 	VALUE(compose_request, request) AND() \
 	VALUE(uint, n) AND()                /* pixels */ \
-	OUT(half, halves) AND() \
-	OUT(float, floats)
+	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(view, views) AND() \
-	IN(window_vertex, windows) AND() \
-	IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() \
-	VALUE(uint, width) AND() \
-	IN(shaded, shaded) AND() \
-	VALUE(uint, sample) AND() \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, n) AND()                /* fragments */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, rays)
 #define ARGUMENTS_hit_ray(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(hit, hits) AND() \
-	IN(ray, rays) AND() \
-	IN(path, paths) AND() \
-	IN(uint, pixels) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
 	IN(uint, wanted) AND()              /* per hit: a bit for each slot of a light */ \
 	VALUE(uint, sample) AND() \
 	VALUE(uint, n) AND()                /* hits */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, out)
 #define ARGUMENTS_ao_ray(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(view, views) AND() \
-	IN(window_vertex, windows) AND() \
-	IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() \
-	VALUE(uint, width) AND() \
-	IN(shaded, shaded) AND() \
-	VALUE(uint, sample) AND() \
-	VALUE(float, reach) AND() \
-	VALUE(uint, n) AND() \
-	OUT(ray, rays)
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
+	VALUE(float, reach) AND() VALUE(uint, n) AND() OUT(ray, rays)
 #define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, occluded) AND() \
-	VALUE(float, weight) AND() \
+	IN(uint, occluded) AND() VALUE(float, weight) AND() \
 	VALUE(uint, first) AND()            /* 1: visibility holds nothing yet */ \
 	VALUE(uint, n) AND() \
 	OUT(float, visibility)              /* [3] a ray; read as well */
 #define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, occluded) AND() \
 	IN(uint, places) AND()              /* per ray: where it goes on, if it was stopped */ \
-	IN(ray, rays) AND() \
-	VALUE(float, weight) AND() \
-	VALUE(uint, n) AND() \
-	OUT(ray, shadow_rays) AND() \
+	IN(ray, rays) AND() VALUE(float, weight) AND() VALUE(uint, n) AND() OUT(ray, shadow_rays) AND() \
 	OUT(path, shadow_paths)
 #define ARGUMENTS_shadow_walk(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(hit, hits) AND() \
-	IN(ray, rays) AND() \
-	IN(path, paths) AND() \
-	VALUE(uint, n) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() VALUE(uint, n) AND() \
 	OUT(float, visibility) AND()        /* read as well */ \
-	OUT(ray, next_rays) AND() \
-	OUT(path, next_paths) AND() \
+	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
 	OUT(uint, counts)                   /* per path: 1 where it goes on */
 #define ARGUMENTS_ao_shade(IN, OUT, VALUE, GROUP, AND) \
-	IN(float, visibility) AND() \
-	VALUE(uint, over_gl) AND() \
-	VALUE(uint, n) AND() \
+	IN(float, visibility) AND() VALUE(uint, over_gl) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
 /* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(view, views) AND() \
-	IN(window_vertex, windows) AND() \
-	IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() \
-	VALUE(uint, width) AND() \
-	VALUE(uint, transport) AND() \
-	VALUE(uint, sample) AND() \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
@@ -264,62 +192,34 @@ typedef float element_float;
 	OUT(uint, counts)                   /* per fragment: how many of them there are */
 #define ARGUMENTS_gather_paths(IN, OUT, VALUE, GROUP, AND) \
 	IN(ray, next_rays) AND()            /* `slots` an item */ \
-	IN(path, next_paths) AND() \
-	IN(uint, counts) AND() \
-	IN(uint, places) AND() \
-	VALUE(uint, slots) AND() \
-	VALUE(uint, n) AND() \
-	OUT(ray, rays) AND() \
-	OUT(path, paths)
+	IN(path, next_paths) AND() IN(uint, counts) AND() IN(uint, places) AND() VALUE(uint, slots) AND() \
+	VALUE(uint, n) AND() OUT(ray, rays) AND() OUT(path, paths)
 #define ARGUMENTS_sky_ray(IN, OUT, VALUE, GROUP, AND) \
-	IN(hit, hits) AND() \
-	IN(ray, rays) AND() \
-	VALUE(uint, n) AND() \
-	OUT(ray, out)
+	IN(hit, hits) AND() IN(ray, rays) AND() VALUE(uint, n) AND() OUT(ray, out)
 #define ARGUMENTS_want_lights(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(hit, hits) AND() \
-	IN(ray, rays) AND() \
-	VALUE(uint, transport) AND() \
-	VALUE(uint, n) AND() \
-	OUT(uint, wanted)
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() VALUE(uint, transport) AND() \
+	VALUE(uint, n) AND() OUT(uint, wanted)
 #define ARGUMENTS_shade_hit(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() \
-	IN(hit, hits) AND() \
-	IN(hit, sky) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(hit, sky) AND() \
 	VALUE(uint, has_sky) AND()          /* 0: sky is any buffer */ \
-	IN(ray, rays) AND() \
-	IN(path, paths) AND() \
-	IN(uint, pixels) AND() \
-	IN(float, visibility) AND() \
-	VALUE(uint, n_slots) AND() \
-	VALUE(uint, transport) AND() \
-	VALUE(uint, sample) AND() \
+	IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() IN(float, visibility) AND() \
+	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, depth) AND()            /* bounces at most */ \
 	IN(float, background) AND()         /* [4] */ \
 	VALUE(uint, n) AND() \
 	OUT(float, radiance) AND()          /* [3] a path */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
-	OUT(path, next_paths) AND() \
-	OUT(uint, counts)
+	OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_credit(IN, OUT, VALUE, GROUP, AND) \
-	IN(path, paths) AND() \
-	IN(float, radiance) AND() \
-	VALUE(uint, n) AND() \
+	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
 /* Prefix sums: kernels/frame/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, counts) AND() \
-	VALUE(uint, count_first) AND() \
-	VALUE(uint, n) AND() \
-	OUT(uint, sums) AND() \
+	IN(uint, counts) AND() VALUE(uint, count_first) AND() VALUE(uint, n) AND() OUT(uint, sums) AND() \
 	VALUE(uint, sum_first)
 #define ARGUMENTS_scan_place(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, counts) AND() \
-	VALUE(uint, count_first) AND() \
-	VALUE(uint, n) AND() \
-	IN(uint, before) AND() \
+	IN(uint, counts) AND() VALUE(uint, count_first) AND() VALUE(uint, n) AND() IN(uint, before) AND() \
 	VALUE(uint, before_first) AND() \
 	OUT(uint, places) AND()             /* may be counts */ \
 	VALUE(uint, place_first)
@@ -364,6 +264,15 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 #define KERNEL_NAME(element, name) name
 #define KERNEL_NAME_GROUP(list, name) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
 #define KERNEL_STRUCT(list) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
+
+/* The body of a kernel that does NAME_item(&arguments, item) for each of `count` work items. */
+#define KERNEL_ITEMS(name, count) \
+	{ \
+		const struct name##_arguments a = KERNEL_STRUCT(name); \
+\
+		if (get_global_id(0) < (count)) \
+			name##_item(&a, (uint32_t)get_global_id(0)); \
+	}
 
 #else
 
@@ -421,6 +330,14 @@ enum kernel {
 /* The twins: each does work items first .. last-1. */
 #define KERNEL_DECLARE_TWIN(name, list) void name##_c(const struct list##_arguments *a, size_t first, size_t last);
 KERNELS(KERNEL_DECLARE_TWIN)
+
+/* The twin of a kernel whose body is KERNEL_ITEMS. count: a field */
+#define KERNEL_TWIN(name, count) \
+	void name##_c(const struct name##_arguments *a, size_t first, size_t last) \
+	{ \
+		for (size_t i = first; i < last && i < a->count; i++) \
+			name##_item(a, (uint32_t)i); \
+	}
 
 /**
  * A twin with its arguments one by one.

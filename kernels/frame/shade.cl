@@ -1,13 +1,7 @@
 /* gather, shade: see kernels/gl/stages.h. */
 #include "kernels/gl/stages.h"
 
-__kernel void gather(KERNEL_ARGUMENTS(gather))
-{
-	const struct gather_arguments a = KERNEL_STRUCT(gather);
-
-	if (get_global_id(0) < n)
-		gather_item(&a, (uint32_t)get_global_id(0));
-}
+__kernel void gather(KERNEL_ARGUMENTS(gather)) KERNEL_ITEMS(gather, n)
 
 __kernel void shade(KERNEL_ARGUMENTS(shade))
 {

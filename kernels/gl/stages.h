@@ -311,6 +311,18 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */
 
+/* clear: a pixel of the rectangle. */
+static inline void clear_item(const struct clear_arguments *a, uint32_t item)
+{
+	pixel_clear(&a->clear, &a->frame[stage_pixel(a->rectangle, a->width, item)], a->bits);
+}
+
+/* merge_samples: a pixel's samples into the pixel. */
+static inline void merge_samples_item(const struct merge_samples_arguments *a, uint32_t item)
+{
+	pixel_merge(&a->first[item], &a->second[item], &a->third[item], &a->fourth[item], &a->frame[item]);
+}
+
 /* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
 static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
 {

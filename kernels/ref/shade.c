@@ -1,11 +1,7 @@
 /* C twins of kernels/frame/shade.cl and shade_packet.cl. */
 #include "kernels/gl/stages.h"
 
-void gather_c(const struct gather_arguments *a, size_t first, size_t last)
-{
-	for (size_t i = first; i < last && i < a->n; i++)
-		gather_item(a, (uint32_t)i);
-}
+KERNEL_TWIN(gather, n)
 
 void shade_c(const struct shade_arguments *a, size_t first, size_t last)
 {
