@@ -15,7 +15,7 @@
 #include "capture/gl/context.h"
 #include "capture/gl/skip.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/report.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
@@ -308,7 +308,7 @@ static void add_all_indirect(struct drawn *d, const void *indirect, int draws, i
 		if (buffered)
 			real_glGetBufferSubData(GL_DRAW_INDIRECT_BUFFER, (long)(uintptr_t)indirect + at, bytes, words);
 		else if (indirect)
-			memory_read(words, (const uint8_t *)indirect + at, (size_t)bytes);
+			pages_read(words, (const uint8_t *)indirect + at, (size_t)bytes);
 		if (words[0] && words[1])
 			add_indirect(d, words, elements, type);
 	}

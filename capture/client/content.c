@@ -9,7 +9,7 @@
 
 #include "capture/gl/context.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
 #include "tables/commands.h"
@@ -79,7 +79,7 @@ static struct content_table *current_table(void)
 		return t;
 	if (t)
 		release(t);
-	t = memory_map(sizeof(*t));
+	t = pages_map(sizeof(*t));
 	if (t)
 		t->epoch = writer_epoch();
 	context_set_data(CONTEXT_CONTENTS, t, release);
@@ -114,8 +114,8 @@ unsigned content_of_memory(unsigned target, const void *data, long bytes, int *b
 {
 	struct content_table *t = bytes >= CONTENT_MIN_BYTES && bytes <= MAX_COPIED_BYTES ? current_table() : NULL;
 
-	if (!t || !memory_grow(&t->copy, &t->copy_bytes, (size_t)bytes))
+	if (!t || !pages_grow(&t->copy, &t->copy_bytes, (size_t)bytes))
 		return 0;
-	memory_read(t->copy, data, (size_t)bytes);
+	pages_read(t->copy, data, (size_t)bytes);
 	return content_buffer(target, t->copy, bytes, bound);
 }

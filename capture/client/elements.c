@@ -6,7 +6,7 @@
 
 #include "capture/client/array_state.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
 #include "tables/commands.h"
@@ -145,7 +145,7 @@ static void record_element(int slot, const struct array *a, int index)
 
 	if (!command || element <= 0 || element > (long)sizeof(data))
 		return;
-	memory_read(data, a->pointer + (a->stride ? a->stride : element) * index, (size_t)element);
+	pages_read(data, a->pointer + (a->stride ? a->stride : element) * index, (size_t)element);
 	p = writer_enter_fake(command);
 	if (!p)
 		return;

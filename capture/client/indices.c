@@ -10,7 +10,7 @@
 #include "capture/client/mirror.h"
 #include "capture/format/sizes.h"
 #include "capture/gl/context.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/values.h"
 #include "real.h"
 
@@ -49,7 +49,7 @@ void indices_widen(struct indices_range *range, const void *indices, int count, 
 		if (buffered)
 			real_glGetBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (long)(uintptr_t)indices + at, n, batch);
 		else
-			memory_read(batch, (const uint8_t *)indices + at, (size_t)n);
+			pages_read(batch, (const uint8_t *)indices + at, (size_t)n);
 		for (long i = 0; i < n / size; i++) {
 			long index = size == 1 ? batch[i] : size == 2 ? ((uint16_t *)batch)[i] : ((uint32_t *)batch)[i];
 

@@ -9,7 +9,7 @@
 
 #include "capture/client/watch.h"
 #include "capture/gl/context.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/report.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
@@ -70,7 +70,7 @@ static void compare(struct map *m, long from, long end)
 	for (long at = from; at < end; at += BLOCK) {
 		long n = end - at < BLOCK ? end - at : BLOCK, first = 0;
 
-		memory_read(now, m->data + at, (size_t)n);
+		pages_read(now, m->data + at, (size_t)n);
 		if (memcmp(now, m->copy + at, (size_t)n) == 0)
 			continue;
 		while (now[first] == m->copy[at + first])
@@ -123,7 +123,7 @@ static void end_all_of(void *context)
 
 static void begin(struct map *m, const void *data, long bytes)
 {
-	void *copy = memory_map((size_t)bytes);
+	void *copy = pages_map((size_t)bytes);
 
 	if (!copy) {
 		report_say("no memory to follow a mapped buffer of %ld bytes; what is written there is not recorded", bytes);
@@ -132,7 +132,7 @@ static void begin(struct map *m, const void *data, long bytes)
 	*m = (struct map){ .data = data, .bytes = bytes, .copy = copy, .context = context_current(), .epoch = writer_epoch() };
 	n_maps++;
 	context_set_data(CONTEXT_MAPS, (void *)(uintptr_t)m->context, end_all_of);
-	memory_read(copy, data, (size_t)bytes);
+	pages_read(copy, data, (size_t)bytes);
 	record_memory(m->data, m->copy, bytes, 1);
 }
 

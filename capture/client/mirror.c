@@ -10,7 +10,7 @@
 #include "capture/client/watch.h"
 #include "capture/gl/context.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
 #include "tables/commands.h"
@@ -89,7 +89,7 @@ static struct mirror_table *current_table(void)
 
 	if (t && t->epoch != writer_epoch())
 		forget_all(t);
-	if (t || !(t = memory_map(sizeof(*t))))
+	if (t || !(t = pages_map(sizeof(*t))))
 		return t;
 	context_set_data(CONTEXT_MIRRORS, t, release);
 	t->credit = CREDIT;
@@ -122,7 +122,7 @@ static struct mirror *find(struct mirror_table *t, const uint8_t *data)
  */
 static long difference(struct mirror_table *t, const struct mirror *m, long first, long end)
 {
-	if (!memory_grow(&t->staging, &t->staging_bytes, BLOCK))
+	if (!pages_grow(&t->staging, &t->staging_bytes, BLOCK))
 		return first;
 	for (long at = first; at < end;) {
 		long bytes = end - at < BLOCK ? end - at : BLOCK;
@@ -132,7 +132,7 @@ static long difference(struct mirror_table *t, const struct mirror *m, long firs
 				return at;
 			bytes = m->end - at;
 		}
-		memory_read(t->staging, m->data + at, (size_t)bytes);
+		pages_read(t->staging, m->data + at, (size_t)bytes);
 		if (memcmp(t->staging, m->copy + at, (size_t)bytes) != 0)
 			return at;
 		at += bytes;
@@ -194,7 +194,7 @@ static int make_room(struct mirror_table *t, struct mirror *m, long end)
 
 	if (end <= m->room)
 		return 0;
-	if (t->bytes + room - m->room > MAX_MIRRORED_BYTES || !memory_grow(&m->copy, &m->copy_bytes, (size_t)room))
+	if (t->bytes + room - m->room > MAX_MIRRORED_BYTES || !pages_grow(&m->copy, &m->copy_bytes, (size_t)room))
 		return -1;
 	t->bytes += room - m->room;
 	m->room = room;
@@ -284,9 +284,9 @@ unsigned mirror_buffer(unsigned target, const void *data, long first, long end, 
 	}
 	held = m->buffer && changed >= m->first && changed < m->end;
 	wanted = m->buffer || !new || t->credit > 0;
-	if (!memory_grow(&t->staging, &t->staging_bytes, (size_t)(end - first)))
+	if (!pages_grow(&t->staging, &t->staging_bytes, (size_t)(end - first)))
 		return 0;
-	memory_read(t->staging, (const uint8_t *)data + first, (size_t)(end - first));
+	pages_read(t->staging, (const uint8_t *)data + first, (size_t)(end - first));
 	/* New contents: look them up, as they may come back. */
 	if (first == 0 && (held || !wanted) && (m->misses++ < PATIENCE || m->misses % SAMPLE == 0)) {
 		unsigned buffer = content_buffer(target, t->staging, end, bound);

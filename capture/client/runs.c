@@ -10,7 +10,7 @@
 #include "capture/gl/context.h"
 #include "capture/gl/skip.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/tables.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
@@ -69,11 +69,16 @@ static _Atomic int names_taken; /* the program uses names of ours */
 
 /* Writing records */
 
+static unsigned value_bytes(char kind)
+{
+	return kind == 'd' ? 8 : kind == 'b' || kind == 'B' || kind == 't' ? 1 : kind == 's' || kind == 'S' ? 2 : 4;
+}
+
 static uint8_t *put_value(uint8_t *p, char kind, const uint8_t *at)
 {
 	union { float f; double d; int8_t b; int16_t s; int32_t i; uint8_t B; uint16_t S; uint32_t I; } v;
 
-	memcpy(&v, at, kind == 'd' ? 8 : kind == 'b' || kind == 'B' || kind == 't' ? 1 : kind == 's' || kind == 'S' ? 2 : 4);
+	memcpy(&v, at, value_bytes(kind));
 	switch (kind) {
 	case 'f':
 		return put_float(p, v.f);
@@ -100,11 +105,6 @@ static uint8_t *put_value(uint8_t *p, char kind, const uint8_t *at)
 	default:
 		return put_enum(p, v.I);
 	}
-}
-
-static unsigned value_bytes(char kind)
-{
-	return kind == 'd' ? 8 : kind == 'b' || kind == 'B' || kind == 't' ? 1 : kind == 's' || kind == 'S' ? 2 : 4;
 }
 
 static void write_record(unsigned command, const uint8_t *at, unsigned bytes)
@@ -183,7 +183,7 @@ int runs_grow(void)
 {
 	size_t used = (size_t)(runs_self.at - self.room), bytes = self.room ? 2 * self.room_bytes : FIRST_ROOM;
 
-	if (bytes > MAX_ROOM || !memory_grow(&self.room, &self.room_bytes, bytes)) {
+	if (bytes > MAX_ROOM || !pages_grow(&self.room, &self.room_bytes, bytes)) {
 		writer_wait_with(NULL);
 		write_open_run();
 		return 0;
@@ -229,7 +229,7 @@ static void *keep(struct runs_table *t, const uint8_t *records, size_t bytes)
 
 	if (bytes > (size_t)(t->arena_end - t->arena_at)) {
 		size_t room = (sizeof(struct block) + bytes + BLOCK_BYTES - 1) & ~(size_t)(BLOCK_BYTES - 1);
-		struct block *block = memory_map(room);
+		struct block *block = pages_map(room);
 
 		if (!block)
 			return NULL;
@@ -260,7 +260,7 @@ static struct runs_table *current_table(void)
 	if (t && t->epoch == writer_epoch())
 		return t;
 	if (!t) {
-		t = context_current() ? memory_map(sizeof(*t)) : NULL;
+		t = context_current() ? pages_map(sizeof(*t)) : NULL;
 		if (!t)
 			return NULL;
 		context_set_data(CONTEXT_RUNS, t, release);

@@ -13,16 +13,7 @@
 #include "base/memory.h"
 #include "base/part.h"
 
-enum { MAGIC_BYTES = 8, HEADER_BYTES = 28, MAX_SIDE = 65536 };
-
-static uint64_t get_le(const uint8_t *p, unsigned n)
-{
-	uint64_t v = 0;
-
-	while (n--)
-		v = v << 8 | p[n];
-	return v;
-}
+enum { MAGIC_BYTES = 8, MAX_SIDE = 65536 };
 
 static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 {
@@ -39,21 +30,16 @@ static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
 	uint64_t at = MAGIC_BYTES;
-	uint8_t header[HEADER_BYTES];
+	struct ref_head head;
 	int rc;
 
-	while (file_bytes - at >= HEADER_BYTES) {
+	while (file_bytes - at >= sizeof(head)) {
 		struct ref_entry entry;
 
-		if (fseeko(ref->stream, (off_t)at, SEEK_SET) || fread(header, sizeof(header), 1, ref->stream) != 1)
+		if (fseeko(ref->stream, (off_t)at, SEEK_SET) || fread(&head, sizeof(head), 1, ref->stream) != 1)
 			return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
-		entry.kind = (enum ref_kind)get_le(header, 4);
-		entry.width = (uint32_t)get_le(header + 4, 4);
-		entry.height = (uint32_t)get_le(header + 8, 4);
-		entry.frame = get_le(header + 12, 8);
-		entry.packed_bytes = get_le(header + 20, 8);
-		at += HEADER_BYTES;
-		entry.offset = at;
+		at += sizeof(head);
+		entry = (struct ref_entry){ (enum ref_kind)head.kind, head.width, head.height, head.frame, at, head.packed_bytes };
 		if ((entry.kind != REF_COLOR && entry.kind != REF_DEPTH) || !entry.width || !entry.height ||
 		    entry.width > MAX_SIDE || entry.height > MAX_SIDE)
 			return err_report(ERR_INPUT, ref->path, "record %zu is damaged", ref->n_entries);
@@ -143,60 +129,41 @@ static int read_at(int fd, uint64_t offset, char *out, size_t n)
 	return 1;
 }
 
+static int damaged(const struct ref_file *ref, const struct ref_entry *entry)
+{
+	return err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged", (unsigned long long)entry->frame);
+}
+
 int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out)
 {
 	size_t bytes = (size_t)entry->width * entry->height * 4, unpacked = 0;
-	char *packed = NULL, *pixels = NULL;
-	int rc;
+	char *packed = malloc(entry->packed_bytes ? entry->packed_bytes : 1), *pixels = NULL;
+	int rc = 0;
 
-	packed = malloc(entry->packed_bytes ? entry->packed_bytes : 1);
-	if (!packed) {
+	if (!packed)
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-		goto fail;
-	}
-	if (!read_at(fileno(ref->stream), entry->offset, packed, entry->packed_bytes) ||
-	    snappy_uncompressed_length(packed, entry->packed_bytes, &unpacked) != SNAPPY_OK || unpacked != bytes) {
-		rc = err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged",
-		                (unsigned long long)entry->frame);
-		goto fail;
-	}
-	pixels = malloc(bytes);
-	if (!pixels) {
+	else if (!read_at(fileno(ref->stream), entry->offset, packed, entry->packed_bytes) ||
+	         snappy_uncompressed_length(packed, entry->packed_bytes, &unpacked) != SNAPPY_OK || unpacked != bytes)
+		rc = damaged(ref, entry);
+	else if (!(pixels = malloc(bytes)))
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-		goto fail;
-	}
-	if (snappy_uncompress(packed, entry->packed_bytes, pixels, &unpacked) != SNAPPY_OK) {
-		rc = err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged",
-		                (unsigned long long)entry->frame);
-		goto fail;
-	}
+	else if (snappy_uncompress(packed, entry->packed_bytes, pixels, &unpacked) != SNAPPY_OK)
+		rc = damaged(ref, entry);
 	free(packed);
-	*out = pixels;
-	return 0;
-
-fail:
-	free(packed);
-	free(pixels);
+	if (rc)
+		free(pixels);
+	else
+		*out = pixels;
 	return rc;
-}
-
-static void put_le(uint8_t *p, uint64_t v, unsigned n)
-{
-	for (unsigned i = 0; i < n; i++)
-		p[i] = (uint8_t)(v >> (8 * i));
 }
 
 static int copy_record(struct ref_file *ref, const struct ref_entry *entry, uint64_t frame, FILE *out, const char *path)
 {
-	uint8_t bytes[1 << 16];
+	struct ref_head head = { entry->kind, entry->width, entry->height, frame, entry->packed_bytes };
 	uint64_t left = entry->packed_bytes;
+	uint8_t bytes[1 << 16];
 
-	put_le(bytes, entry->kind, 4);
-	put_le(bytes + 4, entry->width, 4);
-	put_le(bytes + 8, entry->height, 4);
-	put_le(bytes + 12, frame, 8);
-	put_le(bytes + 20, left, 8);
-	if (fwrite(bytes, HEADER_BYTES, 1, out) != 1)
+	if (fwrite(&head, sizeof(head), 1, out) != 1)
 		return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
 	if (fseeko(ref->stream, (off_t)entry->offset, SEEK_SET))
 		return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));

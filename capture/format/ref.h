@@ -19,6 +19,13 @@
 
 enum ref_kind { REF_COLOR = 1, REF_DEPTH = 2 };
 
+/** What a record begins with, as it lies in the file. */
+struct __attribute__((packed)) ref_head {
+	uint32_t kind, width, height;
+	uint64_t frame, packed_bytes;
+};
+_Static_assert(sizeof(struct ref_head) == 28 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file's layout");
+
 struct ref_entry {
 	enum ref_kind kind;
 	uint32_t width, height;

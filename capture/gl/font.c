@@ -12,7 +12,7 @@
 #include "capture/gl/resolve.h"
 #include "capture/gl/restore.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/values.h"
 #include "capture/write/writer.h"
 #include "real.h"
@@ -126,7 +126,7 @@ static void record_character(Display *display, const XFontStruct *font, unsigned
 		return;
 	}
 	if (width <= MAX_SIDE && height <= MAX_SIDE)
-		bits = memory_map(bytes);
+		bits = pages_map(bytes);
 	if (!bits) {
 		record_list(list, c, 1, 1, c->width, empty);
 		return;

@@ -14,13 +14,11 @@
 #include "capture/gl/context.h"
 #include "capture/gl/reading.h"
 #include "capture/stats.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/report.h"
 #include "capture/write/sink.h"
 #include "capture/write/writer.h"
 #include "real.h"
-
-enum { HEADER_BYTES = 28 };
 
 static struct {
 	int color, depth;
@@ -56,14 +54,6 @@ static void fail(const char *what, int error)
 	report_say("%s: %s: %s; no more reference frames, the program goes on", r.path, what, strerror(error));
 }
 
-static void put_le(uint8_t *p, uint64_t v, unsigned n)
-{
-	while (n--) {
-		*p++ = (uint8_t)v;
-		v >>= 8;
-	}
-}
-
 /* Opens the file for each record: a program may close descriptors that are not its own. */
 static void append(const void *data, size_t bytes)
 {
@@ -86,20 +76,16 @@ static void append(const void *data, size_t bytes)
 static void write_record(enum ref_kind kind, uint64_t frame, int width, int height)
 {
 	size_t bytes = (size_t)width * (size_t)height * 4, packed = snappy_max_compressed_length(bytes);
-	uint8_t *record;
+	struct ref_head head = { kind, (uint32_t)width, (uint32_t)height, frame, 0 };
 
-	if (!memory_grow(&r.packed, &r.packed_bytes, packed + HEADER_BYTES) ||
-	    snappy_compress((char *)r.pixels, bytes, (char *)r.packed + HEADER_BYTES, &packed) != SNAPPY_OK) {
+	if (!pages_grow(&r.packed, &r.packed_bytes, packed + sizeof(head)) ||
+	    snappy_compress((char *)r.pixels, bytes, (char *)r.packed + sizeof(head), &packed) != SNAPPY_OK) {
 		fail("no memory", ENOMEM);
 		return;
 	}
-	record = r.packed;
-	put_le(record, kind, 4);
-	put_le(record + 4, (uint64_t)width, 4);
-	put_le(record + 8, (uint64_t)height, 4);
-	put_le(record + 12, frame, 8);
-	put_le(record + 20, packed, 8);
-	append(record, packed + HEADER_BYTES);
+	head.packed_bytes = packed;
+	memcpy(r.packed, &head, sizeof(head));
+	append(r.packed, packed + sizeof(head));
 }
 
 /* Begin the file and make room for a frame's pixels. Returns 0, or -1. */
@@ -110,7 +96,7 @@ static int make_ready(int width, int height)
 			return -1;
 		append(REF_MAGIC, strlen(REF_MAGIC));
 	}
-	if (!memory_grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
+	if (!pages_grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
 		fail("no memory", ENOMEM);
 		return -1;
 	}

@@ -12,7 +12,7 @@
 #include "capture/gl/reading.h"
 #include "capture/gl/skip.h"
 #include "capture/write/fake.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "capture/write/writer.h"
 #include "real.h"
 
@@ -140,7 +140,7 @@ static int restore_level(unsigned target, int level)
 		type = stencil ? GL_UNSIGNED_INT_24_8 : GL_FLOAT;
 	}
 	bytes = image_bytes(&close_layout, &(struct pixel_box){ 3, format, type, width, height, depth });
-	pixels = bytes > 0 ? memory_map((size_t)bytes) : NULL;
+	pixels = bytes > 0 ? pages_map((size_t)bytes) : NULL;
 	if (!pixels)
 		return 0;
 	real_glGetTexImage(target, level, format, type, pixels);
@@ -213,7 +213,7 @@ static void make_pass_through(void)
 static void draw_pixels(int width, int height, unsigned format, unsigned type)
 {
 	long bytes = image_bytes(&close_layout, &(struct pixel_box){ 2, format, type, width, height, 1 });
-	void *pixels = bytes > 0 ? memory_map((size_t)bytes) : NULL;
+	void *pixels = bytes > 0 ? pages_map((size_t)bytes) : NULL;
 
 	if (!pixels)
 		return;

@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "capture/stats.h"
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 
 enum { N_CHUNKS = 8, AT_ONCE = 16 << 10, LOW_FD = 100, MAX_PROCESSES = 10000, STACK_BYTES = 256 << 10, WAIT_NS = 100000000 };
 
@@ -286,9 +286,9 @@ uint8_t *sink_open(const char *name)
 	int saved = errno, error;
 
 	for (int i = 0; i < N_CHUNKS && !sink.chunks[N_CHUNKS - 1]; i++)
-		sink.chunks[i] = memory_map(SINK_CHUNK); /* costs memory only once it is used */
+		sink.chunks[i] = pages_map(SINK_CHUNK); /* costs memory only once it is used */
 	if (!sink.packed)
-		sink.packed = memory_map(snappy_max_compressed_length(SINK_CHUNK) + 4);
+		sink.packed = pages_map(snappy_max_compressed_length(SINK_CHUNK) + 4);
 	error = !sink.chunks[N_CHUNKS - 1] || !sink.packed ? ENOMEM : create_file(name);
 	if (!error && (error = sink_pwrite(sink.fd, "at", 2, 0)) == 0)
 		sink.bytes = 2;

@@ -1,7 +1,7 @@
 /* Runs inside the traced program. */
 #include "capture/write/values.h"
 
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 #include "tables/enums.h"
 
 /* Signatures that the trace has; under the writer's lock. */
@@ -114,7 +114,7 @@ uint8_t *put_memory(uint8_t *p, const void *data, size_t bytes)
 
 		if (n > bytes)
 			n = bytes;
-		memory_read(p, from, n);
+		pages_read(p, from, n);
 		p += n;
 		from += n;
 		bytes -= n;
@@ -134,7 +134,7 @@ static uint8_t *put_sized(uint8_t *p, unsigned tag, const void *data, long bytes
 
 uint8_t *put_string(uint8_t *p, const char *s, long bytes)
 {
-	return put_sized(p, TRACE_STRING, s, s && bytes < 0 ? (long)memory_text_bytes(s) : bytes);
+	return put_sized(p, TRACE_STRING, s, s && bytes < 0 ? (long)pages_text_bytes(s) : bytes);
 }
 
 uint8_t *put_text(uint8_t *p, const char *s, long size)
@@ -181,9 +181,9 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 		const char *text;
 		int length = -1;
 
-		memory_read(&text, strings + i, sizeof(text));
+		pages_read(&text, strings + i, sizeof(text));
 		if (lengths)
-			memory_read(&length, lengths + i, sizeof(length));
+			pages_read(&length, lengths + i, sizeof(length));
 		p = put_string(p, text, length);
 	}
 	return p;

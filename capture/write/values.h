@@ -20,7 +20,7 @@
 uint8_t *put_string(uint8_t *p, const char *s, long bytes);
 /** Text in a buffer of `size` bytes that may lack a NUL. */
 uint8_t *put_text(uint8_t *p, const char *s, long size);
-/** Raw memory, read without ever faulting: zeros stand for what cannot be read (memory.h). */
+/** Raw memory, read without ever faulting: zeros stand for what cannot be read (pages.h). */
 uint8_t *put_blob(uint8_t *p, const void *data, long bytes);
 /** Raw memory of the recorder's own. */
 uint8_t *put_own_blob(uint8_t *p, const void *data, long bytes);

@@ -4,8 +4,8 @@
  * An enabled vertex array may be stale or shorter than the draw says, and the real GL may never look at it. So the kernel reads
  * client memory for us: it returns an error where a load would raise a signal.
  */
-#ifndef CAPTURE_WRITE_MEMORY_H
-#define CAPTURE_WRITE_MEMORY_H
+#ifndef CAPTURE_WRITE_PAGES_H
+#define CAPTURE_WRITE_PAGES_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -14,13 +14,13 @@
  * Copy `bytes` from the program's memory; what cannot be read becomes zeros. Keeps errno.
  * @return bytes that could not be read
  */
-size_t memory_read(void *to, const void *from, size_t bytes);
+size_t pages_read(void *to, const void *from, size_t bytes);
 
 /** Bytes of a text before its NUL, or before what cannot be read. */
-size_t memory_text_bytes(const char *text);
+size_t pages_text_bytes(const char *text);
 
 /** Map zeroed pages; munmap frees them. malloc is not for us: the program may have replaced it. NULL: no memory. */
-void *memory_map(size_t bytes);
+void *pages_map(size_t bytes);
 
 /**
  * Make room for `bytes` at *pages and keep what is there.
@@ -28,6 +28,6 @@ void *memory_map(size_t bytes);
  * @param mapped  bytes mapped there, a multiple of 64 KiB
  * @return 1; 0: no memory, nothing changed
  */
-int memory_grow(uint8_t **pages, size_t *mapped, size_t bytes);
+int pages_grow(uint8_t **pages, size_t *mapped, size_t bytes);
 
 #endif

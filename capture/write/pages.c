@@ -1,5 +1,5 @@
 /* Runs inside the traced program. */
-#include "capture/write/memory.h"
+#include "capture/write/pages.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -33,7 +33,7 @@ static size_t copy(void *to, const void *from, size_t bytes)
 	return n > 0 ? (size_t)n : 0;
 }
 
-size_t memory_read(void *to, const void *from, size_t bytes)
+size_t pages_read(void *to, const void *from, size_t bytes)
 {
 	size_t done = 0, lost = 0;
 	int saved = errno;
@@ -56,7 +56,7 @@ size_t memory_read(void *to, const void *from, size_t bytes)
 	return lost;
 }
 
-size_t memory_text_bytes(const char *text)
+size_t pages_text_bytes(const char *text)
 {
 	char part[PAGE / 16]; /* a piece lies in one page, so it is readable as a whole or not at all */
 	size_t bytes = 0;
@@ -64,7 +64,7 @@ size_t memory_text_bytes(const char *text)
 	for (;;) {
 		size_t n = sizeof(part) - (((uintptr_t)text + bytes) & (sizeof(part) - 1)), length;
 
-		if (memory_read(part, text + bytes, n))
+		if (pages_read(part, text + bytes, n))
 			return bytes;
 		length = strnlen(part, n);
 		bytes += length;
@@ -73,21 +73,21 @@ size_t memory_text_bytes(const char *text)
 	}
 }
 
-void *memory_map(size_t bytes)
+void *pages_map(size_t bytes)
 {
 	void *pages = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 
 	return pages == MAP_FAILED ? NULL : pages;
 }
 
-int memory_grow(uint8_t **pages, size_t *mapped, size_t bytes)
+int pages_grow(uint8_t **pages, size_t *mapped, size_t bytes)
 {
 	size_t room = (bytes + 0xFFFF) & ~(size_t)0xFFFF;
 	void *more;
 
 	if (bytes <= *mapped)
 		return 1;
-	more = *pages ? mremap(*pages, *mapped, room, MREMAP_MAYMOVE) : memory_map(room);
+	more = *pages ? mremap(*pages, *mapped, room, MREMAP_MAYMOVE) : pages_map(room);
 	if (!more || more == MAP_FAILED)
 		return 0;
 	*pages = more;
