@@ -228,26 +228,32 @@ static int with_job(int argc, char **argv, int (*verb)(struct farm_job *))
 	return err;
 }
 
+/* What stands behind `relume farm`: the words of a new job, or the folder of one. */
+static const struct {
+	const char *name;
+	int (*with_words)(int argc, char **argv);
+	int (*with_job)(struct farm_job *job);
+} verbs[] = {
+	{ "submit", submit, NULL }, { "script", script, NULL }, { "status", NULL, status }, { "retry", NULL, retry }, { "cancel", NULL, cancel },
+};
+
 int farm_main(int argc, char **argv)
 {
-	const char *verb = argc > 1 ? argv[1] : "";
+	const char *name = argc > 1 ? argv[1] : "";
+	size_t i = 0;
 	int err;
 
-	if (strcmp(verb, "--help") == 0 || strcmp(verb, "-h") == 0) {
+	if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
 		options_print_help(&farm_options, stdout);
 		return 0;
 	}
-	if (strcmp(verb, "submit") == 0)
-		err = submit(argc - 1, argv + 1);
-	else if (strcmp(verb, "script") == 0)
-		err = script(argc - 1, argv + 1);
-	else if (strcmp(verb, "status") == 0)
-		err = with_job(argc - 1, argv + 1, status);
-	else if (strcmp(verb, "retry") == 0)
-		err = with_job(argc - 1, argv + 1, retry);
-	else if (strcmp(verb, "cancel") == 0)
-		err = with_job(argc - 1, argv + 1, cancel);
+	while (i < sizeof(verbs) / sizeof(verbs[0]) && strcmp(name, verbs[i].name) != 0)
+		i++;
+	if (i == sizeof(verbs) / sizeof(verbs[0]))
+		err = err_report(ERR_USAGE, NULL, "relume farm takes submit, script, status, retry or cancel, not '%s'", name);
+	else if (verbs[i].with_words)
+		err = verbs[i].with_words(argc - 1, argv + 1);
 	else
-		err = err_report(ERR_USAGE, NULL, "relume farm takes submit, script, status, retry or cancel, not '%s'", verb);
+		err = with_job(argc - 1, argv + 1, verbs[i].with_job);
 	return err > 0 ? 0 : -err;
 }

@@ -45,7 +45,6 @@ struct farm_job {
 	char folder[PATH_MAX];    /* the job's folder, relative to directory or absolute */
 	char **words;             /* owned; argv of submit without its first word */
 	int n_words;
-	char reference_of_trace[PATH_MAX];
 };
 
 /** What `relume farm submit` and `relume farm script` take. */
