@@ -220,7 +220,8 @@ static int score_image(struct work *w, uint64_t frame, struct score_picture *pic
 	struct score_approved approved;
 	struct image was = { 0 };
 	int found = 0;
-	int err = score_rules_for_frame(run->settings, run->name, frame, run->options, picture->width, picture->height, &settings);
+	int err = score_rules_for_frame(run->settings, run->name, frame, run->options,
+	                                (uint32_t[]){ picture->width, picture->height }, &settings);
 
 	picture->ignore = settings.ignore;
 	if (!err && w->baseline->dir)

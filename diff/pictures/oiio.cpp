@@ -130,17 +130,15 @@ int read_image(struct image *img, const char *path)
 	return add_attributes(img, first);
 }
 
-int encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
-               size_t *out_bytes)
+int encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
 {
 	std::vector<unsigned char> bytes;
 	OIIO::Filesystem::IOVecOutput proxy(bytes);
 	auto png = OIIO::ImageOutput::create("memory.png", &proxy);
-	OIIO::ImageSpec spec(int(width), int(height), channels, OIIO::TypeDesc::UINT8);
+	OIIO::ImageSpec spec(int(pixels->width), int(pixels->height), 3, OIIO::TypeDesc::UINT8);
 
 	spec.attribute("png:compressionLevel", level);
-	spec.attribute("oiio:UnassociatedAlpha", 1);
-	if (!png || !png->open("memory.png", spec) || !png->write_image(OIIO::TypeDesc::UINT8, pixels) || !png->close())
+	if (!png || !png->open("memory.png", spec) || !png->write_image(OIIO::TypeDesc::UINT8, pixels->rgb) || !png->close())
 		return err_report(ERR_SYSTEM, NULL, "PNG: %s",
 		                  png ? png->geterror().c_str() : OIIO::geterror().c_str());
 	*out = static_cast<uint8_t *>(malloc(bytes.size() ? bytes.size() : 1));
@@ -167,24 +165,22 @@ int oiio_read(struct image *img, const char *path)
 	}
 }
 
-int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
-                    size_t *out_bytes)
+int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
 {
 	try {
-		return encode_png(pixels, width, height, channels, level, out, out_bytes);
+		return encode_png(pixels, level, out, out_bytes);
 	} catch (const std::exception &e) {
 		return err_report(ERR_SYSTEM, NULL, "PNG: %s", e.what());
 	}
 }
 
-int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
-                   const uint8_t rgb[3])
+int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *label)
 {
 	try {
-		OIIO::ImageBuf buf(OIIO::ImageSpec(int(width), int(height), 3, OIIO::TypeDesc::UINT8), pixels);
-		const float color[3] = { rgb[0] / 255.0f, rgb[1] / 255.0f, rgb[2] / 255.0f };
+		OIIO::ImageBuf buf(OIIO::ImageSpec(int(pixels->width), int(pixels->height), 3, OIIO::TypeDesc::UINT8), pixels->rgb);
+		const float color[3] = { label->rgb[0] / 255.0f, label->rgb[1] / 255.0f, label->rgb[2] / 255.0f };
 
-		return OIIO::ImageBufAlgo::render_text(buf, x, y, text, size, FONT, color) ? 0 : ERR_SYSTEM;
+		return OIIO::ImageBufAlgo::render_text(buf, label->x, label->y, label->text, label->size, FONT, color) ? 0 : ERR_SYSTEM;
 	} catch (const std::exception &) {
 		return ERR_SYSTEM;
 	}

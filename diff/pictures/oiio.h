@@ -25,16 +25,19 @@ extern "C" {
  */
 int oiio_read(struct image *img, const char *path);
 
+/* A picture for people: display codes. */
+struct oiio_pixels {
+	uint8_t *rgb; /* [height][width][3], top row first */
+	uint32_t width, height;
+};
+
 /**
- * Encode 8-bit pixels as PNG in memory.
- * @param pixels    [height][width][channels], top row first, display codes
- * @param channels  1 grey, 3 RGB, 4 RGBA (alpha not multiplied in)
- * @param level     zlib's, 1 (fast) .. 9
- * @param out       receives a buffer; caller frees with free()
+ * Encode pixels as PNG in memory.
+ * @param level  zlib's, 1 (fast) .. 9
+ * @param out    receives a buffer; caller frees with free()
  * @return 0 or ERR_SYSTEM (reported)
  */
-int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
-                    size_t *out_bytes);
+int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes);
 
 /**
  * Yee's perceptual metric (compare_Yee, as idiff -p), on codes: how many pixels look different.
@@ -43,15 +46,18 @@ int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int 
  */
 int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count);
 
+struct oiio_label {
+	const char *text;
+	int x, y;      /* left end of the base line, from the top left corner */
+	int size;      /* height of the letters in pixels */
+	uint8_t rgb[3];
+};
+
 /**
- * Draw text into RGB pixels.
- * @param pixels  [height][width][3]; changed in place; what falls outside is cut
- * @param x, y    left end of the text's base line, from the top left corner
- * @param size    height of the letters in pixels
+ * Draw text into pixels; what falls outside is cut.
  * @return 0, or ERR_SYSTEM where no font is installed (not reported: the caller decides whether labels matter)
  */
-int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
-                   const uint8_t rgb[3]);
+int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *label);
 
 #ifdef __cplusplus
 }

@@ -52,10 +52,9 @@ int oiio_read(struct image *img, const char *path)
 	return loaded() ? bridge.read(img, path) : ERR_SYSTEM;
 }
 
-int oiio_encode_png(const uint8_t *pixels, uint32_t width, uint32_t height, int channels, int level, uint8_t **out,
-                    size_t *out_bytes)
+int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
 {
-	return loaded() ? bridge.encode_png(pixels, width, height, channels, level, out, out_bytes) : ERR_SYSTEM;
+	return loaded() ? bridge.encode_png(pixels, level, out, out_bytes) : ERR_SYSTEM;
 }
 
 int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
@@ -63,8 +62,7 @@ int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_
 	return loaded() ? bridge.compare_yee(a, b, width, height, count) : ERR_SYSTEM;
 }
 
-int oiio_draw_text(uint8_t *pixels, uint32_t width, uint32_t height, int x, int y, int size, const char *text,
-                   const uint8_t rgb[3])
+int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *label)
 {
-	return loaded() ? bridge.draw_text(pixels, width, height, x, y, size, text, rgb) : ERR_SYSTEM;
+	return loaded() ? bridge.draw_text(pixels, label) : ERR_SYSTEM;
 }

@@ -37,8 +37,8 @@ int picture_frame_read(struct set *ref, struct set *traced, uint64_t frame, cons
 	if (!err)
 		err = set_read(traced, t, &out->image);
 	if (!err)
-		err = score_rules_for_frame(run->settings, run->name, frame, run->options, out->ref_image.width,
-		                         out->ref_image.height, &out->settings);
+		err = score_rules_for_frame(run->settings, run->name, frame, run->options,
+		                            (uint32_t[]){ out->ref_image.width, out->ref_image.height }, &out->settings);
 	channel = out->settings.options.channel;
 	if (!err)
 		err = picture_take_reference(&out->ref_image, channel, &out->ref);

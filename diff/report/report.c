@@ -46,7 +46,7 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
 {
 	uint8_t *png;
 	size_t bytes;
-	int err = oiio_encode_png(rgb, width, height, 3, PNG_LEVEL, &png, &bytes);
+	int err = oiio_encode_png(&(struct oiio_pixels){ rgb, width, height }, PNG_LEVEL, &png, &bytes);
 
 	free(rgb);
 	if (err)
@@ -117,15 +117,29 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
+static int was_compared(const struct score *s)
+{
+	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
+		s->outcome == SCORE_FRAME_NEW;
+}
+
+/* Whose pictures come in which order: frames that did not pass first. */
+struct pictures {
+	const struct output_run *run;
+	struct set *ref, *traced;
+	const struct score **scores;
+	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
+	size_t n;
+};
+
 /**
  * One frame's pictures as a block of JSON that the page reads when the frame is looked at, and only then. Without
  * `whole`, only the thumbnail. *used: what they take.
  */
-static int write_pictures(struct set *ref, struct set *traced, const struct score *s, const struct output_run *run,
-                          int whole, FILE *out, size_t *used)
+static int write_pictures(const struct pictures *p, const struct score *s, int whole, FILE *out, size_t *used)
 {
 	struct picture_frame frame = { 0 };
-	int err = picture_frame_read(ref, traced, s->frame, run, &frame);
+	int err = picture_frame_read(p->ref, p->traced, s->frame, p->run, &frame);
 
 	*used = 0;
 	if (err)
@@ -149,27 +163,12 @@ fail:
 	return err == ERR_INPUT ? 0 : err;
 }
 
-static int was_compared(const struct score *s)
-{
-	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
-		s->outcome == SCORE_FRAME_NEW;
-}
-
-/* Whose pictures come in which order: frames that did not pass first. */
-struct pictures {
-	const struct output_run *run;
-	struct set *ref, *traced;
-	const struct score **scores;
-	uint8_t *is_sample; /* 1: to be shown whole; of frames that passed, a few, evenly spread */
-	size_t n;
-};
-
 /** All others than samples, and what is beyond the budget, have a thumbnail. */
 static int make_pictures(void *context, size_t i, size_t spent, FILE *out, size_t *cost)
 {
 	const struct pictures *p = context;
 
-	return write_pictures(p->ref, p->traced, p->scores[i], p->run, p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
+	return write_pictures(p, p->scores[i], p->is_sample[i] && spent < PICTURE_BUDGET, out, cost);
 }
 
 static int write_all_pictures(const struct output_run *run, struct set *ref, struct set *traced, FILE *out)

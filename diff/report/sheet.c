@@ -24,9 +24,10 @@ struct sheet {
 static void draw_text(struct sheet *sheet, uint32_t x, uint32_t y, const char *text, int warn)
 {
 	static const uint8_t colors[2][3] = { { 220, 220, 220 }, { 255, 120, 100 } };
+	struct oiio_label label = { text, (int)x, (int)(y + LABEL - 6), LETTERS, { 0 } };
 
-	/* Without a font the pictures still say what they say. */
-	oiio_draw_text(sheet->rgb, sheet->width, sheet->height, (int)x, (int)(y + LABEL - 6), LETTERS, text, colors[warn]);
+	memcpy(label.rgb, colors[warn], sizeof(label.rgb));
+	oiio_draw_text(&(struct oiio_pixels){ sheet->rgb, sheet->width, sheet->height }, &label); /* without a font: no labels */
 }
 
 /** Copy a picture into a cell, shrunk by means of whole boxes where it is larger. */
@@ -142,7 +143,7 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 	for (size_t i = 0; !err && i < n_rows; i++)
 		err = draw_row(&sheet, i, rows[i], run, ref, traced);
 	if (!err)
-		err = oiio_encode_png(sheet.rgb, sheet.width, sheet.height, 3, 6, &png, &bytes);
+		err = oiio_encode_png(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, 6, &png, &bytes);
 	if (!err)
 		err = part_open(&file, path);
 	if (!err) {

@@ -415,7 +415,7 @@ static int apply_rule(const struct score_rules *s, const struct yaml_rule *rule,
 }
 
 int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
-                       const struct score_options *base, uint32_t width, uint32_t height, struct score_rules_frame *out)
+                          const struct score_options *base, const uint32_t size[2], struct score_rules_frame *out)
 {
 	const struct yaml_file *f = settings ? settings->file : NULL;
 	int err = 0;
@@ -425,7 +425,7 @@ int score_rules_for_frame(const struct score_rules *settings, const char *name, 
 	out->options.channels = out->channels;
 	for (uint32_t i = 0; f && !err && i < f->n_rules; i++)
 		if (matches(f->rules[i].match, &settings->rule_frames[i], name, frame))
-			err = apply_rule(settings, &f->rules[i], &settings->rule_masks[i], width, height, out);
+			err = apply_rule(settings, &f->rules[i], &settings->rule_masks[i], size[0], size[1], out);
 	for (uint32_t i = 0; f && i < f->n_flaky; i++) {
 		if (settings->is_expired[i] || !matches(f->flaky[i].match, &settings->flaky_frames[i], name, frame))
 			continue;

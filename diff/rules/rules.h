@@ -39,12 +39,12 @@ const char *score_rules_baseline(const struct score_rules *settings);
  * @param settings  NULL: nothing but what the command line says
  * @param name      of the recording, matched by the globs ("gears")
  * @param base      what the command line says; copied, then changed by the rules
- * @param width, height  of the frame, for masks and rectangles
+ * @param size      width and height of the frame, for masks and rectangles
  * @param out       all zero; free with score_rules_frame_free; must not move while options are in use
  * @return 0, ERR_INPUT (reported: a mask of another size, or too many bars) or ERR_SYSTEM (reported)
  */
 int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
-                       const struct score_options *base, uint32_t width, uint32_t height, struct score_rules_frame *out);
+                          const struct score_options *base, const uint32_t size[2], struct score_rules_frame *out);
 void score_rules_frame_free(struct score_rules_frame *frame);
 
 #endif

@@ -278,10 +278,23 @@ static float largest_color_error(void)
 	return powf(hyab(a, b), 0.7f);
 }
 
+/* Rows of both pictures that are compared at a time. */
+struct band {
+	int top, height;   /* rows of the picture that the planes hold */
+	int first, n_rows; /* of them those whose errors are wanted; all others are there for the filters */
+};
+
+/* Twelve planes of a band, and a padded row. */
+struct workspace {
+	float *memory, *padded;
+	struct planes pics[2];
+	float *edges[2], *points[2], *scratch, *part;
+};
+
 /* Strength of edges and points of one picture's luminance (sec. 4.2). `y` is plane 0 of YCxCz. */
-static void find_features(const float *y, float *edges, float *points, float *scratch, float *part, float *padded,
-                          int width, int height)
+static void find_features(const struct workspace *w, int picture, int width, int height)
 {
+	const float *y = w->pics[picture].p[0];
 	const double sigma = 0.5 * 0.082 * FLIP_PIXELS_PER_DEGREE;
 	const int radius = (int)ceil(3 * sigma);
 	const size_t n = (size_t)width * (size_t)height;
@@ -299,29 +312,16 @@ static void find_features(const float *y, float *edges, float *points, float *sc
 
 	for (int kind = 0; kind < 2; kind++) {
 		const struct kernel *derivative = kind ? &second : &first;
-		float *out = kind ? points : edges;
+		float *out = kind ? w->points[picture] : w->edges[picture];
 
-		filter_x(y, scratch, width, height, derivative, padded);
-		filter_y(scratch, out, width, height, &smooth);
-		filter_x(y, scratch, width, height, &smooth, padded);
-		filter_y(scratch, part, width, height, derivative);
+		filter_x(y, w->scratch, width, height, derivative, w->padded);
+		filter_y(w->scratch, out, width, height, &smooth);
+		filter_x(y, w->scratch, width, height, &smooth, w->padded);
+		filter_y(w->scratch, w->part, width, height, derivative);
 		for (size_t i = 0; i < n; i++)
-			out[i] = hypotf(out[i], part[i]) / 116; /* offsets do not matter to derivatives */
+			out[i] = hypotf(out[i], w->part[i]) / 116; /* offsets do not matter to derivatives */
 	}
 }
-
-/* Rows of both pictures that are compared at a time. */
-struct band {
-	int top, height;   /* rows of the picture that the planes hold */
-	int first, n_rows; /* of them those whose errors are wanted; all others are there for the filters */
-};
-
-/* Twelve planes of a band, and a padded row. */
-struct workspace {
-	float *memory, *padded;
-	struct planes pics[2];
-	float *edges[2], *points[2], *scratch, *part;
-};
 
 static int make_workspace(struct workspace *w, uint32_t width, uint32_t height)
 {
@@ -359,7 +359,7 @@ static void compare_band(const struct workspace *w, uint32_t width, const struct
 	struct planes pics[2];
 
 	for (int i = 0; i < 2; i++) {
-		find_features(w->pics[i].p[0], w->edges[i], w->points[i], w->scratch, w->part, w->padded, (int)width, b->height);
+		find_features(w, i, (int)width, b->height);
 		filter_contrast(&w->pics[i], (int)width, b->height, w->scratch, w->part, w->padded);
 		for (int c = 0; c < 3; c++)
 			pics[i].p[c] = w->pics[i].p[c] + skipped;

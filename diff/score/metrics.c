@@ -93,16 +93,23 @@ static void sum_columns(const double *a, const double *b, uint32_t width, uint32
 }
 
 /** Mean SSIM, and mean of its contrast and structure part, of two planes in [0,255]. `columns`: [5][width] scratch. */
-static void ssim_of_planes(const double *a, const double *b, uint32_t width, uint32_t height, double *columns,
-                           double *ssim, double *contrast)
+/* Two planes of luma, and room for sum_columns. */
+struct plane_pair {
+	double *a, *b, *columns;
+	uint32_t width, height;
+};
+
+static void ssim_of_planes(const struct plane_pair *p, double *ssim, double *contrast)
 {
+	const uint32_t width = p->width, height = p->height;
+	double *columns = p->columns;
 	const double c1 = (0.01 * 255) * (0.01 * 255), c2 = (0.03 * 255) * (0.03 * 255);
 	double w[SSIM_SIZE], sum = 0, sum_contrast = 0;
 	uint32_t n_x = width - SSIM_SIZE + 1, n_y = height - SSIM_SIZE + 1;
 
 	make_window(w);
 	for (uint32_t y = 0; y < n_y; y++) {
-		sum_columns(a, b, width, y, w, columns);
+		sum_columns(p->a, p->b, width, y, w, columns);
 		for (uint32_t x = 0; x < n_x; x++) {
 			double m[5] = { 0 };
 
@@ -155,7 +162,7 @@ static double ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t widt
 	for (int scale = 0; scale < n_scales; scale++) {
 		double ssim, contrast;
 
-		ssim_of_planes(memory, memory + n, width, height, memory + 2 * n, &ssim, &contrast);
+		ssim_of_planes(&(struct plane_pair){ memory, memory + n, memory + 2 * n, width, height }, &ssim, &contrast);
 		if (n_scales == 1) {
 			result = ssim;
 			break;
