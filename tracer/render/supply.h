@@ -5,7 +5,7 @@
 #ifndef TRACER_RENDER_SUPPLY_H
 #define TRACER_RENDER_SUPPLY_H
 
-#include "replay/replay.h"
+#include "scene/scene.h"
 #include "tracer/frame/trace.h"
 
 struct supply {
