@@ -505,7 +505,7 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 		if (!clear.buffers)
 			continue;
 		if (MEMORY_GROW(f->out->clears, f->room.clears, f->out->n_clears + 1)) {
-			gls_out_of_memory(x, 0);
+			gls_fail(x);
 			break;
 		}
 		f->out->clears[f->out->n_clears++] = clear;
@@ -581,7 +581,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	return 1;
 fail:
 	f->last = NULL;
-	gls_out_of_memory(x, 0);
+	gls_fail(x);
 	return 0;
 }
 
@@ -625,7 +625,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	clear.draw = f->next_draw;
 	if (name_draws(x, f, x->command, x->call->number, 1) ||
 	    MEMORY_GROW(s->clears, f->room.clears, s->n_clears + 1)) {
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 		return;
 	}
 	s->clears[s->n_clears++] = clear;

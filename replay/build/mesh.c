@@ -133,7 +133,7 @@ struct gls_mesh *gls_geometry_mesh(struct gls_exec *x, struct gls_geometry *g)
 		m = build(g, hash);
 		if (!m || table_set(&x->caches.meshes, key, m)) {
 			free(m);
-			gls_out_of_memory(x, 0);
+			gls_out_of_memory(x, sizeof(*m));
 			return NULL;
 		}
 		x->caches.mesh_bytes += m->bytes;

@@ -31,6 +31,12 @@ void gls_out_of_memory(struct gls_exec *x, size_t bytes)
 		                       x->call ? (unsigned long long)x->call->number : 0, gls_commands[x->command].name);
 }
 
+void gls_fail(struct gls_exec *x)
+{
+	if (!x->failed)
+		x->failed = ERR_SYSTEM;
+}
+
 void *gls_scratch(struct gls_exec *x, size_t n)
 {
 	if (n > x->scratch.room) {

@@ -404,7 +404,7 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
                       uint64_t element)
 {
 	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 		return -1;
 	}
 	read_element(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
@@ -472,7 +472,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	g->n_draws = 1;
 	return 0;
 fail:
-	gls_out_of_memory(x, 0);
+	gls_fail(x);
 	return -1;
 }
 
@@ -500,7 +500,7 @@ static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, stru
 		gls_geometry_turn_quads(&x->scratch.geometry);
 	mesh = gls_geometry_mesh(x, &x->scratch.geometry);
 	if (mesh && table_set(&x->caches.draws, key, mesh))
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 	gls_mesh_release(mesh); /* the cache's own reference stays */
 	return mesh;
 }

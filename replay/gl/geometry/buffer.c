@@ -201,7 +201,7 @@ static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct ca
 	b->map_offset = offset;
 	b->map_bytes = n;
 	if (table_set(&x->maps, address, b))
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 }
 
 GLS_HANDLER(glMapBuffer, CLIENT)

@@ -129,12 +129,12 @@ static void set_map(struct gls_exec *x, struct gls_state *st, const struct call 
 		new.order[d] = (uint32_t)order;
 	}
 	if (!st->maps && !(st->maps = calloc(1, sizeof(*st->maps)))) {
-		gls_out_of_memory(x, 0);
+		gls_out_of_memory(x, sizeof(*st->maps));
 		return;
 	}
 	new.points = calloc((size_t)new.order[0] * new.order[1] * size, sizeof(float));
 	if (!new.points) {
-		gls_out_of_memory(x, 0);
+		gls_out_of_memory(x, (size_t)new.order[0] * new.order[1] * size * sizeof(float));
 		return;
 	}
 	for (uint32_t i = 0; i < new.order[0]; i++)

@@ -151,7 +151,7 @@ int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call 
 {
 	if (keep_call(st->list, c, command, &st->client.unpack) == 0)
 		return 0;
-	gls_out_of_memory(x, 0);
+	gls_out_of_memory(x, c->n_args * sizeof(*c->args));
 	return ERR_SYSTEM;
 }
 
@@ -162,7 +162,7 @@ int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct
 
 	if (!op || !kept) {
 		gls_mesh_release(mesh->mesh);
-		gls_out_of_memory(x, 0);
+		gls_out_of_memory(x, sizeof(*kept));
 		return ERR_SYSTEM;
 	}
 	*kept = *mesh;
@@ -356,7 +356,7 @@ static int keep_run(struct gls_exec *x, struct gls_exec *assembler, struct gls_l
 	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
 	op.after_values = keep_values(list, op.after, (const float (*)[4])assembler->st->a.current.attribute);
 	if (!op.before_values || !op.after_values) {
-		gls_out_of_memory(x, 0);
+		gls_out_of_memory(x, sizeof(g->constant));
 		return ERR_SYSTEM;
 	}
 	op.mesh = gls_geometry_mesh(x, g);
@@ -553,7 +553,7 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 		i = run.end;
 	}
 	if (failed || assembler->failed) {
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 		if (out)
 			gls_list_free(out);
 		return list;
@@ -614,7 +614,7 @@ GLS_HANDLER(glEndList, NOW)
 	remove_list(st, st->list_name);
 	if (table_set(&st->share->lists, st->list_name, list)) {
 		gls_list_free(list);
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 	}
 }
 

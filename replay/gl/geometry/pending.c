@@ -58,7 +58,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 	if (!st->begin_mode && g->n_vertices)
 		gls_flush(x);
 	else if (g->n_vertices && !(g->given & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 
@@ -86,11 +86,11 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 		g->touched = 0;
 		g->given = 0;
 	} else if (g->touched && take_touched(g, st)) {
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 		return;
 	}
 	if (at == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 		return;
 	}
 	memcpy(g->position + 4 * (size_t)at, position, 16);
@@ -147,7 +147,7 @@ static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 	struct gls_geometry *g = &x->pending.geometry;
 
 	if (gls_geometry_cut(g, st->begin_mode - 1, g->begin_vertex, g->n_vertices - g->begin_vertex, NULL, (int)st->a.lighting.first_provokes))
-		gls_out_of_memory(x, 0);
+		gls_fail(x);
 }
 
 void gls_end(struct gls_exec *x, struct gls_state *st)
