@@ -11,7 +11,7 @@ import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-KERNEL = re.compile(r'^\s*(?:__)?kernel\s+void\s+(\w+)', re.MULTILINE)
+KERNEL = re.compile(r'^(?:__kernel|KERNEL_OF\(\w+\)) void (\w+)', re.MULTILINE)
 
 
 def expand(path, folders, seen):

@@ -663,7 +663,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t, int x1, int y1)
 		}
 }
 
-__kernel void camera_packet(KERNEL_ARGUMENTS(camera_packet))
+KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 {
 	__global const struct view *view = &views[view_index];
 	__global const float *viewport = view->viewport;

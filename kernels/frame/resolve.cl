@@ -2,5 +2,5 @@
 #include "kernels/gl/stages.h"
 
 __kernel void clear(KERNEL_ARGUMENTS(clear)) KERNEL_ITEMS(clear, n)
-__kernel void resolve(KERNEL_ARGUMENTS(resolve)) KERNEL_ITEMS(resolve, n)
+KERNEL_OF(float4) void resolve(KERNEL_ARGUMENTS(resolve)) KERNEL_ITEMS(resolve, n)
 __kernel void merge_samples(KERNEL_ARGUMENTS(merge_samples)) KERNEL_ITEMS(merge_samples, n)

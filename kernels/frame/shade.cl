@@ -3,7 +3,7 @@
 
 __kernel void gather(KERNEL_ARGUMENTS(gather)) KERNEL_ITEMS(gather, n)
 
-__kernel void shade(KERNEL_ARGUMENTS(shade))
+KERNEL_OF(float4) void shade(KERNEL_ARGUMENTS(shade))
 {
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
 	struct setup_kept kept;

@@ -4,7 +4,7 @@
  */
 #include "kernels/gl/stages.h"
 
-__kernel void shade_packet(KERNEL_ARGUMENTS(shade))
+KERNEL_OF(float4) void shade_packet(KERNEL_ARGUMENTS(shade))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shade_arguments a = KERNEL_STRUCT(shade);

@@ -4,7 +4,7 @@
  */
 #include "kernels/frame/shadow.h"
 
-__kernel void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
+KERNEL_OF(float4) void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shadow_ray_arguments a = KERNEL_STRUCT(shadow_ray);

@@ -377,7 +377,7 @@ static inline ulong load_packets(struct packet *p, __global const struct ray *ra
 	return lanes;
 }
 
-__kernel void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
+KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
@@ -394,7 +394,7 @@ __kernel void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 		occluded[first + i] = (uint)(lanes >> i) & 1u;
 }
 
-__kernel void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
+KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];

@@ -50,7 +50,7 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, __glo
 	return w.hit;
 }
 
-__kernel void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
+KERNEL_OF(float8) void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint i = (uint)get_global_id(0);
 
@@ -59,7 +59,7 @@ __kernel void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 		              SCENE_NONE;
 }
 
-__kernel void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
+KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint i = (uint)get_global_id(0);
 
