@@ -1,28 +1,26 @@
 /*
  * camera_packet, camera_wide, camera_compressed: which primitives cover which pixels of one view. Included by C and OpenCL C.
  *
- * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of where else in
- * its pixels the view looks (view.sample; "centre" stands for either), through the view's top level and the instances'
- * trees; the boxes are widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a
- * pixel's hundredth wider. What they find are candidates: whether one covers a pixel is decided by GL's own rule on its
- * window vertices (GL 2.1 sec. 3.5.1), so that edges fall where the rasterizer puts them:
- *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A
- *     centre on an edge belongs to the triangle on its right, or above where the edge is level (as Mesa's llvmpipe has
- *     it for windows and for framebuffer objects), so that pixels on a shared edge are covered once.
- *   - else: the same on the parts that the view volume leaves of the triangle (kernels/gl/clip.h).
- * Screen instances (view.screen_first ..) are asked at the pixel centre as a point, whatever the projection.
+ * A pixel's ray runs from the unprojected near towards the unprojected far point of its centre, or of the place in the pixel that the
+ * view samples (view.sample; "centre" stands for either). It goes through the view's TLAS and the instances' BLASes, with boxes
+ * widened by instance.pad. camera_packet sends the frustum around a tile's rays instead, a hundredth of a pixel wider. The
+ * triangles found are candidates. GL's own rule on window vertices (GL 2.1 sec. 3.5.1) decides which of them cover a pixel, so edges
+ * fall where the rasterizer puts them:
+ *   - all three vertices have a place in the window: integer edge functions at the pixel centre in 1/256 pixel. A centre on an edge
+ *     belongs to the triangle on its right, or above where the edge is level, as in Mesa's llvmpipe for windows and framebuffer
+ *     objects. Pixels on a shared edge are covered once.
+ *   - else: the same on the clipped triangle's parts (kernels/gl/clip.h).
+ * Screen instances (view.screen_first ..) are tested at the pixel centre as a point, whatever the projection.
  *
- * Pixels are numbered y * width + x, y from the bottom. Those outside of the view's rectangle (camera_rectangle) are
- * not touched.
+ * Pixels are numbered y * width + x, y from the bottom. Pixels outside the view's rectangle (camera_rectangle) are not touched.
  *
- * CAMERA_NEAREST_*: fragments[pixel] is the one of least window depth, in steps of 2^-24 (24-bit depth buffer); of
- * equals the first in draw order with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.
+ * CAMERA_NEAREST_*: fragments[pixel] is the fragment of least window depth, in steps of 2^-24 (24-bit depth buffer). Of equals the
+ * first in draw order counts with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.
  * A triangle seen edge-on covers pixels by its snapped vertices alone. Its plane gives the depth (kernels/gl/clip.h) and may stand
  * nearer there than any vertex, as in llvmpipe. Its box does not show that: where something lies before the box, it depends on the
  * tree whether such a fragment is found.
- * CAMERA_COLUMN: fragments[pixel * CAMERA_COLUMN_MAX ..] are the first CAMERA_COLUMN_MAX fragments whose order number is
- * at least after[pixel], ascending. A caller that wants all starts with after = 0 and goes on with the last order + 1
- * as long as CAMERA_COLUMN_MAX come.
+ * CAMERA_COLUMN: fragments[pixel * CAMERA_COLUMN_MAX ..] are the first CAMERA_COLUMN_MAX fragments with an order number of at least
+ * after[pixel], ascending. To get all, start with after = 0 and go on with the last order + 1 as long as CAMERA_COLUMN_MAX come.
  *
  * Window vertices with a place lie within +-2^23 (32768 pixels).
  *

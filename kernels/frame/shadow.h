@@ -1,7 +1,7 @@
 /*
- * One work item of each kernel that sends rays from fragments and hits to lights, or looks around from fragments; and of those that
- * sum up what came of these rays. Rays stand slot by slot of a material's lights, in the order of the list of fragments
- * (kernels/gl/stages.h) or hits. A ray that something stopped goes on in a list of its own, past each surface that lets light pass.
+ * One work item of each kernel that sends rays from fragments and hits to lights, or from fragments into their surroundings, and of
+ * those that sum up the rays' visibility. Rays stand slot by slot of a material's lights, in the order of fragments
+ * (kernels/gl/stages.h) or hits. A stopped ray goes on in a list of its own, past each surface that lets light pass.
  */
 #ifndef KERNELS_FRAME_SHADOW_H
 #define KERNELS_FRAME_SHADOW_H
@@ -65,10 +65,10 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 	ray->t_max = positional ? 1.0f : 1.0e30f;
 }
 
-/* What rays from the fragments of a triangle share, found for the first of them. */
+/* A triangle as rays from all its fragments need it, kept from the first one. */
 struct shadow_kept {
 	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
-	struct point p;               /* but for its weights */
+	struct point p;               /* without its weights */
 	float w_inv[3];
 	struct point_plane plane;
 };

@@ -134,7 +134,7 @@ static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const st
 	return 1;
 }
 
-/* What the fragments of a triangle share, found for the first of them and kept for those that follow it in the list. */
+/* A triangle's set-up, kept from its first fragment for those that follow it in the list. */
 struct setup_kept {
 	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
 	struct point p;               /* but for its weights */

@@ -1,8 +1,8 @@
 /*
  * One work item of each shading kernel. The .cl files and the C twins are thin wrappers around these.
  *
- * Fragments come from the camera kernels sparsely (so many slots a pixel) and are gathered into a dense list, pixel by
- * pixel, each pixel's in draw order; all that follows works on the list.
+ * Camera kernels leave fragments sparsely, so many slots a pixel. `gather` puts them into a dense list, pixel by pixel, each pixel's in
+ * draw order. All that follows works on the list.
  */
 #ifndef KERNELS_GL_STAGES_H
 #define KERNELS_GL_STAGES_H
@@ -231,10 +231,10 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
 }
 
 /*
- * shade, lit anew or not: n_slots == 0 gives a fragment its GL colour, depth and the lights it must ask for;
- * n_slots > 0 gives fragments that asked their colour with the lights' visibility. transport: TRANSPORT_*.
- * kept: room for what is found of the fragment's triangle. keeps: 1 where fragments before it in this launch have left theirs there,
- * or nothing (kept->instance SCENE_NONE).
+ * shade: n_slots == 0 gives a fragment its GL colour, its depth and the lights it must ask for; n_slots > 0 gives fragments that
+ * asked their colour with the lights' visibility. transport: TRANSPORT_*.
+ * kept: room for the fragment's triangle. keeps: 1 where earlier fragments of this launch may have left theirs there (kept->instance
+ * SCENE_NONE: they have not).
  */
 static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {

@@ -162,7 +162,7 @@ static int trace_ours(struct device *dev, struct world *w, enum accel_kind kind,
 	/* The trees are there; only the top level and the instance change. */
 	w->accel->kind = kind;
 	if ((err = accel_build_frame(w->accel, &w->scene, NULL, NULL, &w->instance, 1, &w->view, &w->spaces, &w->n_spaces)) ||
-	    (err = traverse_upload_tops(dev, w->accel, &w->instance, 1, &w->trees)) ||
+	    (err = traverse_upload_tlases(dev, w->accel, &w->instance, 1, &w->trees)) ||
 	    (err = launch_upload(dev, w->rays, rays, n)) || (err = launch_reserve(dev, w->hits, n)) ||
 	    (err = launch_reserve(dev, w->occluded, n)))
 		return err;

@@ -146,7 +146,7 @@ static void run(const struct frame *f, struct device *dev, enum kernel kernel, u
 	b[4] = make_buffer(dev, out->fragments, sizeof(out->fragments));
 	b[5] = make_buffer(dev, out->counts, sizeof(out->counts));
 	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
-	ck_assert_int_eq(traverse_upload_tops(dev, s->accel, s->instances, INSTANCES, &trees), 0);
+	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, INSTANCES, &trees), 0);
 	ck_assert_int_eq(traverse_camera(dev, kernel, &trees, r,
 	                                 LAUNCH(camera_pass, .view_index = 0, .views = { b[0] }, .width = WIDTH, .height = HEIGHT,
 	                                        .mode = mode, .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },

@@ -98,7 +98,7 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 	r.occluded.buffer = b[1];
 	r.hits.buffer = b[2];
 	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
-	ck_assert_int_eq(traverse_upload_tops(dev, s->accel, s->instances, sizeof(s->instances) / sizeof(s->instances[0]), &trees), 0);
+	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, sizeof(s->instances) / sizeof(s->instances[0]), &trees), 0);
 	for (int kind = 0; kind < 2; kind++)
 		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[kind], &trees, &r), 0);
 	ck_assert_int_eq(device_read(dev, b[1], 0, out->occluded, sizeof(out->occluded)), 0);

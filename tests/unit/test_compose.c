@@ -44,15 +44,15 @@ START_TEST(test_codes)
 {
 	for (int code = 0; code < 255; code++)
 		for (int i = -40; i <= 40; i++) {
-			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f), settled = compose_settled(gl);
+			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f), settled = compose_nudged(gl);
 			float linear = compose_rounded(compose_linear(settled)), plain = compose_rounded(settled);
 
 			ck_assert_float_eq(rintf(image_display_from_linear(linear) * 255.0f), want);
 			ck_assert_float_eq(rintf(plain * 255.0f), want);
 			ck_assert_float_le(fabsf(settled - gl), 0.08f / 255.0f);
 		}
-	ck_assert_float_eq(compose_settled(0.25f), 0.25f);
-	ck_assert_float_eq(compose_settled(1.5f), 1.5f);
+	ck_assert_float_eq(compose_nudged(0.25f), 0.25f);
+	ck_assert_float_eq(compose_nudged(1.5f), 1.5f);
 }
 END_TEST
 

@@ -126,7 +126,7 @@ static int prepare_frame(struct bench *b)
 		return err;
 	transform_vertices(b);
 	if ((err = launch_upload(b->dev, s->views, &b->view, 1)) ||
-	    (err = traverse_upload_tops(b->dev, a, &s->instance, 1, &s->trees)) ||
+	    (err = traverse_upload_tlases(b->dev, a, &s->instance, 1, &s->trees)) ||
 	    (err = launch_upload(b->dev, s->window_buffer, s->window, b->mesh.n_vertices)) ||
 	    (err = launch_upload(b->dev, s->clip_buffer, s->clip[0], 4 * (size_t)b->mesh.n_vertices)))
 		return err;

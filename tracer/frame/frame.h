@@ -54,7 +54,7 @@ struct job {
 	const struct scene *scene;
 	const struct tracer_options *options;
 	struct prepared prepared;
-	struct expanded *expanded;       /* [n_instances]: what became of lines and points; empty for others */
+	struct expanded *expanded;       /* [n_instances]: lines and points as quads; empty for others */
 	const struct scene_mesh **extra; /* [n_instances]: their meshes, or NULL */
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
@@ -63,11 +63,11 @@ struct job {
 	uint32_t n_samples; /* of a pixel in this pass: 1 or SCENE_SAMPLES */
 	union buffer_frame_pixel *frame; /* the sample's that is drawn */
 	float background[4];
-	uint32_t pass, n_passes; /* samples of a pixel; 0 is its centre, and the last to be traced */
-	uint32_t turn;           /* of other passes: which pixels take part (sample_turn) */
+	uint32_t pass, n_passes; /* samples of a pixel; pass 0 is its centre, and the last to be traced */
+	uint32_t turn;           /* which pixels take part in the other passes (sample_turn) */
 };
 
-/* Room for `count` elements in one of the tracer's buffers, by its name; and their content. */
+/* Reserve `count` elements of one of the tracer's buffers, by its name; fill it with as many. */
 #define frame_reserve(tr, name, count) launch_reserve((tr)->dev, (tr)->buffers.name, count)
 #define frame_upload(tr, name, data, count) launch_upload((tr)->dev, (tr)->buffers.name, data, count)
 

@@ -21,12 +21,12 @@ int traverse_upload_pools(struct device *dev, const struct accel *accel, struct 
 	return err;
 }
 
-int traverse_upload_tops(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
+int traverse_upload_tlases(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
                          struct traverse_trees *trees)
 {
 	int err = launch_upload(dev, trees->instances, instances, n);
 
-	TRAVERSE_TOPS(UPLOAD)
+	TRAVERSE_TLASES(UPLOAD)
 	return err;
 }
 
@@ -34,7 +34,7 @@ void traverse_release(struct device *dev, struct traverse_trees *trees)
 {
 #define RELEASE(element, name) device_release(dev, &trees->name.buffer);
 	TRAVERSE_POOLS(RELEASE)
-	TRAVERSE_TOPS(RELEASE)
+	TRAVERSE_TLASES(RELEASE)
 	device_release(dev, &trees->instances.buffer);
 }
 

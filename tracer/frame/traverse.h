@@ -7,23 +7,23 @@
 #include "tracer/accel/accel.h"
 #include "tracer/device/launch.h"
 
-/* X(element, name): what stands in struct accel under these names: the pools of BLASes, and TLASes. */
+/* X(element, name): the pools of BLASes, and the TLASes, under their names in struct accel. */
 #define TRAVERSE_POOLS(X) \
 	X(node2, nodes2) X(node8, nodes8) X(node8c, nodes8c) X(triangle, triangles) X(triangle8, triangles8) X(triangle, triangles8c) \
 	X(face8, faces8)
-#define TRAVERSE_TOPS(X) X(node2, top2) X(node8, top8) X(uint, instance_list)
+#define TRAVERSE_TLASES(X) X(node2, top2) X(node8, top8) X(uint, instance_list)
 
 /* A kernel needs those that its family walks. */
 struct traverse_trees {
 #define TRAVERSE_FIELD(element, name) union buffer_##element name;
 	TRAVERSE_POOLS(TRAVERSE_FIELD)
-	TRAVERSE_TOPS(TRAVERSE_FIELD)
+	TRAVERSE_TLASES(TRAVERSE_FIELD)
 	union buffer_instance instances;
 };
 
-/** Copy all pools to the device, or what changes from frame to frame. @return 0 or ERR_SYSTEM (reported) */
+/** Copy all pools to the device; or TLASes and instances, which change from frame to frame. @return 0 or ERR_SYSTEM (reported) */
 int traverse_upload_pools(struct device *dev, const struct accel *accel, struct traverse_trees *trees);
-int traverse_upload_tops(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
+int traverse_upload_tlases(struct device *dev, const struct accel *accel, const struct instance *instances, size_t n,
                          struct traverse_trees *trees);
 void traverse_release(struct device *dev, struct traverse_trees *trees);
 

@@ -193,5 +193,5 @@ int upload_trees(struct job *job)
 	struct tracer *tr = job->tr;
 	int err = upload_mesh_trees(tr);
 
-	return err ? err : traverse_upload_tops(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances, &tr->trees);
+	return err ? err : traverse_upload_tlases(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances, &tr->trees);
 }
