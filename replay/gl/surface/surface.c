@@ -12,7 +12,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/replay.h"
 #include "scene/release.h"
 
 /* What a scene shows. NULL: it cannot be had */
