@@ -15,8 +15,8 @@ int pixels_in_buffer(void);
 /** Pixels in client memory, or the offset. */
 uint8_t *put_image(uint8_t *p, const void *pixels, const struct pixel_box *box);
 /**
- * Before a call whose pixels may have been seen before, and after it. Pixels that come again are stored once (content.h): the call
- * is written with an offset in a buffer that holds them.
+ * Before and after a call that hands over pixels. Pixels that come again are stored once (content.h): the call then gets an offset
+ * in a buffer that holds them.
  */
 void pixels_used(const void *pixels, const struct pixel_box *box);
 void pixels_written(void);

@@ -61,7 +61,7 @@ static __thread struct {
 	uint8_t *room;
 	size_t room_bytes;
 	struct runs_table *table;
-	struct run *guess; /* whose records runs_self.expect points into */
+	struct run *guess; /* runs_self.expect points into its records */
 } self __attribute__((tls_model("initial-exec")));
 
 static _Atomic unsigned next_name = FIRST_NAME;

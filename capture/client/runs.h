@@ -1,8 +1,8 @@
 /*
  * Runs inside the traced program. Begin..End runs: one that was drawn before is written as a call of a display list.
  *
- * The calls from glBegin to glEnd are kept as plain records and written when the run is whole. A run whose bytes were drawn
- * before becomes a display list that only the trace has, and from then on a single glCallList. The recorder guesses what comes
+ * The calls from glBegin to glEnd are kept as plain records and written when the run is whole. A run that was
+ * drawn before becomes a display list that only the trace has, and from then on a single glCallList. The recorder guesses what comes
  * next: the run that followed the last one in the frame before. So a call of a static scene costs the comparison of its arguments
  * with those in the guessed run; nothing is copied or hashed.
  *
@@ -27,7 +27,7 @@ extern __thread struct runs_thread {
 int runs_begin(unsigned mode);
 /** glEnd. 1 where it ended a run that was kept; all of it is written. */
 int runs_end(void);
-/** Edge flags were set: this context makes lists no more, as their vertices would need flags known only when they are called. */
+/** Edge flags were set: this context makes no more lists: their vertices would need flags that only the call knows. */
 void runs_edge_flag_set(void);
 /**
  * glColorMaterial. Where the back face alone follows the colour, lists are made no more. Mesa (22.3.6) lights back faces differently

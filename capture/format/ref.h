@@ -59,7 +59,7 @@ const struct ref_entry *ref_find(const struct ref_file *ref, enum ref_kind kind,
 int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out);
 
 /**
- * Write the records of some frames as a file of their own, whose frames count from 0. The file appears when it is whole.
+ * Write the records of some frames into a new file, numbered from 0. The file appears when it is whole.
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path);

@@ -1,5 +1,5 @@
 /*
- * Runs inside the traced program. Contexts: which is current, what it can do, whose errors are pending, what belongs to it.
+ * Runs inside the traced program. Contexts: which is current, what it can do, its pending errors, and what belongs to it.
  *
  * Nothing here changes GL state that the program can see, its errors included. State is asked from the driver, and cached only
  * where every command that can change it drops the cache.

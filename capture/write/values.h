@@ -105,7 +105,7 @@ uint8_t *put_address(uint8_t *p, uintptr_t v);
 #define put_opaque(p, v) put_address(p, (uintptr_t)(v))
 /** An enumerant; a plain number where it has no name. */
 uint8_t *put_enum(uint8_t *p, uint32_t v);
-/** An enumerant of a group, whose small values have names of their own. */
+/** An enumerant of a group that names small values in its own way. */
 uint8_t *put_enum_small(uint8_t *p, uint32_t v, const uint16_t group[16]);
 /** A number that may be an enumerant in a numeric parameter; small values are taken for numbers. */
 uint8_t *put_symbol(uint8_t *p, int64_t v);
