@@ -74,7 +74,7 @@ static const char *const ref_kinds[] = { "color", "depth", "color,depth", "depth
 #define AT(member) .at = offsetof(struct options, member)
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "NAME.trace", "where to record to (PROGRAM.trace in the current directory); replaced", options_text, AT(output) },
+	{ "output", 'o', "NAME.trace", "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)", options_text, AT(output) },
 	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
 	  options_text, AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
@@ -86,7 +86,7 @@ static const struct options_row rows[] = {
 	  "buffer), or readpixels (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn "
 	  "to, front or back", options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
-	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace so large (K, M and G count 1024, 1024^2, "
+	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
 	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },
 	{ "no-children", 0, NULL, "record only this process, not those that it starts", options_flag, AT(no_children) },
 	{ "quit-after", 0, "N", "end the recording and the program after N frames, and exit with 0", take_count, AT(quit_after) },

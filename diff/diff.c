@@ -75,7 +75,7 @@ static int want_yee(const struct options_row *row, const char *value, void *out)
 }
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5; default: all of both sets",
+	{ "frames", 'f', "LIST", "frames that must be there and pass, as in 10-60 or 1-500x5 (default: all of both sets)",
 	  options_frames, .at = offsetof(struct options, frames) },
 	{ "channel", 0, "LAYER", "what to compare with the reference: gl (default where there is one), beauty, albedo, ...",
 	  options_text, .at = offsetof(struct options, score.channel) },
@@ -103,7 +103,7 @@ static const struct options_table table = {
 	        "Score traced frames against their references, frame by frame and gate by gate.\n"
 	        "\n"
 	        "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
-	        "TRACED  images: what 'relume render' wrote, or any\n"
+	        "TRACED  images: those of 'relume render', or any\n"
 	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n",
 	.rows = rows,

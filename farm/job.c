@@ -62,10 +62,10 @@ const struct options_table farm_options = {
 	        "Render frames on many machines, as an array job of Slurm; all on this one where Slurm is not installed.\n"
 	        "Every machine must see the trace and the frames under the same names.\n"
 	        "\n"
-	        "submit  starts an array job that renders, and one after it that scores and writes a page; prints their numbers\n"
-	        "        and the job's FOLDER, which lies beside the frames: out/gears.####.exr has out/gears.farm\n"
+	        "submit  starts an array job that renders, then a job that scores and writes a page; prints their numbers and the\n"
+	        "        job's FOLDER, which lies beside the frames: out/gears.farm for out/gears.####.exr\n"
 	        "script  prints what submit would run, for slurm, parallel (GNU parallel) or make; its head says how to use it\n"
-	        "status  says how many frames are whole, and what waits and runs; exits with 1 while frames are missing\n"
+	        "status  says how many frames are whole and what waits and runs; exits with 1 while frames are missing\n"
 	        "retry   renders frames that are missing or damaged and that no task waits or runs for, and scores again\n"
 	        "cancel  ends what waits and runs; frames that are whole stay\n",
 	.rows = rows,

@@ -3,13 +3,13 @@
  *
  * A job has a folder beside its frames: out/gears.####.exr has out/gears.farm. It holds
  *
- *     arguments   the working directory and the words of `relume farm submit`, each ended by NUL: all that is ever kept
+ *     arguments   the working directory and the words of `relume farm submit`, each ended by NUL: the only state
  *     job.sh      the script that the engine runs, made from them (script.h)
  *     slurm       the numbers of its Slurm jobs, one line for each submission: array job, report job or "-"
  *     lock/, log/ of each task; report/, scores.json
  *
- * What has been done is never written down: the frames themselves say so (`relume render --skip-existing --dry-run`), and
- * Slurm knows what waits and runs. So nothing here can disagree with the world.
+ * Progress is never written down. The frames show what is done (`relume render --skip-existing --dry-run`), and Slurm knows what
+ * waits and runs. Nothing here can disagree with them.
  */
 #ifndef FARM_JOB_H
 #define FARM_JOB_H
@@ -23,7 +23,7 @@
 enum farm_engine { FARM_SLURM, FARM_PARALLEL, FARM_MAKE, FARM_LOCAL };
 
 struct farm_job {
-	/* As given; borrowed from `words`. Relative names are relative to `directory`. */
+	/* As typed; borrowed from `words`. Relative names start at `directory`. */
 	const char *trace, *output, *frames_text;
 	const char *reference; /* what the report scores against; NULL: nothing is scored */
 	const char *gres;      /* generic resources a task asks Slurm for, or NULL */

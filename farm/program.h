@@ -1,4 +1,4 @@
-/* Running programs: an argument vector, no shell between. */
+/* Run programs by argument vector, without a shell. */
 #ifndef FARM_PROGRAM_H
 #define FARM_PROGRAM_H
 

@@ -1,6 +1,6 @@
 /*
- * The script that an engine runs: plain shell, or a Makefile, that needs nothing of Relume but `relume render` and
- * `relume diff`. `relume farm script` prints it and `relume farm submit` runs the very same.
+ * The script that an engine runs: plain shell, or a Makefile. Of Relume it needs `relume render` and `relume diff` only.
+ * `relume farm script` prints it; `relume farm submit` runs the same one.
  */
 #ifndef FARM_SCRIPT_H
 #define FARM_SCRIPT_H

@@ -8,7 +8,7 @@ struct slurm_queue {
 	uint64_t running, waiting; /* tasks */
 	int report;                /* 1 where the report waits or runs */
 	unsigned char *holds;      /* [n_tasks + 1]: whether the task of that number waits or runs; owned */
-	char *failed_starts;       /* "12_3,12_7": tasks that Slurm holds since it could not start them; "" for none; owned */
+	char *failed_starts;       /* "12_3,12_7": tasks that Slurm could not start and holds; "" for none; owned */
 };
 
 /** Ask which tasks of the job wait or run. @param out zero-initialised @return 0 or ERR_SYSTEM (reported) */
@@ -16,7 +16,7 @@ int slurm_read(const struct farm_job *job, struct slurm_queue *out);
 void slurm_free(struct slurm_queue *queue);
 
 /**
- * Let tasks go on that Slurm holds since it could not start them: when a node dies in that moment, it puts a task back as
+ * Release tasks that Slurm could not start. When a node dies at that moment, Slurm puts the task back as
  * "launch_failed_requeued_held" and waits for a person. Tasks that somebody held on purpose stay held.
  * @return 0 or ERR_SYSTEM (reported)
  */
@@ -25,7 +25,7 @@ int slurm_release(const struct slurm_queue *queue);
 /** End all of the job's tasks and reports. @return 0 or ERR_SYSTEM (reported) */
 int slurm_cancel(const struct farm_job *job);
 
-/** Would the cluster take an array of so many tasks? @return 0, ERR_USAGE or ERR_SYSTEM (reported) */
+/** Does the cluster take an array of so many tasks? @return 0, ERR_USAGE or ERR_SYSTEM (reported) */
 int slurm_check_size(const struct farm_job *job);
 
 #endif

@@ -25,8 +25,8 @@ struct options {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5; default: all", options_frames, .at = offsetof(struct options, frames) },
-	{ "hashes", 0, NULL, "keep only the hashes of the channels: small, but only the same device can be compared",
+	{ "frames", 'f', "LIST", "frames to approve, as in 10-60 or 1-500x5 (default: all)", options_frames, .at = offsetof(struct options, frames) },
+	{ "hashes", 0, NULL, "keep only the hashes of the channels: small, but comparable on the same device only",
 	  options_flag, .at = offsetof(struct options, hashes) },
 	{ "by", 0, "NAME", "who approves (default: the user)", options_text, .at = offsetof(struct options, by) },
 	{ "reason", 0, "TEXT", "why", options_text, .at = offsetof(struct options, reason) },
@@ -41,7 +41,7 @@ static const struct options_table table = {
 	        "What changes is printed frame by frame.\n"
 	        "\n"
 	        "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
-	        "BASELINE  a folder; each device has a folder of its own in it\n",
+	        "BASELINE  a folder that holds a folder for each device\n",
 	.rows = rows,
 	.n_rows = sizeof(rows) / sizeof(rows[0]),
 	.notes = "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",

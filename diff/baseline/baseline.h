@@ -1,10 +1,10 @@
 /*
- * Approved frames: what somebody looked at and found right, to compare later frames with.
+ * Approved frames: somebody looked at them and found them right; later frames are compared with them.
  *
  * DIR/DEVICE/baseline.yaml is one variant, for one device: provenance, then a line for each frame with the hashes of its
- * channels. Beside it lie the frames themselves (frame.0012.exr), unless only hashes were approved. Nothing in it depends
- * on the machine, and lines are sorted by frame, so that a version control system shows what changed. DEVICE is the
- * device's name with all but letters, digits, dots and dashes made "_".
+ * channels. The frames lie beside it (frame.0012.exr), unless only hashes were approved. Nothing in it depends on the machine,
+ * and lines are sorted by frame: version control shows what changed. DEVICE is the device's name; anything but letters, digits,
+ * dots and dashes becomes "_".
  */
 #ifndef DIFF_BASELINE_BASELINE_H
 #define DIFF_BASELINE_BASELINE_H
@@ -54,9 +54,9 @@ char *baseline_hash_channels(const struct image *img);
 char *baseline_folder(const char *dir, const char *device);
 
 /**
- * What gate B compares a frame with: the variant of its own device, else the first one that holds the frame.
+ * What gate B compares a frame with: the variant of its own device, else the first variant that holds the frame.
  *
- * @param was    empty; receives the approved pixels where they are needed and stored; kept as long as `out` is in use
+ * @param was    empty; receives the approved pixels, if stored and needed; must outlive `out`
  * @param found  receives 1, or 0 where no variant holds the frame or its own device's hashes are not approved yet
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */

@@ -14,8 +14,8 @@ extern "C" {
 #include "tracer/image/image.h"
 
 /**
- * Read any image OpenImageIO knows (first level, data window only; of OpenEXR all parts, a part's name being the layer of
- * its channels, of other formats the first picture).
+ * Read any image OpenImageIO knows: first level, data window only. OpenEXR gives all its parts, each part's name as the layer of
+ * its channels; other formats give their first picture.
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
  *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute

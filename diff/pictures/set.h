@@ -1,5 +1,5 @@
 /*
- * A set of frames to compare: the records of a .ref file, or images on disk, each with its frame number.
+ * A set of frames to compare: the records of a .ref file, or images on disk. Each has a frame number.
  */
 #ifndef DIFF_PICTURES_SET_H
 #define DIFF_PICTURES_SET_H
@@ -19,17 +19,17 @@ struct set {
 	char *name; /* as found: the .ref file, directory, pattern or image */
 	struct set_entry *entries; /* sorted by frame, one for each */
 	size_t n_entries;
-	char *trace; /* the trace that the set was named by, NULL: none */
+	char *trace; /* the trace that named the set; NULL: none did */
 	int is_single; /* one image, named as such: its frame number may be anything */
-	struct ref_file ref; /* open where the set is one */
+	struct ref_file ref; /* open where the set is a .ref file */
 };
 
 /**
  * Find the frames of a set.
  *
  * @param where  a .ref file; a trace (its NAME.ref is taken); a directory of images; a pattern with a frame number
- *               ("out/gears.####.exr"); or one image. In a directory the last number of a name is its frame, and files
- *               that are no images by name are passed over; in both, two images of one frame are an error.
+ *               ("out/gears.####.exr"); or one image. In a directory the last number of a name is its frame; files whose
+ *               names are not those of images are passed over. Two images of one frame are an error.
  * @param out    all zero; free with set_free
  * @return 0; ERR_INPUT (reported: missing, unreadable, or no image in it); ERR_USAGE (reported: two images of one
  *         frame); ERR_SYSTEM (reported)
@@ -41,7 +41,7 @@ void set_free(struct set *set);
 const struct set_entry *set_find(const struct set *set, uint64_t frame);
 
 /**
- * Read a frame; several threads may do so at once. What comes from a .ref file has channels R G B (display) and gl.depth where it was recorded.
+ * Read a frame; several threads may do so at once. A .ref file gives channels R G B (display), and gl.depth if it was recorded.
  * @param img  empty; filled on success
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */

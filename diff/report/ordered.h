@@ -1,18 +1,18 @@
-/* Text made by several threads at once that arrives in one file in the order of its pieces. */
+/* Several threads make the pieces of a file; they arrive in their order. */
 #ifndef DIFF_REPORT_ORDERED_H
 #define DIFF_REPORT_ORDERED_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-/* Pieces that may be made ahead of the one that is written next, which bounds memory. */
+/* Pieces made ahead of the next one to be written, at most: bounds memory. */
 enum { ORDERED_AHEAD = 16 };
 
 /**
  * Make piece `i`. Called on any thread, for several pieces at once.
  * @param out    a stream of its own for the piece; what was written is dropped on failure
- * @param spent  what all pieces up to i - ORDERED_AHEAD have cost together: known for certain, however threads are
- *               scheduled, so that the file is the same in every run
+ * @param spent  what all pieces up to i - ORDERED_AHEAD have cost together. This does not depend on scheduling: the file is the
+ *               same in every run
  * @param cost   receives what this one costs
  * @return 0 or ERR_* (reported); the run ends then
  */

@@ -60,7 +60,7 @@ static void output_blame_text(const struct score_blame *b, char *out, size_t siz
 		snprintf(out + n, size - n, ", in the approved frame,");
 }
 
-static int is_compared(const struct score *s)
+int output_is_compared(const struct score *s)
 {
 	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
 		s->outcome == SCORE_FRAME_NEW;
@@ -134,7 +134,7 @@ void output_table(const struct output_run *run, FILE *out)
 		const struct score *s = &run->scores[order[i]];
 
 		fprintf(out, "%7" PRIu64 " %-10s", s->frame, score_outcome_names[s->outcome]);
-		if (is_compared(s)) {
+		if (output_is_compared(s)) {
 			if (run->reference)
 				fprintf(out, " %8.3f%%", 100 * s->fidelity);
 			else
@@ -155,7 +155,7 @@ void output_table(const struct output_run *run, FILE *out)
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[i];
 
-		if (!is_compared(s))
+		if (!output_is_compared(s))
 			continue;
 		if (s->gates[GATE_V].state != SCORE_PASSED)
 			continue;
@@ -181,7 +181,7 @@ void output_summary(const struct output_run *run, FILE *out)
 	for (size_t i = 0; i < run->n_scores; i++) {
 		const struct score *s = &run->scores[i];
 
-		if (is_compared(s) && (!worst || s->fidelity < worst->fidelity))
+		if (output_is_compared(s) && (!worst || s->fidelity < worst->fidelity))
 			worst = s;
 	}
 	if (worst && run->reference)

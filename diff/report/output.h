@@ -1,5 +1,5 @@
 /*
- * What a comparison came to, written for people (a table) and for machines (JSON, JUnit XML).
+ * The outcome of a comparison, for people (a table) and for machines (JSON, JUnit XML).
  */
 #ifndef DIFF_REPORT_OUTPUT_H
 #define DIFF_REPORT_OUTPUT_H
@@ -23,16 +23,19 @@ struct output_run {
 	double seconds;
 };
 
-/** Indices of scores: those that did not pass first, each part by frame. out has n_scores elements. */
+/** 1 where the frame was there and was compared. */
+int output_is_compared(const struct score *s);
+
+/** Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
 void output_order(const struct output_run *run, size_t *out);
 
-/** The table: what did not pass first, with its figures beside the bars, then a line for each frame, then a summary. */
+/** The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary. */
 void output_table(const struct output_run *run, FILE *out);
 
 /** One line: counts by outcome and the worst frame. */
 void output_summary(const struct output_run *run, FILE *out);
 
-/** The gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
+/** A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
 void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size);
 
 /**
@@ -54,7 +57,7 @@ void output_annotations(const struct output_run *run, FILE *out);
 /** The first frame, by number, that failed or is missing; NULL where none did. */
 const struct score *output_first_wrong(const struct output_run *run);
 
-/** Text with the characters that XML and HTML give a meaning replaced. */
+/** Write text with the characters escaped that mean something in XML and HTML. */
 void output_escaped(const char *text, FILE *out);
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * Pictures for people of what was compared: the layers of a traced frame, and maps of where it differs.
+ * What was compared, as pictures: the layers of a traced frame, and maps of where it differs.
  */
 #ifndef DIFF_REPORT_PICTURES_H
 #define DIFF_REPORT_PICTURES_H
@@ -26,13 +26,13 @@ enum picture_kind {
 /** Short names, for file and programs: "reference", "compared", "beauty", ... */
 extern const char *const picture_names[N_PICTURES];
 
-/* One frame with all that pictures are made of. */
+/* One frame, with all that its pictures are made of. */
 struct picture_frame {
 	struct image ref_image, image;
 	struct score_picture ref, compared;
 	struct score_maps maps; /* empty where the sizes differ */
 	struct score_rules_frame settings;
-	int is_beauty;          /* 1: the compared layer is the beauty, for want of gl; it makes one picture, not two */
+	int is_beauty;          /* 1: there is no gl; the beauty was compared, and makes one picture, not two */
 };
 
 /**
@@ -50,8 +50,8 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 
 /**
  * Make one picture.
- * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where the frame has nothing
- *                       to show for it (no such channels, or one colour all over for an effect)
+ * @param rgb            receives a buffer [height][width][3]; caller frees with free(). NULL where there is nothing to show: no
+ *                       such channels, or an effect of one colour all over
  * @param width, height  receive its size: the reference's, or the traced frame's where the sizes differ
  * @return 0 or ERR_SYSTEM (reported)
  */

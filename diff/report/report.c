@@ -117,12 +117,6 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
-static int was_compared(const struct score *s)
-{
-	return s->outcome == SCORE_FRAME_PASSED || s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY ||
-		s->outcome == SCORE_FRAME_NEW;
-}
-
 /* Whose pictures come in which order: frames that did not pass first. */
 struct pictures {
 	const struct output_run *run;
@@ -184,7 +178,7 @@ static int write_all_pictures(const struct output_run *run, struct set *ref, str
 		goto fail;
 	}
 	for (size_t i = 0; i < run->n_scores; i++)
-		if (was_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED) {
+		if (output_is_compared(&run->scores[i]) && run->scores[i].outcome != SCORE_FRAME_PASSED) {
 			p.is_sample[p.n] = 1;
 			p.scores[p.n++] = &run->scores[i];
 		}
@@ -230,7 +224,7 @@ int report_write(const struct output_run *run, struct set *ref, struct set *trac
 	if (err)
 		return err;
 	for (size_t i = 0; i < run->n_scores; i++)
-		compared |= was_compared(&run->scores[i]);
+		compared |= output_is_compared(&run->scores[i]);
 	if (snprintf(path, sizeof(path), "%s/index.html", dir) >= (int)sizeof(path))
 		return err_report(ERR_SYSTEM, dir, "the name is too long");
 	err = write_page(run, ref, traced, path);

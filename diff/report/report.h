@@ -8,10 +8,10 @@
 #include "diff/pictures/set.h"
 
 /**
- * Write DIR/index.html (what did not pass first, pictures as data URIs) and DIR/sheet.png (a few frames: reference,
- * gl, beauty, difference side by side). Every compared frame has a thumbnail. Whole pictures of all frames that did not
- * pass are in the page as long as these are no more than about 64 MB, and of a sample of those that passed.
- * @return 0 or ERR_SYSTEM (reported; files that were not whole are not there)
+ * Write DIR/index.html (pictures as data URIs) and DIR/sheet.png (a few frames: reference, gl, beauty, difference side by side).
+ * Every compared frame has a thumbnail. The page holds whole pictures of the frames that did not pass, up to about 64 MB, and of
+ * a sample of those that passed.
+ * @return 0 or ERR_SYSTEM (reported; a file that is not whole does not appear)
  */
 int report_write(const struct output_run *run, struct set *ref, struct set *traced, const char *dir);
 

@@ -1,11 +1,11 @@
 /*
- * relume-diff.yaml: what is compared how, by recording and by frame. Its form is described in diff/rules/README.md.
+ * relume-diff.yaml: how frames are compared, by recording and by frame. diff/rules/README.md shows its form.
  *
- * Every rule whose glob and frames match applies, in the order of the file; a rule's preset comes before the rule itself,
- * and what a preset inherits before the preset. Later bars win; lists of rectangles and channels add up.
+ * Every rule that matches applies, in the order of the file. A preset applies before the rule that names it, and a preset that it
+ * inherits before that. Later bars win; lists of rectangles and channels add up.
  */
-#ifndef DIFF_RULES_H
-#define DIFF_RULES_H
+#ifndef DIFF_RULES_RULES_H
+#define DIFF_RULES_RULES_H
 
 #include "diff/score/score.h"
 
@@ -13,7 +13,7 @@ struct score_rules; /* opaque */
 
 enum { SCORE_RULES_MAX_BARS = 64, SCORE_RULES_MAX_CHANNELS = 64 };
 
-/* What the rules come to for one frame; points into the settings. */
+/* What holds for one frame; points into the settings. */
 struct score_rules_frame {
 	struct score_options options;
 	struct score_bar bars[SCORE_RULES_MAX_BARS];
@@ -34,7 +34,7 @@ void score_rules_free(struct score_rules **settings);
 const char *score_rules_baseline(const struct score_rules *settings);
 
 /**
- * What holds for one frame.
+ * Work out what holds for one frame.
  *
  * @param settings  NULL: nothing but what the command line says
  * @param name      of the recording, matched by the globs ("gears")

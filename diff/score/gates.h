@@ -57,8 +57,8 @@ struct gate_frame {
 
 /**
  * Enter one figure beside its bar, or beside the one that options give in its place. The gate fails where any figure
- * misses its bar (NaN misses every bar) or is better than what was thought possible, and warns where it misses only
- * the bar for warnings.
+ * misses its bar (NaN misses every bar) or is better than was thought possible. It warns where it misses only the
+ * bar for warnings.
  */
 void gate_measure(const struct gate_frame *f, enum score_gate_id id, int figure, double value);
 

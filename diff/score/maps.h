@@ -7,7 +7,7 @@
 /** Per-pixel differences, for pictures of them. Both: [height][width]. */
 struct score_maps {
 	uint8_t *difference; /* largest channel difference, codes, plain */
-	uint8_t *residual;   /* what R2's symmetric minimum over 3x3 pixels leaves of it, codes */
+	uint8_t *residual;   /* what is left of it after R2's symmetric minimum over 3x3 pixels, codes */
 	uint8_t *failing;    /* 1 where the pixel fails R1, R1b or R2 */
 	uint8_t *band;       /* 1: edge band */
 };

@@ -1,19 +1,19 @@
 /*
  * The score of one frame: how well a traced picture agrees with its reference, gate by gate.
  *
- * Three questions are asked apart: is the geometry right (R4, R5), is OpenGL's own shading right (R1 to R3, P, on the
- * picture's gl channels), and is what the beauty adds to it explained by the effect channels (E1 to E3). A fourth one, B,
- * is asked where there is an approved frame: is everything as it was when somebody looked at it.
+ * The gates ask three separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on the
+ * gl channels)? Do the effect channels explain what the beauty adds (E1 to E3)? Where there is an approved frame, gate B asks a
+ * fourth: is everything as it was when somebody approved it?
  *
  * Conventions
  *   codes    display-referred numbers of 8 bits; linear channels go through sRGB's curve and are rounded half to even
  *   rows     the top row first, as in image.h
  *   edges    a pixel is in the edge band when one of its 8 neighbours has another id, or when window depth bends at it:
  *            |z[-1] - 2 z[0] + z[+1]| > SCORE_DEPTH_EPSILON + max(|z[+1] - z[0]|, |z[0] - z[-1]|) / 8 along x or y. A
- *            plane has no second difference in window space (GL 2.1 equation 3.9 is linear there), so that creases
- *            and silhouettes are found and slopes are not. The traced frame's id and depth count, and the reference's
- *            depth where there is one. All other pixels are interior: further than 1 px from an edge.
- *            Pictures with neither id nor depth have no edges: all their pixels are interior.
+ *            plane has no second difference in window space (GL 2.1 equation 3.9 is linear there): this finds creases and
+ *            silhouettes, not slopes. It looks at the traced frame's id and depth, and at the reference's depth if any.
+ *            All other pixels are interior: further than 1 px from an edge. In pictures with neither id nor depth, every
+ *            pixel is interior.
  */
 #ifndef DIFF_SCORE_SCORE_H
 #define DIFF_SCORE_SCORE_H
@@ -31,12 +31,12 @@
 #define SCORE_GATE_ID(id, ...) GATE_##id,
 enum score_gate_id { SCORE_GATES(SCORE_GATE_ID) N_GATES };
 
-/* NOT_MEASURED is not PASSED: it says that the inputs do not hold what the gate looks at. WARNED decides nothing. */
+/* NOT_MEASURED is not PASSED: the inputs lack what the gate looks at. WARNED decides nothing. */
 enum score_state { SCORE_NOT_MEASURED, SCORE_PASSED, SCORE_WARNED, SCORE_FAILED, N_SCORE_STATES };
 
 extern const char *const score_state_names[N_SCORE_STATES];
 
-#define SCORE_CODES 2 /* R1, R2: largest channel difference that passes, codes */
+#define SCORE_CODES 2 /* R1, R2: the largest channel difference that passes, codes */
 
 enum { SCORE_MAX_FIGURES = 2, SCORE_MAX_BLAME = 8, SCORE_MAX_RANGES = 4 };
 
@@ -45,14 +45,14 @@ struct score_gate {
 	enum score_state state;
 	double value[SCORE_MAX_FIGURES], bar[SCORE_MAX_FIGURES]; /* valid unless NOT_MEASURED */
 	int better_than_expected; /* 1: that is why it failed */
-	char note[160]; /* why it failed or was not measured, or how it was measured; may be empty */
+	char note[160]; /* why it failed, why it was not measured, or how it was measured; may be empty */
 };
 
 enum score_outcome {
 	SCORE_FRAME_PASSED,
 	SCORE_FRAME_FAILED,
-	SCORE_FRAME_FLAKY,      /* failed, but only gates that are listed as known to be flaky */
-	SCORE_FRAME_NEW,        /* passed, but there is no approved frame where one is asked for */
+	SCORE_FRAME_FLAKY,      /* failed only gates that the rules list as flaky */
+	SCORE_FRAME_NEW,        /* passed; a baseline was given and has no such frame */
 	SCORE_FRAME_MISSING,    /* there is a reference, but no traced frame */
 	SCORE_FRAME_EXTRA,      /* there is a traced frame, but no reference */
 	SCORE_FRAME_UNREADABLE, /* one of the two files could not be read */
@@ -64,10 +64,10 @@ extern const char *const score_outcome_names[N_SCORE_OUTCOMES];
 #define SCORE_EFFECT_ID(id, name) EFFECT_##id,
 enum score_effect { SCORE_EFFECTS(SCORE_EFFECT_ID) N_SCORE_EFFECTS };
 
-/* Figures that never decide; NAN where not measured. */
+/* Figures that decide nothing; NAN where not measured. */
 struct score_info {
 	double gl_psnr_db, gl_ssim;               /* compared channels against the reference */
-	double gl_rmse, gl_mrse, gl_yee;          /* rmse in [0,1]; gl_yee: pixels that Yee's metric sees, where asked for */
+	double gl_rmse, gl_mrse, gl_yee;          /* rmse in [0,1]; gl_yee: pixels that Yee's metric sees, if asked for */
 	double beauty_flip, beauty_psnr_db;       /* beauty against the reference */
 	double beauty_ms_ssim, beauty_ciede_p95;
 	double effect_share[N_SCORE_EFFECTS];     /* share of pixels, [0,1], that each effect touches */
@@ -75,10 +75,10 @@ struct score_info {
 
 struct score_blame {
 	uint32_t draw;        /* id */
-	uint64_t pixels;      /* failing ones it holds */
+	uint64_t pixels;      /* failing pixels it holds */
 	struct draw_name name; /* what it was in the recording */
-	int is_approved;      /* 1: the draw that the approved frame shows there; the traced frame shows another one */
-	uint32_t x0, y0, x1, y1; /* box around its failing pixels, last ones included */
+	int is_approved;      /* 1: the approved frame shows this draw there; the traced frame shows another */
+	uint32_t x0, y0, x1, y1; /* box around its failing pixels, the last ones included */
 };
 
 struct score {
@@ -89,7 +89,7 @@ struct score {
 	struct score_gate gates[N_GATES];
 	double fidelity;        /* share of pixels, [0,1], that pass R1, R1b or R2; 0 where nothing was compared */
 	uint64_t failing_pixels; /* of R1, R1b and R2 */
-	uint64_t blamed_pixels;  /* that fail any gate that looks at pixels */
+	uint64_t blamed_pixels;  /* pixels that fail any gate */
 	uint32_t worst;         /* largest channel difference of any pixel, codes */
 	struct score_info info;
 	uint32_t n_blame;
@@ -111,12 +111,12 @@ struct score_picture {
 struct score_approved {
 	const struct image *image; /* NULL: its pixels are not stored */
 	int same_device;           /* 1: it came from the device that the traced frame names */
-	int same_hashes;           /* 1: all channels have the approved hashes, so that nothing needs to be measured */
-	char changed[96];          /* names of channels that do not; may be cut */
-	int same_channels;         /* 1: the two hold channels of the same names */
+	int same_hashes;           /* 1: all channels have the approved hashes; nothing needs measuring */
+	char changed[96];          /* names of channels with other hashes; may be cut */
+	int same_channels;         /* 1: both have channels of the same names */
 };
 
-/** Share of pixels, [0,1], that a kind of effect must touch (gate E3); NAN: no bound. */
+/** Gate E3: the share of pixels, [0,1], that an effect must touch; NAN: no bound. */
 struct score_range {
 	enum score_effect effect;
 	double low, high;
@@ -128,7 +128,7 @@ struct score_bar {
 	int figure;
 	double bar;    /* the gate fails beyond it */
 	double warn;   /* the gate warns beyond it */
-	double better; /* the gate fails on the good side of it: an improvement that nobody expected is a finding */
+	double better; /* the gate fails on the good side of it: an unexpected improvement is a finding */
 };
 
 /* All zero: the scoring rules' own bars. */
@@ -140,7 +140,7 @@ struct score_options {
 	double codes;                 /* in place of SCORE_CODES; 0: that */
 	const char *const *channels;  /* borrowed; names of channels that must be there (V) */
 	size_t n_channels;
-	/* Yee's metric (oiio_compare_yee), which is slow; NULL: not wanted. Handed in, so that scoring does without OpenImageIO. */
+	/* Yee's metric (oiio_compare_yee), which is slow; NULL: not wanted. Handed in: scoring does not know OpenImageIO. */
 	int (*yee)(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count);
 	const char *channel; /* layer to compare: "gl", "beauty", or any; NULL: gl where there is one, else beauty */
 };

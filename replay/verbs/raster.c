@@ -42,7 +42,7 @@ struct frame_ends {
 };
 
 static const struct options_row rows[] = {
-	{ "frames", 'f', "LIST", "frames, as in 10-60 or 1-500x5; default: all", options_frames, .at = offsetof(struct options, frames) },
+	{ "frames", 'f', "LIST", "frames, as in 10-60 or 1-500x5 (default: all)", options_frames, .at = offsetof(struct options, frames) },
 	{ "output", 'o', "PATTERN", "file names with the frame number as ####, %04d or $F4, ending in .png",
 	  options_text, .at = offsetof(struct options, output), .is_required = 1 },
 };

@@ -120,7 +120,7 @@ static const struct options_row rows[] = {
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },
-	{ "rays", 0, "N", "rays to each light that has a radius, and around each point in the ao modes, a sample (default 16)",
+	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/look.h shows all "
@@ -129,7 +129,7 @@ static const struct options_row rows[] = {
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
 	  take_accel, AT(tracer), .words = accel_kind_names, .kind = RUN },
-	{ "relight", 0, NULL, "light each pixel (Phong), not vertices: channel relight tells the difference",
+	{ "relight", 0, NULL, "light pixels (Phong) instead of vertices; channel relight holds the difference",
 	  options_flag, AT(tracer.relight) },
 	{ .help = "On what:" },
 	{ "device", 0, "LIST", "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
@@ -137,16 +137,16 @@ static const struct options_row rows[] = {
 	{ "kernels", 0, "FAMILY", "traversal kernels: packets (default on a CPU), binary, compressed (default on a GPU); the pictures "
 	  "are the same", options_word, AT(family), .words = device_family_names, .kind = RUN },
 	{ "threads", 0, "N", "compute threads of a CPU device (default: all cores)", options_number, AT(threads), .most = 1024, .kind = RUN },
-	{ "jobs", 'j', "N", "frames on their way at once on each device (default: by the number of cores)",
+	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)",
 	  options_number, AT(jobs), .most = 64, .kind = RUN },
-	{ "limit-memory", 0, "M", "memory to keep to, as 800M or 4G: fewer frames on their way at once; a frame that needs more by "
-	  "itself ends the run", options_bytes, AT(memory_bytes), .kind = RUN },
-	{ "cache", 0, "DIR", "where trees of large meshes, and compiled kernels, are kept for other runs; processes and machines may "
+	{ "limit-memory", 0, "M", "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
+	  "more ends the run", options_bytes, AT(memory_bytes), .kind = RUN },
+	{ "cache", 0, "DIR", "where trees of large meshes and compiled kernels are kept for other runs; processes and machines may "
 	  "share it (default: relume/trees and relume/kernels in $XDG_CACHE_HOME, or in ~/.cache; PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN },
 	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes, AT(cache_bytes), .kind = RUN },
-	{ "no-cache", 0, NULL, "keep nothing, and look for nothing", options_flag, AT(no_cache), .kind = RUN },
-	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds, and go on with the next",
+	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },
+	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next",
 	  take_seconds, AT(frame_s), .kind = RUN },
 	{ "progress", 0, "WORD", "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)",
 	  take_progress, AT(progress), .kind = RUN },
@@ -159,8 +159,8 @@ static const struct options_table table = {
 	        "Ray trace frames of a recording to OpenEXR.\n",
 	.rows = rows,
 	.n_rows = sizeof(rows) / sizeof(rows[0]),
-	.notes = "Files appear whole or not at all. On SIGINT or SIGTERM files that are being written are finished, frames that are\n"
-	         "being traced are dropped, and the exit code is 130 or 143; the same command with --skip-existing goes on from there.\n"
+	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
+	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
 	         "failed, or a frame was given up, 130 SIGINT, 143 SIGTERM.\n",
 	.takes = "one trace and -o PATTERN",
