@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 
 /* What libcyaml says about the first thing that is wrong, and the line that it names first in its backtrace. */
 struct complaint {
@@ -48,15 +49,10 @@ static int read_all(const char *path, char **out, size_t *n)
 	if (!f)
 		return err_report(ERR_INPUT, path, "%s", strerror(errno));
 	for (;;) {
-		if (used == size) {
-			char *grown = realloc(data, size = size ? 2 * size : 4096);
-
-			if (!grown) {
-				free(data);
-				fclose(f);
-				return err_report(ERR_SYSTEM, path, "out of memory");
-			}
-			data = grown;
+		if (MEMORY_GROW(data, size, used + 4096)) {
+			free(data);
+			fclose(f);
+			return ERR_SYSTEM;
 		}
 		size_t got = fread(data + used, 1, size - used, f);
 

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 
 extern char **environ;
 
@@ -35,14 +36,9 @@ static int read_all(int fd, char **out)
 	char *text = NULL;
 
 	for (;;) {
-		if (size + 1 >= room) {
-			char *grown = realloc(text, room = room ? 2 * room : 4096);
-
-			if (!grown) {
-				free(text);
-				return err_report(ERR_SYSTEM, NULL, "out of memory");
-			}
-			text = grown;
+		if (MEMORY_GROW(text, room, size + 4096)) {
+			free(text);
+			return ERR_SYSTEM;
 		}
 		ssize_t n = read(fd, text + size, room - size - 1);
 

@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "replay/trace/hash.h"
 
 #define PIECE_BYTES (1u << 20)
@@ -39,14 +40,10 @@ struct container {
 
 static int reserve(uint8_t **buffer, size_t *room, size_t bytes)
 {
-	uint8_t *grown;
-
 	if (bytes <= *room)
 		return 0;
-	grown = realloc(*buffer, bytes);
-	if (!grown)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %zu bytes of a trace", bytes);
-	*buffer = grown;
+	if (memory_resize(buffer, bytes, 1))
+		return ERR_SYSTEM;
 	*room = bytes;
 	return 0;
 }

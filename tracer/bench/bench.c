@@ -116,30 +116,56 @@ static int measure(struct bench *b, struct figure *f, size_t repeats)
 	return err;
 }
 
-int bench_main(int argc, char **argv)
+#define FIGURE(rays, kernel, kind) { rays, #kernel, KERNEL_##kernel, kind, 0 }
+
+/* All kernels on the scene of our own. */
+static int measure_all(struct bench *b, size_t repeats, int json)
 {
 	struct figure figures[] = {
-		{ "camera", "camera_packet", KERNEL_camera_packet, -1, 0 },
-		{ "camera", "camera_wide", KERNEL_camera_wide, -1, 0 },
-		{ "camera", "camera_compressed", KERNEL_camera_compressed, -1, 0 },
-		{ "shadow", "occlude_packet", KERNEL_occlude_packet, BENCH_SHADOW, 0 },
-		{ "shadow", "occlude_wide", KERNEL_occlude_wide, BENCH_SHADOW, 0 },
-		{ "shadow", "occlude_binary", KERNEL_occlude_binary, BENCH_SHADOW, 0 },
-		{ "shadow", "occlude_compressed", KERNEL_occlude_compressed, BENCH_SHADOW, 0 },
-		{ "shadow, nearest hit", "intersect_packet", KERNEL_intersect_packet, BENCH_SHADOW, 0 },
-		{ "shadow, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_SHADOW, 0 },
-		{ "shadow, nearest hit", "intersect_binary", KERNEL_intersect_binary, BENCH_SHADOW, 0 },
-		{ "shadow, nearest hit", "intersect_compressed", KERNEL_intersect_compressed, BENCH_SHADOW, 0 },
-		{ "incoherent", "occlude_packet", KERNEL_occlude_packet, BENCH_AMBIENT, 0 },
-		{ "incoherent", "occlude_wide", KERNEL_occlude_wide, BENCH_AMBIENT, 0 },
-		{ "incoherent", "occlude_binary", KERNEL_occlude_binary, BENCH_AMBIENT, 0 },
-		{ "incoherent", "occlude_compressed", KERNEL_occlude_compressed, BENCH_AMBIENT, 0 },
-		{ "incoherent, nearest hit", "intersect_packet", KERNEL_intersect_packet, BENCH_AMBIENT, 0 },
-		{ "incoherent, nearest hit", "intersect_wide", KERNEL_intersect_wide, BENCH_AMBIENT, 0 },
-		{ "incoherent, nearest hit", "intersect_binary", KERNEL_intersect_binary, BENCH_AMBIENT, 0 },
-		{ "incoherent, nearest hit", "intersect_compressed", KERNEL_intersect_compressed, BENCH_AMBIENT, 0 },
+		FIGURE("camera", camera_packet, -1),
+		FIGURE("camera", camera_wide, -1),
+		FIGURE("camera", camera_compressed, -1),
+		FIGURE("shadow", occlude_packet, BENCH_SHADOW),
+		FIGURE("shadow", occlude_wide, BENCH_SHADOW),
+		FIGURE("shadow", occlude_binary, BENCH_SHADOW),
+		FIGURE("shadow", occlude_compressed, BENCH_SHADOW),
+		FIGURE("shadow, nearest hit", intersect_packet, BENCH_SHADOW),
+		FIGURE("shadow, nearest hit", intersect_wide, BENCH_SHADOW),
+		FIGURE("shadow, nearest hit", intersect_binary, BENCH_SHADOW),
+		FIGURE("shadow, nearest hit", intersect_compressed, BENCH_SHADOW),
+		FIGURE("incoherent", occlude_packet, BENCH_AMBIENT),
+		FIGURE("incoherent", occlude_wide, BENCH_AMBIENT),
+		FIGURE("incoherent", occlude_binary, BENCH_AMBIENT),
+		FIGURE("incoherent", occlude_compressed, BENCH_AMBIENT),
+		FIGURE("incoherent, nearest hit", intersect_packet, BENCH_AMBIENT),
+		FIGURE("incoherent, nearest hit", intersect_wide, BENCH_AMBIENT),
+		FIGURE("incoherent, nearest hit", intersect_binary, BENCH_AMBIENT),
+		FIGURE("incoherent, nearest hit", intersect_compressed, BENCH_AMBIENT),
 	};
 	const size_t n = sizeof(figures) / sizeof(figures[0]);
+	int err = 0;
+
+	for (size_t i = 0; i < n && !err; i++)
+		err = measure(b, &figures[i], repeats);
+	if (err)
+		return err;
+	printf(json ? "{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"build_s\": %.4f, \"figures\": [\n"
+	            : "%s\n%u triangles (%s), built in %.3f s; ", device_name(b->dev), b->mesh.n_triangles, b->mesh.source, b->build_s);
+	if (!json)
+		printf("%ux%u\n", b->width, b->height);
+	for (size_t i = 0; i < n; i++)
+		if (json)
+			printf("  {\"rays\": \"%s\", \"kernel\": \"%s\", \"mrays_per_s\": %.2f}%s\n", figures[i].rays,
+			       figures[i].kernel_name, figures[i].mrays, i + 1 < n ? "," : "");
+		else
+			printf("%-24s %-20s %8.2f Mrays/s\n", figures[i].rays, figures[i].kernel_name, figures[i].mrays);
+	if (json)
+		puts("]}");
+	return 0;
+}
+
+int bench_main(int argc, char **argv)
+{
 	struct options o = { .models = "../shared/models", .repeats = 5, .family = -1 };
 	struct device *dev = NULL;
 	struct bench *b = NULL;
@@ -150,35 +176,14 @@ int bench_main(int argc, char **argv)
 	err = device_open(o.device, o.threads, &dev);
 	if (!err && o.family >= 0)
 		device_choose_family(dev, (enum device_family)o.family);
-	if (!err && o.trace) {
-		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
-		goto done;
-	}
-	if (!err)
+	if (!err && !o.trace)
 		err = bench_create(dev, o.models, 1600, 1200, &b);
-	if (!err && o.kinds) {
+	if (!err && o.trace)
+		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
+	else if (!err && o.kinds)
 		err = bench_accel(b, o.kinds, o.repeats, o.json);
-		goto done;
-	}
-	for (size_t i = 0; i < n && !err; i++)
-		err = measure(b, &figures[i], o.repeats);
-	if (err)
-		goto done;
-	if (o.json)
-		printf("{\"device\": \"%s\", \"triangles\": %u, \"models\": \"%s\", \"build_s\": %.4f, \"figures\": [\n",
-		       device_name(dev), b->mesh.n_triangles, b->mesh.source, b->build_s);
-	else
-		printf("%s\n%u triangles (%s), built in %.3f s; %ux%u\n", device_name(dev), b->mesh.n_triangles,
-		       b->mesh.source, b->build_s, b->width, b->height);
-	for (size_t i = 0; i < n; i++)
-		if (o.json)
-			printf("  {\"rays\": \"%s\", \"kernel\": \"%s\", \"mrays_per_s\": %.2f}%s\n", figures[i].rays,
-			       figures[i].kernel_name, figures[i].mrays, i + 1 < n ? "," : "");
-		else
-			printf("%-24s %-20s %8.2f Mrays/s\n", figures[i].rays, figures[i].kernel_name, figures[i].mrays);
-	if (o.json)
-		puts("]}");
-done:
+	else if (!err)
+		err = measure_all(b, o.repeats, o.json);
 	bench_destroy(&b);
 	device_close(&dev);
 	return -err;
