@@ -5,7 +5,8 @@
 
 #include "base/err.h"
 #include "replay/gl/context.h"
-#include "replay/index/snapshot_parts.h"
+#include "replay/index/snapshot_objects.h"
+#include "replay/index/snapshot_state.h"
 
 /* ---- drawables ---- */
 

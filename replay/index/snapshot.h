@@ -9,7 +9,7 @@
  * Why not a stream of calls that rebuilds the state? Every seek would have to execute it. It cannot say all that the state holds
  * (errors, versions of buffers, meshes of lists), and nobody notices what it forgets.
  *
- * Only a build with the same layout can read a snapshot: see snapshot_layout.
+ * Only a build with the same layout can read a snapshot: see snapshot_layout.h.
  */
 #ifndef REPLAY_INDEX_SNAPSHOT_H
 #define REPLAY_INDEX_SNAPSHOT_H
@@ -28,12 +28,6 @@ struct snapshot_blobs {
 	void *user;
 	uint64_t *count; /* not NULL: blobs are neither named nor kept, their bytes are added to this */
 };
-
-/**
- * Names what snapshots are made of: names, offsets and sizes of the members of all structs that are saved, and the commands that
- * lists hold by number. A build reads snapshots of equal layouts only.
- */
-uint64_t snapshot_layout(void);
 
 /**
  * Save the state as it is between two frames.

@@ -1,4 +1,4 @@
-#include "replay/index/snapshot.h"
+#include "replay/index/snapshot_layout.h"
 
 #include <string.h>
 #include <xxhash.h>

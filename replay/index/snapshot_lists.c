@@ -1,4 +1,4 @@
-#include "replay/index/snapshot_parts.h"
+#include "replay/index/snapshot_lists.h"
 
 #include <stdlib.h>
 #include <string.h>

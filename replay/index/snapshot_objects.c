@@ -1,10 +1,11 @@
-#include "replay/index/snapshot_parts.h"
+#include "replay/index/snapshot_objects.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "replay/gl/texture/texformat.h"
+#include "replay/index/snapshot_lists.h"
 
 /* ---- textures ---- */
 

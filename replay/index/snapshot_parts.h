@@ -1,8 +1,6 @@
 /*
- * What the parts of a snapshot share: snapshot.c (contexts, drawables), snapshot_state.c (the state of a context),
- * snapshot_objects.c (what contexts share) and snapshot_lists.c (display lists and their meshes).
- *
- * Each part saves and loads, in the same order. layout.txt names what becomes of every pointer.
+ * What the parts of a snapshot have in common (snapshot.c, _state, _objects, _lists). Each part saves and loads, in the same order.
+ * layout.txt names what becomes of every pointer.
  */
 #ifndef REPLAY_INDEX_SNAPSHOT_PARTS_H
 #define REPLAY_INDEX_SNAPSHOT_PARTS_H
@@ -69,13 +67,5 @@ void saver_table(struct saver *s, const struct table *t, const struct snapshot_t
 void loader_table(struct loader *l, struct table *t, const struct snapshot_table *how);
 
 extern const struct snapshot_table snapshot_numbers; /* values are numbers and no pointers */
-extern const struct snapshot_table snapshot_lists;   /* snapshot_lists.c */
-
-/* ---- the parts ---- */
-
-void snapshot_put_share(struct saver *s, const struct gls_share *share); /* snapshot_objects.c */
-void snapshot_get_share(struct loader *l, struct gls_share *share);
-void snapshot_put_state(struct saver *s, const struct gls_state *st);    /* snapshot_state.c */
-void snapshot_get_state(struct loader *l, struct gls_state *st);
 
 #endif
