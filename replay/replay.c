@@ -86,13 +86,13 @@ static int restore(struct replay *rp, uint64_t checkpoint)
 	return rc;
 }
 
-/* Begin where nothing needs to be executed before: at a checkpoint, or, 0, at the trace's beginning. */
+/* Begin at the checkpoint of a frame, or (0) at the beginning of the trace. */
 static int begin_at(struct replay *rp, uint64_t checkpoint)
 {
 	return checkpoint ? restore(rp, checkpoint) : player_start_again(&rp->player);
 }
 
-/* Come as near before a frame as a checkpoint does. */
+/* Go to the last checkpoint before a frame, unless that leads back. */
 static int jump(struct replay *rp, uint64_t frame)
 {
 	uint64_t checkpoint;
@@ -128,7 +128,7 @@ int replay_seek(struct replay *rp, uint64_t frame)
 	return rc;
 }
 
-/* A supplier that renders nothing: whatever was there may show. */
+/* A supplier that renders nothing: whatever was there before may show. */
 static int know_nothing(void *user, const struct scene *scene, struct scene_picture *picture)
 {
 	size_t n = (size_t)scene->width * scene->height;

@@ -1,5 +1,5 @@
 /*
- * A recording, played back frame by frame: what the renderer, `relume info` and `relume scene` use of replay/.
+ * A recording, played back frame by frame. The renderer and the verbs on recordings use this.
  *
  * A replay runs a trace's calls through a GL state machine of its own (no GL, no window) and hands out one scene per
  * frame. It is used by one thread at a time. Scenes are independent of it: a scene stays valid after the next
@@ -30,13 +30,13 @@ void replay_close(struct replay **rp);
  * Execute the calls up to the end of the next frame.
  * @param want   0: execute only (skip a frame; cheaper), *scene is set to NULL. 1: build the frame's scene
  * @param scene  receives the frame's scene; the caller's, scene_release. NULL unless the return value is 1 and want was 1
- * @return 1 a frame was finished; 0 the trace has no further frame end (*scene NULL); ERR_INPUT (reported: damaged at
- *         a byte; all frames whole before it were delivered) or ERR_SYSTEM (reported)
+ * @return 1 a frame was finished; 0 the trace has no more frames (*scene NULL); ERR_INPUT (reported: damaged at a byte; all
+ *         frames that are whole before it were delivered) or ERR_SYSTEM (reported)
  */
 int replay_next_frame(struct replay *rp, int want, struct scene **scene);
 
 /**
- * Come to a frame, forwards or backwards, so that replay_next_frame finishes that one. Long ways go by the trace's index
+ * Go to a frame, forwards or backwards: replay_next_frame then finishes that one. Long ways use the trace's index
  * (replay/index/index.h), which is made where there is none.
  * @return 1; 0 the trace has no such frame; ERR_* as replay_next_frame
  */
@@ -44,7 +44,7 @@ int replay_seek(struct replay *rp, uint64_t frame);
 
 /**
  * How many frames the trace has, by its index.
- * @param damaged  receives 1 where calls behind the last whole frame make no sense, else 0
+ * @param damaged  receives 1 where the trace is damaged behind its last whole frame, else 0
  * @return 0 or ERR_* (reported)
  */
 int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
@@ -56,22 +56,21 @@ int replay_frame_count(struct replay *rp, uint64_t *n, int *damaged);
 int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
 
 /**
- * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are
- * not cleared). Called in the thread that calls replay_next_frame, from within it. Without a supplier such operations are
- * counted (replay_unsupported). With one, a wanted frame that needs pixels of skipped frames makes the replay start again
- * from the trace's beginning and build every frame: right, if slow.
+ * Name who renders what the recorded program needs back as pixels (screen copies, framebuffer objects, frames that are not cleared).
+ * replay_next_frame calls it, in its own thread. Without a supplier such operations are counted (replay_unsupported). With one, a
+ * wanted frame that needs pixels of skipped frames makes the replay start again from the beginning and build every frame: slow,
+ * but right.
  */
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
 
 /**
- * Build the frames up to and with `last`: do they need pixels of frames that were skipped? Told without rendering: a frame that
- * may show what was there before it, as it does not clear the screen, counts as one that does. Afterwards the replay is of no
- * more use but to be closed.
+ * Do the frames up to and including `last` need pixels of frames that were skipped? Builds them without rendering: a frame that does
+ * not clear the screen counts as one that shows what was there before. Afterwards the replay can only be closed.
  * @return 1 they do; 0 they do not; ERR_* (reported)
  */
 int replay_needs_skipped(struct replay *rp, uint64_t last);
 
-/** Number of the frame that the next replay_next_frame will finish; so far executed frames. */
+/** Number of the frame that the next replay_next_frame finishes: how many were executed so far. */
 uint64_t replay_frame(const struct replay *rp);
 
 /** Calls read so far. */
@@ -93,7 +92,7 @@ struct replay_count {
 };
 
 /**
- * Calls met so far that the state machine does not execute (or not wholly), most frequent first.
+ * Calls met so far that the state machine does not execute, or only in part, most frequent first.
  * @param out  receives an array, valid until the next call of any replay function
  * @return number of entries
  */
@@ -121,7 +120,7 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out);
 /** 1 where a call met so far shows that the trace comes from `relume record`. */
 int replay_is_ours(const struct replay *rp);
 
-/** Report what replay_unsupported lists on standard error, one line each at most `limit`, as the end of a run does. */
+/** Warn of what replay_unsupported lists, at most `limit` lines, as the end of a run does. */
 void replay_report_unsupported(struct replay *rp, const char *where, size_t limit);
 
 #endif

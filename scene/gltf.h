@@ -25,7 +25,7 @@
 
 #include "scene/scene.h"
 
-/** What a scene lost on its way into glTF: instances, but for `lights`. */
+/** What a scene lost on its way into glTF: instances, where no other thing is named. */
 struct gltf_losses {
 	uint32_t no_color;   /* draws that write no colour: left out */
 	uint32_t texgen;     /* drawn with generated texture coordinates: exported without texture */

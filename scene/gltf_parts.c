@@ -177,7 +177,7 @@ static uint32_t put_colors(struct gltf *g, const struct scene_mesh *m)
 	return put_accessor(g, piece, GL_FLOAT, m->vertex_count, "VEC4");
 }
 
-/* Texture coordinates after the texture matrix; those of a rectangle texture count texels (ARB_texture_rectangle). */
+/* Texture coordinates after the texture matrix. In rectangle textures they count texels (ARB_texture_rectangle). */
 static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const struct scene_unit *u, const float current[4])
 {
 	const struct scene_texture *t = g->s->textures[u->texture];
@@ -201,8 +201,8 @@ static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const 
 }
 
 /*
- * The primitives all of whose vertices are finite; the others are counted. Triangles with one corner twice cover nothing
- * and are left out. `flipped` turns triangles over.
+ * Primitives with an infinite vertex are counted and left out. So are triangles with one corner twice: they cover nothing. `flipped`
+ * turns triangles over.
  */
 static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t position, int flipped)
 {
@@ -232,7 +232,7 @@ static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t
 	return n ? put_accessor(g, piece, GL_UNSIGNED_INT, n, "SCALAR") : SCENE_NONE;
 }
 
-/* Vertices that are part of no primitive may be what is not finite; glTF wants numbers. */
+/* glTF wants numbers, and vertices in no primitive may still be infinite or NaN. */
 static void mend_positions(struct gltf *g, uint32_t position)
 {
 	const struct gltf_accessor *a = &g->accessors[position];

@@ -1,6 +1,6 @@
 /*
- * What a glTF file holds, gathered from a scene before its text is written: the binary chunk and the numbered things
- * that refer to it. Internal to gltf.c and gltf_parts.c.
+ * What a glTF file holds, gathered from a scene before its text is written: the binary chunk, and the numbered things that refer to
+ * it. Only gltf.c uses this.
  */
 #ifndef SCENE_GLTF_PARTS_H
 #define SCENE_GLTF_PARTS_H
@@ -64,7 +64,7 @@ struct gltf_space {
 struct gltf {
 	const struct scene *s;
 	struct gltf_losses *losses;
-	int failed; /* out of memory: everything after is in vain, nothing is written */
+	int failed; /* 1: out of memory; nothing is written */
 
 	uint8_t *bytes;
 	size_t n_bytes, room;
@@ -78,7 +78,7 @@ struct gltf {
 	uint32_t n_pieces, n_accessors, n_looks, n_sampled, n_parts, n_nodes, n_spaces;
 };
 
-/** Fill all of it; g->failed tells of lack of memory. */
+/** Fill all of it; out of memory sets g->failed. */
 void gltf_gather(struct gltf *g, const struct scene *s, struct gltf_losses *losses);
 void gltf_free(struct gltf *g);
 

@@ -28,7 +28,7 @@ int index_place(const struct index *index, int cached, char out[PATH_MAX])
 	return n > 0 && n < PATH_MAX;
 }
 
-/* ---- the trace that it is of ---- */
+/* ---- the trace ---- */
 
 static int describe_trace(const char *path, const char *hash, struct index_header *header)
 {
@@ -45,7 +45,7 @@ static int describe_trace(const char *path, const char *hash, struct index_heade
 	return 0;
 }
 
-/* Is an index with this header one of this trace and build? */
+/* Is an index with this header current: of this trace and this layout? */
 static int is_current(const char *path, const struct index_header *found, const struct index_header *wanted)
 {
 	uint64_t whole[2];
@@ -209,7 +209,7 @@ void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint
 	*offset = frame < index->n_frames ? index->frames[frame].offset : 0;
 }
 
-/* Number of the last checkpoint up to a frame, from 1; 0: none. */
+/* The last checkpoint up to a frame, counted from 1; 0: none. */
 static size_t find_checkpoint(const struct index *index, uint64_t frame)
 {
 	size_t lo = 0, hi = index->n_checkpoints;

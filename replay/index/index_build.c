@@ -20,7 +20,7 @@
 
 /* ---- checkpoints ---- */
 
-/* Add a checkpoint if it is worth its bytes (see the head of index.h). */
+/* Add a checkpoint if it is worth its bytes (index_build.h). */
 static int add_checkpoint(struct index *index, struct player *p)
 {
 	struct snapshot_blobs blobs = index_blobs(index);
@@ -65,15 +65,15 @@ static int add_frame(struct index *index, struct player *p)
 	return 0;
 }
 
-/* How far apart checkpoints stand at least: looking at a large state takes its time as well. */
+/* The least distance between checkpoints: looking at a large state takes time as well. */
 static uint64_t spacing(uint64_t state_bytes)
 {
 	return state_bytes / 4 > SPACING_BYTES ? state_bytes / 4 : SPACING_BYTES;
 }
 
 /*
- * Calls since the last checkpoint before which there is no other: a byte that the state has grown by takes as long to restore as a
- * byte and a quarter of calls to replay (medians of recordings of eight programs).
+ * The least distance from a checkpoint to a larger one. To restore a byte more of state takes as long as to replay a byte and a
+ * quarter of calls (medians of recordings of eight programs).
  */
 static uint64_t soonest(uint64_t grown_bytes)
 {
@@ -96,8 +96,8 @@ static int measure(struct player *p, uint64_t *bytes)
 
 static int scan(struct index *index, struct player *p)
 {
-	uint64_t next = SPACING_BYTES; /* where a checkpoint may be due */
-	uint64_t last = 0, kept = 0, bytes; /* where the last one was, the bytes of its state; those of the state now */
+	uint64_t next = SPACING_BYTES; /* the next checkpoint stands there or later */
+	uint64_t last = 0, kept = 0, bytes; /* place and state bytes of the last checkpoint; state bytes now */
 	struct scene *none;
 	int rc;
 
@@ -199,7 +199,7 @@ static int begin_file(struct index *index, int cached, char path[PATH_MAX], char
 	return 0;
 }
 
-/* fresh: a replay to scan with, or NULL */
+/* fresh: a player to scan with, or NULL */
 static int make(struct index *index, struct player *fresh)
 {
 	char path[PATH_MAX], part[PATH_MAX];

@@ -39,7 +39,7 @@ void index_undelta(struct index_frame *frames, size_t n, int sign)
 
 /* ---- blobs ---- */
 
-/* A blob of the first n in an array, by a table from the low half of names (or the next free key) to places + 1. */
+/* A blob by its name. `t` maps the low half of a name, or the next free key, to a place in `blobs` + 1. */
 static const struct index_blob *find_blob(const struct table *t, const struct index_blob *blobs, const uint64_t name[2])
 {
 	uint64_t key = name[0];

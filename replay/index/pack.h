@@ -10,8 +10,8 @@
 size_t pack_room(size_t n);
 
 /**
- * Pack bytes, unless a sample of them says that little would be saved: photographs take Snappy most of an index's time for a
- * tenth of their bytes.
+ * Pack bytes, unless a sample of them says that it saves little. Photographs would take most of an index's time, for a tenth of their
+ * bytes.
  * @param out     pack_room(n) bytes
  * @param packed  receives how many were written: n where they are as they were, else fewer
  * @return 0 or ERR_SYSTEM
@@ -20,8 +20,8 @@ int pack_blob(const char *data, size_t n, char *out, size_t *packed);
 
 /**
  * @param n  bytes there were
- * @return them: `packed` itself where it holds them as they were, else memory to be freed with free(); NULL: it does not
- *         hold so many, or out of memory
+ * @return the bytes: `packed` itself where they were not packed, else memory to be freed with free(); NULL: there are not n of
+ *         them, or out of memory
  */
 char *unpack_blob(char *packed, size_t n_packed, size_t n);
 

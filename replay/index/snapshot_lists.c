@@ -7,7 +7,7 @@
 
 #define MAX_VALUE_DEPTH 17
 
-/* ---- meshes: one block of memory, whose pointers are kept as distances from its beginning, 0 for NULL ---- */
+/* ---- meshes: one block of memory; its pointers are saved as distances from its beginning, NULL as 0 ---- */
 
 #define N_MESH_ARRAYS (6 + SCENE_MAX_UNITS + 3)
 
@@ -55,7 +55,7 @@ static void put_mesh(struct saver *s, const struct gls_mesh *mesh)
 	free(copy);
 }
 
-/* Distances become pointers again. @return 0 where one leads out of the block */
+/* Make distances pointers again. @return 0: one leads out of the block */
 static int relocate(struct gls_mesh *mesh, size_t n)
 {
 	struct mesh_array arrays[N_MESH_ARRAYS];

@@ -9,11 +9,11 @@
 
 /* ---- textures ---- */
 
-/* What of a texture is not levels: before them and behind them. */
+/* A texture is saved as it lies but for its levels: what is before them, and what is behind. */
 #define LEVELS_BEGIN offsetof(struct gls_texture, levels)
 #define LEVELS_END (LEVELS_BEGIN + sizeof(((struct gls_texture *)0)->levels))
 
-/* Levels that are there, each after its number. Most are the same at every checkpoint: their names are found once. */
+/* Each level that is there follows its number. Most are the same at every checkpoint: their names are found once. */
 static void put_texture(struct saver *s, void *value)
 {
 	static const struct gls_level none;

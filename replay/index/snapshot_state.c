@@ -8,14 +8,13 @@
 
 /* ---- vertex arrays ---- */
 
-/* Of all arrays. */
 static void put_array_memory(struct saver *s, const struct gls_array *arrays)
 {
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
 		saver_blob(s, arrays[i].client, arrays[i].client ? arrays[i].client_bytes : 0);
 }
 
-/* The pointers among what was read are none until their bytes are. */
+/* Pointers that were read mean nothing: each array gets its bytes, or none. */
 static void get_array_memory(struct loader *l, struct gls_array *arrays)
 {
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++) {
@@ -81,7 +80,7 @@ static uint64_t context_of(const struct gls_exec *x, const struct gls_state *st)
 	return i;
 }
 
-/* What was pushed once, and is not read again: it differs with what was left out of lists that drew nothing (effect.c). */
+/* Matrices above the top are not read again. They differ where lists that drew nothing were cut short (effect.c). */
 static void clear_unused(struct gls_matrix_stack *stack)
 {
 	memset(stack->matrices[stack->depth + 1], 0, (GLS_MAX_MATRICES - 1 - stack->depth) * sizeof(stack->matrices[0]));
@@ -126,7 +125,7 @@ static int depth_fits(const struct gls_matrix_stack *loaded, const struct gls_ma
 	return loaded->max == made->max && loaded->depth < made->max;
 }
 
-/* Numbers that are used as places in arrays. */
+/* Do all numbers fit that are places in arrays? */
 static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 {
 	int fits = depth_fits(&raw->modelview, &made->modelview) && depth_fits(&raw->projection, &made->projection) &&

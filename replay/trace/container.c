@@ -48,7 +48,7 @@ static int reserve(uint8_t **buffer, size_t *room, size_t bytes)
 	return 0;
 }
 
-/* Files that people take for traces by mistake: say what they are. */
+/* Name files that people take for traces by mistake. */
 static const char *foreign_kind(const uint8_t *head, size_t n)
 {
 	static const struct {
@@ -96,7 +96,7 @@ static int detect(struct container *c)
 			return err_report(ERR_SYSTEM, c->path, "out of memory");
 		return 0;
 	}
-	c->kind = CONTAINER_BROTLI; /* has no magic: whatever is nothing else */
+	c->kind = CONTAINER_BROTLI; /* it has no magic: anything else is taken for it */
 	c->brotli = BrotliDecoderCreateInstance(NULL, NULL, NULL);
 	return c->brotli ? 0 : err_report(ERR_SYSTEM, c->path, "out of memory");
 }
@@ -270,7 +270,7 @@ static int add_chunk(struct container *c, size_t *made, const char **why)
 	return 1;
 }
 
-/* As many chunks as make a piece of some size: our recorder ends one with each frame, and many frames are short. */
+/* Join chunks to a piece of some size: our recorder ends a chunk with each frame, and many frames are short. */
 static int next_snappy(struct container *c, const uint8_t **data, size_t *size)
 {
 	const char *why = "";

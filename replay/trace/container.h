@@ -20,7 +20,7 @@ void container_close(struct container **c);
  */
 int container_next(struct container *c, const uint8_t **data, size_t *size);
 
-/** Where in the file the piece last delivered begins; UINT64_MAX where one cannot start there (gzip, Brotli). */
+/** Where the piece delivered last begins in the file; UINT64_MAX: reading cannot start there (gzip, Brotli). */
 uint64_t container_piece(const struct container *c);
 
 /**
@@ -29,12 +29,12 @@ uint64_t container_piece(const struct container *c);
  */
 int container_seek(struct container *c, uint64_t offset);
 
-/** 1 where the file ended within a chunk or stream: what could be unpacked of it was delivered. */
+/** 1: the file ended within a chunk or stream. What could be unpacked of it was delivered. */
 int container_is_cut(const struct container *c);
 
 /**
- * Hash the file as hash_whole does, with the bytes as they are read from now on where they come in order: of Snappy chunks of which
- * none was sought. At the end, the rest of the file is read, and nothing more can be delivered.
+ * Hash the file as hash_whole does. Snappy chunks that are read in order from now on are hashed on the way; hash_end reads the rest
+ * of the file, or all of it where the container was sought or is of another kind. After hash_end nothing more is delivered.
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int container_hash_begin(struct container *c);

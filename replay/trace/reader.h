@@ -1,9 +1,11 @@
 /*
  * Reads apitrace's traces (formats 0 .. 6) call by call, in a stream: memory does not grow with the file.
  *
- * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in which
- * they returned. A call and all it points to are the reader's, valid until the next trace_reader_next; signatures live as
- * long as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call that is whole.
+ * Containers: Snappy chunks (what recorders write), one gzip stream, one Brotli stream. Calls come in the order in which they
+ * returned. A call and all it points to belong to the reader and are valid until the next trace_reader_next; signatures live as long
+ * as the reader. Nothing in the file is trusted: a file cut at any byte delivers every call that is whole.
+ *
+ * The reader does not know what calls mean.
  */
 #ifndef REPLAY_TRACE_READER_H
 #define REPLAY_TRACE_READER_H
@@ -24,7 +26,7 @@ struct trace_struct_sig {
 	const char **members;
 };
 
-/** The number of a command by its name; -1: it has none. What calls' signatures say is up to the caller. */
+/** The number of a command by its name; -1: it has none. */
 typedef int32_t trace_find(const char *name);
 
 /**
@@ -45,17 +47,17 @@ int trace_reader_next(struct trace_reader *r, const struct call **call);
 
 /** A place between two calls, to come back to. */
 struct trace_place {
-	uint64_t piece;       /* in the file: begin of the container's piece that holds it; UINT64_MAX: no place to start at */
+	uint64_t piece;       /* in the file: where the container's piece that holds it begins; UINT64_MAX: reading cannot start there */
 	uint64_t piece_start; /* bytes of the unpacked stream before that piece */
 	uint64_t offset;      /* bytes of the unpacked stream before the place */
 	uint64_t number;      /* of the next call */
 };
 
-/** Where the reader is. @return 1; 0 where a call that was entered has not returned yet: one cannot come back here */
+/** Where the reader is. @return 1; 0: a call that was entered has not returned yet, and the reader cannot come back here */
 int trace_reader_place(const struct trace_reader *r, struct trace_place *place);
 
 /**
- * Signatures are defined where they are met first. All that the reader has met so far, as bytes.
+ * All signatures that the reader has met so far, as bytes. A trace spells each only where it is met first.
  * @param out, n  receive them; free with free()
  * @return 0 or ERR_SYSTEM (reported)
  */
@@ -63,7 +65,7 @@ int trace_reader_signatures(const struct trace_reader *r, uint8_t **out, size_t 
 
 /**
  * Go on from a place, forwards or backwards.
- * @param signatures  of a reader of the same file that had come at least as far
+ * @param signatures  of a reader of the same file that had read at least as far
  * @return 0; ERR_INPUT (reported: the bytes are no signatures, or the file has no such place); ERR_SYSTEM
  */
 int trace_reader_seek(struct trace_reader *r, const struct trace_place *place, const uint8_t *signatures, size_t n);
@@ -74,10 +76,10 @@ const char *trace_reader_property(const struct trace_reader *r, const char *name
 /** The i-th property. @return 1, or 0 where there are no more */
 int trace_reader_property_at(const struct trace_reader *r, size_t i, const char **name, const char **value);
 
-/** 1 once the end has been met inside an event or chunk. */
+/** 1 once the file has ended inside an event or chunk. */
 int trace_reader_is_cut(const struct trace_reader *r);
 
-/** Hash the file by the way, as container_hash_begin and container_hash_end do. */
+/** Hash the file on the way: see container_hash_begin and container_hash_end. */
 int trace_reader_hash_begin(struct trace_reader *r);
 int trace_reader_hash_end(struct trace_reader *r, uint64_t out[2]);
 

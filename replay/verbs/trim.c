@@ -1,8 +1,8 @@
 /*
  * relume trim: some frames of a trace as a trace of their own.
  *
- * All calls of the frames asked for are kept, and of the frames before them what makes objects and state (early.h). Frames may show
- * what earlier frames drew: then the new trace begins earlier, with a frame from which on nothing does.
+ * It keeps all calls of the frames asked for, and of the frames before them what makes objects and state (early.h). Frames may show
+ * what earlier frames drew. Then the new trace begins early enough to hold those as well.
  */
 #include <inttypes.h>
 #include <limits.h>
@@ -46,7 +46,7 @@ static int needs_earlier(const struct trim *t, uint64_t from)
 	return rc;
 }
 
-/* Ever longer steps back: a program that never clears its window is to be kept from its begin anyway. */
+/* Ever longer steps back: a program that never clears its window must be kept from its beginning anyway. */
 static int find_first(struct trim *t)
 {
 	struct replay *rp = NULL;
