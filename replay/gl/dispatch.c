@@ -11,6 +11,7 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/context.h"
 #include "replay/gl/geometry/list.h"
+#include "replay/gl/geometry/list_assemble.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/surface.h"

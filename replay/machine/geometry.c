@@ -6,8 +6,8 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "base/memory.h"
 #include "base/mat4.h"
+#include "base/memory.h"
 #include "capture/format/trace.h"
 #include "replay/machine/state.h"
 

@@ -6,7 +6,7 @@
 
 #include "gl_tokens.h"
 #include "capture/format/trace.h"
-#include "replay/gl/geometry/array.h"
+#include "replay/gl/geometry/array_draw.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "base/arena.h"
+#include "replay/machine/commands.h"
 
 struct call;
 struct gls_exec;
@@ -57,9 +58,31 @@ void gls_list_free(struct gls_list *list);
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command);
 /** Keep a mesh in it (takes the reference). */
 int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
-/** The machine in which lists are assembled. */
-void gls_assembler_free(struct gls_exec *assembler);
-/** Run a list, where there is one of this name. */
-void gls_call_list(struct gls_exec *x, struct gls_state *st, uint32_t name);
+
+/* ---- ops, for those who make and run lists ---- */
+
+#define GLS_MAX_PACKED 16 /* floats of a packed op */
+
+/** One more op, all zero; NULL: out of memory. */
+struct gls_op *gls_list_add(struct gls_list *list);
+/**
+ * Keep a call in an op with its arguments ready for a handler. Floats take eight times their bytes so.
+ * @param unpack  how pixels among them lie; NULL: there are none
+ * @return 0 or ERR_SYSTEM
+ */
+int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c, const struct gls_pixel_store *unpack);
+/** What the calls of a list have in common while it is called or made. */
+struct call gls_list_call(const struct gls_exec *x);
+/**
+ * An op as the call it was.
+ * @param args  room for GLS_MAX_PACKED values and one more
+ * @param c     as gls_list_call made it
+ */
+void gls_op_unpack(const struct gls_op *op, struct trace_value *args, struct call *c);
+/** 1 where the op is a call of a command of this role. */
+static inline int gls_op_is(const struct gls_op *op, enum gls_role role)
+{
+	return op->form != GLS_OP_MESH && gls_commands[op->command].role == role;
+}
 
 #endif

@@ -1,10 +1,8 @@
 /* Enables, hints and attribute stacks (GL 2.1 sec. 6.1.14 and the state tables of chapter 6). */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/err.h"
-#include "base/mat4.h"
 #include "base/table.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/gl/geometry/vertexarray.h"
@@ -17,107 +15,70 @@
 
 /* ---- enables ---- */
 
+/* Capabilities with a word of struct gls_attribs of their own: GL_ENABLE_BIT saves all of them, whichever group they belong to. */
+static const struct { uint32_t cap, offset; } capabilities[] = {
+#define CAPABILITY(cap, member) { GL_##cap, offsetof(struct gls_attribs, member) }
+	CAPABILITY(ALPHA_TEST, color.alpha_test), CAPABILITY(AUTO_NORMAL, evaluator.auto_normal), CAPABILITY(BLEND, color.blend),
+	CAPABILITY(COLOR_LOGIC_OP, color.logic_op_enabled), CAPABILITY(INDEX_LOGIC_OP, color.index_logic_op_enabled),
+	CAPABILITY(COLOR_MATERIAL, lighting.color_material), CAPABILITY(COLOR_SUM, fog.color_sum),
+	CAPABILITY(CULL_FACE, polygon.cull), CAPABILITY(DEPTH_TEST, depth.enabled), CAPABILITY(DITHER, color.dither),
+	CAPABILITY(FOG, fog.enabled), CAPABILITY(LIGHTING, lighting.enabled), CAPABILITY(LINE_SMOOTH, line.smooth),
+	CAPABILITY(LINE_STIPPLE, line.stipple), CAPABILITY(MULTISAMPLE, multisample.enabled),
+	CAPABILITY(SAMPLE_ALPHA_TO_COVERAGE, multisample.alpha_to_coverage),
+	CAPABILITY(SAMPLE_ALPHA_TO_ONE, multisample.alpha_to_one), CAPABILITY(SAMPLE_COVERAGE, multisample.coverage),
+	CAPABILITY(NORMALIZE, transform.normalize), CAPABILITY(RESCALE_NORMAL, transform.rescale_normal),
+	CAPABILITY(POINT_SMOOTH, point.smooth), CAPABILITY(POINT_SPRITE, point.sprite),
+	CAPABILITY(POLYGON_OFFSET_FILL, polygon.offset_fill), CAPABILITY(POLYGON_OFFSET_LINE, polygon.offset_line),
+	CAPABILITY(POLYGON_OFFSET_POINT, polygon.offset_point), CAPABILITY(POLYGON_SMOOTH, polygon.smooth),
+	CAPABILITY(POLYGON_STIPPLE, polygon.stipple), CAPABILITY(SCISSOR_TEST, scissor.enabled),
+	CAPABILITY(STENCIL_TEST, stencil.enabled), CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side),
+#undef CAPABILITY
+};
+#define N_CAPABILITIES (sizeof(capabilities) / sizeof(capabilities[0]))
+
+static uint32_t *word_at(struct gls_attribs *a, size_t offset)
+{
+	return (uint32_t *)((char *)a + offset);
+}
+
+/* The bit of a word that a capability switches. NULL: it is no bit. */
+static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
+{
+	static const uint32_t targets[N_GLS_TEXTURE_TARGETS] = {
+		GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
+	};
+	struct gls_attribs *a = &st->a;
+	struct gls_unit *unit = &a->texturing.units[a->texturing.active];
+	const struct { uint32_t first, last, *word; } ranges[] = {
+		{ GL_CLIP_PLANE0, GL_CLIP_PLANE0 + GLS_MAX_CLIP_PLANES - 1, &a->transform.clip_plane_mask },
+		{ GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_Q, &unit->gen_enabled },
+		{ GL_MAP1_COLOR_4, GL_MAP1_VERTEX_4, &a->evaluator.map1 },
+		{ GL_MAP2_COLOR_4, GL_MAP2_VERTEX_4, &a->evaluator.map2 },
+	};
+
+	for (unsigned i = 0; i < sizeof(ranges) / sizeof(ranges[0]); i++)
+		if (cap >= ranges[i].first && cap <= ranges[i].last) {
+			*bit = 1u << (cap - ranges[i].first);
+			return ranges[i].word;
+		}
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		if (cap == targets[i]) {
+			*bit = 1u << i;
+			return &unit->enabled;
+		}
+	return NULL;
+}
+
 /* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
-	struct gls_attribs *a = &st->a;
-	struct gls_unit *unit = &a->texturing.units[a->texturing.active];
-
 	*bit = 0;
+	for (size_t i = 0; i < N_CAPABILITIES; i++)
+		if (capabilities[i].cap == cap)
+			return word_at(&st->a, capabilities[i].offset);
 	if (cap >= GL_LIGHT0 && cap < GL_LIGHT0 + GLS_MAX_LIGHTS)
-		return &a->lighting.lights[cap - GL_LIGHT0].enabled;
-	if (cap >= GL_CLIP_PLANE0 && cap < GL_CLIP_PLANE0 + GLS_MAX_CLIP_PLANES) {
-		*bit = 1u << (cap - GL_CLIP_PLANE0);
-		return &a->transform.clip_plane_mask;
-	}
-	if (cap >= GL_TEXTURE_GEN_S && cap <= GL_TEXTURE_GEN_Q) {
-		*bit = 1u << (cap - GL_TEXTURE_GEN_S);
-		return &unit->gen_enabled;
-	}
-	if (cap >= GL_MAP1_COLOR_4 && cap <= GL_MAP1_VERTEX_4) {
-		*bit = 1u << (cap - GL_MAP1_COLOR_4);
-		return &a->evaluator.map1;
-	}
-	if (cap >= GL_MAP2_COLOR_4 && cap <= GL_MAP2_VERTEX_4) {
-		*bit = 1u << (cap - GL_MAP2_COLOR_4);
-		return &a->evaluator.map2;
-	}
+		return &st->a.lighting.lights[cap - GL_LIGHT0].enabled;
 	switch (cap) {
-	case GL_TEXTURE_1D:
-		*bit = 1u << GLS_TEXTURE_1D;
-		return &unit->enabled;
-	case GL_TEXTURE_2D:
-		*bit = 1u << GLS_TEXTURE_2D;
-		return &unit->enabled;
-	case GL_TEXTURE_3D:
-		*bit = 1u << GLS_TEXTURE_3D;
-		return &unit->enabled;
-	case GL_TEXTURE_CUBE_MAP:
-		*bit = 1u << GLS_TEXTURE_CUBE;
-		return &unit->enabled;
-	case GL_TEXTURE_RECTANGLE:
-		*bit = 1u << GLS_TEXTURE_RECTANGLE;
-		return &unit->enabled;
-	case GL_ALPHA_TEST:
-		return &a->color.alpha_test;
-	case GL_AUTO_NORMAL:
-		return &a->evaluator.auto_normal;
-	case GL_BLEND:
-		return &a->color.blend;
-	case GL_COLOR_LOGIC_OP:
-		return &a->color.logic_op_enabled;
-	case GL_INDEX_LOGIC_OP:
-		return &a->color.index_logic_op_enabled;
-	case GL_COLOR_MATERIAL:
-		return &a->lighting.color_material;
-	case GL_COLOR_SUM:
-		return &a->fog.color_sum;
-	case GL_CULL_FACE:
-		return &a->polygon.cull;
-	case GL_DEPTH_TEST:
-		return &a->depth.enabled;
-	case GL_DITHER:
-		return &a->color.dither;
-	case GL_FOG:
-		return &a->fog.enabled;
-	case GL_LIGHTING:
-		return &a->lighting.enabled;
-	case GL_LINE_SMOOTH:
-		return &a->line.smooth;
-	case GL_LINE_STIPPLE:
-		return &a->line.stipple;
-	case GL_MULTISAMPLE:
-		return &a->multisample.enabled;
-	case GL_SAMPLE_ALPHA_TO_COVERAGE:
-		return &a->multisample.alpha_to_coverage;
-	case GL_SAMPLE_ALPHA_TO_ONE:
-		return &a->multisample.alpha_to_one;
-	case GL_SAMPLE_COVERAGE:
-		return &a->multisample.coverage;
-	case GL_NORMALIZE:
-		return &a->transform.normalize;
-	case GL_RESCALE_NORMAL:
-		return &a->transform.rescale_normal;
-	case GL_POINT_SMOOTH:
-		return &a->point.smooth;
-	case GL_POINT_SPRITE:
-		return &a->point.sprite;
-	case GL_POLYGON_OFFSET_FILL:
-		return &a->polygon.offset_fill;
-	case GL_POLYGON_OFFSET_LINE:
-		return &a->polygon.offset_line;
-	case GL_POLYGON_OFFSET_POINT:
-		return &a->polygon.offset_point;
-	case GL_POLYGON_SMOOTH:
-		return &a->polygon.smooth;
-	case GL_POLYGON_STIPPLE:
-		return &a->polygon.stipple;
-	case GL_SCISSOR_TEST:
-		return &a->scissor.enabled;
-	case GL_STENCIL_TEST:
-		return &a->stencil.enabled;
-	case GL_STENCIL_TEST_TWO_SIDE_EXT:
-		return &a->stencil.two_side;
 	case GL_VERTEX_PROGRAM_ARB:
 		return &st->arb_vertex_enabled;
 	case GL_FRAGMENT_PROGRAM_ARB:
@@ -125,7 +86,7 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	case GL_RASTERIZER_DISCARD:
 		return &st->rasterizer_discard;
 	default:
-		return NULL;
+		return bit_of(st, cap, bit);
 	}
 }
 
@@ -291,19 +252,8 @@ GLS_HANDLER(glPushAttrib, STATE)
 /* GL_ENABLE_BIT: every capability, whichever group it belongs to. */
 static void restore_enables(struct gls_state *st, struct gls_attribs *old)
 {
-	static const uint32_t caps[] = {
-		GL_ALPHA_TEST, GL_AUTO_NORMAL, GL_BLEND, GL_COLOR_LOGIC_OP, GL_INDEX_LOGIC_OP, GL_COLOR_MATERIAL, GL_COLOR_SUM,
-		GL_CULL_FACE, GL_DEPTH_TEST, GL_DITHER, GL_FOG, GL_LIGHTING, GL_LINE_SMOOTH, GL_LINE_STIPPLE, GL_MULTISAMPLE,
-		GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_NORMALIZE, GL_RESCALE_NORMAL,
-		GL_POINT_SMOOTH, GL_POINT_SPRITE, GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT,
-		GL_POLYGON_SMOOTH, GL_POLYGON_STIPPLE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_STENCIL_TEST_TWO_SIDE_EXT,
-	};
-
-	for (size_t i = 0; i < sizeof(caps) / sizeof(caps[0]); i++) {
-		uint32_t bit, *flag = enable_flag(st, caps[i], &bit);
-		/* The same place in the saved copy: the flags of these all lie in st->a. */
-		*flag = *(uint32_t *)((char *)old + ((char *)flag - (char *)&st->a));
-	}
+	for (size_t i = 0; i < N_CAPABILITIES; i++)
+		*word_at(&st->a, capabilities[i].offset) = *word_at(old, capabilities[i].offset);
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
 		st->a.lighting.lights[i].enabled = old->lighting.lights[i].enabled;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
@@ -315,10 +265,21 @@ static void restore_enables(struct gls_state *st, struct gls_attribs *old)
 	st->a.evaluator.map2 = old->evaluator.map2;
 }
 
+/* Table 6.2. */
+static const struct { uint32_t bit, offset, bytes; } groups[] = {
+#define GROUP(bit, member) { GL_##bit##_BIT, offsetof(struct gls_attribs, member), sizeof(((struct gls_attribs *)0)->member) }
+	GROUP(CURRENT, current), GROUP(POINT, point), GROUP(LINE, line), GROUP(POLYGON, polygon),
+	GROUP(POLYGON_STIPPLE, polygon_stipple), GROUP(PIXEL_MODE, pixel), GROUP(LIGHTING, lighting), GROUP(FOG, fog),
+	GROUP(DEPTH_BUFFER, depth), GROUP(ACCUM_BUFFER, accum), GROUP(STENCIL_BUFFER, stencil), GROUP(VIEWPORT, viewport),
+	GROUP(TRANSFORM, transform), GROUP(COLOR_BUFFER, color), GROUP(HINT, hint), GROUP(EVAL, evaluator), GROUP(LIST, list_base),
+	GROUP(TEXTURE, texturing), GROUP(SCISSOR, scissor), GROUP(MULTISAMPLE, multisample),
+#undef GROUP
+};
+
 GLS_HANDLER(glPopAttrib, STATE, SELECT)
 {
-	struct gls_attribs *old, *a = &st->a;
-	uint32_t mask, keep_sum;
+	struct gls_attribs *old;
+	uint32_t mask;
 
 	if (st->attrib_depth == 0) {
 		gls_error(x, st, GL_STACK_UNDERFLOW);
@@ -326,56 +287,16 @@ GLS_HANDLER(glPopAttrib, STATE, SELECT)
 	}
 	mask = st->attrib_stack[--st->attrib_depth].mask;
 	old = &st->attrib_stack[st->attrib_depth].attribs;
-	if (mask & GL_CURRENT_BIT) {
-		a->current = old->current;
+	for (size_t i = 0; i < sizeof(groups) / sizeof(groups[0]); i++)
+		if (mask & groups[i].bit)
+			memcpy((char *)&st->a + groups[i].offset, (char *)old + groups[i].offset, groups[i].bytes);
+	if (mask & GL_CURRENT_BIT)
 		x->pending.geometry.touched = ~0u >> (32 - N_GLS_ATTRIBUTES);
-	}
-	if (mask & GL_POINT_BIT)
-		a->point = old->point;
-	if (mask & GL_LINE_BIT)
-		a->line = old->line;
-	if (mask & GL_POLYGON_BIT)
-		a->polygon = old->polygon;
-	if (mask & GL_POLYGON_STIPPLE_BIT)
-		memcpy(a->polygon_stipple, old->polygon_stipple, sizeof(a->polygon_stipple));
-	if (mask & GL_PIXEL_MODE_BIT)
-		a->pixel = old->pixel;
-	if (mask & GL_LIGHTING_BIT)
-		a->lighting = old->lighting;
-	if (mask & GL_FOG_BIT) {
-		keep_sum = a->fog.color_sum;
-		a->fog = old->fog;
-		a->fog.color_sum = mask & GL_ENABLE_BIT ? keep_sum : old->fog.color_sum;
-	}
-	if (mask & GL_DEPTH_BUFFER_BIT)
-		a->depth = old->depth;
-	if (mask & GL_ACCUM_BUFFER_BIT)
-		a->accum = old->accum;
-	if (mask & GL_STENCIL_BUFFER_BIT)
-		a->stencil = old->stencil;
-	if (mask & GL_VIEWPORT_BIT)
-		a->viewport = old->viewport;
-	if (mask & GL_TRANSFORM_BIT)
-		a->transform = old->transform;
-	if (mask & GL_COLOR_BUFFER_BIT)
-		a->color = old->color;
-	if (mask & GL_HINT_BIT)
-		a->hint = old->hint;
-	if (mask & GL_EVAL_BIT)
-		a->evaluator = old->evaluator;
-	if (mask & GL_LIST_BIT)
-		a->list_base = old->list_base;
-	if (mask & GL_TEXTURE_BIT) {
-		a->texturing = old->texturing;
+	if (mask & GL_TEXTURE_BIT)
 		gls_texture_restore_parameters(st, st->attrib_stack[st->attrib_depth].textures);
-	}
-	if (mask & GL_SCISSOR_BIT)
-		a->scissor = old->scissor;
-	if (mask & GL_MULTISAMPLE_BIT)
-		a->multisample = old->multisample;
 	if (mask & GL_ENABLE_BIT)
 		restore_enables(st, old);
-	if (a->lighting.color_material)
+	if (st->a.lighting.color_material)
 		gls_color_changed(st);
 }
 

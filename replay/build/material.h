@@ -1,0 +1,42 @@
+/*
+ * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's arrays;
+ * SCENE_NONE stands for out of memory (reported).
+ */
+#ifndef REPLAY_BUILD_MATERIAL_H
+#define REPLAY_BUILD_MATERIAL_H
+
+#include <stdint.h>
+
+#include "base/table.h"
+#include "replay/build/frame.h"
+
+/* The events of a surface so far; for frame.c and material.c. */
+struct gls_frame {
+	struct scene *out; /* NULL between frames */
+	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles; } room;
+	struct table materials, units, lights, currents, views, stipples, spaces; /* hash -> index + 1 */
+	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
+	const struct gls_state *last;
+	uint32_t next_draw, next_primitive;
+	uint32_t colored; /* 1: some event may change colours */
+	uint32_t cleared; /* buffers wholly cleared so far, bits as in scene_clear */
+	uint64_t serial;  /* of the scene: what meshes and images remember their slots by */
+	struct gls_picture *snapshot; /* a reference: what the first snapshot_events events make, or NULL */
+	uint64_t snapshot_events;
+};
+
+/** Projection, viewport and scissor. */
+uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_attribs *a);
+/** Everything else that a draw's fragments depend on, with its units and lights. */
+uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
+/** The attributes that a mesh does not give and that its material looks at. */
+uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m, const float (*values)[4]);
+/** The place of an image in the scene. */
+uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);
+
+/** The part of a surface that the scissor leaves: x, y, width, height. */
+void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4]);
+/** A colour of the state, clamped to [0,1] unless the drawable can hold others (ARB_color_buffer_float). */
+void gls_color_of(float out[4], const float color[4], uint32_t unclamped);
+
+#endif

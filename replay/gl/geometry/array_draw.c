@@ -1,0 +1,350 @@
+/* Drawing from vertex arrays (GL 2.1 sec. 2.8). */
+#include "replay/gl/geometry/array_draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "gl_tokens.h"
+#include "base/table.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/geometry/array_read.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/gl/surface/draw.h"
+#include "replay/machine/args.h"
+#include "replay/machine/buffer.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+
+static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g, const struct gls_sources *s,
+                      uint64_t element)
+{
+	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
+		gls_fail(x);
+		return -1;
+	}
+	gls_source_read(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
+	for (uint32_t given = s->given; given; given &= given - 1) {
+		unsigned a = (unsigned)__builtin_ctz(given);
+		gls_source_read(&s->attributes[a], element, g->attribute[a] + 4 * (size_t)g->n_vertices);
+	}
+	g->edge[g->n_vertices] = st->a.current.edge_flag != 0;
+	if (s->has_edges) {
+		float flag[4];
+		gls_source_read(&s->edge, element, flag);
+		g->edge[g->n_vertices] = flag[0] != 0;
+	}
+	g->n_vertices++;
+	return 0;
+}
+
+/* Read the vertices of a draw; elements NULL: count ones from first on. Each element becomes one vertex. */
+static int collect(struct gls_exec *x, const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint32_t first,
+                   uint32_t count, const uint32_t *elements)
+{
+	struct gls_geometry *g = &x->scratch.geometry;
+	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
+	uint64_t n = gls_source_count(&s->vertex);
+
+	gls_geometry_clear(g);
+	g->kind = gls_mode_kind(mode);
+	g->given = s->given;
+	if (gls_geometry_reserve(g, elements ? 1 : count, 0))
+		goto fail;
+	if (!elements) {
+		for (uint32_t i = 0; i < count; i++)
+			if (add_vertex(x, st, g, s, (uint64_t)first + i))
+				return -1;
+		if (gls_geometry_cut(g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
+			goto fail;
+		g->n_draws = 1;
+		return 0;
+	}
+	for (uint32_t i = 0; i < count; i++) {
+		lo = elements[i] < lo ? elements[i] : lo;
+		hi = elements[i] > hi ? elements[i] : hi;
+	}
+	if (count && hi >= n) {
+		gls_unsupported(x, "indices beyond the end of an array");
+		return -1;
+	}
+	/* Vertices in order of first use: the mesh does not depend on where in the arrays it lies. */
+	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
+	if (!cut)
+		return -1;
+	number = cut + count;
+	memset(number, 0xff, ((size_t)(hi - lo) + 1) * sizeof(*number));
+	for (uint32_t i = 0; i < count; i++) {
+		uint32_t *slot = &number[elements[i] - lo];
+		if (*slot == UINT32_MAX) {
+			*slot = g->n_vertices;
+			if (add_vertex(x, st, g, s, elements[i]))
+				return -1;
+		}
+		cut[i] = *slot;
+	}
+	if (gls_geometry_cut(g, mode, 0, count, cut, (int)st->a.lighting.first_provokes))
+		goto fail;
+	g->n_draws = 1;
+	return 0;
+fail:
+	gls_fail(x);
+	return -1;
+}
+
+static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
+{
+	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
+
+	if (st->list) {
+		atomic_fetch_add(&mesh->refs, 1);
+		if (gls_list_append_mesh(x, st->list, &op) || st->list_mode == GL_COMPILE)
+			return;
+	}
+	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+}
+
+/* The mesh of a draw, which the cache keeps. turned: quads cut the other way. @return NULL: nothing to draw, or out of memory (reported) */
+static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t mode, uint32_t first,
+                                  uint32_t count, const uint32_t *elements, int turned, uint64_t key)
+{
+	struct gls_mesh *mesh = table_find(&x->caches.draws, key);
+
+	if (mesh || collect(x, st, s, mode, first, count, elements))
+		return mesh;
+	if (turned)
+		gls_geometry_turn_quads(&x->scratch.geometry);
+	mesh = gls_geometry_mesh(x, &x->scratch.geometry);
+	if (mesh && table_set(&x->caches.draws, key, mesh))
+		gls_fail(x);
+	gls_mesh_release(mesh); /* the cache's own reference stays */
+	return mesh;
+}
+
+/*
+ * Draw, or keep in the list being made.
+ * @param elements  [count], NULL: first ..; `identity` tells different ones apart (a hash, or version and offset)
+ */
+static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32_t first, uint32_t count,
+                 const uint32_t *elements, uint64_t identity)
+{
+	struct gls_sources s;
+	struct gls_mesh *mesh;
+	uint64_t key;
+
+	if (!x->want && !st->list)
+		return;
+	if (!count || !gls_sources_open(x, st, &s))
+		return;
+	if (!elements && (uint64_t)first + count > gls_source_count(&s.vertex)) {
+		gls_unsupported(x, "draws beyond the end of an array");
+		return;
+	}
+	key = gls_sources_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
+	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
+	if (mesh && mode == GL_QUADS && !elements && !st->list &&
+	    gls_quads_turn(st, mesh->mesh.position, mesh->mesh.vertex_count))
+		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
+	if (mesh)
+		put(x, st, mesh);
+}
+
+static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)
+{
+	if (!gls_mode_kind(mode))
+		gls_error(x, st, GL_INVALID_ENUM);
+	else if (count < 0)
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (count > 0x10000000)
+		gls_unsupported(x, "draws of more than 2^28 vertices");
+	else
+		return 1;
+	return 0;
+}
+
+void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count)
+{
+	if (first < 0 || first > UINT32_MAX)
+		gls_error(x, st, GL_INVALID_VALUE);
+	else if (check_mode(x, st, mode, count))
+		draw(x, st, mode, (uint32_t)first, (uint32_t)count, NULL, 0);
+}
+
+GLS_HANDLER(glDrawArrays, ARRAY) { gls_draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2)); }
+
+/* The mode of draw i: the same for all, or of an array whose places are so many bytes apart (IBM_multimode_draw_arrays). */
+static uint32_t mode_of(const struct call *c, uint64_t i, int64_t stride)
+{
+	uint64_t n, place = i * ((uint64_t)stride / 4);
+	const struct trace_value *modes = arg_items(c, 0, &n);
+
+	return !modes ? arg_u(c, 0) : stride >= 0 && place < n ? (uint32_t)gls_value_int(&modes[place]) : GL_POLYGON + 1;
+}
+
+static void multi_draw_arrays(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride)
+{
+	uint64_t n_first, n_count;
+	const struct trace_value *first = arg_items(c, 1, &n_first), *count = arg_items(c, 2, &n_count);
+
+	for (uint64_t i = 0; i < n_first && i < n_count; i++)
+		gls_draw_arrays(x, st, mode_of(c, i, stride), gls_value_int(&first[i]), gls_value_int(&count[i]));
+}
+
+GLS_HANDLER(glMultiDrawArrays, ARRAY) { multi_draw_arrays(x, st, c, 0); }
+GLS_HANDLER(glMultiModeDrawArraysIBM, ARRAY) { multi_draw_arrays(x, st, c, arg_i(c, 4)); }
+
+/* Whether an index of so many bytes ends a primitive and begins the next (NV_primitive_restart, GL 3.1 sec. 2.8.3). */
+static int is_restart(const struct gls_client_attribs *client, uint32_t index, size_t bytes)
+{
+	return (client->restart && index == client->restart_index) ||
+	       (client->restart_fixed && index == 0xffffffffu >> (32 - 8 * bytes));
+}
+
+void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
+                       const struct trace_value *indices, int32_t base)
+{
+	struct gls_buffer *b = gls_buffer_find(st, st->client.element_buffer);
+	size_t size = gls_type_bytes(type), n = 0;
+	const uint8_t *bytes = NULL;
+	uint64_t identity, offset = 0;
+	uint32_t *elements;
+	int64_t begin = 0;
+
+	if (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT) {
+		gls_error(x, st, GL_INVALID_ENUM);
+		return;
+	}
+	if (!check_mode(x, st, mode, count) || count == 0 || (!x->want && !st->list))
+		return;
+	if (indices->type == TRACE_BLOB) {
+		bytes = indices->blob;
+		n = indices->count;
+		b = NULL;
+	} else if (b) {
+		offset = (uint64_t)gls_value_int(indices);
+		bytes = offset < b->bytes ? b->data + offset : NULL;
+		n = bytes ? b->bytes - offset : 0;
+	}
+	if (!bytes || n / size < (uint64_t)count) {
+		gls_unsupported(x, "indices that the recording does not hold");
+		return;
+	}
+	elements = x->scratch.elements;
+	if ((size_t)count > x->scratch.elements_room) {
+		elements = realloc(x->scratch.elements, (size_t)count * sizeof(*elements));
+		if (!elements) {
+			gls_out_of_memory(x, (size_t)count * sizeof(*elements));
+			return;
+		}
+		x->scratch.elements = elements;
+		x->scratch.elements_room = (size_t)count;
+	}
+	/* Where the indices come from a buffer, its version and the offset name them as well as a hash. */
+	if (b)
+		identity = XXH3_64bits((uint64_t[]){ b->version, offset, type, (uint64_t)base }, 32);
+	else
+		identity = XXH3_64bits_withSeed(bytes, (size_t)count * size, (uint64_t)type << 32 | (uint32_t)base);
+	for (int64_t i = 0; i < count; i++) {
+		uint16_t u16;
+		uint32_t u32 = bytes[(size_t)i * size];
+		if (size == 2) {
+			memcpy(&u16, bytes + 2 * i, 2);
+			u32 = u16;
+		} else if (size == 4) {
+			memcpy(&u32, bytes + 4 * i, 4);
+		}
+		if (is_restart(&st->client, u32, size)) {
+			draw(x, st, mode, 0, (uint32_t)(i - begin), elements + begin, identity + (uint64_t)begin);
+			begin = i + 1;
+		}
+		elements[i] = u32 + (uint32_t)base;
+	}
+	draw(x, st, mode, 0, (uint32_t)(count - begin), elements + begin, identity + (uint64_t)begin);
+}
+
+GLS_HANDLER(glPrimitiveRestartIndex, CLIENT) { st->client.restart_index = arg_u(c, 0); }
+GLS_HANDLER(glPrimitiveRestartIndexNV, CLIENT) { st->client.restart_index = arg_u(c, 0); }
+
+GLS_HANDLER(glDrawElements, ARRAY) { gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), 0); }
+GLS_HANDLER(glDrawRangeElements, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), 0);
+}
+GLS_HANDLER(glDrawElementsBaseVertex, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 1), arg_u(c, 2), arg(c, 3), (int32_t)arg_i(c, 4));
+}
+
+GLS_HANDLER(glDrawRangeElementsBaseVertex, ARRAY)
+{
+	gls_draw_elements(x, st, arg_u(c, 0), arg_i(c, 3), arg_u(c, 4), arg(c, 5), (int32_t)arg_i(c, 6));
+}
+
+static void multi_draw_elements(struct gls_exec *x, struct gls_state *st, const struct call *c, int64_t stride, const struct trace_value *base,
+                                uint64_t n_base)
+{
+	uint64_t n_count, n_indices;
+	const struct trace_value *count = arg_items(c, 1, &n_count), *indices = arg_items(c, 3, &n_indices);
+
+	for (uint64_t i = 0; i < n_count && i < n_indices; i++)
+		gls_draw_elements(x, st, mode_of(c, i, stride), gls_value_int(&count[i]), arg_u(c, 2), &indices[i],
+		                  i < n_base ? (int32_t)gls_value_int(&base[i]) : 0);
+}
+
+GLS_HANDLER(glMultiDrawElements, ARRAY) { multi_draw_elements(x, st, c, 0, NULL, 0); }
+GLS_HANDLER(glMultiModeDrawElementsIBM, ARRAY) { multi_draw_elements(x, st, c, arg_i(c, 5), NULL, 0); }
+GLS_HANDLER(glMultiDrawElementsBaseVertex, ARRAY)
+{
+	uint64_t n;
+	const struct trace_value *base = arg_items(c, 5, &n);
+
+	multi_draw_elements(x, st, c, 0, base, n);
+}
+
+/* ---- ArrayElement: the calls it stands for (sec. 2.8), executed or kept in the list being made ---- */
+
+static void put_call(struct gls_exec *x, struct gls_state *st, const char *name, const struct trace_value *args, uint32_t n)
+{
+	const uint32_t command = (uint32_t)gls_command_find(name);
+	struct call c = *x->call;
+
+	c.args = args;
+	c.n_args = n;
+	if (!st->list || gls_list_append(x, st, &c, command) || st->list_mode != GL_COMPILE)
+		x->dispatch(x, &c, command, NULL);
+}
+
+GLS_HANDLER(glArrayElement, CLIENT)
+{
+	static const char *const names[] = { "glNormal3fv", "glColor4fv", "glSecondaryColor3fv", "glFogCoordfv" };
+	struct trace_value numbers[4], args[2];
+	struct gls_sources s;
+	float v[4];
+	int has_vertex;
+
+	/* Without positions it sets the current values only. */
+	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled != 0;
+	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(st, &s))
+		return;
+	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
+	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {
+		int is_vertex = a == N_GLS_ATTRIBUTES;
+		if (is_vertex ? !has_vertex : !(s.given >> a & 1))
+			continue;
+		gls_source_read(is_vertex ? &s.vertex : &s.attributes[a], arg_u(c, 0), v);
+		for (unsigned i = 0; i < 4; i++)
+			numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
+		args[0] = (struct trace_value){ .type = TRACE_ENUM, .i = GL_TEXTURE0 + a - GLS_ATTR_TEXCOORD };
+		if (is_vertex)
+			put_call(x, st, "glVertex4fv", args + 1, 1);
+		else if (a >= GLS_ATTR_TEXCOORD)
+			put_call(x, st, "glMultiTexCoord4fv", args, 2);
+		else
+			put_call(x, st, names[a], args + 1, 1);
+	}
+}

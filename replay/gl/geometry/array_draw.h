@@ -1,0 +1,19 @@
+#ifndef REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
+#define REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
+
+#include <stdint.h>
+
+struct gls_exec;
+struct gls_state;
+struct trace_value;
+
+/** glDrawArrays: draw, or keep in the list that is being made; errors as GL has them. */
+void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count);
+/**
+ * glDrawElementsBaseVertex.
+ * @param indices  a blob of them, or their offset in the element buffer
+ */
+void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
+                       const struct trace_value *indices, int32_t base);
+
+#endif

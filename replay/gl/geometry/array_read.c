@@ -1,0 +1,185 @@
+#include "replay/gl/geometry/array_read.h"
+
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "gl_tokens.h"
+#include "base/half.h"
+#include "base/norm.h"
+#include "replay/machine/buffer.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/state.h"
+
+size_t gls_type_bytes(uint32_t type)
+{
+	switch (type) {
+	case GL_BYTE:
+	case GL_UNSIGNED_BYTE:
+		return 1;
+	case GL_SHORT:
+	case GL_UNSIGNED_SHORT:
+	case GL_HALF_FLOAT:
+		return 2;
+	case GL_INT:
+	case GL_UNSIGNED_INT:
+	case GL_FLOAT:
+		return 4;
+	case GL_DOUBLE:
+		return 8;
+	default:
+		return 0;
+	}
+}
+
+static unsigned components(const struct gls_array *array)
+{
+	return array->size == GL_BGRA ? 4 : array->size < 1 || array->size > 4 ? 0 : (unsigned)array->size;
+}
+
+static int gls_source_open(struct gls_state *st, const struct gls_array *array, struct gls_source *s)
+{
+	struct gls_buffer *b = gls_buffer_find(st, array->buffer);
+
+	*s = (struct gls_source){ .array = array };
+	s->element = components(array) * gls_type_bytes(array->type);
+	s->stride = array->stride ? (size_t)array->stride : s->element;
+	if (!array->buffer) {
+		s->bytes = array->client;
+		s->n = array->client_bytes;
+		s->version = array->version;
+	} else if (b && b->data && array->offset <= b->bytes) {
+		s->bytes = b->data + array->offset;
+		s->n = b->bytes - array->offset;
+		s->version = b->version;
+	}
+	return s->element && s->bytes && s->n >= s->element;
+}
+
+uint64_t gls_source_count(const struct gls_source *s)
+{
+	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
+}
+
+static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized)
+{
+	int8_t i8;
+	int16_t i16;
+	uint16_t u16;
+	int32_t i32;
+	uint32_t u32;
+	float f;
+	double d;
+
+	switch (type) {
+	case GL_BYTE:
+		memcpy(&i8, p, 1);
+		return normalized ? (2.0f * i8 + 1) / 255.0f : i8;
+	case GL_UNSIGNED_BYTE:
+		return normalized ? *p / 255.0f : *p;
+	case GL_SHORT:
+		memcpy(&i16, p, 2);
+		return normalized ? (2.0f * i16 + 1) / 65535.0f : i16;
+	case GL_UNSIGNED_SHORT:
+		memcpy(&u16, p, 2);
+		return normalized ? u16 / 65535.0f : u16;
+	case GL_INT:
+		memcpy(&i32, p, 4);
+		return normalized ? norm_int(i32) : (float)i32;
+	case GL_UNSIGNED_INT:
+		memcpy(&u32, p, 4);
+		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;
+	case GL_HALF_FLOAT:
+		memcpy(&u16, p, 2);
+		return half_to_float(u16);
+	case GL_DOUBLE:
+		memcpy(&d, p, 8);
+		return (float)d;
+	default:
+		memcpy(&f, p, 4);
+		return f;
+	}
+}
+
+/* Element i, missing components 0 0 0 1; beyond the end all of them. */
+void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
+{
+	const struct gls_array *array = s->array;
+	unsigned n = components(array);
+	size_t size = gls_type_bytes(array->type);
+	const uint8_t *p;
+
+	out[0] = out[1] = out[2] = 0;
+	out[3] = 1;
+	if (i >= gls_source_count(s))
+		return;
+	p = s->bytes + i * s->stride;
+	if (array->type == GL_FLOAT) {
+		memcpy(out, p, n * sizeof(float));
+		return;
+	}
+	for (unsigned k = 0; k < n; k++)
+		out[k] = read_component(p + k * size, array->type, array->normalized);
+	if (array->size == GL_BGRA) {
+		float blue = out[0];
+		out[0] = out[2];
+		out[2] = blue;
+	}
+}
+
+uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s)
+{
+	const struct gls_array *arrays = st->client.arrays;
+
+	memset(s, 0, sizeof(*s));
+	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+		if (arrays[a].enabled && gls_source_open(st, &arrays[a], &s->attributes[a]))
+			s->given |= 1u << a;
+	return s->given;
+}
+
+int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s)
+{
+	const struct gls_array *arrays = st->client.arrays;
+
+	gls_sources_open_attributes(st, s);
+	if (!arrays[GLS_ARRAY_VERTEX].enabled) {
+		if (st->program || st->arb_vertex_enabled)
+			gls_unsupported(x, "draws whose positions only a program can find");
+		return 0; /* nothing is drawn without it (sec. 2.8) */
+	}
+	if (!gls_source_open(st, &arrays[GLS_ARRAY_VERTEX], &s->vertex)) {
+		gls_unsupported(x, "arrays whose contents the recording does not hold");
+		return 0;
+	}
+	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && gls_source_open(st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
+	return 1;
+}
+
+uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements,
+                         uint64_t n_elements)
+{
+	uint64_t key[8 * (N_GLS_ATTRIBUTES + 2) + 4];
+	const struct gls_source *all[N_GLS_ATTRIBUTES + 2];
+	unsigned n = 0, n_sources = 0;
+
+	key[n++] = (uint64_t)mode << 32 | (uint64_t)st->a.lighting.first_provokes << 31 | s->given;
+	key[n++] = elements;
+	key[n++] = n_elements;
+	key[n++] = s->has_edges ? 2 : st->a.current.edge_flag != 0;
+	all[n_sources++] = &s->vertex;
+	if (s->has_edges)
+		all[n_sources++] = &s->edge;
+	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+		if (s->given >> a & 1)
+			all[n_sources++] = &s->attributes[a];
+	for (unsigned i = 0; i < n_sources; i++) {
+		key[n++] = all[i]->version;
+		key[n++] = all[i]->n;
+		key[n++] = all[i]->stride;
+		key[n++] = (uint64_t)all[i]->array->type << 32 | (uint32_t)all[i]->array->size;
+		key[n++] = (uint64_t)all[i]->array->buffer << 32 | all[i]->array->normalized;
+		key[n++] = all[i]->array->offset;
+	}
+	return XXH3_64bits(key, n * sizeof(key[0]));
+}

@@ -1,0 +1,41 @@
+/* Reading vertex arrays: their bytes as they are at a draw, and elements as floats (GL 2.1 sec. 2.8, table 2.4). */
+#ifndef REPLAY_GL_GEOMETRY_ARRAY_READ_H
+#define REPLAY_GL_GEOMETRY_ARRAY_READ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "replay/machine/state.h"
+
+struct gls_exec;
+
+/* An array's bytes as they are now. */
+struct gls_source {
+	const uint8_t *bytes;
+	size_t n, stride, element;
+	uint64_t version;
+	const struct gls_array *array;
+};
+
+/* All arrays of a draw. */
+struct gls_sources {
+	struct gls_source vertex, edge, attributes[N_GLS_ATTRIBUTES];
+	uint32_t given;
+	int has_edges;
+};
+
+/** Bytes of a component; 0: no type. */
+size_t gls_type_bytes(uint32_t type);
+/** How many elements the bytes hold. */
+uint64_t gls_source_count(const struct gls_source *s);
+/** Element i as four floats, normalized where the array is. The caller has looked that it is there. */
+void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
+
+/** @return the attributes that come from arrays, as in gls_geometry.given */
+uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s);
+/** Positions and edge flags too. @return 1 where there is something to draw from; else it is counted what is not there */
+int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
+/** What a draw is made of, in few bytes: draws with equal keys make equal meshes. elements: a number for the indices, or the first vertex. */
+uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements, uint64_t n_elements);
+
+#endif

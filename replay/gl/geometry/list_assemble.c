@@ -1,0 +1,307 @@
+#include "replay/gl/geometry/list_assemble.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "base/arena.h"
+#include "base/err.h"
+#include "capture/format/trace.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/geometry/list.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+
+struct run {
+	uint32_t known; /* attributes set before the first vertex */
+	uint32_t set;   /* attributes set anywhere in it */
+	uint32_t end;   /* op after the last whole End; 0: there is none */
+	uint32_t stop;  /* op that did not fit, or whose vertex needs a value that is not known yet */
+};
+
+/* May the op be part of a run? */
+static int fits_run(const struct gls_exec *assembler, const struct gls_op *op)
+{
+	const struct gls_command *k = &gls_commands[op->command];
+	const struct gls_geometry *g = &assembler->pending.geometry;
+	int open = assembler->st->begin_mode != 0;
+	enum scene_primitive kind;
+
+	if (op->form == GLS_OP_MESH || k->role == GLS_ROLE_EDGE_FLAG)
+		return 0;
+	if (k->kind == GLS_KIND_VERTEX)
+		return 1;
+	if (gls_op_is(op, GLS_ROLE_END))
+		return open;
+	if (!gls_op_is(op, GLS_ROLE_BEGIN) || open || op->form != GLS_OP_CALL)
+		return 0;
+	kind = gls_mode_kind((uint32_t)gls_value_int(&op->args[0]));
+	return kind && (!g->n_vertices || (g->kind == kind && g->n_vertices <= GLS_MAX_PENDING_VERTICES));
+}
+
+/*
+ * Run ops [first, last) through the assembler, as far as they make a run.
+ * Its geometry is left with what was collected up to run->end where `last` is that end.
+ */
+static void collect_run(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last, struct run *run)
+{
+	struct trace_value args[GLS_MAX_PACKED + 1];
+	struct gls_geometry *g = &assembler->pending.geometry;
+	struct call c = gls_list_call(assembler);
+
+	gls_geometry_clear(g);
+	assembler->st->begin_mode = 0;
+	*run = (struct run){ .stop = first };
+	for (uint32_t i = first; i < last && fits_run(assembler, &list->ops[i]); i++) {
+		const struct gls_op *op = &list->ops[i];
+		uint32_t n = g->n_vertices, touched = g->touched;
+		gls_op_unpack(op, args, &c);
+		assembler->dispatch(assembler, &c, op->command, NULL);
+		if (n == 0 && g->n_vertices)
+			run->known = touched;
+		run->set |= touched | g->touched;
+		run->stop = i;
+		if (n && g->n_vertices > n && touched & ~run->known)
+			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
+		run->stop = i + 1;
+		if (gls_op_is(op, GLS_ROLE_END))
+			run->end = i + 1;
+	}
+}
+
+/* Values of a mask's attributes, in ascending order, in the list's arena. */
+static const float (*keep_values(struct gls_list *list, uint32_t mask, const float (*values)[4]))[4]
+{
+	float (*kept)[4] = arena_alloc(&list->arena, (size_t)(__builtin_popcount(mask) + 1) * sizeof(*kept));
+	unsigned n = 0;
+
+	for (; kept && mask; mask &= mask - 1)
+		memcpy(kept[n++], values[__builtin_ctz(mask)], 16);
+	return (const float (*)[4])kept;
+}
+
+static int keep_run(struct gls_exec *x, struct gls_exec *assembler, struct gls_list *list, const struct run *run)
+{
+	struct gls_geometry *g = &assembler->pending.geometry;
+	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = assembler->st->a.lighting.first_provokes };
+
+	op.before = run->known & ~g->given;
+	op.after = run->set;
+	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
+	op.after_values = keep_values(list, op.after, (const float (*)[4])assembler->st->a.current.attribute);
+	if (!op.before_values || !op.after_values) {
+		gls_out_of_memory(x, sizeof(g->constant));
+		return ERR_SYSTEM;
+	}
+	op.mesh = gls_geometry_mesh(x, g);
+	return x->failed ? x->failed : gls_list_append_mesh(x, list, &op);
+}
+
+static int keep_op(struct gls_list *list, const struct gls_op *from, const struct gls_exec *x)
+{
+	struct trace_value args[GLS_MAX_PACKED + 1];
+	struct call c = gls_list_call(x);
+	struct gls_op *op;
+
+	op = gls_list_add(list);
+	if (!op)
+		return ERR_SYSTEM;
+	if (from->form != GLS_OP_MESH) {
+		op->command = from->command;
+		gls_op_unpack(from, args, &c);
+		if (gls_list_keep(list, op, &c, from->unpack) == 0)
+			return 0;
+		list->n--;
+		return ERR_SYSTEM;
+	}
+	*op = *from;
+	op->mesh = arena_alloc(&list->arena, sizeof(*op->mesh));
+	if (!op->mesh) {
+		list->n--;
+		return ERR_SYSTEM;
+	}
+	struct gls_op_mesh copy = *from->mesh;
+	copy.before_values = NULL;
+	copy.after_values = NULL;
+	copy.before = copy.after = 0; /* array draws set no attributes */
+	if (copy.mesh)
+		atomic_fetch_add(&copy.mesh->refs, 1);
+	memcpy((void *)(uintptr_t)op->mesh, &copy, sizeof(copy));
+	return 0;
+}
+
+/* Keep ops that make no run as they are: up to where it stopped, and on to the End of a Begin that is open there. */
+static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_list *list, uint32_t stop, uint32_t *at)
+{
+	int open = 0;
+
+	do {
+		const struct gls_op *op = &list->ops[*at];
+		open = gls_op_is(op, GLS_ROLE_BEGIN) || (open && !gls_op_is(op, GLS_ROLE_END));
+		if (keep_op(out, op, x))
+			return ERR_SYSTEM;
+		(*at)++;
+	} while (*at < list->n && (*at < stop || open));
+	return 0;
+}
+
+/*
+ * Calls that set again what the list itself has just set: dropping them lets the runs on both sides become one mesh.
+ * Programs that send every face by itself are full of them. Known are BindTexture and Material by target, or face and
+ * name; anything else but vertices makes the list forget what it knows.
+ */
+#define N_REMEMBERED 16
+struct remembered {
+	const struct gls_op *ops[N_REMEMBERED];
+	unsigned n;
+};
+
+static int equal_args(const struct gls_op *a, const struct gls_op *b)
+{
+	if (a->command != b->command || a->form != GLS_OP_CALL || b->form != GLS_OP_CALL || a->n != b->n)
+		return 0;
+	for (uint32_t i = 0; i < a->n; i++) {
+		const struct trace_value *v = &a->args[i], *w = &b->args[i];
+		if (v->type != w->type || v->count != w->count || (v->type != TRACE_ARRAY && v->u != w->u))
+			return 0;
+		for (uint64_t k = 0; v->type == TRACE_ARRAY && k < v->count; k++)
+			if (v->items[k].type != w->items[k].type || v->items[k].u != w->items[k].u)
+				return 0;
+	}
+	return 1;
+}
+
+/* Do both set something in common? Materials: face and name; textures: the target. */
+static int overlap(const struct gls_op *a, const struct gls_op *b, int material)
+{
+	int64_t p, q;
+
+	if (material != gls_op_is(a, GLS_ROLE_MATERIAL))
+		return 0;
+	if (!material || a->n < 2 || b->n < 2)
+		return 1;
+	p = gls_value_int(&a->args[1]);
+	q = gls_value_int(&b->args[1]);
+	return p == q || (p == GL_AMBIENT_AND_DIFFUSE && (q == GL_AMBIENT || q == GL_DIFFUSE)) ||
+	       (q == GL_AMBIENT_AND_DIFFUSE && (p == GL_AMBIENT || p == GL_DIFFUSE));
+}
+
+static int is_redundant(struct remembered *r, const struct gls_op *op)
+{
+	const struct gls_command *k = &gls_commands[op->command];
+	int material = op->form == GLS_OP_CALL && gls_op_is(op, GLS_ROLE_MATERIAL);
+	int texture = op->form == GLS_OP_CALL && gls_op_is(op, GLS_ROLE_BIND_TEXTURE);
+
+	if (op->form != GLS_OP_MESH && (k->kind == GLS_KIND_VERTEX || gls_op_is(op, GLS_ROLE_BEGIN) || gls_op_is(op, GLS_ROLE_END)))
+		return 0;
+	if (!material && !texture) {
+		r->n = 0;
+		return 0;
+	}
+	for (unsigned i = 0; i < r->n; i++)
+		if (equal_args(r->ops[i], op))
+			return 1;
+	for (unsigned i = 0; i < r->n;) {
+		if (overlap(r->ops[i], op, material))
+			r->ops[i] = r->ops[--r->n];
+		else
+			i++;
+	}
+	if (r->n < N_REMEMBERED)
+		r->ops[r->n++] = op;
+	return 0;
+}
+
+static void drop_redundant(struct gls_list *list)
+{
+	struct remembered known = { .n = 0 };
+	uint32_t n = 0;
+
+	for (uint32_t i = 0; i < list->n; i++) {
+		list->ops[n] = list->ops[i]; /* moved before it is remembered where it stands */
+		n += !is_redundant(&known, &list->ops[n]);
+	}
+	list->n = n;
+}
+
+static int has_begin(const struct gls_list *list)
+{
+	for (uint32_t i = 0; i < list->n; i++)
+		if (gls_op_is(&list->ops[i], GLS_ROLE_BEGIN))
+			return 1;
+	return 0;
+}
+
+/* ---- the assembler: a machine of its own, with one context, that vertices are run through ---- */
+
+struct assembler {
+	struct gls_exec machine; /* first */
+	struct gls_state state;
+};
+
+/* Ready for a list that is made now; NULL: out of memory. */
+static struct gls_exec *find_assembler(struct gls_exec *x)
+{
+	struct assembler *a = (struct assembler *)x->assembler;
+
+	if (!a && (a = calloc(1, sizeof(*a))))
+		x->assembler = &a->machine;
+	if (!a)
+		return NULL;
+	a->machine.path = x->path;
+	a->machine.want = 1;
+	a->machine.call = x->call;
+	a->machine.counts = x->counts; /* borrowed: what its calls meet counts as the program's */
+	a->machine.dispatch = x->dispatch;
+	a->machine.pending.mixes = 1;
+	a->machine.st = &a->state;
+	a->state.a.current.edge_flag = 1;
+	a->state.a.lighting.first_provokes = x->st->a.lighting.first_provokes;
+	return &a->machine;
+}
+
+void gls_assembler_free(struct gls_exec *assembler)
+{
+	if (assembler)
+		gls_geometry_free(&assembler->pending.geometry);
+	free(assembler);
+}
+
+/* The same list with its runs assembled, in an arena of its own. The old one is freed. */
+static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
+{
+	struct gls_exec *assembler = find_assembler(x);
+	struct gls_list *out = calloc(1, sizeof(*out));
+	int failed = !out || !assembler;
+
+	for (uint32_t i = 0; i < list->n && !failed;) {
+		struct run run;
+		collect_run(assembler, list, i, list->n, &run);
+		if (!run.end) {
+			failed = keep_ops(x, out, list, run.stop, &i) != 0;
+			continue;
+		}
+		if (run.stop > run.end) /* once more up to its end: what came after it left traces in the geometry */
+			collect_run(assembler, list, i, run.end, &run);
+		failed = keep_run(x, assembler, out, &run) != 0;
+		i = run.end;
+	}
+	if (failed || assembler->failed) {
+		gls_fail(x);
+		if (out)
+			gls_list_free(out);
+		return list;
+	}
+	gls_list_free(list);
+	return out;
+}
+
+struct gls_list *gls_list_assemble(struct gls_exec *x, struct gls_list *list)
+{
+	drop_redundant(list);
+	return has_begin(list) ? assemble(x, list) : list;
+}
