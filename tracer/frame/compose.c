@@ -35,23 +35,6 @@ static const struct channel {
 };
 #define N_CHANNELS (sizeof(channels) / sizeof(channels[0]))
 
-int tracer_check_aov(const char *aov)
-{
-	const char *at = aov;
-
-	while (at && *at) {
-		size_t n = strcspn(at, ","), known = 0;
-
-		for (int i = 0; compose_groups[i]; i++)
-			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
-		if (!known)
-			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, "
-			                  "reflect, refract, Z, N, P, albedo, id and layers", (int)n, at);
-		at += n + (at[n] == ',');
-	}
-	return 0;
-}
-
 int compose_wants(const char *aov, const char *group)
 {
 	size_t n = strlen(group);

@@ -1,6 +1,7 @@
 #include "tracer/frame/trace.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/err.h"
 #include "kernels/frame/sample.h"
@@ -10,6 +11,73 @@
 #include "tracer/frame/picture.h"
 #include "tracer/frame/segment.h"
 #include "tracer/frame/upload.h"
+
+int tracer_create(struct tracer **out, struct device *dev)
+{
+	struct tracer *tr = calloc(1, sizeof(*tr));
+
+	if (!tr)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	tr->dev = dev;
+	if (accel_create(&tr->accel) != 0) {
+		free(tr);
+		return ERR_SYSTEM;
+	}
+	tr->accel->wide = traverse_families[device_family(dev)].wide;
+	*out = tr;
+	return 0;
+}
+
+void tracer_destroy(struct tracer **tracer)
+{
+	struct tracer *tr = *tracer;
+
+	if (!tr)
+		return;
+	accel_destroy(&tr->accel);
+	pool_free(&tr->attributes, tr->dev);
+	pool_free(&tr->indices, tr->dev);
+	pool_free(&tr->texels, tr->dev);
+#define RELEASE(element, name) device_release(tr->dev, &tr->buffers.name.buffer);
+	FRAME_BUFFERS(RELEASE)
+	device_release(tr->dev, &tr->buffers.frame.buffer);
+	for (int i = 0; i < SCENE_SAMPLES; i++)
+		device_release(tr->dev, &tr->buffers.samples[i].buffer);
+	traverse_release(tr->dev, &tr->trees);
+	free(tr->counts);
+	free(tr->first);
+	free(tr);
+	*tracer = NULL;
+}
+
+void tracer_share(struct tracer *tracer, struct blas_cache *cache)
+{
+	tracer->accel->shared = cache;
+}
+
+const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer)
+{
+	return &tracer->undrawn;
+}
+
+int tracer_check_aov(const char *aov)
+{
+	const char *at = aov;
+
+	while (at && *at) {
+		size_t n = strcspn(at, ","), known = 0;
+
+		for (int i = 0; compose_groups[i]; i++)
+			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
+		if (!known)
+			return err_report(ERR_USAGE, NULL, "there is no channel group '%.*s'; there are gl, shadow, relight, "
+			                  "reflect, refract, Z, N, P, albedo, id and layers", (int)n, at);
+		at += n + (at[n] == ',');
+	}
+	return 0;
+}
+
+/* --- Frames -------------------------------------------------------------------------------------------------------- */
 
 static int reserve_pixels(struct job *job)
 {
