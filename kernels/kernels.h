@@ -6,7 +6,6 @@
 #ifndef KERNELS_KERNELS_H
 #define KERNELS_KERNELS_H
 
-#include "kernels/camera/camera.h"
 #include "kernels/shared.h"
 
 /* --- Elements: what buffers hold ------------------------------------------------------------------------------------ */

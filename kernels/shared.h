@@ -11,6 +11,8 @@
 #ifndef KERNELS_SHARED_H
 #define KERNELS_SHARED_H
 
+#include "scene/scene.h"
+
 #ifdef __OPENCL_VERSION__
 typedef ushort uint16_t;
 #define GLOBAL __global
@@ -26,7 +28,6 @@ typedef ushort uint16_t;
  * five times as long for that, and the kernels are no faster. */
 #define KERNEL_OF(vector) __kernel __attribute__((vec_type_hint(vector)))
 #else
-#include "scene/scene.h"
 #define GLOBAL
 #define SHARED_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #endif
@@ -301,6 +302,11 @@ SHARED_SIZE(struct path, 28);
 #define TRANSPORT_RELIGHT 1u /* the same lit at each pixel */
 #define TRANSPORT_DIFFUSE 2u /* as GL, and one bounce from surface to surface */
 #define TRANSPORT_PATH 3u    /* no ambient light; what surfaces send each other takes its place */
+
+/* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
+struct camera_rectangle {
+	int32_t x0, y0, x1, y1;
+};
 
 /* One pixel of the frame while it is being drawn. */
 struct frame_pixel {

@@ -41,11 +41,6 @@
 /* A tile is square; in pixels. */
 #define CAMERA_TILE 32
 
-/* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
-struct camera_rectangle {
-	int32_t x0, y0, x1, y1;
-};
-
 /** The pixels a view may touch: its scissor (int[4]: x y w h) cut to the drawable. */
 static inline struct camera_rectangle camera_rectangle(int32_t x, int32_t y, int32_t w, int32_t h, uint32_t width,
                                                        uint32_t height)

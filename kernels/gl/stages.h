@@ -7,7 +7,6 @@
 #ifndef KERNELS_GL_STAGES_H
 #define KERNELS_GL_STAGES_H
 
-#include "kernels/camera/camera.h"
 #include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
 

@@ -239,7 +239,7 @@ START_TEST(kernels_agree_with_twins)
 			for (uint32_t mode = CAMERA_NEAREST_LESS; mode <= CAMERA_COLUMN; mode++)
 				for (enum kernel kernel = KERNEL_camera_packet; kernel <= KERNEL_camera_compressed; kernel++) {
 					snprintf(what, sizeof(what), "%s, %s, %s, at %s, mode %u", list[k].name,
-					         kernel_entries[kernel].name, i & 1 ? "orthographic" : "perspective",
+					         device_kernel_name(kernel), i & 1 ? "orthographic" : "perspective",
 					         i & 2 ? "a sample" : "centres", mode);
 					run(&f, reference, kernel, mode, &want);
 					run(&f, dev, kernel, mode, &got);

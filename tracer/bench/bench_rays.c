@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "base/progress.h"
+#include "kernels/camera/camera.h"
 #include "tracer/bench/bench.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/frame/traverse.h"

@@ -328,6 +328,11 @@ void device_set_profile(struct device *dev, struct device_profile *profile)
 	dev->profile = profile;
 }
 
+const char *device_kernel_name(enum kernel kernel)
+{
+	return kernel_entries[kernel].name;
+}
+
 /* --- Copies and launches ------------------------------------------------------------------------------------------- */
 
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes)

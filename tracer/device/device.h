@@ -150,5 +150,6 @@ struct device_profile {
  * @param profile  kept and written until the next call; NULL: no longer
  */
 void device_set_profile(struct device *dev, struct device_profile *profile);
+const char *device_kernel_name(enum kernel kernel);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "kernels/gl/pixel.h"
 #include "tracer/frame/secondary.h"

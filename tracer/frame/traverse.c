@@ -1,6 +1,7 @@
 #include "tracer/frame/traverse.h"
 
 #include "base/err.h"
+#include "kernels/camera/camera.h"
 #include "kernels/rays/rays.h"
 
 const struct traverse_family traverse_families[N_DEVICE_FAMILIES] = {
@@ -40,7 +41,7 @@ void traverse_release(struct device *dev, struct traverse_trees *trees)
 
 static int no_such_kernel(enum kernel kernel)
 {
-	return err_report(ERR_SYSTEM, kernel_entries[kernel].name, "this kernel takes no such rays");
+	return err_report(ERR_SYSTEM, device_kernel_name(kernel), "this kernel takes no such rays");
 }
 
 int traverse_camera(struct device *dev, enum kernel kernel, const struct traverse_trees *t, struct camera_rectangle r,
