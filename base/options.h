@@ -20,7 +20,7 @@
 enum { OPTIONS_MAX_ROWS = 40 };
 
 struct options_row {
-	const char *name;     /* long name; NULL: a heading, whose text is `help` */
+	const char *name;     /* long name; NULL: a heading, with `help` as its text */
 	char letter;          /* short name; 0: none */
 	const char *argument; /* what the help text calls the value; NULL: the option takes none */
 	const char *help;     /* one line; wrapped when printed */

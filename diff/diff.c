@@ -137,10 +137,7 @@ static int compare_frames(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-/**
- * All frames to score: those of both sets and of the baseline that are asked for, and those asked for by number that none
- * has.
- */
+/** All frames to score: of those asked for, the ones in either set or the baseline, and those asked for by number that none has. */
 static int list_frames(const struct set *ref, const struct set *traced, const struct baseline *baseline,
                        const struct frame_list *asked, uint64_t **out, size_t *n_out)
 {
@@ -179,7 +176,7 @@ static int list_frames(const struct set *ref, const struct set *traced, const st
 	return 0;
 }
 
-/* What the threads share. Frames are scored by whoever comes first; memory grows with threads, not with frames. */
+/* What the threads share. Each takes the next frame; memory grows with threads, not with frames. */
 struct work {
 	struct set *ref, *traced;
 	const struct baseline *baseline;
@@ -192,13 +189,13 @@ struct work {
 	int err;
 };
 
-/** What an image says of its size and what is ignored in it, without a reference. */
+/** Stands in for a reference where there is none: the size alone. */
 static struct score_picture picture_of_size(const struct image *img)
 {
 	return (struct score_picture){ .width = img->width, .height = img->height };
 }
 
-/** A frame that failed nothing but gates that are known to be flaky is no failure. */
+/** A frame that failed only gates known to be flaky is no failure. */
 static void judge_flaky(const struct score_rules_frame *settings, struct score *s)
 {
 	unsigned failed = 0;

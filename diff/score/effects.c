@@ -45,8 +45,8 @@ static double effect_at(const struct image_channel *channel, size_t i, double ab
 enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER_REFRACT, N_LAYERS };
 
 /**
- * 1 where the renderer was told to leave out channels that could explain a difference (its --aov list stands in the
- * file): then a sum that does not close says nothing. A file without that attribute holds all the effects that it has.
+ * 1 where the renderer was told to leave out channels that could explain a difference: a sum that does not close then says
+ * nothing. The file holds the renderer's --aov list; a file without one holds every effect there was.
  */
 static int left_out_effects(const struct image *img, const char **first)
 {

@@ -11,7 +11,7 @@
 #include "base/err.h"
 #include "diff/score/picture.h"
 
-/* Pictures are compared in bands of rows, so that all planes of one stay in the cache; filters reach HALO rows further. */
+/* Pictures are compared in bands of rows: all planes of a band stay in the cache. Filters reach HALO rows further. */
 enum { MAX_RADIUS = 16, HALO = MAX_RADIUS, BAND = 128 };
 
 /* Weights of one axis, index radius is the centre. */
@@ -281,7 +281,7 @@ static float largest_color_error(void)
 /* Rows of both pictures that are compared at a time. */
 struct band {
 	int top, height;   /* rows of the picture that the planes hold */
-	int first, n_rows; /* of them those whose errors are wanted; all others are there for the filters */
+	int first, n_rows; /* rows to give errors for, within these; the others feed the filters */
 };
 
 /* Twelve planes of a band, and a padded row. */

@@ -312,7 +312,7 @@ static void remove_folder(const char *folder)
 	rmdir(folder);
 }
 
-/** A scratch folder beside the output, so that pictures arrive by rename; made with the output's own folder. */
+/** Make the output's folder, and a scratch folder beside the output: pictures arrive by rename. */
 static int make_scratch(const char *output, char *out, size_t size)
 {
 	const char *slash = strrchr(output, '/');

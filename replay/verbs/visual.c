@@ -1,9 +1,9 @@
 /*
- * Runs inside glretrace, before libGL. glretrace takes a visual of its own choice (24 bits of depth, 8 of stencil and alpha) whatever
- * the program had: where surfaces lie close together another precision shows another one. With RELUME_VISUAL="ALPHA DEPTH STENCIL
- * SAMPLES", as a trace's relume:bits marker has them, it gets configurations with just these bits, or its own where there is none.
+ * Runs inside glretrace, before libGL. glretrace chooses its own visual (24 bits of depth, 8 of stencil and alpha) whatever the
+ * program had. Where surfaces lie close together, another precision of depth shows another surface. RELUME_VISUAL="ALPHA DEPTH STENCIL
+ * SAMPLES", as in a trace's relume:bits marker, gives it configurations with exactly these bits, if there are any.
  *
- * And what it reads of a window with several samples a pixel is what the window shows, their mean: glReadPixels need not give that
+ * From a window with several samples a pixel it reads what the window shows, their mean; glReadPixels need not give that
  * (capture/gl/reference.c).
  */
 #define GL_GLEXT_PROTOTYPES
