@@ -1,65 +1,14 @@
 #include "scene/gltf_parts.h"
 
 #include <math.h>
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
-
-/* Append one item to a growing array; its number, or SCENE_NONE out of memory. */
-#define PUSH(g, array, value) \
-	(grow((g), (void **)&(g)->array, (g)->n_##array, sizeof(*(g)->array)) ? SCENE_NONE : ((g)->array[(g)->n_##array] = (value), (g)->n_##array++))
-
-static int grow(struct gltf *g, void **items, uint32_t n, size_t size)
-{
-	void *grown;
-
-	if (g->failed || (n & (n - 1)) || n == 1u << 31)
-		return g->failed; /* room is the next power of two */
-	grown = realloc(*items, (n ? 2 * (size_t)n : 1) * size);
-	if (!grown)
-		return g->failed = 1;
-	*items = grown;
-	return 0;
-}
-
-/* Room for a piece, at a multiple of 4 bytes; NULL out of memory. Valid until the next call. */
-static void *put_piece(struct gltf *g, size_t n, uint32_t target, uint32_t *number)
-{
-	size_t at = (g->n_bytes + 3) & ~(size_t)3;
-
-	if (at + n > g->room) {
-		size_t room = at + n + g->room;
-		uint8_t *grown = realloc(g->bytes, room);
-		if (!grown) {
-			g->failed = 1;
-			return NULL;
-		}
-		g->bytes = grown;
-		g->room = room;
-	}
-	memset(g->bytes + g->n_bytes, 0, at - g->n_bytes);
-	g->n_bytes = at + n;
-	*number = PUSH(g, pieces, ((struct gltf_piece){ at, n, target }));
-	return g->failed ? NULL : g->bytes + at;
-}
-
-/* The piece made last needs fewer bytes. */
-static void shrink_piece(struct gltf *g, uint32_t piece, size_t n)
-{
-	g->pieces[piece].n_bytes = n;
-	g->n_bytes = g->pieces[piece].offset + n;
-}
+#include "scene/gltf_looks.h"
 
 /* ---- numbers ---- */
-
-float gltf_linear(float v)
-{
-	v = v < 0 ? 0 : v > 1 ? 1 : v;
-	return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
-}
 
 static float determinant(const float m[16])
 {
@@ -90,31 +39,18 @@ static int is_affine(const struct scene_mesh *m)
 	return 1;
 }
 
-void gltf_normalise(float v[3])
-{
-	float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-
-	if (length > 0 && isfinite(length)) {
-		for (int i = 0; i < 3; i++)
-			v[i] /= length;
-	} else {
-		v[0] = v[1] = 0;
-		v[2] = 1;
-	}
-}
-
 /* ---- vertices ---- */
 
 static uint32_t put_accessor(struct gltf *g, uint32_t piece, uint32_t component, uint32_t count, const char *type)
 {
-	return PUSH(g, accessors, ((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
+	return GLTF_PUSH(g, accessors, ((struct gltf_accessor){ .piece = piece, .component = component, .count = count, .type = type }));
 }
 
 /* Positions, in object space or baked into eye space; a vertex at infinity or behind becomes NaN, for put_indices to see. */
 static uint32_t put_positions(struct gltf *g, const struct scene_mesh *m, const float *baked)
 {
 	uint32_t piece, number;
-	float *out = put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece);
+	float *out = gltf_put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece);
 	struct gltf_accessor *a;
 
 	if (!out)
@@ -146,7 +82,7 @@ static uint32_t put_positions(struct gltf *g, const struct scene_mesh *m, const 
 static uint32_t put_normals(struct gltf *g, const struct scene_mesh *m, const float current[4], const float *baked)
 {
 	uint32_t piece;
-	float *out = put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece), inverse[16];
+	float *out = gltf_put_piece(g, (size_t)m->vertex_count * 12, GLTF_VERTICES, &piece), inverse[16];
 
 	if (!out)
 		return SCENE_NONE;
@@ -166,7 +102,7 @@ static uint32_t put_normals(struct gltf *g, const struct scene_mesh *m, const fl
 static uint32_t put_colors(struct gltf *g, const struct scene_mesh *m)
 {
 	uint32_t piece;
-	float *out = put_piece(g, (size_t)m->vertex_count * 16, GLTF_VERTICES, &piece);
+	float *out = gltf_put_piece(g, (size_t)m->vertex_count * 16, GLTF_VERTICES, &piece);
 
 	if (!out)
 		return SCENE_NONE;
@@ -183,7 +119,7 @@ static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const 
 	const struct scene_texture *t = g->s->textures[u->texture];
 	float size[2] = { 1, 1 };
 	uint32_t piece;
-	float *out = put_piece(g, (size_t)m->vertex_count * 8, GLTF_VERTICES, &piece);
+	float *out = gltf_put_piece(g, (size_t)m->vertex_count * 8, GLTF_VERTICES, &piece);
 
 	if (!out)
 		return SCENE_NONE;
@@ -207,7 +143,7 @@ static uint32_t put_texcoords(struct gltf *g, const struct scene_mesh *m, const 
 static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t position, int flipped)
 {
 	uint32_t piece, n = 0, k = (uint32_t)m->kind;
-	uint32_t *out = put_piece(g, (size_t)m->primitive_count * k * 4, GLTF_INDICES, &piece);
+	uint32_t *out = gltf_put_piece(g, (size_t)m->primitive_count * k * 4, GLTF_INDICES, &piece);
 	const float *p;
 
 	if (!out)
@@ -228,7 +164,7 @@ static uint32_t put_indices(struct gltf *g, const struct scene_mesh *m, uint32_t
 		for (uint32_t c = 0; c < k; c++)
 			out[n++] = v[flipped && c ? k - c : c];
 	}
-	shrink_piece(g, piece, (size_t)n * 4);
+	gltf_shrink_piece(g, piece, (size_t)n * 4);
 	return n ? put_accessor(g, piece, GL_UNSIGNED_INT, n, "SCALAR") : SCENE_NONE;
 }
 
@@ -241,116 +177,6 @@ static void mend_positions(struct gltf *g, uint32_t position)
 	for (size_t i = 0; i < 3 * (size_t)a->count; i++)
 		if (!isfinite(p[i]))
 			p[i] = a->min[i % 3];
-}
-
-/* ---- materials ---- */
-
-/* Four floats as a colour of four bytes. */
-static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
-{
-	const float *v = (const float *)(const void *)t->texels;
-
-	for (size_t i = 0; i < 4 * n; i++)
-		out[i] = (uint8_t)(v[i] > 0 ? v[i] < 1 ? v[i] * 255 + 0.5f : 255 : 0);
-}
-
-/* Level 0 as PNG. */
-static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
-{
-	uint32_t w = t->width + 2 * t->border, piece;
-	size_t texels = (size_t)w * (t->height + 2 * t->border);
-	uint8_t *clamped = t->floats ? malloc(4 * texels) : NULL;
-	const uint8_t *first = (clamped ? clamped : t->texels) + 4 * ((size_t)t->border * w + t->border);
-	png_image png = { .version = PNG_IMAGE_VERSION, .width = t->width, .height = t->height, .format = PNG_FORMAT_RGBA };
-	png_alloc_size_t n = PNG_IMAGE_PNG_SIZE_MAX(png);
-	void *out = put_piece(g, n, 0, &piece);
-	int wrong;
-
-	if (clamped)
-		clamp_texels(t, texels, clamped);
-	wrong = !out || (t->floats && !clamped) || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL);
-	free(clamped);
-	if (wrong) {
-		g->failed = 1;
-		return SCENE_NONE;
-	}
-	shrink_piece(g, piece, n);
-	return piece;
-}
-
-/* The number of a unit's texture with its sampler; its picture is stored once. */
-static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
-{
-	struct gltf_sampled s = { u->texture, SCENE_NONE, u->wrap_s, u->wrap_t, u->min_filter, u->mag_filter };
-
-	for (uint32_t i = 0; i < g->n_sampled; i++) {
-		if (g->sampled[i].texture != s.texture)
-			continue;
-		s.piece = g->sampled[i].piece;
-		if (memcmp(&g->sampled[i], &s, sizeof(s)) == 0)
-			return i;
-	}
-	if (s.piece == SCENE_NONE)
-		s.piece = put_image(g, g->s->textures[s.texture]);
-	return PUSH(g, sampled, s);
-}
-
-/* The unit that glTF can show: the first with a 2D image and coordinates of its own. NULL: none. */
-static const struct scene_unit *shown_unit(struct gltf *g, const struct scene_material *m)
-{
-	const struct scene_unit *found = NULL;
-
-	for (uint32_t i = 0; i < m->unit_count && !found; i++) {
-		const struct scene_unit *u = &g->s->units[m->unit_first + i];
-		uint32_t target = g->s->textures[u->texture]->target, depth = g->s->textures[u->texture]->base_format;
-		if ((target != GL_TEXTURE_2D && target != GL_TEXTURE_RECTANGLE) || depth == GL_DEPTH_COMPONENT)
-			continue;
-		if (u->gen_mode[0] || u->gen_mode[1])
-			g->losses->texgen++;
-		else
-			found = u;
-	}
-	g->losses->more_units += m->unit_count > 1;
-	return found;
-}
-
-static uint32_t put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
-                         int vertex_colors)
-{
-	struct gltf_look look;
-	const struct scene_face *f = &m->front;
-	float base[4] = { 1, 1, 1, 1 };
-
-	memset(&look, 0, sizeof(look)); /* looks are compared by their bytes */
-	if (m->lighting && !m->color_material)
-		memcpy(base, f->diffuse, sizeof(base));
-	else if (!vertex_colors)
-		memcpy(base, color, sizeof(base));
-	for (int i = 0; i < 3; i++) {
-		look.base[i] = gltf_linear(base[i]);
-		look.emissive[i] = m->lighting ? gltf_linear(f->emission[i]) : 0;
-	}
-	look.base[3] = fminf(fmaxf(base[3], 0), 1);
-	look.unlit = !m->lighting;
-	look.roughness = powf(2 / (fmaxf(f->shininess, 0) + 2), 0.25f);
-	if (f->specular[0] + f->specular[1] + f->specular[2] == 0)
-		look.roughness = 1;
-	if (m->surface.reflect > 0 || m->surface.transmit > 0)
-		look.roughness = 0;
-	look.metallic = fminf(m->surface.reflect, 1);
-	look.transmission = fminf(m->surface.transmit, 1);
-	look.ior = look.transmission > 0 && m->surface.ior >= 1 ? m->surface.ior : 1;
-	look.blend = m->blend != 0;
-	look.mask = !look.blend && m->alpha_test && (m->alpha_func == GL_GREATER || m->alpha_func == GL_GEQUAL);
-	look.cutoff = look.mask ? m->alpha_ref : 0;
-	look.double_sided = !m->cull_face;
-	look.texture = unit ? put_sampled(g, unit) : SCENE_NONE;
-	g->losses->blended += look.blend && (m->blend_src_rgb != GL_SRC_ALPHA || m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA);
-	g->losses->fogged += m->fog != 0;
-	for (uint32_t i = 0; i < g->n_looks; i++)
-		if (memcmp(&g->looks[i], &look, sizeof(look)) == 0)
-			return i;
-	return PUSH(g, looks, look);
 }
 
 /* ---- parts ---- */
@@ -379,7 +205,7 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 	for (uint32_t i = 0; i < g->n_parts; i++)
 		if (memcmp(&g->parts[i], &p, offsetof(struct gltf_part, position)) == 0)
 			return i;
-	unit = shown_unit(g, mat);
+	unit = gltf_shown_unit(g, mat);
 	p.position = put_positions(g, m, baked);
 	if (p.position == SCENE_NONE)
 		return SCENE_NONE;
@@ -394,8 +220,8 @@ static uint32_t put_part(struct gltf *g, uint32_t number)
 		p.color = put_colors(g, m);
 	if (unit)
 		p.texcoord = put_texcoords(g, m, unit, cur->texcoord[unit->unit]);
-	p.look = put_look(g, mat, unit, cur->color, vertex_colors);
-	return PUSH(g, parts, p);
+	p.look = gltf_put_look(g, mat, unit, cur->color, vertex_colors);
+	return GLTF_PUSH(g, parts, p);
 }
 
 /* ---- nodes ---- */
@@ -423,7 +249,7 @@ static void put_instances(struct gltf *g, struct gltf_space *space)
 			continue;
 		}
 		part = put_part(g, i);
-		if (part == SCENE_NONE || PUSH(g, nodes, ((struct gltf_node){ GLTF_INSTANCE, i, part })) == SCENE_NONE)
+		if (part == SCENE_NONE || GLTF_PUSH(g, nodes, ((struct gltf_node){ GLTF_INSTANCE, i, part })) == SCENE_NONE)
 			continue;
 		space->n_primitives += g->s->meshes[in->mesh]->primitive_count;
 		a = &g->accessors[g->parts[part].position];
@@ -448,7 +274,7 @@ static void put_cameras(struct gltf *g, const struct gltf_space *space)
 			seen |= g->nodes[i].kind == GLTF_CAMERA &&
 			        memcmp(g->s->views[g->nodes[i].index].projection, view->projection, sizeof(view->projection)) == 0;
 		if (view->space == space->space && !seen && gltf_camera_kind(view->projection))
-			PUSH(g, nodes, ((struct gltf_node){ GLTF_CAMERA, v, SCENE_NONE }));
+			GLTF_PUSH(g, nodes, ((struct gltf_node){ GLTF_CAMERA, v, SCENE_NONE }));
 	}
 }
 
@@ -467,7 +293,7 @@ static void put_lights(struct gltf *g, const struct gltf_space *space)
 			for (uint32_t k = first; k < g->n_nodes; k++)
 				seen |= memcmp(&g->s->lights[g->nodes[k].index], &g->s->lights[l], sizeof(g->s->lights[l])) == 0;
 			if (!seen)
-				PUSH(g, nodes, ((struct gltf_node){ GLTF_LIGHT, l, SCENE_NONE }));
+				GLTF_PUSH(g, nodes, ((struct gltf_node){ GLTF_LIGHT, l, SCENE_NONE }));
 		}
 	}
 }
@@ -489,18 +315,6 @@ void gltf_gather(struct gltf *g, const struct scene *s, struct gltf_losses *loss
 		put_cameras(g, &space);
 		put_lights(g, &space);
 		space.node_count = g->n_nodes - space.node_first;
-		PUSH(g, spaces, space);
+		GLTF_PUSH(g, spaces, space);
 	}
-}
-
-void gltf_free(struct gltf *g)
-{
-	free(g->bytes);
-	free(g->pieces);
-	free(g->accessors);
-	free(g->looks);
-	free(g->sampled);
-	free(g->parts);
-	free(g->nodes);
-	free(g->spaces);
 }

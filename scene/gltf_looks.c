@@ -1,0 +1,115 @@
+#include "scene/gltf_looks.h"
+
+#include <math.h>
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gl_tokens.h"
+
+/* Four floats as a colour of four bytes. */
+static void clamp_texels(const struct scene_texture *t, size_t n, uint8_t *out)
+{
+	const float *v = (const float *)(const void *)t->texels;
+
+	for (size_t i = 0; i < 4 * n; i++)
+		out[i] = (uint8_t)(v[i] > 0 ? v[i] < 1 ? v[i] * 255 + 0.5f : 255 : 0);
+}
+
+/* Level 0 as PNG. */
+static uint32_t put_image(struct gltf *g, const struct scene_texture *t)
+{
+	uint32_t w = t->width + 2 * t->border, piece;
+	size_t texels = (size_t)w * (t->height + 2 * t->border);
+	uint8_t *clamped = t->floats ? malloc(4 * texels) : NULL;
+	const uint8_t *first = (clamped ? clamped : t->texels) + 4 * ((size_t)t->border * w + t->border);
+	png_image png = { .version = PNG_IMAGE_VERSION, .width = t->width, .height = t->height, .format = PNG_FORMAT_RGBA };
+	png_alloc_size_t n = PNG_IMAGE_PNG_SIZE_MAX(png);
+	void *out = gltf_put_piece(g, n, 0, &piece);
+	int wrong;
+
+	if (clamped)
+		clamp_texels(t, texels, clamped);
+	wrong = !out || (t->floats && !clamped) || !png_image_write_to_memory(&png, out, &n, 0, first, (png_int_32)(4 * w), NULL);
+	free(clamped);
+	if (wrong) {
+		g->failed = 1;
+		return SCENE_NONE;
+	}
+	gltf_shrink_piece(g, piece, n);
+	return piece;
+}
+
+/* The number of a unit's texture with its sampler; its picture is stored once. */
+static uint32_t put_sampled(struct gltf *g, const struct scene_unit *u)
+{
+	struct gltf_sampled s = { u->texture, SCENE_NONE, u->wrap_s, u->wrap_t, u->min_filter, u->mag_filter };
+
+	for (uint32_t i = 0; i < g->n_sampled; i++) {
+		if (g->sampled[i].texture != s.texture)
+			continue;
+		s.piece = g->sampled[i].piece;
+		if (memcmp(&g->sampled[i], &s, sizeof(s)) == 0)
+			return i;
+	}
+	if (s.piece == SCENE_NONE)
+		s.piece = put_image(g, g->s->textures[s.texture]);
+	return GLTF_PUSH(g, sampled, s);
+}
+
+const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m)
+{
+	const struct scene_unit *found = NULL;
+
+	for (uint32_t i = 0; i < m->unit_count && !found; i++) {
+		const struct scene_unit *u = &g->s->units[m->unit_first + i];
+		uint32_t target = g->s->textures[u->texture]->target, depth = g->s->textures[u->texture]->base_format;
+		if ((target != GL_TEXTURE_2D && target != GL_TEXTURE_RECTANGLE) || depth == GL_DEPTH_COMPONENT)
+			continue;
+		if (u->gen_mode[0] || u->gen_mode[1])
+			g->losses->texgen++;
+		else
+			found = u;
+	}
+	g->losses->more_units += m->unit_count > 1;
+	return found;
+}
+
+uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
+                       int vertex_colors)
+{
+	struct gltf_look look;
+	const struct scene_face *f = &m->front;
+	float base[4] = { 1, 1, 1, 1 };
+
+	memset(&look, 0, sizeof(look)); /* looks are compared by their bytes */
+	if (m->lighting && !m->color_material)
+		memcpy(base, f->diffuse, sizeof(base));
+	else if (!vertex_colors)
+		memcpy(base, color, sizeof(base));
+	for (int i = 0; i < 3; i++) {
+		look.base[i] = gltf_linear(base[i]);
+		look.emissive[i] = m->lighting ? gltf_linear(f->emission[i]) : 0;
+	}
+	look.base[3] = fminf(fmaxf(base[3], 0), 1);
+	look.unlit = !m->lighting;
+	look.roughness = powf(2 / (fmaxf(f->shininess, 0) + 2), 0.25f);
+	if (f->specular[0] + f->specular[1] + f->specular[2] == 0)
+		look.roughness = 1;
+	if (m->surface.reflect > 0 || m->surface.transmit > 0)
+		look.roughness = 0;
+	look.metallic = fminf(m->surface.reflect, 1);
+	look.transmission = fminf(m->surface.transmit, 1);
+	look.ior = look.transmission > 0 && m->surface.ior >= 1 ? m->surface.ior : 1;
+	look.blend = m->blend != 0;
+	look.mask = !look.blend && m->alpha_test && (m->alpha_func == GL_GREATER || m->alpha_func == GL_GEQUAL);
+	look.cutoff = look.mask ? m->alpha_ref : 0;
+	look.double_sided = !m->cull_face;
+	look.texture = unit ? put_sampled(g, unit) : SCENE_NONE;
+	g->losses->blended += look.blend && (m->blend_src_rgb != GL_SRC_ALPHA || m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA);
+	g->losses->fogged += m->fog != 0;
+	for (uint32_t i = 0; i < g->n_looks; i++)
+		if (memcmp(&g->looks[i], &look, sizeof(look)) == 0)
+			return i;
+	return GLTF_PUSH(g, looks, look);
+}

@@ -1,0 +1,18 @@
+/* Materials of a glTF file, with their textures. */
+#ifndef SCENE_GLTF_LOOKS_H
+#define SCENE_GLTF_LOOKS_H
+
+#include "scene/gltf_pieces.h"
+
+/** The unit that glTF can show: the first with a 2D image and coordinates of its own. NULL: none. */
+const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_material *m);
+
+/**
+ * The number of a material's look; equal ones are one.
+ * @param color          where neither lighting nor vertices give one
+ * @param vertex_colors  1: vertices do
+ */
+uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
+                       int vertex_colors);
+
+#endif
