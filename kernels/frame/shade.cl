@@ -1,7 +1,5 @@
-/* gather, shade: see kernels/gl/stages.h. */
+/* shade: see kernels/gl/stages.h. */
 #include "kernels/gl/stages.h"
-
-__kernel void gather(KERNEL_ARGUMENTS(gather)) KERNEL_ITEMS(gather, n)
 
 KERNEL_OF(float4) void shade(KERNEL_ARGUMENTS(shade))
 {

@@ -2,6 +2,7 @@
  * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, it
  *   FAIL_AFTER=N   refuses to run kernels from the N-th launch on, as a GPU does that fell off the bus
  *   FAIL_ONLY=1    the same on the first device used alone: others go on
+ *   SLOW_BUILD=1   compiles for a second and a half longer
  *   AS_TYPE=gpu    says that it is a GPU (accelerator: one of these)
  *   AS_MEMORY=N    says that it has so many bytes of memory
  *   AS_BUFFER=N    says that no buffer may be larger
@@ -13,6 +14,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
@@ -38,6 +40,14 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
 	if (after && is_chosen(queue) && atomic_fetch_add(&launches, 1) >= atol(after))
 		return CL_OUT_OF_RESOURCES;
 	return REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
+}
+
+cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices, const char *options,
+                      void(CL_CALLBACK *notify)(cl_program, void *), void *user)
+{
+	if (getenv("SLOW_BUILD"))
+		nanosleep(&(struct timespec){ 1, 500000000 }, NULL);
+	return REAL(clBuildProgram)(program, n, devices, options, notify, user);
 }
 
 cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value, size_t *needed)

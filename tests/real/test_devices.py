@@ -3,9 +3,11 @@
 """Devices as `relume devices` lists them and --device names them; one that lacks memory; one of two that fails in the middle."""
 import json
 import os
+import pty
 import re
+import subprocess
 
-from helpers import BUILD, SCRATCH, check, corpus, finish, must, record, relume
+from helpers import BUILD, RELUME, SCRATCH, check, corpus, finish, must, record, relume
 
 trace = SCRATCH / "two.trace"
 FRAMES = 40
@@ -49,6 +51,14 @@ for d in devices():
 for choice in ("gpu", "accelerator", "77", "no such name"):
     done = render("none", "-f", "0", "--device", choice)
     check(done.returncode == 2 and "relume devices" in done.stderr and done.stderr.count("\n") == 1, f"--device {choice}: {done.stderr}")
+
+# On a terminal a line tells of each file that takes longer than a second to compile.
+terminal, end = pty.openpty()
+done = subprocess.run([RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "slow.#.exr", "--no-cache"], env=fake(SLOW_BUILD="1"), stderr=end,
+                      stdin=subprocess.DEVNULL, timeout=150, check=False)
+os.close(end)
+said = os.read(terminal, 65536).decode()
+check(done.returncode == 0 and re.search(r"compiling kernels/camera/camera_packet.cl for this device", said), f"slow to compile: {said}")
 
 # Memory that is not there is said before it is used, in one line.
 for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("AS_BUFFER", "makes none of more than 2")):

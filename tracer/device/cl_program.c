@@ -1,8 +1,11 @@
 #include "tracer/device/cl_program.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "base/err.h"
@@ -142,6 +145,48 @@ static void report_build_log(cl_program program, cl_device_id device, const char
 	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
 }
 
+/* A compilation that somebody waits for. */
+struct waiting {
+	pthread_mutex_t lock;
+	pthread_cond_t changed;
+	int done;
+	const char *name;
+};
+
+/* Say after a second what takes so long, over a progress bar that may stand there. */
+static void *say_when_late(void *user)
+{
+	struct waiting *w = user;
+	struct timespec end;
+
+	clock_gettime(CLOCK_REALTIME, &end);
+	end.tv_sec++;
+	pthread_mutex_lock(&w->lock);
+	while (!w->done && pthread_cond_timedwait(&w->changed, &w->lock, &end) == 0)
+		;
+	if (!w->done)
+		fprintf(stderr, "\r\033[Kcompiling %s for this device\n", w->name);
+	pthread_mutex_unlock(&w->lock);
+	return NULL;
+}
+
+static cl_int compile(cl_program program, cl_device_id device, const char *name)
+{
+	struct waiting w = { PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, 0, name };
+	pthread_t thread;
+	const int watched = isatty(STDERR_FILENO) && pthread_create(&thread, NULL, say_when_late, &w) == 0;
+	const cl_int code = clBuildProgram(program, 1, &device, options_for(device), NULL, NULL);
+
+	if (!watched)
+		return code;
+	pthread_mutex_lock(&w.lock);
+	w.done = 1;
+	pthread_cond_signal(&w.changed);
+	pthread_mutex_unlock(&w.lock);
+	pthread_join(thread, NULL);
+	return code;
+}
+
 static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, cl_program *out)
 {
 	const char *texts[] = { prelude, kernels->text };
@@ -150,7 +195,7 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	*out = clCreateProgramWithSource(context, 2, texts, NULL, &code);
 	if (!*out)
 		return cl_report(code, kernels->name);
-	code = clBuildProgram(*out, 1, &device, options_for(device), NULL, NULL);
+	code = compile(*out, device, kernels->name);
 	if (code == CL_SUCCESS)
 		return 0;
 	if (code == CL_BUILD_PROGRAM_FAILURE)
