@@ -62,10 +62,11 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 			expand_take_color(&e[i], &e[2]);
 	offset = polygon_offset(in, e);
 	for (int i = 0; i < 3 && !err; i++) {
-		if (!(flags >> i & 1))
-			continue;
-		err = in->shape == PREPARED_LINES ? expand_line(in, out, e[i], e[(i + 1) % 3], offset, draw, stipple) :
-		                                    expand_point(in, out, e[i], offset, draw);
+		struct expand_end a = e[i], b = e[(i + 1) % 3];
+
+		if (flags >> i & 1)
+			err = in->shape == PREPARED_LINES ? expand_line(in, out, &a, &b, offset, draw, stipple) :
+			                                    expand_point(in, out, a, offset, draw);
 	}
 	return err;
 }
@@ -81,7 +82,7 @@ static int line_of_mesh(const struct expand_input *in, struct expanded *out, uin
 		stipple->counter = 0;
 	if (in->material->shade_model == GL_FLAT)
 		expand_take_color(in->material->first_provokes ? &b : &a, in->material->first_provokes ? &a : &b);
-	return expand_line(in, out, a, b, 0, draw, stipple);
+	return expand_line(in, out, &a, &b, 0, draw, stipple);
 }
 
 static void make_mesh(struct expanded *e)

@@ -195,30 +195,30 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 	return 0;
 }
 
-int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end a, struct expand_end b, float offset,
+int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
                 uint32_t draw, struct expand_stipple *stipple)
 {
 	float length;
 	uint32_t start = 0, n;
 	int err = 0;
 
-	if (!expand_clip_line(in, &a, &b))
+	if (!expand_clip_line(in, a, b))
 		return 0;
-	expand_project(in, &a);
-	expand_project(in, &b);
-	a.z = fminf(fmaxf(a.z + offset, 0), 1);
-	b.z = fminf(fmaxf(b.z + offset, 0), 1);
+	expand_project(in, a);
+	expand_project(in, b);
+	a->z = fminf(fmaxf(a->z + offset, 0), 1);
+	b->z = fminf(fmaxf(b->z + offset, 0), 1);
 	if (stipple->pattern == 0xffff)
-		return add_dash(in, out, &a, &b, draw);
+		return add_dash(in, out, a, b, draw);
 	length = in->material->multisample || in->material->line_smooth ?
-	                 sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)) : fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
+	                 sqrtf((b->x - a->x) * (b->x - a->x) + (b->y - a->y) * (b->y - a->y)) : fmaxf(fabsf(b->x - a->x), fabsf(b->y - a->y));
 	n = (uint32_t)ceilf(length);
 	for (uint32_t i = 0; i <= n && !err; i++) {
 		int on = i < n && stipple->pattern >> (stipple->counter / stipple->factor & 15) & 1;
 
 		if (!on && i > start) {
-			struct expand_end from = expand_line_point(&a, &b, (float)start / length);
-			struct expand_end to = expand_line_point(&a, &b, fminf((float)i / length, 1));
+			struct expand_end from = expand_line_point(a, b, (float)start / length);
+			struct expand_end to = expand_line_point(a, b, fminf((float)i / length, 1));
 
 			err = add_dash(in, out, &from, &to, draw);
 		}

@@ -15,10 +15,11 @@ struct expand_stipple {
 
 /**
  * Clip a line, project it, and add what its stipple leaves.
+ * @param a, b    its ends; changed
  * @param offset  added to the depth of both ends
  * @return 0 or ERR_SYSTEM (reported)
  */
-int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end a, struct expand_end b, float offset,
+int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
                 uint32_t draw, struct expand_stipple *stipple);
 
 #endif
