@@ -1,6 +1,4 @@
 /* Contexts, drawables and frame ends: GLX 1.4 and EGL as far as a recording shows them; markers of our own recorder. */
-#include "replay/gl/window.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +15,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-void gls_make_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
+static void set_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
 {
 	gls_flush(x);
 	if (x->thread < x->n_threads)
@@ -47,7 +45,7 @@ static void make_current(struct gls_exec *x, const struct call *c, unsigned draw
 
 	if (c->ret.type != TRACE_NONE && gls_value_int(&c->ret) == 0)
 		return; /* it failed: the old one stays current */
-	gls_make_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable),
+	set_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable),
 	                 (uint64_t)arg_i(c, read));
 }
 

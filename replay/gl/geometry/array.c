@@ -1,5 +1,4 @@
-#include "replay/gl/geometry/array.h"
-
+/* Vertex arrays (GL 2.1 sec. 2.8): where they are, and what those in client memory hold. */
 #include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
@@ -12,7 +11,8 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-void gls_array_set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n)
+/* The array lies in client memory, whose bytes are copied. */
+static void set_client(struct gls_exec *x, struct gls_array *array, const uint8_t *data, size_t n)
 {
 	uint64_t hash = XXH3_64bits(data, n);
 
@@ -50,7 +50,7 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	array->stride = stride;
 	array->normalized = index == GLS_ATTR_NORMAL || index == GLS_ATTR_COLOR || index == GLS_ATTR_SECONDARY;
 	if (v->type == TRACE_BLOB) {
-		gls_array_set_client(x, array, v->blob, v->count);
+		set_client(x, array, v->blob, v->count);
 	} else if (arg_is_offset(c, pointer)) {
 		array->buffer = st->client.array_buffer;
 		array->offset = (uint64_t)gls_value_int(v);
@@ -177,7 +177,7 @@ GLS_HANDLER(glInterleavedArrays, CLIENT)
 		array->stride = stride ? stride : (int32_t)f->stride;
 		array->normalized = parts[i].index == GLS_ATTR_NORMAL || parts[i].index == GLS_ATTR_COLOR;
 		if (v->type == TRACE_BLOB && v->count > parts[i].at) {
-			gls_array_set_client(x, array, v->blob + parts[i].at, v->count - parts[i].at);
+			set_client(x, array, v->blob + parts[i].at, v->count - parts[i].at);
 		} else if (arg_is_offset(c, 2)) {
 			array->buffer = st->client.array_buffer;
 			array->offset = (uint64_t)gls_value_int(v) + parts[i].at;

@@ -1,3 +1,4 @@
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,27 +28,29 @@ static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, 
 	return b;
 }
 
+static const struct { uint32_t target, offset; } bindings[] = {
+	{ GL_ARRAY_BUFFER, offsetof(struct gls_client_attribs, array_buffer) },
+	{ GL_ELEMENT_ARRAY_BUFFER, offsetof(struct gls_client_attribs, element_buffer) },
+	{ GL_COPY_READ_BUFFER, offsetof(struct gls_client_attribs, copy_read_buffer) },
+	{ GL_COPY_WRITE_BUFFER, offsetof(struct gls_client_attribs, copy_write_buffer) },
+	{ GL_DRAW_INDIRECT_BUFFER, offsetof(struct gls_client_attribs, indirect_buffer) },
+	{ GL_PIXEL_UNPACK_BUFFER, offsetof(struct gls_client_attribs, unpack.buffer) },
+	{ GL_PIXEL_PACK_BUFFER, offsetof(struct gls_client_attribs, pack.buffer) },
+};
+#define N_BINDINGS (sizeof(bindings) / sizeof(bindings[0]))
+
+static uint32_t *binding_at(struct gls_state *st, size_t i)
+{
+	return (uint32_t *)((char *)&st->client + bindings[i].offset);
+}
+
 /* Where the name of the buffer bound to a target is kept; NULL: a target that no draw looks at. */
 static uint32_t *binding(struct gls_state *st, uint32_t target)
 {
-	switch (target) {
-	case GL_ARRAY_BUFFER:
-		return &st->client.array_buffer;
-	case GL_ELEMENT_ARRAY_BUFFER:
-		return &st->client.element_buffer;
-	case GL_COPY_READ_BUFFER:
-		return &st->client.copy_read_buffer;
-	case GL_COPY_WRITE_BUFFER:
-		return &st->client.copy_write_buffer;
-	case GL_DRAW_INDIRECT_BUFFER:
-		return &st->client.indirect_buffer;
-	case GL_PIXEL_UNPACK_BUFFER:
-		return &st->client.unpack.buffer;
-	case GL_PIXEL_PACK_BUFFER:
-		return &st->client.pack.buffer;
-	default:
-		return NULL;
-	}
+	for (size_t i = 0; i < N_BINDINGS; i++)
+		if (bindings[i].target == target)
+			return binding_at(st, i);
+	return NULL;
 }
 
 static struct gls_buffer *bound_buffer(struct gls_exec *x, struct gls_state *st, uint32_t target)
@@ -99,18 +102,9 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 		unmap_buffer(x, b);
 		free(b->data);
 		free(b);
-		if (st->client.array_buffer == name)
-			st->client.array_buffer = 0;
-		if (st->client.element_buffer == name)
-			st->client.element_buffer = 0;
-		if (st->client.unpack.buffer == name)
-			st->client.unpack.buffer = 0;
-		if (st->client.copy_read_buffer == name)
-			st->client.copy_read_buffer = 0;
-		if (st->client.copy_write_buffer == name)
-			st->client.copy_write_buffer = 0;
-		if (st->client.indirect_buffer == name)
-			st->client.indirect_buffer = 0;
+		for (size_t k = 0; k < N_BINDINGS; k++)
+			if (*binding_at(st, k) == name)
+				*binding_at(st, k) = 0;
 		for (unsigned a = 0; a < N_GLS_ARRAYS; a++)
 			if (st->client.arrays[a].buffer == name)
 				st->client.arrays[a].buffer = 0;
