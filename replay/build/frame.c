@@ -251,7 +251,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	}
 	s->clears[s->n_clears++] = clear;
 	f->colored |= clear.buffers & 1 && clear.color_mask;
-	whole = (uint32_t)clear.scissor[2] >= d->width && (uint32_t)clear.scissor[3] >= d->height;
+	whole = covers(d, &clear);
 	if (whole && (clear.color_mask & 7) == 7)
 		f->cleared |= clear.buffers & 1;
 	if (whole)

@@ -131,9 +131,13 @@ struct gls_mesh *gls_geometry_mesh(struct gls_exec *x, struct gls_geometry *g)
 			break;
 	if (!m) {
 		m = build(g, hash);
-		if (!m || table_set(&x->caches.meshes, key, m)) {
+		if (!m) {
+			gls_out_of_memory(x, (size_t)g->n_vertices * 16);
+			return NULL;
+		}
+		if (table_set(&x->caches.meshes, key, m)) {
 			free(m);
-			gls_out_of_memory(x, sizeof(*m));
+			gls_fail(x);
 			return NULL;
 		}
 		x->caches.mesh_bytes += m->bytes;

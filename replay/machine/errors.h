@@ -16,10 +16,9 @@ void gls_unsupported(struct gls_exec *x, const char *why);
 
 /** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported, x->failed). */
 void *gls_scratch(struct gls_exec *x, size_t n);
-/** Report that memory is short: the replay ends with it. */
+/** Report that memory is short: the run ends with it. */
 void gls_out_of_memory(struct gls_exec *x, size_t bytes);
-
-/** The same for a failure that is reported already. */
+/** The same where somebody else has reported it. */
 void gls_fail(struct gls_exec *x);
 /**
  * A list that calls the next one twice, and so on, or itself, runs longer than anybody waits, in a driver too; so do instances without

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
+#include "base/err.h"
 #include "base/table.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
@@ -26,7 +27,7 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
 {
 	if (g->n_vertices == g->room_vertices && gls_geometry_reserve(g, 1, 0)) {
 		gls_fail(x);
-		return -1;
+		return ERR_SYSTEM;
 	}
 	gls_source_read(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
 	for (uint32_t given = s->given; given; given &= given - 1) {
@@ -59,7 +60,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	if (!elements) {
 		for (uint32_t i = 0; i < count; i++)
 			if (add_vertex(x, st, g, s, (uint64_t)first + i))
-				return -1;
+				return ERR_SYSTEM;
 		if (gls_geometry_cut(g, mode, 0, count, NULL, (int)st->a.lighting.first_provokes))
 			goto fail;
 		g->n_draws = 1;
@@ -71,12 +72,12 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	}
 	if (count && hi >= n) {
 		gls_unsupported(x, "indices beyond the end of an array");
-		return -1;
+		return ERR_INPUT;
 	}
 	/* Vertices in order of first use: the mesh does not depend on where in the arrays it lies. */
 	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
 	if (!cut)
-		return -1;
+		return ERR_SYSTEM;
 	number = cut + count;
 	memset(number, 0xff, ((size_t)(hi - lo) + 1) * sizeof(*number));
 	for (uint32_t i = 0; i < count; i++) {
@@ -84,7 +85,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		if (*slot == UINT32_MAX) {
 			*slot = g->n_vertices;
 			if (add_vertex(x, st, g, s, elements[i]))
-				return -1;
+				return ERR_SYSTEM;
 		}
 		cut[i] = *slot;
 	}
@@ -94,7 +95,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	return 0;
 fail:
 	gls_fail(x);
-	return -1;
+	return ERR_SYSTEM;
 }
 
 static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/err.h"
 #include "base/table.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/texture/texture.h"
@@ -74,7 +75,7 @@ static int make_room(struct maker *m)
 	if (m->n < m->room)
 		return 0;
 	if (m->n >= MAX_OPS)
-		return -1;
+		return ERR_SYSTEM;
 	if ((ops = realloc(m->ops, room * sizeof(*m->ops))))
 		m->ops = ops;
 	if ((action = realloc(m->action, room)))
@@ -84,7 +85,7 @@ static int make_room(struct maker *m)
 	if ((rest = realloc(m->rest, room * sizeof(*m->rest))))
 		m->rest = rest;
 	if (!ops || !action || !dead || !rest)
-		return -1;
+		return ERR_SYSTEM;
 	m->room = room;
 	return 0;
 }

@@ -132,7 +132,7 @@ int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call 
 {
 	if (keep_call(st->list, c, command, &st->client.unpack) == 0)
 		return 0;
-	gls_out_of_memory(x, c->n_args * sizeof(*c->args));
+	gls_out_of_memory(x, sizeof(struct gls_op));
 	return ERR_SYSTEM;
 }
 
@@ -143,7 +143,7 @@ int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct
 
 	if (!op || !kept) {
 		gls_mesh_release(mesh->mesh);
-		gls_out_of_memory(x, sizeof(*kept));
+		gls_out_of_memory(x, sizeof(*op) + sizeof(*kept));
 		return ERR_SYSTEM;
 	}
 	*kept = *mesh;

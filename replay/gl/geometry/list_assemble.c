@@ -94,7 +94,7 @@ static int keep_run(struct gls_exec *x, struct gls_exec *assembler, struct gls_l
 	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
 	op.after_values = keep_values(list, op.after, (const float (*)[4])assembler->st->a.current.attribute);
 	if (!op.before_values || !op.after_values) {
-		gls_out_of_memory(x, sizeof(g->constant));
+		gls_out_of_memory(x, 2 * N_GLS_ATTRIBUTES * sizeof(*op.before_values));
 		return ERR_SYSTEM;
 	}
 	op.mesh = gls_geometry_mesh(x, g);
@@ -290,8 +290,10 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 		failed = keep_run(x, assembler, out, &run) != 0;
 		i = run.end;
 	}
-	if (failed || assembler->failed) {
+	if (assembler && assembler->failed)
 		gls_fail(x);
+	if (failed || x->failed) {
+		gls_out_of_memory(x, sizeof(*out));
 		if (out)
 			gls_list_free(out);
 		return list;

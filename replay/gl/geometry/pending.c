@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "base/err.h"
 #include "capture/format/trace.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/draw.h"
@@ -71,7 +72,7 @@ static int take_touched(struct gls_geometry *g, const struct gls_state *st)
 
 	for (unsigned a = 0; candidates; a++, candidates >>= 1)
 		if (candidates & 1 && memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
-			return -1;
+			return ERR_SYSTEM;
 	g->touched = 0;
 	return 0;
 }
