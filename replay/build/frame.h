@@ -1,4 +1,4 @@
-/* Events of a surface: what is drawn and cleared, on its way into a scene. Without a scene under construction (x->want 0) nothing happens. */
+/* A surface and its events: what is drawn and cleared becomes a scene. Nothing happens unless scenes are built (x->want). */
 #ifndef REPLAY_BUILD_FRAME_H
 #define REPLAY_BUILD_FRAME_H
 
@@ -16,11 +16,11 @@ struct gls_surface {
 	uint32_t width, height, depth_bits, stencil_bits, alpha_bits;
 	uint32_t samples, samples_from_below, floats; /* as in struct scene */
 	struct gls_frame *frame;     /* owned: events; NULL: none */
-	struct gls_picture *picture; /* a reference: what it held before them, */
-	struct scene *before;        /* or a reference to the scene that makes it so; at most one of the two is there */
-	int deferred;                /* 1: some of the events are of earlier frames, which nobody wanted */
+	struct gls_picture *picture; /* a reference: what it held before the events, */
+	struct scene *before;        /* or a reference to the scene that shows it; at most one of the two is there */
+	int deferred;                /* 1: some events belong to earlier frames that nobody wanted */
 	int is_front;                /* 1: a front buffer beside a back buffer */
-	int skipped;                 /* 1: neither, because it was drawn to in frames that were skipped */
+	int skipped;                 /* 1: neither is there, because skipped frames drew to it */
 };
 
 /* What an event changes. */
@@ -40,39 +40,41 @@ struct gls_event {
 	struct gls_texture_image *image;         /* its pixels */
 };
 
-/** 1 where drawing and clearing reach a surface, or would if it were wanted: neither selection nor feedback (sec. 5.2, 5.3). */
+/** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3). */
 static inline int gls_renders(const struct gls_state *st)
 {
 	return st->render_mode == GL_RENDER && !st->rasterizer_discard;
 }
-/** 1 where they reach the surface. */
+/** 1 if they reach it now. */
 static inline int gls_is_drawn(const struct gls_exec *x, const struct gls_state *st)
 {
 	return x->want && gls_renders(st);
 }
 
 /**
- * Draw on a surface. st->dirty says what of it has changed since this surface saw it last.
+ * Draw on a surface. st->dirty says which state has changed since the surface saw it last.
  * @return 1; 0: out of memory (reported)
  */
 int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
-/** A surface was not reached by an event: it has not seen the state that the event saw. */
+/** An event passed a surface by: the surface has not seen the event's state. */
 void gls_frame_pass(struct gls_surface *surface);
-/** buffers: as in scene_clear. */
+/** Clear a surface; buffers: as in scene_clear. */
 void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const struct gls_state *st, uint32_t buffers);
-/** The scene of all events so far, valid until the next one; begun where there is none. Borrowed; NULL: out of memory. */
+/** The scene of all events so far, valid until the next event; begun if there is none. Borrowed; NULL: out of memory. */
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
-/** The same, taken out of the surface: a reference for the caller. No events are left. */
+/** Take the scene out of the surface, which has no events then. @return a reference for the caller */
 struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 /** Forget all events. */
 void gls_frame_drop(struct gls_surface *surface);
 /** Nothing from before the events shows any more. */
 void gls_frame_all_known(struct gls_surface *surface);
-/** The scene so far becomes another one: what was rendered of it is not looked for. */
+/** Give the scene another serial number: what was rendered of it is not looked for. */
 void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface);
+/** How many events there are. */
 uint64_t gls_frame_events(const struct gls_surface *surface);
 /** Where the picture of the first *events events is kept; the surface must have a frame. */
 struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events);
+/** One more reference. */
 struct scene *gls_scene_reference(struct scene *scene);
 
 #endif

@@ -32,7 +32,7 @@ uint32_t gls_intern(struct table *t, void *array, uint32_t *n, uint32_t *room, c
 	return (*n)++;
 }
 
-uint32_t gls_intern_run(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
+uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
                            size_t size)
 {
 	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count);

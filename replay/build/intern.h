@@ -7,15 +7,15 @@
 
 #include "base/table.h"
 
-/** Room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
+/** Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
 int gls_scene_room(void *array, uint32_t *room, uint32_t wanted, size_t size);
 /**
- * The index of equal bytes in an array, which are appended where they are new; SCENE_NONE: out of memory.
+ * Find a value in an array, or append it. @return its index; SCENE_NONE: out of memory (reported)
  * @param t      hash -> index + 1
  * @param array  address of the pointer to the items, n of them, with room for more
  */
 uint32_t gls_intern(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size);
-/** The same of values that must lie together. @return the first one's index; 0 where count is 0 */
-uint32_t gls_intern_run(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count, size_t size);
+/** The same for values that must lie together. @return the first one's index; 0 if count is 0 */
+uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count, size_t size);
 
 #endif

@@ -171,7 +171,7 @@ static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, u
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
 		if (l->lights[i].enabled)
 			lights[(*count)++] = l->lights[i].value;
-	return gls_intern_run(&f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
+	return gls_intern_array(&f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
 }
 
 static uint32_t fill_stipple(struct gls_frame *f, const struct gls_attribs *a)
@@ -296,7 +296,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 		m.unit_count += (uint32_t)fill_unit(x, f, st, &a->texturing.units[u], &units[m.unit_count]);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
-	m.unit_first = gls_intern_run(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
+	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
 	m.color_sum = a->fog.color_sum;
 	m.fog = a->fog.enabled;
 	m.fog_mode = a->fog.mode;
@@ -320,19 +320,19 @@ uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, c
 {
 	struct scene *s = f->out;
 	struct scene_current current;
-	uint32_t given = mesh->attributes, textured = 0;
+	uint32_t varying = mesh->attributes, textured = 0;
 
 	memset(&current, 0, sizeof(current));
 	for (uint32_t i = 0; i < m->unit_count; i++)
 		textured |= 1u << s->units[m->unit_first + i].unit;
 	for (unsigned i = 0; i < 4; i++) {
-		current.color[i] = given & SCENE_HAS_COLOR ? 1 : values[GLS_ATTR_COLOR][i];
-		current.secondary[i] = given & SCENE_HAS_SECONDARY ? i == 3 : values[GLS_ATTR_SECONDARY][i];
-		current.normal[i] = i < 3 ? (given & SCENE_HAS_NORMAL ? i == 2 : values[GLS_ATTR_NORMAL][i]) : 0;
+		current.color[i] = varying & SCENE_HAS_COLOR ? 1 : values[GLS_ATTR_COLOR][i];
+		current.secondary[i] = varying & SCENE_HAS_SECONDARY ? i == 3 : values[GLS_ATTR_SECONDARY][i];
+		current.normal[i] = i < 3 ? (varying & SCENE_HAS_NORMAL ? i == 2 : values[GLS_ATTR_NORMAL][i]) : 0;
 		for (unsigned u = 0; u < SCENE_MAX_UNITS; u++)
-			current.texcoord[u][i] = given >> (GLS_ATTR_TEXCOORD + u) & 1 || !(textured >> u & 1)
+			current.texcoord[u][i] = varying >> (GLS_ATTR_TEXCOORD + u) & 1 || !(textured >> u & 1)
 			                             ? i == 3 : values[GLS_ATTR_TEXCOORD + u][i];
 	}
-	current.fog_coord = given & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
+	current.fog_coord = varying & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
 	return gls_intern(&f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
 }

@@ -27,9 +27,9 @@ struct gls_frame {
 
 /** Projection, viewport and scissor. */
 uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_attribs *a);
-/** Everything else that a draw's fragments depend on, with its units and lights. */
+/** Everything else that the fragments of a draw depend on, with units and lights. */
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
-/** The attributes that a mesh does not give and that its material looks at. */
+/** Attributes that the mesh does not have and the material looks at. */
 uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m, const float (*values)[4]);
 /** The place of an image in the scene. */
 uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_texture_image *image);

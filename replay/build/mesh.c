@@ -37,16 +37,16 @@ static unsigned attribute_width(unsigned attribute)
 
 static XXH128_hash_t hash_of(const struct gls_geometry *g)
 {
-	const uint32_t head[] = { g->kind, g->given, g->n_vertices, g->n_primitives, g->n_draws > 1, g->edges_hidden };
+	const uint32_t head[] = { g->kind, g->varying, g->n_vertices, g->n_primitives, g->n_draws > 1, g->edges_hidden };
 	XXH3_state_t hash;
 
 	XXH3_128bits_reset(&hash);
 	XXH3_128bits_update(&hash, head, sizeof(head));
 	XXH3_128bits_update(&hash, g->position, (size_t)g->n_vertices * 16);
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		if (g->given >> a & 1)
+		if (g->varying >> a & 1)
 			hash_attribute(&hash, g->attribute[a], g->n_vertices, attribute_width(a));
-	if (g->given & SCENE_HAS_FACE)
+	if (g->varying & SCENE_HAS_FACE)
 		XXH3_128bits_update(&hash, g->face, g->n_vertices * sizeof(*g->face));
 	XXH3_128bits_update(&hash, g->index, (size_t)g->n_primitives * g->kind * 4);
 	if (g->n_draws > 1)
@@ -65,8 +65,8 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	uint8_t *at;
 
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		bytes += g->given >> a & 1 ? n * attribute_width(a) * sizeof(float) : 0;
-	bytes += g->given & SCENE_HAS_FACE ? n * sizeof(*g->face) : 0;
+		bytes += g->varying >> a & 1 ? n * attribute_width(a) * sizeof(float) : 0;
+	bytes += g->varying & SCENE_HAS_FACE ? n * sizeof(*g->face) : 0;
 	bytes += (g->n_draws > 1 ? p * 4 : 0) + (g->edges_hidden ? p : 0);
 	bytes = (bytes + 63) & ~(size_t)63;
 	m = aligned_alloc(64, bytes);
@@ -86,7 +86,7 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	mesh->kind = g->kind;
 	mesh->vertex_count = g->n_vertices;
 	mesh->primitive_count = g->n_primitives;
-	mesh->attributes = g->given;
+	mesh->attributes = g->varying;
 	m->bytes = bytes;
 	m->n_draws = g->n_draws ? g->n_draws : 1;
 	atomic_init(&m->refs, 1);
@@ -96,13 +96,13 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	at += n * 16;
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++) {
 		unsigned width = attribute_width(a);
-		if (!(g->given >> a & 1))
+		if (!(g->varying >> a & 1))
 			continue;
 		*arrays[a] = (const float *)at;
 		for (size_t i = 0; i < n; i++, at += width * sizeof(float))
 			memcpy(at, g->attribute[a] + 4 * i, width * sizeof(float));
 	}
-	if (g->given & SCENE_HAS_FACE) {
+	if (g->varying & SCENE_HAS_FACE) {
 		mesh->face = memcpy(at, g->face, n * sizeof(*g->face));
 		at += n * sizeof(*g->face);
 	}

@@ -7,11 +7,11 @@
 
 #include "capture/format/trace.h"
 
-/** Any numeric value (numbers, enums, booleans, masks, pointers) as the type wanted; 0 where there is none. */
+/** Any number (numbers, enums, booleans, masks, pointers) as the type wanted; 0 if the value is none. */
 double gls_value_double(const struct trace_value *v);
 int64_t gls_value_int(const struct trace_value *v);
 
-extern const struct trace_value gls_no_value; /* what stands for an argument that is not there */
+extern const struct trace_value gls_no_value; /* stands for a missing argument */
 
 static inline const struct trace_value *arg(const struct call *c, unsigned i)
 {
@@ -22,7 +22,7 @@ static inline float arg_f(const struct call *c, unsigned i)
 	const struct trace_value *v = arg(c, i);
 	return v->type == TRACE_FLOAT ? v->f : (float)gls_value_double(v);
 }
-/** A token or an index that was handed over as a float; 0 for what is none. */
+/** A token or index that came as a float; 0 if it is neither. */
 static inline uint32_t token_of_float(float v)
 {
 	return v >= 0.0f && v < 4294967296.0f ? (uint32_t)v : 0;
@@ -39,19 +39,19 @@ static inline uint32_t arg_u(const struct call *c, unsigned i)
 {
 	return (uint32_t)gls_value_int(arg(c, i));
 }
-/** A GLint that is reckoned with: 32 bits, whatever the recording says, so that sums of some fit 64. */
+/** A GLint for arithmetic: 32 bits, whatever the recording says, so that sums fit 64. */
 static inline int64_t arg_i32(const struct call *c, unsigned i)
 {
 	return (int32_t)gls_value_int(arg(c, i));
 }
-/** Numbers of an array argument (or one plain number). @return how many there were; the rest of out is left alone */
+/** Numbers of an array argument, or one plain number. @return how many there were; the rest of out stays as it is */
 unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n);
 unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n);
-/** Elements of an array argument, NULL and 0 where it is none. */
+/** Elements of an array argument; NULL and 0 if it is no array. */
 const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n);
-/** Bytes of a blob argument, NULL where it is none. */
+/** Bytes of a blob argument; NULL if it is no blob. */
 const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n);
-/** 1 where the argument is an address or NULL: an offset in a buffer object. */
+/** 1 if the argument is an address or NULL: an offset in a buffer object. */
 int arg_is_offset(const struct call *c, unsigned i);
 
 #endif

@@ -1,8 +1,8 @@
 /*
- * The commands of OpenGL and of window systems: a table that gen.py makes from Khronos' registries, overlay.txt and the handlers.
+ * The commands of OpenGL and of window systems. gen.py makes the table from Khronos' registries, overlay.txt and the handlers.
  *
- * A chapter defines one function per command with GLS_HANDLER at the start of a line. What the dispatcher does around it depends on
- * the command's kind.
+ * A chapter defines one function per command, with GLS_HANDLER at the start of a line. The line says what others must know of the
+ * command: its kind (what the dispatcher does first) and its role in display lists.
  */
 #ifndef REPLAY_MACHINE_COMMANDS_H
 #define REPLAY_MACHINE_COMMANDS_H
@@ -19,17 +19,17 @@ typedef void gls_handler(struct gls_exec *x, struct gls_state *st, const struct 
 enum gls_kind {
 	GLS_KIND_NONE,
 	GLS_KIND_VERTEX, /* vertex attributes: anywhere, kept in lists, pending vertices stay pending */
-	GLS_KIND_INSIDE, /* the same, but the handler decides what becomes of pending vertices (Material, CallList, End) */
+	GLS_KIND_INSIDE, /* the same, but the handler itself looks after pending vertices (Material, CallList, End) */
 	GLS_KIND_STATE,  /* outside Begin/End only, kept in lists; pending vertices are drawn first, material and view are stale */
 	GLS_KIND_MATRIX, /* as STATE, but only the current matrix changes */
 	GLS_KIND_ARRAY,  /* draws from client state: outside Begin/End only; into a list goes what it drew */
 	GLS_KIND_CLIENT, /* client state: anywhere, never kept in lists, changes nothing that is pending */
 	GLS_KIND_NOW,    /* outside Begin/End only, never kept in lists: client state, queries */
-	GLS_KIND_OBJECT, /* as NOW, but pending vertices are drawn first, material and view are stale: objects that draws look at */
+	GLS_KIND_OBJECT, /* as NOW, for objects that draws use: pending vertices are drawn first, material and view are stale */
 	GLS_KIND_WINDOW  /* window system and memory: no context needed, st may be NULL */
 };
 
-/* What display lists have to know of a command. */
+/* What display lists must know of a command. */
 enum gls_role {
 	GLS_ROLE_NONE,
 	GLS_ROLE_BEGIN, GLS_ROLE_END,
@@ -39,7 +39,7 @@ enum gls_role {
 	GLS_ROLE_CALL_LIST,
 	GLS_ROLE_TRANSFORM,     /* changes the current matrix alone, and never fails */
 	GLS_ROLE_PUSH_MATRIX, GLS_ROLE_POP_MATRIX,
-	GLS_ROLE_SELECT         /* later commands mean something else: another matrix, another texture unit */
+	GLS_ROLE_SELECT         /* makes later commands mean another matrix or texture unit */
 };
 
 /* GLS_HANDLER(name, kind) or GLS_HANDLER(name, kind, role), enumerators without their prefixes. */
@@ -51,7 +51,7 @@ enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does n
 
 struct gls_command {
 	const char *name;
-	const char *excuse; /* why nothing needs to be done; NULL: it is done, or not done yet */
+	const char *excuse; /* why it needs no handler; NULL: it has one, or is not done yet */
 	uint32_t kind;      /* enum gls_kind; GLS_KIND_NONE: there is no handler */
 	uint32_t role;      /* enum gls_role */
 	uint32_t core;      /* 1: part of GL 1.0 - 2.1 */

@@ -14,7 +14,7 @@
 void gls_geometry_clear(struct gls_geometry *g)
 {
 	g->n_vertices = g->n_primitives = g->n_draws = g->begin_vertex = 0;
-	g->given = g->touched = g->edges_hidden = g->quads = 0;
+	g->varying = g->touched = g->edges_hidden = g->quads = 0;
 }
 
 void gls_geometry_free(struct gls_geometry *g)
@@ -48,9 +48,9 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 		g->room_vertices = room;
 	}
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		if (g->given >> a & 1 && !g->attribute[a] && memory_resize(&g->attribute[a], g->room_vertices, 16))
+		if (g->varying >> a & 1 && !g->attribute[a] && memory_resize(&g->attribute[a], g->room_vertices, 16))
 			return ERR_SYSTEM;
-	if (g->given & SCENE_HAS_FACE && !g->face && memory_resize(&g->face, g->room_vertices, sizeof(*g->face)))
+	if (g->varying & SCENE_HAS_FACE && !g->face && memory_resize(&g->face, g->room_vertices, sizeof(*g->face)))
 		return ERR_SYSTEM;
 	if (g->n_primitives + n_primitives > g->room_primitives) {
 		uint32_t room = g->room_primitives ? g->room_primitives : 256;
@@ -65,7 +65,7 @@ int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n
 
 int gls_geometry_vary(struct gls_geometry *g, unsigned attribute)
 {
-	g->given |= 1u << attribute;
+	g->varying |= 1u << attribute;
 	if (gls_geometry_reserve(g, 0, 0))
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < g->n_vertices; i++)
@@ -75,7 +75,7 @@ int gls_geometry_vary(struct gls_geometry *g, unsigned attribute)
 
 int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2])
 {
-	g->given |= SCENE_HAS_FACE;
+	g->varying |= SCENE_HAS_FACE;
 	if (gls_geometry_reserve(g, 0, 0))
 		return ERR_SYSTEM;
 	for (uint32_t i = 0; i < g->n_vertices; i++)

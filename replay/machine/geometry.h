@@ -1,4 +1,4 @@
-/* Vertices collected and not drawn yet, and how primitives are cut into triangles, lines and points (GL 2.1 sec. 2.6.1). */
+/* Collected vertices, and how primitives are cut into triangles, lines and points (GL 2.1 sec. 2.6.1). */
 #ifndef REPLAY_MACHINE_GEOMETRY_H
 #define REPLAY_MACHINE_GEOMETRY_H
 
@@ -9,13 +9,13 @@
 
 #define GLS_MAX_PENDING_VERTICES (1u << 20)
 
-/* Vertices collected and not drawn yet. All arrays grow and are kept. */
+/* Collected vertices. Arrays grow, and are kept when the vertices are forgotten. */
 struct gls_geometry {
 	enum scene_primitive kind;
 	uint32_t n_vertices, room_vertices;
-	uint32_t given; /* attributes that vary, as scene_mesh.attributes */
+	uint32_t varying; /* attributes that differ between vertices, as scene_mesh.attributes */
 	float *position, *attribute[N_GLS_ATTRIBUTES]; /* 4 floats each, whatever the attribute */
-	struct scene_face (*face)[2]; /* where `given` has SCENE_HAS_FACE */
+	struct scene_face (*face)[2]; /* if `varying` has SCENE_HAS_FACE */
 	uint8_t *edge;  /* edge flag of each vertex */
 	uint32_t *index, *primitive_draw;
 	uint8_t *edge_flags;
@@ -31,28 +31,28 @@ struct gls_geometry {
 /** Forget all vertices. */
 void gls_geometry_clear(struct gls_geometry *g);
 void gls_geometry_free(struct gls_geometry *g);
-/** Room for n more vertices of the attributes in `given`, and n more primitives. @return 0 or ERR_SYSTEM (reported) */
+/** Make room for more vertices with the varying attributes, and for more primitives. @return 0 or ERR_SYSTEM (reported) */
 int gls_geometry_reserve(struct gls_geometry *g, uint32_t n_vertices, uint32_t n_primitives);
-/** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM */
+/** Make an attribute vary: vertices so far get `constant`. @return 0 or ERR_SYSTEM (reported) */
 int gls_geometry_vary(struct gls_geometry *g, unsigned attribute);
-/** Make the material vary: vertices so far get `face`, front and back. @return 0 or ERR_SYSTEM */
+/** Make the material vary: vertices so far get `face`, front and back. @return 0 or ERR_SYSTEM (reported) */
 int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[2]);
-/** Triangles, lines or points that a primitive mode is cut into: SCENE_*; 0 for no mode of GL's. */
+/** What a primitive mode is cut into: SCENE_TRIANGLES, LINES or POINTS; 0: GL has no such mode. */
 enum scene_primitive gls_mode_kind(uint32_t mode);
 /**
  * Cut vertices of a primitive mode as Mesa does, provoking vertex last.
  * @param elements  [count] vertex numbers, NULL: first .. first + count - 1
- * @param first_provokes  1: separate triangles, strips and fans go by FIRST_VERTEX_CONVENTION (ARB_provoking_vertex); lines, which
- *                  have a direction, are left to who draws them
- * @return 0 or ERR_SYSTEM
+ * @param first_provokes  1: separate triangles, strips and fans follow FIRST_VERTEX_CONVENTION (ARB_provoking_vertex). Lines have a
+ *                  direction: whoever draws them decides
+ * @return 0 or ERR_SYSTEM (reported)
  */
 int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint32_t count, const uint32_t *elements, int first_provokes);
 /**
- * Cut the other way, from the first to the third vertex, the quads of a geometry that holds nothing else: llvmpipe does so with
- * quads that come without indices (not in lists, then), are shaded smoothly, and of which nothing has to be clipped.
+ * Cut quads the other way, from the first to the third vertex. The geometry holds nothing but quads. llvmpipe does so with quads that
+ * come without indices (hence not from lists), are shaded smoothly and need no clipping.
  */
 void gls_geometry_turn_quads(struct gls_geometry *g);
-/** 1 where quads with these positions ([n][4]) are cut the other way under the current state. */
+/** 1 if quads with these positions ([n][4]) are cut the other way under this state. */
 int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n);
 
 #endif

@@ -1,6 +1,4 @@
-/*
- * The machine that executes calls. The chapters of replay/gl/ and the index see it; nobody else does.
- */
+/* The machine that executes calls: what it knows while it runs a recording. The chapters of replay/gl/ and the index see it. */
 #ifndef REPLAY_MACHINE_MACHINE_H
 #define REPLAY_MACHINE_MACHINE_H
 
@@ -16,39 +14,39 @@ struct call;
 struct gls_mesh;
 
 struct gls_context {
-	uint64_t handle, share_handle;
-	const char *api;
-	uint64_t calls;
-	int destroyed, shares;
+	uint64_t handle, share_handle; /* addresses in the program */
+	const char *api;               /* "GLX", "EGL" ... */
+	uint64_t calls;                /* made while it was current */
+	int destroyed, shares;         /* 1: it lives until it is released; another context shares its objects */
 	struct gls_state state;
 };
 
 /* Calls met so far, by command. */
 struct gls_counts {
 	uint64_t *calls, *unsupported, *errors; /* [n_gls_commands] */
-	const char **why;                       /* [n_gls_commands] what of it is not done */
+	const char **why;                       /* [n_gls_commands] the part that is not done; NULL: all of it */
 	uint32_t *error_code;                   /* [n_gls_commands] the last one */
 	struct table unknown;                   /* name -> count, of calls in no table */
 };
 
-/* Vertices that are collected and not drawn yet, of gls_exec.st. */
+/* Vertices of gls_exec.st that are not drawn yet (gl/geometry/pending.h). */
 struct gls_pending {
 	struct gls_geometry geometry;
 	uint64_t call; /* number of the call that began them */
-	uint32_t command, list;
-	int mixes; /* 1: quads may join other polygons, because nobody turns them (lists) */
+	uint32_t command, list; /* that call's command, and the list it came from */
+	int mixes; /* 1: quads may join other polygons, as they do in lists */
 };
 
-/* Contents that were met before. */
+/* Contents that were met before, found by hash. */
 struct gls_caches {
 	struct table meshes;     /* low half of the hash -> struct gls_mesh (chains by probing the high half) */
 	struct table draws;      /* key of an array draw -> struct gls_mesh */
 	struct table images;     /* texture contents */
 	size_t mesh_bytes, image_bytes;
-	uint64_t versions;       /* last one given to a buffer, array or texture */
+	uint64_t versions;       /* of buffers: the last one */
 };
 
-/* Memory for anyone, between two lines. */
+/* Memory for whoever needs it during one call. */
 struct gls_scratch {
 	uint8_t *bytes;
 	size_t room;
@@ -57,25 +55,25 @@ struct gls_scratch {
 	struct gls_geometry geometry; /* of array draws and rectangles */
 };
 
-/* Pixels that were drawn and are needed (surface/feedback.c). */
+/* Pixels that were drawn and are needed (gl/surface/surface.h). */
 struct gls_feedback {
 	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
-	int fronts;        /* 1: what front buffers show is looked at */
-	int missing;       /* 1: some texture has pixels missing that were drawn in skipped frames */
-	int shows_through; /* 1: some frame did show what was there before it */
-	int rewind;        /* 1: a frame needs pixels of skipped ones: all must be built from the start */
+	int fronts;        /* 1: something reads front buffers */
+	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
+	int shows_through; /* 1: some frame showed what was there before it */
+	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build all frames from the start */
 };
 
 struct gls_exec;
 
-/** Run a command of the table as if it had been met: from a list, or as part of another one. unpack: as in gls_exec. */
+/** Run a command from a list, or as part of another command. unpack: as in gls_exec. */
 typedef void gls_dispatcher(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack);
 
 struct gls_exec {
 	const char *path;    /* of the trace, for messages */
-	int want;            /* 1: scenes are built */
-	int failed;          /* ERR_*: a handler met a failure of ours */
+	int want;            /* 1: build scenes */
+	int failed;          /* ERR_*: we failed (errors.h) */
 	uint64_t frame;      /* being executed */
 	int frame_ended;     /* set by swaps */
 	int is_ours;         /* 1: our recorder has left its mark */
@@ -96,13 +94,13 @@ struct gls_exec {
 	const struct gls_pixel_store *unpack; /* how its pixels lie in client memory; NULL: as the state says */
 	uint32_t drawn_list;          /* the outermost list being called; 0: none */
 	unsigned list_depth;
-	uint64_t repeated, repeated_frame; /* what calls made of themselves in that frame: gls_is_beyond_measure */
+	uint64_t repeated, repeated_frame; /* work that calls multiplied in that frame (gls_is_beyond_measure) */
 	uint64_t swapped;             /* drawable of the swap that ended the frame */
 	int unswapped;                /* 1: it ended without a swap */
 	uint64_t serial;              /* of the last scene begun */
 
-	gls_dispatcher *dispatch;     /* gl/dispatch.c stands above the handlers; they reach it through this */
-	struct gls_exec *assembler;   /* runs the vertices of a list when it is made (list.c); NULL: none yet */
+	gls_dispatcher *dispatch;     /* how handlers reach gl/dispatch.c, which stands above them */
+	struct gls_exec *assembler;   /* the machine in which lists are assembled (list_assemble.h); NULL: none yet */
 
 	struct gls_pending pending;
 	struct gls_caches caches;
@@ -112,7 +110,7 @@ struct gls_exec {
 	struct gls_counts counts;
 };
 
-/** How the pixels of the call being executed lie in client memory: those of a list, as they lay when it was made (sec. 5.4). */
+/** How pixels of the current call lie in client memory. A list keeps the layout of the moment when it was made (sec. 5.4). */
 static inline const struct gls_pixel_store *gls_client_store(const struct gls_exec *x, const struct gls_state *st)
 {
 	return x->unpack ? x->unpack : &st->client.unpack;

@@ -30,8 +30,8 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
 		return ERR_SYSTEM;
 	}
 	gls_source_read(&s->vertex, element, g->position + 4 * (size_t)g->n_vertices);
-	for (uint32_t given = s->given; given; given &= given - 1) {
-		unsigned a = (unsigned)__builtin_ctz(given);
+	for (uint32_t present = s->present; present; present &= present - 1) {
+		unsigned a = (unsigned)__builtin_ctz(present);
 		gls_source_read(&s->attributes[a], element, g->attribute[a] + 4 * (size_t)g->n_vertices);
 	}
 	g->edge[g->n_vertices] = st->a.current.edge_flag != 0;
@@ -54,7 +54,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 
 	gls_geometry_clear(g);
 	g->kind = gls_mode_kind(mode);
-	g->given = s->given;
+	g->varying = s->present;
 	if (gls_geometry_reserve(g, elements ? 1 : count, 0))
 		goto fail;
 	if (!elements) {
@@ -335,7 +335,7 @@ GLS_HANDLER(glArrayElement, CLIENT)
 	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
 	for (unsigned a = 0; a <= N_GLS_ATTRIBUTES; a++) {
 		int is_vertex = a == N_GLS_ATTRIBUTES;
-		if (is_vertex ? !has_vertex : !(s.given >> a & 1))
+		if (is_vertex ? !has_vertex : !(s.present >> a & 1))
 			continue;
 		gls_source_read(is_vertex ? &s.vertex : &s.attributes[a], arg_u(c, 0), v);
 		for (unsigned i = 0; i < 4; i++)

@@ -1,3 +1,4 @@
+/* Drawing from vertex arrays (GL 2.1 sec. 2.8). */
 #ifndef REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
 #define REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
 
@@ -7,7 +8,7 @@ struct gls_exec;
 struct gls_state;
 struct trace_value;
 
-/** glDrawArrays: draw, or keep in the list that is being made; errors as GL has them. */
+/** glDrawArrays: draw, or keep in the list that is being made. Errors as GL has them. */
 void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t first, int64_t count);
 /**
  * glDrawElementsBaseVertex.

@@ -134,8 +134,8 @@ uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s
 	memset(s, 0, sizeof(*s));
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
 		if (arrays[a].enabled && gls_source_open(st, &arrays[a], &s->attributes[a]))
-			s->given |= 1u << a;
-	return s->given;
+			s->present |= 1u << a;
+	return s->present;
 }
 
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s)
@@ -163,7 +163,7 @@ uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s
 	const struct gls_source *all[N_GLS_ATTRIBUTES + 2];
 	unsigned n = 0, n_sources = 0;
 
-	key[n++] = (uint64_t)mode << 32 | (uint64_t)st->a.lighting.first_provokes << 31 | s->given;
+	key[n++] = (uint64_t)mode << 32 | (uint64_t)st->a.lighting.first_provokes << 31 | s->present;
 	key[n++] = elements;
 	key[n++] = n_elements;
 	key[n++] = s->has_edges ? 2 : st->a.current.edge_flag != 0;
@@ -171,7 +171,7 @@ uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s
 	if (s->has_edges)
 		all[n_sources++] = &s->edge;
 	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
-		if (s->given >> a & 1)
+		if (s->present >> a & 1)
 			all[n_sources++] = &s->attributes[a];
 	for (unsigned i = 0; i < n_sources; i++) {
 		key[n++] = all[i]->version;

@@ -20,7 +20,7 @@ struct gls_source {
 /* All arrays of a draw. */
 struct gls_sources {
 	struct gls_source vertex, edge, attributes[N_GLS_ATTRIBUTES];
-	uint32_t given;
+	uint32_t present; /* attributes that come from arrays: 1 << attribute */
 	int has_edges;
 };
 
@@ -28,14 +28,14 @@ struct gls_sources {
 size_t gls_type_bytes(uint32_t type);
 /** How many elements the bytes hold. */
 uint64_t gls_source_count(const struct gls_source *s);
-/** Element i as four floats, normalized where the array is. The caller has looked that it is there. */
+/** Element i as four floats, normalized if the array is. The caller has checked that it is there. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
-/** @return the attributes that come from arrays, as in gls_geometry.given */
+/** @return the attributes that come from arrays, as in gls_geometry.varying */
 uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s);
-/** Positions and edge flags too. @return 1 where there is something to draw from; else it is counted what is not there */
+/** Positions and edge flags too. @return 1; 0: there is nothing to draw from (counted) */
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
-/** What a draw is made of, in few bytes: draws with equal keys make equal meshes. elements: a number for the indices, or the first vertex. */
+/** A hash of all that a draw's mesh depends on. elements: a hash of the indices, or the first vertex. */
 uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements, uint64_t n_elements);
 
 #endif

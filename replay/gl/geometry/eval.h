@@ -1,3 +1,4 @@
+/* The maps of evaluators (GL 2.1 sec. 5.1). */
 #ifndef REPLAY_GL_GEOMETRY_EVAL_H
 #define REPLAY_GL_GEOMETRY_EVAL_H
 
@@ -6,9 +7,9 @@ struct cursor;
 struct gls_maps;
 
 void gls_maps_free(struct gls_maps *maps);
-/** A context's maps in a snapshot, and out of one: NULL there is as good as here. */
+/** Save a context's maps in a snapshot; NULL is allowed. */
 void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
-/** @return NULL: there are none, or in->failed: no such bytes, or no memory for them. The caller owns it. */
+/** Load them; the caller owns them. @return NULL: there are none; or in->failed is set: bytes or memory are missing */
 struct gls_maps *gls_maps_load(struct cursor *in);
 
 #endif

@@ -1,4 +1,8 @@
-/* Display lists (GL 2.1 sec. 5.4): what they hold, and running them. */
+/*
+ * Display lists (GL 2.1 sec. 5.4): what they hold.
+ *
+ * While a list is made, its calls are kept; numbers of vertices are packed. list_assemble.h makes it cheap to call.
+ */
 #ifndef REPLAY_GL_GEOMETRY_LIST_H
 #define REPLAY_GL_GEOMETRY_LIST_H
 
@@ -16,7 +20,7 @@ struct trace_value;
 
 enum gls_op_form { GLS_OP_CALL, GLS_OP_FLOATS, GLS_OP_FLOAT_ARRAY, GLS_OP_MESH };
 
-/* One call of a list: its arguments in the list's arena. */
+/* One call of a list. Its arguments lie in the list's arena. */
 struct gls_op {
 	uint16_t form;
 	uint16_t command;
@@ -26,9 +30,10 @@ struct gls_op {
 		const float *floats;            /* FLOATS, FLOAT_ARRAY */
 		const struct gls_op_mesh *mesh; /* MESH */
 	};
-	const struct gls_pixel_store *unpack; /* how to read pixels among the arguments; NULL: there are none */
+	const struct gls_pixel_store *unpack; /* how pixels among the arguments lie; NULL: there are none */
 };
-/* Begin..End runs or an array draw, assembled when the list was made. */
+
+/* A batch of Begin and End, or an array draw, assembled when the list was made. */
 struct gls_op_mesh {
 	struct gls_mesh *mesh; /* a reference, or NULL: only attributes */
 	uint32_t before, after; /* attributes set before the first vertex, and to be set after the last: 1 << attribute */
@@ -36,27 +41,29 @@ struct gls_op_mesh {
 	uint32_t n_draws;
 	uint32_t first_provokes; /* as it was cut */
 };
-/* What a list leaves behind when nothing is drawn (effect.c). All zero: not made yet. */
+
+/* What a list changes if nothing is drawn (effect.c). All zero: not made yet. */
 struct gls_effect {
 	struct gls_op *ops; /* owned; what they point to belongs to the lists they come from */
 	uint32_t n;
-	uint32_t pushes, nesting; /* of the matrix stack and of lists, as far as they are left out */
-	uint32_t n_made, none;    /* how often it was; 1: there is none */
+	uint32_t pushes, nesting; /* room on the matrix stack and in nested lists that the ops left out would need */
+	uint32_t n_made, none;    /* how often it was made; 1: there is none */
 	uint64_t epoch;           /* of the share group when it was made, + 1 */
 };
+
 struct gls_list {
 	struct gls_op *ops;
 	uint32_t n, room;
 	struct arena arena;
 	struct gls_effect effect;
-	uint32_t inlined, skipped; /* 1: effects of other lists may hold ops of this one; calls of it in frames that were skipped */
-	uint64_t name[2], bytes, held; /* of its blob, and of that and its meshes' together (snapshot.c); held 0: not known yet */
+	uint32_t inlined, skipped; /* 1: effects of other lists may hold its ops; how often skipped frames called it */
+	uint64_t name[2], bytes, held; /* of its blob; held: of the blob and its meshes together, 0: not known yet (index/snapshot.h) */
 };
 #define GLS_MAX_LIST_NESTING 64
 void gls_list_free(struct gls_list *list);
 /** Keep a call in the list being compiled. @return 0 or ERR_SYSTEM (reported) */
 int gls_list_append(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t command);
-/** Keep a mesh in it (takes the reference). */
+/** Keep a mesh in it. Takes the reference. @return 0 or ERR_SYSTEM (reported) */
 int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct gls_op_mesh *mesh);
 
 /* ---- ops, for those who make and run lists ---- */
@@ -66,12 +73,12 @@ int gls_list_append_mesh(struct gls_exec *x, struct gls_list *list, const struct
 /** One more op, all zero; NULL: out of memory. */
 struct gls_op *gls_list_add(struct gls_list *list);
 /**
- * Keep a call in an op with its arguments ready for a handler. Floats take eight times their bytes so.
+ * Keep a call in an op, arguments ready for a handler. Floats take eight times their bytes this way.
  * @param unpack  how pixels among them lie; NULL: there are none
  * @return 0 or ERR_SYSTEM
  */
 int gls_list_keep(struct gls_list *list, struct gls_op *op, const struct call *c, const struct gls_pixel_store *unpack);
-/** What the calls of a list have in common while it is called or made. */
+/** What the calls of a list have in common. */
 struct call gls_list_call(const struct gls_exec *x);
 /**
  * An op as the call it was.
@@ -79,7 +86,7 @@ struct call gls_list_call(const struct gls_exec *x);
  * @param c     as gls_list_call made it
  */
 void gls_op_unpack(const struct gls_op *op, struct trace_value *args, struct call *c);
-/** 1 where the op is a call of a command of this role. */
+/** 1 if the op calls a command of this role. */
 static inline int gls_op_is(const struct gls_op *op, enum gls_role role)
 {
 	return op->form != GLS_OP_MESH && gls_commands[op->command].role == role;

@@ -16,15 +16,16 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-struct run {
+/* Pairs of Begin and End with nothing but vertex attributes between. */
+struct batch {
 	uint32_t known; /* attributes set before the first vertex */
 	uint32_t set;   /* attributes set anywhere in it */
 	uint32_t end;   /* op after the last whole End; 0: there is none */
 	uint32_t stop;  /* op that did not fit, or whose vertex needs a value that is not known yet */
 };
 
-/* May the op be part of a run? */
-static int fits_run(const struct gls_exec *assembler, const struct gls_op *op)
+/* May the op be part of a batch? */
+static int fits_batch(const struct gls_exec *assembler, const struct gls_op *op)
 {
 	const struct gls_command *k = &gls_commands[op->command];
 	const struct gls_geometry *g = &assembler->pending.geometry;
@@ -44,10 +45,10 @@ static int fits_run(const struct gls_exec *assembler, const struct gls_op *op)
 }
 
 /*
- * Run ops [first, last) through the assembler, as far as they make a run.
- * Its geometry is left with what was collected up to run->end where `last` is that end.
+ * Run ops [first, last) through the assembler, as far as they make a batch.
+ * Its geometry is left with what was collected up to batch->end where `last` is that end.
  */
-static void collect_run(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last, struct run *run)
+static void collect_batch(struct gls_exec *assembler, const struct gls_list *list, uint32_t first, uint32_t last, struct batch *batch)
 {
 	struct trace_value args[GLS_MAX_PACKED + 1];
 	struct gls_geometry *g = &assembler->pending.geometry;
@@ -55,21 +56,21 @@ static void collect_run(struct gls_exec *assembler, const struct gls_list *list,
 
 	gls_geometry_clear(g);
 	assembler->st->begin_mode = 0;
-	*run = (struct run){ .stop = first };
-	for (uint32_t i = first; i < last && fits_run(assembler, &list->ops[i]); i++) {
+	*batch = (struct batch){ .stop = first };
+	for (uint32_t i = first; i < last && fits_batch(assembler, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
 		uint32_t n = g->n_vertices, touched = g->touched;
 		gls_op_unpack(op, args, &c);
 		assembler->dispatch(assembler, &c, op->command, NULL);
 		if (n == 0 && g->n_vertices)
-			run->known = touched;
-		run->set |= touched | g->touched;
-		run->stop = i;
-		if (n && g->n_vertices > n && touched & ~run->known)
+			batch->known = touched;
+		batch->set |= touched | g->touched;
+		batch->stop = i;
+		if (n && g->n_vertices > n && touched & ~batch->known)
 			return; /* an earlier vertex has a value that is not known yet: it may be this one's or another */
-		run->stop = i + 1;
+		batch->stop = i + 1;
 		if (gls_op_is(op, GLS_ROLE_END))
-			run->end = i + 1;
+			batch->end = i + 1;
 	}
 }
 
@@ -84,13 +85,13 @@ static const float (*keep_values(struct gls_list *list, uint32_t mask, const flo
 	return (const float (*)[4])kept;
 }
 
-static int keep_run(struct gls_exec *x, struct gls_exec *assembler, struct gls_list *list, const struct run *run)
+static int keep_batch(struct gls_exec *x, struct gls_exec *assembler, struct gls_list *list, const struct batch *batch)
 {
 	struct gls_geometry *g = &assembler->pending.geometry;
 	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = assembler->st->a.lighting.first_provokes };
 
-	op.before = run->known & ~g->given;
-	op.after = run->set;
+	op.before = batch->known & ~g->varying;
+	op.after = batch->set;
 	op.before_values = keep_values(list, op.before, (const float (*)[4])g->constant);
 	op.after_values = keep_values(list, op.after, (const float (*)[4])assembler->st->a.current.attribute);
 	if (!op.before_values || !op.after_values) {
@@ -134,7 +135,7 @@ static int keep_op(struct gls_list *list, const struct gls_op *from, const struc
 	return 0;
 }
 
-/* Keep ops that make no run as they are: up to where it stopped, and on to the End of a Begin that is open there. */
+/* Keep ops that make no batch as they are: up to where it stopped, and on to the End of a Begin that is open there. */
 static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_list *list, uint32_t stop, uint32_t *at)
 {
 	int open = 0;
@@ -150,9 +151,9 @@ static int keep_ops(struct gls_exec *x, struct gls_list *out, const struct gls_l
 }
 
 /*
- * Calls that set again what the list itself has just set: dropping them lets the runs on both sides become one mesh.
- * Programs that send every face by itself are full of them. Known are BindTexture and Material by target, or face and
- * name; anything else but vertices makes the list forget what it knows.
+ * Some calls set again what the list itself has just set. Without them the batches on both sides become one mesh. Programs that send
+ * every face by itself are full of such calls. Remembered are BindTexture, by target, and Material, by face and name. Any other call
+ * but vertices clears the memory.
  */
 #define N_REMEMBERED 16
 struct remembered {
@@ -271,7 +272,7 @@ void gls_assembler_free(struct gls_exec *assembler)
 	free(assembler);
 }
 
-/* The same list with its runs assembled, in an arena of its own. The old one is freed. */
+/* The same list with its batches assembled, in an arena of its own. The old one is freed. */
 static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 {
 	struct gls_exec *assembler = find_assembler(x);
@@ -279,16 +280,16 @@ static struct gls_list *assemble(struct gls_exec *x, struct gls_list *list)
 	int failed = !out || !assembler;
 
 	for (uint32_t i = 0; i < list->n && !failed;) {
-		struct run run;
-		collect_run(assembler, list, i, list->n, &run);
-		if (!run.end) {
-			failed = keep_ops(x, out, list, run.stop, &i) != 0;
+		struct batch batch;
+		collect_batch(assembler, list, i, list->n, &batch);
+		if (!batch.end) {
+			failed = keep_ops(x, out, list, batch.stop, &i) != 0;
 			continue;
 		}
-		if (run.stop > run.end) /* once more up to its end: what came after it left traces in the geometry */
-			collect_run(assembler, list, i, run.end, &run);
-		failed = keep_run(x, assembler, out, &run) != 0;
-		i = run.end;
+		if (batch.stop > batch.end) /* once more up to its end: what came after it left traces in the geometry */
+			collect_batch(assembler, list, i, batch.end, &batch);
+		failed = keep_batch(x, assembler, out, &batch) != 0;
+		i = batch.end;
 	}
 	if (assembler && assembler->failed)
 		gls_fail(x);

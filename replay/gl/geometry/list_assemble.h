@@ -1,7 +1,7 @@
 /*
- * A list that is whole, made cheap to call: calls that set again what the list itself has just set are dropped, and runs of Begin and
- * End with nothing but vertex attributes between become meshes. A run stays as calls where a vertex needs an attribute that is
- * only known when the list is called.
+ * A finished list, made cheap to call. Calls that set again what the list has just set are dropped. Batches of Begin and End with
+ * nothing but vertex attributes between become meshes. A batch stays as calls if a vertex needs an attribute that is known only when
+ * the list is called.
  */
 #ifndef REPLAY_GL_GEOMETRY_LIST_ASSEMBLE_H
 #define REPLAY_GL_GEOMETRY_LIST_ASSEMBLE_H
@@ -9,7 +9,7 @@
 struct gls_exec;
 struct gls_list;
 
-/** @return the list to keep in its place; the same one where memory is short (reported). The one given is no more */
+/** Takes the list. @return what to keep in its place: the same list if memory is short (reported) */
 struct gls_list *gls_list_assemble(struct gls_exec *x, struct gls_list *list);
 
 /** The machine in which lists are assembled; NULL is allowed. */

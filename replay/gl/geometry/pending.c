@@ -58,7 +58,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 
 	if (!st->begin_mode && g->n_vertices)
 		gls_flush(x);
-	else if (g->n_vertices && !(g->given & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
+	else if (g->n_vertices && !(g->varying & SCENE_HAS_FACE) && gls_geometry_vary_face(g, st->a.lighting.face))
 		gls_fail(x);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
@@ -68,7 +68,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 /* Attributes that were set since the last vertex: those whose value is another one now vary. */
 static int take_touched(struct gls_geometry *g, const struct gls_state *st)
 {
-	uint32_t candidates = g->touched & ~g->given;
+	uint32_t candidates = g->touched & ~g->varying;
 
 	for (unsigned a = 0; candidates; a++, candidates >>= 1)
 		if (candidates & 1 && memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
@@ -85,7 +85,7 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 	if (at == 0) {
 		memcpy(g->constant, st->a.current.attribute, sizeof(g->constant));
 		g->touched = 0;
-		g->given = 0;
+		g->varying = 0;
 	} else if (g->touched && take_touched(g, st)) {
 		gls_fail(x);
 		return;
@@ -95,10 +95,10 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 		return;
 	}
 	memcpy(g->position + 4 * (size_t)at, position, 16);
-	if (g->given & SCENE_HAS_FACE)
+	if (g->varying & SCENE_HAS_FACE)
 		memcpy(g->face[at], st->a.lighting.face, sizeof(*g->face));
-	for (uint32_t given = g->given & ((1u << N_GLS_ATTRIBUTES) - 1); given; given &= given - 1) {
-		unsigned a = (unsigned)__builtin_ctz(given);
+	for (uint32_t varying = g->varying & ((1u << N_GLS_ATTRIBUTES) - 1); varying; varying &= varying - 1) {
+		unsigned a = (unsigned)__builtin_ctz(varying);
 		memcpy(g->attribute[a] + 4 * (size_t)at, st->a.current.attribute[a], 16);
 	}
 	g->edge[at] = st->a.current.edge_flag != 0;

@@ -51,12 +51,12 @@ static void set_texcoords(struct gls_state *st, struct vec4 obj, struct vec4 eye
 	for (unsigned i = 0; i < GLS_MAX_UNITS; i++) {
 		const struct gls_unit *unit = &st->a.texturing.units[i];
 		struct scene_unit gen = unit->value;
-		const float *given = st->a.current.attribute[GLS_ATTR_TEXCOORD + i];
+		const float *current = st->a.current.attribute[GLS_ATTR_TEXCOORD + i];
 		float v[4];
 
 		for (unsigned k = 0; k < 4; k++) {
 			gen.gen_mode[k] = unit->gen_enabled >> k & 1 ? gen.gen_mode[k] : 0;
-			v[k] = vertex_generate(&gen, k, given[k], obj, eye, u, normal);
+			v[k] = vertex_generate(&gen, k, current[k], obj, eye, u, normal);
 		}
 		mat4_transform(st->a.current.raster_texcoord[i], st->texture[i].matrices[st->texture[i].depth], v);
 	}

@@ -1,3 +1,4 @@
+/* Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4). */
 #ifndef REPLAY_GL_STATE_CONFIG_H
 #define REPLAY_GL_STATE_CONFIG_H
 
@@ -5,7 +6,7 @@ struct gls_exec;
 struct gls_state;
 struct trace_value;
 
-/** The bits of drawables that a context made for this visual or configuration draws to, as far as they are known. */
+/** Give a context the bits of the visual or configuration that it is made for, as far as they are known. */
 void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config);
 
 #endif
