@@ -1,4 +1,4 @@
-/* The scene under construction: what a draw saw is copied here, equal things once (scene.h). */
+/* The events of a surface become a scene (scene/scene.h). */
 #include "replay/build/frame.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@
 #include "replay/machine/state.h"
 #include "scene/release.h"
 
-/* A scene as this file makes it. Owned by whoever holds a reference: the caller of replay_next_frame, a surface. */
+/* The caller of replay_next_frame and surfaces hold references. */
 struct gls_scene {
 	struct scene scene; /* first */
 	atomic_uint refs;
@@ -56,7 +56,7 @@ static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t co
 	return 0;
 }
 
-/* Buffers whose contents a draw of this material lets through or compares with; bits as in scene_clear. */
+/* Buffers whose contents a draw of this material compares with or lets through; bits as in scene_clear. */
 static uint32_t looks_at(const struct scene_material *m)
 {
 	return (m->color_mask ? 1u : 0) | (m->depth_test && m->depth_func != GL_ALWAYS ? 2u : 0) | (m->stencil_test ? 4u : 0);
@@ -64,26 +64,26 @@ static uint32_t looks_at(const struct scene_material *m)
 
 static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surface);
 
-/* 1 where a clear's scissor leaves nothing out. */
+/* 1 if a clear reaches all of the surface. */
 static int covers(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return !clear->scissor[0] && !clear->scissor[1] && (uint32_t)clear->scissor[2] >= d->width &&
 	       (uint32_t)clear->scissor[3] >= d->height;
 }
 
-/* 1 where it leaves nothing of the depths that a surface held. */
+/* 1 if nothing of the surface's depths remains. */
 static int clears_depth(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return covers(d, clear) && (!d->depth_bits || clear->buffers & 2);
 }
 
-/* 1 where it leaves nothing of the colours either. */
+/* 1 if nothing of its depths and colours remains. */
 static int clears_all(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return clears_depth(d, clear) && clear->buffers & 1 && (clear->color_mask & 7) == 7 && (!d->alpha_bits || clear->color_mask & 8);
 }
 
-/* 1 where it leaves nothing of their stencil either. */
+/* 1 if nothing of its stencil values remains. */
 static int clears_stencil(const struct gls_surface *d, const struct scene_clear *clear)
 {
 	return !d->stencil_bits || (clear->buffers & 4 && (clear->stencil_mask & 255) == 255);
@@ -105,8 +105,8 @@ static struct gls_frame *make_frame(struct gls_exec *x);
 static void free_frame(struct gls_frame *f);
 
 /*
- * Nothing shows any more of what was drawn: begin with an empty scene, so that it casts no shadows either. Draws keep their
- * numbers and names, and clears what they did to the stencil buffer.
+ * Nothing that was drawn shows any more. Begin with an empty scene, so that old draws cast no shadows. Draws keep their numbers and
+ * names; clears keep what they did to the stencil buffer.
  */
 static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 {
@@ -328,7 +328,7 @@ static struct gls_frame *frame_of(struct gls_exec *x, struct gls_surface *surfac
 	return surface->frame;
 }
 
-/* What the scene so far is a scene of. */
+/* Frame, surface and counts of the scene so far. */
 static void describe(struct gls_exec *x, const struct gls_surface *surface, struct gls_frame *f)
 {
 	struct scene *s = f->out;

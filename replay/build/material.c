@@ -101,7 +101,7 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
 }
 
-/* @return 1 where the unit textures */
+/* @return 1 if the unit textures */
 static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, struct scene_unit *out)
 {
 	unsigned u = unit->value.unit;
@@ -256,8 +256,8 @@ static void fill_raster_state(const struct gls_attribs *a, struct scene_material
 }
 
 /*
- * Multisampling (sec. 3.2.1) takes smoothing's place. Which samples a SAMPLE_COVERAGE of so much leaves is open; Mesa takes the first
- * ones (st_update_sample_state).
+ * Multisampling (sec. 3.2.1) replaces smoothing. GL leaves open which samples SAMPLE_COVERAGE keeps; Mesa keeps the first ones
+ * (st_update_sample_state).
  */
 static void fill_multisample(const struct gls_multisample *a, const struct gls_surface *d, struct scene_material *m)
 {
@@ -314,7 +314,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	return gls_intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
 }
 
-/* Attributes that the mesh gives, and those that nothing looks at, are set to GL's initial values: equal ones meet. */
+/* Attributes of the mesh, and those that nothing looks at, get GL's initial values, so that more currents are equal. */
 uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
                              const float (*values)[4])
 {

@@ -153,7 +153,7 @@ void gls_mesh_release(struct gls_mesh *mesh)
 		free(mesh);
 }
 
-/* Drop what the cache alone holds and nobody drew for some frames (all: everything of its own). */
+/* Drop meshes that the cache alone holds and nobody drew for some frames; all: every mesh. */
 static void drop_unused(struct gls_exec *x, int all)
 {
 	for (size_t i = 0; i < x->caches.meshes.room;) {
@@ -169,7 +169,7 @@ static void drop_unused(struct gls_exec *x, int all)
 	}
 }
 
-/* Array draws remember meshes by key (array.c) without references of their own: forget those first. */
+/* Array draws remember meshes by key, without references (array_draw.c). Forget those first. */
 static void forget_draws(struct gls_exec *x)
 {
 	table_free(&x->caches.draws);

@@ -1,4 +1,4 @@
-/* Contexts, their state and what they share: made, with all initial values of GL 2.1 chapter 6, and released. */
+/* Contexts, their state with the initial values of GL 2.1 chapter 6, and what they share. */
 #include "replay/gl/context.h"
 
 #include <stdlib.h>

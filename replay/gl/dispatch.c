@@ -1,4 +1,4 @@
-/* struct call -> handler, and what happens around every handler. */
+/* Calls to handlers: what a command's kind asks for happens here. On top of all chapters. */
 #include "replay/gl/dispatch.h"
 
 #include <stdlib.h>
@@ -51,7 +51,7 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	gls_handlers[command](x, st, c);
 }
 
-/* The same of a call out of a list, or of one that another one stands for. */
+/* Run a command from a list, or as part of another one. */
 static void dispatch_nested(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
 {
 	const uint32_t outer = x->command;

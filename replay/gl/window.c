@@ -1,4 +1,4 @@
-/* Contexts, drawables and frame ends: GLX 1.4 and EGL as far as a recording shows them; markers of our own recorder. */
+/* Window systems: contexts, drawables and frame ends, as far as a recording of GLX 1.4, EGL or OSMesa shows them; our own markers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,7 +58,7 @@ static void destroy_context(struct gls_exec *x, const struct call *c, unsigned c
 		ctx->destroyed = 1;
 }
 
-/* The frame of the drawable that is swapped ends, and with it the trace's frame. */
+/* A swap ends the drawable's frame, and the trace's. */
 static void swap(struct gls_exec *x, uint64_t drawable)
 {
 	gls_flush(x);

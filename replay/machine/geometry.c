@@ -137,7 +137,7 @@ static void put_line(const struct cutter *c, uint32_t i, uint32_t j)
 	g->primitive_draw[g->n_primitives++] = g->n_draws;
 }
 
-/* `edges`: bit n where the edge from the triangle's vertex n to the next is one of the primitive's own. */
+/* edges: bit n is set if the edge from vertex n to the next belongs to the primitive. */
 static void put_triangle(const struct cutter *c, uint32_t i, uint32_t j, uint32_t k, unsigned edges)
 {
 	struct gls_geometry *g = c->g;

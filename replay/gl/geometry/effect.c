@@ -1,12 +1,12 @@
 /*
- * What a display list leaves behind when nothing is drawn.
+ * What a display list changes if nothing is drawn.
  *
- * Frames that are skipped need of a list only its effect on the state. Most of what text and models are made of has none:
- * meshes, matrices between PushMatrix and PopMatrix, textures and attributes that the next letter sets again. The effect of a
- * list is the ops that remain, with those of the lists that it calls. It changes nothing, whatever the state it runs in,
- * that the whole list would not change to the same bits; where that cannot be said, there is none, and the list itself runs.
+ * A skipped frame needs only this of a list. Most lists of text and models change nothing: meshes, matrices between PushMatrix and
+ * PopMatrix, textures and attributes that the next letter sets again. The effect of a list is the ops that remain, with those of the
+ * lists it calls. Running it leaves the same bits as the whole list, in any state. If that cannot be said, there is no effect and the
+ * list itself runs.
  *
- * It holds while the lists and textures that it was made of do: their share group counts up when one of them goes (epoch).
+ * An effect holds as long as the lists and textures it was made of. The share group counts those that go (epoch).
  */
 #include "replay/gl/geometry/effect.h"
 
@@ -90,7 +90,7 @@ static int make_room(struct maker *m)
 	return 0;
 }
 
-/* Somebody reads whatever was set before. */
+/* An op reads whatever was set before. */
 static void read_all(struct maker *m)
 {
 	memset(m->last, 0, sizeof(m->last));
@@ -114,7 +114,7 @@ static void put_draw(struct maker *m, uint32_t at)
 	}
 }
 
-/* A texture object that is there, bound to its own target: no error, and no object made. @return its target, or -1 */
+/* The target of a bind that neither fails nor makes an object; -1: it may. */
 static int target_of(const struct maker *m, const struct gls_op *op)
 {
 	uint32_t token = op->form == GLS_OP_CALL && op->n == 2 ? (uint32_t)gls_value_int(&op->args[0]) : 0, name;
@@ -171,7 +171,7 @@ static struct gls_list *called_by(const struct maker *m, const struct gls_op *op
 	return op->form == GLS_OP_CALL && op->n ? table_find(&m->st->share->lists, (uint32_t)gls_value_int(&op->args[0])) : NULL;
 }
 
-/* Is there anything in a list after which the rest may mean anything? Such a list is called as it is. */
+/* 1 if some op of the list gives later ops another meaning. Such a list is called as it is. */
 static int leaves(struct maker *m, const struct gls_list *list, uint32_t nesting)
 {
 	for (uint32_t i = 0; i < list->n; i++) {

@@ -1,6 +1,6 @@
 /*
- * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces that give vertices and their attributes. Grids and switches are attribute
- * groups (attrib.c); the maps themselves are not, and stand here.
+ * Evaluators (GL 2.1 sec. 5.1): Bezier curves and surfaces make vertices and their attributes. Grids and switches belong to attribute
+ * groups (state/attrib.c); the maps do not.
  */
 #include "replay/gl/geometry/eval.h"
 
@@ -362,7 +362,7 @@ static void point_2(struct gls_exec *x, struct gls_state *st, int64_t i, int64_t
 GLS_HANDLER(glEvalPoint1, INSIDE) { point_1(x, st, arg_i(c, 0)); }
 GLS_HANDLER(glEvalPoint2, INSIDE) { point_2(x, st, arg_i(c, 0), arg_i(c, 1)); }
 
-/* Is there something to draw, of a size that can be held? A mesh may have 2^20 points, those of a frame four times as many. */
+/* 1 if there is something to draw, of a bearable size: 2^20 points a mesh, four times as many a frame. */
 static int mesh_fits(struct gls_exec *x, int64_t across, int64_t along)
 {
 	if (!x->want || across <= 0 || along <= 0)

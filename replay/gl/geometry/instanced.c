@@ -1,6 +1,7 @@
 /*
  * Draws of several instances (GL 3.1 sec. 2.8.3, ARB_base_instance) and draws whose parameters lie in memory (ARB_draw_indirect,
- * ARB_multi_draw_indirect), as direct draws. Fixed function does not know which instance it draws: they are all the same.
+ * ARB_multi_draw_indirect), as direct draws. Fixed function does not know
+ * which instance it draws: all are the same.
  */
 #include <string.h>
 
@@ -13,7 +14,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-/* How often to draw; 0 where it is an error, or more than a recording means (counted). */
+/* How often to draw; 0: an error, or more than any program means (counted). */
 static int64_t count_instances(struct gls_exec *x, struct gls_state *st, int64_t instances)
 {
 	if (instances < 0)
@@ -51,7 +52,7 @@ GLS_HANDLER(glDrawElementsInstancedBaseVertexBaseInstance, ARRAY)
 
 enum { ARRAYS_WORDS = 4, ELEMENTS_WORDS = 5 }; /* of a command */
 
-/* So many commands from an argument on: in the recording, or in the buffer that is bound. NULL: they are not known (counted). */
+/* The bytes of draw commands: in the recording, or in the bound buffer. NULL: they are not known (counted). */
 static const uint8_t *find_commands(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned argument, uint64_t bytes)
 {
 	size_t n = 0;

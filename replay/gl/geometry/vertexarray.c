@@ -1,7 +1,7 @@
 /*
- * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object): the arrays and the element buffer
- * of the one that is bound are the context's own state; those of the others, 0 included, wait in a table. A buffer that is
- * deleted is detached from the bound object alone; the others look its name up when they draw.
+ * Vertex array objects (GL 3.0 sec. 2.10, ARB_vertex_array_object, APPLE_vertex_array_object). The arrays and the element buffer of the
+ * bound object are the context's own state; those of all others, 0 included, are in a table. A deleted buffer leaves the bound object
+ * alone; the others look its name up when they draw.
  */
 #include "replay/gl/geometry/vertexarray.h"
 

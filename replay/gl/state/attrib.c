@@ -90,7 +90,7 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	}
 }
 
-/* Capabilities that change nothing that is drawn here. */
+/* Capabilities that change nothing here. */
 static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
@@ -214,7 +214,7 @@ GLS_HANDLER(glHint, STATE)
 	}
 }
 
-/* The program asked for its errors: it has seen them, and the next one counts as the first again. */
+/* The program has seen its error: the next one is the first again. */
 GLS_HANDLER(glGetError, NOW)
 {
 	st->error = 0;

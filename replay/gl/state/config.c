@@ -1,7 +1,7 @@
 /*
- * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Recordings of
- * our own say so when a context is first made current (capture/format/trace.md); in others it is taken from what the program asked of
- * a configuration, or asked for. What nobody said stays as gls_state_init has it.
+ * Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4): how many bits a drawable has. Our own recordings say
+ * so when a context is first made current (capture/format/trace.md). In other recordings the program's queries and requests tell. The
+ * rest stays as gls_state_init has it.
  */
 #include "replay/gl/state/config.h"
 
@@ -56,7 +56,7 @@ static int what_is(int64_t attribute)
 	}
 }
 
-/* Who asks for alpha gets eight bits of it, on every driver with true colours; who does not ask for any gets a visual without. */
+/* A program that asks for alpha gets eight bits on every true-colour driver. One that does not gets a visual without alpha. */
 static uint64_t alpha_wanted(const struct call *c, unsigned i, int visual)
 {
 	uint64_t n;
