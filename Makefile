@@ -58,7 +58,7 @@ DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-cli
 	geomview g3dviewer
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
-CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c))
+CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
@@ -187,6 +187,10 @@ $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lglut -lGLU -lGL -lm
 
+$(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -o $@ $(filter %.c,$^) -lglut -lGLU -lGL -lm
+
 # Tests are linked with everything of the command but its main function, and with the bridge itself.
 $(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/pictures/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/diff/pictures/oiio.o
 	@rm -f $@
@@ -220,7 +224,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-hits show-build show-oclgrind show-thesis show-faults show-metrics show-page show-seek show-batch-faults show-farm
+	show-rays show-hits show-build show-oclgrind show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -324,6 +328,10 @@ show-thesis: all $(BUILD)/deps.thesis
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
+
+# Levels of rooms: sound, and drawn alike with every culling.
+show-rooms: all
+	@$(PYTHON) -B tests/show/rooms.py $(BUILD)
 
 show-seek: all
 	@$(PYTHON) tests/show/seek.py $(BUILD)

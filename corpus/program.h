@@ -35,6 +35,7 @@ struct program {
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
 	long frames;        /* 0: no end */
 	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
+	int stencil;        /* set before program_run: the window has a stencil buffer */
 	const char *model; /* NULL: none given */
 };
 
@@ -102,7 +103,7 @@ static void program_run(int argc, char **argv, const char *title, void (*init)(v
 	program.title = title;
 	program.draw = draw;
 	program_parse(argc, argv);
-	glutInitDisplayMode(GLUT_DOUBLE | GLUT_RGB | GLUT_DEPTH);
+	glutInitDisplayMode(GLUT_DOUBLE | GLUT_RGB | GLUT_DEPTH | (program.stencil ? GLUT_STENCIL : 0));
 	glutInitWindowSize(PROGRAM_WIDTH, PROGRAM_HEIGHT);
 	glutCreateWindow(title);
 	init();

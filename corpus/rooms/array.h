@@ -1,0 +1,25 @@
+/* Arrays that grow at powers of two. */
+#ifndef ROOMS_ARRAY_H
+#define ROOMS_ARRAY_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/** Room for one more item after `n`; the program ends where memory does. */
+static inline void *array_grow(void *items, size_t n, size_t bytes)
+{
+	if (n & (n - 1))
+		return items;
+	items = realloc(items, (n ? 2 * n : 1) * bytes);
+	if (!items) {
+		fputs("rooms: out of memory\n", stderr);
+		exit(1);
+	}
+	return items;
+}
+
+/** Append an item; `items` and `n` are changed. */
+#define ARRAY_PUSH(items, n, item) \
+	((items) = array_grow((items), (n), sizeof(*(items))), (items)[(n)] = (item), (n)++)
+
+#endif

@@ -1,0 +1,43 @@
+/*
+ * A leaf BSP over the walls: every node is a wall's plane, every leaf a convex space that is solid or empty. Walls are kept whole:
+ * a leaf lists the walls that bound it, and one that reaches into several leaves stands in each.
+ */
+#ifndef ROOMS_BSP_H
+#define ROOMS_BSP_H
+
+#include "mesh.h"
+
+/* A child: a node, or a leaf as ~number. */
+struct bsp_node {
+	struct plane plane;
+	int child[2]; /* in front, behind */
+};
+
+struct bsp_leaf {
+	int solid;
+	struct box box;   /* of the level's part that is in it */
+	unsigned *faces;  /* owned */
+	size_t n_faces;
+};
+
+struct bsp {
+	struct bsp_node *nodes; /* the first is the root; none: leaf 0 is everything */
+	size_t n_nodes;
+	struct bsp_leaf *leaves;
+	size_t n_leaves;
+};
+
+void bsp_build(struct bsp *bsp, const struct mesh *mesh);
+
+/** The leaf that a point is in. */
+unsigned bsp_find(const struct bsp *bsp, struct vec p);
+
+/** 1 where nothing solid lies between two empty points. */
+int bsp_sees(const struct bsp *bsp, struct vec from, struct vec to);
+
+/** The same as bsp_find by asking each leaf whether the point is on its side of every plane above it. */
+unsigned bsp_find_slowly(const struct bsp *bsp, struct vec p);
+
+void bsp_free(struct bsp *bsp);
+
+#endif

@@ -1,0 +1,270 @@
+#include "mesh.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "array.h"
+
+/* --- Points ------------------------------------------------------------------------------------------------------------- */
+
+#define CELL (16 * WELD)
+
+static size_t cell_of(const struct mesh *mesh, double x, double y, double z)
+{
+	uint64_t h = (uint64_t)(int64_t)floor(x / CELL) * 0x9E3779B97F4A7C15u;
+
+	h = (h ^ (uint64_t)(int64_t)floor(y / CELL)) * 0xC2B2AE3D27D4EB4Fu;
+	h = (h ^ (h >> 29) ^ (uint64_t)(int64_t)floor(z / CELL)) * 0x165667B19E3779F9u;
+	return (size_t)(h ^ (h >> 32)) & (mesh->n_cells - 1);
+}
+
+static void insert_cell(struct mesh *mesh, unsigned point)
+{
+	struct vec p = mesh->points[point];
+	size_t i = cell_of(mesh, p.x, p.y, p.z);
+
+	while (mesh->cells[i])
+		i = (i + 1) & (mesh->n_cells - 1);
+	mesh->cells[i] = point + 1;
+}
+
+static void grow_cells(struct mesh *mesh)
+{
+	if (2 * mesh->n_points < mesh->n_cells)
+		return;
+	free(mesh->cells);
+	mesh->n_cells = mesh->n_cells ? 2 * mesh->n_cells : 1024;
+	mesh->cells = calloc(mesh->n_cells, sizeof(*mesh->cells));
+	if (!mesh->cells)
+		exit(1);
+	for (unsigned i = 0; i < mesh->n_points; i++)
+		insert_cell(mesh, i);
+}
+
+/* The point at a place, made where there is none. It may be filed in any cell that the place is near to. */
+static unsigned find_point(struct mesh *mesh, struct vec p)
+{
+	grow_cells(mesh);
+	for (int near = 0; near < 8; near++) {
+		size_t i = cell_of(mesh, p.x + (near & 1 ? WELD : -WELD), p.y + (near & 2 ? WELD : -WELD), p.z + (near & 4 ? WELD : -WELD));
+
+		for (; mesh->cells[i]; i = (i + 1) & (mesh->n_cells - 1))
+			if (vec_length(vec_sub(mesh->points[mesh->cells[i] - 1], p)) < WELD)
+				return mesh->cells[i] - 1;
+	}
+	ARRAY_PUSH(mesh->points, mesh->n_points, p);
+	insert_cell(mesh, (unsigned)mesh->n_points - 1);
+	return (unsigned)mesh->n_points - 1;
+}
+
+/* --- Faces -------------------------------------------------------------------------------------------------------------- */
+
+void mesh_add(struct mesh *mesh, const struct winding *w, struct plane plane, int texture, int portal)
+{
+	struct face face = { .plane = plane, .texture = texture, .portal = portal };
+	size_t n = 0;
+
+	for (int i = 0; i < w->n; i++) {
+		unsigned point = find_point(mesh, w->p[i]);
+
+		if (!n || (face.v[n - 1] != point && face.v[0] != point))
+			ARRAY_PUSH(face.v, n, point);
+	}
+	face.n = (unsigned)n;
+	if (n < 3)
+		free(face.v);
+	else
+		ARRAY_PUSH(mesh->faces, mesh->n_faces, face);
+}
+
+void mesh_sweep(struct mesh *mesh)
+{
+	size_t n = 0;
+
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		if (mesh->faces[i].n)
+			mesh->faces[n++] = mesh->faces[i];
+		else
+			free(mesh->faces[i].v);
+	mesh->n_faces = n;
+}
+
+struct winding mesh_winding(const struct mesh *mesh, const struct face *face)
+{
+	struct winding w = { .n = 0 };
+
+	for (unsigned i = 0; i < face->n && w.n < WINDING_MAX; i++)
+		w.p[w.n++] = mesh->points[face->v[i]];
+	return w;
+}
+
+/* --- Merging ------------------------------------------------------------------------------------------------------------ */
+
+/* How a corner turns as seen from the front: positive, to the left; 0, not at all. */
+static double turn_at(const struct mesh *mesh, const struct face *face, unsigned i)
+{
+	struct vec a = mesh->points[face->v[(i + face->n - 1) % face->n]], b = mesh->points[face->v[i]];
+	struct vec c = mesh->points[face->v[(i + 1) % face->n]];
+
+	return vec_dot(face->plane.n, vec_cross(vec_unit(vec_sub(b, a)), vec_unit(vec_sub(c, b))));
+}
+
+static void drop_straight_corners(const struct mesh *mesh, struct face *face)
+{
+	for (unsigned i = 0; face->n > 3 && i < face->n;)
+		if (fabs(turn_at(mesh, face, i)) < WELD)
+			memmove(&face->v[i], &face->v[i + 1], (--face->n - i) * sizeof(*face->v));
+		else
+			i++;
+}
+
+/*
+ * Both polygons along a shared edge, which runs from a's corner i and against it from b's corner k, as one. Fails where that is
+ * not convex. b is left without corners.
+ */
+static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struct face *b, unsigned k)
+{
+	struct face joined = { .plane = a->plane, .texture = a->texture, .portal = a->portal };
+	size_t n = 0;
+
+	for (unsigned c = 1; c <= a->n; c++) /* from the edge's end round to its begin */
+		ARRAY_PUSH(joined.v, n, a->v[(i + c) % a->n]);
+	for (unsigned c = 2; c < b->n; c++)
+		ARRAY_PUSH(joined.v, n, b->v[(k + c) % b->n]);
+	joined.n = (unsigned)n;
+	drop_straight_corners(mesh, &joined);
+	for (unsigned c = 0; c < joined.n; c++)
+		if (turn_at(mesh, &joined, c) < 0) {
+			free(joined.v);
+			return 0;
+		}
+	free(a->v);
+	*a = joined;
+	b->n = 0;
+	return 1;
+}
+
+static int can_join(const struct face *a, const struct face *b)
+{
+	return b->n && a->texture == b->texture && a->portal == b->portal && vec_dot(a->plane.n, b->plane.n) > 1 - 1e-9 &&
+	       fabs(a->plane.d - b->plane.d) < WELD;
+}
+
+/* Join a face with one neighbour that comes after it. @return 1 where it grew */
+static int grow_face(struct mesh *mesh, size_t which)
+{
+	struct face *a = &mesh->faces[which];
+
+	for (size_t other = 0; other < mesh->n_faces; other++) {
+		struct face *b = &mesh->faces[other];
+
+		if (other == which || !can_join(a, b))
+			continue;
+		for (unsigned i = 0; i < a->n; i++)
+			for (unsigned k = 0; k < b->n; k++)
+				if (a->v[i] == b->v[(k + 1) % b->n] && a->v[(i + 1) % a->n] == b->v[k] && join_faces(mesh, a, i, b, k))
+					return 1;
+	}
+	return 0;
+}
+
+void mesh_merge(struct mesh *mesh)
+{
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		while (mesh->faces[i].n && grow_face(mesh, i))
+			continue;
+	mesh_sweep(mesh);
+}
+
+/* --- T-junctions -------------------------------------------------------------------------------------------------------- */
+
+/* The first point between the ends of an edge; 1 where there is one. */
+static int point_between(const struct mesh *mesh, unsigned from, unsigned to, unsigned *out)
+{
+	struct vec a = mesh->points[from], d = vec_sub(mesh->points[to], a);
+	double length = vec_length(d), nearest = length - WELD;
+	int found = 0;
+
+	d = vec_scale(d, 1 / length);
+	for (unsigned i = 0; i < mesh->n_points; i++) {
+		struct vec p = vec_sub(mesh->points[i], a);
+		double along = vec_dot(p, d);
+
+		if (along > WELD && along < nearest && vec_length(vec_mad(p, d, -along)) < WELD) {
+			nearest = along;
+			*out = i;
+			found = 1;
+		}
+	}
+	return found;
+}
+
+/* Points that no face has are no corners. */
+static void drop_unused_points(struct mesh *mesh)
+{
+	unsigned *place = calloc(mesh->n_points + 1, sizeof(*place));
+	unsigned n = 0;
+
+	if (!place)
+		exit(1);
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		for (unsigned k = 0; k < mesh->faces[i].n; k++)
+			place[mesh->faces[i].v[k]] = 1;
+	for (size_t i = 0; i < mesh->n_points; i++)
+		if (place[i]) {
+			mesh->points[n] = mesh->points[i];
+			place[i] = n++;
+		}
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		for (unsigned k = 0; k < mesh->faces[i].n; k++)
+			mesh->faces[i].v[k] = place[mesh->faces[i].v[k]];
+	mesh->n_points = n;
+	free(place);
+	free(mesh->cells);
+	mesh->cells = NULL;
+	mesh->n_cells = 0; /* no point is looked for from here on */
+}
+
+void mesh_repair(struct mesh *mesh)
+{
+	drop_unused_points(mesh);
+	for (size_t i = 0; i < mesh->n_faces; i++) {
+		struct face *face = &mesh->faces[i];
+
+		for (unsigned k = 0; k < face->n; k++) {
+			unsigned between;
+
+			if (!point_between(mesh, face->v[k], face->v[(k + 1) % face->n], &between))
+				continue;
+			face->v = realloc(face->v, (face->n + 1) * sizeof(*face->v));
+			if (!face->v)
+				exit(1);
+			memmove(&face->v[k + 2], &face->v[k + 1], (face->n - k - 1) * sizeof(*face->v));
+			face->v[k + 1] = between;
+			face->n++;
+		}
+	}
+}
+
+size_t mesh_count_t_junctions(const struct mesh *mesh)
+{
+	size_t n = 0;
+	unsigned between;
+
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		for (unsigned k = 0; k < mesh->faces[i].n; k++)
+			n += (size_t)point_between(mesh, mesh->faces[i].v[k], mesh->faces[i].v[(k + 1) % mesh->faces[i].n], &between);
+	return n;
+}
+
+void mesh_free(struct mesh *mesh)
+{
+	for (size_t i = 0; i < mesh->n_faces; i++)
+		free(mesh->faces[i].v);
+	free(mesh->faces);
+	free(mesh->points);
+	free(mesh->cells);
+	*mesh = (struct mesh){ .n_faces = 0 };
+}

@@ -1,0 +1,32 @@
+/*
+ * Zones: the spaces that walls and portals close off. They are found by walking over edges: from a face across each edge to the
+ * next face that one meets when turning about the edge through what is empty, until no face is left. What was walked over is a
+ * shell. A shell around what is empty is a zone; one around what is solid (a block that floats) belongs to the zone it is in.
+ */
+#ifndef ROOMS_ZONES_H
+#define ROOMS_ZONES_H
+
+#include "mesh.h"
+
+struct zone {
+	double volume;   /* cubic metres of emptiness */
+	size_t n_shells; /* 1, and as many as there are things that touch nothing in it */
+	size_t n_faces;
+	struct box box;
+};
+
+struct zones {
+	struct zone *items;
+	size_t n;
+	size_t open_edges; /* of all faces: with no face on the other side. 0: every zone is closed */
+};
+
+/** Find the zones of a repaired mesh; the faces receive their zones. */
+void zones_find(struct mesh *mesh, struct zones *zones);
+
+/** The zone that an empty point is in; zones->n: none. */
+size_t zones_at(const struct zones *zones, const struct mesh *mesh, struct vec p);
+
+void zones_free(struct zones *zones);
+
+#endif
