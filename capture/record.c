@@ -82,9 +82,9 @@ static const struct options_row rows[] = {
 	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
 	{ "start-key", 0, "KEY", "the same; KEY switches as SIGUSR2 does (F9, Pause, r, ...: a name of X)", options_text, AT(start_key) },
-	{ "frame-end", 0, "CALL", "what ends a frame besides a swap, once something was drawn: flush, finish, clear (of the color "
-	  "buffer), or readpixels (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn "
-	  "to, front or back", options_text, AT(frame_end), .words = frame_ends },
+	{ "frame-end", 0, "CALL", "what ends a frame besides a swap: flush, finish, clear (of the color buffer), or readpixels after "
+	  "something was drawn (swap: nothing else; with OSMesa, flush and finish); such a frame is the buffer that is drawn to, "
+	  "front or back", options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program goes on", take_count, AT(max_frames) },
 	{ "max-size", 0, "BYTES", "end the recording after the first frame that makes the trace this large (K, M and G count 1024, 1024^2, "
 	  "1024^3); the program goes on", options_bytes, AT(max_bytes) },

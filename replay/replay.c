@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "gl_tokens.h"
 #include "replay/gl/dispatch.h"
 #include "replay/gl/surface/drawable.h"

@@ -21,7 +21,7 @@ import subprocess
 import sys
 
 STAGES = ("base", "capture", "diff", "farm", "kernels", "look", "replay", "scene", "tracer")
-SOURCES = (".c", ".h", ".cl", ".cpp")
+SOURCES = (".c", ".h", ".inc", ".cl", ".cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 SHOWN = re.compile(r"^    ([\w./]+) +-> +([\w./ ]+)$", re.M)
 # Generated sources belong to the folder that makes them.

@@ -11,7 +11,7 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/material.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/texture/image.h"

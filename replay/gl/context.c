@@ -8,7 +8,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/geometry/eval.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/geometry/vertexarray.h"

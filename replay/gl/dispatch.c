@@ -7,7 +7,7 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/context.h"
 #include "replay/gl/geometry/list.h"

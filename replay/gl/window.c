@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/context.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/gl/surface/drawable.h"

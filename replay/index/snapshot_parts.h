@@ -5,7 +5,7 @@
 #ifndef REPLAY_INDEX_SNAPSHOT_PARTS_H
 #define REPLAY_INDEX_SNAPSHOT_PARTS_H
 
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/machine/buffer.h"
 #include "replay/gl/geometry/list.h"

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 
 /** Any number (numbers, enums, booleans, masks, pointers) as the type wanted; 0 if the value is none. */
 double gls_value_double(const struct trace_value *v);

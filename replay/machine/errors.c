@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"

@@ -10,7 +10,7 @@
 #ifndef REPLAY_TRACE_READER_H
 #define REPLAY_TRACE_READER_H
 
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 
 struct trace_reader;
 

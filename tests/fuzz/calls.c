@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/dispatch.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "tests/fuzz/calls.h"
 
 #define MAX_ID 16384  /* of a signature that is read */

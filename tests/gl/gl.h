@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/dispatch.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"

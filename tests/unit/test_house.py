@@ -72,6 +72,12 @@ class Drawn(unittest.TestCase):
         self.assertEqual(house.repeated(self.root, ["a.c", "b.c"]), [(("a.c", 1), ("b.c", 1))])
 
 
+class Real(unittest.TestCase):
+    def test_the_house_is_as_the_readme_draws_it(self):
+        faults = house.House(ROOT, BUILD).faults((ROOT / "README.md").read_text(encoding="utf-8"))
+        self.assertFalse(faults, "\n".join(faults))
+
+
 if __name__ == "__main__":
     program = unittest.main(exit=False)
     failed = len(program.result.failures) + len(program.result.errors)

@@ -5,7 +5,7 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

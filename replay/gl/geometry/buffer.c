@@ -4,7 +4,7 @@
 
 #include "gl_tokens.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"

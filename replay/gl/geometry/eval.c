@@ -10,7 +10,7 @@
 
 #include "gl_tokens.h"
 #include "base/bytes.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"

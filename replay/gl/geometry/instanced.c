@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/geometry/array_draw.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"

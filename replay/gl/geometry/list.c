@@ -5,7 +5,7 @@
 
 #include "base/arena.h"
 #include "base/err.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

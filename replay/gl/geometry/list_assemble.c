@@ -6,7 +6,7 @@
 #include "gl_tokens.h"
 #include "base/arena.h"
 #include "base/err.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/machine/args.h"

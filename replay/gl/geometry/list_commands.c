@@ -4,7 +4,7 @@
 
 #include "gl_tokens.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/geometry/effect.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/geometry/list_assemble.h"

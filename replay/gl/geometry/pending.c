@@ -4,7 +4,7 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/errors.h"

@@ -4,7 +4,7 @@
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "kernels/gl/vertex.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"

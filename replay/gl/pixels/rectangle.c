@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/frame.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/draw.h"

@@ -6,7 +6,7 @@
 #include "replay/gl/state/config.h"
 
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

@@ -12,7 +12,7 @@
 
 #include "gl_tokens.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/attachment.h"
 #include "replay/gl/surface/surface.h"

@@ -8,7 +8,7 @@
 #include "gl_tokens.h"
 #include "base/norm.h"
 #include "base/table.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/texture/image.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"

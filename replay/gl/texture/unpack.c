@@ -6,7 +6,7 @@
 #include "gl_tokens.h"
 #include "base/half.h"
 #include "base/norm.h"
-#include "capture/format/trace.h"
+#include "capture/format/call.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
 #include "replay/machine/args.h"

@@ -3,8 +3,8 @@
  *
  * A call owns nothing: its name and signature live as long as the reader, its values until the next call is read.
  */
-#ifndef CAPTURE_FORMAT_TRACE_H
-#define CAPTURE_FORMAT_TRACE_H
+#ifndef CAPTURE_FORMAT_CALL_H
+#define CAPTURE_FORMAT_CALL_H
 
 #include <stddef.h>
 #include <stdint.h>
