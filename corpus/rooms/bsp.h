@@ -1,6 +1,6 @@
 /*
- * A leaf BSP over the walls: every node is a wall's plane, every leaf a convex space that is solid or empty. Walls are kept whole:
- * a leaf lists the walls that bound it, and one that reaches into several leaves stands in each.
+ * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are kept whole: a leaf lists
+ * the walls that bound it, and a wall may bound several leaves.
  */
 #ifndef ROOMS_BSP_H
 #define ROOMS_BSP_H

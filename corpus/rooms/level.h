@@ -1,5 +1,5 @@
 /*
- * A level as its author thinks of it: brushes that add and subtract, portals, lights, objects. Everything is solid to begin with.
+ * A level as its author writes it: brushes that add and subtract, portals, lights, objects. Everything begins solid.
  *
  * A level file holds one thing a line; # begins a comment. y is up, lengths are in metres, textures are numbers.
  *

@@ -33,7 +33,7 @@ struct mesh {
 	size_t n_cells;
 };
 
-/** Add a face; its corners are welded to points that are there. One whose corners fall together is left out. */
+/** Add a face. Its corners are welded to points that are there; a face that this collapses is left out. */
 void mesh_add(struct mesh *mesh, const struct winding *w, struct plane plane, int texture, int portal);
 
 /** Remove faces without corners, which steps leave behind. */

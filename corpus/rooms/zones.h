@@ -1,7 +1,7 @@
 /*
- * Zones: the spaces that walls and portals close off. They are found by walking over edges: from a face across each edge to the
- * next face that one meets when turning about the edge through what is empty, until no face is left. What was walked over is a
- * shell. A shell around what is empty is a zone; one around what is solid (a block that floats) belongs to the zone it is in.
+ * Zones: the spaces that walls and portals close off. A walk over edges finds them. It goes from a face across each edge to the
+ * next face: the first one met when turning about the edge through empty space. The faces of a walk are a shell. A shell around
+ * empty space is a zone. A shell around solid matter (a floating block) belongs to the zone around it.
  */
 #ifndef ROOMS_ZONES_H
 #define ROOMS_ZONES_H
@@ -18,7 +18,7 @@ struct zone {
 struct zones {
 	struct zone *items;
 	size_t n;
-	size_t open_edges; /* of all faces: with no face on the other side. 0: every zone is closed */
+	size_t open_edges; /* edges of faces without a face on the other side; 0: every zone is closed */
 };
 
 /** Find the zones of a repaired mesh; the faces receive their zones. */
