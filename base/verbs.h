@@ -16,10 +16,10 @@ int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
 int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
 int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
 int export_main(int argc, char **argv);  /* replay/verbs/export.c */
-int render_main(int argc, char **argv);  /* tracer/render/render.c */
+int render_main(int argc, char **argv);  /* render/render.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
-int devices_main(int argc, char **argv); /* tracer/devices.c */
-int bench_main(int argc, char **argv);   /* tracer/bench/bench.c */
+int devices_main(int argc, char **argv); /* render/devices.c */
+int bench_main(int argc, char **argv);   /* render/bench/bench.c */
 int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
 /* relume diff also takes what it must not know: diff/diff.h. */

@@ -24,7 +24,7 @@
 
 #include "base/err.h"
 #include "base/progress.h"
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 #include "tests/bench/hall_mesh.h"
 
 #define WIDTH 1600

@@ -7,7 +7,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 
 struct embree_build;
 

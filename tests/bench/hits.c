@@ -30,7 +30,7 @@
 
 #include "base/err.h"
 #include "kernels/rays/rays.h"
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 #include "tracer/frame/traverse.h"
 
 #define ROUNDING 32

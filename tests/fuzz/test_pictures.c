@@ -8,7 +8,7 @@
 #include "tests/case.h"
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
-#include "tracer/render/supply.h"
+#include "render/supply.h"
 
 #define N_PARTS 8
 #define N_RANDOM 8

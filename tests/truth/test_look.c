@@ -120,12 +120,14 @@ static float corner(const struct image *img, const char *channel, int square)
 static void render_under(const struct truth *t, const char *text, struct image *img)
 {
 	struct tracer_options options = { .mode = TRACER_WHITTED, .display = 1, .depth = 4 };
+	struct truth changed = *t;
 	struct look *look;
 
 	ck_assert_msg(load(text, &look) == 0, "%s", said);
-	options.look = look;
-	truth_render_with(t, &options, img);
+	ck_assert_int_eq(look_apply(look, &t->scene, &changed.scene), 0);
+	truth_render_with(&changed, &options, img);
 	truth_check_closure(img);
+	look_release(&changed.scene);
 	look_free(&look);
 }
 

@@ -193,7 +193,6 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
                   struct image *img)
 {
 	struct tracer_options known = *options;
-	struct scene changed = { .instances = NULL };
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width,
 		           .height = scene->height, .n_passes = options->samples ? options->samples : 1 };
 	int err = 0;
@@ -207,10 +206,6 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
 	img->width = job.width;
 	img->height = job.height;
-	if (options->look) {
-		err = look_apply(options->look, scene, &changed);
-		job.scene = &changed;
-	}
 	/* The pass through pixel centres comes last: values that are no means are its own. */
 	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--)
 		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++) {
@@ -222,8 +217,6 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = trace_pass(&job);
 	if (!err)
 		err = compose_image(&job, img);
-	if (options->look && changed.instances)
-		look_release(&changed);
 	if (err)
 		image_free(img);
 	return err;

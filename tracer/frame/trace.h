@@ -12,7 +12,6 @@
 #include "tracer/accel/accel.h"
 #include "tracer/device/device.h"
 #include "tracer/image/image.h"
-#include "look/look.h"
 
 enum tracer_mode {
 	TRACER_WHITTED,  /* GL's picture, shadows, mirrors, glass */
@@ -31,7 +30,6 @@ struct tracer_options {
 	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0 counts as 1 */
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float reach;      /* of openness, eye-space units; 0: without end */
-	const struct look *look; /* rules, or NULL; kept until the last tracer_render returns */
 	enum accel_kind accel; /* trees of meshes */
 	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
 	struct blas_store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */

@@ -1,6 +1,6 @@
 /* relume bench TRACE: what each kernel of one frame takes. */
-#ifndef TRACER_BENCH_BENCH_FRAME_H
-#define TRACER_BENCH_BENCH_FRAME_H
+#ifndef RENDER_BENCH_BENCH_FRAME_H
+#define RENDER_BENCH_BENCH_FRAME_H
 
 #include <stddef.h>
 #include <stdint.h>

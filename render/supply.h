@@ -2,8 +2,8 @@
  * Gives a replay the pixels that it asks for (scene_supply): a tracer on a queue of its own, on a device that others use too.
  * Both are made for the first picture. Only the thread that decodes uses it.
  */
-#ifndef TRACER_RENDER_SUPPLY_H
-#define TRACER_RENDER_SUPPLY_H
+#ifndef RENDER_SUPPLY_H
+#define RENDER_SUPPLY_H
 
 #include "scene/scene.h"
 #include "tracer/frame/trace.h"

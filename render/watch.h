@@ -5,8 +5,8 @@
  * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without an
  * end, removes unfinished files and ends the process at once, with 128 + the signal's number.
  */
-#ifndef TRACER_RENDER_WATCH_H
-#define TRACER_RENDER_WATCH_H
+#ifndef RENDER_WATCH_H
+#define RENDER_WATCH_H
 
 #include <stdatomic.h>
 #include <stdint.h>

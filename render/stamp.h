@@ -1,8 +1,8 @@
 /*
  * What a frame's file says about its origin, and whether an existing file is the one that would be made.
  */
-#ifndef TRACER_RENDER_STAMP_H
-#define TRACER_RENDER_STAMP_H
+#ifndef RENDER_STAMP_H
+#define RENDER_STAMP_H
 
 #include "tracer/image/image.h"
 

@@ -1,4 +1,4 @@
-#include "tracer/render/stamp.h"
+#include "render/stamp.h"
 
 #include <stdio.h>
 #include <string.h>

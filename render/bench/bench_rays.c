@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/progress.h"
 #include "kernels/camera/camera.h"
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 #include "tracer/accel/bvh.h"
 #include "tracer/frame/traverse.h"
 

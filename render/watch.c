@@ -1,4 +1,4 @@
-#include "tracer/render/watch.h"
+#include "render/watch.h"
 
 #include <pthread.h>
 #include <signal.h>

@@ -1,5 +1,4 @@
-#include "tracer/render/pipeline.h"
-#include "scene/release.h"
+#include "render/pipeline.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -11,7 +10,9 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/queue.h"
-#include "tracer/render/supply.h"
+#include "look/look.h"
+#include "render/supply.h"
+#include "scene/release.h"
 
 #define MAX_PATH_BYTES 4096
 #define MAX_WRITERS 8
@@ -155,13 +156,29 @@ static int start_tracer(const struct worker *w, struct tracer **out)
 	return err;
 }
 
+/* The scene as the rules change it, traced. */
+static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
+{
+	struct scene changed = { .instances = NULL };
+	int err;
+
+	if (!settings->look)
+		return tracer_render(tracer, scene, &settings->tracer, img);
+	err = look_apply(settings->look, scene, &changed);
+	if (!err)
+		err = tracer_render(tracer, &changed, &settings->tracer, img);
+	if (changed.instances)
+		look_release(&changed);
+	return err;
+}
+
 static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
 {
 	double start = progress_clock_s();
 	int err, late;
 
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
-	err = tracer_render(tracer, scene, &w->state->p->settings->tracer, &picture->img);
+	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->frame = scene->frame;
 	picture->seconds = progress_clock_s() - start;

@@ -3,8 +3,8 @@
  * they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench` uses it, and so
  * does the comparison with other tracers in tests/bench/.
  */
-#ifndef TRACER_BENCH_BENCH_H
-#define TRACER_BENCH_BENCH_H
+#ifndef RENDER_BENCH_BENCH_H
+#define RENDER_BENCH_BENCH_H
 
 #include "kernels/shared.h"
 #include "tracer/accel/accel.h"

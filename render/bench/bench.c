@@ -1,5 +1,5 @@
 /* relume bench: how fast the traversal kernels run here. */
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,9 +9,9 @@
 #include "base/options.h"
 #include "base/verbs.h"
 #include "tracer/accel/builders.h"
-#include "tracer/bench/bench_accel.h"
-#include "tracer/bench/bench_frame.h"
-#include "tracer/render/settings.h"
+#include "render/bench/bench_accel.h"
+#include "render/bench/bench_frame.h"
+#include "render/settings.h"
 
 #define MAX_REPEATS 99
 #define ACCEL_WORD(kind, name, ...) name ", "

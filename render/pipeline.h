@@ -8,14 +8,14 @@
  * whatever the number of workers. A device that fails hands its scene to the others and is not used again; with the last device
  * the run fails.
  */
-#ifndef TRACER_RENDER_PIPELINE_H
-#define TRACER_RENDER_PIPELINE_H
+#ifndef RENDER_PIPELINE_H
+#define RENDER_PIPELINE_H
 
 #include "base/progress.h"
 #include "replay/replay.h"
-#include "tracer/render/settings.h"
-#include "tracer/render/stamp.h"
-#include "tracer/render/watch.h"
+#include "render/settings.h"
+#include "render/stamp.h"
+#include "render/watch.h"
 
 struct pipeline {
 	const struct settings *settings;

@@ -1,4 +1,4 @@
-#include "tracer/render/supply.h"
+#include "render/supply.h"
 
 int supply_picture(void *user, const struct scene *scene, struct scene_picture *picture)
 {

@@ -1,10 +1,10 @@
 /* relume bench --accel: trees of every kind side by side. */
-#ifndef TRACER_BENCH_BENCH_ACCEL_H
-#define TRACER_BENCH_BENCH_ACCEL_H
+#ifndef RENDER_BENCH_BENCH_ACCEL_H
+#define RENDER_BENCH_BENCH_ACCEL_H
 
 #include <stddef.h>
 
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 
 /**
  * Build trees of several kinds over the bench's mesh and send its rays through each, in turn, n times. Print the medians: time to

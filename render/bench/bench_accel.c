@@ -1,4 +1,4 @@
-#include "tracer/bench/bench_accel.h"
+#include "render/bench/bench_accel.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "tracer/bench/bench.h"
+#include "render/bench/bench.h"
 
 /* One model of the scene: turned about y, scaled to a height, set down on the floor at x z. */
 struct place {

@@ -1,4 +1,4 @@
-#include "tracer/render/settings.h"
+#include "render/settings.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "base/options.h"
+#include "look/look.h"
 #include "tracer/accel/builders.h"
 
 /* What an option decides about. A row that says nothing decides about the picture. */
@@ -60,14 +61,11 @@ static int take_seconds(const struct options_row *row, const char *value, void *
 
 static int take_look(const struct options_row *row, const char *value, void *out)
 {
-	struct settings *s = out;
-	int err;
+	struct look **look = out;
 
 	(void)row;
-	look_free(&s->look);
-	err = look_load(value, &s->look);
-	s->tracer.look = s->look;
-	return err;
+	look_free(look);
+	return look_load(value, look);
 }
 
 static int take_accel(const struct options_row *row, const char *value, void *out)
@@ -124,7 +122,7 @@ static const struct options_row rows[] = {
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/look.h shows all "
-	  "keys)", take_look, .at = 0, .kind = PICTURE_FILE },
+	  "keys)", take_look, AT(look), .kind = PICTURE_FILE },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",

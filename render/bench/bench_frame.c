@@ -1,4 +1,4 @@
-#include "tracer/bench/bench_frame.h"
+#include "render/bench/bench_frame.h"
 #include "scene/release.h"
 
 #include <stdio.h>

@@ -4,8 +4,8 @@
  * settings.c lists the options in one table. An option changes pictures unless its row says otherwise, so a new one is part of
  * the name by default.
  */
-#ifndef TRACER_RENDER_SETTINGS_H
-#define TRACER_RENDER_SETTINGS_H
+#ifndef RENDER_SETTINGS_H
+#define RENDER_SETTINGS_H
 
 #include "base/frames.h"
 #include "base/progress.h"

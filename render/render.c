@@ -8,7 +8,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/verbs.h"
-#include "tracer/render/pipeline.h"
+#include "render/pipeline.h"
 
 #define MAX_PATH_BYTES 4096
 
