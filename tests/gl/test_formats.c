@@ -3,6 +3,7 @@
  * compressed blocks; swizzles and border colours (EXT_texture_sRGB, EXT_packed_depth_stencil, EXT_texture_compression_s3tc,
  * 3DFX_texture_compression_FXT1, EXT_texture_swizzle; GL 2.1 sec. 3.8.1, 3.8.3, 3.8.8).
  */
+#include "replay/gl/texture/unpack.h"
 #include "tests/gl/gl.h"
 
 static void draw(struct gl *gl)
@@ -346,6 +347,21 @@ START_TEST(test_packed_depth_stencil)
 }
 END_TEST
 
+/* DEPTH_STENCIL of a type that is too small for both, which is an error in GL: nothing beside the pixels is read. */
+START_TEST(test_small_depth_stencil)
+{
+	static const struct gls_pixel_store store = { .alignment = 1 };
+	static const uint8_t bytes[8] = { 255, 255, 255, 255, 255, 255, 255, 255 };
+	struct gls_pixels p = { .format = GL_DEPTH_STENCIL, .type = GL_UNSIGNED_BYTE, .width = 2, .height = 1, .data = bytes + 4, .n = 2,
+		                .store = &store };
+	uint8_t out[2] = { 1, 1 };
+
+	gls_unpack_stencil(&p, out);
+	ck_assert_uint_eq(out[0], 0);
+	ck_assert_uint_eq(out[1], 0);
+}
+END_TEST
+
 START_TEST(test_swizzle_and_border)
 {
 	static const uint32_t gray_from_blue[4] = { GL_BLUE, GL_BLUE, GL_BLUE, GL_ONE };
@@ -371,4 +387,5 @@ START_TEST(test_swizzle_and_border)
 }
 END_TEST
 
-GL_TESTS("formats", test_texels, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_swizzle_and_border)
+GL_TESTS("formats", test_texels, test_numbers, test_copy_image, test_rgtc, test_other_images, test_skipped_images, test_srgb_as_it_is, test_s3tc, test_fxt1, test_packed_depth_stencil, test_small_depth_stencil,
+	test_swizzle_and_border)
