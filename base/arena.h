@@ -2,8 +2,7 @@
  * Memory that is given out piece by piece and taken back all at once; blocks are kept, so that a steady user of it
  * allocates nothing. All zero is a valid empty arena.
  */
-#ifndef BASE_ARENA_H
-#define BASE_ARENA_H
+#pragma once
 
 #include <stddef.h>
 
@@ -19,5 +18,3 @@ void *arena_alloc(struct arena *a, size_t n);
 /** Take everything back. Blocks are kept up to `keep` bytes. */
 void arena_reset(struct arena *a, size_t keep);
 void arena_free(struct arena *a);
-
-#endif

@@ -1,6 +1,5 @@
 /* Files that belong to the command. They lie beside it or, once installed, in ../lib/relume. */
-#ifndef BASE_BESIDE_H
-#define BASE_BESIDE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -11,5 +10,3 @@
  * @return 0 or ERR_SYSTEM (reported, with the places that were searched)
  */
 int beside_find(const char *name, char *out, size_t size);
-
-#endif

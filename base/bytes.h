@@ -2,8 +2,7 @@
  * Bytes written one after the other, and read again with nothing believed: for indexes and what else is kept of a trace.
  * Numbers are as this machine has them; whoever keeps such bytes says so in their version.
  */
-#ifndef BASE_BYTES_H
-#define BASE_BYTES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -39,5 +38,3 @@ const void *cursor_get(struct cursor *c, uint64_t n);
 uint64_t cursor_u64(struct cursor *c);
 /** Copy the next n bytes; all 0 where they are not there. */
 void cursor_copy(struct cursor *c, void *out, size_t n);
-
-#endif

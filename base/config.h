@@ -2,8 +2,7 @@
  * Configuration files: YAML, checked against a libcyaml schema. An unknown key, a wrong type or a value out of range is an error that
  * names the file and the line.
  */
-#ifndef BASE_CONFIG_H
-#define BASE_CONFIG_H
+#pragma once
 
 #include <cyaml/cyaml.h>
 
@@ -16,5 +15,3 @@
  */
 int config_load(const char *path, const cyaml_schema_value_t *schema, void **out);
 void config_free(const cyaml_schema_value_t *schema, void *data);
-
-#endif

@@ -4,8 +4,7 @@
  * Functions return 0 or a negative ERR_*; results go out by pointer. err_report prints the text once, where the facts are known;
  * callers only pass the code on. The command exits with the negated code.
  */
-#ifndef BASE_ERR_H
-#define BASE_ERR_H
+#pragma once
 
 enum {
 	ERR_FAILED   = -1, /* compared, and the comparison failed */
@@ -34,5 +33,3 @@ void err_share(int *said);
 
 /** Print "relume: WHERE: warning: TEXT": the user should know, and the work goes on. */
 void err_warn(const char *where, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-
-#endif

@@ -1,6 +1,5 @@
 /* Output folders, made on first use. */
-#ifndef BASE_FOLDER_H
-#define BASE_FOLDER_H
+#pragma once
 
 #include <stddef.h>
 
@@ -19,5 +18,3 @@ int folder_cached(const char *name, char *out, size_t size);
 
 /** Make the folder of a file, and its parents. @return 0 or ERR_SYSTEM (reported) */
 int folder_make_for(const char *file);
-
-#endif

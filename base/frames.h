@@ -6,8 +6,7 @@
  * A pattern holds the frame number as "####" (zero-padded to the number of #), "%04d", "$F4" ("$F" alone: no padding) or
  * "{frame}" (no padding).
  */
-#ifndef BASE_FRAMES_H
-#define BASE_FRAMES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -68,5 +67,3 @@ size_t frame_pattern_prefix(const char *pattern);
  * @return 0, or ERR_USAGE (reported) where the name does not fit
  */
 int frame_pattern_expand(const char *pattern, uint64_t frame, char *out, size_t size);
-
-#endif

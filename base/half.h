@@ -1,6 +1,5 @@
 /* Numbers of 16 bits: sign, 5 bits of exponent, 10 of mantissa (IEEE 754 binary16). */
-#ifndef BASE_HALF_H
-#define BASE_HALF_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -19,5 +18,3 @@ static inline float half_to_float(uint16_t h)
 	memcpy(&f, &bits, 4);
 	return f;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * A JSON writer: streams indented text and keeps nothing. NaN and infinities, which JSON lacks, become null.
  */
-#ifndef BASE_JSON_H
-#define BASE_JSON_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -32,5 +31,3 @@ void json_key_float(struct json *j, const char *name, double value);
 void json_key_floats(struct json *j, const char *name, const float *values, size_t n);
 void json_key_uints(struct json *j, const char *name, const uint32_t *values, size_t n);
 void json_key_ints(struct json *j, const char *name, const int32_t *values, size_t n);
-
-#endif

@@ -2,8 +2,7 @@
  * One file of a cache folder: written whole (base/part.h), with a key and a checksum. A file that is missing, cut, damaged or of
  * another key counts as absent.
  */
-#ifndef BASE_KEPT_H
-#define BASE_KEPT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -17,5 +16,3 @@ int kept_read(const char *path, const uint64_t key[2], void **bytes, size_t *n);
 
 /** Replace the file; make its folder where that is missing. @return 0; the errno that says why not; -1 (reported) */
 int kept_write(const char *path, const uint64_t key[2], const void *bytes, size_t n);
-
-#endif

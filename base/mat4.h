@@ -2,8 +2,7 @@
  * 4x4 matrices: float[16], column-major, column vectors, p' = M p. All arithmetic is in float and in Mesa's order, so products
  * agree with Mesa's to the last bit where that is possible.
  */
-#ifndef BASE_MAT4_H
-#define BASE_MAT4_H
+#pragma once
 
 extern const float mat4_identity[16];
 
@@ -27,5 +26,3 @@ void mat4_transform(float out[4], const float m[16], const float v[4]);
 
 /** out = v M: with the inverse matrix, how a plane equation is transformed (sec. 2.12). */
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16]);
-
-#endif

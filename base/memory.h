@@ -1,6 +1,5 @@
 /* Memory: arrays that grow, and how the process gets it from the system. */
-#ifndef BASE_MEMORY_H
-#define BASE_MEMORY_H
+#pragma once
 
 #include <stddef.h>
 
@@ -29,5 +28,3 @@ size_t memory_grow(void *array, size_t room, size_t wanted, size_t item_bytes);
  * system refuses.
  */
 void memory_use_large_pages(void);
-
-#endif

@@ -1,11 +1,8 @@
 /* Integers that stand for [-1,1]: GL's colours and normals (GL 2.1 table 2.9). */
-#ifndef BASE_NORM_H
-#define BASE_NORM_H
+#pragma once
 
 /** A signed integer of 32 bits. */
 static inline float norm_int(double c)
 {
 	return (float)((2 * c + 1) / 4294967295.0);
 }
-
-#endif

@@ -10,8 +10,7 @@
  * getopt_long parses, and names what it does not know. Every verb has -h, --help without a row. Man pages and shell
  * completion come from the help text (packaging/pages.py).
  */
-#ifndef BASE_OPTIONS_H
-#define BASE_OPTIONS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -78,5 +77,3 @@ int options_word(const struct options_row *row, const char *value, void *out);  
 int options_bytes(const struct options_row *row, const char *value, void *out);  /* uint64_t, "800M" */
 int options_frame(const struct options_row *row, const char *value, void *out);  /* uint64_t */
 int options_frames(const struct options_row *row, const char *value, void *out); /* struct frame_list */
-
-#endif

@@ -4,8 +4,7 @@
  * The temporary name is "FINAL.HOST-PID-N.part". Writers on several machines never collide, and the leftovers of a killed process
  * can be told from a file being written.
  */
-#ifndef BASE_PART_H
-#define BASE_PART_H
+#pragma once
 
 #include <limits.h>
 #include <stddef.h>
@@ -48,5 +47,3 @@ void part_drop_all(void);
  * process may run unseen in another container).
  */
 void part_sweep(const char *path);
-
-#endif

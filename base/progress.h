@@ -9,8 +9,7 @@
  *
  * A state is "done", "skipped" (there already) or "failed"; total is 0 where it is not known.
  */
-#ifndef BASE_PROGRESS_H
-#define BASE_PROGRESS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -56,5 +55,3 @@ void progress_end(struct progress *p);
 
 /** Seconds of a monotonic clock; only differences have a meaning. */
 double progress_clock_s(void);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * The caller owns the items. Any thread may call any function.
  */
-#ifndef BASE_QUEUE_H
-#define BASE_QUEUE_H
+#pragma once
 
 #include <pthread.h>
 #include <stddef.h>
@@ -38,5 +37,3 @@ void *queue_take(struct queue *q);
 
 /** No more items will come. Wakes all waiting threads. */
 void queue_close(struct queue *q);
-
-#endif

@@ -2,8 +2,7 @@
  * Hash tables from 64-bit keys to pointers, open addressing. All zero is a valid empty table. Values are not owned; a
  * NULL value is an empty place.
  */
-#ifndef BASE_TABLE_H
-#define BASE_TABLE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,5 +26,3 @@ int table_set(struct table *t, uint64_t key, void *value);
 void *table_remove(struct table *t, uint64_t key);
 
 void table_free(struct table *t);
-
-#endif

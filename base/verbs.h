@@ -5,8 +5,7 @@
  * --help, and returns the exit code: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,
  * 4 baseline new or missing, 5 a device or the system failed.
  */
-#ifndef BASE_VERBS_H
-#define BASE_VERBS_H
+#pragma once
 
 int record_main(int argc, char **argv);  /* capture/record.c */
 int info_main(int argc, char **argv);    /* replay/verbs/info.c */
@@ -23,5 +22,3 @@ int bench_main(int argc, char **argv);   /* render/bench/bench.c */
 int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
 /* relume diff also takes what it must not know: diff/diff.h. */
-
-#endif

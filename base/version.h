@@ -1,7 +1,4 @@
 /* Relume's version. Frames carry it; a frame of another version is rendered again. */
-#ifndef BASE_VERSION_H
-#define BASE_VERSION_H
+#pragma once
 
 #define RELUME_VERSION "0.1"
-
-#endif

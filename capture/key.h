@@ -2,8 +2,7 @@
  * A key that switches recording on and off. It reaches the program as well. A process of its own watches it, so the loss of the
  * display ends that process and nothing else.
  */
-#ifndef CAPTURE_KEY_H
-#define CAPTURE_KEY_H
+#pragma once
 
 #include <sys/types.h>
 
@@ -18,5 +17,3 @@ pid_t key_watch(const char *name, int signal);
 
 /** End the watcher and wait for its end; nothing for -1. */
 void key_forget(pid_t watcher);
-
-#endif

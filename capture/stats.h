@@ -3,8 +3,7 @@
  * it ends. Every recorded process has a slot. Commands that passed through unrecorded are counted by name, for all processes
  * together.
  */
-#ifndef CAPTURE_STATS_H
-#define CAPTURE_STATS_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -33,5 +32,3 @@ struct recorder_stats {
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];
 };
-
-#endif

@@ -2,8 +2,7 @@
  * The geometry of the hall (hall.c): a vaulted hall between two rows of fluted columns, made by code, of exactly 262,267
  * triangles: as many as the Sponza model has with which ray tracers are compared. Knows no OpenGL.
  */
-#ifndef CORPUS_HALL_H
-#define CORPUS_HALL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -229,5 +228,3 @@ static void build_hall(void)
 		exit(1);
 	}
 }
-
-#endif

@@ -2,8 +2,7 @@
  * Triangle meshes for the corpus programs: read from an OBJ file, or a knot made by code where there is none. Indexed,
  * with one smooth normal per vertex, scaled to fit the cube from -1 to 1.
  */
-#ifndef CORPUS_MESH_H
-#define CORPUS_MESH_H
+#pragma once
 
 #include <math.h>
 #include <stdio.h>
@@ -207,5 +206,3 @@ static inline struct mesh mesh_load(const char *path, unsigned along, unsigned a
 	mesh_add_normals(&m);
 	return m;
 }
-
-#endif

@@ -11,8 +11,7 @@
  *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
  *   --ortho                 parallel projection where the program has a choice
  */
-#ifndef CORPUS_PROGRAM_H
-#define CORPUS_PROGRAM_H
+#pragma once
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glut.h>
@@ -110,5 +109,3 @@ static void program_run(int argc, char **argv, const char *title, void (*init)(v
 	glutDisplayFunc(program_display);
 	glutMainLoop();
 }
-
-#endif

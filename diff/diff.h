@@ -1,10 +1,7 @@
 /* relume diff. */
-#ifndef DIFF_DIFF_H
-#define DIFF_DIFF_H
+#pragma once
 
 #include "scene/draw_names.h"
 
 /** The verb, as in base/verbs.h. @param namer  tells what draws of a recording were: diff/ opens no replay */
 int diff_main(int argc, char **argv, draw_namer *namer);
-
-#endif

@@ -11,8 +11,7 @@
  * Progress is never written down. The frames show what is done (`relume render --skip-existing --dry-run`), and Slurm knows what
  * waits and runs. Nothing here can disagree with them.
  */
-#ifndef FARM_JOB_H
-#define FARM_JOB_H
+#pragma once
 
 #include <limits.h>
 #include <stdint.h>
@@ -66,5 +65,3 @@ int farm_job_load(const char *folder, struct farm_job *out);
 
 /** The number, from 1, of the task that a frame belongs to; 0 where it is none of the job's. */
 uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame);
-
-#endif

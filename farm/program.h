@@ -1,6 +1,5 @@
 /* Run programs by argument vector, without a shell. */
-#ifndef FARM_PROGRAM_H
-#define FARM_PROGRAM_H
+#pragma once
 
 /** 1 where a program of that name is in PATH. */
 int program_exists(const char *name);
@@ -12,5 +11,3 @@ int program_exists(const char *name);
  * @return its exit code, 128 + N where signal N ended it, or ERR_SYSTEM (reported) where it does not start
  */
 int program_read(char *const *argv, char **out);
-
-#endif

@@ -2,8 +2,7 @@
  * The script that an engine runs: plain shell, or a Makefile. Of Relume it needs `relume render` and `relume diff` only.
  * `relume farm script` prints it; `relume farm submit` runs the same one.
  */
-#ifndef FARM_SCRIPT_H
-#define FARM_SCRIPT_H
+#pragma once
 
 #include <stdio.h>
 
@@ -14,5 +13,3 @@ int farm_script_print(const struct farm_job *job, FILE *out);
 
 /** Write it as job.sh into the job's folder, whole or not at all. @return 0 or ERR_* (reported) */
 int farm_script_save(const struct farm_job *job);
-
-#endif

@@ -1,6 +1,5 @@
 /* What Slurm knows of a job: asked each time, never kept. */
-#ifndef FARM_SLURM_H
-#define FARM_SLURM_H
+#pragma once
 
 #include "farm/job.h"
 
@@ -27,5 +26,3 @@ int slurm_cancel(const struct farm_job *job);
 
 /** Does the cluster take an array of so many tasks? @return 0, ERR_USAGE or ERR_SYSTEM (reported) */
 int slurm_check_size(const struct farm_job *job);
-
-#endif

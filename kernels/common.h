@@ -4,8 +4,7 @@
  *
  * Both sides compile without contraction (-ffp-contract=off; the pragma below): the twin is the kernel's specification.
  */
-#ifndef KERNELS_COMMON_H
-#define KERNELS_COMMON_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -210,5 +209,3 @@ static inline struct vec4 m4_mul(GLOBAL const float *m, struct vec4 v)
 	          m[2] * v.x + m[6] * v.y + m[10] * v.z + m[14] * v.w,
 	          m[3] * v.x + m[7] * v.y + m[11] * v.z + m[15] * v.w);
 }
-
-#endif

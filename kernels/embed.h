@@ -1,8 +1,7 @@
 /*
  * The kernels' text inside the command: kernels/embed.py writes build/gen/kernels.c.
  */
-#ifndef KERNELS_EMBED_H
-#define KERNELS_EMBED_H
+#pragma once
 
 #include <stddef.h>
 
@@ -21,5 +20,3 @@ struct kernel_place {
 };
 extern const struct kernel_place kernel_places[];
 extern const size_t n_kernel_places;
-
-#endif

@@ -22,14 +22,14 @@ def expand(path, folders, seen):
         for number, line in enumerate(source, 1):
             found = INCLUDE.match(line)
             if not found:
-                lines.append(line.rstrip("\n"))
+                lines.append("" if line.startswith("#pragma once") else line.rstrip("\n"))
                 continue
             places = [os.path.join(folder, found.group(1)) for folder in [os.path.dirname(path)] + folders]
             inner = next((place for place in places if os.path.isfile(place)), None)
             if inner is None:
                 sys.exit("%s:%d: no file %s" % (path, number, found.group(1)))
             if os.path.normpath(inner) in seen:
-                lines.append("")  # its include guard would leave nothing
+                lines.append("")  # it has #pragma once
                 continue
             lines += expand(os.path.normpath(inner), folders, seen)
             lines.append('#line %d "%s"' % (number + 1, path))

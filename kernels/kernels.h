@@ -3,8 +3,7 @@
  * that its C twin reads (struct LIST_arguments, here) and those that the host sets (struct LIST_launch, tracer/device/launch.h).
  * A kernel's own header says what it computes.
  */
-#ifndef KERNELS_KERNELS_H
-#define KERNELS_KERNELS_H
+#pragma once
 
 #include "kernels/shared.h"
 
@@ -350,5 +349,4 @@ extern const struct kernel_entry {
 	kernel_twin *twin;
 } kernel_entries[N_KERNELS];
 
-#endif
 #endif

@@ -8,8 +8,7 @@
  *   TLAS       top level: instances in eye space; one per view for camera rays, one per eye space for the others
  *   fragment   what one primitive leaves at one pixel centre, before any per-fragment operation
  */
-#ifndef KERNELS_SHARED_H
-#define KERNELS_SHARED_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -370,5 +369,3 @@ SHARED_SIZE(struct compose_request, 152);
 
 /* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
 #define PASS_PARTS 12u
-
-#endif

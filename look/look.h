@@ -35,8 +35,7 @@
  *
  * OpenGL's own picture (channels gl.*) never changes: channel relight has what rules do to lights and emission.
  */
-#ifndef LOOK_LOOK_H
-#define LOOK_LOOK_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -53,5 +52,3 @@ void look_free(struct look **look);
  */
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out);
 void look_release(struct scene *changed);
-
-#endif

@@ -8,8 +8,7 @@
  * whatever the number of workers. A device that fails hands its scene to the others and is not used again; with the last device
  * the run fails.
  */
-#ifndef RENDER_PIPELINE_H
-#define RENDER_PIPELINE_H
+#pragma once
 
 #include "base/progress.h"
 #include "replay/replay.h"
@@ -37,5 +36,3 @@ struct pipeline {
  * @return 0, also where a signal ended the run early (watch_signal); ERR_INPUT, ERR_SYSTEM (reported)
  */
 int pipeline_run(struct pipeline *p);
-
-#endif

@@ -4,8 +4,7 @@
  * settings.c lists the options in one table. An option changes pictures unless its row says otherwise, so a new one is part of
  * the name by default.
  */
-#ifndef RENDER_SETTINGS_H
-#define RENDER_SETTINGS_H
+#pragma once
 
 #include "base/frames.h"
 #include "base/progress.h"
@@ -39,5 +38,3 @@ void settings_free(struct settings *s);
 
 /** What --mode takes, by enum tracer_mode; ended by NULL. */
 extern const char *const settings_mode_names[];
-
-#endif

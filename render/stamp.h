@@ -1,8 +1,7 @@
 /*
  * What a frame's file says about its origin, and whether an existing file is the one that would be made.
  */
-#ifndef RENDER_STAMP_H
-#define RENDER_STAMP_H
+#pragma once
 
 #include "tracer/image/image.h"
 
@@ -20,5 +19,3 @@ enum stamp_state { STAMP_MISSING, STAMP_DAMAGED, STAMP_OTHER, STAMP_SAME };
  * @return STAMP_MISSING; STAMP_DAMAGED (reported); STAMP_OTHER: of another trace, frame, settings or version; STAMP_SAME
  */
 enum stamp_state stamp_check(const struct stamp *stamp, uint64_t frame, const char *path);
-
-#endif

@@ -2,8 +2,7 @@
  * Gives a replay the pixels that it asks for (scene_supply): a tracer on a queue of its own, on a device that others use too.
  * Both are made for the first picture. Only the thread that decodes uses it.
  */
-#ifndef RENDER_SUPPLY_H
-#define RENDER_SUPPLY_H
+#pragma once
 
 #include "scene/scene.h"
 #include "tracer/frame/trace.h"
@@ -18,5 +17,3 @@ struct supply {
 /** A scene_supply; user is a struct supply, whose caller sets parent and cache. */
 int supply_picture(void *user, const struct scene *scene, struct scene_picture *picture);
 void supply_free(struct supply *supply);
-
-#endif

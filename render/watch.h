@@ -5,8 +5,7 @@
  * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without an
  * end, removes unfinished files and ends the process at once, with 128 + the signal's number.
  */
-#ifndef RENDER_WATCH_H
-#define RENDER_WATCH_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -46,5 +45,3 @@ int watch_end(struct watch *w, int seat);
 
 /** Memory of this process now, in bytes. */
 uint64_t watch_memory(void);
-
-#endif

@@ -24,10 +24,10 @@ def write(path, lines):
 def tokens(out):
     _, enums = registry.read("gl.xml")
     lines = ["/* Made by replay/gen.py from Khronos' gl.xml. Included by C and OpenCL C: #defines only. */",
-             "#ifndef GEN_GL_TOKENS_H", "#define GEN_GL_TOKENS_H"]
+             "#pragma once"]
     # Numbers beyond 32 bits are limits of later GL, and no token that a struct of ours holds.
     lines += [f"#define {name} 0x{value:X}" for name, value in enums.items() if 0 <= value <= 0xFFFFFFFF]
-    write(out, lines + ["#endif"])
+    write(out, lines)
 
 
 def read_overlay(path):

@@ -7,8 +7,7 @@
  *
  * Frame n (from 0) ends with the trace's n-th swap of buffers; calls after the last one are executed but are no frame.
  */
-#ifndef REPLAY_REPLAY_H
-#define REPLAY_REPLAY_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -122,5 +121,3 @@ int replay_is_ours(const struct replay *rp);
 
 /** Warn of what replay_unsupported lists, at most `limit` lines, as the end of a run does. */
 void replay_report_unsupported(struct replay *rp, const char *where, size_t limit);
-
-#endif

@@ -2,8 +2,7 @@
  * Names of draws, for reports: what a draw number of a frame was in its recording. replay/ hands them out, and a report that
  * takes them needs no replay.
  */
-#ifndef SCENE_DRAW_NAMES_H
-#define SCENE_DRAW_NAMES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,5 +23,3 @@ struct draw_name {
  * @param names  sorted by frame
  */
 typedef void draw_namer(const char *trace, struct draw_name *names, size_t n);
-
-#endif

@@ -18,8 +18,7 @@
  * What glTF has no words for is left out and counted: generated texture coordinates, other texture units, blending
  * other than by alpha, fog, stipples, draws without colour. Drawing order is lost.
  */
-#ifndef SCENE_GLTF_H
-#define SCENE_GLTF_H
+#pragma once
 
 #include <stdio.h>
 
@@ -43,5 +42,3 @@ struct gltf_losses {
  * @return 0, ERR_SYSTEM (reported; the file is torn) or ERR_INPUT (reported: nothing to export, or over 4 GiB)
  */
 int gltf_write(FILE *out, const char *where, const struct scene *scene, struct gltf_losses *losses);
-
-#endif

@@ -1,6 +1,5 @@
 /* Materials of a glTF file, with their textures. */
-#ifndef SCENE_GLTF_LOOKS_H
-#define SCENE_GLTF_LOOKS_H
+#pragma once
 
 #include "scene/gltf_pieces.h"
 
@@ -14,5 +13,3 @@ const struct scene_unit *gltf_shown_unit(struct gltf *g, const struct scene_mate
  */
 uint32_t gltf_put_look(struct gltf *g, const struct scene_material *m, const struct scene_unit *unit, const float color[4],
                        int vertex_colors);
-
-#endif

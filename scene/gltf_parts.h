@@ -1,6 +1,5 @@
 /* From a scene to what its glTF file holds. */
-#ifndef SCENE_GLTF_PARTS_H
-#define SCENE_GLTF_PARTS_H
+#pragma once
 
 #include "scene/gltf_pieces.h"
 
@@ -9,5 +8,3 @@ void gltf_gather(struct gltf *g, const struct scene *s, struct gltf_losses *loss
 
 /** What a view's projection is as a glTF camera: 1 perspective, 2 orthographic, 0 none. */
 int gltf_camera_kind(const float projection[16]);
-
-#endif

@@ -2,8 +2,7 @@
  * What a glTF file holds: the binary chunk, and the numbered things that refer to it. gltf_parts.c gathers them from a scene, with the
  * materials of gltf_looks.c; gltf.c writes the text.
  */
-#ifndef SCENE_GLTF_PIECES_H
-#define SCENE_GLTF_PIECES_H
+#pragma once
 
 #include "scene/gltf.h"
 
@@ -96,5 +95,3 @@ float gltf_linear(float v);
 
 /** To length 1; (0, 0, 1) where there is no direction. */
 void gltf_normalise(float v[3]);
-
-#endif

@@ -1,6 +1,5 @@
 /* A scene as JSON, whose names are those of scene.h, or as text for people: one line per event. */
-#ifndef SCENE_JSON_H
-#define SCENE_JSON_H
+#pragma once
 
 #include <stdio.h>
 
@@ -14,5 +13,3 @@ void scene_write_json(FILE *out, const struct scene *scene, int vertices);
 
 /** Write one line about the scene and one per instance and clear, in the order of their draws. */
 void scene_write_text(FILE *out, const struct scene *scene);
-
-#endif

@@ -15,8 +15,7 @@
  * Draw order: instances are sorted by it, primitives of a mesh are in it, and a clear names the instance it precedes.
  * The order number of a primitive is instance.first_primitive + its number in the mesh: unique in the frame, ascending.
  */
-#ifndef SCENE_SCENE_H
-#define SCENE_SCENE_H
+#pragma once
 
 #ifdef __OPENCL_VERSION__
 typedef uint uint32_t;
@@ -336,5 +335,4 @@ struct scene {
  */
 typedef int scene_supply(void *user, const struct scene *scene, struct scene_picture *picture);
 
-#endif
 #endif

@@ -1,6 +1,5 @@
 /** tests/case.h: what the mains of all C tests have in common. */
-#ifndef TESTS_CASE_H
-#define TESTS_CASE_H
+#pragma once
 
 #include <check.h>
 
@@ -17,5 +16,3 @@ static inline int run_case(TCase *tests, const char *name)
 	srunner_free(runner);
 	return failed != 0;
 }
-
-#endif

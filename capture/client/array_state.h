@@ -2,8 +2,7 @@
  * Runs inside the traced program. Array state as the driver has it: it is asked again after any command that can have changed it.
  * Not between Begin and End, where it cannot be asked.
  */
-#ifndef CAPTURE_CLIENT_ARRAY_STATE_H
-#define CAPTURE_CLIENT_ARRAY_STATE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -71,5 +70,3 @@ long array_element_bytes(const struct array *a);
 
 /** 1 where the array is enabled and lies in client memory. */
 int array_is_client(const struct array *a);
-
-#endif

@@ -5,8 +5,7 @@
  * the elements 0 .. highest used, or an offset in a buffer that holds the same bytes (mirror.h). The driver is the authority on
  * array state (array_state.h).
  */
-#ifndef CAPTURE_CLIENT_ARRAYS_H
-#define CAPTURE_CLIENT_ARRAYS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -30,5 +29,3 @@ void arrays_draw_elements_indirect(unsigned type, const void *indirect, int draw
 /** The parameters of indirect draws: how many bytes they have, and they themselves or their offset. */
 long indirect_bytes(int elements, int draws, int stride);
 uint8_t *put_indirect(uint8_t *p, const void *indirect, long bytes);
-
-#endif

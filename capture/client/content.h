@@ -6,8 +6,7 @@
  * long recording does not fill the GL with buffers that are used once. A 128-bit hash stands for the content, for each context
  * apart: contexts need not share objects.
  */
-#ifndef CAPTURE_CLIENT_CONTENT_H
-#define CAPTURE_CLIENT_CONTENT_H
+#pragma once
 
 enum { CONTENT_MIN_BYTES = 256 }; /* less is not worth two calls */
 
@@ -33,5 +32,3 @@ void content_bind(unsigned target, unsigned buffer);
 unsigned content_new_buffer(void);
 /** Write a fake glBufferData of the buffer that is bound; `data` may be NULL. */
 void content_data(unsigned target, const void *data, long bytes);
-
-#endif

@@ -3,8 +3,7 @@
  * sec. 2.8). Where other arrays lie in buffers the call itself is written, too; from Begin to End the trace has only those
  * enabled. Array state cannot be asked between Begin and End, so it is asked before Begin.
  */
-#ifndef CAPTURE_CLIENT_ELEMENTS_H
-#define CAPTURE_CLIENT_ELEMENTS_H
+#pragma once
 
 /** Before Begin, and after End. */
 void elements_begin(void);
@@ -12,5 +11,3 @@ void elements_ended(void);
 
 /** Before ArrayElement: 1 where the call itself is to be written. */
 int elements_in_buffer(int index);
-
-#endif

@@ -1,6 +1,5 @@
 /* Runs inside the traced program. Indices of draws: which vertices they use, and how they are written. */
-#ifndef CAPTURE_CLIENT_INDICES_H
-#define CAPTURE_CLIENT_INDICES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,5 +26,3 @@ void indices_drawn(void);
 
 uint8_t *put_indices(uint8_t *p, const void *indices, int count, unsigned type);
 uint8_t *put_multi_indices(uint8_t *p, const void *const *indices, const int *counts, unsigned type, int draws);
-
-#endif

@@ -6,8 +6,7 @@
  * Before each command that may read it, it is compared with a copy, and what differs goes out. Where the kernel tells which pages
  * were written (watch.h), only those are compared.
  */
-#ifndef CAPTURE_CLIENT_MAPS_H
-#define CAPTURE_CLIENT_MAPS_H
+#pragma once
 
 /**
  * A part of a buffer was mapped; the call is written. It is followed until it ends where it may be written while draws read
@@ -26,5 +25,3 @@ void maps_buffers_deleted(int n, const unsigned *names);
 void maps_unmapped(unsigned target);
 /** Before a part of it is flushed: bytes [offset, offset + length) of the mapping. */
 void maps_flushed(unsigned target, long offset, long length);
-
-#endif

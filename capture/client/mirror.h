@@ -6,8 +6,7 @@
  * differs is (glBufferSubData). So equality is exact, costs one pass over the elements used, and an array of twenty draws is
  * stored once. Contents that come back at an address after others have buffers of their own (content.h).
  */
-#ifndef CAPTURE_CLIENT_MIRROR_H
-#define CAPTURE_CLIENT_MIRROR_H
+#pragma once
 
 /** The vertices that a row of indices uses, kept with the mirror of the row. */
 struct mirror_indices {
@@ -26,5 +25,3 @@ struct mirror_indices {
  * @return its name, or 0 where there is none
  */
 unsigned mirror_buffer(unsigned target, const void *data, long first, long end, int *bound, struct mirror_indices **indices);
-
-#endif

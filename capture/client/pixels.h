@@ -2,8 +2,7 @@
  * Runs inside the traced program. Pixels that the program hands over or reads back: as the pixel store state lays them out in its
  * memory, or as an offset in a buffer object.
  */
-#ifndef CAPTURE_CLIENT_PIXELS_H
-#define CAPTURE_CLIENT_PIXELS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -32,5 +31,3 @@ long pixels_texture_bytes(unsigned target, int level, unsigned format, unsigned 
 long pixels_compressed_bytes(unsigned target, int level);
 /** So many bytes that a call has returned; below 0: their address, or offset in a buffer. */
 uint8_t *put_returned(uint8_t *p, const void *data, long bytes);
-
-#endif

@@ -9,8 +9,7 @@
  * A record is a word (command, bytes of arguments in the upper half) and the arguments as C has them, packed one after the
  * other and padded to four bytes; struct command's `shape` says what they are.
  */
-#ifndef CAPTURE_CLIENT_RUNS_H
-#define CAPTURE_CLIENT_RUNS_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -75,5 +74,3 @@ static inline __attribute__((always_inline)) int runs_put(unsigned command, cons
 	runs_self.at += 4 + padded;
 	return 1;
 }
-
-#endif

@@ -9,8 +9,7 @@
  * Only private memory that is there is watched. Stores by the kernel count like the program's own. What a device writes into
  * pages that it got before they were watched does not.
  */
-#ifndef CAPTURE_CLIENT_WATCH_H
-#define CAPTURE_CLIENT_WATCH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -35,5 +34,3 @@ int watch_begin(struct watch *w, const void *from, const void *end);
 int watch_take_written(const struct watch *w, uintptr_t from, uintptr_t end, struct watch *written, int max);
 
 void watch_end(struct watch *w);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * A call owns nothing: its name and signature live as long as the reader, its values until the next call is read.
  */
-#ifndef CAPTURE_FORMAT_CALL_H
-#define CAPTURE_FORMAT_CALL_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -45,5 +44,3 @@ struct call {
 	const struct trace_value *args;
 	struct trace_value ret; /* TRACE_NONE for void calls */
 };
-
-#endif

@@ -9,8 +9,7 @@
  * Rows run from the bottom row up, as GL delivers them, without padding. Frames ascend; a frame's records follow
  * each other. A file cut at any byte is valid up to the last whole record.
  */
-#ifndef CAPTURE_FORMAT_REF_H
-#define CAPTURE_FORMAT_REF_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -63,5 +62,3 @@ int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **o
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path);
-
-#endif

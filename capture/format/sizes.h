@@ -2,8 +2,7 @@
  * How much memory an argument points to: a function for each form that Khronos' registry leaves open (COMPSIZE). They call no GL
  * and know no state, so the recorder, the replay and the tests share them.
  */
-#ifndef CAPTURE_FORMAT_SIZES_H
-#define CAPTURE_FORMAT_SIZES_H
+#pragma once
 
 #include <stddef.h>
 #include <string.h>
@@ -55,5 +54,3 @@ static inline long debug_text_bytes(int length, const void *text)
 {
 	return length >= 0 || !text ? length : (long)strlen(text);
 }
-
-#endif

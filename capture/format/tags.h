@@ -2,8 +2,7 @@
  * The bytes of a trace that have a meaning of their own, named once for the recorder, the reader and trace_out. trace.md is
  * the grammar that they stand in; the numbers are apitrace's.
  */
-#ifndef CAPTURE_FORMAT_TAGS_H
-#define CAPTURE_FORMAT_TAGS_H
+#pragma once
 
 /** The version of the format that is written, and of the meaning of its calls. */
 enum { TRACE_VERSION = 6, TRACE_SEMANTICS = 6 };
@@ -41,5 +40,3 @@ enum trace_type {
 enum trace_sig_kind {
 	TRACE_SIG_CALL, TRACE_SIG_STRUCT, TRACE_SIG_ENUM, TRACE_SIG_BITMASK, TRACE_SIG_FRAME, N_TRACE_SIG_KINDS
 };
-
-#endif

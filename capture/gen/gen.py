@@ -422,8 +422,8 @@ def main(overlay_path, directory):
     passed = {name: gen.why_passed(command) for name, command in gen.commands.items()}
     os.makedirs(os.path.join(directory, "tables"), exist_ok=True)
 
-    numbers = [BANNER + "#ifndef GEN_COMMANDS_H\n#define GEN_COMMANDS_H\n\nenum {"]
-    write(directory, "tables/commands.h", numbers + [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};", "", "#endif"])
+    numbers = [BANNER + "#pragma once\n\nenum {"]
+    write(directory, "tables/commands.h", numbers + [f"\tCMD_{name}," for name in gen.commands] + ["\tN_COMMANDS", "};"])
     table = [BANNER + '#include "tables/commands.h"\n\n#include <stddef.h>\n\n#include "capture/write/tables.h"\n',
              "const struct command commands[N_COMMANDS] = {"]
     for name, command in gen.commands.items():
@@ -433,10 +433,10 @@ def main(overlay_path, directory):
                      + (", 1 }," if any(names.fullmatch(name) for _, names, _ in gen.overlay.lines["draws"] + gen.overlay.lines["ends"]) else ", 0 },"))
     write(directory, "tables/commands.c", table + ["};"])
 
-    real = [BANNER + '#ifndef GEN_REAL_H\n#define GEN_REAL_H\n\n#include "capture/gl/resolve.h"\n#include "tables/commands.h"\n']
+    real = [BANNER + '#pragma once\n\n#include "capture/gl/resolve.h"\n#include "tables/commands.h"\n']
     for name, command in gen.commands.items():
         real.append(f"#define real_{name} (({gen.c_type(command.result, name)} (*)({gen.signature(command)}))resolve_real(CMD_{name}))")
-    write(directory, "real.h", real + ["", "#endif"])
+    write(directory, "real.h", real)
 
     thunks = [BANNER + '#include "thunks.h"\n\n#include "capture/gen/hooks.h"\n']
     for name, command in gen.commands.items():
@@ -444,10 +444,10 @@ def main(overlay_path, directory):
     thunks += ["void *const entry_points[N_COMMANDS] = {"] + [f"\t(void *){name}," for name in gen.commands] + ["};"]
     write(directory, "thunks.c", thunks)
     prototypes = [f"SHOWN {gen.c_type(c.result, n)} {n}({gen.signature(c)});" for n, c in gen.commands.items()]
-    head = (BANNER + '#ifndef GEN_THUNKS_H\n#define GEN_THUNKS_H\n\n#include "tables/commands.h"\n\n'
+    head = (BANNER + '#pragma once\n\n#include "tables/commands.h"\n\n'
             '#define SHOWN __attribute__((visibility("default")))\n\n'
             'extern void *const entry_points[N_COMMANDS] __attribute__((visibility("hidden")));\n')
-    write(directory, "thunks.h", [head] + prototypes + ["", "#endif"])
+    write(directory, "thunks.h", [head] + prototypes)
     names = gen.plain_enums()
 
     # One signature a name, written where it is first used: index in enum_entries is the signature's number.
@@ -457,7 +457,7 @@ def main(overlay_path, directory):
         order += 1
         index[value] = order
         enums.append(f'\t{{ "{name}", {value} }},')
-    header = [BANNER + '#ifndef GEN_ENUMS_H\n#define GEN_ENUMS_H\n\n#include "capture/write/tables.h"\n']
+    header = [BANNER + '#pragma once\n\n#include "capture/write/tables.h"\n']
     small = []
     for group in sorted(gen.used_small):
         entries = []
@@ -476,7 +476,7 @@ def main(overlay_path, directory):
         entries = ", ".join(f'{{ "{name}", {value}u }}' for value, name in flags)
         enums.append(f"const struct bits_entry bits_{group} = {{ {number}, {len(flags)}, (const struct enum_entry[]){{ {entries} }} }};")
         header.append(f"extern const struct bits_entry bits_{group};")
-    header += [f"\nenum {{ N_BITS_ENTRIES = {len(gen.used_bits)} }};", "", "#endif"]
+    header += [f"\nenum {{ N_BITS_ENTRIES = {len(gen.used_bits)} }};"]
     write(directory, "tables/enums.c", enums)
     write(directory, "tables/enums.h", header)
 

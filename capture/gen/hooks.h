@@ -1,6 +1,5 @@
 /* Runs inside the traced program. All that the generated thunks call; for them alone. */
-#ifndef CAPTURE_GEN_HOOKS_H
-#define CAPTURE_GEN_HOOKS_H
+#pragma once
 
 #include "capture/client/array_state.h"
 #include "capture/client/arrays.h"
@@ -22,5 +21,3 @@
 #include "capture/write/writer.h"
 #include "real.h"
 #include "tables/enums.h"
-
-#endif

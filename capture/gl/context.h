@@ -4,8 +4,7 @@
  * Nothing here changes GL state that the program can see, its errors included. State is asked from the driver, and cached only
  * where every command that can change it drops the cache.
  */
-#ifndef CAPTURE_GL_CONTEXT_H
-#define CAPTURE_GL_CONTEXT_H
+#pragma once
 
 enum context_feature { /* what may be asked without making a GL error */
 	HAS_FIXED_FUNCTION = 1 << 0, HAS_BUFFERS = 1 << 1, HAS_PIXEL_BUFFERS = 1 << 2, HAS_MAP_RANGE = 1 << 3,
@@ -45,5 +44,3 @@ unsigned context_pending_error(unsigned error);
 /** Keep the program's pending errors aside; errors made from here on are the recorder's, until ..._after drops them. */
 void context_errors_before(void);
 void context_errors_after(void);
-
-#endif

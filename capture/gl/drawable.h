@@ -1,6 +1,5 @@
 /* Runs inside the traced program. Drawables: windows, pbuffers and surfaces, and their sizes. */
-#ifndef CAPTURE_GL_DRAWABLE_H
-#define CAPTURE_GL_DRAWABLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,5 +36,3 @@ void drawable_ask(struct drawable *d, const struct drawable_target *target, int 
 
 /** Calls that draw nothing, by which glretrace's window learns of the size that a viewport has given it. */
 void drawable_make_size_known(void);
-
-#endif

@@ -3,10 +3,7 @@
  * font, so the lists are written out before the call: each character as the bitmap that the X server draws of it (GLX 1.4
  * sec. 3.3.6). The server is asked as GLX itself asks it, through the Xlib that GLX has loaded.
  */
-#ifndef CAPTURE_GL_FONT_H
-#define CAPTURE_GL_FONT_H
+#pragma once
 
 /** glXUseXFont has made lists out of a font's characters: write them, then the call. */
 void font_used(unsigned long name, int first, int count, int list);
-
-#endif

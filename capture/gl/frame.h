@@ -1,6 +1,5 @@
 /* Runs inside the traced program. The ends of frames: what is marked there, and what `relume record` wants of them. */
-#ifndef CAPTURE_GL_FRAME_H
-#define CAPTURE_GL_FRAME_H
+#pragma once
 
 #include "capture/gl/drawable.h"
 #include "capture/stats.h"
@@ -19,5 +18,3 @@ void frame_drawn(void);
 void frame_cleared(unsigned buffers);
 /** A call that ends a frame where `record --frame-end` says so, `truth` holds, and something was drawn since the last one. */
 void frame_may_end(enum frame_trigger trigger, int truth);
-
-#endif

@@ -2,12 +2,9 @@
  * Runs inside the traced program. Markers: what the format has no place for travels as the text of a glStringMarkerGREMEDY that
  * the recorder makes up (trace.md). marker.c also has the functions of relume.h, which programs find by name at run time.
  */
-#ifndef CAPTURE_GL_MARKER_H
-#define CAPTURE_GL_MARKER_H
+#pragma once
 
 void marker_write(const char *text);
 
 /** A context was made current for the first time: how many bits a pixel of its drawable has. */
 void marker_write_bits(void);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * All state that reading depends on is set to its initial value and put back. Queries go to the driver, so no cache can be wrong.
  */
-#ifndef CAPTURE_GL_READING_H
-#define CAPTURE_GL_READING_H
+#pragma once
 
 enum { READING_PACK = 6, READING_TRANSFER = 10 };
 
@@ -19,5 +18,3 @@ void reading_end(const struct reading_state *s);
 
 /** In between: what the window shows, RGBA with 8 bits each, rows from the bottom up; the mean of a pixel's samples. */
 void reading_colors(int width, int height, void *pixels);
-
-#endif

@@ -1,6 +1,5 @@
 /* Runs inside the traced program. Reference frames: what the program shows, read back just before it is swapped (ref.h). */
-#ifndef CAPTURE_GL_REFERENCE_H
-#define CAPTURE_GL_REFERENCE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -12,5 +11,3 @@ int reference_wanted(uint64_t frame);
  * @param unswapped  1: the frame ends without a swap and shows what is drawn to, be it the front buffer
  */
 void reference_read(uint64_t frame, int width, int height, int unswapped);
-
-#endif

@@ -2,8 +2,7 @@
  * Runs inside the traced program. Finding the real GL, by the libraries that the program has loaded or, where it has none, by the
  * names that Debian and its kin give them.
  */
-#ifndef CAPTURE_GL_RESOLVE_H
-#define CAPTURE_GL_RESOLVE_H
+#pragma once
 
 #include "tables/commands.h"
 
@@ -45,5 +44,3 @@ static inline void *resolve_real(unsigned command)
 
 	return found ? found : resolve_command(command);
 }
-
-#endif

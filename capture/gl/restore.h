@@ -6,8 +6,7 @@
  * Not put back: renderbuffers, the accumulation buffer, pixels read into buffer objects, and what contexts other than the
  * current one show.
  */
-#ifndef CAPTURE_GL_RESTORE_H
-#define CAPTURE_GL_RESTORE_H
+#pragma once
 
 /** A texture was copied from the screen, or attached to a framebuffer object. */
 void restore_texture_copied(unsigned target);
@@ -24,5 +23,3 @@ void restore_drawn(int width, int height);
  * @param back  0: to its initial value (rows lie close); 1: back to the program's
  */
 void restore_make_neutral(int back);
-
-#endif

@@ -5,8 +5,7 @@
  * commands that overlay.txt calls "draws", unless the program puts them into a display list), and with it the frames' ends.
  * Where recording begins, restore.h puts what drawing has left behind into the trace.
  */
-#ifndef CAPTURE_GL_SKIP_H
-#define CAPTURE_GL_SKIP_H
+#pragma once
 
 /** 1 while frames are not recorded. */
 int skip_active(void);
@@ -19,5 +18,3 @@ void skip_begin(void);
 void skip_end(void);
 /** The program began or ended a display list. */
 void skip_list_state(void);
-
-#endif

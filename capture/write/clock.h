@@ -1,6 +1,5 @@
 /* Runs inside the traced program. */
-#ifndef CAPTURE_WRITE_CLOCK_H
-#define CAPTURE_WRITE_CLOCK_H
+#pragma once
 
 #include <stdint.h>
 #include <time.h>
@@ -13,5 +12,3 @@ static inline uint64_t clock_ns(void)
 	clock_gettime(CLOCK_MONOTONIC, &t);
 	return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
-
-#endif

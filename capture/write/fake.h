@@ -1,6 +1,5 @@
 /* Runs inside the traced program. Calls that the recorder makes up and that return nothing. */
-#ifndef CAPTURE_WRITE_FAKE_H
-#define CAPTURE_WRITE_FAKE_H
+#pragma once
 
 /**
  * Write a call that readers execute like any other.
@@ -10,5 +9,3 @@
  *               b, memory of the recorder's own: const void *, long bytes
  */
 void fake_call(unsigned command, const char *kinds, ...);
-
-#endif

@@ -5,8 +5,7 @@
  * second thread that comes takes the ownership away for good. membarrier makes every thread pass a barrier, so either the
  * owner sees that it owns the lock no more, or the newcomer sees that the owner is inside.
  */
-#ifndef CAPTURE_WRITE_LOCK_H
-#define CAPTURE_WRITE_LOCK_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -49,5 +48,3 @@ static inline void lock_leave(void)
 	else
 		atomic_store_explicit(&lock_word, 0, memory_order_release);
 }
-
-#endif

@@ -4,8 +4,7 @@
  * An enabled vertex array may be stale or shorter than the draw says, and the real GL may never look at it. So the kernel reads
  * client memory for us: it returns an error where a load would raise a signal.
  */
-#ifndef CAPTURE_WRITE_PAGES_H
-#define CAPTURE_WRITE_PAGES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -29,5 +28,3 @@ void *pages_map(size_t bytes);
  * @return 1; 0: no memory, nothing changed
  */
 int pages_grow(uint8_t **pages, size_t *mapped, size_t bytes);
-
-#endif

@@ -2,8 +2,7 @@
  * Runs inside the traced program. The recording of this process: its state, and the chunk of the trace that is being filled.
  * The writer's lock guards all of it but `state` and `n_frames`.
  */
-#ifndef CAPTURE_WRITE_RECORDING_H
-#define CAPTURE_WRITE_RECORDING_H
+#pragma once
 
 #include <stdint.h>
 
@@ -35,5 +34,3 @@ static inline uint8_t *put_room(uint8_t *p)
 {
 	return recording.end - p < RECORDING_MARGIN ? recording_spill(p, 0) : p;
 }
-
-#endif

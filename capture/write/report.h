@@ -1,6 +1,5 @@
 /* Runs inside the traced program. What the recorder tells: figures shared with the command (stats.h), words on standard error. */
-#ifndef CAPTURE_WRITE_REPORT_H
-#define CAPTURE_WRITE_REPORT_H
+#pragma once
 
 struct stats_process;
 
@@ -18,5 +17,3 @@ void report_unknown(unsigned command);
 
 /** How often the command's signal or key switched recording on or off. */
 unsigned report_toggles(void);
-
-#endif

@@ -8,8 +8,7 @@
  * One caller at a time (the writer's lock). The first error ends all writing, and what is not whole in the file is cut off. Every
  * function keeps errno.
  */
-#ifndef CAPTURE_WRITE_SINK_H
-#define CAPTURE_WRITE_SINK_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -45,5 +44,3 @@ void sink_leave(void);
  * @return 0 or an errno; part of the data may be in the file then
  */
 int sink_pwrite(int fd, const void *data, size_t bytes, uint64_t offset);
-
-#endif

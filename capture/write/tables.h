@@ -2,8 +2,7 @@
  * Runs inside the traced program. The types of the generated tables: what there is to know of each command and enumerant.
  * tables/commands.h numbers the commands, tables/enums.h names the groups of enumerants.
  */
-#ifndef CAPTURE_WRITE_TABLES_H
-#define CAPTURE_WRITE_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -32,5 +31,3 @@ struct bits_entry {
 };
 extern const struct enum_entry enum_entries[]; /* the index is the signature's number, 0 is unused */
 extern const uint16_t enum_index[0x10000];     /* value -> index in enum_entries, 0 where it has no name */
-
-#endif

@@ -3,8 +3,7 @@
  * the position behind it. At least RECORDING_MARGIN bytes are free there, enough for any scalar arguments. To be called between
  * begin and end of a call (writer.h). Every function keeps errno; none allocates.
  */
-#ifndef CAPTURE_WRITE_VALUES_H
-#define CAPTURE_WRITE_VALUES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -119,5 +118,3 @@ uint8_t *put_chars(uint8_t *p, const char *s);
 
 /** In the child of a fork: the new trace has no signatures yet. */
 void values_forget(void);
-
-#endif

@@ -6,8 +6,7 @@
  * writer_leave_end). Between enter and end the writer is locked, and the caller holds the write position `p` for put_*
  * (values.h). Grammar: trace.md. Every function keeps errno. None allocates, aborts or exits.
  */
-#ifndef CAPTURE_WRITE_WRITER_H
-#define CAPTURE_WRITE_WRITER_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -76,5 +75,3 @@ void writer_note_quit(void);
  * @return 0, or -1 where there is no trace or it does not fit
  */
 int writer_sidecar(char *out, size_t size, const char *suffix);
-
-#endif

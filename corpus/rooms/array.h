@@ -1,6 +1,5 @@
 /* Arrays that grow at powers of two. */
-#ifndef ROOMS_ARRAY_H
-#define ROOMS_ARRAY_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,5 +20,3 @@ static inline void *array_grow(void *items, size_t n, size_t bytes)
 /** Append an item; `items` and `n` are changed. */
 #define ARRAY_PUSH(items, n, item) \
 	((items) = array_grow((items), (n), sizeof(*(items))), (items)[(n)] = (item), (n)++)
-
-#endif

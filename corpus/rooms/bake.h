@@ -4,8 +4,7 @@
  * A texel holds AMBIENT + sum over lights of color x max(0, cos) x visible / d^2, d in metres, each channel cut off at 1. Walls are
  * matte; light that they throw back is not there.
  */
-#ifndef ROOMS_BAKE_H
-#define ROOMS_BAKE_H
+#pragma once
 
 #include "bsp.h"
 #include "level.h"
@@ -23,5 +22,3 @@ void bake_face(struct lightmap *map, const struct level *level, const struct mes
 
 /** Texture coordinates of a point of the wall. */
 void bake_coordinates(const struct lightmap *map, struct vec p, float st[2]);
-
-#endif

@@ -2,8 +2,7 @@
  * A leaf BSP over the walls. Each node is a wall's plane, each leaf a convex space, solid or empty. Walls are kept whole: a leaf lists
  * the walls that bound it, and a wall may bound several leaves.
  */
-#ifndef ROOMS_BSP_H
-#define ROOMS_BSP_H
+#pragma once
 
 #include "mesh.h"
 
@@ -39,5 +38,3 @@ int bsp_sees(const struct bsp *bsp, struct vec from, struct vec to);
 unsigned bsp_find_slowly(const struct bsp *bsp, struct vec p);
 
 void bsp_free(struct bsp *bsp);
-
-#endif

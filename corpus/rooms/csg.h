@@ -1,6 +1,5 @@
 /* Brushes into the surface between solid and empty. */
-#ifndef ROOMS_CSG_H
-#define ROOMS_CSG_H
+#pragma once
 
 #include "level.h"
 #include "mesh.h"
@@ -13,5 +12,3 @@ void csg_build(const struct level *level, struct mesh *mesh);
  * The mesh is merged.
  */
 void portals_cut(const struct level *level, struct mesh *mesh);
-
-#endif

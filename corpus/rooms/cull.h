@@ -1,6 +1,5 @@
 /* What has to be drawn: walls that may be seen from a place, found in five ways. None leaves out a wall that shows. */
-#ifndef ROOMS_CULL_H
-#define ROOMS_CULL_H
+#pragma once
 
 #include "bsp.h"
 #include "octree.h"
@@ -38,5 +37,3 @@ struct frustum frustum_of(const struct view *view);
  * @return how many
  */
 size_t cull(const struct world *world, const struct view *view, enum culling how, unsigned char *visible);
-
-#endif

@@ -1,6 +1,5 @@
 /* A level drawn by OpenGL as programs of its day drew it: 1.3, its extensions, and fixed functions alone. */
-#ifndef ROOMS_DRAW_H
-#define ROOMS_DRAW_H
+#pragma once
 
 #include "bake.h"
 #include "cull.h"
@@ -62,5 +61,3 @@ void torus_matrix(const struct level *level, long frame, float out[16]);
 void torus_draw(void);
 /** The shadow volume of the torus, closed at both ends; light in its own space. Front faces outwards. */
 void torus_draw_shadow_volume(struct vec light, double reach);
-
-#endif

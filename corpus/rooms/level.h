@@ -12,8 +12,7 @@
  *     object X Y Z                                           the first turns and throws a shadow, the second mirrors its surroundings
  *     start X Y Z YAW
  */
-#ifndef ROOMS_LEVEL_H
-#define ROOMS_LEVEL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -57,5 +56,3 @@ void level_generate(struct level *level, unsigned seed, unsigned n_lights);
 int level_is_solid(const struct level *level, struct vec p);
 
 void level_free(struct level *level);
-
-#endif

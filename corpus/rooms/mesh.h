@@ -3,8 +3,7 @@
  *
  * It is made in steps, in this order: csg_build, mesh_merge, portals_cut, mesh_repair; then zones_find.
  */
-#ifndef ROOMS_MESH_H
-#define ROOMS_MESH_H
+#pragma once
 
 #include <stddef.h>
 
@@ -51,5 +50,3 @@ size_t mesh_count_t_junctions(const struct mesh *mesh);
 struct winding mesh_winding(const struct mesh *mesh, const struct face *face);
 
 void mesh_free(struct mesh *mesh);
-
-#endif

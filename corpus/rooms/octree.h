@@ -1,6 +1,5 @@
 /* An octree over the walls: a wall stands in every leaf that its box reaches into, whole. */
-#ifndef ROOMS_OCTREE_H
-#define ROOMS_OCTREE_H
+#pragma once
 
 #include "mesh.h"
 
@@ -18,5 +17,3 @@ struct octree {
 
 void octree_build(struct octree *tree, const struct mesh *mesh);
 void octree_free(struct octree *tree);
-
-#endif

@@ -1,6 +1,5 @@
 /* Points and vectors of three doubles, planes, and boxes. */
-#ifndef ROOMS_VEC_H
-#define ROOMS_VEC_H
+#pragma once
 
 #include <math.h>
 
@@ -104,5 +103,3 @@ static inline int box_meets(struct box a, struct box b, double slack)
 	return a.min.x <= b.max.x + slack && b.min.x <= a.max.x + slack && a.min.y <= b.max.y + slack &&
 	       b.min.y <= a.max.y + slack && a.min.z <= b.max.z + slack && b.min.z <= a.max.z + slack;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Convex polygons as points, counter-clockwise as seen from the front of their plane: what brushes are made of and cut by.
  */
-#ifndef ROOMS_WINDING_H
-#define ROOMS_WINDING_H
+#pragma once
 
 #include "vec.h"
 
@@ -31,5 +30,3 @@ struct vec winding_centre(const struct winding *w);
 double winding_area(const struct winding *w);
 struct plane winding_plane(const struct winding *w);
 struct box winding_box(const struct winding *w);
-
-#endif

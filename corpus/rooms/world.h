@@ -1,6 +1,5 @@
 /* A level made into a world, what is known of it, and whether it is sound. */
-#ifndef ROOMS_WORLD_H
-#define ROOMS_WORLD_H
+#pragma once
 
 #include "cull.h"
 #include "level.h"
@@ -21,5 +20,3 @@ void world_write_truth(const struct world *world, const struct level *level, con
 int world_check(const struct world *world, const struct level *level, unsigned seed);
 
 void world_free(struct world *world);
-
-#endif

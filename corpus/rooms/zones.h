@@ -3,8 +3,7 @@
  * next face: the first one met when turning about the edge through empty space. The faces of a walk are a shell. A shell around
  * empty space is a zone. A shell around solid matter (a floating block) belongs to the zone around it.
  */
-#ifndef ROOMS_ZONES_H
-#define ROOMS_ZONES_H
+#pragma once
 
 #include "mesh.h"
 
@@ -28,5 +27,3 @@ void zones_find(struct mesh *mesh, struct zones *zones);
 size_t zones_at(const struct zones *zones, const struct mesh *mesh, struct vec p);
 
 void zones_free(struct zones *zones);
-
-#endif

@@ -6,8 +6,7 @@
  * and lines are sorted by frame: version control shows what changed. DEVICE is the device's name; anything but letters, digits,
  * dots and dashes becomes "_".
  */
-#ifndef DIFF_BASELINE_BASELINE_H
-#define DIFF_BASELINE_BASELINE_H
+#pragma once
 
 #include "diff/score/score.h"
 
@@ -65,5 +64,3 @@ int baseline_look_up(const struct baseline *baseline, const struct image *img, u
 
 /** Write DIR/DEVICE/baseline.yaml, whole or not at all. @return 0 or ERR_SYSTEM (reported) */
 int baseline_write(const char *folder, const struct baseline_variant *variant);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Foreign images: the one bridge to OpenImageIO, which has no C interface. Nothing else includes its headers.
  */
-#ifndef DIFF_PICTURES_OIIO_H
-#define DIFF_PICTURES_OIIO_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -61,6 +60,4 @@ int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *la
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -1,8 +1,7 @@
 /*
  * A set of frames to compare: the records of a .ref file, or images on disk. Each has a frame number.
  */
-#ifndef DIFF_PICTURES_SET_H
-#define DIFF_PICTURES_SET_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -46,5 +45,3 @@ const struct set_entry *set_find(const struct set *set, uint64_t frame);
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img);
-
-#endif

@@ -1,6 +1,5 @@
 /* Several threads make the pieces of a file; they arrive in their order. */
-#ifndef DIFF_REPORT_ORDERED_H
-#define DIFF_REPORT_ORDERED_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -23,5 +22,3 @@ typedef int ordered_make(void *context, size_t i, size_t spent, FILE *out, size_
  * @return 0 or the first ERR_* of a piece, ERR_SYSTEM (reported) without memory
  */
 int ordered_write(size_t n, ordered_make *make, void *context, FILE *out);
-
-#endif

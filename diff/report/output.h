@@ -1,8 +1,7 @@
 /*
  * The outcome of a comparison, for people (a table) and for machines (JSON, JUnit XML).
  */
-#ifndef DIFF_REPORT_OUTPUT_H
-#define DIFF_REPORT_OUTPUT_H
+#pragma once
 
 #include <stdio.h>
 
@@ -59,5 +58,3 @@ const struct score *output_first_wrong(const struct output_run *run);
 
 /** Write text with the characters escaped that mean something in XML and HTML. */
 void output_escaped(const char *text, FILE *out);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * What was compared, as pictures: the layers of a traced frame, and maps of where it differs.
  */
-#ifndef DIFF_REPORT_PICTURES_H
-#define DIFF_REPORT_PICTURES_H
+#pragma once
 
 #include "diff/report/output.h"
 #include "diff/score/maps.h"
@@ -57,5 +56,3 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
  */
 int picture_make(const struct picture_frame *frame, enum picture_kind kind, uint8_t **rgb, uint32_t *width,
                  uint32_t *height);
-
-#endif

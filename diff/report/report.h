@@ -1,8 +1,7 @@
 /*
  * The report: one HTML file that needs nothing else, and a contact sheet.
  */
-#ifndef DIFF_REPORT_REPORT_H
-#define DIFF_REPORT_REPORT_H
+#pragma once
 
 #include "diff/report/output.h"
 #include "diff/pictures/set.h"
@@ -20,5 +19,3 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 
 /** The page without its data (page.html, made into C when building). */
 extern const char report_page[];
-
-#endif

@@ -4,8 +4,7 @@
  * Every rule that matches applies, in the order of the file. A preset applies before the rule that names it, and a preset that it
  * inherits before that. Later bars win; lists of rectangles and channels add up.
  */
-#ifndef DIFF_RULES_RULES_H
-#define DIFF_RULES_RULES_H
+#pragma once
 
 #include "diff/score/score.h"
 
@@ -46,5 +45,3 @@ const char *score_rules_baseline(const struct score_rules *settings);
 int score_rules_for_frame(const struct score_rules *settings, const char *name, uint64_t frame,
                           const struct score_options *base, const uint32_t size[2], struct score_rules_frame *out);
 void score_rules_frame_free(struct score_rules_frame *frame);
-
-#endif

@@ -1,6 +1,5 @@
 /* FLIP and HDR-FLIP: how different two pictures look when flipped between. */
-#ifndef DIFF_SCORE_FLIP_H
-#define DIFF_SCORE_FLIP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -30,5 +29,3 @@ int flip_compare_hdr(const float *const a[3], const float *const b[3], uint32_t 
 
 /** Colour of a value in [0,1] on the map "magma" (matplotlib), as codes. */
 void flip_magma(float value, uint8_t rgb[3]);
-
-#endif

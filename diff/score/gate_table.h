@@ -5,8 +5,7 @@
  * A new gate is a row, its measure function (in a file of its own where it is large), and its name in score.schema.json, which
  * tests hold against what `relume diff --json` writes.
  */
-#ifndef DIFF_SCORE_GATE_TABLE_H
-#define DIFF_SCORE_GATE_TABLE_H
+#pragma once
 
 /*
  * ROW(id, name, title, measure, needs_reference, figures...)
@@ -36,5 +35,3 @@
 /* ROW(id, name): the effects that E3 and the figures tell apart; "any" is the last. */
 #define SCORE_EFFECTS(ROW) \
 	ROW(SHADOW, "shadow") ROW(RELIGHT, "relight") ROW(REFLECT, "reflect") ROW(REFRACT, "refract") ROW(ANY, "any")
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * What the gates share: their names and bars, what they look at, and entering what they measured.
  */
-#ifndef DIFF_SCORE_GATES_H
-#define DIFF_SCORE_GATES_H
+#pragma once
 
 #include "diff/score/maps.h"
 #include "diff/score/score.h"
@@ -67,5 +66,3 @@ void gate_note(const struct gate_frame *f, enum score_gate_id id, const char *fm
 
 /** Fail the gate, whatever its figures; the note says why. */
 void gate_fail(const struct gate_frame *f, enum score_gate_id id, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
-
-#endif

@@ -1,6 +1,5 @@
 /* The maps that the gates on colour count: differences, edges, what fails. */
-#ifndef DIFF_SCORE_MAPS_H
-#define DIFF_SCORE_MAPS_H
+#pragma once
 
 #include "diff/score/score.h"
 
@@ -27,5 +26,3 @@ int score_depth_is_16_bit(const float *depth, size_t n);
 
 /** Number of blended layers at a pixel; 0 without the channel. */
 float score_layers_at(const struct score_picture *traced, size_t i);
-
-#endif

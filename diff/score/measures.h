@@ -1,6 +1,5 @@
 /* The measure functions of gate_table.h, and what is counted for several of them at once. */
-#ifndef DIFF_SCORE_MEASURES_H
-#define DIFF_SCORE_MEASURES_H
+#pragma once
 
 #include "diff/score/gates.h"
 
@@ -15,5 +14,3 @@ void gate_count_effects(struct gate_frame *f);
 
 /** Which draws hold the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_blame(const struct gate_frame *f);
-
-#endif

@@ -1,6 +1,5 @@
 /* Metrics between two pictures, [height][width][3] codes. */
-#ifndef DIFF_SCORE_METRICS_H
-#define DIFF_SCORE_METRICS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -31,5 +30,3 @@ double metric_ciede2000(const double lab1[3], const double lab2[3]);
 
 /** 95th percentile of CIEDE2000 over all pixels; NAN without memory. */
 double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels);
-
-#endif

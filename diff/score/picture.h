@@ -1,6 +1,5 @@
 /* Pictures to compare, taken out of images as display codes. */
-#ifndef DIFF_SCORE_PICTURE_H
-#define DIFF_SCORE_PICTURE_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -40,5 +39,3 @@ static inline int score_ignores(const struct score_picture *ref, size_t i)
 {
 	return ref->ignore && ref->ignore[i];
 }
-
-#endif

@@ -15,8 +15,7 @@
  *            All other pixels are interior: further than 1 px from an edge. In pictures with neither id nor depth, every
  *            pixel is interior.
  */
-#ifndef DIFF_SCORE_SCORE_H
-#define DIFF_SCORE_SCORE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -157,5 +156,3 @@ struct score_options {
  */
 int score_frame(const struct score_picture *ref, const struct image *img, uint64_t frame,
                 const struct score_options *options, const struct score_approved *approved, struct score *out);
-
-#endif

@@ -4,8 +4,7 @@
  *
  * A tile meets few pixels of each triangle: setting up a triangle costs as much as drawing its pixels.
  */
-#ifndef KERNELS_CAMERA_BATCH_H
-#define KERNELS_CAMERA_BATCH_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/camera/camera.h"
@@ -203,5 +202,3 @@ WIDE_VECTORS INLINED uint batch_set_up(__global const struct view *view, uint he
 	                       clip_from_origin(view, (int)height - 1 - y, -view->sample[1]));
 	return pack_bits(lanes);
 }
-
-#endif

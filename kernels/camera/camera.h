@@ -27,8 +27,7 @@
  * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels, of the view's
  * rectangle.
  */
-#ifndef KERNELS_CAMERA_CAMERA_H
-#define KERNELS_CAMERA_CAMERA_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -67,5 +66,3 @@ static inline uint32_t camera_wide_items(struct camera_rectangle r)
 {
 	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
 }
-
-#endif

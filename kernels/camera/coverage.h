@@ -1,8 +1,7 @@
 /*
  * GL's coverage rule for one pixel, as kernels/camera/camera.h says; scalar. OpenCL C only. kernels/ref/camera.c is the twin.
  */
-#ifndef KERNELS_CAMERA_COVERAGE_H
-#define KERNELS_CAMERA_COVERAGE_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -83,5 +82,3 @@ static inline int coverage_clipped(__global const struct view *view, __global co
 	}
 	return 0;
 }
-
-#endif

@@ -5,8 +5,7 @@
  * culling algorithms for bounding boxes"): its corner that lies farthest along the plane's normal decides. With the
  * planes in lanes that is six multiply-adds a box, however many rays there are.
  */
-#ifndef KERNELS_CAMERA_FRUSTUM_H
-#define KERNELS_CAMERA_FRUSTUM_H
+#pragma once
 
 #include "kernels/common.h"
 #include "kernels/rays/lanes.h"
@@ -106,5 +105,3 @@ static inline uint frustum8_meets(const struct frustum8 *f, __global const struc
 	}
 	return ~lane_bits(outside) & 255u;
 }
-
-#endif

@@ -5,8 +5,7 @@
  * Beauty = gl x shadow + relight + reflect + refract holds for the numbers as they are stored: each part is rounded to
  * half before the next is computed from it, so what rounding leaves ends in relight and reflect.
  */
-#ifndef KERNELS_FRAME_COMPOSE_H
-#define KERNELS_FRAME_COMPOSE_H
+#pragma once
 
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
@@ -289,5 +288,3 @@ static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t it
 		sum[9u + c] = pixel->beauty[c] + (a->first ? 0.0f : sum[9u + c]);
 	}
 }
-
-#endif

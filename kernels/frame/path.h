@@ -4,8 +4,7 @@
  * and gathered into the next list in the order of their paths: the paths of a fragment stay side by side, and sums do not depend on
  * scheduling.
  */
-#ifndef KERNELS_FRAME_PATH_H
-#define KERNELS_FRAME_PATH_H
+#pragma once
 
 #include "kernels/frame/shadow.h"
 
@@ -342,5 +341,3 @@ static inline void credit_item(const struct credit_arguments *a, uint32_t item)
 		v3_store(s->beauty, v3_add(v3_load(s->beauty), light));
 	}
 }
-
-#endif

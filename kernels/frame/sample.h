@@ -2,8 +2,7 @@
  * Samples that depend on neither time nor place: a sequence fills the unit square evenly, and each pixel and purpose turns it by a
  * number of its own.
  */
-#ifndef KERNELS_FRAME_SAMPLE_H
-#define KERNELS_FRAME_SAMPLE_H
+#pragma once
 
 #include "kernels/common.h"
 
@@ -94,5 +93,3 @@ static inline struct vec3 sample_cosine(struct vec3 n, float u, float v)
 {
 	return v3_normalize(v3_add(sample_disk(n, u, v), v3_scale(n, M_SQRT(1.0f - u))));
 }
-
-#endif

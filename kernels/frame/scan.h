@@ -13,10 +13,7 @@
  *
  * Work items: SCAN_ITEMS(n).
  */
-#ifndef KERNELS_FRAME_SCAN_H
-#define KERNELS_FRAME_SCAN_H
+#pragma once
 
 #define SCAN_CHUNK 64u
 #define SCAN_ITEMS(n) (((n) + SCAN_CHUNK - 1u) / SCAN_CHUNK)
-
-#endif

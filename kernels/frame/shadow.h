@@ -3,8 +3,7 @@
  * those that sum up the rays' visibility. Rays stand slot by slot of a material's lights, in the order of fragments
  * (kernels/gl/stages.h) or hits. A stopped ray goes on in a list of its own, past each surface that lets light pass.
  */
-#ifndef KERNELS_FRAME_SHADOW_H
-#define KERNELS_FRAME_SHADOW_H
+#pragma once
 
 #include "kernels/frame/sample.h"
 #include "kernels/frame/transparency.h"
@@ -220,5 +219,3 @@ static inline void ao_shade_item(const struct ao_shade_arguments *a, uint32_t it
 	}
 	stage_store_direct(s, color);
 }
-
-#endif

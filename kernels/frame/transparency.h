@@ -1,8 +1,7 @@
 /*
  * What lets light through: holes, blended surfaces, glass. Rays to lights lose by it what it holds back; paths go on behind it.
  */
-#ifndef KERNELS_FRAME_TRANSPARENCY_H
-#define KERNELS_FRAME_TRANSPARENCY_H
+#pragma once
 
 #include "kernels/gl/stages.h"
 
@@ -102,5 +101,3 @@ static inline float ray_beyond(float t)
 {
 	return t > 0.0f ? M_FLOAT(M_BITS(t) + 1u) : 1.0e-37f;
 }
-
-#endif

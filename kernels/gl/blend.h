@@ -3,8 +3,7 @@
  * blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails and clouds of
  * particles blend many times over, and must not drift away from the program's picture.
  */
-#ifndef KERNELS_GL_BLEND_H
-#define KERNELS_GL_BLEND_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -140,5 +139,3 @@ static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, st
 	          blend_float_equation(m->blend_equation_rgb, s.z, fs.z, d.z, fd.z),
 	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
 }
-
-#endif

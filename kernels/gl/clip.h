@@ -5,8 +5,7 @@
  * first corner. New corners are snapped to 1/256 pixel like all others: edges and depth are those of the parts. The difference shows
  * on a wall that reaches from the horizon to behind the viewer.
  */
-#ifndef KERNELS_GL_CLIP_H
-#define KERNELS_GL_CLIP_H
+#pragma once
 
 #include "kernels/common.h"
 
@@ -387,5 +386,3 @@ static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
 	*plane = clip_plane_through(&edges, z);
 	return 1;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Texture environments and combiners (GL 2.1 sec. 3.8.13): a unit changes the colour that reaches it. */
-#ifndef KERNELS_GL_COMBINE_H
-#define KERNELS_GL_COMBINE_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -155,5 +154,3 @@ static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, str
 		out.w = color.w;
 	return v4(color.x, color.y, color.z, out.w);
 }
-
-#endif

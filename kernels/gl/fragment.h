@@ -1,8 +1,7 @@
 /*
  * GL's fragment stage (GL 2.1 sec. 3.8 - 3.10) on a point of a triangle: texturing, colour sum, fog.
  */
-#ifndef KERNELS_GL_FRAGMENT_H
-#define KERNELS_GL_FRAGMENT_H
+#pragma once
 
 #include "kernels/gl/combine.h"
 #include "kernels/gl/point.h"
@@ -280,5 +279,3 @@ static inline struct vec4 point_albedo(const struct tables *t, const struct poin
 {
 	return point_albedo_of(t, p, texturing, point_lit_from_vertices(p));
 }
-
-#endif

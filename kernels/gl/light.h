@@ -2,8 +2,7 @@
  * GL's lighting of one vertex (GL 2.1 sec. 2.14.1 and 2.14.3). The same text lights a vertex for the rasterized picture
  * and again with the shadowed lights left out: with none left out the results are the same bits.
  */
-#ifndef KERNELS_GL_LIGHT_H
-#define KERNELS_GL_LIGHT_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -138,5 +137,3 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	out.secondary = m->unclamped & 2u ? secondary : v4_clamp01(secondary);
 	return out;
 }
-
-#endif

@@ -5,8 +5,7 @@
  * Operations that read a colour back (blending, logic op) first round it to 8 bits, as the frame buffer does. Other colours stay as
  * they are.
  */
-#ifndef KERNELS_GL_PIXEL_H
-#define KERNELS_GL_PIXEL_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -384,5 +383,3 @@ static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct fr
 		pixel->unknown &= (mask & top) == top ? ~PIXEL_UNKNOWN_STENCIL : ~0u;
 	}
 }
-
-#endif

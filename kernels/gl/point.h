@@ -2,8 +2,7 @@
  * A point of a triangle: where it is, how it is lit. It may be a fragment under a pixel centre or the hit of a secondary ray; the text
  * is the same.
  */
-#ifndef KERNELS_GL_POINT_H
-#define KERNELS_GL_POINT_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -337,5 +336,3 @@ static inline struct lit point_lit_here(const struct tables *t, const struct poi
 	                    side ? v3_scale(n, -1.0f) : n, tables_face(t, p->geometry, p->number[2], side),
 	                    point_current_color(t, p), side, seen);
 }
-
-#endif

@@ -2,8 +2,7 @@
  * A fragment's triangle or line as llvmpipe sets it up: planes of depth and attributes, polygon offset. What the fragments of a triangle
  * share is found once and kept for those that follow it in the list.
  */
-#ifndef KERNELS_GL_SETUP_H
-#define KERNELS_GL_SETUP_H
+#pragma once
 
 #include "kernels/gl/fragment.h"
 #include "kernels/gl/pixel.h"
@@ -206,5 +205,3 @@ static inline void setup_unsnap(GLOBAL const struct view *view, const struct set
 	if (f->primitive & FRAGMENT_PERSPECTIVE)
 		clip_weights(&setup->corner[0], &setup->corner[1], &setup->corner[2], f->b1, f->b2, &f->b1, &f->b2);
 }
-
-#endif

@@ -4,8 +4,7 @@
  * Camera kernels leave fragments sparsely, so many slots a pixel. `gather` puts them into a dense list, pixel by pixel, each pixel's in
  * draw order. All that follows works on the list.
  */
-#ifndef KERNELS_GL_STAGES_H
-#define KERNELS_GL_STAGES_H
+#pragma once
 
 #include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
@@ -337,5 +336,3 @@ static inline void resolve_item(const struct resolve_arguments *a, uint32_t item
 		pixel_draw(&t->materials[g->material], &a->shaded[i], &a->fragments[i], draw, &a->frame[pixel], a->bits);
 	}
 }
-
-#endif

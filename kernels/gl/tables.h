@@ -1,6 +1,5 @@
 /* A frame's data as the shading text reads it: struct tables is a group of kernels' arguments (kernels/kernels.h). */
-#ifndef KERNELS_GL_TABLES_H
-#define KERNELS_GL_TABLES_H
+#pragma once
 
 #include "kernels/common.h"
 #include "kernels/kernels.h"
@@ -44,5 +43,3 @@ static inline struct vec4 tables_texcoord(const struct tables *t, GLOBAL const s
 	return g->attributes & (SCENE_HAS_TEXCOORD << unit) ? v4_load(t->attributes + g->texcoord[unit] + v * 4u) :
 	                                       v4_load(t->currents[g->current].texcoord[unit]);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Texture sampling (GL 2.1 sec. 3.8.6 - 3.8.9, 3.8.14): wrapping, filtering, mipmaps, cubes, borders, depth comparison.
  */
-#ifndef KERNELS_GL_TEXTURE_H
-#define KERNELS_GL_TEXTURE_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -507,5 +506,3 @@ static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const st
 {
 	return texture_swizzle(unit->swizzle, texture_filtered(t, unit, c, slope));
 }
-
-#endif

@@ -3,8 +3,7 @@
  * view volume's, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners: what counts is whether a
  * part that is left covers the pixel, not on which side of a plane its centre lies.
  */
-#ifndef KERNELS_GL_USERCLIP_H
-#define KERNELS_GL_USERCLIP_H
+#pragma once
 
 #include "kernels/gl/point.h"
 
@@ -119,5 +118,3 @@ static inline int userclip_outside(GLOBAL const struct view *view, GLOBAL const 
 			return 0;
 	return n != 0u;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* GL's vertex stage (GL 2.1 chapter 2): one vertex of one instance to eye, clip and window space, lit, with its texture
  * coordinates generated and transformed. */
-#ifndef KERNELS_GL_VERTEX_H
-#define KERNELS_GL_VERTEX_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
@@ -145,5 +144,3 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 		v4_store(a->coords + (g->texcoord_first + v * m->unit_count + i) * 4u,
 		         vertex_texcoord(t, g, &t->units[m->unit_first + i], v, obj, eye, normal));
 }
-
-#endif

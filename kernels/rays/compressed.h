@@ -2,8 +2,7 @@
  * Reading struct node8c (kernels/shared.h), box by box. In what C and OpenCL C have in common: for the builder, the C twins, and
  * kernels that look at one child at a time. kernels/rays/rays_single.cl has a way of its own, for eight at once.
  */
-#ifndef KERNELS_RAYS_COMPRESSED_H
-#define KERNELS_RAYS_COMPRESSED_H
+#pragma once
 
 #include "kernels/common.h"
 
@@ -55,5 +54,3 @@ static inline uint32_t node8c_child(GLOBAL const struct node8c *node, uint32_t s
 	*first = node->child_first + n;
 	return 0;
 }
-
-#endif

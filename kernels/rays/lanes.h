@@ -2,8 +2,7 @@
  * What a comparison of eight lanes says (a set lane has all bits). OpenCL C only. The language has any() and no way to
  * get at all eight bits; where the compiler and the processor have one instruction for it, that is used.
  */
-#ifndef KERNELS_RAYS_LANES_H
-#define KERNELS_RAYS_LANES_H
+#pragma once
 
 /*
  * Sixteen lanes are passed by value, to fma() and select() too. Clang warns where the processor has narrower registers: code of a wider
@@ -149,5 +148,3 @@ static inline packf pack_max(packf x, packf y)
 {
 	return select(y, x, x > y);
 }
-
-#endif

@@ -7,8 +7,7 @@
  * which of a box's planes comes first; a packet of rays with different signs tries both orders. A ray sleeps where t_max is
  * below t_min.
  */
-#ifndef KERNELS_RAYS_PACKET_H
-#define KERNELS_RAYS_PACKET_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -244,5 +243,3 @@ static inline packi packet_triangle(const struct packet *p, __global const struc
 	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
 	       (t >= p->t_min) & (t <= p->t_max);
 }
-
-#endif

@@ -18,8 +18,7 @@
  * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
  */
-#ifndef KERNELS_RAYS_RAYS_H
-#define KERNELS_RAYS_RAYS_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -42,5 +41,3 @@
 
 /* Entries of a stack over an eight-wide tree: seven siblings a level. */
 #define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)
-
-#endif

@@ -2,8 +2,7 @@
  * One ray on its way through trees, whatever these are made of: into an instance's object space and back. OpenCL C only;
  * included by the kernels that trace one ray a work item.
  */
-#ifndef KERNELS_RAYS_WALK_H
-#define KERNELS_RAYS_WALK_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -123,5 +122,3 @@ static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 	     (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))
 		eye->hit = w->hit;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * One ray against eight-wide trees. OpenCL C only; included by the kernels that walk them.
  */
-#ifndef KERNELS_RAYS_WIDE_H
-#define KERNELS_RAYS_WIDE_H
+#pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
@@ -123,5 +122,3 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 		} while (entry.enter > walk_end(w));
 	}
 }
-
-#endif

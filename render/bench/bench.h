@@ -3,8 +3,7 @@
  * they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench` uses it, and so
  * does the comparison with other tracers in tests/bench/.
  */
-#ifndef RENDER_BENCH_BENCH_H
-#define RENDER_BENCH_BENCH_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/accel.h"
@@ -78,5 +77,3 @@ int bench_rebuild(struct bench *bench, enum accel_kind kind, struct bench_tree *
 
 /** The median of n figures; sorts them. */
 double bench_median(double *values, size_t n);
-
-#endif

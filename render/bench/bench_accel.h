@@ -1,6 +1,5 @@
 /* relume bench --accel: trees of every kind side by side. */
-#ifndef RENDER_BENCH_BENCH_ACCEL_H
-#define RENDER_BENCH_BENCH_ACCEL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -15,5 +14,3 @@
  * @return 0 or ERR_SYSTEM (reported)
  */
 int bench_accel(struct bench *bench, unsigned kinds, size_t n, int json);
-
-#endif

@@ -1,6 +1,5 @@
 /* relume bench TRACE: what each kernel of one frame takes. */
-#ifndef RENDER_BENCH_BENCH_FRAME_H
-#define RENDER_BENCH_BENCH_FRAME_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -14,5 +13,3 @@
  * @return 0 or ERR_* (reported)
  */
 int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum tracer_mode mode, size_t n, int json);
-
-#endif

@@ -1,6 +1,5 @@
 /* A surface and its events: what is drawn and cleared becomes a scene. Nothing happens unless scenes are built (x->want). */
-#ifndef REPLAY_BUILD_FRAME_H
-#define REPLAY_BUILD_FRAME_H
+#pragma once
 
 #include <stdint.h>
 
@@ -76,5 +75,3 @@ uint64_t gls_frame_events(const struct gls_surface *surface);
 struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events);
 /** One more reference. */
 struct scene *gls_scene_reference(struct scene *scene);
-
-#endif

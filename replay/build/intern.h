@@ -1,6 +1,5 @@
 /* The arrays of a scene: equal values are stored once. */
-#ifndef REPLAY_BUILD_INTERN_H
-#define REPLAY_BUILD_INTERN_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -17,5 +16,3 @@ int gls_scene_room(void *array, uint32_t *room, uint32_t wanted, size_t size);
 uint32_t gls_intern(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size);
 /** The same for values that must lie together. @return the first one's index; 0 if count is 0 */
 uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count, size_t size);
-
-#endif

@@ -2,8 +2,7 @@
  * What a draw saw: state copied into the scene under construction, equal things once. Indices are those of the scene's arrays;
  * SCENE_NONE stands for out of memory (reported).
  */
-#ifndef REPLAY_BUILD_MATERIAL_H
-#define REPLAY_BUILD_MATERIAL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -38,5 +37,3 @@ uint32_t gls_frame_texture(struct gls_exec *x, struct gls_frame *f, struct gls_t
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4]);
 /** A colour of the state, clamped to [0,1] unless the drawable can hold others (ARB_color_buffer_float). */
 void gls_color_of(float out[4], const float color[4], uint32_t unclamped);
-
-#endif

@@ -1,6 +1,5 @@
 /* Meshes: drawn vertices, found by content and kept across frames. Equal vertices are one mesh, in all frames. */
-#ifndef REPLAY_BUILD_MESH_H
-#define REPLAY_BUILD_MESH_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ void gls_mesh_release(struct gls_mesh *mesh);
 /** Between frames: if the cache is large, drop meshes that it alone holds and nobody drew for a while. */
 void gls_mesh_cache_trim(struct gls_exec *x);
 void gls_mesh_cache_free(struct gls_exec *x);
-
-#endif

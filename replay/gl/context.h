@@ -1,6 +1,5 @@
 /* Contexts, their state and what they share. */
-#ifndef REPLAY_GL_CONTEXT_H
-#define REPLAY_GL_CONTEXT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -29,5 +28,3 @@ void gls_state_free(struct gls_state *st);
 struct gls_share *gls_share_create(void);
 /** One context fewer. */
 void gls_share_release(struct gls_share *share);
-
-#endif

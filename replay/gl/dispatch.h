@@ -1,6 +1,5 @@
 /* Calls to handlers, and what happens around every handler. */
-#ifndef REPLAY_GL_DISPATCH_H
-#define REPLAY_GL_DISPATCH_H
+#pragma once
 
 #include "replay/machine/commands.h"
 
@@ -15,5 +14,3 @@ void gls_exec_take_counts(struct gls_exec *x, struct gls_exec *other);
 
 /** Execute a call of the trace. @return 0 or ERR_SYSTEM (reported) */
 int gls_exec_call(struct gls_exec *x, const struct call *c);
-
-#endif

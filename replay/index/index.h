@@ -8,8 +8,7 @@
  *
  * This header is about an index that is there. index_build.h opens or makes one.
  */
-#ifndef REPLAY_INDEX_INDEX_H
-#define REPLAY_INDEX_INDEX_H
+#pragma once
 
 #include <limits.h>
 
@@ -56,5 +55,3 @@ uint64_t index_checkpoint(const struct index *index, uint64_t frame);
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported). On failure destroy x, and seek the reader before it is read
  */
 int index_restore(struct index *index, uint64_t checkpoint, struct trace_reader *reader, struct gls_exec *x);
-
-#endif

@@ -4,8 +4,7 @@
  * A checkpoint stands a MiB of calls after the one before it at least; later where the state is large, where restoring it would
  * take longer than the calls since the last one, or where the index would outgrow the trace.
  */
-#ifndef REPLAY_INDEX_INDEX_BUILD_H
-#define REPLAY_INDEX_INDEX_BUILD_H
+#pragma once
 
 #include "replay/index/index.h"
 
@@ -25,5 +24,3 @@ enum index_mode {
  *         the next one makes it again
  */
 int index_open(struct index **out, const char *path, const char *hash, enum index_mode mode, struct player *fresh);
-
-#endif

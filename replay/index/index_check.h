@@ -1,6 +1,5 @@
 /* Holds an index against its trace. */
-#ifndef REPLAY_INDEX_INDEX_CHECK_H
-#define REPLAY_INDEX_INDEX_CHECK_H
+#pragma once
 
 struct index;
 
@@ -10,5 +9,3 @@ struct index;
  * @return 0; ERR_FAILED (reported: which checkpoint, which way, the first byte); ERR_INPUT, ERR_SYSTEM (reported)
  */
 int index_check(struct index *index);
-
-#endif

@@ -4,8 +4,7 @@
  * A header; blobs, each once, under the XXH3-128 of their content, Snappy-packed where that saves something; a table of contents
  * with a checksum, packed alike. Snapshots are blobs as well. Numbers are as this machine has them.
  */
-#ifndef REPLAY_INDEX_INDEX_FILE_H
-#define REPLAY_INDEX_INDEX_FILE_H
+#pragma once
 
 #include <stdio.h>
 
@@ -93,5 +92,3 @@ void index_drop_staged(struct index *index);
 
 /** The n bytes of a blob, to be freed with free(); NULL: they are not there, or damaged (reported) */
 uint8_t *index_get_blob(void *index, const uint64_t name[2], size_t n);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Blobs of an index: Snappy-packed where that saves something, else as they are.
  */
-#ifndef REPLAY_INDEX_PACK_H
-#define REPLAY_INDEX_PACK_H
+#pragma once
 
 #include <stddef.h>
 
@@ -24,5 +23,3 @@ int pack_blob(const char *data, size_t n, char *out, size_t *packed);
  *         them, or out of memory
  */
 char *unpack_blob(char *packed, size_t n_packed, size_t n);
-
-#endif

@@ -11,8 +11,7 @@
  *
  * Only a build with the same layout can read a snapshot: see snapshot_layout.h.
  */
-#ifndef REPLAY_INDEX_SNAPSHOT_H
-#define REPLAY_INDEX_SNAPSHOT_H
+#pragma once
 
 #include "base/bytes.h"
 #include "replay/machine/machine.h"
@@ -45,5 +44,3 @@ const char *snapshot_place(struct gls_exec *x, size_t at);
  * @return 0, ERR_INPUT (reported: no snapshot, or a blob is missing or damaged) or ERR_SYSTEM (reported); then destroy x
  */
 int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const uint8_t *data, size_t n);
-
-#endif

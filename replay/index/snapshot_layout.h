@@ -1,6 +1,5 @@
 /* What snapshots are made of, as a number. */
-#ifndef REPLAY_INDEX_SNAPSHOT_LAYOUT_H
-#define REPLAY_INDEX_SNAPSHOT_LAYOUT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -9,5 +8,3 @@
  * lists hold by number. A build reads snapshots of equal layouts only.
  */
 uint64_t snapshot_layout(void);
-
-#endif

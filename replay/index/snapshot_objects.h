@@ -1,6 +1,5 @@
 /* What contexts share, in a snapshot: lists, textures, buffers, programs, framebuffer objects, renderbuffers. */
-#ifndef REPLAY_INDEX_SNAPSHOT_OBJECTS_H
-#define REPLAY_INDEX_SNAPSHOT_OBJECTS_H
+#pragma once
 
 #include "replay/index/snapshot_parts.h"
 
@@ -8,5 +7,3 @@ void snapshot_put_share(struct saver *s, const struct gls_share *share);
 
 /** @param share  empty */
 void snapshot_get_share(struct loader *l, struct gls_share *share);
-
-#endif

@@ -2,8 +2,7 @@
  * What the parts of a snapshot have in common (snapshot.c, _state, _objects, _lists). Each part saves and loads, in the same order.
  * layout.txt names what becomes of every pointer.
  */
-#ifndef REPLAY_INDEX_SNAPSHOT_PARTS_H
-#define REPLAY_INDEX_SNAPSHOT_PARTS_H
+#pragma once
 
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
@@ -67,5 +66,3 @@ void saver_table(struct saver *s, const struct table *t, const struct snapshot_t
 void loader_table(struct loader *l, struct table *t, const struct snapshot_table *how);
 
 extern const struct snapshot_table snapshot_numbers; /* values are numbers and no pointers */
-
-#endif

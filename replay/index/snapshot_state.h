@@ -1,6 +1,5 @@
 /* The state of one context in a snapshot. */
-#ifndef REPLAY_INDEX_SNAPSHOT_STATE_H
-#define REPLAY_INDEX_SNAPSHOT_STATE_H
+#pragma once
 
 #include "replay/index/snapshot_parts.h"
 
@@ -8,5 +7,3 @@ void snapshot_put_state(struct saver *s, const struct gls_state *st);
 
 /** @param st  as gls_state_init made it */
 void snapshot_get_state(struct loader *l, struct gls_state *st);
-
-#endif

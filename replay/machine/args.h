@@ -1,6 +1,5 @@
 /* The arguments of a call, as the type that a handler wants. */
-#ifndef REPLAY_MACHINE_ARGS_H
-#define REPLAY_MACHINE_ARGS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -53,5 +52,3 @@ const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *
 const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n);
 /** 1 if the argument is an address or NULL: an offset in a buffer object. */
 int arg_is_offset(const struct call *c, unsigned i);
-
-#endif

@@ -1,6 +1,5 @@
 /* Buffer objects (GL 2.1 sec. 2.9). */
-#ifndef REPLAY_MACHINE_BUFFER_H
-#define REPLAY_MACHINE_BUFFER_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,5 +19,3 @@ static inline struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t 
 {
 	return name ? table_find(&st->share->buffers, name) : NULL;
 }
-
-#endif

@@ -4,8 +4,7 @@
  * A chapter defines one function per command, with GLS_HANDLER at the start of a line. The line says what others must know of the
  * command: its kind (what the dispatcher does first) and its role in display lists.
  */
-#ifndef REPLAY_MACHINE_COMMANDS_H
-#define REPLAY_MACHINE_COMMANDS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -62,5 +61,3 @@ extern const unsigned n_gls_commands;
 
 /** Index in gls_commands, or -1. */
 int32_t gls_command_find(const char *name);
-
-#endif

@@ -1,6 +1,5 @@
 /* What can go wrong in a handler: errors of the program, calls that are not done yet, failures of ours. */
-#ifndef REPLAY_MACHINE_ERRORS_H
-#define REPLAY_MACHINE_ERRORS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -30,5 +29,3 @@ void gls_fail(struct gls_exec *x);
  * @return 1 if it is too much
  */
 int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why);
-
-#endif

@@ -1,6 +1,5 @@
 /* Collected vertices, and how primitives are cut into triangles, lines and points (GL 2.1 sec. 2.6.1). */
-#ifndef REPLAY_MACHINE_GEOMETRY_H
-#define REPLAY_MACHINE_GEOMETRY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -54,5 +53,3 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
 void gls_geometry_turn_quads(struct gls_geometry *g);
 /** 1 if quads with these positions ([n][4]) are cut the other way under this state. */
 int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n);
-
-#endif

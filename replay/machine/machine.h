@@ -1,6 +1,5 @@
 /* The machine that executes calls: what it knows while it runs a recording. The chapters of replay/gl/ and the index see it. */
-#ifndef REPLAY_MACHINE_MACHINE_H
-#define REPLAY_MACHINE_MACHINE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -115,5 +114,3 @@ static inline const struct gls_pixel_store *gls_client_store(const struct gls_ex
 {
 	return x->unpack ? x->unpack : &st->client.unpack;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Pictures: pixels that were rendered, shared by reference. */
-#ifndef REPLAY_MACHINE_PICTURE_H
-#define REPLAY_MACHINE_PICTURE_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stddef.h>
@@ -30,5 +29,3 @@ struct gls_picture *gls_picture_reference(struct gls_picture *p);
 void gls_picture_release(struct gls_picture *p);
 /** The colour of a place in a picture. */
 void gls_picture_color(const struct scene_picture *p, size_t place, float out[4]);
-
-#endif

@@ -4,8 +4,7 @@
  * Tokens are kept as the numbers GL gives them (build/gen/gl_tokens.h). Matrices as scene.h says. Object names are kept as
  * names, not as pointers: what a name means is looked up in the share group when it is used.
  */
-#ifndef REPLAY_MACHINE_STATE_H
-#define REPLAY_MACHINE_STATE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -326,5 +325,3 @@ static inline void gls_set_error(struct gls_state *st, uint32_t error)
 	if (!st->error)
 		st->error = error;
 }
-
-#endif

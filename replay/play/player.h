@@ -4,8 +4,7 @@
  *
  * Frame n (from 0) ends with the trace's n-th swap of buffers.
  */
-#ifndef REPLAY_PLAY_PLAYER_H
-#define REPLAY_PLAY_PLAYER_H
+#pragma once
 
 #include "replay/machine/machine.h"
 #include "replay/trace/reader.h"
@@ -39,5 +38,3 @@ void player_use(struct player *p, struct gls_exec *x);
 
 /** Go back to the trace's beginning. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 int player_start_again(struct player *p);
-
-#endif

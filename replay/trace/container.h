@@ -1,8 +1,7 @@
 /*
  * The bytes inside a trace's container: Snappy chunks, gzip or Brotli, delivered piece by piece.
  */
-#ifndef REPLAY_TRACE_CONTAINER_H
-#define REPLAY_TRACE_CONTAINER_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -42,5 +41,3 @@ int container_hash_end(struct container *c, uint64_t out[2]);
 
 uint64_t container_offset(const struct container *c); /* bytes of the file used so far */
 uint64_t container_size(const struct container *c);   /* of the file */
-
-#endif

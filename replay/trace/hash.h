@@ -1,6 +1,5 @@
 /* Hashes of a file: what a trace is known by, and whether it is still the same. */
-#ifndef REPLAY_TRACE_HASH_H
-#define REPLAY_TRACE_HASH_H
+#pragma once
 
 #include <stdint.h>
 #include <xxhash.h>
@@ -22,5 +21,3 @@ int hash_file(const char *path, uint64_t limit, XXH3_state_t *state);
 
 /** The XXH3-128 of all of a file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 int hash_whole(const char *path, uint64_t out[2]);
-
-#endif

@@ -7,8 +7,7 @@
  *
  * The reader does not know what calls mean.
  */
-#ifndef REPLAY_TRACE_READER_H
-#define REPLAY_TRACE_READER_H
+#pragma once
 
 #include "capture/format/call.h"
 
@@ -89,5 +88,3 @@ uint64_t trace_reader_size(const struct trace_reader *r);
 
 /** Name of an ENUM's value, or NULL where the signature has none. */
 const char *trace_enum_name(const struct trace_value *v);
-
-#endif

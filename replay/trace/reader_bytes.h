@@ -4,8 +4,7 @@
  * Reading stops at the first failure or at the end: r->status is then set, and every function gives zeros. Callers look at it
  * where a loop or an index depends on what was read.
  */
-#ifndef REPLAY_TRACE_READER_BYTES_H
-#define REPLAY_TRACE_READER_BYTES_H
+#pragma once
 
 #include <string.h>
 
@@ -132,5 +131,3 @@ uint8_t *reader_block(struct trace_reader *r, struct arena *a, uint64_t n);
 
 /** A string with its length in front, which `count` receives unless it is NULL. */
 const char *reader_string(struct trace_reader *r, struct arena *a, uint64_t *count);
-
-#endif

@@ -1,6 +1,5 @@
 /* Events: calls that are entered and that return. */
-#ifndef REPLAY_TRACE_READER_CALLS_H
-#define REPLAY_TRACE_READER_CALLS_H
+#pragma once
 
 #include "replay/trace/reader_bytes.h"
 
@@ -9,5 +8,3 @@ struct reader_call *reader_next_call(struct trace_reader *r);
 
 /** Its memory may hold another call. */
 void reader_release_call(struct reader_call *p);
-
-#endif

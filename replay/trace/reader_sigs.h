@@ -2,8 +2,7 @@
  * Signatures: the names of calls, enums, bitmasks and structs. A trace spells each where it is met first and names it by a number
  * from then on.
  */
-#ifndef REPLAY_TRACE_READER_SIGS_H
-#define REPLAY_TRACE_READER_SIGS_H
+#pragma once
 
 #include "replay/trace/reader_bytes.h"
 
@@ -33,5 +32,3 @@ int64_t reader_tagged_int(struct trace_reader *r);
  * @return 0, ERR_INPUT or ERR_SYSTEM (reported)
  */
 int reader_learn_sigs(struct trace_reader *r, const uint8_t *signatures, size_t n, uint64_t offset);
-
-#endif

@@ -1,6 +1,5 @@
 /* Values of arguments and results. */
-#ifndef REPLAY_TRACE_READER_VALUES_H
-#define REPLAY_TRACE_READER_VALUES_H
+#pragma once
 
 #include "replay/trace/reader_sigs.h"
 
@@ -76,5 +75,3 @@ static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, c
 
 /** An array of quick values: the vectors and matrices of GL. As reader_quick_scalar. */
 const uint8_t *reader_quick_array(struct trace_reader *r, const uint8_t *p, struct arena *a, struct trace_value *v);
-
-#endif

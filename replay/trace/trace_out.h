@@ -8,8 +8,7 @@
  * The recorder has a writer of its own (capture/write/writer.h): it encodes a running program's values of C by generated tables. This
  * one encodes values that know their type, with names from the trace.
  */
-#ifndef REPLAY_TRACE_TRACE_OUT_H
-#define REPLAY_TRACE_TRACE_OUT_H
+#pragma once
 
 #include "replay/trace/reader.h"
 
@@ -36,5 +35,3 @@ int trace_out_finish(struct trace_out **out, uint64_t *bytes);
 
 /** Give up: no file is left. */
 void trace_out_drop(struct trace_out **out);
-
-#endif

@@ -9,8 +9,7 @@
  * Mesa (22.3) does not move the raster position by a bitmap that is discarded. A driver and this machine may differ where such a
  * bitmap stands in a list and a later frame goes on from its position.
  */
-#ifndef REPLAY_VERBS_EARLY_H
-#define REPLAY_VERBS_EARLY_H
+#pragma once
 
 #include "replay/trace/trace_out.h"
 
@@ -28,5 +27,3 @@ int early_end(struct early *e);
 
 /** Calls written so far. */
 uint64_t early_count(const struct early *e);
-
-#endif

@@ -2,8 +2,7 @@
  * Embree's builders on the triangles of a bench_mesh: rtcBuildBVH, whose callbacks leave a binary tree that we can look at,
  * and rtcCommitScene, which makes all that its own traversal wants.
  */
-#ifndef BENCH_EMBREE_BUILD_H
-#define BENCH_EMBREE_BUILD_H
+#pragma once
 
 #include <embree3/rtcore.h>
 
@@ -26,5 +25,3 @@ int embree_build_tree(struct embree_build *b, enum RTCBuildQuality quality, uint
 
 /** A scene ready to be traced; everything is made anew. */
 int embree_build_scene(struct embree_build *b, enum RTCBuildQuality quality, double *seconds);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * The corpus' hall of 262,267 triangles as one bench_mesh: in the eye space of hall.c's first frame.
  */
-#ifndef BENCH_HALL_MESH_H
-#define BENCH_HALL_MESH_H
+#pragma once
 
 #include "base/err.h"
 #include "corpus/hall.h"
@@ -46,5 +45,3 @@ static inline int hall_mesh_create(struct bench_mesh *out)
 	}
 	return 0;
 }
-
-#endif

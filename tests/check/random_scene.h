@@ -2,8 +2,7 @@
  * Scenes by chance for the tests of the traversal kernels: a few meshes under several matrices, with degenerate and
  * repeated triangles among them. Same seed, same scene.
  */
-#ifndef TESTS_CHECK_RANDOM_SCENE_H
-#define TESTS_CHECK_RANDOM_SCENE_H
+#pragma once
 
 #include <check.h>
 #include <math.h>
@@ -180,5 +179,3 @@ static inline struct device_buffer *make_buffer(struct device *dev, const void *
 	ck_assert_int_eq(device_write(dev, buffer, 0, data, bytes), 0);
 	return buffer;
 }
-
-#endif

@@ -6,8 +6,7 @@
  * for each of its parameters, of which the high half says how the low half becomes a value: a small number, one of the
  * parameter's enumerants, an extreme one. The last two bytes are what the call returned.
  */
-#ifndef TESTS_FUZZ_CALLS_H
-#define TESTS_FUZZ_CALLS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -67,5 +66,3 @@ extern const struct calls_painter calls_grey;
  * @return 0; 1 where they are not
  */
 int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter);
-
-#endif

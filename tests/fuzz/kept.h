@@ -1,6 +1,5 @@
 /* The kept sequences of calls (pack_calls.py), one after the other. */
-#ifndef TESTS_FUZZ_KEPT_H
-#define TESTS_FUZZ_KEPT_H
+#pragma once
 
 #include <check.h>
 #include <stdio.h>
@@ -19,5 +18,3 @@ static inline int kept_next(FILE *file, uint8_t *bytes, size_t *size)
 	ck_assert_msg(*size <= KEPT_LARGEST && fread(bytes, 1, *size, file) == *size, KEPT " is cut");
 	return 1;
 }
-
-#endif

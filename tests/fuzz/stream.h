@@ -4,8 +4,7 @@
  *
  * A call is written whole, its return right behind its beginning; what stood between the two comes after it.
  */
-#ifndef TESTS_FUZZ_STREAM_H
-#define TESTS_FUZZ_STREAM_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -18,5 +17,3 @@
  * @return bytes written; 0: a cannot be taken apart
  */
 size_t stream_change(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size, uint8_t *out, size_t room, unsigned *state);
-
-#endif

@@ -10,8 +10,7 @@
  * NULL), s string, F n floats (int, const float *), D n doubles, U n unsigned (int, const uint32_t *), b bytes (size_t,
  * const void *).
  */
-#ifndef TESTS_GL_GL_H
-#define TESTS_GL_GL_H
+#pragma once
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -198,5 +197,3 @@ static inline uint64_t gl_unsupported(const struct gl *gl)
 			tcase_add_test(tcase, tests[i]); \
 		return run_case(tcase, name); \
 	}
-
-#endif

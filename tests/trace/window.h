@@ -1,6 +1,5 @@
 /* A GLX window for the small programs of this folder, of 64 x 48 pixels unless a program says otherwise before it opens it. */
-#ifndef TESTS_TRACE_WINDOW_H
-#define TESTS_TRACE_WINDOW_H
+#pragma once
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -50,5 +49,3 @@ static inline void expect(int truth, const char *what)
 		exit(1);
 	}
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Scenes built by hand for the truth tests: meshes, materials and views without a recording. */
-#ifndef TESTS_TRUTH_SCENES_H
-#define TESTS_TRUTH_SCENES_H
+#pragma once
 
 #include <check.h>
 #include <math.h>
@@ -227,5 +226,3 @@ static inline void truth_render(const struct truth *t, const char *mode, struct 
 
 	truth_render_with(t, &options, img);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Acceleration structures: one BLAS per mesh, kept while the mesh is in use, and the TLASes of one frame.
  */
-#ifndef TRACER_ACCEL_ACCEL_H
-#define TRACER_ACCEL_ACCEL_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "scene/scene.h"
@@ -86,5 +85,3 @@ struct accel_pool accel_pool(const struct accel *accel, enum blas_part part);
 
 /** The user has a copy of all pools now. */
 void accel_copied(struct accel *accel);
-
-#endif

@@ -2,8 +2,7 @@
  * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels walk. Its parts go into the
  * pools of struct accel.
  */
-#ifndef TRACER_ACCEL_BLAS_H
-#define TRACER_ACCEL_BLAS_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/tree.h"
@@ -47,5 +46,3 @@ void blas_free(struct blas *blas);
 
 /** Memory of all parts. */
 size_t blas_bytes(const struct blas *blas);
-
-#endif

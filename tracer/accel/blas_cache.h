@@ -4,8 +4,7 @@
  *
  * The cache keeps to a number of bytes; the BLAS unused for longest goes first. All functions may be called from any thread.
  */
-#ifndef TRACER_ACCEL_BLAS_CACHE_H
-#define TRACER_ACCEL_BLAS_CACHE_H
+#pragma once
 
 #include "tracer/accel/blas.h"
 
@@ -48,5 +47,3 @@ const struct blas *blas_cache_publish(struct blas_cache *cache, const struct bla
 
 /** The BLAS will not come: one of those who wait makes it. */
 void blas_cache_abandon(struct blas_cache *cache, const struct blas_key *key);
-
-#endif

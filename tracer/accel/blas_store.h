@@ -7,8 +7,7 @@
  *
  * Nothing here fails a run. Where the folder cannot be written (no right, no space), one warning says so and writing stops.
  */
-#ifndef TRACER_ACCEL_BLAS_STORE_H
-#define TRACER_ACCEL_BLAS_STORE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -39,5 +38,3 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 
 /** Keep a tree. */
 void blas_store_save(struct blas_store *store, const struct blas_store_key *key, const struct tree *tree);
-
-#endif

@@ -3,8 +3,7 @@
  * fourth lane that goes along. The compiler's own operators do arithmetic and comparisons on vector types. This file has the rest,
  * for whatever the including file is compiled for: AVX, SSE2, or neither.
  */
-#ifndef TRACER_ACCEL_BOX8_H
-#define TRACER_ACCEL_BOX8_H
+#pragma once
 
 #include <stdint.h>
 #ifdef __SSE2__
@@ -136,5 +135,3 @@ static inline vec4 box8_half_areas(box8 a, box8 b, box8 c, box8 d)
 
 	return x * y + y * z + z * x;
 }
-
-#endif

@@ -14,8 +14,7 @@
  *   LBVH  The quickest (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on GPUs"): items in the
  *         order of their centres on a Morton curve, divided where the curve's cells are; a subtree is one leaf where that is cheaper.
  */
-#ifndef TRACER_ACCEL_BUILDERS_H
-#define TRACER_ACCEL_BUILDERS_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/blas_store.h"
@@ -79,5 +78,3 @@ extern const char *const accel_kind_names[N_ACCEL_KINDS + 1];
  * @return 0 or ERR_SYSTEM (reported). That a tree cannot be kept is no error
  */
 int builders_make_tree(const struct soup *soup, enum accel_kind kind, const uint64_t hash[2], struct blas_store *store, struct tree *out);
-
-#endif

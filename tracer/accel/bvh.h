@@ -6,8 +6,7 @@
  * items; no other node2 has one. Any node8 may have empty lanes, behind those in use.
  * No path from the root to a leaf is longer than BVH_MAX_DEPTH nodes (kernels/shared.h): the kernels' stacks rely on it.
  */
-#ifndef TRACER_ACCEL_BVH_H
-#define TRACER_ACCEL_BVH_H
+#pragma once
 
 #include "kernels/shared.h"
 
@@ -52,5 +51,3 @@ enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };
  */
 int bvh_collapse8(const struct node2 *nodes2, uint32_t n_nodes2, enum bvh_leaves leaves, struct node8 *nodes,
                   uint32_t *n_nodes, uint32_t *block_first, uint32_t *block_count, uint32_t *n_blocks);
-
-#endif

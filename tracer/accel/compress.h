@@ -1,8 +1,7 @@
 /*
  * Eight-wide nodes of 80 bytes out of binary ones (kernels/shared.h: struct node8c), for GPUs.
  */
-#ifndef TRACER_ACCEL_COMPRESS_H
-#define TRACER_ACCEL_COMPRESS_H
+#pragma once
 
 #include "kernels/shared.h"
 
@@ -22,5 +21,3 @@
  */
 int bvh_compress8(const struct node2 *nodes2, uint32_t n_nodes2, const struct triangle *triangles, uint32_t n_items,
                   struct node8c *nodes, uint32_t *n_nodes, struct triangle *out);
-
-#endif

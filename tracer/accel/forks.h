@@ -1,8 +1,7 @@
 /*
  * Tasks that add more tasks, done by several threads: subtrees of a tree under construction.
  */
-#ifndef TRACER_ACCEL_FORKS_H
-#define TRACER_ACCEL_FORKS_H
+#pragma once
 
 #include <pthread.h>
 #include <stddef.h>
@@ -37,5 +36,3 @@ void forks_add(struct forks *forks, const void *task);
  *                 start, the others do its work
  */
 void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg);
-
-#endif

@@ -6,8 +6,7 @@
  * Soupikov and Kapustin 2007, "Highly parallel fast KD-tree construction for interactive ray tracing of dynamic scenes"); few
  * give the planes themselves. For sah_build.inc.
  */
-#ifndef TRACER_ACCEL_KD_SPLIT_H
-#define TRACER_ACCEL_KD_SPLIT_H
+#pragma once
 
 #include "tracer/accel/sbvh_split.h"
 
@@ -108,5 +107,3 @@ static inline uint32_t kd_count_cut(const box8 *refs, uint32_t n, const struct p
 		cut += -box8_negative_lo(refs[i])[plane->axis] < plane->at && box8_hi(refs[i])[plane->axis] > plane->at;
 	return cut;
 }
-
-#endif

@@ -2,8 +2,7 @@
  * The builder by surface area (sah_build.inc), compiled for any processor (sah.c) and for AVX2 (sah_avx2.c): both give the same
  * tree. sah.c chooses.
  */
-#ifndef TRACER_ACCEL_SAH_BUILD_H
-#define TRACER_ACCEL_SAH_BUILD_H
+#pragma once
 
 #include "tracer/accel/builders.h"
 
@@ -19,5 +18,3 @@ enum sah_splits { SAH_OBJECTS, SAH_SPATIAL, SAH_PLANES };
  */
 int sah_build_plain(enum sah_splits splits, const struct bvh_input *in, uint32_t most_bins, struct tree *out);
 int sah_build_avx2(enum sah_splits splits, const struct bvh_input *in, uint32_t most_bins, struct tree *out);
-
-#endif

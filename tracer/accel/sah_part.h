@@ -1,8 +1,7 @@
 /*
  * What the builders by surface area divide: references, which are boxes with their item. For sah_build.inc and its helpers.
  */
-#ifndef TRACER_ACCEL_SAH_PART_H
-#define TRACER_ACCEL_SAH_PART_H
+#pragma once
 
 #include "tracer/accel/box8.h"
 
@@ -20,5 +19,3 @@ struct sah_part {
 	uint32_t first, count, room, depth;
 	box8 box, centres; /* twice the centres: only comparisons matter */
 };
-
-#endif

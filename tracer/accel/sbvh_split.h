@@ -3,8 +3,7 @@
  * best division of a part still overlap, a plane cuts its space instead. Both sides then hold the triangles that it cuts, each
  * with the box of its own piece. For sah_build.inc.
  */
-#ifndef TRACER_ACCEL_SBVH_SPLIT_H
-#define TRACER_ACCEL_SBVH_SPLIT_H
+#pragma once
 
 #include <float.h>
 #include <math.h>
@@ -222,5 +221,3 @@ static inline int partition_space(const struct triangle *triangles, box8 *refs, 
 	right->box = r;
 	return n_left && n_right;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * The triangles of one mesh that can be hit, each with its bounds: what builders build from.
  */
-#ifndef TRACER_ACCEL_SOUP_H
-#define TRACER_ACCEL_SOUP_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/bvh.h"
@@ -29,5 +28,3 @@ struct soup {
  */
 int soup_make(const struct scene_mesh *mesh, const float (*positions)[4], struct soup *out);
 void soup_free(struct soup *soup);
-
-#endif

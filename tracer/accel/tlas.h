@@ -2,8 +2,7 @@
  * The TLASes (top levels) of one frame: trees over instances, one for the camera rays of each view, one for the secondary rays of
  * each eye space and one for its skies.
  */
-#ifndef TRACER_ACCEL_TLAS_H
-#define TRACER_ACCEL_TLAS_H
+#pragma once
 
 #include "tracer/accel/accel.h"
 
@@ -17,5 +16,3 @@
  */
 int tlas_build(struct accel *accel, const struct scene *scene, const struct instance *instances, uint32_t n,
                const struct bvh_box *boxes, struct view *views);
-
-#endif

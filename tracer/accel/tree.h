@@ -2,8 +2,7 @@
  * The binary tree over a mesh's triangles. All builders make the same kind of nodes, so that every kernel walks every tree; no hit
  * depends on the tree that found it (kernels/rays/rays.h).
  */
-#ifndef TRACER_ACCEL_TREE_H
-#define TRACER_ACCEL_TREE_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/soup.h"
@@ -34,5 +33,3 @@ void tree_free(struct tree *tree);
  * hold at most TREE_LEAF_TRIANGLES, and no path is longer than BVH_MAX_DEPTH.
  */
 int tree_is_sound(const struct tree *tree, uint32_t n_triangles);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * OpenCL 1.2 behind tracer/device/device.h: cl.c and cl_program.c make all clXxx calls of the project. For device.c alone.
  */
-#ifndef TRACER_DEVICE_CL_H
-#define TRACER_DEVICE_CL_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -46,5 +45,3 @@ struct cl_arg {
 
 /** Queue a kernel; its program is compiled at its first use. @return 0 or ERR_SYSTEM (reported) */
 int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args);
-
-#endif

@@ -2,8 +2,7 @@
  * Programs of an OpenCL device: built from the text inside the command, or found where an earlier run left them compiled. For cl.c
  * alone.
  */
-#ifndef TRACER_DEVICE_CL_PROGRAM_H
-#define TRACER_DEVICE_CL_PROGRAM_H
+#pragma once
 
 #include <CL/cl.h>
 #include <limits.h>
@@ -29,5 +28,3 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
  * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)
  */
 int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out);
-
-#endif

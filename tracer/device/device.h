@@ -2,8 +2,7 @@
  * A device: where kernels run and buffers live. It is an OpenCL device, or "reference": the scalar C twins of kernels/ref, in this
  * process. The tracer is written once against this header and does not know which one it has. launch.h launches kernels.
  */
-#ifndef TRACER_DEVICE_DEVICE_H
-#define TRACER_DEVICE_DEVICE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -151,5 +150,3 @@ struct device_profile {
  */
 void device_set_profile(struct device *dev, struct device_profile *profile);
 const char *device_kernel_name(enum kernel kernel);
-
-#endif

@@ -5,8 +5,7 @@
  *
  * An argument of another type does not compile, nor does a missing, a superfluous or a repeated one.
  */
-#ifndef TRACER_DEVICE_LAUNCH_H
-#define TRACER_DEVICE_LAUNCH_H
+#pragma once
 
 #include "kernels/kernels.h"
 #include "tracer/device/device.h"
@@ -56,5 +55,3 @@ KERNEL_LISTS(LAUNCH_STRUCT)
  */
 #define LAUNCH_DECLARE(name, list) int launch_##name(struct device *dev, size_t n_items, const struct list##_launch *a);
 KERNELS(LAUNCH_DECLARE)
-
-#endif

@@ -1,6 +1,5 @@
 /* From the pixels of a finished frame to the channels of an image. */
-#ifndef TRACER_FRAME_COMPOSE_H
-#define TRACER_FRAME_COMPOSE_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 #include "tracer/image/image.h"
@@ -17,5 +16,3 @@ int compose_wants(const char *aov, const char *group);
 
 /** The names of all channel groups, NULL at the end. */
 extern const char *const compose_groups[];
-
-#endif

@@ -2,8 +2,7 @@
  * Lines (expand_line.h), points and pixel rectangles (expand_point.h) as triangles in the window, where Mesa's llvmpipe puts
  * them. Polygons drawn as lines or points (GL 2.1 sec. 3.5.4) go the same way, edge by edge.
  */
-#ifndef TRACER_FRAME_EXPAND_H
-#define TRACER_FRAME_EXPAND_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "scene/scene.h"
@@ -39,5 +38,3 @@ struct expanded {
 /** @param out  all zero; free with expanded_free. @return 0 or ERR_SYSTEM (reported) */
 int expand_primitives(const struct expand_input *in, struct expanded *out);
 void expanded_free(struct expanded *e);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Ends of lines and centres of points on their way into the window: loaded, clipped, projected, mixed.
  */
-#ifndef TRACER_FRAME_EXPAND_END_H
-#define TRACER_FRAME_EXPAND_END_H
+#pragma once
 
 #include "tracer/frame/expand.h"
 
@@ -34,5 +33,3 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 
 /** The point at share s of a projected line: attributes over w are linear in the window. */
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s);
-
-#endif

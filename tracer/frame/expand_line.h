@@ -2,8 +2,7 @@
  * Lines as quads, where Mesa's llvmpipe puts them: of the line's width, cut at their ends by the diamond-exit rule (GL 2.1
  * sec. 3.4), under multisampling as rectangles along them, or smooth; whole or in the dashes of a stipple (sec. 3.4.2).
  */
-#ifndef TRACER_FRAME_EXPAND_LINE_H
-#define TRACER_FRAME_EXPAND_LINE_H
+#pragma once
 
 #include "tracer/frame/expand_end.h"
 
@@ -21,5 +20,3 @@ struct expand_stipple {
  */
 int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
                 uint32_t draw, struct expand_stipple *stipple);
-
-#endif

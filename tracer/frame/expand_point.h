@@ -2,8 +2,7 @@
  * Points as squares (GL 2.1 sec. 3.3), also under multisampling, and bitmaps and pixel rectangles (sec. 3.6.4, 3.7), where Mesa's
  * llvmpipe puts them.
  */
-#ifndef TRACER_FRAME_EXPAND_POINT_H
-#define TRACER_FRAME_EXPAND_POINT_H
+#pragma once
 
 #include "tracer/frame/expand_end.h"
 
@@ -12,5 +11,3 @@ int expand_point(const struct expand_input *in, struct expanded *out, struct exp
 
 /** Add a bitmap or pixel rectangle. Its first corner is vertex i of the mesh, in window coordinates. @return 0 or ERR_SYSTEM (reported) */
 int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Quads in the window, four corners and two triangles each: what lines, points and pixel rectangles become.
  */
-#ifndef TRACER_FRAME_EXPAND_QUAD_H
-#define TRACER_FRAME_EXPAND_QUAD_H
+#pragma once
 
 #include "tracer/frame/expand.h"
 #include "tracer/frame/expand_end.h"
@@ -22,5 +21,3 @@ void expand_add_smooth_corner(const struct expand_input *in, struct expanded *ou
 
 /** Two triangles over the last four corners, front side up. */
 void expand_add_triangles(const struct expand_input *in, struct expanded *out, uint32_t draw);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * What the files of this room share: the tracer with its buffers on the device, and a frame on its way through it.
  */
-#ifndef TRACER_FRAME_FRAME_H
-#define TRACER_FRAME_FRAME_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -76,5 +75,3 @@ struct tables_launch frame_tables(const struct tracer *tr);
 
 /** The buffer of one of the pixels' samples; where they have but one, the frame itself. */
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
-
-#endif

@@ -1,6 +1,5 @@
 /* Vertices and trees of a frame. */
-#ifndef TRACER_FRAME_GEOMETRY_H
-#define TRACER_FRAME_GEOMETRY_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 
@@ -9,5 +8,3 @@
  * @return 0 or ERR_SYSTEM (reported)
  */
 int geometry_place(struct job *job);
-
-#endif

@@ -1,6 +1,5 @@
 /* Pixels as GL's frame buffer has them, to the device before a frame and from there after it. */
-#ifndef TRACER_FRAME_PICTURE_H
-#define TRACER_FRAME_PICTURE_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 
@@ -9,5 +8,3 @@ int picture_upload_start(struct job *job);
 
 /** What was drawn last, of this scene. @param picture  as for tracer_render_picture @return 0 or ERR_SYSTEM (reported) */
 int picture_read(struct tracer *tr, const struct scene *scene, struct scene_picture *picture);
-
-#endif

@@ -2,8 +2,7 @@
  * A device buffer that keeps arrays by content (vertex arrays, indices, texels) as long as they fit. A frame copies only what the
  * frame before did not have.
  */
-#ifndef TRACER_FRAME_POOL_H
-#define TRACER_FRAME_POOL_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -41,5 +40,3 @@ typedef void pool_fill(const void *object, uint32_t *words);
 int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, size_t n, pool_fill *fill);
 
 void pool_free(struct pool *pool, struct device *dev);
-
-#endif

@@ -2,8 +2,7 @@
  * A frame as the wavefront takes it: scene instances with their matrices and flags, and the frame's events in order, cut into
  * segments. One camera pass answers for each segment.
  */
-#ifndef TRACER_FRAME_PREPARE_H
-#define TRACER_FRAME_PREPARE_H
+#pragma once
 
 #include "kernels/shared.h"
 #include "scene/scene.h"
@@ -65,5 +64,3 @@ size_t prepare_index_words(const struct scene_mesh *mesh);
 /** pool_fill for both: object is a struct scene_mesh. */
 void prepare_fill_attributes(const void *object, uint32_t *words);
 void prepare_fill_indices(const void *object, uint32_t *words);
-
-#endif

@@ -1,6 +1,5 @@
 /* Prefix sums on a device: kernels/frame/scan.h. */
-#ifndef TRACER_FRAME_SCAN_H
-#define TRACER_FRAME_SCAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -16,5 +15,3 @@
  */
 int scan_counts(struct device *dev, union buffer_uint counts, uint32_t n, union buffer_uint *places, union buffer_uint *scratch,
                 uint32_t *total);
-
-#endif

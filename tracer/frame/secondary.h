@@ -1,6 +1,5 @@
 /* Rays from the fragments of the list: to lights, into the surroundings, mirrored, through glass. Functions return 0 or ERR_SYSTEM (reported). */
-#ifndef TRACER_FRAME_SECONDARY_H
-#define TRACER_FRAME_SECONDARY_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 
@@ -18,5 +17,3 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 
 /** Follow the mirrored, bent and scattered rays of all n fragments, bounce by bounce, into their parts. */
 int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
-
-#endif

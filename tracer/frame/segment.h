@@ -2,8 +2,7 @@
  * Segments (tracer/frame/prepare.h): clears, camera rays, fragments gathered and shaded, per-fragment operations. Draws end in the
  * sample job->frame. Functions return 0 or ERR_SYSTEM (reported).
  */
-#ifndef TRACER_FRAME_SEGMENT_H
-#define TRACER_FRAME_SEGMENT_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 
@@ -25,5 +24,3 @@ int segment_merge_samples(struct job *job);
 
 /** The pixels of this pass to those of the passes before. @param first  1: there are none */
 int segment_add_pass(struct job *job, uint32_t first);
-
-#endif

@@ -5,8 +5,7 @@
  * rays, gathers and shades fragments, lights those again whose shadow rays were stopped, follows mirrors, and puts all through the
  * per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
  */
-#ifndef TRACER_FRAME_TRACE_H
-#define TRACER_FRAME_TRACE_H
+#pragma once
 
 #include "scene/scene.h"
 #include "tracer/accel/accel.h"
@@ -70,5 +69,3 @@ struct tracer_undrawn {
 	uint64_t targets; /* instances that drew to a target other than the window */
 };
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
-
-#endif

@@ -1,8 +1,7 @@
 /*
  * Trees on a device, and rays through them by the kernels of any family.
  */
-#ifndef TRACER_FRAME_TRAVERSE_H
-#define TRACER_FRAME_TRAVERSE_H
+#pragma once
 
 #include "tracer/accel/accel.h"
 #include "tracer/device/launch.h"
@@ -54,5 +53,3 @@ struct traverse_rays {
 
 /** @return as traverse_camera */
 int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_trees *trees, const struct traverse_rays *r);
-
-#endif

@@ -1,6 +1,5 @@
 /* What of a scene the device needs: meshes, state, textures, trees. Functions return 0 or ERR_SYSTEM (reported). */
-#ifndef TRACER_FRAME_UPLOAD_H
-#define TRACER_FRAME_UPLOAD_H
+#pragma once
 
 #include "tracer/frame/frame.h"
 
@@ -13,5 +12,3 @@ int upload_state(struct job *job);
 
 /** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */
 int upload_trees(struct job *job);
-
-#endif

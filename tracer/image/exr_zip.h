@@ -4,8 +4,7 @@
  * replaced by its difference from the one before plus 128, and all are deflated in zlib's wrapping (OpenEXR, "Technical
  * Introduction"; OpenEXR File Layout).
  */
-#ifndef TRACER_IMAGE_EXR_ZIP_H
-#define TRACER_IMAGE_EXR_ZIP_H
+#pragma once
 
 #include <openexr.h>
 #include <stddef.h>
@@ -30,5 +29,3 @@ void exr_zip_decode_with(exr_decode_pipeline_t *decode, struct exr_zip *zip);
 
 /** Call it after the pipeline is destroyed. */
 void exr_zip_free(struct exr_zip *zip);
-
-#endif

@@ -4,8 +4,7 @@
  * Channel names are those of the EXR file ("R", "gl.R", "shadow.G", "Z", "id"). Colours are linear light with Rec.709
  * primaries unless attribute "relume:encoding" says "display"; ids are exact integers.
  */
-#ifndef TRACER_IMAGE_IMAGE_H
-#define TRACER_IMAGE_IMAGE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -73,5 +72,3 @@ int image_read_exr(struct image *img, const char *path);
 /** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);
-
-#endif

@@ -1,6 +1,5 @@
 /* Drawing from vertex arrays (GL 2.1 sec. 2.8). */
-#ifndef REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
-#define REPLAY_GL_GEOMETRY_ARRAY_DRAW_H
+#pragma once
 
 #include <stdint.h>
 
@@ -16,5 +15,3 @@ void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, in
  */
 void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count, uint32_t type,
                        const struct trace_value *indices, int32_t base);
-
-#endif

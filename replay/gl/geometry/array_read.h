@@ -1,6 +1,5 @@
 /* Reading vertex arrays: their bytes as they are at a draw, and elements as floats (GL 2.1 sec. 2.8, table 2.4). */
-#ifndef REPLAY_GL_GEOMETRY_ARRAY_READ_H
-#define REPLAY_GL_GEOMETRY_ARRAY_READ_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -37,5 +36,3 @@ uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);
 /** A hash of all that a draw's mesh depends on. elements: a hash of the indices, or the first vertex. */
 uint64_t gls_sources_key(const struct gls_state *st, const struct gls_sources *s, uint32_t mode, uint64_t elements, uint64_t n_elements);
-
-#endif

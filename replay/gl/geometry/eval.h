@@ -1,6 +1,5 @@
 /* The maps of evaluators (GL 2.1 sec. 5.1). */
-#ifndef REPLAY_GL_GEOMETRY_EVAL_H
-#define REPLAY_GL_GEOMETRY_EVAL_H
+#pragma once
 
 struct bytes;
 struct cursor;
@@ -11,5 +10,3 @@ void gls_maps_free(struct gls_maps *maps);
 void gls_maps_save(const struct gls_maps *maps, struct bytes *out);
 /** Load them; the caller owns them. @return NULL: there are none; or in->failed is set: bytes or memory are missing */
 struct gls_maps *gls_maps_load(struct cursor *in);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * While a list is made, its calls are kept; numbers of vertices are packed. list_assemble.h makes it cheap to call.
  */
-#ifndef REPLAY_GL_GEOMETRY_LIST_H
-#define REPLAY_GL_GEOMETRY_LIST_H
+#pragma once
 
 #include <stdint.h>
 
@@ -91,5 +90,3 @@ static inline int gls_op_is(const struct gls_op *op, enum gls_role role)
 {
 	return op->form != GLS_OP_MESH && gls_commands[op->command].role == role;
 }
-
-#endif

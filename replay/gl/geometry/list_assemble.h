@@ -3,8 +3,7 @@
  * nothing but vertex attributes between become meshes. A batch stays as calls if a vertex needs an attribute that is known only when
  * the list is called.
  */
-#ifndef REPLAY_GL_GEOMETRY_LIST_ASSEMBLE_H
-#define REPLAY_GL_GEOMETRY_LIST_ASSEMBLE_H
+#pragma once
 
 struct gls_exec;
 struct gls_list;
@@ -14,5 +13,3 @@ struct gls_list *gls_list_assemble(struct gls_exec *x, struct gls_list *list);
 
 /** The machine in which lists are assembled; NULL is allowed. */
 void gls_assembler_free(struct gls_exec *assembler);
-
-#endif

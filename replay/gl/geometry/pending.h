@@ -3,8 +3,7 @@
  *
  * Pairs of Begin and End with the same kind of primitive share one mesh, as long as no state changes that draws look at.
  */
-#ifndef REPLAY_GL_GEOMETRY_PENDING_H
-#define REPLAY_GL_GEOMETRY_PENDING_H
+#pragma once
 
 #include <stdint.h>
 
@@ -29,5 +28,3 @@ void gls_restart(struct gls_exec *x, struct gls_state *st);
 void gls_color_changed(struct gls_state *st);
 /** A material parameter is about to change, perhaps between Begin and End. */
 void gls_before_material(struct gls_exec *x, struct gls_state *st);
-
-#endif

@@ -1,6 +1,5 @@
 /* Vertex array objects (GL 3.0 sec. 2.10). */
-#ifndef REPLAY_GL_GEOMETRY_VERTEXARRAY_H
-#define REPLAY_GL_GEOMETRY_VERTEXARRAY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -13,5 +12,3 @@ void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS]);
 /** Bind a vertex array object; make it if there is none of this name. */
 void gls_vertex_array_bind(struct gls_exec *x, struct gls_state *st, uint32_t name);
 void gls_vertex_array_free(struct gls_vertex_array *object);
-
-#endif

@@ -1,11 +1,8 @@
 /* The accumulation buffer (GL 2.1 sec. 4.2.4). */
-#ifndef REPLAY_GL_PIXELS_ACCUM_H
-#define REPLAY_GL_PIXELS_ACCUM_H
+#pragma once
 
 struct gls_exec;
 struct gls_state;
 
 /** Clear what the scissor lets through of the accumulation buffer, to the value of ClearAccum. */
 void gls_accum_clear(struct gls_exec *x, struct gls_state *st);
-
-#endif

@@ -1,6 +1,5 @@
 /* Rectangles of pixels as fragments (GL 2.1 sec. 3.6.4, 3.7). */
-#ifndef REPLAY_GL_PIXELS_RECTANGLE_H
-#define REPLAY_GL_PIXELS_RECTANGLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -28,5 +27,3 @@ void gls_draw_depths(struct gls_exec *x, struct gls_state *st, const struct gls_
  * @param color_mask  as in struct gls_color_buffer
  */
 void gls_copy_rectangle(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, uint32_t color_mask);
-
-#endif

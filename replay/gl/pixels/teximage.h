@@ -1,6 +1,5 @@
 /* Images of textures, as the commands of GL 2.1 sec. 3.8.1 - 3.8.3 address them. */
-#ifndef REPLAY_GL_PIXELS_TEXIMAGE_H
-#define REPLAY_GL_PIXELS_TEXIMAGE_H
+#pragma once
 
 #include "replay/gl/texture/texture.h"
 
@@ -11,5 +10,3 @@
  */
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
                                            unsigned *face);
-
-#endif

@@ -1,6 +1,5 @@
 /* Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4). */
-#ifndef REPLAY_GL_STATE_CONFIG_H
-#define REPLAY_GL_STATE_CONFIG_H
+#pragma once
 
 struct gls_exec;
 struct gls_state;
@@ -8,5 +7,3 @@ struct trace_value;
 
 /** Give a context the bits of the visual or configuration that it is made for, as far as they are known. */
 void gls_config_apply(struct gls_exec *x, struct gls_state *st, const struct trace_value *config);
-
-#endif

@@ -1,6 +1,5 @@
 /* What is attached to framebuffer objects, and its pixels. */
-#ifndef REPLAY_GL_SURFACE_ATTACHMENT_H
-#define REPLAY_GL_SURFACE_ATTACHMENT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -44,5 +43,3 @@ struct gls_picture *gls_attachments_load(struct gls_exec *x, const struct gls_sh
 /** Attachments (1 << number) become what was drawn to them. p: NULL in a frame that is not built: they are missing from now on */
 void gls_attachments_store(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS],
                            uint32_t which, const struct scene_picture *p);
-
-#endif

@@ -1,6 +1,5 @@
 /* Drawing and clearing: what a context does reaches its surfaces here. Nothing happens where no scene is built (x->want 0). */
-#ifndef REPLAY_GL_SURFACE_DRAW_H
-#define REPLAY_GL_SURFACE_DRAW_H
+#pragma once
 
 #include "replay/build/frame.h"
 
@@ -17,5 +16,3 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 
 /** Clear; buffers: as in scene_clear. */
 void gls_draw_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers);
-
-#endif

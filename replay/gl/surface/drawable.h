@@ -1,6 +1,5 @@
 /* Windows and pbuffers. */
-#ifndef REPLAY_GL_SURFACE_DRAWABLE_H
-#define REPLAY_GL_SURFACE_DRAWABLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -20,5 +19,3 @@ struct gls_drawable {
 
 /** The drawable of this name, made where there is none; NULL: out of memory. */
 struct gls_drawable *gls_drawable_of(struct gls_exec *x, uint64_t name);
-
-#endif

@@ -2,8 +2,7 @@
  * Framebuffer objects (EXT_framebuffer_object; GL 3.0 sec. 4.4). What is drawn to one is a surface of its own; its events are
  * rendered, and written to what is attached, only when somebody looks at that.
  */
-#ifndef REPLAY_GL_SURFACE_FRAMEBUFFER_H
-#define REPLAY_GL_SURFACE_FRAMEBUFFER_H
+#pragma once
 
 #include "replay/build/frame.h"
 #include "replay/gl/surface/attachment.h"
@@ -38,5 +37,3 @@ void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls
 
 void gls_framebuffer_free(struct gls_framebuffer *fb);
 void gls_renderbuffer_free(struct gls_renderbuffer *r);
-
-#endif

@@ -1,6 +1,5 @@
 /* Ends of frames. */
-#ifndef REPLAY_GL_SURFACE_FRAMES_H
-#define REPLAY_GL_SURFACE_FRAMES_H
+#pragma once
 
 struct gls_exec;
 struct scene;
@@ -19,5 +18,3 @@ void gls_frame_end_deferred(struct gls_exec *x);
 
 /** A frame was executed without being built: what it drew is not known. */
 void gls_frame_skip(struct gls_exec *x);
-
-#endif

@@ -1,6 +1,5 @@
 /* Front buffers of double-buffered windows. */
-#ifndef REPLAY_GL_SURFACE_FRONT_H
-#define REPLAY_GL_SURFACE_FRONT_H
+#pragma once
 
 struct gls_drawable;
 struct gls_exec;
@@ -17,5 +16,3 @@ struct gls_surface *gls_front_part(struct gls_exec *x, struct gls_drawable *d);
 
 /** The back buffer, whose scene has just ended, was swapped to the front. */
 void gls_front_swapped(struct gls_drawable *d);
-
-#endif

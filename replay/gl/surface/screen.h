@@ -1,6 +1,5 @@
 /* What a context draws to and reads from. */
-#ifndef REPLAY_GL_SURFACE_SCREEN_H
-#define REPLAY_GL_SURFACE_SCREEN_H
+#pragma once
 
 #include "replay/build/frame.h"
 
@@ -20,5 +19,3 @@ const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state
 
 /** The kind of pixels that colours for what is drawn to should come as, so that none is clamped needlessly: SCENE_*_PIXELS. */
 uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * Nobody renders but the supplier (replay.h). A surface keeps the events that it saw, and what it held before them.
  */
-#ifndef REPLAY_GL_SURFACE_SURFACE_H
-#define REPLAY_GL_SURFACE_SURFACE_H
+#pragma once
 
 #include "replay/build/frame.h"
 
@@ -25,5 +24,3 @@ void gls_surface_share(struct gls_surface *to, const struct gls_surface *from);
 
 /** Forget events and what was there before them. */
 void gls_surface_free(struct gls_surface *surface);
-
-#endif

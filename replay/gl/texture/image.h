@@ -2,8 +2,7 @@
  * The images that scenes show of textures. Equal images exist once: a cache finds them by the hash of their content. The cache
  * holds a reference, and so does every texture and scene that uses one.
  */
-#ifndef REPLAY_GL_TEXTURE_IMAGE_H
-#define REPLAY_GL_TEXTURE_IMAGE_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdint.h>
@@ -33,5 +32,3 @@ void gls_texture_image_release(struct gls_texture_image *image);
 /** Between frames: drop images that only the cache holds and nobody drew with for a while. */
 void gls_image_cache_trim(struct gls_exec *x);
 void gls_image_cache_free(struct gls_exec *x);
-
-#endif

@@ -1,6 +1,5 @@
 /* One image of a texture: a level of a mipmap, of a face where the texture is a cube (GL 2.1 sec. 3.8.1). */
-#ifndef REPLAY_GL_TEXTURE_LEVEL_H
-#define REPLAY_GL_TEXTURE_LEVEL_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -29,5 +28,3 @@ static inline uint8_t *gls_level_stencil(const struct gls_level *l)
 
 	return l->texels && l->bytes > texels ? l->texels + texels : NULL;
 }
-
-#endif

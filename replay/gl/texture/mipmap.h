@@ -1,6 +1,5 @@
 /* Generated mipmaps (GL 2.1 sec. 3.8.8). */
-#ifndef REPLAY_GL_TEXTURE_MIPMAP_H
-#define REPLAY_GL_TEXTURE_MIPMAP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -12,5 +11,3 @@ void gls_texture_generate_mipmaps(struct gls_exec *x, struct gls_texture *t, uns
 
 /** A level has new texels: generate the levels above it where the texture asks for that (GENERATE_MIPMAP). */
 void gls_texture_level_changed(struct gls_exec *x, struct gls_texture *t, unsigned face, int64_t level);
-
-#endif

@@ -1,6 +1,5 @@
 /* Block-compressed images (GL 2.1 sec. 3.8.3): S3TC, RGTC, LATC, FXT1. */
-#ifndef REPLAY_GL_TEXTURE_TEXCOMPRESS_H
-#define REPLAY_GL_TEXTURE_TEXCOMPRESS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -12,5 +11,3 @@
  * @return 0; -1: too few bytes, or not a format of these
  */
 int gls_decompress(uint32_t internal_format, uint32_t width, uint32_t height, const uint8_t *data, size_t n, uint8_t *out);
-
-#endif

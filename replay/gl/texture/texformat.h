@@ -2,8 +2,7 @@
  * Internal formats of textures and renderbuffers: what is kept of a colour. A texel is 4 bytes RGBA, or 4 floats where its format
  * holds numbers beyond [0,1]; a depth is one float.
  */
-#ifndef REPLAY_GL_TEXTURE_TEXFORMAT_H
-#define REPLAY_GL_TEXTURE_TEXFORMAT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -54,5 +53,3 @@ void gls_format_border(uint32_t internal_format, const float color[4], float out
 /** One channel in [0,1] (EXT_texture_sRGB, IEC 61966-2-1). */
 float gls_linear_from_srgb(float c);
 float gls_srgb_from_linear(float c);
-
-#endif

@@ -4,8 +4,7 @@
  * A texture that is attached to a framebuffer object may be behind what was drawn to it: gls_texture_update (surface/framebuffer.h)
  * comes before anybody looks at it or changes it.
  */
-#ifndef REPLAY_GL_TEXTURE_TEXTURE_H
-#define REPLAY_GL_TEXTURE_TEXTURE_H
+#pragma once
 
 #include "gl_tokens.h"
 #include "replay/gl/texture/level.h"
@@ -74,5 +73,3 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 uint32_t gls_texture_missing(const struct gls_texture *t);
 
 void gls_texture_free(struct gls_texture *t);
-
-#endif

@@ -1,6 +1,5 @@
 /* Pixel transfer (GL 2.1 sec. 3.6.5): what becomes of pixels between the client or the screen and where they go. */
-#ifndef REPLAY_GL_TEXTURE_TRANSFER_H
-#define REPLAY_GL_TEXTURE_TRANSFER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -18,5 +17,3 @@ uint32_t gls_transfer_index(const struct gls_state *st, uint32_t index);
 void gls_transfer_color_index(const struct gls_state *st, uint32_t index, uint8_t rgba[4]);
 /** The stencil value that the map gives it. */
 uint32_t gls_transfer_stencil(const struct gls_state *st, uint32_t value);
-
-#endif

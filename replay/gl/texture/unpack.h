@@ -3,8 +3,7 @@
  *
  * Bytes that the recording does not hold are read as 0.
  */
-#ifndef REPLAY_GL_TEXTURE_UNPACK_H
-#define REPLAY_GL_TEXTURE_UNPACK_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -48,5 +47,3 @@ void gls_unpack_stencil(const struct gls_pixels *p, uint8_t *out);
 
 /** A bit of a bitmap (sec. 3.7): type BITMAP, whatever p->type says. */
 int gls_unpack_bit(const struct gls_pixels *p, uint32_t x, uint32_t y);
-
-#endif
