@@ -27,6 +27,7 @@ static const struct verb {
 	{ "repair", repair_main, "save what can be read of a recording that was cut or damaged" },
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "write a frame as glTF, for other programs" },
+	{ "look", look_main, "study a trace: write rules about lights and surfaces for render" },
 	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },

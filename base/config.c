@@ -90,31 +90,38 @@ static int line_of_key(const char *text, const char *end, const struct complaint
 	return c->line;
 }
 
-int config_load(const char *path, const cyaml_schema_value_t *schema, void **out)
+int config_parse(const char *name, const char *text, size_t n, const cyaml_schema_value_t *schema, void **out)
 {
 	struct complaint complaint = { "", 0 };
 	const cyaml_config_t config = make_config(&complaint);
+	cyaml_err_t code;
+
+	*out = NULL;
+	code = cyaml_load_data((const uint8_t *)text, n, &config, schema, out, NULL);
+	complaint.line = code == CYAML_OK ? 0 : line_of_key(text, text + n, &complaint);
+	if (code == CYAML_OK && *out)
+		return 0;
+	if (code == CYAML_OK)
+		return err_report(ERR_INPUT, name, "the file is empty");
+	if (code == CYAML_ERR_OOM)
+		return err_report(ERR_SYSTEM, name, "out of memory");
+	if (complaint.line)
+		return err_report(ERR_INPUT, name, "line %d: %s", complaint.line,
+		                  complaint.text[0] ? complaint.text : cyaml_strerror(code));
+	return err_report(ERR_INPUT, name, "%s", complaint.text[0] ? complaint.text : cyaml_strerror(code));
+}
+
+int config_load(const char *path, const cyaml_schema_value_t *schema, void **out)
+{
 	char *text = NULL;
 	size_t n = 0;
-	cyaml_err_t code;
 	int err = read_all(path, &text, &n);
 
 	if (err)
 		return err;
-	*out = NULL;
-	code = cyaml_load_data((const uint8_t *)text, n, &config, schema, out, NULL);
-	complaint.line = code == CYAML_OK ? 0 : line_of_key(text, text + n, &complaint);
+	err = config_parse(path, text, n, schema, out);
 	free(text);
-	if (code == CYAML_OK && *out)
-		return 0;
-	if (code == CYAML_OK)
-		return err_report(ERR_INPUT, path, "the file is empty");
-	if (code == CYAML_ERR_OOM)
-		return err_report(ERR_SYSTEM, path, "out of memory");
-	if (complaint.line)
-		return err_report(ERR_INPUT, path, "line %d: %s", complaint.line,
-		                  complaint.text[0] ? complaint.text : cyaml_strerror(code));
-	return err_report(ERR_INPUT, path, "%s", complaint.text[0] ? complaint.text : cyaml_strerror(code));
+	return err;
 }
 
 void config_free(const cyaml_schema_value_t *schema, void *data)

@@ -14,4 +14,7 @@
  * @return 0; ERR_INPUT (reported: missing, no YAML, or not what the schema says, with its line); ERR_SYSTEM (reported)
  */
 int config_load(const char *path, const cyaml_schema_value_t *schema, void **out);
+
+/** The same for text in memory. @param name  what messages call it */
+int config_parse(const char *name, const char *text, size_t n, const cyaml_schema_value_t *schema, void **out);
 void config_free(const cyaml_schema_value_t *schema, void *data);

@@ -15,6 +15,7 @@ int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
 int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
 int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
 int export_main(int argc, char **argv);  /* replay/verbs/export.c */
+int look_main(int argc, char **argv);    /* render/look.c */
 int render_main(int argc, char **argv);  /* render/render.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* render/devices.c */

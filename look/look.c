@@ -1,225 +1,22 @@
 #include "look/look.h"
 
-#include <inttypes.h>
+#include <math.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/config.h"
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/mat4.h"
-
-/* --- The file ------------------------------------------------------------------------------------------------------ */
-
-/* Pointers are NULL for keys that the file does not have. */
-struct match {
-	const char *texture, *mesh, *draws, *call;
-	const uint32_t *list;
-	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested;
-};
-
-struct surface_rule {
-	struct match *match;
-	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
-	const bool *shadows, *mirrors, *lit;
-};
-
-struct spot {
-	const float *direction, *cutoff, *exponent;
-};
-
-struct light_rule {
-	const uint32_t *light;
-	const bool *off;
-	const char *object;
-	const float *position, *ambient, *diffuse, *specular, *attenuation, *radius;
-	struct spot *spot;
-};
-
-struct rules {
-	struct surface_rule *surfaces;
-	struct light_rule *lights;
-	uint32_t surfaces_count, lights_count; /* libcyaml wants these names */
-};
-
-struct look {
-	struct rules *rules;
-	struct frame_list *draws; /* [surfaces_count] */
-};
-
-#define OPTIONAL_POINTER (CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL)
-
-static const cyaml_schema_value_t number = { CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT, float) };
-
-#define TEXT(type, name) CYAML_FIELD_STRING_PTR(#name, OPTIONAL_POINTER, type, name, 1, 256)
-#define TRUTH(type, name) CYAML_FIELD_BOOL_PTR(#name, OPTIONAL_POINTER, type, name)
-#define COUNT(type, name) CYAML_FIELD_UINT_PTR(#name, OPTIONAL_POINTER, type, name)
-#define NUMBER(type, name) CYAML_FIELD_FLOAT_PTR(#name, OPTIONAL_POINTER, type, name)
-#define NUMBERS(type, name, n) CYAML_FIELD_SEQUENCE_FIXED(#name, OPTIONAL_POINTER, type, name, &number, n)
-
-static const cyaml_schema_field_t match_fields[] = {
-	TEXT(struct match, texture), TEXT(struct match, mesh), TEXT(struct match, draws), TEXT(struct match, call),
-	COUNT(struct match, list), TRUTH(struct match, program), TRUTH(struct match, lit), TRUTH(struct match, textured),
-	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested), CYAML_FIELD_END
-};
-
-static const cyaml_schema_field_t surface_fields[] = {
-	CYAML_FIELD_MAPPING_PTR("match", OPTIONAL_POINTER, struct surface_rule, match, match_fields),
-	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
-	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
-	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
-	TRUTH(struct surface_rule, lit), CYAML_FIELD_END
-};
-
-static const cyaml_schema_field_t spot_fields[] = {
-	NUMBERS(struct spot, direction, 3), NUMBER(struct spot, cutoff), NUMBER(struct spot, exponent), CYAML_FIELD_END
-};
-
-static const cyaml_schema_field_t light_fields[] = {
-	COUNT(struct light_rule, light), TRUTH(struct light_rule, off), TEXT(struct light_rule, object),
-	NUMBERS(struct light_rule, position, 4), NUMBERS(struct light_rule, ambient, 3),
-	NUMBERS(struct light_rule, diffuse, 3), NUMBERS(struct light_rule, specular, 3),
-	NUMBERS(struct light_rule, attenuation, 3), NUMBER(struct light_rule, radius),
-	CYAML_FIELD_MAPPING_PTR("spot", OPTIONAL_POINTER, struct light_rule, spot, spot_fields), CYAML_FIELD_END
-};
-
-static const cyaml_schema_value_t surface_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct surface_rule,
-                                                                         surface_fields) };
-static const cyaml_schema_value_t light_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct light_rule,
-                                                                       light_fields) };
-
-static const cyaml_schema_field_t rules_fields[] = {
-	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
-	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
-	CYAML_FIELD_END
-};
-
-static const cyaml_schema_value_t rules_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct rules, rules_fields) };
-
-/* --- Checks that libcyaml does not make ---------------------------------------------------------------------------- */
-
-static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
-                        float least, float most)
-{
-	if (!value || (*value >= least && *value <= most))
-		return 0;
-	return err_report(ERR_INPUT, path, "%s, rule %u: %s is %g; it must be %s%g%s%g", list, rule + 1, key, (double)*value,
-	                  most < 1e30f ? "between " : "at least ", (double)least, most < 1e30f ? " and " : ", not beyond ",
-	                  (double)most);
-}
-
-static int check_hash(const char *path, const char *list, uint32_t rule, const char *key, const char *value)
-{
-	if (!value || (strspn(value, "0123456789abcdef") == strlen(value) && strlen(value) <= 32))
-		return 0;
-	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the beginning of a hash (0-9, a-f)", list, rule + 1, key,
-	                  value);
-}
-
-static int check_surface(const char *path, const struct surface_rule *r, uint32_t i)
-{
-	static const char list[] = "surfaces";
-	int err = check_number(path, list, i, "reflect", r->reflect, 0, 1);
-
-	if (!err)
-		err = check_number(path, list, i, "transmit", r->transmit, 0, 1);
-	if (!err && r->reflect && r->transmit && *r->reflect + *r->transmit > 1)
-		err = err_report(ERR_INPUT, path, "surfaces, rule %u: reflect and transmit are more than 1 together", i + 1);
-	if (!err)
-		err = check_number(path, list, i, "ior", r->ior, 1, 10);
-	if (!err)
-		err = check_number(path, list, i, "roughness", r->roughness, 0, 1);
-	for (int c = 0; c < 3 && !err; c++) {
-		err = check_number(path, list, i, "absorb", r->absorb ? r->absorb + c : NULL, 0, 1e30f);
-		if (!err)
-			err = check_number(path, list, i, "emission", r->emission ? r->emission + c : NULL, 0, 1e30f);
-	}
-	if (!err && r->match)
-		err = check_hash(path, list, i, "mesh", r->match->mesh);
-	if (!err && r->match)
-		err = check_hash(path, list, i, "texture", r->match->texture);
-	return err;
-}
-
-static int check_light(const char *path, const struct light_rule *r, uint32_t i)
-{
-	int err = check_number(path, "lights", i, "radius", r->radius, 0, 1e30f);
-
-	if (!err && r->light && *r->light >= SCENE_MAX_LIGHTS)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: there are lights 0 to %d", i + 1, SCENE_MAX_LIGHTS - 1);
-	if (!err && !r->light && !r->position)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: a light that is added needs a position", i + 1);
-	if (!err && r->object && !r->position)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: object says where a position counts, and there is none", i + 1);
-	if (!err && r->spot)
-		err = check_number(path, "lights", i, "cutoff", r->spot->cutoff, 0, 90);
-	return err ? err : check_hash(path, "lights", i, "object", r->object);
-}
-
-int look_load(const char *path, struct look **out)
-{
-	struct look *look = calloc(1, sizeof(*look));
-	void *data = NULL;
-	int err;
-
-	if (!look)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	err = config_load(path, &rules_schema, &data);
-	look->rules = data;
-	if (!err) {
-		look->draws = calloc(look->rules->surfaces_count + (size_t)1, sizeof(*look->draws));
-		if (!look->draws)
-			err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	}
-	for (uint32_t i = 0; !err && i < look->rules->surfaces_count; i++) {
-		const struct match *m = look->rules->surfaces[i].match;
-
-		err = check_surface(path, &look->rules->surfaces[i], i);
-		if (err || !m || !m->draws)
-			continue;
-		if (strspn(m->draws, "0123456789-,") != strlen(m->draws))
-			err = err_report(ERR_INPUT, path, "surfaces, rule %u: draws '%s' is no list of numbers", i + 1, m->draws);
-		else
-			err = frame_list_parse(m->draws, &look->draws[i]) ? ERR_INPUT : 0;
-	}
-	for (uint32_t i = 0; !err && i < look->rules->lights_count; i++)
-		err = check_light(path, &look->rules->lights[i], i);
-	if (err)
-		look_free(&look);
-	*out = look;
-	return err;
-}
-
-void look_free(struct look **look)
-{
-	struct look *l = *look;
-
-	if (!l)
-		return;
-	for (uint32_t i = 0; l->draws && i < l->rules->surfaces_count; i++)
-		frame_list_free(&l->draws[i]);
-	free(l->draws);
-	config_free(&rules_schema, l->rules);
-	free(l);
-	*look = NULL;
-}
+#include "look/rules.h"
+#include "look/world.h"
 
 /* --- Which surfaces ------------------------------------------------------------------------------------------------ */
-
-static int hash_begins(const uint64_t hash[2], const char *text)
-{
-	char whole[33];
-
-	snprintf(whole, sizeof(whole), "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
-	return strncmp(whole, text, strlen(text)) == 0;
-}
 
 static int has_texture(const struct scene *s, const struct scene_material *m, const char *text)
 {
 	for (uint32_t i = 0; i < m->unit_count; i++)
-		if (hash_begins(s->textures[s->units[m->unit_first + i].texture]->hash, text))
+		if (world_hash_begins(s->textures[s->units[m->unit_first + i].texture]->hash, text))
 			return 1;
 	return 0;
 }
@@ -237,7 +34,7 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 
 	if (!r)
 		return 1;
-	if ((r->texture && !has_texture(s, m, r->texture)) || (r->mesh && !hash_begins(s->meshes[in->mesh]->hash, r->mesh)))
+	if ((r->texture && !has_texture(s, m, r->texture)) || (r->mesh && !world_hash_begins(s->meshes[in->mesh]->hash, r->mesh)))
 		return 0;
 	if ((r->draws && !frame_list_contains(draws, in->draw)) || (r->call && (!draw || strcmp(draw->call, r->call) != 0)))
 		return 0;
@@ -278,41 +75,75 @@ static int changes_light(const struct light_rule *r)
 	return !r->light || r->off || r->position || r->ambient || r->diffuse || r->specular || r->attenuation || r->spot;
 }
 
-/* A light's position in eye space. It stays as written where the frame does not draw its object. */
-static void place_light(const struct scene *s, const struct light_rule *r, float out[4])
+/* A scene on its way under the rules. */
+struct applying {
+	const struct look *look;
+	const struct scene *scene;
+	struct scene *out;
+	float eye_from_world[16]; /* where lights stand in the world */
+	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights */
+};
+
+static int is_in_world(const struct light_rule *r)
 {
+	return r->space && strcmp(r->space, "world") == 0;
+}
+
+/* Bits as applying.lights_change. */
+static int lit_by(const struct light_rule *r)
+{
+	return r->on && strcmp(r->on, "unlit") == 0 ? 1 : 3;
+}
+
+/* A light's position in eye space. It stays as written where the frame does not draw its object. */
+static void place_light(const struct applying *a, const struct light_rule *r, float out[4])
+{
+	const struct scene *s = a->scene;
+
 	memcpy(out, r->position, 4 * sizeof(*out));
+	if (is_in_world(r))
+		mat4_transform(out, a->eye_from_world, r->position);
 	for (uint32_t i = 0; r->object && i < s->n_instances; i++)
-		if (hash_begins(s->meshes[s->instances[i].mesh]->hash, r->object)) {
+		if (world_hash_begins(s->meshes[s->instances[i].mesh]->hash, r->object)) {
 			mat4_transform(out, s->instances[i].modelview, r->position);
 			return;
 		}
 }
 
-static void set_light(const struct scene *s, struct scene_light *l, const struct light_rule *r)
+static void turn_spot(const struct applying *a, const struct light_rule *r, float out[3])
+{
+	float towards[4] = { r->spot->direction[0], r->spot->direction[1], r->spot->direction[2], 0 };
+
+	if (is_in_world(r))
+		mat4_transform(towards, a->eye_from_world, (const float[4]){ towards[0], towards[1], towards[2], 0 });
+	memcpy(out, towards, 3 * sizeof(*out));
+}
+
+static void set_light(const struct applying *a, struct scene_light *l, const struct light_rule *r)
 {
 	if (r->position)
-		place_light(s, r, l->position_eye);
+		place_light(a, r, l->position_eye);
 	set_number(l->ambient, r->ambient, 3);
 	set_number(l->diffuse, r->diffuse, 3);
 	set_number(l->specular, r->specular, 3);
 	set_number(l->attenuation, r->attenuation, 3);
 	set_number(&l->radius, r->radius, 1);
-	if (r->spot) {
-		set_number(l->spot_direction_eye, r->spot->direction, 3);
-		set_number(&l->spot_cutoff_deg, r->spot->cutoff, 1);
-		set_number(&l->spot_exponent, r->spot->exponent, 1);
-	}
+	if (!r->spot)
+		return;
+	if (r->spot->direction)
+		turn_spot(a, r, l->spot_direction_eye);
+	set_number(&l->spot_cutoff_deg, r->spot->cutoff, 1);
+	set_number(&l->spot_exponent, r->spot->exponent, 1);
 }
 
-/* A material's lights: GL's under the rules, and added ones. @return how many, at most SCENE_MAX_LIGHTS */
-static uint32_t list_lights(const struct rules *rules, const struct scene *s, const struct scene_material *m,
-                            struct scene_light out[SCENE_MAX_LIGHTS])
+/* GL's lights of a material under the rules. @return how many */
+static uint32_t list_own_lights(const struct applying *a, const struct scene_material *m, struct scene_light *out)
 {
+	const struct rules *rules = a->look->rules;
 	uint32_t n = 0;
 
 	for (uint32_t i = 0; m->lighting && i < m->light_count && n < SCENE_MAX_LIGHTS; i++) {
-		struct scene_light light = s->lights[m->light_first + i];
+		struct scene_light light = a->scene->lights[m->light_first + i];
 		int off = 0;
 
 		for (uint32_t k = 0; k < rules->lights_count; k++) {
@@ -320,19 +151,78 @@ static uint32_t list_lights(const struct rules *rules, const struct scene *s, co
 
 			if (!r->light || *r->light != light.index)
 				continue;
-			set_light(s, &light, r);
+			set_light(a, &light, r);
 			off = r->off ? *r->off : off;
 		}
 		if (!off)
 			out[n++] = light;
 	}
-	for (uint32_t k = 0; k < rules->lights_count && n < SCENE_MAX_LIGHTS; k++) {
-		if (rules->lights[k].light || (rules->lights[k].off && *rules->lights[k].off))
+	return n;
+}
+
+/* How much light reaches an object's middle at most, the ambient part doubly: it reaches all of it. */
+static float strength_at(const struct scene_light *l, const float middle[4])
+{
+	float square = 0, distance, power = 0;
+
+	for (int k = 0; k < 3; k++) {
+		float to = l->position_eye[3] != 0 ? l->position_eye[k] / l->position_eye[3] - middle[k] : 0;
+
+		square += to * to;
+		power = fmaxf(power, l->diffuse[k] + 2 * l->ambient[k]);
+	}
+	distance = sqrtf(square);
+	if (l->position_eye[3] == 0)
+		return power;
+	return power / (l->attenuation[0] + distance * (l->attenuation[1] + distance * l->attenuation[2]) + 1e-6f);
+}
+
+/* The middle of an instance's box, in eye space. */
+static void middle_of(const struct scene *s, const struct scene_instance *in, float out[4])
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	float low[3] = { 0, 0, 0 }, high[3] = { 0, 0, 0 };
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int k = 0; k < 3; k++) {
+			float x = mesh->position[4 * v + k];
+
+			low[k] = v && low[k] < x ? low[k] : x;
+			high[k] = v && high[k] > x ? high[k] : x;
+		}
+	mat4_transform(out, in->modelview, (const float[4]){ 0.5f * (low[0] + high[0]), 0.5f * (low[1] + high[1]), 0.5f * (low[2] + high[2]), 1 });
+}
+
+/* An instance's lights: GL's under the rules, and added ones, the strongest where they are too many. @return how many */
+static uint32_t list_lights(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
+                            struct scene_light out[SCENE_MAX_LIGHTS])
+{
+	const struct rules *rules = a->look->rules;
+	uint32_t own = list_own_lights(a, m, out), n = own;
+	float strength[SCENE_MAX_LIGHTS], middle[4];
+
+	if (rules->lights_count > SCENE_MAX_LIGHTS - own)
+		middle_of(a->scene, in, middle);
+	for (uint32_t k = 0; k < rules->lights_count && own < SCENE_MAX_LIGHTS; k++) {
+		const struct light_rule *r = &rules->lights[k];
+		struct scene_light light = { .diffuse = { 1, 1, 1, 1 }, .spot_direction_eye = { 0, 0, -1 }, .spot_cutoff_deg = 180,
+			                     .attenuation = { 1, 0, 0 }, .index = SCENE_NONE };
+		uint32_t at = n, weakest = own;
+
+		if (r->light || (r->off && *r->off) || !(lit_by(r) >> (m->lighting != 0) & 1))
 			continue;
-		out[n] = (struct scene_light){ .diffuse = { 1, 1, 1, 1 }, .spot_direction_eye = { 0, 0, -1 },
-			                       .spot_cutoff_deg = 180, .attenuation = { 1, 0, 0 },
-			                       .index = SCENE_NONE };
-		set_light(s, &out[n++], &rules->lights[k]);
+		set_light(a, &light, r);
+		strength[at % SCENE_MAX_LIGHTS] = 0;
+		if (rules->lights_count > SCENE_MAX_LIGHTS - own) {
+			for (uint32_t i = own; i < n; i++)
+				weakest = strength[i] < strength[weakest] ? i : weakest;
+			at = n < SCENE_MAX_LIGHTS ? n : weakest;
+			if (n == SCENE_MAX_LIGHTS && strength_at(&light, middle) <= strength[at])
+				continue;
+			strength[at] = strength_at(&light, middle);
+		}
+		out[at] = light;
+		n += at == n;
 	}
 	return n;
 }
@@ -348,24 +238,26 @@ static void size_lights(const struct rules *rules, struct scene *s)
 }
 
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
-static void change_instance(const struct look *look, const struct scene *scene, struct scene *out, uint32_t i,
-                            int lights_change)
+static void change_instance(const struct applying *a, uint32_t i)
 {
+	const struct scene *scene = a->scene;
+	const struct scene_instance *in = &scene->instances[i];
+	const struct rules *rules = a->look->rules;
+	struct scene *out = a->out;
 	struct scene_material *m = &out->materials[out->n_materials];
-	const struct rules *rules = look->rules;
 	uint32_t n = 0;
 
-	*m = scene->materials[scene->instances[i].material];
+	*m = scene->materials[in->material];
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
-		if (matches(scene, &scene->instances[i], rules->surfaces[k].match, &look->draws[k]))
+		if (matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
-	m->surface.relit = m->lighting ? (uint32_t)lights_change : m->surface.relit && lights_change;
+	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
 	if (m->surface.relit) {
-		n = list_lights(rules, scene, m, out->lights + out->n_lights);
+		n = list_lights(a, in, m, out->lights + out->n_lights);
 		m->surface.light_first = out->n_lights;
 		m->surface.light_count = n;
 	}
-	if (memcmp(m, &scene->materials[scene->instances[i].material], sizeof(*m)) == 0)
+	if (memcmp(m, &scene->materials[in->material], sizeof(*m)) == 0)
 		return;
 	out->instances[i].material = out->n_materials++;
 	out->n_lights += n;
@@ -373,15 +265,18 @@ static void change_instance(const struct look *look, const struct scene *scene, 
 
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out)
 {
+	struct applying a = { .look = look, .scene = scene, .out = out };
 	size_t n = scene->n_instances;
-	int lights_change = 0;
+	int in_world = 0;
 
-	for (uint32_t k = 0; k < look->rules->lights_count; k++)
-		lights_change |= changes_light(&look->rules->lights[k]);
+	for (uint32_t k = 0; k < look->rules->lights_count; k++) {
+		a.lights_change |= changes_light(&look->rules->lights[k]) ? lit_by(&look->rules->lights[k]) : 0;
+		in_world |= is_in_world(&look->rules->lights[k]);
+	}
 	*out = *scene;
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
-	out->lights = malloc((scene->n_lights + (lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
+	out->lights = malloc((scene->n_lights + (a.lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
 	if (!out->instances || !out->materials || !out->lights) {
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -392,9 +287,11 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		memcpy(out->materials, scene->materials, scene->n_materials * sizeof(*out->materials));
 	if (scene->n_lights)
 		memcpy(out->lights, scene->lights, scene->n_lights * sizeof(*out->lights));
+	if (in_world && !world_find(look->rules, scene, a.eye_from_world))
+		return 0; /* its lights stand nobody knows where */
 	size_lights(look->rules, out);
 	for (uint32_t i = 0; i < n; i++)
-		change_instance(look, scene, out, i, lights_change);
+		change_instance(&a, i);
 	return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/verbs.h"
+#include "render/look.h"
 #include "render/pipeline.h"
 
 #define MAX_PATH_BYTES 4096
@@ -125,6 +126,8 @@ static int render(struct settings *s)
 		err = blas_store_open(s->cache, s->cache_bytes ? s->cache_bytes : BLAS_STORE_BYTES, &s->tracer.store);
 	if (!err)
 		err = choose_frames(s, p.replay, &x);
+	if (!err && s->look_auto && !s->dry_run)
+		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
 	if (!err) {
 		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
 		p.end = x.end;

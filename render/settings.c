@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "base/options.h"
-#include "look/look.h"
+#include "look/rules.h"
 #include "tracer/accel/builders.h"
 
 /* What an option decides about. A row that says nothing decides about the picture. */
@@ -61,11 +61,13 @@ static int take_seconds(const struct options_row *row, const char *value, void *
 
 static int take_look(const struct options_row *row, const char *value, void *out)
 {
-	struct look **look = out;
+	struct settings *s = out;
+	struct look **look = &s->look;
 
 	(void)row;
-	look_free(look);
-	return look_load(value, look);
+	rules_free(look);
+	s->look_auto = strcmp(value, "auto") == 0;
+	return s->look_auto ? 0 : rules_load(value, look);
 }
 
 static int take_accel(const struct options_row *row, const char *value, void *out)
@@ -121,8 +123,8 @@ static const struct options_row rows[] = {
 	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
-	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/look.h shows all "
-	  "keys)", take_look, AT(look), .kind = PICTURE_FILE },
+	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/rules.h shows all "
+	  "keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
@@ -195,7 +197,7 @@ static int name_settings(struct settings *s, const struct options_line *line)
 		if (!line->given[i] || rows[i].kind == RUN)
 			continue;
 		XXH3_128bits_update(state, rows[i].name, strlen(rows[i].name) + 1);
-		if (rows[i].kind == PICTURE_FILE)
+		if (rows[i].kind == PICTURE_FILE && strcmp(line->given[i], "auto") != 0)
 			err = hash_file(state, line->given[i]);
 		else
 			XXH3_128bits_update(state, line->given[i], strlen(line->given[i]) + 1);
@@ -229,5 +231,5 @@ int settings_parse(struct settings *s, int argc, char **argv)
 void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
-	look_free(&s->look);
+	rules_free(&s->look);
 }

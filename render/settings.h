@@ -24,6 +24,7 @@ struct settings {
 	int no_cache;
 	uint64_t cache_bytes;   /* what it may hold; 0: BLAS_STORE_BYTES */
 	struct look *look;
+	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct tracer_options tracer;
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
 };

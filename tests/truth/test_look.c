@@ -1,4 +1,4 @@
-/* Rules (look/look.h): files that are wrong, what rules match, and what they make of a picture. */
+/* Rules (look/rules.h): files that are wrong, what rules match, and what they make of a picture. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +8,7 @@
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
 #include "look/look.h"
+#include "look/rules.h"
 
 #define SIZE 32
 
@@ -23,7 +24,7 @@ static int load(const char *text, struct look **out)
 	fputs(text, f);
 	fclose(f);
 	dup2(fileno(log), 2);
-	err = look_load(path, out);
+	err = rules_load(path, out);
 	dup2(kept, 2);
 	close(kept);
 	rewind(log);
@@ -105,7 +106,7 @@ START_TEST(test_matches)
 			ck_assert_uint_eq(m->surface.hidden, m->surface.reflect > 0 ? 2 : 0);
 		}
 		look_release(&changed);
-		look_free(&look);
+		rules_free(&look);
 	}
 	truth_free(&t);
 }
@@ -128,7 +129,7 @@ static void render_under(const struct truth *t, const char *text, struct image *
 	truth_render_with(&changed, &options, img);
 	truth_check_closure(img);
 	look_release(&changed.scene);
-	look_free(&look);
+	rules_free(&look);
 }
 
 /* Light from straight ahead: Lambert's cosine is 1. OpenGL's own picture is 0.5 above and the white current colour below. */
@@ -181,7 +182,7 @@ START_TEST(test_light_of_an_object)
 	ck_assert_float_eq(light->position_eye[0], 4);
 	ck_assert_float_eq(light->position_eye[1], 2);
 	look_release(&changed);
-	look_free(&look);
+	rules_free(&look);
 	truth_free(&t);
 }
 END_TEST

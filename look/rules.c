@@ -1,0 +1,223 @@
+#include "look/rules.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/config.h"
+#include "base/err.h"
+#include "scene/scene.h"
+
+/* --- The file ------------------------------------------------------------------------------------------------------ */
+
+#define OPTIONAL_POINTER (CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL)
+
+static const cyaml_schema_value_t number = { CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT, float) };
+
+#define TEXT(type, name) CYAML_FIELD_STRING_PTR(#name, OPTIONAL_POINTER, type, name, 1, 256)
+#define TRUTH(type, name) CYAML_FIELD_BOOL_PTR(#name, OPTIONAL_POINTER, type, name)
+#define COUNT(type, name) CYAML_FIELD_UINT_PTR(#name, OPTIONAL_POINTER, type, name)
+#define NUMBER(type, name) CYAML_FIELD_FLOAT_PTR(#name, OPTIONAL_POINTER, type, name)
+#define NUMBERS(type, name, n) CYAML_FIELD_SEQUENCE_FIXED(#name, OPTIONAL_POINTER, type, name, &number, n)
+
+static const cyaml_schema_field_t match_fields[] = {
+	TEXT(struct match, texture), TEXT(struct match, mesh), TEXT(struct match, draws), TEXT(struct match, call),
+	COUNT(struct match, list), TRUTH(struct match, program), TRUTH(struct match, lit), TRUTH(struct match, textured),
+	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested), CYAML_FIELD_END
+};
+
+/* `confidence` and the like; libcyaml finds them inside the rule. */
+#define REASON(type) \
+	CYAML_FIELD_STRING_PTR("role", OPTIONAL_POINTER, type, reason.role, 1, 64), \
+	CYAML_FIELD_STRING_PTR("why", OPTIONAL_POINTER, type, reason.why, 1, 1000), \
+	CYAML_FIELD_FLOAT_PTR("confidence", OPTIONAL_POINTER, type, reason.confidence)
+
+static const cyaml_schema_field_t surface_fields[] = {
+	REASON(struct surface_rule),
+	CYAML_FIELD_MAPPING_PTR("match", OPTIONAL_POINTER, struct surface_rule, match, match_fields),
+	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
+	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
+	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
+	TRUTH(struct surface_rule, lit), CYAML_FIELD_END
+};
+
+static const cyaml_schema_field_t spot_fields[] = {
+	NUMBERS(struct spot, direction, 3), NUMBER(struct spot, cutoff), NUMBER(struct spot, exponent), CYAML_FIELD_END
+};
+
+static const cyaml_schema_field_t anchor_fields[] = {
+	TEXT(struct anchor, mesh), NUMBERS(struct anchor, at, 16), CYAML_FIELD_END
+};
+
+static const cyaml_schema_field_t light_fields[] = {
+	REASON(struct light_rule), TEXT(struct light_rule, space), TEXT(struct light_rule, on),
+	COUNT(struct light_rule, light), TRUTH(struct light_rule, off), TEXT(struct light_rule, object),
+	NUMBERS(struct light_rule, position, 4), NUMBERS(struct light_rule, ambient, 3),
+	NUMBERS(struct light_rule, diffuse, 3), NUMBERS(struct light_rule, specular, 3),
+	NUMBERS(struct light_rule, attenuation, 3), NUMBER(struct light_rule, radius),
+	CYAML_FIELD_MAPPING_PTR("spot", OPTIONAL_POINTER, struct light_rule, spot, spot_fields), CYAML_FIELD_END
+};
+
+static const cyaml_schema_value_t surface_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct surface_rule,
+                                                                         surface_fields) };
+static const cyaml_schema_value_t light_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct light_rule,
+                                                                       light_fields) };
+
+static const cyaml_schema_value_t anchor_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct anchor, anchor_fields) };
+
+static const cyaml_schema_field_t rules_fields[] = {
+	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_END
+};
+
+static const cyaml_schema_value_t rules_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct rules, rules_fields) };
+
+/* --- Checks that libcyaml does not make ---------------------------------------------------------------------------- */
+
+static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
+                        float least, float most)
+{
+	if (!value || (*value >= least && *value <= most))
+		return 0;
+	return err_report(ERR_INPUT, path, "%s, rule %u: %s is %g; it must be %s%g%s%g", list, rule + 1, key, (double)*value,
+	                  most < 1e30f ? "between " : "at least ", (double)least, most < 1e30f ? " and " : ", not beyond ",
+	                  (double)most);
+}
+
+static int check_hash(const char *path, const char *list, uint32_t rule, const char *key, const char *value)
+{
+	if (!value || (strspn(value, "0123456789abcdef") == strlen(value) && strlen(value) <= 32))
+		return 0;
+	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the beginning of a hash (0-9, a-f)", list, rule + 1, key,
+	                  value);
+}
+
+static int check_surface(const char *path, const struct surface_rule *r, uint32_t i)
+{
+	static const char list[] = "surfaces";
+	int err = check_number(path, list, i, "reflect", r->reflect, 0, 1);
+
+	if (!err)
+		err = check_number(path, list, i, "transmit", r->transmit, 0, 1);
+	if (!err && r->reflect && r->transmit && *r->reflect + *r->transmit > 1)
+		err = err_report(ERR_INPUT, path, "surfaces, rule %u: reflect and transmit are more than 1 together", i + 1);
+	if (!err)
+		err = check_number(path, list, i, "ior", r->ior, 1, 10);
+	if (!err)
+		err = check_number(path, list, i, "roughness", r->roughness, 0, 1);
+	for (int c = 0; c < 3 && !err; c++) {
+		err = check_number(path, list, i, "absorb", r->absorb ? r->absorb + c : NULL, 0, 1e30f);
+		if (!err)
+			err = check_number(path, list, i, "emission", r->emission ? r->emission + c : NULL, 0, 1e30f);
+	}
+	if (!err && r->match)
+		err = check_hash(path, list, i, "mesh", r->match->mesh);
+	if (!err && r->match)
+		err = check_hash(path, list, i, "texture", r->match->texture);
+	return err;
+}
+
+static int check_light(const char *path, const struct light_rule *r, uint32_t i)
+{
+	int err = check_number(path, "lights", i, "radius", r->radius, 0, 1e30f);
+
+	if (!err && r->light && *r->light >= SCENE_MAX_LIGHTS)
+		err = err_report(ERR_INPUT, path, "lights, rule %u: there are lights 0 to %d", i + 1, SCENE_MAX_LIGHTS - 1);
+	if (!err && !r->light && !r->position)
+		err = err_report(ERR_INPUT, path, "lights, rule %u: a light that is added needs a position", i + 1);
+	if (!err && r->object && !r->position)
+		err = err_report(ERR_INPUT, path, "lights, rule %u: object says where a position counts, and there is none", i + 1);
+	if (!err && r->spot)
+		err = check_number(path, "lights", i, "cutoff", r->spot->cutoff, 0, 90);
+	if (!err && r->space && strcmp(r->space, "world") != 0 && strcmp(r->space, "eye") != 0)
+		err = err_report(ERR_INPUT, path, "lights, rule %u: space is eye or world, not '%s'", i + 1, r->space);
+	if (!err && r->on && strcmp(r->on, "unlit") != 0 && strcmp(r->on, "all") != 0)
+		err = err_report(ERR_INPUT, path, "lights, rule %u: on is unlit or all, not '%s'", i + 1, r->on);
+	return err ? err : check_hash(path, "lights", i, "object", r->object);
+}
+
+static int check_anchor(const char *path, const struct anchor *a, uint32_t i)
+{
+	if (!a->mesh || !a->at)
+		return err_report(ERR_INPUT, path, "world, entry %u: it needs a mesh and its place (at)", i + 1);
+	return check_hash(path, "world", i, "mesh", a->mesh);
+}
+
+/* What libcyaml has read, whole and in range. */
+static int check_all(const char *path, struct look *look)
+{
+	const struct rules *rules = look->rules;
+	int err = 0;
+
+	look->draws = calloc(rules->surfaces_count + (size_t)1, sizeof(*look->draws));
+	if (!look->draws)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; !err && i < rules->surfaces_count; i++) {
+		const struct match *m = rules->surfaces[i].match;
+
+		err = check_surface(path, &rules->surfaces[i], i);
+		if (err || !m || !m->draws)
+			continue;
+		if (strspn(m->draws, "0123456789-,") != strlen(m->draws))
+			err = err_report(ERR_INPUT, path, "surfaces, rule %u: draws '%s' is no list of numbers", i + 1, m->draws);
+		else
+			err = frame_list_parse(m->draws, &look->draws[i]) ? ERR_INPUT : 0;
+	}
+	for (uint32_t i = 0; !err && i < rules->lights_count; i++)
+		err = check_light(path, &rules->lights[i], i);
+	for (uint32_t i = 0; !err && i < rules->world_count; i++)
+		err = check_anchor(path, &rules->world[i], i);
+	return err;
+}
+
+/* err: of reading the rules, which then are NULL. */
+static int finish(const char *path, int err, void *rules, struct look **out)
+{
+	struct look *look = err ? NULL : calloc(1, sizeof(*look));
+
+	*out = NULL;
+	if (err)
+		return err;
+	if (!look) {
+		config_free(&rules_schema, rules);
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	look->rules = rules;
+	err = check_all(path, look);
+	if (err)
+		rules_free(&look);
+	*out = look;
+	return err;
+}
+
+int rules_load(const char *path, struct look **out)
+{
+	void *data = NULL;
+	int err = config_load(path, &rules_schema, &data);
+
+	return finish(path, err, data, out);
+}
+
+int rules_parse(const char *name, const char *text, size_t n, struct look **out)
+{
+	void *data = NULL;
+	int err = config_parse(name, text, n, &rules_schema, &data);
+
+	return finish(name, err, data, out);
+}
+
+void rules_free(struct look **look)
+{
+	struct look *l = *look;
+
+	if (!l)
+		return;
+	for (uint32_t i = 0; l->draws && i < l->rules->surfaces_count; i++)
+		frame_list_free(&l->draws[i]);
+	free(l->draws);
+	config_free(&rules_schema, l->rules);
+	free(l);
+	*look = NULL;
+}
+

@@ -1,0 +1,112 @@
+/*
+ * Rules, written after recording, that say what surfaces are made of and where lights are: `relume render --look FILE`.
+ *
+ *     surfaces:                      # all matching rules apply, in order; later ones override
+ *       - match:                     # every key must match; no keys: everything
+ *           texture: 3fa1            # hash of one of its textures, or the start of it (`relume scene --json` shows it)
+ *           mesh: 90c2               # the same for its mesh
+ *           draws: 3-7,12            # draw numbers in the frame
+ *           call: glCallList         # the call that drew it
+ *           list: 5                  # the display list that it came from
+ *           program: no              # drawn by a program object
+ *           lit: yes                 # draw state, as OpenGL saw it
+ *           textured: yes
+ *           blended: no
+ *           alpha_tested: no
+ *           depth_tested: yes
+ *         reflect: 0.2               # [0,1]
+ *         transmit: 0.8              # [0,1], with reflect at most 1
+ *         ior: 1.5                   # 1 and more
+ *         absorb: [0.2, 0, 0]        # a unit of eye space inside
+ *         roughness: 0.05            # of mirrors
+ *         emission: [0, 0, 0]        # beside what OpenGL shows
+ *         shadows: yes               # casts them
+ *         mirrors: yes               # is seen in them and through glass
+ *         lit: yes                   # takes the lights below where OpenGL does not light it
+ *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
+ *       - mesh: 90c2                 # enough of them shows where the viewer is
+ *         at: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]
+ *     lights:
+ *       - light: 0                   # OpenGL's; without this key a light is added
+ *         off: no
+ *         position: [0, 5, 0, 1]     # w 0: a direction towards it; in eye space, or
+ *         object: 90c2               # in the space in which the first mesh of this hash was drawn, or
+ *         space: world               # as the list `world` says
+ *         on: unlit                  # lights only what OpenGL does not (and has `lit: yes`)
+ *         diffuse: [1, 1, 1]         # also ambient and specular
+ *         attenuation: [1, 0, 0]
+ *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 }
+ *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
+ *
+ * Each rule may also say `role`, `confidence` and `why`, for its reader alone. A frame that does not show where the world is, where some
+ * light stands in it, is left as OpenGL drew it.
+ *
+ * OpenGL's own picture (channels gl.*) never changes: channel relight has what rules do to lights and emission.
+ */
+#ifndef LOOK_RULES_H
+#define LOOK_RULES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/frames.h"
+
+/* Pointers are NULL for keys that the file does not have. */
+struct match {
+	const char *texture, *mesh, *draws, *call;
+	const uint32_t *list;
+	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested;
+};
+
+/* What a rule says to its reader alone. */
+struct rule_reason {
+	const char *role, *why;
+	const float *confidence;
+};
+
+struct surface_rule {
+	struct rule_reason reason;
+	struct match *match;
+	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
+	const bool *shadows, *mirrors, *lit;
+};
+
+struct spot {
+	const float *direction, *cutoff, *exponent;
+};
+
+struct light_rule {
+	struct rule_reason reason;
+	const uint32_t *light;
+	const bool *off;
+	const char *object, *space, *on;
+	const float *position, *ambient, *diffuse, *specular, *attenuation, *radius;
+	struct spot *spot;
+};
+
+struct anchor {
+	const char *mesh;
+	const float *at;
+};
+
+struct rules {
+	struct surface_rule *surfaces;
+	struct light_rule *lights;
+	struct anchor *world;
+	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */
+};
+
+struct look {
+	struct rules *rules;
+	struct frame_list *draws; /* [surfaces_count] */
+};
+
+/** @return 0; ERR_INPUT (reported, with the line), ERR_SYSTEM (reported) */
+int rules_load(const char *path, struct look **out);
+
+/** The same for text in memory. @param name  what messages call it */
+int rules_parse(const char *name, const char *text, size_t n, struct look **out);
+void rules_free(struct look **look);
+
+#endif

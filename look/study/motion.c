@@ -1,0 +1,315 @@
+#include "look/study/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/memory.h"
+#include "look/study/matrix.h"
+
+/* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are better by far. */
+#define SAME_PLACE 1e-3
+#define SAME_TURN 2e-3
+enum { MAX_GUESSES = 48 };
+
+/* --- Things ------------------------------------------------------------------------------------------------------------- */
+
+static void measure(const struct scene_mesh *mesh, struct motion_thing *t)
+{
+	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, square = 0;
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int k = 0; k < 3; k++) {
+			low[k] = fmin(low[k], (double)mesh->position[4 * v + k]);
+			high[k] = fmax(high[k], (double)mesh->position[4 * v + k]);
+		}
+	for (int k = 0; k < 3; k++) {
+		t->middle[k] = mesh->vertex_count ? 0.5 * (low[k] + high[k]) : 0;
+		square += mesh->vertex_count ? (high[k] - low[k]) * (high[k] - low[k]) : 0;
+	}
+	t->size = sqrt(square);
+}
+
+static int is_deep(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_material *m = &s->materials[in->material];
+
+	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && m->depth_test && m->depth_write && (m->color_mask & 7) &&
+	       s->views[in->view].target == 0;
+}
+
+/*
+ * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A mirrored copy is
+ * another one.
+ * @return its index; SCENE_NONE: none, there are too many, or out of memory
+ */
+static uint32_t find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in,
+                           const double eye[16])
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	uint64_t parts[4] = { mesh->hash[0], mesh->hash[1], matrix_determinant3(eye) < 0, 0 }, key = XXH3_64bits(parts, sizeof(parts));
+	uintptr_t before = (uintptr_t)table_find(counts, key), found;
+
+	if (table_set(counts, key, (void *)(before + 1)))
+		return SCENE_NONE;
+	parts[3] = before;
+	key = XXH3_64bits(parts, sizeof(parts));
+	found = (uintptr_t)table_find(&m->by_key, key);
+	if (found)
+		return (uint32_t)(found - 1);
+	if (m->n_things >= MOTION_MAX_THINGS || MEMORY_GROW(m->things, m->room_things, m->n_things + 1) ||
+	    table_set(&m->by_key, key, (void *)(m->n_things + 1)))
+		return SCENE_NONE;
+	m->things[m->n_things] = (struct motion_thing){ .mesh = { mesh->hash[0], mesh->hash[1] } };
+	measure(mesh, &m->things[m->n_things]);
+	return (uint32_t)m->n_things++;
+}
+
+/* --- The camera --------------------------------------------------------------------------------------------------------- */
+
+/* A thing's say: under which camera it has not moved. */
+struct vote {
+	uint32_t thing;
+	double eye[16], camera[16], weight;
+};
+
+/* 1 where a camera shows a thing, as it stands in the world, where it was drawn. */
+static int stands(const struct motion_thing *t, const double camera[16], const double eye[16])
+{
+	double expected[16], here[3], there[3], far = 0, off = 0, scale = matrix_scale(eye);
+
+	matrix_mul(expected, camera, t->world);
+	matrix_point(here, eye, t->middle);
+	matrix_point(there, expected, t->middle);
+	for (int k = 0; k < 3; k++) {
+		far += here[k] * here[k];
+		off += (here[k] - there[k]) * (here[k] - there[k]);
+	}
+	if (!(sqrt(off) <= SAME_PLACE * (sqrt(far) + scale * t->size)))
+		return 0;
+	for (int c = 0; c < 3; c++)
+		for (int r = 0; r < 3; r++)
+			if (!(fabs(expected[4 * c + r] - eye[4 * c + r]) <= SAME_TURN * scale))
+				return 0;
+	return 1;
+}
+
+static double support(const struct motion *m, const struct vote *votes, size_t n, const double camera[16], size_t *agreeing)
+{
+	double sum = 0;
+
+	*agreeing = 0;
+	for (size_t i = 0; i < n; i++)
+		if (stands(&m->things[votes[i].thing], camera, votes[i].eye)) {
+			sum += votes[i].weight;
+			++*agreeing;
+		}
+	return sum;
+}
+
+/* Largest first. */
+static int by_weight(const void *a, const void *b)
+{
+	double x = ((const struct vote *)a)->weight, y = ((const struct vote *)b)->weight;
+
+	return x < y ? 1 : x > y ? -1 : 0;
+}
+
+/* 1 where the viewer is within a thing's box, as in a world that is drawn at once. */
+static int surrounds_viewer(const struct motion_thing *t, const double eye[16])
+{
+	double inverse[16], at[3], square = 0;
+
+	if (!matrix_invert(inverse, eye))
+		return 0;
+	matrix_point(at, inverse, (double[3]){ 0, 0, 0 });
+	for (int k = 0; k < 3; k++)
+		square += (at[k] - t->middle[k]) * (at[k] - t->middle[k]);
+	return sqrt(square) < 0.5 * t->size;
+}
+
+/*
+ * What more than half say, by size; else the last camera, and where it does as well. One thing alone is no evidence of a camera, unless
+ * it surrounds the viewer: it may move itself.
+ */
+static void choose_camera(const struct motion *m, struct vote *votes, size_t n, struct motion_camera *camera)
+{
+	double whole = 0, best;
+	size_t agreeing;
+
+	qsort(votes, n, sizeof(*votes), by_weight);
+	for (size_t i = 0; i < n; i++)
+		whole += votes[i].weight;
+	if (!(whole > 0))
+		return;
+	best = support(m, votes, n, camera->eye_from_world, &agreeing);
+	for (size_t i = 0; i < n && i < MAX_GUESSES && best < 0.999 * whole; i++) {
+		double sum = support(m, votes, n, votes[i].camera, &agreeing);
+
+		if (sum <= best * 1.001 || sum <= 0.5 * whole || (agreeing < 2 && !surrounds_viewer(&m->things[votes[i].thing], votes[i].eye)))
+			continue;
+		best = sum;
+		memcpy(camera->eye_from_world, votes[i].camera, sizeof(camera->eye_from_world));
+		camera->moved = 1;
+	}
+	camera->share = best / whole;
+	camera->witnessed = 1;
+}
+
+/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. */
+static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes)
+{
+	size_t n = 0;
+	double mean = 0;
+
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct motion_thing *t = m->of_instance[i] == SCENE_NONE ? NULL : &m->things[m->of_instance[i]];
+		struct vote *v = &votes[n];
+		double inverse[16];
+
+		if (!t || !t->frames || !t->votes)
+			continue;
+		matrix_from_floats(v->eye, s->instances[i].modelview);
+		if (!matrix_invert(inverse, t->world))
+			continue;
+		v->thing = m->of_instance[i];
+		v->weight = t->size * matrix_scale(v->eye);
+		matrix_mul(v->camera, v->eye, inverse);
+		mean += v->weight;
+		n++;
+	}
+	for (size_t i = 0; i < n; i++)
+		votes[i].weight = fmin(votes[i].weight, 4 * mean / (double)n) + 1e-9;
+	return n;
+}
+
+/* --- Frames ------------------------------------------------------------------------------------------------------------- */
+
+static void note_thing(struct motion *m, struct motion_thing *t, const double eye[16], const struct motion_camera *camera)
+{
+	double inverse[16];
+	int knows = t->frames && camera->witnessed;
+
+	if (knows) {
+		int same_eye = 1;
+
+		for (int i = 0; i < 16; i++)
+			same_eye &= fabs(t->eye[i] - eye[i]) <= 1e-5 * (1 + fabs(eye[i]));
+		t->again++;
+		if (stands(t, camera->eye_from_world, eye))
+			t->still++;
+		else if (camera->moved && same_eye)
+			t->carried++;
+	}
+	if ((!knows || !stands(t, camera->eye_from_world, eye)) && matrix_invert(inverse, camera->eye_from_world))
+		matrix_mul(t->world, inverse, eye);
+	memcpy(t->eye, eye, sizeof(t->eye));
+	t->frames++;
+	t->last = m->n_frames + 1;
+	t->seen[m->n_frames / 64] |= 1ull << m->n_frames % 64;
+}
+
+/* Meshes of the same triangles and texture coordinates, but other points. */
+static int note_shape(struct motion *m, const struct scene_mesh *mesh)
+{
+	uint64_t parts[4] = { mesh->kind, mesh->vertex_count, mesh->primitive_count, 0 }, key, points;
+	struct motion_shape *shape;
+	uintptr_t found;
+
+	if (mesh->kind != SCENE_TRIANGLES || mesh->primitive_count < 16)
+		return 0; /* quads and the like are all alike */
+	parts[3] = XXH3_64bits(mesh->index, (size_t)mesh->primitive_count * 3 * sizeof(*mesh->index));
+	if (mesh->texcoord[0])
+		parts[3] ^= XXH3_64bits(mesh->texcoord[0], (size_t)mesh->vertex_count * 16);
+	key = XXH3_64bits(parts, sizeof(parts));
+	points = mesh->hash[0];
+	found = (uintptr_t)table_find(&m->by_topology, key);
+	if (!found) {
+		if (MEMORY_GROW(m->shapes, m->room_shapes, m->n_shapes + 1) ||
+		    table_set(&m->by_topology, key, (void *)(m->n_shapes + 1)))
+			return ERR_SYSTEM;
+		m->shapes[m->n_shapes] = (struct motion_shape){ .points = points, .triangles = mesh->primitive_count };
+		found = ++m->n_shapes;
+	}
+	shape = &m->shapes[found - 1];
+	if (shape->last == m->n_frames + 1)
+		return 0;
+	shape->frames++;
+	shape->changed += shape->points != points;
+	shape->points = points;
+	shape->last = m->n_frames + 1;
+	return 0;
+}
+
+static int place_things(struct motion *m, const struct scene *s)
+{
+	struct table counts = { .n = 0 };
+
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_instance *in = &s->instances[i];
+		double eye[16], inverse[16];
+
+		m->of_instance[i] = SCENE_NONE;
+		matrix_from_floats(eye, in->modelview);
+		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || s->views[in->view].target || !matrix_invert(inverse, eye))
+			continue;
+		m->of_instance[i] = find_thing(m, &counts, s, in, eye);
+		if (m->of_instance[i] != SCENE_NONE)
+			m->things[m->of_instance[i]].votes = (uint32_t)is_deep(s, in);
+	}
+	table_free(&counts);
+	return 0;
+}
+
+int motion_add(struct motion *m, const struct scene *scene)
+{
+	struct motion_camera camera = { .frame = scene->frame, .share = 0 };
+	struct vote *votes = malloc((scene->n_instances + (size_t)1) * sizeof(*votes));
+	int err = 0;
+
+	if (!votes)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (m->n_frames >= MOTION_MAX_FRAMES || MEMORY_GROW(m->cameras, m->room_frames, m->n_frames + 1) ||
+	    MEMORY_GROW(m->of_instance, m->room_instances, scene->n_instances + (size_t)1)) {
+		free(votes);
+		return ERR_SYSTEM;
+	}
+	memcpy(camera.eye_from_world, m->n_frames ? motion_now(m)->eye_from_world : matrix_identity, sizeof(camera.eye_from_world));
+	place_things(m, scene);
+	choose_camera(m, votes, collect_votes(m, scene, votes), &camera);
+	free(votes);
+	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
+		double eye[16];
+
+		if (m->of_instance[i] == SCENE_NONE)
+			continue;
+		matrix_from_floats(eye, scene->instances[i].modelview);
+		note_thing(m, &m->things[m->of_instance[i]], eye, &camera);
+		err = note_shape(m, scene->meshes[scene->instances[i].mesh]);
+	}
+	m->cameras[m->n_frames++] = camera;
+	return err;
+}
+
+const struct motion_camera *motion_now(const struct motion *m)
+{
+	return &m->cameras[m->n_frames - 1];
+}
+
+int motion_is_static(const struct motion_thing *t)
+{
+	return t->votes && t->again && t->still == t->again;
+}
+
+void motion_free(struct motion *m)
+{
+	free(m->things);
+	free(m->shapes);
+	free(m->cameras);
+	free(m->of_instance);
+	table_free(&m->by_key);
+	table_free(&m->by_topology);
+	*m = (struct motion){ .n_things = 0 };
+}

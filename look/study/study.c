@@ -1,0 +1,50 @@
+#include "look/study/study.h"
+
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "look/study/motion.h"
+#include "look/study/world.h"
+
+struct study {
+	struct motion motion;
+};
+
+int study_create(struct study **out)
+{
+	*out = calloc(1, sizeof(**out));
+	return *out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+}
+
+void study_destroy(struct study **study)
+{
+	if (!*study)
+		return;
+	motion_free(&(*study)->motion);
+	free(*study);
+	*study = NULL;
+}
+
+uint64_t study_most_frames(void)
+{
+	return MOTION_MAX_FRAMES;
+}
+
+int study_add(struct study *study, const struct scene *scene)
+{
+	return motion_add(&study->motion, scene);
+}
+
+void study_write(const struct study *study, const char *trace, FILE *out)
+{
+	const struct motion *m = &study->motion;
+
+	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
+	if (m->n_frames)
+		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
+		        (unsigned long long)m->cameras[m->n_frames - 1].frame);
+	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
+	world_report(m, out);
+	fprintf(out, "surfaces: []\nlights: []\n");
+	world_write(m, out);
+}

@@ -1,0 +1,36 @@
+/*
+ * A recording, studied: scene after scene goes in, rules (look/rules.h) come out.
+ *
+ * motion.h finds the camera and what moves; the other files look at what was drawn in its light.
+ */
+#ifndef LOOK_STUDY_STUDY_H
+#define LOOK_STUDY_STUDY_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "scene/scene.h"
+
+struct study;
+
+/** @return 0 or ERR_SYSTEM (reported) */
+int study_create(struct study **out);
+void study_destroy(struct study **study);
+
+/** How many frames a study takes. */
+uint64_t study_most_frames(void);
+
+/**
+ * Study one more frame.
+ * @param scene  of a later frame than the last; nothing of it is kept
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int study_add(struct study *study, const struct scene *scene);
+
+/**
+ * Write the rules, each with its role, its confidence and why.
+ * @param trace  the recording's name, for the file's reader
+ */
+void study_write(const struct study *study, const char *trace, FILE *out);
+
+#endif

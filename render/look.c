@@ -1,0 +1,127 @@
+/* relume look: a recording -> scenes -> rules. */
+#include "render/look.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "base/folder.h"
+#include "base/options.h"
+#include "base/part.h"
+#include "base/verbs.h"
+#include "look/rules.h"
+#include "look/study/study.h"
+#include "replay/replay.h"
+#include "scene/release.h"
+
+struct asked {
+	struct frame_list frames;
+	const char *output;
+};
+
+static const struct options_row rows[] = {
+	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all); of many "
+	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
+	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .is_required = 1 },
+};
+
+static const struct options_table table = {
+	.verb = "look",
+	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
+	        "\n"
+	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
+	        "light, where lights are. Each rule has a confidence and a reason. Whoever edits the file has the last word.\n",
+	.rows = rows,
+	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	.takes = "one trace and -o FILE",
+	.least = 1,
+	.most = 1,
+};
+
+/* Play the frames of a list, of too many every so often one, into a study. */
+static int play(struct replay *replay, const char *trace, const struct frame_list *frames, struct study *study)
+{
+	uint64_t end, total, frame = 0, i = 0;
+	int damaged, err = replay_frame_count(replay, &end, &damaged), more = 1;
+
+	if (err)
+		return err;
+	total = frame_list_count(frames, end);
+	if (!total)
+		return err_report(end ? ERR_USAGE : ERR_INPUT, trace, end ? "has %llu frames; none of those asked for is there" :
+		                  "holds no whole frame", (unsigned long long)end);
+	for (; more == 1 && !err && frame_list_next(frames, frame, &frame) && frame < end; frame++, i++) {
+		struct scene *scene = NULL;
+
+		if (total > study_most_frames() && i * study_most_frames() / total == (i + 1) * study_most_frames() / total)
+			continue;
+		more = replay_seek(replay, frame);
+		if (more == 1)
+			more = replay_next_frame(replay, 1, &scene);
+		if (more == 1)
+			err = study_add(study, scene);
+		scene_release(&scene);
+	}
+	return err ? err : more < 0 ? more : 0;
+}
+
+static int study_trace(const char *trace, const struct frame_list *frames, struct study **study)
+{
+	struct replay *replay = NULL;
+	int err = study_create(study);
+
+	if (!err)
+		err = replay_open(&replay, trace);
+	if (!err)
+		err = play(replay, trace, frames, *study);
+	replay_close(&replay);
+	return err;
+}
+
+int look_study(const char *trace, const struct frame_list *frames, struct look **look)
+{
+	struct study *study = NULL;
+	char *text = NULL;
+	size_t n = 0;
+	FILE *memory = open_memstream(&text, &n);
+	int err = memory ? study_trace(trace, frames, &study) : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	if (!err)
+		study_write(study, trace, memory);
+	if (memory && fclose(memory))
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!err)
+		err = rules_parse("--look auto", text, n, look);
+	free(text);
+	study_destroy(&study);
+	return err;
+}
+
+static int write_rules(const struct study *study, const char *trace, const char *path)
+{
+	struct part_file file;
+	int err = folder_make_for(path);
+
+	if (!err)
+		err = part_open(&file, path);
+	if (err)
+		return err;
+	study_write(study, trace, file.stream);
+	return part_close(&file, 0);
+}
+
+int look_main(int argc, char **argv)
+{
+	struct asked asked = { .output = NULL };
+	struct options_line line;
+	struct study *study = NULL;
+	int err = options_parse(&table, argc, argv, &asked, &line);
+
+	if (!err)
+		err = study_trace(line.words[0], &asked.frames, &study);
+	if (!err)
+		err = write_rules(study, line.words[0], asked.output);
+	study_destroy(&study);
+	frame_list_free(&asked.frames);
+	return err > 0 ? 0 : -err;
+}

@@ -1,0 +1,17 @@
+/* Studying a recording: it is replayed without pixels, frame by frame, into look/study. */
+#ifndef RENDER_LOOK_H
+#define RENDER_LOOK_H
+
+#include "base/frames.h"
+
+struct look;
+
+/**
+ * Study a recording, and have its rules.
+ * @param frames  to be studied; evenly spread ones of these where they are too many
+ * @param look    receives the rules; rules_free
+ * @return 0 or ERR_* (reported)
+ */
+int look_study(const char *trace, const struct frame_list *frames, struct look **look);
+
+#endif
