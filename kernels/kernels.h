@@ -52,6 +52,8 @@ typedef float element_float;
 	VALUE(uint, view_index) AND() IN(view, views) AND() \
 	VALUE(uint, width) AND()            /* of the drawable */ \
 	VALUE(uint, height) AND() \
+	VALUE(camera_rectangle, rectangle) AND() /* the pixels that are looked through */ \
+	VALUE(uint, first_pixel) AND()      /* the number of the pixel that stands first in the buffers below */ \
 	VALUE(uint, mode) AND()             /* CAMERA_NEAREST_LESS, CAMERA_NEAREST_LEQUAL or CAMERA_COLUMN */ \
 	IN(window_vertex, window) AND()     /* at instance.vertex_first */ \
 	IN(float, clip) AND()               /* [4]: the same vertices in clip space */ \
@@ -107,7 +109,9 @@ typedef float element_float;
 	OUT(fragment, list) AND() \
 	OUT(uint, pixels) AND()             /* per fragment in the list */ \
 	OUT(uint, after) AND()              /* read as well; as camera_pass takes it */ \
-	VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() VALUE(uint, n)
+	VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
+	VALUE(uint, first_pixel) AND()      /* the number of the pixel that stands first in all buffers */ \
+	VALUE(uint, n)
 #define ARGUMENTS_shade(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
 	OUT(fragment, fragments) AND()      /* read as well */ \
@@ -134,10 +138,12 @@ typedef float element_float;
 	IN(frame_pixel, frame) AND() \
 	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_turn) */ \
 	VALUE(uint, first) AND()            /* 1: there are no sums yet */ \
+	VALUE(uint, first_pixel) AND()      /* the number of the frame's first pixel among those of the sums */ \
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() IN(float, sums) AND() \
+	VALUE(uint, first_pixel) AND()      /* as in add_pass */ \
 	VALUE(compose_request, request) AND() \
 	VALUE(uint, n) AND()                /* pixels */ \
 	OUT(half, halves) AND() OUT(float, floats)

@@ -352,7 +352,7 @@ SHARED_SIZE(struct frame_pixel, 124);
 struct compose_request {
 	uint32_t half_plane[N_COMPOSE_HALVES];  /* where a plane stands in the buffer of halves, in planes; SCENE_NONE: not wanted */
 	uint32_t float_plane[N_COMPOSE_FLOATS]; /* in the buffer of floats */
-	uint32_t width, height;
+	uint32_t width, height; /* of the planes */
 	uint32_t n_passes; /* the parts are means of so many */
 	uint32_t display;  /* 1: GL's own numbers, 0: linear light */
 	uint32_t normals;  /* 1: the beauty shows normals as colours */

@@ -12,7 +12,8 @@
  *   - else: the same on the clipped triangle's parts (kernels/gl/clip.h).
  * Screen instances (view.screen_first ..) are tested at the pixel centre as a point, whatever the projection.
  *
- * Pixels are numbered y * width + x, y from the bottom. Pixels outside the view's rectangle (camera_rectangle) are not touched.
+ * Pixels are numbered y * width + x, y from the bottom. Buffers of pixels begin with number first_pixel: a band of the frame's rows has
+ * its own. Pixels outside of the rectangle are not touched. It lies within the view's (camera_rectangle).
  *
  * CAMERA_NEAREST_*: fragments[pixel] is the fragment of least window depth, in steps of 2^-24 (24-bit depth buffer). Of equals the
  * first in draw order counts with LESS, the last with LEQUAL. order is SCENE_NONE where there is none.
@@ -24,8 +25,8 @@
  *
  * Window vertices with a place lie within +-2^23 (32768 pixels).
  *
- * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels, of the view's
- * rectangle.
+ * Work items: camera_packet_items() tiles of 32 x 32 pixels, or for the others camera_wide_items() pixels, of the rectangle. Tiles
+ * have their places in the frame: a rectangle that ends within one takes part of it.
  */
 #pragma once
 
@@ -55,11 +56,29 @@ static inline struct camera_rectangle camera_rectangle(int32_t x, int32_t y, int
 	return r;
 }
 
+/** How many tiles side by side a rectangle has some of. */
+static inline uint32_t camera_packet_columns(struct camera_rectangle r)
+{
+	return (uint32_t)((r.x1 + CAMERA_TILE - 1) / CAMERA_TILE - r.x0 / CAMERA_TILE);
+}
+
 /** How many work items a rectangle takes. */
 static inline uint32_t camera_packet_items(struct camera_rectangle r)
 {
-	return (uint32_t)((r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE) *
-	       (uint32_t)((r.y1 - r.y0 + CAMERA_TILE - 1) / CAMERA_TILE);
+	if (r.x0 == r.x1)
+		return 0u;
+	return camera_packet_columns(r) * (uint32_t)((r.y1 + CAMERA_TILE - 1) / CAMERA_TILE - r.y0 / CAMERA_TILE);
+}
+
+/** The first column and row of a work item's tile. */
+static inline int32_t camera_packet_x(struct camera_rectangle r, uint32_t item)
+{
+	return (r.x0 / CAMERA_TILE + (int32_t)(item % camera_packet_columns(r))) * CAMERA_TILE;
+}
+
+static inline int32_t camera_packet_y(struct camera_rectangle r, uint32_t item)
+{
+	return (r.y0 / CAMERA_TILE + (int32_t)(item / camera_packet_columns(r))) * CAMERA_TILE;
 }
 
 static inline uint32_t camera_wide_items(struct camera_rectangle r)

@@ -47,8 +47,9 @@ struct tile {
 	__global const float *clip;
 	__global const uint *after;
 	__global struct fragment *fragments;
-	uint width, height, mode;
+	uint width, height, mode, first_pixel;
 	int x, y;      /* the first pixel */
+	struct camera_rectangle open; /* pixels of the tile that count, from its first one */
 	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones where a pixel takes no fragments now */
 	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* where a view looks in the pixels, as planes count */
 	int changed;   /* a nearest fragment may have been replaced since far and z_far were set */
@@ -90,10 +91,16 @@ WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct pack *
 	p->depth = select(p->depth, depth, better);
 }
 
+/* Where a pixel of the tile stands in the buffers. */
+static inline size_t place_of(const struct tile *t, int x, int y)
+{
+	return (size_t)(t->y + y) * t->width + (size_t)(t->x + x) - t->first_pixel;
+}
+
 WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
 	for (int lane = 0; lane < 16; lane++) {
-		const size_t pixel = (size_t)(t->y + BLOCK * y + lane / BLOCK) * t->width + (size_t)(t->x + BLOCK * x + lane % BLOCK);
+		const size_t pixel = place_of(t, BLOCK * x + lane % BLOCK, BLOCK * y + lane / BLOCK);
 		__global struct fragment *column = t->fragments + pixel * CAMERA_COLUMN_MAX;
 		int *count = (int *)&t->packs[y][x].counts + lane, place = *count;
 
@@ -532,7 +539,7 @@ WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, 
 static inline void store_pixel(const struct tile *t, int x, int y, __global uint *counts)
 {
 	const struct pack *p = &t->packs[y / BLOCK][x / BLOCK];
-	const size_t pixel = (size_t)(t->y + y) * t->width + (size_t)(t->x + x);
+	const size_t pixel = place_of(t, x, y);
 	const uint lane = y % BLOCK * BLOCK + x % BLOCK;
 	struct fragment f;
 
@@ -594,10 +601,10 @@ WIDE_VECTORS static inline void store_rows(packu a, packu b, packu c, packu d, _
 	store_pack((packu)(ab_high.s4567, ab_high.scdef, cd_high.s4567, cd_high.scdef), to + 3 * stride, aligned);
 }
 
-/* Two blocks side by side whose pixels all lie in the view's rectangle: three times sixteen numbers a row. */
+/* Two blocks side by side whose pixels all count: three times sixteen numbers a row. */
 WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y, __global uint *counts)
 {
-	const size_t pixel = (size_t)(t->y + BLOCK * y) * t->width + (size_t)(t->x + BLOCK * x);
+	const size_t pixel = place_of(t, BLOCK * x, BLOCK * y);
 	__global uint *fragments = (__global uint *)(t->fragments + pixel);
 	const int aligned = ((pixel | t->width) & 7) == 0;
 	packu left[6], right[6], count[2];
@@ -620,23 +627,25 @@ WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y,
 	}
 }
 
-/* The pixels of the tile that lie in the view's rectangle, which ends before x1 and y1. */
-static inline void store_tile(const struct tile *t, int x1, int y1, __global uint *counts)
+/* The pixels that count. */
+static inline void store_tile(const struct tile *t, __global uint *counts)
 {
-	const int width = min(CAMERA_TILE, x1 - t->x), height = min(CAMERA_TILE, y1 - t->y);
+	const struct camera_rectangle o = t->open;
 
-	for (int y = 0; y < height; y += BLOCK)
-		for (int x = 0; x < width; x += 2 * BLOCK)
-			if (t->mode != CAMERA_COLUMN && x + 2 * BLOCK <= width && y + BLOCK <= height)
+	for (int y = o.y0 & -BLOCK; y < o.y1; y += BLOCK)
+		for (int x = o.x0 & -(2 * BLOCK); x < o.x1; x += 2 * BLOCK)
+			if (t->mode != CAMERA_COLUMN && x >= o.x0 && y >= o.y0 && x + 2 * BLOCK <= o.x1 && y + BLOCK <= o.y1)
 				store_blocks(t, x / BLOCK, y / BLOCK, counts);
 			else
-				for (int i = 0; i < 2 * BLOCK * BLOCK; i++)
-					if (x + i % (2 * BLOCK) < width && y + i / (2 * BLOCK) < height)
-						store_pixel(t, x + i % (2 * BLOCK), y + i / (2 * BLOCK), counts);
+				for (int i = 0; i < 2 * BLOCK * BLOCK; i++) {
+					const int px = x + i % (2 * BLOCK), py = y + i / (2 * BLOCK);
+
+					if (px >= o.x0 && px < o.x1 && py >= o.y0 && py < o.y1)
+						store_pixel(t, px, py, counts);
+				}
 }
 
-/* x1, y1: where the view's rectangle ends */
-WIDE_VECTORS static inline void clear_tile(struct tile *t, int x1, int y1)
+WIDE_VECTORS static inline void clear_tile(struct tile *t)
 {
 	const float row = clip_from_origin(t->view, (int)t->height - 1 - t->y, -t->view->sample[1]);
 
@@ -654,8 +663,10 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t, int x1, int y1)
 
 			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;
-			/* Beyond the rectangle nothing is farther than what is there. */
-			p->depth = select((packf)(0), (packf)(NO_DEPTH), (BLOCK_X + BLOCK * x < x1 - t->x) & (BLOCK_Y + BLOCK * y < y1 - t->y));
+			/* Where pixels do not count nothing is farther than what is there. */
+			p->depth = select((packf)(0), (packf)(NO_DEPTH),
+			                  (BLOCK_X + BLOCK * x >= t->open.x0) & (BLOCK_X + BLOCK * x < t->open.x1) &
+			                  (BLOCK_Y + BLOCK * y >= t->open.y0) & (BLOCK_Y + BLOCK * y < t->open.y1));
 			if (t->mode == CAMERA_COLUMN)
 				p->counts = 0;
 			else
@@ -667,9 +678,8 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 {
 	__global const struct view *view = &views[view_index];
 	__global const float *viewport = view->viewport;
-	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
-	                                                   view->scissor[3], width, height);
-	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
+	const struct camera_rectangle r = rectangle;
+	const uint item = (uint)get_global_id(0);
 	struct tile t;
 
 	if (item >= camera_packet_items(r))
@@ -685,9 +695,14 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	t.width = width;
 	t.height = height;
 	t.mode = mode;
-	t.x = r.x0 + (int)(item % columns) * CAMERA_TILE;
-	t.y = r.y0 + (int)(item / columns) * CAMERA_TILE;
-	clear_tile(&t, r.x1, r.y1);
+	t.first_pixel = first_pixel;
+	t.x = camera_packet_x(r, item);
+	t.y = camera_packet_y(r, item);
+	t.open.x0 = max(r.x0 - t.x, 0);
+	t.open.y0 = max(r.y0 - t.y, 0);
+	t.open.x1 = min(r.x1 - t.x, CAMERA_TILE);
+	t.open.y1 = min(r.y1 - t.y, CAMERA_TILE);
+	clear_tile(&t);
 	if (view->tlas_count) {
 		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),
 		            fmin((float)r.x1, viewport[0] + viewport[2]), fmin((float)r.y1, viewport[1] + viewport[3]));
@@ -696,5 +711,5 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	open_pixels(&t, (float)r.x0, (float)r.y0, (float)r.x1, (float)r.y1);
 	for (uint i = 0; i < view->screen_count; i++)
 		walk_screen(&t, view->screen_first + i);
-	store_tile(&t, r.x1, r.y1, counts);
+	store_tile(&t, counts);
 }

@@ -317,8 +317,7 @@ INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pa
                       __global const uint *instance_list)
 {
 	__global const struct view *view = &pass->views[pass->view_index];
-	const struct camera_rectangle r = camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2],
-	                                                   view->scissor[3], pass->width, pass->height);
+	const struct camera_rectangle r = pass->rectangle;
 	const uint item = (uint)get_global_id(0), columns = (uint)(r.x1 - r.x0);
 	uint pixel;
 
@@ -331,7 +330,7 @@ INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pa
 	p->height = pass->height;
 	p->x = r.x0 + (int)(item % columns);
 	p->y = r.y0 + (int)(item / columns);
-	pixel = (uint)p->y * pass->width + (uint)p->x;
+	pixel = (uint)p->y * pass->width + (uint)p->x - pass->first_pixel;
 	p->after = p->mode == CAMERA_COLUMN ? pass->after[pixel] : 0;
 	p->out = pass->fragments + (p->mode == CAMERA_COLUMN ? (size_t)pixel * CAMERA_COLUMN_MAX : pixel);
 	p->count = p->steps = 0;

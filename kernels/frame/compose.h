@@ -257,7 +257,7 @@ static inline void compose_item(const struct compose_arguments *a, uint32_t firs
 		uint32_t pixel = first + k < a->n ? first + k : a->n - 1u;
 
 		l.at[k] = (r->height - 1u - pixel / r->width) * r->width + pixel % r->width;
-		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? pixel * PASS_PARTS : 0u), r, k, &l);
+		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? (a->first_pixel + pixel) * PASS_PARTS : 0u), r, k, &l);
 	}
 	for (uint32_t c = 0u; c < 3u; c++)
 		compose_nudge(&l, c);
@@ -277,9 +277,9 @@ static inline void compose_item(const struct compose_arguments *a, uint32_t firs
 static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t item)
 {
 	GLOBAL const struct frame_pixel *pixel = &a->frame[item];
-	GLOBAL float *sum = a->sums + item * PASS_PARTS;
+	GLOBAL float *sum = a->sums + (a->first_pixel + item) * PASS_PARTS;
 
-	if (sample_turn(item) != a->turn)
+	if (sample_turn(a->first_pixel + item) != a->turn)
 		return;
 	for (uint32_t c = 0u; c < 3u; c++) {
 		sum[c] = pixel->shadowed[c] + (a->first ? 0.0f : sum[c]);

@@ -9,7 +9,7 @@
 #include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
 
-/* Pixel number of a work item in a rectangle. */
+/* Place of a work item's pixel of a rectangle in buffers of pixels whose first row is the rectangles' row 0. */
 static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, uint32_t item)
 {
 	uint32_t columns = (uint32_t)(r.x1 - r.x0);
@@ -25,7 +25,7 @@ static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 
 	for (uint32_t i = 0u; i < n; i++) {
 		a->list[a->first[pixel] + i] = a->sparse[pixel * a->slots + i];
-		a->pixels[a->first[pixel] + i] = pixel;
+		a->pixels[a->first[pixel] + i] = a->first_pixel + pixel;
 	}
 	a->after[pixel] = n == a->slots ? a->sparse[pixel * a->slots + n - 1u].order + 1u : SCENE_NONE;
 }

@@ -11,7 +11,8 @@
 /* What the three kernels have in common. */
 struct args {
 	const struct view *view;
-	uint32_t width, height, mode;
+	uint32_t width, height, mode, first_pixel;
+	struct camera_rectangle rectangle;
 	const struct instance *instances;
 	const struct node2 *top;
 	const uint32_t *instance_list;
@@ -44,8 +45,15 @@ struct pixel {
 /* All but the trees and their triangles. */
 #define COMMON_ARGS(a) \
 	.view = (a)->pass.views + (a)->pass.view_index, .width = (a)->pass.width, .height = (a)->pass.height, .mode = (a)->pass.mode, \
+	.rectangle = (a)->pass.rectangle, .first_pixel = (a)->pass.first_pixel, \
 	.instances = (a)->instances, .top = (a)->top, .instance_list = (a)->instance_list, .window = (a)->pass.window, \
 	.clip = (const float (*)[4])(a)->pass.clip, .after = (a)->pass.after, .fragments = (a)->pass.fragments, .counts = (a)->pass.counts
+
+/* Where a pixel stands in the buffers. */
+static size_t place_of(const struct args *args, int32_t x, int32_t y)
+{
+	return (size_t)y * args->width + (size_t)x - args->first_pixel;
+}
 
 /* --- fragments --- */
 
@@ -95,7 +103,7 @@ static void keep_in_column(struct pixel *p, const struct fragment *f)
 {
 	uint32_t place = p->count;
 
-	if (f->order < p->args->after[(size_t)p->y * p->args->width + (size_t)p->x])
+	if (f->order < p->args->after[place_of(p->args, p->x, p->y)])
 		return;
 	while (place > 0 && p->fragments[place - 1].order > f->order)
 		place--;
@@ -460,7 +468,7 @@ static int make_ray(struct pixel *p)
 
 static void do_pixel(const struct args *args, int32_t x, int32_t y)
 {
-	const size_t index = (size_t)y * args->width + (size_t)x;
+	const size_t index = place_of(args, x, y);
 	struct pixel p = { .args = args, .x = x, .y = y };
 
 	p.fragments = args->fragments + (args->mode == CAMERA_COLUMN ? index * CAMERA_COLUMN_MAX : index);
@@ -473,32 +481,23 @@ static void do_pixel(const struct args *args, int32_t x, int32_t y)
 	args->counts[index] = p.count;
 }
 
-static struct camera_rectangle rectangle_of(const struct args *args)
-{
-	const int32_t *s = args->view->scissor;
-
-	return camera_rectangle(s[0], s[1], s[2], s[3], args->width, args->height);
-}
-
 void camera_packet_c(const struct camera_packet_arguments *from, size_t first, size_t last)
 {
 	const struct args a = { COMMON_ARGS(from), .rows = from->nodes, .faces = from->triangles };
-	const struct camera_rectangle r = rectangle_of(&a);
-	const size_t columns = (size_t)(r.x1 - r.x0 + CAMERA_TILE - 1) / CAMERA_TILE;
+	const struct camera_rectangle r = a.rectangle;
 
 	for (size_t item = first; item < last && item < camera_packet_items(r); item++) {
-		const int32_t x0 = r.x0 + (int32_t)(item % columns) * CAMERA_TILE;
-		const int32_t y0 = r.y0 + (int32_t)(item / columns) * CAMERA_TILE;
+		const int32_t x0 = camera_packet_x(r, (uint32_t)item), y0 = camera_packet_y(r, (uint32_t)item);
 
-		for (int32_t y = y0; y < y0 + CAMERA_TILE && y < r.y1; y++)
-			for (int32_t x = x0; x < x0 + CAMERA_TILE && x < r.x1; x++)
+		for (int32_t y = y0 > r.y0 ? y0 : r.y0; y < y0 + CAMERA_TILE && y < r.y1; y++)
+			for (int32_t x = x0 > r.x0 ? x0 : r.x0; x < x0 + CAMERA_TILE && x < r.x1; x++)
 				do_pixel(&a, x, y);
 	}
 }
 
 static void do_pixels(const struct args *a, size_t first, size_t last)
 {
-	const struct camera_rectangle r = rectangle_of(a);
+	const struct camera_rectangle r = a->rectangle;
 	const size_t columns = (size_t)(r.x1 - r.x0);
 
 	for (size_t item = first; item < last && item < camera_wide_items(r); item++)

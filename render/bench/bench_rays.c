@@ -147,7 +147,7 @@ int bench_camera(struct bench *b, enum kernel kernel, double *seconds)
 	if (!err)
 		err = traverse_camera(b->dev, kernel, &s->trees, r,
 		                      LAUNCH(camera_pass, .view_index = 0, .views = s->views, .width = b->width, .height = b->height,
-		                             .mode = CAMERA_NEAREST_LESS, .window = s->window_buffer, .clip = s->clip_buffer,
+		                             .rectangle = r, .first_pixel = 0, .mode = CAMERA_NEAREST_LESS, .window = s->window_buffer, .clip = s->clip_buffer,
 		                             .after = s->count_buffer, .fragments = s->fragment_buffer, .counts = s->count_buffer));
 	if (!err)
 		err = device_finish(b->dev);

@@ -149,7 +149,7 @@ static void run(const struct frame *f, struct device *dev, enum kernel kernel, u
 	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, INSTANCES, &trees), 0);
 	ck_assert_int_eq(traverse_camera(dev, kernel, &trees, r,
 	                                 LAUNCH(camera_pass, .view_index = 0, .views = { b[0] }, .width = WIDTH, .height = HEIGHT,
-	                                        .mode = mode, .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },
+	                                        .rectangle = r, .first_pixel = 0, .mode = mode, .window = { b[1] }, .clip = { b[2] }, .after = { b[3] },
 	                                        .fragments = { b[4] }, .counts = { b[5] })), 0);
 	ck_assert_int_eq(device_read(dev, b[4], 0, out->fragments, sizeof(out->fragments)), 0);
 	ck_assert_int_eq(device_read(dev, b[5], 0, out->counts, sizeof(out->counts)), 0);

@@ -107,7 +107,7 @@ static void run(struct device *dev, const struct content *c, const struct compos
 	memset(out, 0xa5, sizeof(*out));
 	b[7] = make_buffer(dev, out->halves, sizeof(out->halves));
 	b[8] = make_buffer(dev, out->floats, sizeof(out->floats));
-	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] }, .sums = { b[6] },
+	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] }, .sums = { b[6] }, .first_pixel = 0,
 	            .request = *request, .n = n, .halves = { b[7] }, .floats = { b[8] });
 	if (packets)
 		ck_assert_int_eq(launch_compose_packet(dev, (n + COMPOSE_PACKET - 1) / COMPOSE_PACKET, a), 0);

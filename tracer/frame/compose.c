@@ -49,19 +49,23 @@ int compose_wants(const char *aov, const char *group)
 	return 0;
 }
 
+static const char *wanted(const struct tracer_options *options)
+{
+	return options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov;
+}
+
 /* Which planes are wanted, one behind the other. @param halves, floats  receive how many */
 static struct compose_request request_of(const struct job *job, uint32_t *halves, uint32_t *floats)
 {
 	const struct tracer_options *options = job->options;
-	const char *aov = options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov;
-	struct compose_request r = { .width = job->width, .height = job->height, .n_passes = job->n_passes,
+	struct compose_request r = { .width = job->width, .height = job->n_rows, .n_passes = job->n_passes,
 		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS };
 
 	memset(r.half_plane, 0xff, sizeof(r.half_plane));
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
 	*halves = *floats = 0;
 	for (size_t i = 0; i < N_CHANNELS; i++) {
-		if (!compose_wants(aov, channels[i].group))
+		if (!compose_wants(wanted(options), channels[i].group))
 			continue;
 		if (channels[i].full)
 			r.float_plane[channels[i].plane] = (*floats)++;
@@ -76,7 +80,7 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows, .frame = b->frame,
-	                                        .sums = b->sums, .request = *r, .n = job->n_pixels, .halves = b->halves,
+	                                        .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
 	                                        .floats = b->floats);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS)
@@ -84,20 +88,16 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	return launch_compose(tr->dev, job->n_pixels, a);
 }
 
-/* One plane from the device into a channel of its own. */
-static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, struct image *img)
+/* The band's part of a plane from the device into its channel. */
+static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, const struct image_channel *to)
 {
-	struct tracer *tr = job->tr;
-	uint32_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane];
-	size_t bytes = job->n_pixels * (c->full ? sizeof(float) : sizeof(uint16_t));
-	void *plane;
+	const struct frame_buffers *b = &job->tr->buffers;
+	size_t row = job->height - job->row_first - job->n_rows, item = c->full ? sizeof(float) : sizeof(uint16_t);
+	size_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane], bytes = job->n_pixels * item;
+	char *plane = c->full ? (char *)to->values : (char *)to->halves;
 
-	if (place == SCENE_NONE)
-		return 0;
-	plane = c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name);
-	if (!plane)
-		return ERR_SYSTEM;
-	return device_read(tr->dev, c->full ? tr->buffers.floats.buffer : tr->buffers.halves.buffer, place * bytes, plane, bytes);
+	return device_read(job->tr->dev, c->full ? b->floats.buffer : b->halves.buffer, place * bytes, plane + row * job->width * item,
+	                   bytes);
 }
 
 /*
@@ -139,19 +139,38 @@ static int describe_image(const struct job *job, struct image *img)
 	return err ? err : describe_camera(job, img);
 }
 
-int compose_image(struct job *job, struct image *img)
+int compose_start(const struct job *job, struct image *img)
+{
+	int err = 0;
+
+	img->width = job->width;
+	img->height = job->height;
+	for (size_t i = 0; i < N_CHANNELS && !err; i++) {
+		const struct channel *c = &channels[i];
+
+		if (!compose_wants(wanted(job->options), c->group))
+			continue;
+		if (!(c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name)))
+			err = ERR_SYSTEM;
+	}
+	return err ? err : describe_image(job, img);
+}
+
+int compose_band(struct job *job, struct image *img)
 {
 	uint32_t halves, floats;
 	struct compose_request r = request_of(job, &halves, &floats);
+	size_t n = 0;
 	int err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
 
 	if (!err)
 		err = frame_reserve(job->tr, floats, (size_t)floats * job->n_pixels);
 	if (!err)
-		err = frame_reserve(job->tr, sums, 1);
+		err = frame_reserve(job->tr, sums, 1); /* where there is one pass, nobody has */
 	if (!err)
 		err = run_compose(job, &r);
 	for (size_t i = 0; i < N_CHANNELS && !err; i++)
-		err = fetch(job, &channels[i], &r, img);
-	return err ? err : describe_image(job, img);
+		if (compose_wants(wanted(job->options), channels[i].group))
+			err = fetch(job, &channels[i], &r, &img->channels[n++]);
+	return err;
 }

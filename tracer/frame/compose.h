@@ -4,12 +4,16 @@
 #include "tracer/frame/frame.h"
 #include "tracer/image/image.h"
 
+/** Give an empty image its size, the channels that are asked for, and attributes. @return 0 or ERR_SYSTEM (reported) */
+int compose_start(const struct job *job, struct image *img);
+
 /**
- * @param job  its frame stands in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums
- * @param img  width and height set; receives the channels
+ * Fill in a band's rows.
+ * @param job  its pixels stand in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums
+ * @param img  what compose_start made
  * @return 0 or ERR_SYSTEM (reported)
  */
-int compose_image(struct job *job, struct image *img);
+int compose_band(struct job *job, struct image *img);
 
 /** 1 where the option's list of channel groups holds this one. */
 int compose_wants(const char *aov, const char *group);

@@ -10,6 +10,11 @@ struct tables_launch frame_tables(const struct tracer *tr)
 	               .stipples = b->stipples);
 }
 
+uint32_t frame_first_pixel(const struct job *job)
+{
+	return job->row_first * job->width;
+}
+
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample)
 {
 	return job->n_samples == 1 ? &job->tr->buffers.frame : &job->tr->buffers.samples[sample];

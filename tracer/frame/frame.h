@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "tracer/accel/accel.h"
+#include "tracer/frame/picture_kept.h"
 #include "tracer/frame/pool.h"
 #include "tracer/frame/prepare.h"
 #include "tracer/frame/trace.h"
@@ -42,7 +43,7 @@ struct tracer {
 	uint32_t *counts, *first; /* [pixels], host copies */
 	size_t n_counted;
 	struct tracer_undrawn undrawn;
-	uint64_t drawn_serial, drawn_events; /* of the scene that buffers.frame holds */
+	struct picture_kept drawn; /* the picture that was drawn last */
 };
 
 struct expanded;
@@ -57,13 +58,17 @@ struct job {
 	const struct scene_mesh **extra; /* [n_instances]: their meshes, or NULL */
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
-	uint32_t width, height, n_pixels;
+	uint32_t width, height;
+	uint32_t row_first, n_rows; /* the band that is drawn; buffers of pixels hold its pixels, bottom row first */
+	uint32_t n_pixels;          /* of the band */
 	uint32_t bits; /* of the frame buffer, and the sample that is drawn: see pixel_depth_bits */
 	uint32_t n_samples; /* of a pixel in this pass: 1 or SCENE_SAMPLES */
 	union buffer_frame_pixel *frame; /* the sample's that is drawn */
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; pass 0 is its centre, and the last to be traced */
 	uint32_t turn;           /* which pixels take part in the other passes (sample_turn) */
+	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
+	struct scene_picture *picture;
 };
 
 /* Reserve `count` elements of one of the tracer's buffers, by its name; fill it with as many. */
@@ -72,6 +77,9 @@ struct job {
 
 /** What every shading kernel takes. */
 struct tables_launch frame_tables(const struct tracer *tr);
+
+/** The number of the band's first pixel in the frame. */
+uint32_t frame_first_pixel(const struct job *job);
 
 /** The buffer of one of the pixels' samples; where they have but one, the frame itself. */
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);

@@ -7,19 +7,20 @@
 #include "base/err.h"
 #include "kernels/gl/pixel.h"
 
-/* Pixels as a picture has them; NULL: not known. */
+/* The band's pixels as a picture has them; NULL: not known. */
 static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
 {
 	uint32_t depth_bits = pixel_depth_bits(job->bits), far = pixel_bits_mask(depth_bits);
 
 	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
-	for (uint32_t i = 0; i < job->n_pixels; i++) {
-		struct frame_pixel *p = &pixels[i];
+	for (uint32_t k = 0; k < job->n_pixels; k++) {
+		struct frame_pixel *p = &pixels[k];
+		const size_t i = frame_first_pixel(job) + (size_t)k;
 
 		p->surface.order = SCENE_NONE;
 		p->unknown = start ? PIXEL_BEFORE : PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 		for (int c = 0; c < 4 && start; c++)
-			p->gl[c] = start->colors ? start->colors[4 * (size_t)i + (size_t)c] : (float)start->rgba[4 * (size_t)i + (size_t)c] / 255.0f;
+			p->gl[c] = start->colors ? start->colors[4 * i + (size_t)c] : (float)start->rgba[4 * i + (size_t)c] / 255.0f;
 		memcpy(p->shadowed, p->gl, sizeof(p->shadowed));
 		memcpy(p->direct, p->gl, sizeof(p->direct));
 		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
@@ -47,40 +48,41 @@ int picture_upload_start(struct job *job)
 	return err;
 }
 
-/* Pixels of the frame on the device, or of one of their samples, rounded as GL's frame buffer is. */
-static int read_pixels(struct tracer *tr, union buffer_frame_pixel from, const struct scene *scene, struct frame_pixel *pixels,
-                       struct scene_picture *picture)
+/* The band's pixels on the device, or those of one of their samples, rounded as GL's frame buffer is. */
+static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels, struct scene_picture *picture)
 {
-	size_t n = (size_t)scene->width * scene->height;
-	int err = device_read(tr->dev, from.buffer, 0, pixels, n * sizeof(*pixels));
+	const struct scene *scene = job->scene;
+	int err = device_read(job->tr->dev, from.buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
 
-	picture->unknown = 0;
-	for (size_t i = 0; i < n && !err; i++) {
+	for (uint32_t k = 0; k < job->n_pixels && !err; k++) {
+		const struct frame_pixel *p = &pixels[k];
+		const size_t i = frame_first_pixel(job) + (size_t)k;
+
 		for (int c = 0; c < 4; c++)
-			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(pixels[i].gl[c]) * 255.0f);
+			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(p->gl[c]) * 255.0f);
 		if (picture->colors)
-			memcpy(picture->colors + 4 * i, pixels[i].gl, sizeof(pixels[i].gl));
+			memcpy(picture->colors + 4 * i, p->gl, sizeof(p->gl));
 		if (!scene->alpha_bits)
 			picture->rgba[4 * i + 3] = 255;
 		if (!scene->alpha_bits && picture->colors)
 			picture->colors[4 * i + 3] = 1;
-		picture->depth[i] = scene->depth_bits > 24 ? pixels[i].depth >> 8 : pixels[i].depth; /* pictures have 24 at most */
-		picture->stencil[i] = (uint8_t)pixels[i].stencil;
-		picture->unknown += (pixels[i].unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
+		picture->depth[i] = scene->depth_bits > 24 ? p->depth >> 8 : p->depth; /* pictures have 24 at most */
+		picture->stencil[i] = (uint8_t)p->stencil;
+		picture->unknown += (p->unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 	}
 	return err;
 }
 
-int picture_read(struct tracer *tr, const struct scene *scene, struct scene_picture *picture)
+int picture_read_band(const struct job *job, struct scene_picture *picture)
 {
-	struct frame_pixel *pixels = malloc((size_t)scene->width * scene->height * sizeof(*pixels));
+	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
 	int err;
 
 	if (!pixels)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
-	err = read_pixels(tr, tr->buffers.frame, scene, pixels, picture);
-	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && scene->samples > 1 && !err; i++)
-		err = read_pixels(tr, tr->buffers.samples[i], scene, pixels, &picture->samples[i]);
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
+	err = read_pixels(job, job->tr->buffers.frame, pixels, picture);
+	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && job->scene->samples > 1 && !err; i++)
+		err = read_pixels(job, job->tr->buffers.samples[i], pixels, &picture->samples[i]);
 	free(pixels);
 	return err;
 }

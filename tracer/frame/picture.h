@@ -3,8 +3,8 @@
 
 #include "tracer/frame/frame.h"
 
-/** Put the pixels on the device that were there before the scene, or say that they are not known. @return 0 or ERR_SYSTEM (reported) */
+/** Put the band's pixels on the device that were there before the scene, or say that they are not known. @return 0 or ERR_SYSTEM (reported) */
 int picture_upload_start(struct job *job);
 
-/** What was drawn last, of this scene. @param picture  as for tracer_render_picture @return 0 or ERR_SYSTEM (reported) */
-int picture_read(struct tracer *tr, const struct scene *scene, struct scene_picture *picture);
+/** What was drawn of the band. @param picture  as for tracer_render_picture; `unknown` counts on @return 0 or ERR_SYSTEM (reported) */
+int picture_read_band(const struct job *job, struct scene_picture *picture);

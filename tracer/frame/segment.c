@@ -7,10 +7,25 @@
 #include "kernels/gl/pixel.h"
 #include "tracer/frame/secondary.h"
 
-static struct camera_rectangle view_rectangle(const struct job *job, const struct view *view)
+/* The pixels of the band that lie in a scissor rectangle. */
+static struct camera_rectangle band_rectangle(const struct job *job, const int32_t scissor[4])
 {
-	return camera_rectangle(view->scissor[0], view->scissor[1], view->scissor[2], view->scissor[3], job->width,
-	                        job->height);
+	const int32_t first = (int32_t)job->row_first, end = first + (int32_t)job->n_rows;
+	struct camera_rectangle r = camera_rectangle(scissor[0], scissor[1], scissor[2], scissor[3], job->width, job->height);
+
+	r.y0 = r.y0 > first ? r.y0 : first;
+	r.y1 = r.y1 < end ? r.y1 : end;
+	if (r.y1 <= r.y0)
+		r.x1 = r.x0, r.y1 = r.y0;
+	return r;
+}
+
+/* The same as places in the buffers of pixels. */
+static struct camera_rectangle in_buffers(const struct job *job, struct camera_rectangle r)
+{
+	r.y0 -= (int32_t)job->row_first;
+	r.y1 -= (int32_t)job->row_first;
+	return r;
 }
 
 static uint32_t rectangle_area(struct camera_rectangle r)
@@ -26,11 +41,10 @@ void segment_draw_to(struct job *job, uint32_t sample, uint32_t note)
 
 static int clear_sample(struct job *job, const struct scene_clear *clear)
 {
-	struct camera_rectangle r = camera_rectangle(clear->scissor[0], clear->scissor[1], clear->scissor[2],
-	                                             clear->scissor[3], job->width, job->height);
+	struct camera_rectangle r = band_rectangle(job, clear->scissor);
 	uint32_t n = rectangle_area(r);
 
-	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = r, .width = job->width, .bits = job->bits,
+	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = in_buffers(job, r), .width = job->width, .bits = job->bits,
 	                                            .n = n, .frame = *job->frame));
 }
 
@@ -88,7 +102,8 @@ static int run_camera(struct job *job, const struct segment *segment, struct cam
 
 	return traverse_camera(tr->dev, traverse_families[device_family(tr->dev)].camera, &tr->trees, r,
 	                       LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = job->width,
-	                              .height = job->height, .mode = segment->mode, .window = b->windows, .clip = b->clips,
+	                              .height = job->height, .rectangle = r, .first_pixel = frame_first_pixel(job),
+	                              .mode = segment->mode, .window = b->windows, .clip = b->clips,
 	                              .after = b->after, .fragments = b->sparse, .counts = b->counts));
 }
 
@@ -119,9 +134,9 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 		for (int32_t x0 = r.x0; x0 < r.x1; x0 = block_end(x0, r.x1))
 			for (int32_t y = y0; y < block_end(y0, r.y1); y++)
 				for (int32_t x = x0; x < block_end(x0, r.x1); x++) {
-					size_t pixel = (size_t)y * job->width + (size_t)x;
+					uint32_t number = (uint32_t)y * job->width + (uint32_t)x, pixel = number - frame_first_pixel(job);
 
-					if (job->pass && sample_turn((uint32_t)pixel) != job->turn)
+					if (job->pass && sample_turn(number) != job->turn)
 						tr->counts[pixel] = 0;
 					tr->first[pixel] = next;
 					next += tr->counts[pixel];
@@ -147,8 +162,9 @@ static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots
 	if (err)
 		return err;
 	return launch_gather(tr->dev, n, LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
-	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after, .rectangle = r,
-	                                        .width = job->width, .n = n));
+	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after,
+	                                        .rectangle = in_buffers(job, r), .width = job->width,
+	                                        .first_pixel = frame_first_pixel(job), .n = n));
 }
 
 static int run_shade(struct job *job, uint32_t slots, uint32_t n)
@@ -172,7 +188,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	uint32_t n = rectangle_area(r);
 
 	return launch_resolve(tr->dev, n, LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded,
-	                                         .first = b->first, .counts = b->counts, .rectangle = r, .width = job->width,
+	                                         .first = b->first, .counts = b->counts, .rectangle = in_buffers(job, r), .width = job->width,
 	                                         .bits = job->bits, .n = n, .frame = *job->frame));
 }
 
@@ -201,10 +217,12 @@ static int shade_list(struct job *job, uint32_t view, uint32_t n)
 static int run_draws(struct job *job, const struct segment *segment)
 {
 	struct tracer *tr = job->tr;
-	struct camera_rectangle r = view_rectangle(job, &job->prepared.views[segment->view]);
+	struct camera_rectangle r = band_rectangle(job, job->prepared.views[segment->view].scissor);
 	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
-	int more = 1, err;
+	int more = rectangle_area(r) != 0, err;
 
+	if (!more)
+		return 0;
 	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
 	err = frame_upload(tr, after, tr->counts, job->n_pixels);
 	if (!err)
@@ -261,13 +279,15 @@ static int look_at_sample(struct job *job, const struct segment *segment, uint32
 
 int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared)
 {
+	const int32_t *scissor;
 	int err = 0;
 
 	for (uint32_t i = n_cleared; i < segment->clear_count && !err; i++)
 		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
 	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
 		return err;
-	if (rectangle_area(view_rectangle(job, &job->prepared.views[segment->view])) == 0)
+	scissor = job->prepared.scene_views[segment->view].scissor;
+	if (rectangle_area(camera_rectangle(scissor[0], scissor[1], scissor[2], scissor[3], job->width, job->height)) == 0)
 		return 0;
 	segment_draw_to(job, 0, segment->multisample && job->pass ? (job->pass % SCENE_SAMPLES + 1) << 24 : 0);
 	if (!segment->multisample || job->n_samples == 1)
@@ -295,5 +315,5 @@ int segment_add_pass(struct job *job, uint32_t first)
 	const struct frame_buffers *b = &job->tr->buffers;
 
 	return launch_add_pass(job->tr->dev, job->n_pixels, LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
-	                                                           .n = job->n_pixels, .sums = b->sums));
+	                                                           .first_pixel = frame_first_pixel(job), .n = job->n_pixels, .sums = b->sums));
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/expand.h"
@@ -44,6 +45,7 @@ void tracer_destroy(struct tracer **tracer)
 	for (int i = 0; i < SCENE_SAMPLES; i++)
 		device_release(tr->dev, &tr->buffers.samples[i].buffer);
 	traverse_release(tr->dev, &tr->trees);
+	picture_kept_free(&tr->drawn);
 	free(tr->counts);
 	free(tr->first);
 	free(tr);
@@ -79,6 +81,7 @@ int tracer_check_aov(const char *aov)
 
 /* --- Frames -------------------------------------------------------------------------------------------------------- */
 
+/* Buffers of the band's pixels. */
 static int reserve_pixels(struct job *job)
 {
 	struct tracer *tr = job->tr;
@@ -91,7 +94,7 @@ static int reserve_pixels(struct job *job)
 		tr->counts = malloc(job->n_pixels * sizeof(*tr->counts));
 		tr->first = malloc(job->n_pixels * sizeof(*tr->first));
 		if (!tr->counts || !tr->first)
-			return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+			return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
 		tr->n_counted = job->n_pixels;
 	}
 	err = frame_reserve(tr, counts, job->n_pixels);
@@ -100,7 +103,7 @@ static int reserve_pixels(struct job *job)
 	for (uint32_t i = 0; i < job->n_samples && !err; i++)
 		err = launch_reserve(tr->dev, *frame_sample(job, i), job->n_pixels);
 	if (!err && job->n_passes > 1)
-		err = frame_reserve(tr, sums, (size_t)job->n_pixels * PASS_PARTS);
+		err = frame_reserve(tr, sums, (size_t)job->width * job->height * PASS_PARTS);
 	if (!err)
 		err = frame_reserve(tr, visibility, 3);
 	return err;
@@ -114,17 +117,47 @@ static void count_undrawn(struct job *job)
 		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
 }
 
-/* Changes whenever a scene shows something else. */
-static uint64_t events_of(const struct scene *scene)
+/*
+ * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches. GPUs want many pixels at
+ * once.
+ */
+#define BAND_PIXELS_CPU 65536u
+#define BAND_PIXELS_GPU 2097152u
+
+static uint32_t rows_of_band(const struct job *job)
 {
-	return 2 * ((uint64_t)scene->n_instances + scene->n_clears) + (scene->start != NULL);
+	const uint32_t pixels = device_family(job->tr->dev) == FAMILY_PACKETS ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
+	const uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
+
+	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
 }
 
-/* One look at the frame, into buffers.frame. */
+/* Draw a band, and hand it on. */
+static int trace_band(struct job *job)
+{
+	uint32_t n_cleared = 0;
+	int err = reserve_pixels(job);
+
+	memset(job->background, 0, sizeof(job->background));
+	if (!err)
+		err = job->scene->start || job->scene->needs_previous ? picture_upload_start(job) : segment_clear_all(job, &n_cleared);
+	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
+		err = segment_run(job, &job->prepared.segments[i], i == 0 ? n_cleared : 0);
+	segment_draw_to(job, 0, 0);
+	if (!err && job->n_samples > 1)
+		err = segment_merge_samples(job);
+	if (err)
+		return err;
+	if (job->pass > 0)
+		return segment_add_pass(job, job->pass == job->n_passes - 1);
+	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
+}
+
+/* One look at the frame, band by band, top rows first. */
 static int trace_pass(struct job *job)
 {
+	const uint32_t rows = rows_of_band(job);
 	float shift[2] = { 0, 0 };
-	uint32_t n_cleared = 0;
 	int err;
 
 	if (job->pass > 0)
@@ -144,15 +177,12 @@ static int trace_pass(struct job *job)
 		err = upload_state(job);
 	if (!err)
 		err = geometry_place(job);
-	if (!err)
-		err = reserve_pixels(job);
-	if (!err)
-		err = job->scene->start || job->scene->needs_previous ? picture_upload_start(job) : segment_clear_all(job, &n_cleared);
-	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
-		err = segment_run(job, &job->prepared.segments[i], i == 0 ? n_cleared : 0);
-	segment_draw_to(job, 0, 0);
-	if (!err && job->n_samples > 1)
-		err = segment_merge_samples(job);
+	for (uint32_t end = job->height; end > 0 && !err; end = job->row_first) {
+		job->row_first = (end - 1) / rows * rows;
+		job->n_rows = end - job->row_first;
+		job->n_pixels = job->n_rows * job->width;
+		err = trace_band(job);
+	}
 	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
 		expanded_free(&job->expanded[i]);
 	free(job->expanded);
@@ -172,51 +202,44 @@ static int check_size(const struct scene *scene)
 int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
 {
 	const struct tracer_options options = { .mode = TRACER_GL };
-	struct job job = { .tr = tracer, .scene = scene, .options = &options, .width = scene->width,
-		           .height = scene->height, .n_pixels = scene->width * scene->height, .n_passes = 1 };
+	struct job job = { .tr = tracer, .scene = scene, .options = &options, .width = scene->width, .height = scene->height,
+		           .n_passes = 1, .picture = picture };
 	int err = check_size(scene);
 
 	/* The frame that was rendered last is often the one that the next begins with. */
-	if (err || (scene->serial && tracer->drawn_serial == scene->serial && tracer->drawn_events == events_of(scene)))
-		return err ? err : picture_read(tracer, scene, picture);
-	tracer->drawn_serial = 0;
+	if (err || picture_recall(&tracer->drawn, scene, picture))
+		return err;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
+	picture->unknown = 0;
+	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
+		picture->samples[i].unknown = 0;
 	err = trace_pass(&job);
-	if (!err) {
-		tracer->drawn_serial = scene->serial;
-		tracer->drawn_events = events_of(scene);
-	}
-	return err ? err : picture_read(tracer, scene, picture);
+	if (!err)
+		picture_keep(&tracer->drawn, scene, picture);
+	return err;
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img)
 {
 	struct tracer_options known = *options;
-	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width,
-		           .height = scene->height, .n_passes = options->samples ? options->samples : 1 };
+	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width, .height = scene->height,
+		           .n_passes = options->samples ? options->samples : 1, .image = img };
 	int err = 0;
 
 	if (check_size(scene) != 0)
 		return ERR_SYSTEM;
-	tracer->drawn_serial = 0;
 	if (known.rays == 0)
 		known.rays = 16;
-	job.n_pixels = scene->width * scene->height;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	img->width = job.width;
-	img->height = job.height;
 	/* The pass through pixel centres comes last: values that are no means are its own. */
 	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--)
-		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++) {
+		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++)
 			err = trace_pass(&job);
-			if (!err)
-				err = segment_add_pass(&job, job.pass == job.n_passes - 1);
-		}
+	if (!err)
+		err = compose_start(&job, img);
 	if (!err)
 		err = trace_pass(&job);
-	if (!err)
-		err = compose_image(&job, img);
 	if (err)
 		image_free(img);
 	return err;

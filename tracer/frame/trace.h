@@ -1,9 +1,11 @@
 /*
  * The wavefront: a scene becomes a picture on a device.
  *
- * Per frame: vertex stage, acceleration structures, then segment by segment (prepare.h) in draw order. A segment clears, traces camera
- * rays, gathers and shades fragments, lights those again whose shadow rays were stopped, follows mirrors, and puts all through the
- * per-fragment operations. A column of more fragments than one camera pass delivers takes several passes.
+ * Per frame: vertex stage, acceleration structures, then band by band of rows. Buffers of pixels and of their fragments have a band's
+ * size: they stay in a CPU's caches, and memory does not grow with the frame. Within a band segment follows segment (prepare.h) in draw
+ * order. A segment clears, traces camera rays, gathers and shades fragments, lights those again whose shadow rays were stopped, follows
+ * mirrors, and puts all through the per-fragment operations. A column of more fragments than one camera pass delivers takes several
+ * passes.
  */
 #pragma once
 
@@ -32,6 +34,7 @@ struct tracer_options {
 	enum accel_kind accel; /* trees of meshes */
 	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */
 	struct blas_store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
+	unsigned band_rows; /* rows of pixels that are drawn at a time; 0: as suits the device. The picture does not depend on it */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };

@@ -1,0 +1,101 @@
+#include "tracer/frame/picture_kept.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Changes whenever a scene shows something else. */
+static uint64_t events_of(const struct scene *scene)
+{
+	return 2 * ((uint64_t)scene->n_instances + scene->n_clears) + (scene->start != NULL);
+}
+
+/* A picture's planes from another of the same size; `to` has at least those that `from` has. */
+static void copy_planes(struct scene_picture *to, const struct scene_picture *from, size_t n)
+{
+	memcpy(to->rgba, from->rgba, 4 * n);
+	memcpy(to->depth, from->depth, n * sizeof(*to->depth));
+	memcpy(to->stencil, from->stencil, n);
+	if (to->colors)
+		memcpy(to->colors, from->colors, 4 * n * sizeof(*to->colors));
+	to->unknown = from->unknown;
+}
+
+static void free_picture(struct scene_picture *p)
+{
+	for (int i = 0; p && p->samples && i < SCENE_SAMPLES; i++) {
+		free(p->samples[i].rgba);
+		free(p->samples[i].depth);
+		free(p->samples[i].stencil);
+		free(p->samples[i].colors);
+	}
+	if (p) {
+		free(p->samples);
+		free(p->rgba);
+		free(p->depth);
+		free(p->stencil);
+		free(p->colors);
+	}
+	free(p);
+}
+
+/* Room for the planes that `like` has. @return 0: out of memory */
+static int reserve_planes(struct scene_picture *p, const struct scene_picture *like, size_t n)
+{
+	p->rgba = malloc(4 * n);
+	p->depth = malloc(n * sizeof(*p->depth));
+	p->stencil = malloc(n);
+	p->colors = like->colors ? malloc(4 * n * sizeof(*p->colors)) : NULL;
+	return p->rgba && p->depth && p->stencil && (p->colors || !like->colors);
+}
+
+static struct scene_picture *make_picture(const struct scene_picture *like, size_t n)
+{
+	struct scene_picture *p = calloc(1, sizeof(*p));
+	int enough = p && reserve_planes(p, like, n);
+
+	if (enough && like->samples)
+		enough = (p->samples = calloc(SCENE_SAMPLES, sizeof(*p->samples))) != NULL;
+	for (int i = 0; enough && p->samples && i < SCENE_SAMPLES; i++)
+		enough = reserve_planes(&p->samples[i], &like->samples[i], n);
+	if (enough)
+		return p;
+	free_picture(p);
+	return NULL;
+}
+
+void picture_keep(struct picture_kept *kept, const struct scene *scene, const struct scene_picture *picture)
+{
+	size_t n = (size_t)scene->width * scene->height;
+
+	picture_kept_free(kept);
+	if (!scene->serial)
+		return;
+	kept->picture = make_picture(picture, n);
+	if (!kept->picture)
+		return;
+	copy_planes(kept->picture, picture, n);
+	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
+		copy_planes(&kept->picture->samples[i], &picture->samples[i], n);
+	kept->serial = scene->serial;
+	kept->events = events_of(scene);
+}
+
+int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture)
+{
+	size_t n = (size_t)scene->width * scene->height;
+	const struct scene_picture *p = kept->picture;
+
+	if (!p || kept->serial != scene->serial || kept->events != events_of(scene) || (picture->colors && !p->colors) ||
+	    (picture->samples && !p->samples))
+		return 0;
+	copy_planes(picture, p, n);
+	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
+		copy_planes(&picture->samples[i], &p->samples[i], n);
+	return 1;
+}
+
+void picture_kept_free(struct picture_kept *kept)
+{
+	free_picture(kept->picture);
+	*kept = (struct picture_kept){ .picture = NULL };
+}

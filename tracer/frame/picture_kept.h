@@ -1,0 +1,17 @@
+/* The picture that was drawn last: the scene that asks next is often the same. */
+#pragma once
+
+#include "scene/scene.h"
+
+struct picture_kept {
+	uint64_t serial, events; /* of its scene; serial 0: there is none */
+	struct scene_picture *picture;
+};
+
+/** Keep a copy of a scene's picture in place of what was kept. Where memory is short, nothing is kept. */
+void picture_keep(struct picture_kept *kept, const struct scene *scene, const struct scene_picture *picture);
+
+/** @return 1 where this scene's picture is kept; `picture` is filled then */
+int picture_recall(const struct picture_kept *kept, const struct scene *scene, struct scene_picture *picture);
+
+void picture_kept_free(struct picture_kept *kept);
