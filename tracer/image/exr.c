@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <half.h>
 #include <openexr.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,10 +11,12 @@
 
 #include "base/err.h"
 #include "base/part.h"
+#include "tracer/image/exr_pack.h"
 #include "tracer/image/exr_zip.h"
 #include "tracer/image/image.h"
 
 #define MAX_PIXELS ((uint64_t)1 << 30)
+#define MAX_PACKERS 63 /* threads that pack one picture, beside the caller's */
 
 /* The library's last message on this thread. It reports through a callback; we report once, with the file's name. */
 static _Thread_local char exr_said[160];
@@ -139,86 +142,149 @@ static exr_result_t define_part(exr_context_t file, const struct image *img)
 	return rc;
 }
 
-/*
- * Pack the rows of a chunk as the file has them: line by line, channel by channel. The library's own packing decides for each
- * number anew how to convert it.
- */
-static exr_result_t pack_rows(exr_encode_pipeline_t *encode)
+/* A picture on its way to chunks. Several threads pack; the one that called for it writes, in order. */
+struct packing {
+	const struct exr_plane *planes;
+	size_t n_planes;
+	uint32_t width, height, rows, n_chunks; /* rows: of a chunk */
+	pthread_mutex_t lock;                   /* of all below */
+	pthread_cond_t packed;
+	uint32_t next;                          /* chunk that nobody packs yet */
+	struct chunk {
+		void *bytes;
+		size_t n;
+	} *chunks;                              /* [n_chunks]; bytes NULL: not packed yet */
+	int failed;
+};
+
+/* Pack the next chunk. @return 1; 0: there is none, or packing has failed */
+static int pack_next(struct packing *p, struct exr_packer *packer)
 {
-	uint8_t *out = encode->packed_buffer;
+	struct exr_rows rows = { p->planes, p->n_planes, p->width, 0, p->rows };
+	struct chunk chunk = { NULL, 0 };
+	uint32_t number;
 
-	for (int32_t row = 0; row < encode->chunk.height; row++)
-		for (int i = 0; i < encode->channel_count; i++) {
-			const exr_coding_channel_info_t *c = &encode->channels[i];
-			const uint8_t *from = c->encode_from_ptr + (ptrdiff_t)row * c->user_line_stride;
-
-			if (c->user_data_type == c->data_type) {
-				memcpy(out, from, (size_t)c->width * (size_t)c->bytes_per_element);
-				out += (size_t)c->width * (size_t)c->bytes_per_element;
-				continue;
-			}
-			for (int32_t x = 0; x < c->width; x++, out += sizeof(uint16_t)) {
-				uint16_t half;
-				float value;
-
-				memcpy(&value, from + (size_t)x * sizeof(value), sizeof(value));
-				half = imath_float_to_half(value);
-				memcpy(out, &half, sizeof(half));
-			}
-		}
-	encode->packed_bytes = (uint64_t)(out - (uint8_t *)encode->packed_buffer);
-	return EXR_ERR_SUCCESS;
+	pthread_mutex_lock(&p->lock);
+	number = p->failed ? p->n_chunks : p->next++;
+	pthread_mutex_unlock(&p->lock);
+	if (number >= p->n_chunks)
+		return 0;
+	rows.first = number * p->rows;
+	if (rows.first + rows.count > p->height)
+		rows.count = p->height - rows.first;
+	if (!exr_pack(packer, &rows)) {
+		chunk = (struct chunk){ malloc(packer->n_packed), packer->n_packed };
+		if (chunk.bytes)
+			memcpy(chunk.bytes, packer->packed, chunk.n);
+	}
+	pthread_mutex_lock(&p->lock);
+	p->chunks[number] = chunk;
+	p->failed |= !chunk.bytes;
+	pthread_cond_signal(&p->packed);
+	pthread_mutex_unlock(&p->lock);
+	return 1;
 }
 
-/* One chunk: the rows from `y` on that compress together. */
-static exr_result_t write_chunk(exr_context_t file, const struct image *img, exr_encode_pipeline_t *encode,
-                                struct exr_zip *zip, int32_t y)
+static void *pack_all(void *arg)
 {
-	exr_chunk_info_t chunk;
-	exr_result_t rc = exr_write_scanline_chunk_info(file, 0, y, &chunk);
+	struct exr_packer packer = { .size = 0 };
 
-	if (rc != EXR_ERR_SUCCESS)
-		return rc;
-	rc = y ? exr_encoding_update(file, 0, &chunk, encode) : exr_encoding_initialize(file, 0, &chunk, encode);
-	if (rc != EXR_ERR_SUCCESS)
-		return rc;
-	for (int i = 0; i < encode->channel_count; i++) {
-		exr_coding_channel_info_t *c = &encode->channels[i];
-		const struct image_channel *from = find_channel(img, c->channel_name);
-		const uint8_t *plane = from->halves ? (const uint8_t *)from->halves : (const uint8_t *)from->values;
-		int32_t bytes = from->halves ? (int32_t)sizeof(uint16_t) : (int32_t)sizeof(float);
-
-		c->user_data_type = from->halves ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-		c->user_bytes_per_element = (int16_t)bytes;
-		c->user_pixel_stride = bytes;
-		c->user_line_stride = (int32_t)img->width * bytes;
-		c->encode_from_ptr = plane + (size_t)y * img->width * (size_t)bytes;
-	}
-	if (y == 0) {
-		rc = exr_encoding_choose_default_routines(file, 0, encode);
-		if (rc != EXR_ERR_SUCCESS)
-			return rc;
-		encode->convert_and_pack_fn = pack_rows;
-		exr_zip_encode_with(encode, zip);
-	}
-	return exr_encoding_run(file, 0, encode);
+	while (pack_next(arg, &packer))
+		;
+	exr_packer_free(&packer);
+	return NULL;
 }
 
-static exr_result_t write_chunks(exr_context_t file, const struct image *img)
+/* Take a chunk that is packed. @param wait  1: wait for it. @return its bytes, to be freed; NULL: not yet, or packing has failed */
+static void *take_chunk(struct packing *p, uint32_t number, int wait, size_t *n)
 {
-	exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
-	struct exr_zip zip = { 0 };
-	int32_t rows = 1;
-	exr_result_t rc = exr_get_scanlines_per_chunk(file, 0, &rows);
+	void *bytes;
 
-	for (int32_t y = 0; y < (int32_t)img->height && rc == EXR_ERR_SUCCESS; y += rows)
-		rc = write_chunk(file, img, &encode, &zip, y);
-	exr_encoding_destroy(file, &encode);
-	exr_zip_free(&zip);
+	pthread_mutex_lock(&p->lock);
+	while (wait && !p->chunks[number].bytes && !p->failed)
+		pthread_cond_wait(&p->packed, &p->lock);
+	bytes = p->chunks[number].bytes;
+	*n = p->chunks[number].n;
+	p->chunks[number].bytes = NULL;
+	pthread_mutex_unlock(&p->lock);
+	return bytes;
+}
+
+/* Write what is packed, and help with packing meanwhile. */
+static exr_result_t write_packed(exr_context_t file, struct packing *p)
+{
+	struct exr_packer packer = { .size = 0 };
+	exr_result_t rc = EXR_ERR_SUCCESS;
+	int more = 1;
+
+	for (uint32_t i = 0; i < p->n_chunks && rc == EXR_ERR_SUCCESS;) {
+		size_t n;
+		void *bytes = take_chunk(p, i, !more, &n);
+
+		if (bytes)
+			rc = exr_write_scanline_chunk(file, 0, (int)(i++ * p->rows), bytes, n);
+		else if (more)
+			more = pack_next(p, &packer);
+		else
+			rc = EXR_ERR_OUT_OF_MEMORY;
+		free(bytes);
+	}
+	exr_packer_free(&packer);
 	return rc;
 }
 
-int image_write_exr(const struct image *img, const char *path)
+/* The channels as the file has them, sorted. */
+static int list_planes(exr_context_t file, const struct image *img, struct exr_plane *planes)
+{
+	const exr_attr_chlist_t *channels;
+
+	if (exr_get_channels(file, 0, &channels) != EXR_ERR_SUCCESS)
+		return 0;
+	for (int i = 0; i < channels->num_channels; i++) {
+		const struct image_channel *c = find_channel(img, channels->entries[i].name.str);
+
+		planes[i] = (struct exr_plane){ c->halves, c->halves ? NULL : c->values, c->value, c->full_float };
+	}
+	return channels->num_channels;
+}
+
+static exr_result_t write_chunks(exr_context_t file, const struct image *img, unsigned threads)
+{
+	struct exr_plane *planes = calloc(img->n_channels, sizeof(*planes));
+	struct packing p = { .planes = planes, .width = img->width, .height = img->height };
+	exr_result_t rc = EXR_ERR_OUT_OF_MEMORY;
+	pthread_t helpers[MAX_PACKERS];
+	unsigned n_helpers = 0;
+	int32_t rows = 1;
+
+	exr_get_scanlines_per_chunk(file, 0, &rows);
+	p.rows = (uint32_t)rows;
+	p.n_chunks = (img->height + p.rows - 1) / p.rows;
+	p.chunks = calloc(p.n_chunks, sizeof(*p.chunks));
+	if (planes && p.chunks) {
+		p.n_planes = (size_t)list_planes(file, img, planes);
+		pthread_mutex_init(&p.lock, NULL);
+		pthread_cond_init(&p.packed, NULL);
+		while (n_helpers + 1 < threads && n_helpers < MAX_PACKERS && n_helpers + 1 < p.n_chunks &&
+		       pthread_create(&helpers[n_helpers], NULL, pack_all, &p) == 0)
+			n_helpers++;
+		rc = write_packed(file, &p);
+		pthread_mutex_lock(&p.lock);
+		p.failed |= rc != EXR_ERR_SUCCESS;
+		pthread_mutex_unlock(&p.lock);
+		while (n_helpers)
+			pthread_join(helpers[--n_helpers], NULL);
+		for (uint32_t i = 0; i < p.n_chunks; i++)
+			free(p.chunks[i].bytes);
+		pthread_cond_destroy(&p.packed);
+		pthread_mutex_destroy(&p.lock);
+	}
+	free(p.chunks);
+	free(planes);
+	return rc;
+}
+
+int image_write_exr(const struct image *img, const char *path, unsigned threads)
 {
 	exr_context_initializer_t setup = context_setup();
 	exr_context_t file = NULL;
@@ -246,7 +312,7 @@ int image_write_exr(const struct image *img, const char *path)
 	if (rc == EXR_ERR_SUCCESS)
 		rc = exr_write_header(file);
 	if (rc == EXR_ERR_SUCCESS)
-		rc = write_chunks(file, img);
+		rc = write_chunks(file, img, threads);
 	if (rc != EXR_ERR_SUCCESS) {
 		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
 		exr_finish(&file);

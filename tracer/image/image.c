@@ -79,18 +79,29 @@ uint16_t *image_add_halves(struct image *img, const char *name)
 	return channel->halves;
 }
 
+int image_add_constant(struct image *img, const char *name, int full_float, float value)
+{
+	struct image_channel *channel = next_channel(img, name, full_float);
+
+	if (!channel)
+		return ERR_SYSTEM;
+	channel->value = value;
+	img->n_channels++;
+	return 0;
+}
+
 float *image_values(const struct image *img, size_t i)
 {
 	struct image_channel *channel = &img->channels[i];
 	size_t n = pixel_count(img);
 
-	if (channel->values || !channel->halves)
+	if (channel->values)
 		return channel->values;
 	channel->values = malloc(n * sizeof(*channel->values));
 	if (!channel->values)
 		return no_memory(img, channel->name);
 	for (size_t k = 0; k < n; k++)
-		channel->values[k] = imath_half_to_float(channel->halves[k]);
+		channel->values[k] = channel->halves ? imath_half_to_float(channel->halves[k]) : channel->value;
 	return channel->values;
 }
 

@@ -12,8 +12,9 @@
 struct image_channel {
 	char name[32];
 	int full_float;   /* 1: stored as 32-bit float in a file, 0: half */
-	float *values;    /* [height][width]; NULL until somebody asks for `halves` as floats */
+	float *values;    /* [height][width]; NULL until somebody asks for `halves` or `value` as floats */
 	uint16_t *halves; /* the same as half floats, or NULL: what the renderer makes, and files take as it is */
+	float value;      /* of every pixel, where neither was made */
 };
 
 struct image_attribute {
@@ -41,6 +42,9 @@ float *image_add_channel(struct image *img, const char *name, int full_float);
 /** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats were asked for */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
+/** Add a channel that has one value everywhere, and needs no memory for it. @return 0 or ERR_SYSTEM (reported) */
+int image_add_constant(struct image *img, const char *name, int full_float, float value);
+
 /** The plane of a channel as floats. NULL: there is none of that name, or no memory (reported) */
 float *image_channel(const struct image *img, const char *name);
 
@@ -55,12 +59,13 @@ int image_set_attribute(struct image *img, const char *name, const char *fmt, ..
 const char *image_attribute(const struct image *img, const char *name);
 
 /**
- * Write as OpenEXR: one part, ZIP (exr_zip.h), half or float as the channels say, channels sorted by name. Writes to a
+ * Write as OpenEXR: one part, ZIP (exr_pack.h), half or float as the channels say, channels sorted by name. Writes to a
  * temporary name beside `path` and renames it when whole. Same image, same bytes. Attributes are strings, except
  * worldToCamera and worldToNDC: their text is 16 numbers in the file's order (rows of a matrix for row vectors).
+ * @param threads  that pack rows, the caller's among them; the bytes do not depend on it
  * @return 0, or ERR_SYSTEM (reported; nothing is left under either name)
  */
-int image_write_exr(const struct image *img, const char *path);
+int image_write_exr(const struct image *img, const char *path, unsigned threads);
 
 /**
  * Read an OpenEXR file of one scan-line part (what image_write_exr writes; half, float and uint channels).
