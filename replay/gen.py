@@ -5,8 +5,9 @@ usage: gen.py OUT tokens                                                every GL
        gen.py OUT commands OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    what is known of each command (machine/commands.h)
        gen.py OUT handlers OVERLAY CAPTURE_OVERLAY HANDLER_SOURCE...    their handlers, in the same order (gl/dispatch.h)
 
-A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. A command without one takes
-the handler of the command that the registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
+A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. GLS_FAMILY(glName, ...) handles
+all commands whose names are glName and a suffix (GL 2.1 sec. 2.3). A command without a handler takes that of the command that the
+registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
 The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame.
 """
 import re
@@ -30,39 +31,65 @@ def tokens(out):
     write(out, lines)
 
 
+def expand(pattern):
+    """The names that a pattern such as glUniform{1,2}{f,i}{,v} stands for."""
+    braces = re.search(r"{([^}]*)}", pattern)
+    if not braces:
+        return [pattern]
+    return [name for part in braces[1].split(",") for name in expand(pattern[:braces.start()] + part + pattern[braces.end():])]
+
+
 def read_overlay(path):
     """{command: why it needs nothing done}"""
-    excuses = {}
+    excuses, reason = {}, None
     with open(path) as source:
         for number, line in enumerate(source, 1):
-            line = line.split("#")[0].strip()
-            if not line:
-                continue
-            words = line.split(None, 2)
-            if len(words) != 3 or words[0] != "excuse":
-                sys.exit(f"{path}:{number}: not of the form 'excuse COMMAND REASON'")
-            excuses[words[1]] = words[2]
+            words = line.split("#")[0].split()
+            if words and not line[0].isspace():
+                reason = " ".join(words)
+            elif words and not reason:
+                sys.exit(f"{path}:{number}: commands without a reason above them")
+            else:
+                excuses.update((name, reason) for word in words for name in expand(word))
     return excuses
 
 
-HANDLER = re.compile(r"^GLS_HANDLER\s*\(\s*(\w+)\s*,\s*(\w+)\s*(?:,\s*(\w+)\s*)?\)", re.M)
+HANDLER = re.compile(r"^GLS_(HANDLER|FAMILY)\s*\(\s*(\w+)\s*,\s*(\w+)\s*(?:,\s*(\w+)\s*)?\)", re.M)
+SUFFIX = re.compile(r"([1-4]?)(N?)(ub|us|ui|[bsifd]|D)(v?)")
+NO_SUFFIX = "{ 0, GLS_SUFFIX_NONE, 0, 0 }"
 
 
 def read_handlers(paths):
-    """{command: (kind, role)}"""
-    handlers = {}
+    """[(GLS_HANDLER or GLS_FAMILY, name, kind, role)]"""
+    handlers = []
     for path in paths:
         with open(path) as source:
             text = source.read()
         found = {text.count("\n", 0, match.start()) + 1: match for match in HANDLER.finditer(text)}
         for number, line in enumerate(text.split("\n"), 1):
-            if re.match(r"\s*GLS_HANDLER\b", line) and number not in found:
+            if re.match(r"\s*GLS_(HANDLER|FAMILY)\b", line) and number not in found:
                 sys.exit(f"{path}:{number}: not of the form GLS_HANDLER(name, KIND) or GLS_HANDLER(name, KIND, ROLE)")
         for number, match in found.items():
-            if match[1] in handlers:
-                sys.exit(f"{path}:{number}: a second handler of {match[1]}")
-            handlers[match[1]] = match[2], match[3] or "NONE"
+            if match[2] in (name for _, name, _, _ in handlers):
+                sys.exit(f"{path}:{number}: a second handler of {match[2]}")
+            handlers.append((match[1], match[2], match[3], match[4] or "NONE"))
     return handlers
+
+
+def handled(handlers, names):
+    """{command: (function, kind, role, what its suffix says: struct gls_suffix)}"""
+    found = {}
+    for what, stem, kind, role in sorted(handlers):
+        if what == "HANDLER":
+            found[stem] = stem, kind, role, NO_SUFFIX
+            continue
+        for name in names:
+            suffix = SUFFIX.fullmatch(name.removeprefix(stem)) if name.startswith(stem) else None
+            if suffix:
+                count, normalized, letters, array = suffix.groups()
+                kind_of_number = "NONE" if letters == "D" else letters.upper()
+                found[name] = stem, kind, role, f"{{ {count or 1}, GLS_SUFFIX_{kind_of_number}, {len(normalized)}, {len(array)} }}"
+    return found
 
 
 def read_drawing(path):
@@ -77,7 +104,8 @@ def table(out, what, overlay, capture_overlay, sources):
     for file_name in ("gl.xml", "glx.xml"):
         commands.update(registry.read(file_name)[0])
     excuses = read_overlay(overlay)
-    handlers = read_handlers(sources)
+    functions = read_handlers(sources)
+    handlers = handled(functions, commands)
     drawing = read_drawing(capture_overlay)
     both = sorted(excuses.keys() & handlers.keys())
     if both:
@@ -96,18 +124,18 @@ def table(out, what, overlay, capture_overlay, sources):
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
     lines = ["/* Made by replay/gen.py from Khronos' registries, overlay.txt and the handlers of replay/. */"]
     if what == "handlers":
-        lines += ['#include "replay/gl/dispatch.h"', "", *(f"gls_handler gls_{name};" for name in sorted(handlers)), "",
+        lines += ['#include "replay/gl/dispatch.h"', "", *(f"gls_handler gls_{name};" for _, name, _, _ in functions), "",
                   "gls_handler *const gls_handlers[] = {"]
     else:
         lines += ['#include "replay/machine/commands.h"', "", "const struct gls_command gls_commands[] = {"]
     for name in names:
         handler = resolve(name, handlers)
-        kind, role = handlers[handler] if handler else ("NONE", "NONE")
+        function, kind, role, suffix = handlers[handler] if handler else ("", "NONE", "NONE", NO_SUFFIX)
         excuse = "" if handler else resolve(name, excuses)
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
         fields = [f'"{name}"', '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
-                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0")]
-        lines.append(f"\t{f'gls_{handler}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
+                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix]
+        lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
     lines.append("};")
     if what == "commands":
         lines += ["", "const unsigned n_gls_commands = sizeof(gls_commands) / sizeof(gls_commands[0]);"]

@@ -1,5 +1,11 @@
 #include "replay/machine/args.h"
 
+#include <string.h>
+
+#include "base/norm.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
+
 const struct trace_value gls_no_value = { .type = TRACE_NONE };
 
 double gls_value_double(const struct trace_value *v)
@@ -77,6 +83,16 @@ unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n)
 	for (got = 0; got < n && got < v->count; got++)
 		out[got] = (uint32_t)gls_value_int(&v->items[got]);
 	return got;
+}
+
+void arg_color(const struct gls_exec *x, const struct call *c, unsigned i, float out[4])
+{
+	const struct gls_suffix suffix = gls_commands[x->command].suffix;
+
+	memset(out, 0, 4 * sizeof(*out));
+	arg_floats(c, i, out, 4);
+	for (unsigned k = 0; k < 4 && suffix.type == GLS_SUFFIX_I && suffix.array; k++)
+		out[k] = norm_int(out[k]);
 }
 
 const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n)

@@ -6,6 +6,8 @@
 
 #include "capture/format/call.h"
 
+struct gls_exec;
+
 /** Any number (numbers, enums, booleans, masks, pointers) as the type wanted; 0 if the value is none. */
 double gls_value_double(const struct trace_value *v);
 int64_t gls_value_int(const struct trace_value *v);
@@ -46,6 +48,8 @@ static inline int64_t arg_i32(const struct call *c, unsigned i)
 /** Numbers of an array argument, or one plain number. @return how many there were; the rest of out stays as it is */
 unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n);
 unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n);
+/** A colour of four numbers, 0 where one is missing. Integers of a command in -iv stand for [-1,1] (GL 2.1 table 2.9). */
+void arg_color(const struct gls_exec *x, const struct call *c, unsigned i, float out[4]);
 /** Elements of an array argument; NULL and 0 if it is no array. */
 const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n);
 /** Bytes of a blob argument; NULL if it is no blob. */

@@ -1,8 +1,8 @@
 /*
  * The commands of OpenGL and of window systems. gen.py makes the table from Khronos' registries, overlay.txt and the handlers.
  *
- * A chapter defines one function per command, with GLS_HANDLER at the start of a line. The line says what others must know of the
- * command: its kind (what the dispatcher does first) and its role in display lists.
+ * A chapter defines one function per command, or per family of commands, with GLS_HANDLER or GLS_FAMILY at the start of a line. The
+ * line says what others must know of the command: its kind (what the dispatcher does first) and its role in display lists.
  */
 #pragma once
 
@@ -46,6 +46,24 @@ enum gls_role {
 	void gls_##name(struct gls_exec *x __attribute__((unused)), struct gls_state *st __attribute__((unused)), \
 	                const struct call *c __attribute__((unused)))
 
+/*
+ * GLS_FAMILY(name, ...): the same for all commands that are called name and a suffix of GL 2.1 section 2.3. GLS_FAMILY(glColor, VERTEX)
+ * handles glColor3b to glColor4usv.
+ */
+#define GLS_FAMILY GLS_HANDLER
+
+enum gls_suffix_type {
+	GLS_SUFFIX_NONE, GLS_SUFFIX_B, GLS_SUFFIX_UB, GLS_SUFFIX_S, GLS_SUFFIX_US, GLS_SUFFIX_I, GLS_SUFFIX_UI, GLS_SUFFIX_F, GLS_SUFFIX_D
+};
+
+/* What the suffix of a command in a family says; glVertexAttrib4Nubv: 4, UB, 1, 1. */
+struct gls_suffix {
+	uint8_t n;          /* components or, of glTexImage2D, dimensions; 1 where the name has no number */
+	uint8_t type;       /* enum gls_suffix_type */
+	uint8_t normalized; /* N: integers stand for [0,1] or [-1,1] */
+	uint8_t array;      /* v: the values come as an array */
+};
+
 enum gls_drawing { GLS_DRAWS = 1, GLS_ENDS }; /* capture/gen/overlay.txt: does nothing but draw; ends a frame */
 
 struct gls_command {
@@ -53,8 +71,9 @@ struct gls_command {
 	const char *excuse; /* why it needs no handler; NULL: it has one, or is not done yet */
 	uint32_t kind;      /* enum gls_kind; GLS_KIND_NONE: there is no handler */
 	uint32_t role;      /* enum gls_role */
-	uint32_t core;      /* 1: part of GL 1.0 - 2.1 */
-	uint32_t drawing;   /* enum gls_drawing, or 0 */
+	uint16_t core;      /* 1: part of GL 1.0 - 2.1 */
+	uint16_t drawing;   /* enum gls_drawing, or 0 */
+	struct gls_suffix suffix;
 };
 extern const struct gls_command gls_commands[]; /* sorted by name */
 extern const unsigned n_gls_commands;

@@ -101,9 +101,10 @@ struct gls_maps *gls_maps_load(struct cursor *in)
 
 /* ---- Map1 and Map2, sec. 5.1 ---- */
 
-/* which: 0 for Map1, 1 for Map2. Arguments: target, then from, to, stride and order for each dimension, then the points. */
-static void set_map(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned which)
+/* Arguments: target, then from, to, stride and order for each dimension, then the points. */
+GLS_FAMILY(glMap, STATE)
 {
+	const unsigned which = gls_commands[x->command].suffix.n - 1u; /* 0: Map1, 1: Map2 */
 	uint32_t target = arg_u(c, 0) - (which ? GL_MAP2_COLOR_4 : GL_MAP1_COLOR_4);
 	struct map new = { .order = { 1, 1 } };
 	int64_t stride[2] = { 0, 0 };
@@ -148,11 +149,6 @@ static void set_map(struct gls_exec *x, struct gls_state *st, const struct call 
 	free(st->maps->map[which][target].points);
 	st->maps->map[which][target] = new;
 }
-
-GLS_HANDLER(glMap1f, STATE) { set_map(x, st, c, 0); }
-GLS_HANDLER(glMap1d, STATE) { set_map(x, st, c, 0); }
-GLS_HANDLER(glMap2f, STATE) { set_map(x, st, c, 1); }
-GLS_HANDLER(glMap2d, STATE) { set_map(x, st, c, 1); }
 
 /* ---- evaluation ---- */
 
@@ -284,22 +280,17 @@ static void eval_coord(struct gls_exec *x, struct gls_state *st, unsigned which,
 			gls_set_attribute(x, st, a, saved.attribute[a]);
 }
 
-static void eval_coord_v(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned which)
+GLS_FAMILY(glEvalCoord, INSIDE)
 {
+	const struct gls_suffix suffix = gls_commands[x->command].suffix;
 	float u[2] = { 0, 0 };
 
-	arg_floats(c, 0, u, 1 + which);
-	eval_coord(x, st, which, u[0], u[1]);
+	if (suffix.array)
+		arg_floats(c, 0, u, suffix.n);
+	for (unsigned i = 0; i < suffix.n && !suffix.array; i++)
+		u[i] = arg_f(c, i);
+	eval_coord(x, st, suffix.n - 1u, u[0], u[1]);
 }
-
-GLS_HANDLER(glEvalCoord1f, INSIDE) { eval_coord(x, st, 0, arg_f(c, 0), 0); }
-GLS_HANDLER(glEvalCoord1d, INSIDE) { eval_coord(x, st, 0, arg_f(c, 0), 0); }
-GLS_HANDLER(glEvalCoord1fv, INSIDE) { eval_coord_v(x, st, c, 0); }
-GLS_HANDLER(glEvalCoord1dv, INSIDE) { eval_coord_v(x, st, c, 0); }
-GLS_HANDLER(glEvalCoord2f, INSIDE) { eval_coord(x, st, 1, arg_f(c, 0), arg_f(c, 1)); }
-GLS_HANDLER(glEvalCoord2d, INSIDE) { eval_coord(x, st, 1, arg_f(c, 0), arg_f(c, 1)); }
-GLS_HANDLER(glEvalCoord2fv, INSIDE) { eval_coord_v(x, st, c, 1); }
-GLS_HANDLER(glEvalCoord2dv, INSIDE) { eval_coord_v(x, st, c, 1); }
 
 /* ---- grids ---- */
 
@@ -314,17 +305,14 @@ static void set_grid(struct gls_exec *x, struct gls_state *st, int64_t segments,
 	grid[1] = to;
 }
 
-static void map_grid_1(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glMapGrid, STATE)
 {
 	struct gls_evaluator *e = &st->a.evaluator;
 
-	set_grid(x, st, arg_i(c, 0), arg_f(c, 1), arg_f(c, 2), &e->grid1_segments, e->grid1);
-}
-
-static void map_grid_2(struct gls_exec *x, struct gls_state *st, const struct call *c)
-{
-	struct gls_evaluator *e = &st->a.evaluator;
-
+	if (gls_commands[x->command].suffix.n == 1) {
+		set_grid(x, st, arg_i(c, 0), arg_f(c, 1), arg_f(c, 2), &e->grid1_segments, e->grid1);
+		return;
+	}
 	if (arg_i(c, 3) < 1) {
 		gls_error(x, st, GL_INVALID_VALUE);
 		return;
@@ -333,11 +321,6 @@ static void map_grid_2(struct gls_exec *x, struct gls_state *st, const struct ca
 	if (arg_i(c, 0) >= 1)
 		set_grid(x, st, arg_i(c, 3), arg_f(c, 4), arg_f(c, 5), &e->grid2_segments[1], e->grid2 + 2);
 }
-
-GLS_HANDLER(glMapGrid1f, STATE) { map_grid_1(x, st, c); }
-GLS_HANDLER(glMapGrid1d, STATE) { map_grid_1(x, st, c); }
-GLS_HANDLER(glMapGrid2f, STATE) { map_grid_2(x, st, c); }
-GLS_HANDLER(glMapGrid2d, STATE) { map_grid_2(x, st, c); }
 
 /* The grid's place i; the last one exactly (sec. 5.1). */
 static float grid_at(const float grid[2], int32_t segments, int64_t i)

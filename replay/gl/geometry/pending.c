@@ -68,11 +68,11 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 /* Attributes that were set since the last vertex: those whose value is another one now vary. */
 static int take_touched(struct gls_geometry *g, const struct gls_state *st)
 {
-	uint32_t candidates = g->touched & ~g->varying;
-
-	for (unsigned a = 0; candidates; a++, candidates >>= 1)
-		if (candidates & 1 && memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
+	for (uint32_t left = g->touched & ~g->varying; left; left &= left - 1) {
+		unsigned a = (unsigned)__builtin_ctz(left);
+		if (memcmp(g->constant[a], st->a.current.attribute[a], 16) != 0 && gls_geometry_vary(g, a))
 			return ERR_SYSTEM;
+	}
 	g->touched = 0;
 	return 0;
 }

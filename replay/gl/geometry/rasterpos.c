@@ -8,6 +8,7 @@
 #include "kernels/gl/vertex.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 static void clamp_color(float out[4], struct vec4 c)
@@ -96,14 +97,13 @@ static int is_clipped(const struct gls_state *st, const float eye[4], const floa
 	return clip[3] == 0;
 }
 
-static void raster_pos(struct gls_exec *x, struct gls_state *st, const float obj[4])
+static void raster_pos(struct gls_state *st, const float obj[4])
 {
 	struct gls_current *c = &st->a.current;
 	const float *rect = st->a.viewport.rect, *range = st->a.viewport.depth_range;
 	float eye[4], clip[4];
 	struct vec3 normal;
 
-	(void)x;
 	mat4_transform(eye, st->modelview.matrices[st->modelview.depth], obj);
 	mat4_transform(clip, st->projection.matrices[st->projection.depth], eye);
 	c->raster_valid = !is_clipped(st, eye, clip);
@@ -137,8 +137,10 @@ static void window_pos(struct gls_state *st, const float at[4])
 	memcpy(c->raster_texcoord, c->attribute[GLS_ATTR_TEXCOORD], sizeof(c->raster_texcoord));
 }
 
-static void read_place(const struct call *c, unsigned n, float out[4])
+static void read_place(const struct gls_exec *x, const struct call *c, float out[4])
 {
+	const unsigned n = gls_commands[x->command].suffix.n;
+
 	out[0] = out[1] = out[2] = 0;
 	out[3] = 1;
 	if (c->n_args == 1)
@@ -148,59 +150,18 @@ static void read_place(const struct call *c, unsigned n, float out[4])
 			out[i] = arg_f(c, i);
 }
 
-static void raster(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n)
+GLS_FAMILY(glRasterPos, STATE)
 {
 	float at[4];
 
-	read_place(c, n, at);
-	raster_pos(x, st, at);
+	read_place(x, c, at);
+	raster_pos(st, at);
 }
 
-static void place(struct gls_state *st, const struct call *c, unsigned n)
+GLS_FAMILY(glWindowPos, STATE)
 {
 	float at[4];
 
-	read_place(c, n, at);
+	read_place(x, c, at);
 	window_pos(st, at);
 }
-
-GLS_HANDLER(glRasterPos2d, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2dv, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2f, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2fv, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2i, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2iv, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2s, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos2sv, STATE) { raster(x, st, c, 2); }
-GLS_HANDLER(glRasterPos3d, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3dv, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3f, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3fv, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3i, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3iv, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3s, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos3sv, STATE) { raster(x, st, c, 3); }
-GLS_HANDLER(glRasterPos4d, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4dv, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4f, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4fv, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4i, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4iv, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4s, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glRasterPos4sv, STATE) { raster(x, st, c, 4); }
-GLS_HANDLER(glWindowPos2d, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2dv, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2f, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2fv, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2i, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2iv, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2s, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos2sv, STATE) { place(st, c, 2); }
-GLS_HANDLER(glWindowPos3d, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3dv, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3f, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3fv, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3i, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3iv, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3s, STATE) { place(st, c, 3); }
-GLS_HANDLER(glWindowPos3sv, STATE) { place(st, c, 3); }

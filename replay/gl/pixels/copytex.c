@@ -70,9 +70,9 @@ static void copy_screen(struct gls_exec *x, struct gls_state *st, struct gls_tex
 	gls_texture_level_changed(x, t, face, level);
 }
 
-static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glCopyTexImage, STATE)
 {
-	unsigned face;
+	unsigned face, n_dims = gls_commands[x->command].suffix.n;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = { arg_u(c, 2), arg_i(c, 5), n_dims > 1 ? arg_i(c, 6) : 1, 1, arg_i(c, n_dims > 1 ? 7 : 6) };
 	struct gls_level *l = t ? gls_texture_specify(x, st, t, face, arg_i(c, 1), &form) : NULL;
@@ -82,9 +82,9 @@ static void copy_tex_image(struct gls_exec *x, struct gls_state *st, const struc
 		            &(struct copy){ { arg_i32(c, 3), arg_i32(c, 4) }, { l->width, l->height }, { 0 } });
 }
 
-static void copy_tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glCopyTexSubImage, STATE)
 {
-	unsigned face, after = 2 + n_dims; /* place; then the corner on the screen and the size */
+	unsigned face, n_dims = gls_commands[x->command].suffix.n, after = 2 + n_dims; /* place; then the corner on the screen and the size */
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
 	struct copy copy = { { arg_i32(c, after), arg_i32(c, after + 1) },
@@ -106,9 +106,3 @@ static void copy_tex_sub_image(struct gls_exec *x, struct gls_state *st, const s
 	}
 	copy_screen(x, st, t, face, arg_i(c, 1), &copy);
 }
-
-GLS_HANDLER(glCopyTexImage1D, STATE) { copy_tex_image(x, st, c, 1); }
-GLS_HANDLER(glCopyTexImage2D, STATE) { copy_tex_image(x, st, c, 2); }
-GLS_HANDLER(glCopyTexSubImage1D, STATE) { copy_tex_sub_image(x, st, c, 1); }
-GLS_HANDLER(glCopyTexSubImage2D, STATE) { copy_tex_sub_image(x, st, c, 2); }
-GLS_HANDLER(glCopyTexSubImage3D, STATE) { copy_tex_sub_image(x, st, c, 3); }

@@ -12,7 +12,7 @@
 
 /* ---- storage, sec. 3.6.1 ---- */
 
-static void pixel_store(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glPixelStore, CLIENT)
 {
 #define AT(field) offsetof(struct gls_pixel_store, field)
 	static const struct { uint32_t pack, unpack; size_t place; } modes[] = {
@@ -41,12 +41,9 @@ static void pixel_store(struct gls_exec *x, struct gls_state *st, const struct c
 #undef AT
 }
 
-GLS_HANDLER(glPixelStorei, CLIENT) { pixel_store(x, st, c); }
-GLS_HANDLER(glPixelStoref, CLIENT) { pixel_store(x, st, c); }
-
 /* ---- pixel transfer, sec. 3.6.3 ---- */
 
-static void set_transfer(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glPixelTransfer, STATE)
 {
 #define AT(field) offsetof(struct gls_pixel, field)
 	static const struct { uint32_t name; enum { FLOAT, INTEGER, BOOLEAN } kind; size_t place; } parameters[] = {
@@ -72,8 +69,6 @@ static void set_transfer(struct gls_exec *x, struct gls_state *st, const struct 
 	gls_error(x, st, GL_INVALID_ENUM);
 }
 
-GLS_HANDLER(glPixelTransferf, STATE) { set_transfer(x, st, c); }
-GLS_HANDLER(glPixelTransferi, STATE) { set_transfer(x, st, c); }
 GLS_HANDLER(glPixelZoom, STATE)
 {
 	st->a.pixel.zoom[0] = arg_f(c, 0);
@@ -83,9 +78,9 @@ GLS_HANDLER(glPixelZoom, STATE)
 /* ---- pixel maps, sec. 3.6.3 ---- */
 
 /* Numbers in the bound unpack buffer. @return 0, or -1: it is too small */
-static int buffered(struct gls_state *st, const struct call *c, uint32_t size, uint32_t type, float *out)
+static int buffered(struct gls_state *st, const struct call *c, uint32_t size, enum gls_suffix_type type, float *out)
 {
-	size_t n, bytes = type == GL_UNSIGNED_SHORT ? 2 : 4;
+	size_t n, bytes = type == GLS_SUFFIX_US ? 2 : 4;
 	const uint8_t *data = gls_pixel_source(st, c, 2, &n);
 	uint32_t value;
 
@@ -94,7 +89,7 @@ static int buffered(struct gls_state *st, const struct call *c, uint32_t size, u
 	for (uint32_t i = 0; i < size; i++) {
 		value = 0;
 		memcpy(&value, data + i * bytes, bytes);
-		if (type == GL_FLOAT)
+		if (type == GLS_SUFFIX_F)
 			memcpy(&out[i], &value, 4);
 		else
 			out[i] = (float)value;
@@ -102,8 +97,9 @@ static int buffered(struct gls_state *st, const struct call *c, uint32_t size, u
 	return 0;
 }
 
-static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t type)
+GLS_FAMILY(glPixelMap, STATE)
 {
+	const enum gls_suffix_type type = gls_commands[x->command].suffix.type;
 	uint32_t which = arg_u(c, 0) - GL_PIXEL_MAP_I_TO_I, size = arg_u(c, 1);
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
 	int indices = which < 2; /* I_TO_I and S_TO_S hold indices, the rest colours */
@@ -120,10 +116,6 @@ static void pixel_map(struct gls_exec *x, struct gls_state *st, const struct cal
 	m->size = size;
 	if (gls_client_store(x, st)->buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)
 		gls_unsupported(x, "pixel maps beyond what the recording holds");
-	for (uint32_t i = 0; i < size && !indices && type != GL_FLOAT; i++)
-		m->values[i] /= type == GL_UNSIGNED_SHORT ? 65535.0f : 4294967295.0f;
+	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)
+		m->values[i] /= type == GLS_SUFFIX_US ? 65535.0f : 4294967295.0f;
 }
-
-GLS_HANDLER(glPixelMapfv, STATE) { pixel_map(x, st, c, GL_FLOAT); }
-GLS_HANDLER(glPixelMapuiv, STATE) { pixel_map(x, st, c, GL_UNSIGNED_INT); }
-GLS_HANDLER(glPixelMapusv, STATE) { pixel_map(x, st, c, GL_UNSIGNED_SHORT); }

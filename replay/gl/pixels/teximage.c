@@ -59,8 +59,9 @@ static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *s
 	return p;
 }
 
-static void tex_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glTexImage, STATE)
 {
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = form_of(c, n_dims);
@@ -95,8 +96,9 @@ static void place_stencil(struct gls_level *l, const int64_t at[3], const int64_
 			       stencil + (z * size[1] + y) * size[0], (size_t)size[0]);
 }
 
-static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glTexSubImage, STATE)
 {
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
@@ -135,13 +137,6 @@ static void tex_sub_image(struct gls_exec *x, struct gls_state *st, const struct
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-GLS_HANDLER(glTexImage1D, STATE) { tex_image(x, st, c, 1); }
-GLS_HANDLER(glTexImage2D, STATE) { tex_image(x, st, c, 2); }
-GLS_HANDLER(glTexImage3D, STATE) { tex_image(x, st, c, 3); }
-GLS_HANDLER(glTexSubImage1D, STATE) { tex_sub_image(x, st, c, 1); }
-GLS_HANDLER(glTexSubImage2D, STATE) { tex_sub_image(x, st, c, 2); }
-GLS_HANDLER(glTexSubImage3D, STATE) { tex_sub_image(x, st, c, 3); }
-
 /* ---- compressed images, sec. 3.8.3 ---- */
 
 /* Texels of an image of blocks, slices one after the other. @return 0, or -1 (counted) */
@@ -157,8 +152,9 @@ static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const
 	return 0;
 }
 
-static void compressed_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glCompressedTexImage, STATE)
 {
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = form_of(c, n_dims);
@@ -175,8 +171,9 @@ static void compressed_image(struct gls_exec *x, struct gls_state *st, const str
 		gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glCompressedTexSubImage, STATE)
 {
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	struct gls_level *l = t ? &t->levels[face][arg_i(c, 1)] : NULL;
@@ -209,13 +206,6 @@ static void compressed_sub_image(struct gls_exec *x, struct gls_state *st, const
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-GLS_HANDLER(glCompressedTexImage1D, STATE) { compressed_image(x, st, c, 1); }
-GLS_HANDLER(glCompressedTexImage2D, STATE) { compressed_image(x, st, c, 2); }
-GLS_HANDLER(glCompressedTexImage3D, STATE) { compressed_image(x, st, c, 3); }
-GLS_HANDLER(glCompressedTexSubImage1D, STATE) { compressed_sub_image(x, st, c, 1); }
-GLS_HANDLER(glCompressedTexSubImage2D, STATE) { compressed_sub_image(x, st, c, 2); }
-GLS_HANDLER(glCompressedTexSubImage3D, STATE) { compressed_sub_image(x, st, c, 3); }
-
 /* ---- ARB_texture_storage: all levels at once, without texels ---- */
 
 /* A side of a level; minification stops at 1. */
@@ -224,8 +214,9 @@ static int64_t side(const struct call *c, unsigned i, int64_t level)
 	return arg_i(c, i) >> level ? arg_i(c, i) >> level : 1;
 }
 
-static void tex_storage(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
+GLS_FAMILY(glTexStorage, STATE)
 {
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face, n_faces = arg_u(c, 0) == GL_TEXTURE_CUBE_MAP ? 6 : 1;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), 0, &face);
 
@@ -235,10 +226,6 @@ static void tex_storage(struct gls_exec *x, struct gls_state *st, const struct c
 			                    &(struct gls_level_form){ arg_u(c, 2), side(c, 3, level), n_dims > 1 ? side(c, 4, level) : 1,
 			                                              n_dims > 2 ? side(c, 5, level) : 1, 0 });
 }
-
-GLS_HANDLER(glTexStorage1D, STATE) { tex_storage(x, st, c, 1); }
-GLS_HANDLER(glTexStorage2D, STATE) { tex_storage(x, st, c, 2); }
-GLS_HANDLER(glTexStorage3D, STATE) { tex_storage(x, st, c, 3); }
 
 /* ---- ARB_clear_texture: one pixel, as TexImage would take it, all over a level ---- */
 

@@ -9,23 +9,28 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 /* ---- lights, sec. 2.14.2 ---- */
 
-static void set_light(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glLight, STATE)
 {
 	uint32_t index = arg_u(c, 0) - GL_LIGHT0, pname = arg_u(c, 1);
 	const float *modelview = st->modelview.matrices[st->modelview.depth];
 	struct scene_light *light;
 	float v[4] = { 0, 0, 0, 0 };
+	unsigned n;
 
 	if (index >= GLS_MAX_LIGHTS) {
 		gls_error(x, st, GL_INVALID_ENUM);
 		return;
 	}
 	light = &st->a.lighting.lights[index].value;
-	arg_floats(c, 2, v, 4);
+	n = arg_floats(c, 2, v, 4);
+	if (pname == GL_AMBIENT || pname == GL_DIFFUSE || pname == GL_SPECULAR)
+		for (unsigned i = 0; i < n && gls_commands[x->command].suffix.type == GLS_SUFFIX_I; i++)
+			v[i] = norm_int(v[i]); /* table 2.9 */
 	switch (pname) {
 	case GL_AMBIENT:
 		memcpy(light->ambient, v, 16);
@@ -68,33 +73,7 @@ bad_value:
 	gls_error(x, st, GL_INVALID_VALUE);
 }
 
-/* Integer colours are normalized (table 2.9); positions and the rest are not. */
-static void set_light_int(struct gls_exec *x, struct gls_state *st, const struct call *c)
-{
-	uint32_t pname = arg_u(c, 1);
-	struct trace_value numbers[4], args[3] = { *arg(c, 0), *arg(c, 1), { .type = TRACE_ARRAY } };
-	struct call as_floats = *c;
-	float v[4] = { 0 };
-	unsigned n = arg_floats(c, 2, v, 4);
-
-	for (unsigned i = 0; i < n; i++) {
-		numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
-		if (pname == GL_AMBIENT || pname == GL_DIFFUSE || pname == GL_SPECULAR)
-			numbers[i].f = norm_int(v[i]);
-	}
-	args[2].count = n;
-	args[2].items = numbers;
-	as_floats.n_args = 3;
-	as_floats.args = args;
-	set_light(x, st, &as_floats);
-}
-
-GLS_HANDLER(glLightf, STATE) { set_light(x, st, c); }
-GLS_HANDLER(glLightfv, STATE) { set_light(x, st, c); }
-GLS_HANDLER(glLighti, STATE) { set_light_int(x, st, c); }
-GLS_HANDLER(glLightiv, STATE) { set_light_int(x, st, c); }
-
-static void set_light_model(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+GLS_FAMILY(glLightModel, STATE)
 {
 	struct gls_lighting *l = &st->a.lighting;
 	float v[4] = { 0 };
@@ -102,8 +81,7 @@ static void set_light_model(struct gls_exec *x, struct gls_state *st, const stru
 	arg_floats(c, 1, v, 4);
 	switch (arg_u(c, 0)) {
 	case GL_LIGHT_MODEL_AMBIENT:
-		for (unsigned i = 0; i < 4; i++)
-			l->model_ambient[i] = normalized ? norm_int(v[i]) : v[i];
+		arg_color(x, c, 1, l->model_ambient);
 		break;
 	case GL_LIGHT_MODEL_LOCAL_VIEWER:
 		l->local_viewer = v[0] != 0;
@@ -122,11 +100,6 @@ static void set_light_model(struct gls_exec *x, struct gls_state *st, const stru
 	}
 }
 
-GLS_HANDLER(glLightModelf, STATE) { set_light_model(x, st, c, 0); }
-GLS_HANDLER(glLightModelfv, STATE) { set_light_model(x, st, c, 0); }
-GLS_HANDLER(glLightModeli, STATE) { set_light_model(x, st, c, 0); }
-GLS_HANDLER(glLightModeliv, STATE) { set_light_model(x, st, c, 1); }
-
 /* ---- materials, sec. 2.14.2; those that follow the current color cannot be set ---- */
 
 static int is_tracked(const struct gls_lighting *l, unsigned side, uint32_t parameter)
@@ -143,7 +116,7 @@ static void set_color(struct gls_state *st, unsigned side, uint32_t parameter, f
 		memcpy(to, v, 16);
 }
 
-static void set_material(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 {
 	uint32_t face = arg_u(c, 0), pname = arg_u(c, 1);
 	float v[4] = { 0 };
@@ -153,7 +126,7 @@ static void set_material(struct gls_exec *x, struct gls_state *st, const struct 
 		return;
 	}
 	arg_floats(c, 2, v, 4);
-	for (unsigned i = 0; i < 4 && normalized && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
+	for (unsigned i = 0; i < 4 && gls_commands[x->command].suffix.type == GLS_SUFFIX_I && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
 		v[i] = norm_int(v[i]);
 	if (pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128)) {
 		gls_error(x, st, GL_INVALID_VALUE);
@@ -192,11 +165,6 @@ static void set_material(struct gls_exec *x, struct gls_state *st, const struct 
 		}
 	}
 }
-
-GLS_HANDLER(glMaterialf, INSIDE, MATERIAL) { set_material(x, st, c, 0); }
-GLS_HANDLER(glMaterialfv, INSIDE, MATERIAL) { set_material(x, st, c, 0); }
-GLS_HANDLER(glMateriali, INSIDE, MATERIAL) { set_material(x, st, c, 1); }
-GLS_HANDLER(glMaterialiv, INSIDE, MATERIAL) { set_material(x, st, c, 1); }
 
 GLS_HANDLER(glColorMaterial, STATE)
 {
@@ -237,7 +205,7 @@ GLS_HANDLER(glProvokingVertex, STATE)
 
 /* ---- fog, sec. 3.10 ---- */
 
-static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+GLS_FAMILY(glFog, STATE)
 {
 	struct gls_fog *fog = &st->a.fog;
 	float v[4] = { 0 };
@@ -268,8 +236,7 @@ static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call 
 		fog->index = v[0];
 		break;
 	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
-		for (unsigned i = 0; i < 4; i++)
-			fog->color[i] = normalized ? norm_int(v[i]) : v[i];
+		arg_color(x, c, 1, fog->color);
 		break;
 	case GL_FOG_COORD_SRC:
 		if (token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH)
@@ -285,8 +252,3 @@ static void set_fog(struct gls_exec *x, struct gls_state *st, const struct call 
 		gls_error(x, st, GL_INVALID_ENUM);
 	}
 }
-
-GLS_HANDLER(glFogf, STATE) { set_fog(x, st, c, 0); }
-GLS_HANDLER(glFogfv, STATE) { set_fog(x, st, c, 0); }
-GLS_HANDLER(glFogi, STATE) { set_fog(x, st, c, 0); }
-GLS_HANDLER(glFogiv, STATE) { set_fog(x, st, c, 1); }

@@ -75,17 +75,12 @@ GLS_HANDLER(glLoadIdentity, MATRIX, TRANSFORM)
 	memcpy(change_matrix(st), mat4_identity, 64);
 }
 
-GLS_HANDLER(glLoadMatrixf, MATRIX, TRANSFORM)
+GLS_FAMILY(glLoadMatrix, MATRIX, TRANSFORM)
 {
 	read_matrix(c, 0, change_matrix(st));
 }
 
-GLS_HANDLER(glLoadMatrixd, MATRIX, TRANSFORM)
-{
-	read_matrix(c, 0, change_matrix(st));
-}
-
-GLS_HANDLER(glMultMatrixf, MATRIX, TRANSFORM)
+GLS_FAMILY(glMultMatrix, MATRIX, TRANSFORM)
 {
 	float m[16];
 
@@ -93,15 +88,7 @@ GLS_HANDLER(glMultMatrixf, MATRIX, TRANSFORM)
 	multiply(st, m);
 }
 
-GLS_HANDLER(glMultMatrixd, MATRIX, TRANSFORM)
-{
-	float m[16];
-
-	read_matrix(c, 0, m);
-	multiply(st, m);
-}
-
-GLS_HANDLER(glLoadTransposeMatrixf, MATRIX)
+GLS_FAMILY(glLoadTransposeMatrix, MATRIX)
 {
 	float m[16];
 
@@ -109,15 +96,7 @@ GLS_HANDLER(glLoadTransposeMatrixf, MATRIX)
 	mat4_transpose(change_matrix(st), m);
 }
 
-GLS_HANDLER(glLoadTransposeMatrixd, MATRIX)
-{
-	float m[16];
-
-	read_matrix(c, 0, m);
-	mat4_transpose(change_matrix(st), m);
-}
-
-GLS_HANDLER(glMultTransposeMatrixf, MATRIX)
+GLS_FAMILY(glMultTransposeMatrix, MATRIX)
 {
 	float m[16];
 
@@ -126,50 +105,33 @@ GLS_HANDLER(glMultTransposeMatrixf, MATRIX)
 	multiply(st, m);
 }
 
-GLS_HANDLER(glMultTransposeMatrixd, MATRIX)
+GLS_FAMILY(glTranslate, MATRIX, TRANSFORM)
 {
-	float m[16];
-
-	read_matrix(c, 0, m);
-	mat4_transpose(m, m);
-	multiply(st, m);
-}
-
-static void translate(struct gls_state *st, float tx, float ty, float tz)
-{
+	const float tx = arg_f(c, 0), ty = arg_f(c, 1), tz = arg_f(c, 2);
 	float *m = change_matrix(st);
 
 	for (int r = 0; r < 4; r++)
 		m[12 + r] = m[r] * tx + m[4 + r] * ty + m[8 + r] * tz + m[12 + r];
 }
 
-static void scale(struct gls_state *st, float sx, float sy, float sz)
+GLS_FAMILY(glScale, MATRIX, TRANSFORM)
 {
 	float *m = change_matrix(st);
 
-	for (int r = 0; r < 4; r++) {
-		m[r] *= sx;
-		m[4 + r] *= sy;
-		m[8 + r] *= sz;
-	}
+	for (unsigned column = 0; column < 3; column++)
+		for (unsigned r = 0; r < 4; r++)
+			m[4 * column + r] *= arg_f(c, column);
 }
 
-static void rotate(struct gls_state *st, float angle_deg, float rx, float ry, float rz)
+GLS_FAMILY(glRotate, MATRIX, TRANSFORM)
 {
 	float m[16];
 
-	if (angle_deg == 0)
+	if (arg_f(c, 0) == 0)
 		return;
-	mat4_rotation(m, angle_deg, rx, ry, rz);
+	mat4_rotation(m, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3));
 	multiply(st, m);
 }
-
-GLS_HANDLER(glTranslatef, MATRIX, TRANSFORM) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glTranslated, MATRIX, TRANSFORM) { translate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glScalef, MATRIX, TRANSFORM) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glScaled, MATRIX, TRANSFORM) { scale(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2)); }
-GLS_HANDLER(glRotatef, MATRIX, TRANSFORM) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
-GLS_HANDLER(glRotated, MATRIX, TRANSFORM) { rotate(st, arg_f(c, 0), arg_f(c, 1), arg_f(c, 2), arg_f(c, 3)); }
 
 GLS_HANDLER(glFrustum, MATRIX)
 {

@@ -7,6 +7,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 GLS_HANDLER(glPointSize, STATE)
@@ -17,7 +18,7 @@ GLS_HANDLER(glPointSize, STATE)
 		st->a.point.size = arg_f(c, 0);
 }
 
-static void set_point_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glPointParameter, STATE)
 {
 	struct gls_point *point = &st->a.point;
 	float v[3] = { 0 };
@@ -45,11 +46,6 @@ static void set_point_parameter(struct gls_exec *x, struct gls_state *st, const 
 		gls_error(x, st, GL_INVALID_ENUM);
 	}
 }
-
-GLS_HANDLER(glPointParameterf, STATE) { set_point_parameter(x, st, c); }
-GLS_HANDLER(glPointParameterfv, STATE) { set_point_parameter(x, st, c); }
-GLS_HANDLER(glPointParameteri, STATE) { set_point_parameter(x, st, c); }
-GLS_HANDLER(glPointParameteriv, STATE) { set_point_parameter(x, st, c); }
 
 GLS_HANDLER(glLineWidth, STATE)
 {

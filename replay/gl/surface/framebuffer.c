@@ -309,8 +309,9 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 		fb->attached[STENCIL] = kept;
 }
 
-static void attach_image(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t layer)
+GLS_FAMILY(glFramebufferTexture, OBJECT)
 {
+	uint32_t layer = gls_commands[x->command].suffix.n == 3 ? arg_u(c, 5) : 0;
 	unsigned face = 0;
 
 	if (arg_u(c, 3) && gls_texture_target_of(arg_u(c, 2), &face) < 0)
@@ -319,9 +320,6 @@ static void attach_image(struct gls_exec *x, struct gls_state *st, const struct 
 		attach(x, st, c, &(struct gls_attachment){ arg_u(c, 3), 0, face, arg_u(c, 4), layer });
 }
 
-GLS_HANDLER(glFramebufferTexture1D, OBJECT) { attach_image(x, st, c, 0); }
-GLS_HANDLER(glFramebufferTexture2D, OBJECT) { attach_image(x, st, c, 0); }
-GLS_HANDLER(glFramebufferTexture3D, OBJECT) { attach_image(x, st, c, arg_u(c, 5)); }
 GLS_HANDLER(glFramebufferTextureLayer, OBJECT)
 {
 	attach(x, st, c, &(struct gls_attachment){ arg_u(c, 2), 0, 0, arg_u(c, 3), arg_u(c, 4) });

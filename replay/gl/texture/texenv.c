@@ -3,10 +3,10 @@
 
 #include "gl_tokens.h"
 #include "base/mat4.h"
-#include "base/norm.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 static struct gls_unit *active_unit(struct gls_state *st)
@@ -16,7 +16,7 @@ static struct gls_unit *active_unit(struct gls_state *st)
 
 /* ---- environments, sec. 3.8.13 ---- */
 
-static void set_env(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
+GLS_FAMILY(glTexEnv, STATE)
 {
 	struct gls_unit *unit = active_unit(st);
 	struct scene_unit *e = &unit->value;
@@ -63,8 +63,7 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 		e->env_mode = token;
 		break;
 	case GL_TEXTURE_ENV_COLOR:
-		for (unsigned i = 0; i < 4; i++)
-			e->env_color[i] = normalized ? norm_int(v[i]) : v[i];
+		arg_color(x, c, 2, e->env_color);
 		break;
 	case GL_COMBINE_RGB:
 		e->combine_rgb = token;
@@ -85,14 +84,9 @@ static void set_env(struct gls_exec *x, struct gls_state *st, const struct call 
 	}
 }
 
-GLS_HANDLER(glTexEnvf, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnvfv, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnvi, STATE) { set_env(x, st, c, 0); }
-GLS_HANDLER(glTexEnviv, STATE) { set_env(x, st, c, 1); }
-
 /* ---- coordinate generation, sec. 2.11.4 ---- */
 
-static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call *c)
+GLS_FAMILY(glTexGen, STATE)
 {
 	struct scene_unit *e = &active_unit(st)->value;
 	uint32_t coord = arg_u(c, 0) - GL_S, mode;
@@ -124,11 +118,4 @@ static void set_gen(struct gls_exec *x, struct gls_state *st, const struct call 
 		gls_error(x, st, GL_INVALID_ENUM);
 	}
 }
-
-GLS_HANDLER(glTexGend, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGendv, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGenf, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGenfv, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGeni, STATE) { set_gen(x, st, c); }
-GLS_HANDLER(glTexGeniv, STATE) { set_gen(x, st, c); }
 

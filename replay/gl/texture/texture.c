@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/norm.h"
 #include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/gl/texture/image.h"
@@ -15,6 +14,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 #define MAX_SIZE 16384
@@ -293,8 +293,7 @@ static void set_swizzles(struct gls_exec *x, struct gls_state *st, struct gls_te
 		t->parameters.swizzle[i] = token_of_float(v[i]);
 }
 
-/* normalized: integers mean colours in [-1,1] */
-static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct call *c, int normalized)
+static void set_parameter(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const struct call *c)
 {
 	const struct parameter *p = find_parameter(arg_u(c, 1));
 	float v[4] = { 0 };
@@ -305,23 +304,14 @@ static void set_parameter_of(struct gls_exec *x, struct gls_state *st, struct gl
 	if (p)
 		set_number(x, st, t, p, v[0]);
 	else if (arg_u(c, 1) == GL_TEXTURE_BORDER_COLOR)
-		for (unsigned i = 0; i < 4; i++)
-			t->parameters.border_color[i] = normalized ? norm_int(v[i]) : v[i];
+		arg_color(x, c, 2, t->parameters.border_color);
 	else if (arg_u(c, 1) == GL_TEXTURE_SWIZZLE_RGBA)
 		set_swizzles(x, st, t, v);
 	else
 		gls_error(x, st, GL_INVALID_ENUM);
 }
 
-static void set_parameter(struct gls_exec *x, struct gls_state *st, const struct call *c, int normalized)
-{
-	set_parameter_of(x, st, addressed(x, st, arg_u(c, 0)), c, normalized);
-}
-
-GLS_HANDLER(glTexParameterf, STATE) { set_parameter(x, st, c, 0); }
-GLS_HANDLER(glTexParameterfv, STATE) { set_parameter(x, st, c, 0); }
-GLS_HANDLER(glTexParameteri, STATE) { set_parameter(x, st, c, 0); }
-GLS_HANDLER(glTexParameteriv, STATE) { set_parameter(x, st, c, 1); }
+GLS_FAMILY(glTexParameter, STATE) { set_parameter(x, st, addressed(x, st, arg_u(c, 0)), c); }
 
 /* ---- sampler objects, GL 3.3 sec. 3.8.2 ---- */
 
@@ -378,10 +368,7 @@ GLS_HANDLER(glDeleteSamplers, OBJECT)
 	}
 }
 
-GLS_HANDLER(glSamplerParameterf, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
-GLS_HANDLER(glSamplerParameterfv, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
-GLS_HANDLER(glSamplerParameteri, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 0); }
-GLS_HANDLER(glSamplerParameteriv, STATE) { set_parameter_of(x, st, find_sampler(x, st, arg_u(c, 0)), c, 1); }
+GLS_FAMILY(glSamplerParameter, STATE) { set_parameter(x, st, find_sampler(x, st, arg_u(c, 0)), c); }
 
 /* ---- levels, sec. 3.8.1 ---- */
 
