@@ -10,6 +10,7 @@
  *   --mesh                  add the model where the program can do without
  *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
  *   --ortho                 parallel projection where the program has a choice
+ *   --by HOW                by which way, where the program has several
  */
 #pragma once
 
@@ -35,7 +36,7 @@ struct program {
 	long frames;        /* 0: no end */
 	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
 	int stencil;        /* set before program_run: the window has a stencil buffer */
-	const char *model; /* NULL: none given */
+	const char *model, *by; /* NULL: none given */
 };
 
 static struct program program;
@@ -54,7 +55,7 @@ static void program_display(void)
 static void program_usage(const char *name)
 {
 	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--glass] [--mesh] "
-	        "[--ortho] [--model FILE]\n", name);
+	        "[--ortho] [--model FILE] [--by HOW]\n", name);
 	exit(2);
 }
 
@@ -87,6 +88,8 @@ static void program_parse(int argc, char **argv)
 			program_animate(argv[0], argv[++i]);
 		else if (strcmp(argv[i], "--model") == 0)
 			program.model = argv[++i];
+		else if (strcmp(argv[i], "--by") == 0)
+			program.by = argv[++i];
 		else
 			program_usage(argv[0]);
 	}
