@@ -21,7 +21,7 @@ static inline void stage_ray(const struct point *p, struct vec3 direction, struc
 {
 	struct point_plane plane = point_plane_of(p);
 
-	v3_store(ray->o, point_ray_origin(p, &plane, direction, from));
+	v3_store(ray->o, point_ray_origin(p->weight, &plane, direction, from));
 	v3_store(ray->d, direction);
 	ray->t_min = 0.0f;
 	ray->t_max = 1.0e30f;
@@ -41,12 +41,87 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
 /* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /*
+ * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal or only one counts: then rays start on the
+ * triangle itself.
+ */
+struct shadow_curve {
+	int smooth;
+	struct vec3 normal[3]; /* of the corners, on the side that is lit */
+};
+
+static inline int shadow_is_other(struct vec3 a, struct vec3 b)
+{
+	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
+}
+
+static inline struct shadow_curve shadow_curve_of(const struct point *p)
+{
+	struct shadow_curve c;
+	const float side = point_side(p) ? -1.0f : 1.0f;
+
+	for (int i = 0; i < 3; i++)
+		c.normal[i] = v3_scale(v3_normalize(v3_load(p->vertex[i]->normal)), side); /* GL need not have normalised it */
+	c.smooth = p->material->lighting && p->material->shade_model != GL_FLAT &&
+	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2]));
+	return c;
+}
+
+/*
+ * Weights of the place from which light is asked for. A vertex that faces the light lights all of its triangles in part (sec. 2.14.1,
+ * Gouraud 1971), beyond the line where the interpolated normal turns away. From there the surface itself stands in the light's way: a
+ * point beyond the line asks on the line, straight towards the corner that faces the light most.
+ *
+ * cosine: of each corner's normal to the light.
+ * @return 0: no corner faces the light
+ */
+static inline int shadow_lit_weights(const float *of_point, const float *cosine, float *weight)
+{
+	const int best = cosine[1] > cosine[0] ? (cosine[2] > cosine[1] ? 2 : 1) : (cosine[2] > cosine[0] ? 2 : 0);
+	float here = of_point[0] * cosine[0] + of_point[1] * cosine[1] + of_point[2] * cosine[2];
+	float move = here < 0.0f ? -here / (cosine[best] - here) : 0.0f;
+
+	if (!(cosine[best] > 0.0f))
+		return 0;
+	for (int i = 0; i < 3; i++)
+		weight[i] = of_point[i] * (1.0f - move) + (i == best ? move : 0.0f);
+	return 1;
+}
+
+/*
+ * Where the ray to a light starts on a triangle of several normals: above it, on a surface that has these normals at its corners
+ * (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4). Flat faces would else stop light that grazes
+ * them: the shade's border would follow the triangles' edges. Where the corners' normals bend inwards nothing is moved.
+ *
+ * The start is continuous from triangle to triangle, and so are the shadows of others on them. to: the light, or the direction to it.
+ */
+static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, const struct point_plane *plane, const float *of_point,
+                                              struct vec3 to, int positional, struct vec3 from)
+{
+	struct vec3 n = v3(0.0f, 0.0f, 0.0f), lift = n, at;
+	float cosine[3], weight[3];
+
+	for (int i = 0; i < 3; i++)
+		cosine[i] = v3_dot(c->normal[i], v3_normalize(positional ? v3_sub(to, plane->corner[i]) : to));
+	if (!shadow_lit_weights(of_point, cosine, weight))
+		return point_ray_origin(of_point, plane, positional ? v3_sub(to, point_place(plane, of_point)) : to, from);
+	at = point_place(plane, weight);
+	for (int i = 0; i < 3; i++) {
+		float below = M_MAX(v3_dot(v3_sub(plane->corner[i], at), c->normal[i]), 0.0f);
+
+		lift = v3_add(lift, v3_scale(c->normal[i], weight[i] * below));
+		n = v3_add(n, v3_scale(c->normal[i], weight[i]));
+	}
+	return v3_add(point_ray_origin(weight, plane, n, from), lift);
+}
+
+/*
  * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`: the
  * direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen as a
  * disk; the radius of a light at infinity is the tangent of half the angle that it fills.
  */
-static inline void stage_light_ray(const struct tables *t, const struct point *p, const struct point_plane *plane, uint32_t slot,
-                                   struct vec3 from, float u, float v, GLOBAL struct ray *ray)
+static inline void stage_light_ray(const struct tables *t, const struct point *p, const struct point_plane *plane,
+                                   const struct shadow_curve *curve, uint32_t slot, struct vec3 from, float u, float v,
+                                   GLOBAL struct ray *ray)
 {
 	GLOBAL const struct scene_light *light = &t->lights[point_lights(p).first + slot];
 	struct vec3 to = v3_load(light->position_eye), at = point_place(plane, p->weight), place, o;
@@ -57,7 +132,8 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 		place = v3_add(place, v3_scale(sample_disk(v3_normalize(v3_sub(at, place)), u, v), light->radius));
 	else if (light->radius > 0.0f)
 		place = v3_add(v3_normalize(to), v3_scale(sample_disk(v3_normalize(to), u, v), light->radius));
-	o = point_ray_origin(p, plane, positional ? v3_sub(place, at) : place, from);
+	o = curve->smooth ? shadow_curve_origin(curve, plane, p->weight, place, positional, from) :
+	                    point_ray_origin(p->weight, plane, positional ? v3_sub(place, at) : place, from);
 	v3_store(ray->o, o);
 	v3_store(ray->d, positional ? v3_sub(place, o) : place);
 	ray->t_min = 0.0f;
@@ -70,6 +146,7 @@ struct shadow_kept {
 	struct point p;               /* without its weights */
 	float w_inv[3];
 	struct point_plane plane;
+	struct shadow_curve curve;
 };
 
 /*
@@ -93,11 +170,12 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 		kept->primitive = f.primitive;
 		kept->p = point_of_triangle(t, a->windows, &f, kept->w_inv);
 		kept->plane = point_plane_of(&kept->p);
+		kept->curve = shadow_curve_of(&kept->p);
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	sample_square(sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
-	stage_light_ray(t, &p, &kept->plane, slot,
+	stage_light_ray(t, &p, &kept->plane, &kept->curve, slot,
 	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width), u, v,
 	                &a->rays[item]);
 }
@@ -115,6 +193,7 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 	uint32_t slot = item / a->n, i = item % a->n;
 	struct hit hit = a->hits[i];
 	struct point_plane plane;
+	struct shadow_curve curve;
 	struct point p;
 	float u, v;
 
@@ -125,7 +204,8 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 	p = point_from_hit(t, &hit, v3_load(a->rays[i].d));
 	sample_square(stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
 	plane = point_plane_of(&p);
-	stage_light_ray(t, &p, &plane, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
+	curve = shadow_curve_of(&p);
+	stage_light_ray(t, &p, &plane, &curve, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
 }
 
 /* ao_ray: an even look around from each fragment, as far as `reach`. */

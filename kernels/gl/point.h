@@ -172,10 +172,10 @@ static inline struct vec3 point_place(const struct point_plane *plane, const flo
 }
 
 /*
- * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They are the point's
- * own, unless the point lies at an edge, or beyond one because vertices are snapped.
+ * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They are those of the
+ * point, unless the point lies at an edge, or beyond one because vertices are snapped.
  */
-static inline void point_inset_weights(const struct point *p, const struct point_plane *plane, float inset, float *weight)
+static inline void point_inset_weights(const float *of_point, const struct point_plane *plane, float inset, float *weight)
 {
 	float sum = 0.0f;
 
@@ -183,7 +183,7 @@ static inline void point_inset_weights(const struct point *p, const struct point
 		float length = plane->length[i];
 		float least = inset * length * 3.0f < plane->area ? inset * length / plane->area : 1.0f / 3.0f;
 
-		weight[i] = M_MAX(p->weight[i], least);
+		weight[i] = M_MAX(of_point[i], least);
 		sum += weight[i];
 	}
 	for (int i = 0; i < 3; i++)
@@ -191,7 +191,7 @@ static inline void point_inset_weights(const struct point *p, const struct point
 }
 
 /*
- * Where secondary rays start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
+ * Where secondary rays from a point of a triangle start: off the plane, on the side of `towards`, by 2^-14 of the largest coordinate. Points are
  * interpolated in eye space while traversal works in object space; both err by a few units in the last place (2^-24) of
  * the coordinates' size, magnified by the matrices between them. 2^-14 leaves a thousandfold margin and stays below a
  * tenth of a pixel's footprint in common windows.
@@ -202,14 +202,14 @@ static inline void point_inset_weights(const struct point *p, const struct point
  * ray passed there, so nothing stands there. The second step is left out where `towards` leads away through the other side of
  * the triangle.
  */
-static inline struct vec3 point_ray_origin(const struct point *p, const struct point_plane *plane, struct vec3 towards,
+static inline struct vec3 point_ray_origin(const float *of_point, const struct point_plane *plane, struct vec3 towards,
                                            struct vec3 from)
 {
-	struct vec3 at = point_place(plane, p->weight), n = plane->normal, back = v3_scale(v3_normalize(from), -1.0f);
+	struct vec3 at = point_place(plane, of_point), n = plane->normal, back = v3_scale(v3_normalize(from), -1.0f);
 	float size = M_MAX(M_MAX(M_ABS(at.x), M_ABS(at.y)), M_ABS(at.z)) * 6.103515625e-5f, weight[3];
 
 	n = v3_dot(n, towards) < 0.0f ? v3_scale(n, -1.0f) : n;
-	point_inset_weights(p, plane, size, weight);
+	point_inset_weights(of_point, plane, size, weight);
 	at = point_place(plane, weight);
 	if (v3_dot(n, back) > 0.0f)
 		at = v3_add(at, v3_scale(back, size));

@@ -1,0 +1,110 @@
+/*
+ * The border between light and shade on round shapes of few faces. Alone, a convex shape with smooth normals shades nothing of itself,
+ * wherever the light stands and however large all is; something before it does shade it.
+ */
+#include <math.h>
+
+#include "tests/case.h"
+#include "tests/truth/scenes.h"
+
+#define SIZE 96
+
+/* A sphere of a few faces, its corners' normals pointing from its centre. */
+static void add_sphere(struct truth *t, uint32_t material, float z, float radius)
+{
+	enum { RINGS = 5, SECTORS = 8, N = RINGS * SECTORS * 6 };
+	static const int corner[6][2] = { { 0, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 }, { 1, 0 }, { 1, 1 } };
+	float position[N][3], normal[N][3];
+	uint32_t n = 0;
+
+	for (int ring = 0; ring < RINGS; ring++)
+		for (int sector = 0; sector < SECTORS; sector++)
+			for (int k = 0; k < 6; k++, n++) {
+				double a = M_PI * (ring + corner[k][0]) / RINGS, b = 2 * M_PI * (sector + corner[k][1]) / SECTORS;
+				const float d[3] = { (float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)) };
+
+				for (int i = 0; i < 3; i++) {
+					normal[n][i] = d[i];
+					position[n][i] = radius * d[i] + (i == 2 ? z : 0);
+				}
+			}
+	truth_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
+}
+
+/* Pixels of the sphere that are lit but for a shadow; *lit: that are lit. */
+static uint32_t shaded_pixels(const struct truth *t, uint32_t *lit)
+{
+	struct image img;
+	uint32_t n = 0;
+
+	*lit = 0;
+	truth_render(t, "whitted", &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++) {
+			if (truth_at(&img, "id", x, y) != 1)
+				continue;
+			n += truth_at(&img, "shadow.G", x, y) < 1;
+			*lit += truth_at(&img, "gl.G", x, y) > 0;
+		}
+	image_free(&img);
+	return n;
+}
+
+static void set_up(struct truth *t, float scale, float angle, float w)
+{
+	truth_init(t, SIZE, SIZE, 0.6f);
+	t->view.projection[14] *= scale; /* near and far */
+	truth_add_light(t, 5 * scale * cosf(angle), 0.7f * scale, scale * (5 * sinf(angle) - 6 * w), w);
+	add_sphere(t, truth_add_material(t, 0.7f), -6 * scale, 2 * scale);
+}
+
+START_TEST(test_round_shape_shades_nothing_of_itself)
+{
+	static const float scales[] = { 1e-3f, 1, 1e3f };
+
+	for (int i = 0; i < 3; i++)
+		for (int k = 0; k < 16; k++) {
+			const float w = k & 1 ? 1 : 0;
+			struct truth t;
+			uint32_t lit, dark;
+
+			set_up(&t, scales[i], 0.4f * (float)k, w);
+			dark = shaded_pixels(&t, &lit);
+			ck_assert_msg(dark == 0, "scale %g, light %d: %u of %u lit pixels lie in shadow", (double)scales[i], k, dark, lit);
+			truth_free(&t);
+		}
+}
+END_TEST
+
+START_TEST(test_others_shade_it_alike_at_any_scale)
+{
+	static const float scales[] = { 1, 1e-3f, 1e3f };
+	uint32_t first = 0;
+
+	for (int i = 0; i < 3; i++) {
+		const float s = scales[i];
+		struct truth t;
+		uint32_t lit, dark;
+
+		set_up(&t, s, 0.8f, 0);
+		truth_add_square(&t, 0, (float[3]){ 2.4f * s, 0.2f * s, -3.4f * s }, (float[3]){ 0.7f * s, 0, -0.7f * s }, (float[3]){ 0, s, 0 },
+		                 0.6f, 1);
+		dark = shaded_pixels(&t, &lit);
+		first = i == 0 ? dark : first;
+		ck_assert_uint_gt(dark, 100);
+		ck_assert_uint_lt(dark, lit / 2);
+		ck_assert_msg(abs((int)dark - (int)first) <= 3, "scale %g: %u pixels in shadow, %u at scale 1", (double)s, dark, first);
+		truth_free(&t);
+	}
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tests = tcase_create("terminator");
+
+	tcase_set_timeout(tests, 60);
+	tcase_add_test(tests, test_round_shape_shades_nothing_of_itself);
+	tcase_add_test(tests, test_others_shade_it_alike_at_any_scale);
+	return run_case(tests, "terminator");
+}
