@@ -15,23 +15,24 @@
 
 /* ---- enables ---- */
 
-/* Capabilities with a word of struct gls_attribs of their own: GL_ENABLE_BIT saves all of them, whichever group they belong to. */
+/* Capabilities with a word of struct gls_attribs of their own, the commonest first: GL_ENABLE_BIT saves all of them,
+ * whichever group they belong to. */
 static const struct { uint32_t cap, offset; } capabilities[] = {
 #define CAPABILITY(cap, member) { GL_##cap, offsetof(struct gls_attribs, member) }
-	CAPABILITY(ALPHA_TEST, color.alpha_test), CAPABILITY(AUTO_NORMAL, evaluator.auto_normal), CAPABILITY(BLEND, color.blend),
-	CAPABILITY(COLOR_LOGIC_OP, color.logic_op_enabled), CAPABILITY(INDEX_LOGIC_OP, color.index_logic_op_enabled),
-	CAPABILITY(COLOR_MATERIAL, lighting.color_material), CAPABILITY(COLOR_SUM, fog.color_sum),
-	CAPABILITY(CULL_FACE, polygon.cull), CAPABILITY(DEPTH_TEST, depth.enabled), CAPABILITY(DITHER, color.dither),
-	CAPABILITY(FOG, fog.enabled), CAPABILITY(LIGHTING, lighting.enabled), CAPABILITY(LINE_SMOOTH, line.smooth),
-	CAPABILITY(LINE_STIPPLE, line.stipple), CAPABILITY(MULTISAMPLE, multisample.enabled),
-	CAPABILITY(SAMPLE_ALPHA_TO_COVERAGE, multisample.alpha_to_coverage),
+	CAPABILITY(BLEND, color.blend), CAPABILITY(LIGHTING, lighting.enabled), CAPABILITY(DEPTH_TEST, depth.enabled),
+	CAPABILITY(CULL_FACE, polygon.cull), CAPABILITY(ALPHA_TEST, color.alpha_test), CAPABILITY(FOG, fog.enabled),
+	CAPABILITY(COLOR_MATERIAL, lighting.color_material), CAPABILITY(NORMALIZE, transform.normalize),
+	CAPABILITY(STENCIL_TEST, stencil.enabled), CAPABILITY(SCISSOR_TEST, scissor.enabled),
+	CAPABILITY(AUTO_NORMAL, evaluator.auto_normal), CAPABILITY(COLOR_LOGIC_OP, color.logic_op_enabled),
+	CAPABILITY(INDEX_LOGIC_OP, color.index_logic_op_enabled), CAPABILITY(COLOR_SUM, fog.color_sum),
+	CAPABILITY(DITHER, color.dither), CAPABILITY(LINE_SMOOTH, line.smooth), CAPABILITY(LINE_STIPPLE, line.stipple),
+	CAPABILITY(MULTISAMPLE, multisample.enabled), CAPABILITY(SAMPLE_ALPHA_TO_COVERAGE, multisample.alpha_to_coverage),
 	CAPABILITY(SAMPLE_ALPHA_TO_ONE, multisample.alpha_to_one), CAPABILITY(SAMPLE_COVERAGE, multisample.coverage),
-	CAPABILITY(NORMALIZE, transform.normalize), CAPABILITY(RESCALE_NORMAL, transform.rescale_normal),
-	CAPABILITY(POINT_SMOOTH, point.smooth), CAPABILITY(POINT_SPRITE, point.sprite),
-	CAPABILITY(POLYGON_OFFSET_FILL, polygon.offset_fill), CAPABILITY(POLYGON_OFFSET_LINE, polygon.offset_line),
-	CAPABILITY(POLYGON_OFFSET_POINT, polygon.offset_point), CAPABILITY(POLYGON_SMOOTH, polygon.smooth),
-	CAPABILITY(POLYGON_STIPPLE, polygon.stipple), CAPABILITY(SCISSOR_TEST, scissor.enabled),
-	CAPABILITY(STENCIL_TEST, stencil.enabled), CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side),
+	CAPABILITY(RESCALE_NORMAL, transform.rescale_normal), CAPABILITY(POINT_SMOOTH, point.smooth),
+	CAPABILITY(POINT_SPRITE, point.sprite), CAPABILITY(POLYGON_OFFSET_FILL, polygon.offset_fill),
+	CAPABILITY(POLYGON_OFFSET_LINE, polygon.offset_line), CAPABILITY(POLYGON_OFFSET_POINT, polygon.offset_point),
+	CAPABILITY(POLYGON_SMOOTH, polygon.smooth), CAPABILITY(POLYGON_STIPPLE, polygon.stipple),
+	CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side),
 #undef CAPABILITY
 };
 #define N_CAPABILITIES (sizeof(capabilities) / sizeof(capabilities[0]))
@@ -72,12 +73,16 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 /* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
+	uint32_t *word = bit_of(st, cap, bit);
+
+	if (word)
+		return word;
 	*bit = 0;
+	if (cap >= GL_LIGHT0 && cap < GL_LIGHT0 + GLS_MAX_LIGHTS)
+		return &st->a.lighting.lights[cap - GL_LIGHT0].enabled;
 	for (size_t i = 0; i < N_CAPABILITIES; i++)
 		if (capabilities[i].cap == cap)
 			return word_at(&st->a, capabilities[i].offset);
-	if (cap >= GL_LIGHT0 && cap < GL_LIGHT0 + GLS_MAX_LIGHTS)
-		return &st->a.lighting.lights[cap - GL_LIGHT0].enabled;
 	switch (cap) {
 	case GL_VERTEX_PROGRAM_ARB:
 		return &st->arb_vertex_enabled;
@@ -86,7 +91,7 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	case GL_RASTERIZER_DISCARD:
 		return &st->rasterizer_discard;
 	default:
-		return bit_of(st, cap, bit);
+		return NULL;
 	}
 }
 
