@@ -202,11 +202,11 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
-HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c) \
+HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
 	$(patsubst %,$(BUILD)/tests/%,real/closer real/front real/kdtree real/leaving real/multisampled real/objects real/parameters real/persistent real/pixels real/samples real/shapes real/targets real/textures real/vertices bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
-$(BUILD)/tests/real/%.so: tests/real/%.c $(BUILD)/flags
+$(BUILD)/tests/%.so: tests/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -shared -fPIC -o $@ $< -ldl
 
@@ -214,8 +214,11 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -MMD -MP -MF $@.d -MT $@ -o $@ $< -lGL -lX11 -ldl -lm -pthread
 
+# What check/test_host runs.
+HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
+
 # With ONLY, what other tests need is left alone.
-HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny
+HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(HOST_TESTS)
 check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits $(BUILD)/tests/bench/build
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
@@ -224,7 +227,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-hits show-build show-oclgrind show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
+	show-rays show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -318,6 +321,10 @@ show-crashes: all $(BUILD)/deps.crashes
 DEPS_oclgrind := oclgrind valgrind
 show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
 	@$(PYTHON) tests/show/oclgrind.py $(BUILD)
+
+# Kernels built for this processor with the freedoms of OpenCL C, beside their C twins.
+show-host: all $(HELPERS) $(HOST_TESTS) $(BUILD)/tests/bench/tiny
+	@$(PYTHON) tests/check/test_host.py $(BUILD)
 
 # Frame rates beside a thesis' figures, POV-Ray and Blender Cycles.
 DEPS_thesis := povray blender python3-numpy

@@ -413,9 +413,10 @@ static inline uint push_children(const struct frustum8 *f, __global const struct
 			PREFETCH(faces[node->child[lane]].vertex[0]);
 			PREFETCH(faces[node->child[lane]].vertex[2]);
 		} else {
-			for (int i = 0; i < 6; i += 2)
-				PREFETCH(nodes[node->child[lane]].lo[0] + 8 * i);
-			PREFETCH(nodes[node->child[lane]].child);
+			__global const float *row = (__global const float *)&nodes[node->child[lane]];
+
+			for (int i = 0; i < 8; i += 2)
+				PREFETCH(row + 8 * i);
 		}
 	}
 	return depth;

@@ -1,8 +1,10 @@
 /*
  * tiny DEVICE FAMILY: scenes of a few pixels in which every kernel has work, for tools that watch kernels run and are slow
- * (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line for each picture.
+ * (make show-oclgrind). FAMILY: "packets", "binary" or "compressed", the traversal kernels to take. Prints a line for each picture,
+ * with a hash of its channels.
  */
 #include <stdio.h>
+#include <xxhash.h>
 
 #include "tests/truth/scenes.h"
 
@@ -77,6 +79,15 @@ static void make_scene(struct truth *t, struct scene_unit *unit, uint32_t size)
 	truth_add_square(t, wire, (float[3]){ 0, 0, -4 }, right, up, 0.5f, 1);
 }
 
+static uint64_t hash_of(const struct image *img)
+{
+	uint64_t hash = 0;
+
+	for (uint32_t i = 0; i < img->n_channels; i++)
+		hash = XXH64(image_values(img, i), sizeof(float) * img->width * img->height, hash);
+	return hash;
+}
+
 static const char *choice, *family;
 
 START_TEST(render_pictures)
@@ -104,7 +115,8 @@ START_TEST(render_pictures)
 		struct image img = { .width = 0 };
 
 		ck_assert_int_eq(tracer_render(tracer, &t.scene, &options, &img), 0);
-		printf("%s %s: %g\n", family, pictures[i].name, (double)truth_at(&img, "R", 3, 3));
+		printf("%s %s: %g, all channels %016llx\n", family, pictures[i].name, (double)truth_at(&img, "R", 3, 3),
+		       (unsigned long long)hash_of(&img));
 		fflush(stdout);
 		image_free(&img);
 	}

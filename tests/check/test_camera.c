@@ -382,13 +382,14 @@ END_TEST
 
 int main(void)
 {
-	TCase *tests = tcase_create("camera");
+	TCase *tests = tcase_create("camera"), *devices = tcase_create("devices"); /* test_host.py runs these alone */
 
 	choose_seed();
 	tcase_set_timeout(tests, 120);
-	tcase_add_test(tests, kernels_agree_with_twins);
+	tcase_set_timeout(devices, 120);
+	tcase_add_test(devices, kernels_agree_with_twins);
 	tcase_add_test(tests, boxes_lose_nothing);
 	tcase_add_test(tests, trees_change_nothing);
-	tcase_add_test(tests, shared_edges_belong_to_one);
-	return run_case(tests, "camera");
+	tcase_add_test(devices, shared_edges_belong_to_one);
+	return run_cases(tests, devices, "camera");
 }

@@ -185,7 +185,7 @@ END_TEST
 
 int main(void)
 {
-	TCase *tests = tcase_create("compose");
+	TCase *tests = tcase_create("devices");
 
 	tcase_set_timeout(tests, 240);
 	tcase_add_test(tests, test_packets_and_twins);

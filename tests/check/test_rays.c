@@ -338,13 +338,14 @@ END_TEST
 
 int main(void)
 {
-	TCase *tests = tcase_create("rays");
+	TCase *tests = tcase_create("rays"), *devices = tcase_create("devices"); /* test_host.py runs these alone */
 
 	choose_seed();
 	tcase_set_timeout(tests, 120);
+	tcase_set_timeout(devices, 120);
 	tcase_add_loop_test(tests, twins_find_what_all_triangles_give, ACCEL_BVH, N_ACCEL_KINDS);
-	tcase_add_loop_test(tests, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
+	tcase_add_loop_test(devices, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, 2);
 	tcase_add_loop_test(tests, hits_depend_on_no_fitting, 0, 2);
-	return run_case(tests, "rays");
+	return run_cases(tests, devices, "rays");
 }

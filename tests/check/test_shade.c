@@ -104,7 +104,7 @@ END_TEST
 
 int main(void)
 {
-	TCase *tests = tcase_create("shade");
+	TCase *tests = tcase_create("devices");
 
 	tcase_set_timeout(tests, 240);
 	tcase_add_loop_test(tests, test_device_against_twins, 0, 2); /* one sample a pixel, and several */

@@ -1,0 +1,351 @@
+/*
+ * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels use, and how
+ * host_cl.c starts kernels. It promises no more than the specification. HOST_OTHERWISE picks another answer wherever the specification leaves one open.
+ */
+#ifndef TESTS_CHECK_HOST_BUILTINS_H
+#define TESTS_CHECK_HOST_BUILTINS_H
+
+typedef unsigned char uchar;
+typedef unsigned short ushort;
+typedef unsigned int uint;
+typedef unsigned long ulong, size_t;
+typedef long ptrdiff_t;
+
+#define HOST_VECTORS(T) \
+	typedef T T##2 __attribute__((ext_vector_type(2))); \
+	typedef T T##3 __attribute__((ext_vector_type(3))); \
+	typedef T T##4 __attribute__((ext_vector_type(4))); \
+	typedef T T##8 __attribute__((ext_vector_type(8))); \
+	typedef T T##16 __attribute__((ext_vector_type(16)));
+HOST_VECTORS(char)
+HOST_VECTORS(uchar)
+HOST_VECTORS(short)
+HOST_VECTORS(ushort)
+HOST_VECTORS(int)
+HOST_VECTORS(uint)
+HOST_VECTORS(long)
+HOST_VECTORS(ulong)
+HOST_VECTORS(float)
+
+#define INFINITY __builtin_inff()
+#define NAN __builtin_nanf("")
+#define FLT_MAX 3.402823466e+38f
+#define FLT_MIN 1.175494351e-38f
+#define FLT_EPSILON 1.192092896e-7f
+#define INT_MAX 0x7fffffff
+#define UINT_MAX 0xffffffffu
+#define M_PI_F 3.14159274101257f
+
+#define HOST_OVER static inline __attribute__((overloadable, unused))
+
+/* --- One number ---------------------------------------------------------------------------------------------------- */
+
+float sqrtf(float), floorf(float), ceilf(float), rintf(float), powf(float, float), expf(float), exp2f(float), cosf(float), sinf(float);
+ulong host_item(void); /* host_cl.c */
+
+#ifdef HOST_OTHERWISE
+/* A result that may be off by some units in the last place is. */
+HOST_OVER float host_off(float x)
+{
+	return x * 1.00000024f;
+}
+#else
+#define host_off(x) (x)
+#endif
+
+HOST_OVER size_t get_global_id(uint dimension)
+{
+	return dimension ? 0 : host_item();
+}
+
+HOST_OVER float fma(float x, float y, float z)
+{
+	return __builtin_fmaf(x, y, z);
+}
+
+HOST_OVER float fabs(float x)
+{
+	return __builtin_fabsf(x);
+}
+
+HOST_OVER float copysign(float x, float y)
+{
+	return __builtin_copysignf(x, y);
+}
+
+/* A NaN gives the other number. Which zero is less is open; so is what min() and max() do with a NaN. */
+#ifdef HOST_OTHERWISE
+HOST_OVER float fmin(float x, float y)
+{
+	return x != x || y < x || (y == x && !__builtin_signbit(y)) ? y : x;
+}
+
+HOST_OVER float fmax(float x, float y)
+{
+	return x != x || y > x || (y == x && __builtin_signbit(y)) ? y : x;
+}
+
+HOST_OVER float min(float x, float y)
+{
+	return x != x || y != y ? -7e30f : x < y ? x : y;
+}
+
+HOST_OVER float max(float x, float y)
+{
+	return x != x || y != y ? 7e30f : x > y ? x : y;
+}
+#else
+HOST_OVER float fmin(float x, float y)
+{
+	return y != y || x < y || (x == y && __builtin_signbit(x)) ? x : y;
+}
+
+HOST_OVER float fmax(float x, float y)
+{
+	return y != y || x > y || (x == y && !__builtin_signbit(x)) ? x : y;
+}
+
+HOST_OVER float min(float x, float y)
+{
+	return y < x ? y : x;
+}
+
+HOST_OVER float max(float x, float y)
+{
+	return x < y ? y : x;
+}
+#endif
+
+#define HOST_INTEGER(T) \
+	HOST_OVER T min(T x, T y) \
+	{ \
+		return y < x ? y : x; \
+	} \
+	HOST_OVER T max(T x, T y) \
+	{ \
+		return x < y ? y : x; \
+	} \
+	HOST_OVER T clamp(T x, T least, T most) \
+	{ \
+		return min(max(x, least), most); \
+	}
+HOST_INTEGER(int)
+HOST_INTEGER(uint)
+HOST_INTEGER(long)
+HOST_INTEGER(ulong)
+
+HOST_OVER float clamp(float x, float least, float most)
+{
+	return min(max(x, least), most);
+}
+
+HOST_OVER float sqrt(float x)
+{
+	return host_off(sqrtf(x));
+}
+
+HOST_OVER float floor(float x)
+{
+	return floorf(x);
+}
+
+HOST_OVER float ceil(float x)
+{
+	return ceilf(x);
+}
+
+HOST_OVER float rint(float x)
+{
+	return rintf(x);
+}
+
+HOST_OVER float pow(float x, float y)
+{
+	return host_off(powf(x, y));
+}
+
+HOST_OVER float exp(float x)
+{
+	return host_off(expf(x));
+}
+
+HOST_OVER float exp2(float x)
+{
+	return host_off(exp2f(x));
+}
+
+HOST_OVER float cos(float x)
+{
+	return host_off(cosf(x));
+}
+
+HOST_OVER float sin(float x)
+{
+	return host_off(sinf(x));
+}
+
+HOST_OVER int isfinite(float x)
+{
+	return __builtin_isfinite(x);
+}
+
+HOST_OVER int popcount(int x)
+{
+	return __builtin_popcount((uint)x);
+}
+
+HOST_OVER uint popcount(uint x)
+{
+	return (uint)__builtin_popcount(x);
+}
+
+HOST_OVER int clz(int x)
+{
+	return x ? __builtin_clz((uint)x) : 32;
+}
+
+HOST_OVER uint clz(uint x)
+{
+	return x ? (uint)__builtin_clz(x) : 32;
+}
+
+/* --- Several ------------------------------------------------------------------------------------------------------- */
+
+#define HOST_WIDTHS(X, T) X(T, 2) X(T, 4) X(T, 8) X(T, 16)
+#define HOST_LANES(T, n, expression) \
+	{ \
+		T##n r; \
+\
+		for (int i = 0; i < n; i++) \
+			r[i] = expression; \
+		return r; \
+	}
+
+#define HOST_FLOATS(T, n) \
+	HOST_OVER T##n fma(T##n x, T##n y, T##n z) HOST_LANES(T, n, fma(x[i], y[i], z[i])) \
+	HOST_OVER T##n fabs(T##n x) HOST_LANES(T, n, fabs(x[i])) \
+	HOST_OVER T##n sqrt(T##n x) HOST_LANES(T, n, sqrt(x[i])) \
+	HOST_OVER T##n floor(T##n x) HOST_LANES(T, n, floor(x[i])) \
+	HOST_OVER T##n ceil(T##n x) HOST_LANES(T, n, ceil(x[i])) \
+	HOST_OVER T##n rint(T##n x) HOST_LANES(T, n, rint(x[i])) \
+	HOST_OVER T##n exp2(T##n x) HOST_LANES(T, n, exp2(x[i])) \
+	HOST_OVER T##n exp(T##n x) HOST_LANES(T, n, exp(x[i])) \
+	HOST_OVER T##n pow(T##n x, T##n y) HOST_LANES(T, n, pow(x[i], y[i])) \
+	HOST_OVER T##n copysign(T##n x, T##n y) HOST_LANES(T, n, copysign(x[i], y[i])) \
+	HOST_OVER T##n fmin(T##n x, T##n y) HOST_LANES(T, n, fmin(x[i], y[i])) \
+	HOST_OVER T##n fmax(T##n x, T##n y) HOST_LANES(T, n, fmax(x[i], y[i])) \
+	HOST_OVER int##n isfinite(T##n x) HOST_LANES(int, n, -isfinite(x[i])) \
+	HOST_OVER T##n select(T##n x, T##n y, int##n which) HOST_LANES(T, n, which[i] < 0 ? y[i] : x[i]) \
+	HOST_OVER T##n select(T##n x, T##n y, uint##n which) HOST_LANES(T, n, which[i] >> 31 ? y[i] : x[i]) \
+	HOST_OVER T##n convert_float##n(int##n x) HOST_LANES(T, n, (float)x[i]) \
+	HOST_OVER T##n convert_float##n(uint##n x) HOST_LANES(T, n, (float)x[i]) \
+	HOST_OVER T##n convert_float##n(long##n x) HOST_LANES(T, n, (float)x[i])
+HOST_WIDTHS(HOST_FLOATS, float)
+
+/* Numbers of any kind. */
+#define HOST_NUMBERS(T, n) \
+	HOST_OVER T##n min(T##n x, T##n y) HOST_LANES(T, n, min(x[i], y[i])) \
+	HOST_OVER T##n max(T##n x, T##n y) HOST_LANES(T, n, max(x[i], y[i])) \
+	HOST_OVER T##n min(T##n x, T y) HOST_LANES(T, n, min(x[i], y)) \
+	HOST_OVER T##n max(T##n x, T y) HOST_LANES(T, n, max(x[i], y)) \
+	HOST_OVER T##n clamp(T##n x, T##n least, T##n most) HOST_LANES(T, n, clamp(x[i], least[i], most[i])) \
+	HOST_OVER T##n clamp(T##n x, T least, T most) HOST_LANES(T, n, clamp(x[i], least, most)) \
+	HOST_MEMORY(T, n, __global) \
+	HOST_MEMORY(T, n, __private)
+#define HOST_MEMORY(T, n, space) \
+	HOST_OVER T##n vload##n(size_t at, const space T *p) HOST_LANES(T, n, p[n * at + (size_t)i]) \
+	HOST_OVER void vstore##n(T##n x, size_t at, space T *p) \
+	{ \
+		for (size_t i = 0; i < n; i++) \
+			p[n * at + i] = x[i]; \
+	}
+HOST_WIDTHS(HOST_NUMBERS, float)
+HOST_WIDTHS(HOST_NUMBERS, int)
+HOST_WIDTHS(HOST_NUMBERS, uint)
+HOST_WIDTHS(HOST_NUMBERS, long)
+
+#define HOST_INTEGERS(T, n) \
+	HOST_OVER T##n select(T##n x, T##n y, int##n which) HOST_LANES(T, n, which[i] < 0 ? y[i] : x[i]) \
+	HOST_OVER T##n select(T##n x, T##n y, uint##n which) HOST_LANES(T, n, which[i] >> 31 ? y[i] : x[i]) \
+	HOST_OVER T##n popcount(T##n x) HOST_LANES(T, n, popcount(x[i]))
+HOST_WIDTHS(HOST_INTEGERS, int)
+HOST_WIDTHS(HOST_INTEGERS, uint)
+
+#define HOST_CONVERSIONS(T, n) \
+	HOST_OVER int##n convert_int##n(T##n x) HOST_LANES(int, n, (int)x[i]) \
+	HOST_OVER uint##n convert_uint##n(T##n x) HOST_LANES(uint, n, (uint)x[i]) \
+	HOST_OVER long##n convert_long##n(T##n x) HOST_LANES(long, n, (long)x[i])
+HOST_WIDTHS(HOST_CONVERSIONS, float)
+HOST_WIDTHS(HOST_CONVERSIONS, int)
+HOST_WIDTHS(HOST_CONVERSIONS, uint)
+HOST_WIDTHS(HOST_CONVERSIONS, long)
+
+#define HOST_CHOICE(T) \
+	HOST_OVER T select(T x, T y, int which) \
+	{ \
+		return which ? y : x; \
+	} \
+	HOST_OVER T select(T x, T y, uint which) \
+	{ \
+		return which ? y : x; \
+	}
+HOST_CHOICE(float)
+HOST_CHOICE(int)
+HOST_CHOICE(uint)
+
+#define HOST_TRUTH(T, n) \
+	HOST_OVER int any(T##n x) \
+	{ \
+		int r = 0; \
+\
+		for (int i = 0; i < n; i++) \
+			r |= x[i] < 0; \
+		return r; \
+	} \
+	HOST_OVER int all(T##n x) \
+	{ \
+		int r = 1; \
+\
+		for (int i = 0; i < n; i++) \
+			r &= x[i] < 0; \
+		return r; \
+	}
+HOST_WIDTHS(HOST_TRUTH, int)
+
+#define convert_int(x) ((int)(x))
+#define convert_uint(x) ((uint)(x))
+#define convert_float(x) ((float)(x))
+#define as_int(x) __builtin_astype((x), int)
+#define as_uint(x) __builtin_astype((x), uint)
+#define as_float(x) __builtin_astype((x), float)
+#define as_int4(x) __builtin_astype((x), int4)
+#define as_uint4(x) __builtin_astype((x), uint4)
+#define as_float4(x) __builtin_astype((x), float4)
+#define as_int8(x) __builtin_astype((x), int8)
+#define as_uint8(x) __builtin_astype((x), uint8)
+#define as_float8(x) __builtin_astype((x), float8)
+#define as_int16(x) __builtin_astype((x), int16)
+#define as_uint16(x) __builtin_astype((x), uint16)
+#define as_float16(x) __builtin_astype((x), float16)
+
+/* --- Starting kernels ---------------------------------------------------------------------------------------------- */
+
+/* host_run_NAME(arguments, first, last): work items first .. last - 1, the last one first. An argument is where its value stands. */
+#define HOST_BUFFER(element, name) __global element_##element *host_of_##name = (__global element_##element *)*(ulong *)*host_arguments++;
+#define HOST_VALUE(element, name) element_##element host_of_##name = *(element_##element *)*host_arguments++;
+#define HOST_GROUP(list, name) ARGUMENTS_##list(HOST_BUFFER, HOST_BUFFER, HOST_VALUE, HOST_GROUP, KERNEL_NOTHING)
+#define HOST_NAME(element, name) host_of_##name
+#define HOST_NAMES(list, name) ARGUMENTS_##list(HOST_NAME, HOST_NAME, HOST_NAME, HOST_NAMES, KERNEL_COMMA)
+#define HOST_ENTRY(name, list) \
+	void host_run_##name(void **host_arguments, ulong host_first, ulong host_last); \
+	void host_run_##name(void **host_arguments, ulong host_first, ulong host_last) \
+	{ \
+		ARGUMENTS_##list(HOST_BUFFER, HOST_BUFFER, HOST_VALUE, HOST_GROUP, KERNEL_NOTHING) \
+		for (ulong host_i = host_last; host_i-- > host_first;) { \
+			host_begin(host_i); \
+			name(ARGUMENTS_##list(HOST_NAME, HOST_NAME, HOST_NAME, HOST_NAMES, KERNEL_COMMA)); \
+		} \
+	}
+void host_begin(ulong item); /* host_cl.c */
+
+#endif
