@@ -125,6 +125,12 @@ static inline uint pack_bits(packi mask)
 #endif
 }
 
+/* The lanes whose bits are set. */
+static inline packi lanes_pack(uint bits)
+{
+	return ((packi)((int)bits) >> PACK_LANES & 1) != 0;
+}
+
 /* table[index & 15], lane by lane. */
 WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
 {

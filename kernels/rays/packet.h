@@ -4,7 +4,7 @@
  *
  * Boxes: with i = 1/d, a ray meets a plane at p at t = p * i - o * i. Both products are kept in two roundings, so that rounding
  * misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). The signs of d alone decide
- * which of a box's planes comes first; a packet of rays with different signs tries both orders. A ray sleeps where t_max is
+ * which of a box's planes comes first; where they differ within a packet each lane picks its own. A ray sleeps where t_max is
  * below t_min.
  */
 #pragma once
@@ -21,7 +21,7 @@ struct packet {
 	packf far_ix, far_iy, far_iz;          /* the same rounded away from 0 */
 	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
 	packf far_x, far_y, far_z;             /* and up, to far planes */
-	packf t_min, t_max, slack;             /* slack: what rounding may do to any of these */
+	packf t_min, t_max;
 };
 
 static inline packf pack_invert(packf d)
@@ -38,7 +38,6 @@ static inline void packet_prepare(struct packet *p)
 	p->ix = ix, p->iy = iy, p->iz = iz;
 	p->far_ix = ix * (1 + 6e-7f), p->far_iy = iy * (1 + 6e-7f), p->far_iz = iz * (1 + 6e-7f);
 	p->near_x = bx - fabs(bx) * 3e-7f, p->near_y = by - fabs(by) * 3e-7f, p->near_z = bz - fabs(bz) * 3e-7f;
-	p->slack = 2.5e-6f * pack_max(pack_max(fabs(bx), fabs(by)), fabs(bz));
 	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
 }
 
@@ -80,7 +79,7 @@ static inline struct planes octant_planes(int octant)
 	return s;
 }
 
-/* How far boxes are looked at where the nearest hit is asked for: walk_end of kernels/rays/walk.h. */
+/* How far boxes are looked at: walk_end of kernels/rays/walk.h. A ray that needs no more (t_max -infinity) gets a NaN, and meets none. */
 static inline packf packet_end(const struct packet *p)
 {
 	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);
@@ -145,13 +144,15 @@ static inline struct beam beam_around(const struct packet *p, uint n, int octant
 
 		bounds_add(&bounds[0], p[k].ox, awake), bounds_add(&bounds[1], p[k].oy, awake), bounds_add(&bounds[2], p[k].oz, awake);
 		bounds_add(&bounds[3], p[k].ix, awake), bounds_add(&bounds[4], p[k].iy, awake), bounds_add(&bounds[5], p[k].iz, awake);
-		bounds_add(&bounds[6], p[k].t_min, awake), bounds_add(&bounds[7], p[k].t_max, awake);
+		bounds_add(&bounds[6], p[k].t_min, awake), bounds_add(&bounds[7], packet_end(&p[k]), awake);
 	}
 	for (int axis = 0; axis < 3; axis++) {
 		const float least = least_of(bounds[axis].least), greatest = -least_of(bounds[axis].opposite);
+		const float size = fmax(fabs(least), fabs(greatest)), sign = octant >> axis & 1 ? -1 : 1;
 
-		b.near_o[axis] = octant >> axis & 1 ? least : greatest;
-		b.far_o[axis] = octant >> axis & 1 ? greatest : least;
+		/* As generous as packet_meets, so that no ray depends on those beside it. */
+		b.near_o[axis] = fma(sign * size, 5e-7f, sign > 0 ? greatest : least);
+		b.far_o[axis] = fma(sign * size, -2.5e-6f, sign > 0 ? least : greatest);
 		b.least[axis] = least_of(bounds[3 + axis].least);
 		b.greatest[axis] = -least_of(bounds[3 + axis].opposite);
 	}
@@ -185,19 +186,21 @@ static inline uint beam_meets(const struct beam *b, __global const struct node8 
 	const float8 enter = lanes_max(lanes_max(x, y), lanes_max(z, b->t_min));
 	const float8 leave = lanes_min(lanes_min(u, v), lanes_min(w, b->t_max));
 
-	return lane_bits(enter <= fma(fabs(leave), 2e-6f, leave));
+	return lane_bits(enter <= fma(fabs(leave), 3e-6f, leave));
 }
 
 /* The same whatever the octants. */
 static inline packi packet_meets_any(const struct packet *p, packf end, __global const struct node8 *node, uint side)
 {
-	const packf x0 = fma(node->lo[0][side], p->ix, p->near_x), x1 = fma(node->hi[0][side], p->ix, p->near_x);
-	const packf y0 = fma(node->lo[1][side], p->iy, p->near_y), y1 = fma(node->hi[1][side], p->iy, p->near_y);
-	const packf z0 = fma(node->lo[2][side], p->iz, p->near_z), z1 = fma(node->hi[2][side], p->iz, p->near_z);
-	const packf enter = pack_max(pack_max(pack_min(x0, x1), pack_min(y0, y1)), pack_max(pack_min(z0, z1), p->t_min));
-	const packf leave = pack_min(pack_min(pack_max(x0, x1), pack_max(y0, y1)), pack_min(pack_max(z0, z1), end));
+	const packf lo_x = node->lo[0][side], hi_x = node->hi[0][side], lo_y = node->lo[1][side], hi_y = node->hi[1][side];
+	const packf lo_z = node->lo[2][side], hi_z = node->hi[2][side];
+	const packi x = p->ix < 0, y = p->iy < 0, z = p->iz < 0;
+	const packf enter = pack_max(pack_max(fma(select(lo_x, hi_x, x), p->ix, p->near_x), fma(select(lo_y, hi_y, y), p->iy, p->near_y)),
+	                             pack_max(fma(select(lo_z, hi_z, z), p->iz, p->near_z), p->t_min));
+	const packf leave = pack_min(pack_min(fma(select(hi_x, lo_x, x), p->far_ix, p->far_x), fma(select(hi_y, lo_y, y), p->far_iy, p->far_y)),
+	                             pack_min(fma(select(hi_z, lo_z, z), p->far_iz, p->far_z), end));
 
-	return enter <= fma(leave, 1 + 6e-7f, p->slack);
+	return enter <= leave;
 }
 
 /* The octant of all lanes of n packets that are awake; -1: there are several. */
@@ -222,8 +225,18 @@ static inline int packet_octant(const struct packet *p, uint n)
 	return octant;
 }
 
-/* Moeller and Trumbore: lanes hit at t in t_min .. t_max, and where. */
-static inline packi packet_triangle(const struct packet *p, __global const struct triangle8 *block, uint lane, packf *t_out, packf *b1, packf *b2)
+/* Of some lanes those that do not see a triangle edge-on. */
+static inline packi packet_faces(const struct packet *p, __global const struct triangle8 *block, uint lane, packf inverse)
+{
+	const float e1 = fmax(fmax(fabs(block->e1[0][lane]), fabs(block->e1[1][lane])), fabs(block->e1[2][lane]));
+	const float e2 = fmax(fmax(fabs(block->e2[0][lane]), fabs(block->e2[1][lane])), fabs(block->e2[2][lane]));
+
+	return RAYS_FLAT * e1 * e2 * (pack_max(pack_max(fabs(p->dx), fabs(p->dy)), fabs(p->dz)) * fabs(inverse)) < 1.0f;
+}
+
+/* Moeller and Trumbore: of some lanes those hit at t in t_min .. t_max, and where. */
+static inline packi packet_triangle(const struct packet *p, uint lanes, __global const struct triangle8 *block, uint lane, packf *t_out,
+                             packf *b1, packf *b2)
 {
 	const float e1x = block->e1[0][lane], e1y = block->e1[1][lane], e1z = block->e1[2][lane];
 	const float e2x = block->e2[0][lane], e2y = block->e2[1][lane], e2z = block->e2[2][lane];
@@ -239,7 +252,11 @@ static inline packi packet_triangle(const struct packet *p, __global const struc
 	const packf v = fma(p->dz, qz, fma(p->dy, qy, p->dx * qx)) * inverse;
 	const packf t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 
+	packi hit = (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) & (t >= p->t_min) &
+	            (t <= p->t_max);
+
+	if (any_pack(hit))
+		hit &= packet_faces(p, block, lane, inverse) & lanes_pack(lanes);
 	*t_out = t, *b1 = u, *b2 = v;
-	return (u >= -RAYS_EDGE_SLACK) & (v >= -RAYS_EDGE_SLACK) & (u + v <= 1 + RAYS_EDGE_SLACK) &
-	       (t >= p->t_min) & (t <= p->t_max);
+	return hit;
 }

@@ -3,9 +3,10 @@
  * trees. Included by C and OpenCL C.
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
- * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Degenerate
- * triangles, rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing. Nor do rays with a component of o / d
- * beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts as 1e-20): boxes could not be told apart.
+ * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Triangles without area,
+ * triangles seen edge-on (RAYS_FLAT), rays with t_min > t_max and rays with a NaN or an infinite o or d hit nothing. Nor do
+ * rays with a component of o / d beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts as 1e-20): boxes could not
+ * be told apart.
  *
  * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
  * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a tenth
@@ -14,6 +15,9 @@
  * of several instances is the one whose t + shift, rounded, is least.
  *
  * Of several nearest hits at the very same t the lowest instance counts, there the lowest primitive: the answer depends on no tree.
+ *
+ * Any hit and nearest hit decide by one rule: a triangle is tried where the ray itself meets the box of its leaf, whatever rays travel
+ * beside it, and both queries ask the boxes in the same way.
  *
  * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with nothing
  * to hit (accel_space.n_nodes == 0) is the caller's to leave out.
@@ -30,6 +34,12 @@
 
 /* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
 #define RAYS_EDGE_SLACK 1e-6f
+
+/*
+ * A determinant within this share of the largest components of e1, e2 and d, multiplied, is rounding, and so are the weights and t
+ * that come of it. Such a triangle is narrower across the ray than single precision can tell.
+ */
+#define RAYS_FLAT 1.5e-6f
 
 #define RAYS_RANGE 1e38f
 

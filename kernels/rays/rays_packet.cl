@@ -84,7 +84,7 @@ static inline uint existing_boxes(__global const struct node8 *node)
 }
 
 /* Those of some lanes that meet a box. octant -1: there are several. */
-WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int any, int octant, struct planes planes,
+WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int octant, struct planes planes,
                                      __global const struct node8 *node, uint box, ulong lanes)
 {
 	__global const float *bounds = (__global const float *)node;
@@ -92,7 +92,7 @@ WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int any, int octan
 
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		if (lanes_of(lanes, k)) {
-			const packf end = any ? p[k].t_max : packet_end(&p[k]);
+			const packf end = packet_end(&p[k]);
 
 			meet |= lanes_at(pack_bits(octant < 0 ? packet_meets_any(&p[k], end, node, box) :
 			                                        packet_meets(&p[k], end, bounds + box, planes)), k);
@@ -124,7 +124,7 @@ WIDE_VECTORS INLINED uint push_children(struct task *stack, uint depth, const st
 		      (vload8(0, node->lo[2]) + vload8(0, node->hi[2])) * towards[2];
 	for (; boxes; boxes &= boxes - 1) {
 		const uint box = popcount((boxes & -boxes) - 1);
-		const ulong meet = any ? lanes_meet(p, any, octant, planes, node, box, lanes) : lanes;
+		const ulong meet = any ? lanes_meet(p, octant, planes, node, box, lanes) : lanes;
 		uint place = depth;
 
 		for (; !any && place > bottom && ((const float *)&far)[stack[place - 1].box] < ((const float *)&far)[box]; place--)
@@ -177,7 +177,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++) {
 				const packu primitive = blocks[i].primitive[lane];
 				packf t, b1, b2;
-				packi hit = packet_triangle(&p[k], &blocks[i], lane, &t, &b1, &b2);
+				packi hit = packet_triangle(&p[k], lanes_of(lanes, k), &blocks[i], lane, &t, &b1, &b2);
 
 				if (any) {
 					p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), hit);
@@ -224,7 +224,7 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, int octan
 			depth--;
 			lanes = stack[depth].lanes & awake;
 			if (!any && lanes)
-				lanes &= lanes_meet(p, any, octant, planes, &nodes[stack[depth].node], stack[depth].box, lanes);
+				lanes &= lanes_meet(p, octant, planes, &nodes[stack[depth].node], stack[depth].box, lanes);
 		} while (!lanes);
 		at = stack[depth].child;
 	}
@@ -312,7 +312,7 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, __global
 	while (depth && awake) {
 		const struct task task = stack[--depth];
 		const ulong left = task.lanes & awake;
-		const ulong lanes = any ? left : left & lanes_meet(eye, any, -1, planes, &top[task.node], task.box, left);
+		const ulong lanes = any ? left : left & lanes_meet(eye, -1, planes, &top[task.node], task.box, left);
 
 		if (lanes && task.child.y == 0)
 			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]), top, task.child.x, lanes,

@@ -30,7 +30,8 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 	const float t = fma(e2z, qz, fma(e2y, qy, e2x * qx)) * inverse;
 
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive))) {
+	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive)) &&
+	    RAYS_FLAT * largest(e1x, e1y, e1z) * largest(e2x, e2y, e2z) * (largest(w->dx, w->dy, w->dz) * fabs(inverse)) < 1) {
 		w->hit.t = t;
 		w->hit.b1 = u;
 		w->hit.b2 = v;

@@ -32,6 +32,11 @@ struct entry {
 	uint child, count;
 };
 
+static inline float largest(float x, float y, float z)
+{
+	return fmax(fmax(fabs(x), fabs(y)), fabs(z));
+}
+
 static inline float invert(float d)
 {
 	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
@@ -80,7 +85,7 @@ static inline int walk_start(struct walk *w, __global const struct ray *ray)
 static inline float walk_shift(__global const struct instance *instance, const struct walk *w)
 {
 	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
-	const float length = fmax(fmax(fabs(w->dx), fabs(w->dy)), fabs(w->dz));
+	const float length = largest(w->dx, w->dy, w->dz);
 	const float shift = fma(cz, w->dz, fma(cy, w->dy, cx * w->dx)) / fma(w->dz, w->dz, fma(w->dy, w->dy, w->dx * w->dx)) -
 	                    instance->radius / length;
 

@@ -71,9 +71,12 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 	while (bits) {
 		const uint lane = popcount((bits & -bits) - 1);
 		const float at = ((const float *)&t)[lane];
+		const float e1 = largest(block->e1[0][lane], block->e1[1][lane], block->e1[2][lane]);
+		const float e2 = largest(block->e2[0][lane], block->e2[1][lane], block->e2[2][lane]);
 
 		bits &= bits - 1;
-		if (at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) {
+		if ((at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) &&
+		    RAYS_FLAT * e1 * e2 * (largest(w->dx, w->dy, w->dz) * fabs(((const float *)&inverse)[lane])) < 1) {
 			w->hit.t = at;
 			w->hit.b1 = ((const float *)&u)[lane];
 			w->hit.b2 = ((const float *)&v)[lane];

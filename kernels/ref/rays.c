@@ -49,6 +49,11 @@ static void cross(const float a[3], const float b[3], float out[3])
 	out[2] = fmaf(a[0], b[1], -(a[1] * b[0]));
 }
 
+static float largest(const float v[3])
+{
+	return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fabsf(v[2]));
+}
+
 static void try_triangle(struct walk *w, const float v0[3], const float e1[3], const float e2[3], uint32_t instance,
                          uint32_t primitive)
 {
@@ -65,7 +70,8 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)))
+	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) &&
+	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1)
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
 

@@ -292,6 +292,58 @@ START_TEST(hits_depend_on_no_tree)
 }
 END_TEST
 
+/* Rays along the axes through triangles without area: what rounding makes of them is no hit, for either query. */
+START_TEST(any_hit_and_nearest_hit_decide_alike)
+{
+	struct random_scene *s = random_scene_create(seed_of_run);
+	struct ray *rays = make_rays(s);
+	struct result *got = malloc(sizeof(*got));
+	struct device *dev;
+
+	ck_assert_int_eq(device_open(_i ? "0" : "reference", 0, &dev), 0);
+	for (int i = 0; i < 12; i++) /* the axes are the object's */
+		s->instances[0].eye_from_obj[i] = s->instances[0].obj_from_eye[i] = i % 5 == 0;
+	for (uint32_t i = 0; i < MAX_TRIANGLES; i += 3) /* without area */
+		s->index[0][i][2] = s->index[0][i][1];
+	accel_destroy(&s->accel);
+	ck_assert_int_eq(accel_create(&s->accel), 0);
+	s->accel->wide = ACCEL_ROWS | ACCEL_COMPRESSED;
+	for (uint32_t i = 0; i < N_RAYS; i++) {
+		const uint32_t *index = s->index[0][3 * (i / 4 % (MAX_TRIANGLES / 3))];
+		const float share = i % 4 ? 0 : between(s, 0, 1);
+
+		for (uint32_t a = 0; a < 3; a++) {
+			const float *p = s->position[0][index[0]], *q = s->position[0][index[1]];
+
+			rays[i].o[a] = p[a] + share * (q[a] - p[a]);
+			rays[i].d[a] = a != i / 4 % 3 ? 0.0f : i % 2 ? 1.0f : -1.0f;
+		}
+		rays[i].o[i / 4 % 3] -= 4 * rays[i].d[i / 4 % 3];
+		rays[i].t_min = 0;
+		rays[i].t_max = between(s, 0, 5);
+	}
+	for (int kind = ACCEL_BVH; kind < N_ACCEL_KINDS; kind++) {
+		random_scene_rebuild(s, (enum accel_kind)kind);
+		for (enum way way = 0; way < N_WAYS; way++) {
+			run(s, dev, rays, way, got);
+			for (uint32_t i = 0; i < N_RAYS; i++) {
+				const struct hit *hit = &got->hits[i];
+				const int there = hit->instance != SCENE_NONE;
+
+				ck_assert_msg(!there || s->scene_instances[hit->instance].mesh || hit->primitive % 3,
+				              "kind %d, %s: ray %u hits a triangle without area", kind, ways[way].name, i);
+				ck_assert_msg(got->occluded[i] == (uint32_t)there, "kind %d, %s: ray %u: occluded %u, nearest hit %d", kind,
+				              ways[way].name, i, got->occluded[i], (int)hit->primitive);
+			}
+		}
+	}
+	device_close(&dev);
+	free(rays);
+	free(got);
+	random_scene_free(s);
+}
+END_TEST
+
 /* A mesh whose vertices move keeps its tree, and what is hit is what a new tree would give. */
 START_TEST(hits_depend_on_no_fitting)
 {
@@ -346,6 +398,7 @@ int main(void)
 	tcase_add_loop_test(tests, twins_find_what_all_triangles_give, ACCEL_BVH, N_ACCEL_KINDS);
 	tcase_add_loop_test(devices, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, 2);
+	tcase_add_loop_test(tests, any_hit_and_nearest_hit_decide_alike, 0, 2);
 	tcase_add_loop_test(tests, hits_depend_on_no_fitting, 0, 2);
 	return run_cases(tests, devices, "rays");
 }
