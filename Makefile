@@ -227,7 +227,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
+	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -262,6 +262,15 @@ bench: $(BUILD)/tests/bench/embree
 show-rays: $(BUILD)/tests/bench/embree
 	@mkdir -p $(BUILD)/show
 	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/rays.json --command "make show-rays"
+
+# Whole frames against the rays in them, and against a rasteriser.
+$(BUILD)/tests/bench/frame_rays: tests/bench/frame_rays.c $(BUILD)/parts.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
+
+show-frames: all $(BUILD)/tests/bench/frame_rays
+	@tests/xvfb.sh $(PYTHON) -B tests/show/frames.py $(BUILD) $(ONLY:%=--only %)
 
 # Hits ray by ray, against Embree's. The test of the same name in tests/check runs it with fewer rays.
 $(BUILD)/tests/bench/hits: tests/bench/hits.c $(BUILD)/parts.a
@@ -419,5 +428,5 @@ FORCE:
 .PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d) \
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d frame_rays.d) \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -9,6 +9,7 @@
  *   --glass                 add something of glass where the program has it
  *   --mesh                  add the model where the program can do without
  *   --model FILE            an OBJ file where the program shows a model (default: a generated knot)
+ *   --size WxH              of the window (default: 800x600)
  *   --ortho                 parallel projection where the program has a choice
  *   --by HOW                by which way, where the program has several
  */
@@ -28,18 +29,19 @@ enum { RT_MATTE_EXT, RT_MIRROR_EXT, RT_GLASS_EXT };
 #define rtMaterialEXT(kind, amount, ior) ((void)(kind), (void)(amount), (void)(ior))
 #endif
 
-enum { PROGRAM_WIDTH = 800, PROGRAM_HEIGHT = 600 };
-
 struct program {
 	const char *title;
 	void (*draw)(void); /* one frame of `program_frame`, without the swap */
 	long frames;        /* 0: no end */
+	int width, height;  /* of the window */
 	int animate_camera, animate_light, vbo, mirror, glass, mesh, ortho;
 	int stencil;        /* set before program_run: the window has a stencil buffer */
 	const char *model, *by; /* NULL: none given */
 };
 
-static struct program program;
+static struct program program = { .width = 800, .height = 600 };
+#define PROGRAM_WIDTH program.width
+#define PROGRAM_HEIGHT program.height
 static long program_frame; /* from 0 */
 
 static void program_display(void)
@@ -55,7 +57,7 @@ static void program_display(void)
 static void program_usage(const char *name)
 {
 	fprintf(stderr, "usage: %s [--frames N] [--animate camera|light|none] [--vbo] [--mirror] [--glass] [--mesh] "
-	        "[--ortho] [--model FILE] [--by HOW]\n", name);
+	        "[--size WxH] [--ortho] [--model FILE] [--by HOW]\n", name);
 	exit(2);
 }
 
@@ -84,6 +86,8 @@ static void program_parse(int argc, char **argv)
 			program_usage(argv[0]);
 		else if (strcmp(argv[i], "--frames") == 0 && atol(argv[i + 1]) > 0)
 			program.frames = atol(argv[++i]);
+		else if (strcmp(argv[i], "--size") == 0 && sscanf(argv[i + 1], "%dx%d", &program.width, &program.height) == 2)
+			i++;
 		else if (strcmp(argv[i], "--animate") == 0)
 			program_animate(argv[0], argv[++i]);
 		else if (strcmp(argv[i], "--model") == 0)
