@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "kernels/camera/camera.h"
 #include "kernels/camera/coverage.h"
+#include "kernels/rays/gather.h"
 #include "kernels/rays/lanes.h"
 
 /* Where the corners of sixteen triangles are in the window. */
@@ -36,30 +37,6 @@ struct batch {
 	packf origin, along_x, along_y;
 };
 
-#define BATCH_LOW(a, b)                                                                                                          \
-	(packf)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd)
-#define BATCH_HIGH(a, b)                                                                                                         \
-	(packf)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7, a.sa, b.sa, a.sb, b.sb, a.se, b.se, a.sf, b.sf)
-#define BATCH_FIRST_PAIRS(a, b)                                                                                                  \
-	(packf)(a.s0, a.s1, b.s0, b.s1, a.s4, a.s5, b.s4, b.s5, a.s8, a.s9, b.s8, b.s9, a.sc, a.sd, b.sc, b.sd)
-#define BATCH_SECOND_PAIRS(a, b)                                                                                                 \
-	(packf)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se, a.sf, b.se, b.sf)
-
-/* Sixteen of a table's entries of four numbers, turned into rows. */
-WIDE_VECTORS INLINED void batch_gather(__global const float *table, packu index, packf *row)
-{
-	const packf a = (packf)(vload4(index.s0, table), vload4(index.s4, table), vload4(index.s8, table), vload4(index.sc, table));
-	const packf b = (packf)(vload4(index.s1, table), vload4(index.s5, table), vload4(index.s9, table), vload4(index.sd, table));
-	const packf c = (packf)(vload4(index.s2, table), vload4(index.s6, table), vload4(index.sa, table), vload4(index.se, table));
-	const packf d = (packf)(vload4(index.s3, table), vload4(index.s7, table), vload4(index.sb, table), vload4(index.sf, table));
-	const packf ab = BATCH_LOW(a, b), cd = BATCH_LOW(c, d), ab_high = BATCH_HIGH(a, b), cd_high = BATCH_HIGH(c, d);
-
-	row[0] = BATCH_FIRST_PAIRS(ab, cd);
-	row[1] = BATCH_SECOND_PAIRS(ab, cd);
-	row[2] = BATCH_FIRST_PAIRS(ab_high, cd_high);
-	row[3] = BATCH_SECOND_PAIRS(ab_high, cd_high);
-}
-
 /*
  * The corners that have a place in the window, from the vertices' tables.
  * @return the lanes where all three have one; the others' corners say nothing
@@ -75,8 +52,8 @@ WIDE_VECTORS static inline packi batch_load(__global const struct view *view, fl
 	for (int i = 0; i < 3; i++) {
 		packf in_window[4], in_clip[4];
 
-		batch_gather((__global const float *)window, vertex[i], in_window);
-		batch_gather(clip, vertex[i], in_clip);
+		pack_gather((__global const float *)window, vertex[i], in_window);
+		pack_gather(clip, vertex[i], in_clip);
 		placed &= in_window[3] > 0.0f;
 		out->x[i] = as_int16(in_window[0]);
 		out->y[i] = as_int16(in_window[1]);

@@ -1,17 +1,84 @@
 /*
- * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs. Neighbours mostly lie in the same
- * triangle, whose set-up is found once. kernels/README.md has the figures.
+ * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: sixteen at a time in vectors, material by
+ * material (kernels/frame/pack.h). What that does not know is shaded one by one. Neighbours mostly lie in the same triangle, whose set-up
+ * is found once. kernels/README.md has the figures.
  */
-#include "kernels/gl/stages.h"
+#include "kernels/frame/pack.h"
 
-KERNEL_OF(float4) void shade_packet(KERNEL_ARGUMENTS(shade))
+/* What the fragments of a launch leave for the next ones. */
+struct shade_kept {
+	struct setup_kept one[SHADE_TRIANGLES];
+	struct pack_kept pack;
+};
+
+/* The fragments first .. as far as they are there. @return a bit for each that is to be shaded */
+static inline uint load_list(const struct shade_arguments *a, uint first, struct pack_list *list)
+{
+	uint lanes = 0;
+
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint i = min(first + lane, a->n - 1);
+
+		list->instance[lane] = a->fragments[i].instance;
+		list->primitive[lane] = a->fragments[i].primitive;
+		list->b1[lane] = a->fragments[i].b1;
+		list->b2[lane] = a->fragments[i].b2;
+		list->depth[lane] = a->fragments[i].depth;
+		list->pixel[lane] = a->pixels[i];
+		if (first + lane < a->n &&
+		    (!a->n_slots || (a->shaded[i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, i))))
+			lanes |= 1u << lane;
+	}
+	return lanes;
+}
+
+/* Those of some lanes that a pack can take with the first of them. material: receives that one's */
+static inline uint same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
+{
+	uint same = 0;
+
+	*material = t->geometries[list->instance[popcount((lanes & -lanes) - 1)]].material;
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		__global const struct geometry *g = &t->geometries[list->instance[lane]];
+
+		if (g->material == *material && !g->flags && !(g->attributes & SCENE_HAS_FACE))
+			same |= left & -left;
+	}
+	return same;
+}
+
+static inline void shade_sixteen(const struct shade_arguments *a, uint first, struct shade_kept *kept)
+{
+	struct pack_list list;
+	uint material, lanes = load_list(a, first, &list);
+
+	while (lanes) {
+		const uint bit = lanes & -lanes, same = same_kind(&a->tables, &list, lanes, &material);
+		uint done = 0;
+
+		if (same & bit && pack_is_plain(a, &a->tables.materials[material]))
+			done = pack_shade(a, &list, first, same, &kept->pack);
+		if (!(done & bit)) {
+			const uint i = first + popcount(bit - 1);
+
+			shade_item(a, i, 1, &kept->one[a->fragments[i].primitive % SHADE_TRIANGLES]);
+			done |= bit;
+		}
+		lanes &= ~done;
+	}
+}
+
+KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
 {
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
-	struct setup_kept kept[SHADE_TRIANGLES];
+	struct shade_kept kept;
 
 	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
-		kept[i].instance = SCENE_NONE;
-	for (uint32_t i = first; i < first + SHADE_PACKET && i < n; i++)
-		shade_item(&a, i, 1, &kept[fragments[i].primitive % SHADE_TRIANGLES]);
+		kept.one[i].instance = kept.pack.lit[i].instance = SCENE_NONE;
+	for (uint32_t i = 0u; i < PACK_CUTS; i++)
+		kept.pack.cuts[i].instance = SCENE_NONE;
+	for (uint32_t i = first; i < first + SHADE_PACKET && i < n; i += PACK_SIZE)
+		shade_sixteen(&a, i, &kept);
 }

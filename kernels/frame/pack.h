@@ -1,0 +1,584 @@
+/*
+ * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what shade_item does, lane by lane, in the same
+ * order of operations and to the same bits. OpenCL C only.
+ *
+ * pack_is_plain says which materials and fragments it knows; shade_item does the others. Triangles that leave the view volume are cut
+ * one at a time, and the cut ones kept.
+ */
+#pragma once
+
+#include "kernels/frame/pack_texture.h"
+#include "kernels/gl/stages.h"
+#include "kernels/rays/gather.h"
+
+#define PACK_SIZE 16u
+
+/* Fragments as they stand in the list. */
+struct pack_list {
+	uint instance[PACK_SIZE], primitive[PACK_SIZE], pixel[PACK_SIZE];
+	float b1[PACK_SIZE], b2[PACK_SIZE], depth[PACK_SIZE];
+};
+
+/* Their triangles, and where in them they are. */
+struct pack {
+	__global const struct scene_material *material;
+	__global const struct view *view;
+	packi x, row;             /* pixels, row 0 at the top */
+	packi cut, front;         /* all ones: leaves the view volume; shows its front */
+	packu number[3];          /* of the vertices in the mesh */
+	packu vertex[3];          /* and in the frame */
+	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of the part of it that covers the pixel; places from clip_origin */
+	packf corner1[3], corner2[3];       /* of parts: the corners' weights of vertices 1 and 2 */
+	packf vertex_w_inv[3];
+	struct pack_edges edges;
+	packf b1, b2, depth, weight[3];
+};
+
+/* What the fragments of a triangle that leaves the view volume share, kept for the next ones. */
+#define PACK_CUTS 4u
+struct pack_cut {
+	uint instance, primitive; /* SCENE_NONE: nothing is kept */
+	struct clip_polygon polygon;
+};
+
+/* The vertices of a triangle lit with its lights' visibility, kept for the next fragments. */
+struct pack_lit {
+	uint instance, primitive; /* SCENE_NONE: nothing is kept */
+	struct point p;
+	struct vec3 seen[SCENE_MAX_LIGHTS];
+	struct lit lit[3];
+};
+
+struct pack_kept {
+	struct pack_cut cuts[PACK_CUTS];
+	struct pack_lit lit[SHADE_TRIANGLES];
+};
+
+#define LANE(vector, type, lane) (((type *)&(vector))[lane])
+
+/* --- Which ones ---------------------------------------------------------------------------------------------------- */
+
+static inline int pack_knows_unit(const struct tables *t, __global const struct scene_unit *unit)
+{
+	return unit->env_mode != GL_COMBINE && unit->env_mode != GL_COMBINE4_NV && pack_knows_texture(t, unit);
+}
+
+/* Whether pack_shade knows all that a material asks for. */
+static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
+{
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !(m->polygon_offset & 4u) && !m->unclamped &&
+	            !m->surface.relit && (!m->fog || m->fog_mode == GL_LINEAR) &&
+	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
+
+	for (uint i = 0; i < m->unit_count && plain; i++)
+		plain = pack_knows_unit(&a->tables, &a->tables.units[m->unit_first + i]);
+	return plain;
+}
+
+/* --- Loading ------------------------------------------------------------------------------------------------------- */
+
+/* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
+static inline void pack_load(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack *p)
+{
+	const struct tables *t = &a->tables;
+	const uint first = popcount((lanes & -lanes) - 1);
+	packu pixel;
+
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : first, primitive = list->primitive[from];
+		__global const struct geometry *g = &t->geometries[list->instance[from]];
+		__global const uint *index = t->indices + g->index + 3 * (primitive & ~FRAGMENT_PERSPECTIVE);
+
+		for (uint k = 0; k < 3; k++) {
+			LANE(p->number[k], uint, lane) = index[k];
+			LANE(p->vertex[k], uint, lane) = g->vertex_first + index[k];
+		}
+		LANE(pixel, uint, lane) = list->pixel[from];
+		LANE(p->cut, int, lane) = primitive & FRAGMENT_PERSPECTIVE ? -1 : 0;
+	}
+	p->b1 = vload16(0, list->b1);
+	p->b2 = vload16(0, list->b2);
+	p->depth = vload16(0, list->depth);
+	p->row = convert_int16(convert_float16(pixel) / (float)a->width);
+	p->x = as_int16(pixel) - p->row * (int)a->width;
+	p->row += (p->x < 0) - (p->x >= (int)a->width); /* the quotient may be off by one; true is -1 */
+	p->x = as_int16(pixel) - p->row * (int)a->width;
+	p->row = (int)a->height - 1 - p->row;
+}
+
+/* A row of the vertex stage's numbers, four at a time: struct shaded_vertex has eight fours. */
+#define PACK_CLIP 0u
+#define PACK_EYE 1u
+#define PACK_COLOR 2u     /* + 1: of the back */
+#define PACK_SECONDARY 4u /* + 1 */
+#define PACK_NORMAL 6u    /* and the fog coordinate */
+#define PACK_LIT 7u
+
+WIDE_VECTORS static inline void pack_vertex(const struct tables *t, packu vertex, packu four, packf *row)
+{
+	pack_gather((__global const float *)t->vertices, vertex * 8 + four, row);
+}
+
+/* The corners of whole triangles, and which side they show. */
+WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, struct pack *p)
+{
+	__global const struct view *view = p->view;
+	const float half_x = view->viewport[2] * 0.5f, half_y = -view->viewport[3] * 0.5f;
+	const float middle_x = view->viewport[0] + view->viewport[2] * 0.5f;
+	const float middle_y = (float)a->height - (view->viewport[1] + view->viewport[3] * 0.5f);
+	packf x[3], y[3], clip[3][4], window[4];
+	packi placed = -1, clockwise;
+
+	for (int k = 0; k < 3; k++) {
+		pack_gather((__global const float *)a->windows, p->vertex[k], window);
+		pack_vertex(&a->tables, p->vertex[k], PACK_CLIP, clip[k]);
+		x[k] = convert_float16(as_int16(window[0]));
+		y[k] = convert_float16(as_int16(window[1]));
+		placed &= window[3] > 0.0f;
+		p->z[k] = window[2];
+		p->w_inv[k] = p->vertex_w_inv[k] = window[3];
+		p->px[k] = fma((packf)(half_x), clip[k][0] * (1.0f / clip[k][3]), (packf)(middle_x)) - clip_origin(view);
+		p->py[k] = fma((packf)(half_y), clip[k][1] * (1.0f / clip[k][3]), (packf)(middle_y)) - clip_origin(view);
+	}
+	clockwise = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) < 0.0f;
+	if (any_pack(~placed)) {
+		const packf cx = clip[0][1] * clip[1][3] - clip[0][3] * clip[1][1], cy = clip[0][3] * clip[1][0] - clip[0][0] * clip[1][3];
+		const packf cz = clip[0][0] * clip[1][1] - clip[0][1] * clip[1][0];
+		const packi by_clip = cx * clip[2][0] + cy * clip[2][1] + cz * clip[2][3] < 0.0f;
+
+		clockwise = select(by_clip, clockwise, placed);
+	}
+	p->front = p->material->front_face == GL_CW ? clockwise : ~clockwise;
+}
+
+/* What the view volume leaves of a lane's triangle. */
+static inline const struct clip_polygon *pack_polygon(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
+                                                      uint lane, struct pack_kept *kept)
+{
+	struct pack_cut *cut = &kept->cuts[list->primitive[lane] % PACK_CUTS];
+	__global const struct shaded_vertex *v = a->tables.vertices;
+
+	if (cut->instance != list->instance[lane] || cut->primitive != list->primitive[lane]) {
+		cut->instance = list->instance[lane];
+		cut->primitive = list->primitive[lane];
+		clip_triangle(p->view, (float)a->height, v4_load(v[LANE(p->vertex[0], uint, lane)].clip),
+		              v4_load(v[LANE(p->vertex[1], uint, lane)].clip), v4_load(v[LANE(p->vertex[2], uint, lane)].clip), &cut->polygon);
+	}
+	return &cut->polygon;
+}
+
+/*
+ * The corners of a lane's part, in place of those of its triangle.
+ * @param texcoord  its texture coordinates of one unit for the three vertices; NULL: none are wanted. Receives those of the corners
+ * @return 0: no part covers the pixel
+ */
+static inline int pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, uint lane, struct pack *p,
+                            packf (*texcoord)[4])
+{
+	const struct clip_spot at = clip_spot(p->view, LANE(p->x, int, lane), (int)a->height - 1 - LANE(p->row, int, lane));
+	struct vec4 pool[3 + CLIP_MAX_CUTS];
+	uint part = 2;
+
+	while (part < polygon->n && !clip_covers(polygon->corner[part - 1].window, polygon->corner[part].window, polygon->corner[0].window, at))
+		part++;
+	if (part >= polygon->n)
+		return 0;
+	for (uint k = 0; k < 3 && texcoord; k++)
+		pool[k] = v4(LANE(texcoord[k][0], float, lane), LANE(texcoord[k][1], float, lane), LANE(texcoord[k][2], float, lane),
+		             LANE(texcoord[k][3], float, lane));
+	for (uint k = 0; k < polygon->cuts.n && texcoord; k++)
+		pool[3 + k] = v4_mix(pool[polygon->cuts.from[k]], pool[polygon->cuts.to[k]], polygon->cuts.t[k]);
+	for (uint k = 0; k < 3; k++) {
+		const struct clip_corner *c = &polygon->corner[k == 2 ? 0 : part - 1 + k];
+
+		if (texcoord) {
+			LANE(texcoord[k][0], float, lane) = pool[c->number].x;
+			LANE(texcoord[k][1], float, lane) = pool[c->number].y;
+			LANE(texcoord[k][2], float, lane) = pool[c->number].z;
+			LANE(texcoord[k][3], float, lane) = pool[c->number].w;
+			continue;
+		}
+		LANE(p->px[k], float, lane) = c->place[0] - clip_origin(p->view);
+		LANE(p->py[k], float, lane) = c->place[1] - clip_origin(p->view);
+		LANE(p->z[k], float, lane) = c->window.z;
+		LANE(p->w_inv[k], float, lane) = c->window.w_inv;
+		LANE(p->corner1[k], float, lane) = c->b1;
+		LANE(p->corner2[k], float, lane) = c->b2;
+	}
+	return 1;
+}
+
+/* --- Where they are ------------------------------------------------------------------------------------------------ */
+
+/* Depth, and the weights of the vertices on the screen, as setup_unsnap finds them. */
+WIDE_VECTORS static inline void pack_unsnap(struct pack *p)
+{
+	__global const struct view *view = p->view;
+	const float middle = 0.5f - clip_origin(view);
+	const packf x = convert_float16(p->x) + middle, y = convert_float16(p->row) + middle;
+	const struct pack_plane depth = pack_plane_through(&p->edges, p->z);
+	packf px[3], py[3], at;
+
+	at = pack_plane_at(&depth, x + (float)view->sample[0] * 0.00390625f, y + (float)-view->sample[1] * 0.00390625f);
+	p->depth = pack_clamp01(at);
+	for (int k = 0; k < 3; k++) {
+		px[k] = p->px[k] - x;
+		py[k] = p->py[k] - y;
+	}
+	p->b1 = -(px[2] * py[0] - px[0] * py[2]) / p->edges.area;
+	p->b2 = -(px[0] * py[1] - px[1] * py[0]) / p->edges.area;
+	if (any_pack(p->cut)) {
+		const packf p0 = (1.0f - p->b1 - p->b2) * p->w_inv[0], p1 = p->b1 * p->w_inv[1], p2 = p->b2 * p->w_inv[2], sum = p0 + p1 + p2;
+
+		p->b1 = select(p->b1, (p0 * p->corner1[0] + p1 * p->corner1[1] + p2 * p->corner1[2]) / sum, p->cut);
+		p->b2 = select(p->b2, (p0 * p->corner2[0] + p1 * p->corner2[1] + p2 * p->corner2[2]) / sum, p->cut);
+	}
+}
+
+/* As fragment_weights. */
+WIDE_VECTORS static inline void pack_weigh(struct pack *p)
+{
+	const packf one = 1.0f;
+	const packf c0 = (1.0f - p->b1 - p->b2) * select(p->vertex_w_inv[0], one, p->cut);
+	const packf c1 = p->b1 * select(p->vertex_w_inv[1], one, p->cut), c2 = p->b2 * select(p->vertex_w_inv[2], one, p->cut);
+	const packf sum = c0 + c1 + c2;
+
+	p->weight[0] = c0 / sum;
+	p->weight[1] = c1 / sum;
+	p->weight[2] = c2 / sum;
+}
+
+/* A number of each vertex where the fragments are; equals give themselves. */
+WIDE_VECTORS static inline packf pack_mix(const struct pack *p, packf a, packf b, packf c)
+{
+	return a + ((b - a) * p->weight[1] + (c - a) * p->weight[2]);
+}
+
+/* --- Colours ------------------------------------------------------------------------------------------------------- */
+
+struct pack_color {
+	packf c[4];
+};
+
+/* All ones where the back's colours count. */
+WIDE_VECTORS static inline packi pack_side(const struct pack *p)
+{
+	return p->material->lighting && p->material->two_side ? ~p->front : (packi)(0);
+}
+
+/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or PACK_SECONDARY */
+WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t, const struct pack *p, uint four)
+{
+	const packu row = four + as_uint16(pack_side(p) & 1);
+	packf v[3][4];
+	struct pack_color out;
+
+	pack_vertex(t, p->vertex[2], row, v[2]);
+	for (int i = 0; i < 4; i++)
+		out.c[i] = v[2][i];
+	if (p->material->shade_model == GL_FLAT)
+		return out;
+	pack_vertex(t, p->vertex[0], row, v[0]);
+	pack_vertex(t, p->vertex[1], row, v[1]);
+	for (int i = 0; i < 4; i++)
+		out.c[i] = pack_mix(p, v[0][i], v[1][i], v[2][i]);
+	return out;
+}
+
+/* A bit for each light that lights a vertex. */
+WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struct pack *p)
+{
+	const packi back = pack_side(p);
+	packf v[4];
+	packu lights;
+
+	pack_vertex(t, p->vertex[2], (packu)(PACK_LIT), v);
+	lights = as_uint16(select(v[0], v[1], back));
+	for (int k = 0; k < 2 && p->material->shade_model != GL_FLAT; k++) {
+		pack_vertex(t, p->vertex[k], (packu)(PACK_LIT), v);
+		lights |= as_uint16(select(v[0], v[1], back));
+	}
+	return lights;
+}
+
+/* The vertices' lights seen as they are: one lane's triangle lit again, as setup_keep_lit does it. */
+static inline const struct lit *pack_relight(const struct shade_arguments *a, const struct pack_list *list, uint lane, const struct vec3 *seen,
+                                             struct pack_kept *kept)
+{
+	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
+	int same = l->instance == list->instance[lane] && l->primitive == list->primitive[lane];
+
+	if (!same) {
+		struct fragment f;
+		float w_inv[3];
+
+		f.instance = l->instance = list->instance[lane];
+		f.primitive = l->primitive = list->primitive[lane];
+		l->p = point_of_triangle(&a->tables, a->windows, &f, w_inv);
+	}
+	for (uint i = 0; i < SCENE_MAX_LIGHTS; i++) {
+		same = same && seen[i].x == l->seen[i].x && seen[i].y == l->seen[i].y && seen[i].z == l->seen[i].z;
+		l->seen[i] = seen[i];
+	}
+	if (!same)
+		point_light_corners(&a->tables, &l->p, seen, l->lit);
+	return l->lit;
+}
+
+/* Colours by the lights' visibility. first: of the lanes in the list */
+static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint first,
+                                      uint lanes, struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
+{
+	const int flat = p->material->shade_model == GL_FLAT;
+	packf v[3][8];
+
+	for (uint k = 0; k < 3; k++)
+		for (uint i = 0; i < 8; i++)
+			v[k][i] = 0.0f;
+	for (; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+		struct vec3 seen[SCENE_MAX_LIGHTS];
+		const struct lit *lit;
+
+		stage_seen(a->visibility, a->n_slots, a->n, first + lane, seen);
+		lit = pack_relight(a, list, lane, seen, kept);
+		for (uint k = flat ? 2 : 0; k < 3; k++) {
+			LANE(v[k][0], float, lane) = lit[k].color.x;
+			LANE(v[k][1], float, lane) = lit[k].color.y;
+			LANE(v[k][2], float, lane) = lit[k].color.z;
+			LANE(v[k][3], float, lane) = lit[k].color.w;
+			LANE(v[k][4], float, lane) = lit[k].secondary.x;
+			LANE(v[k][5], float, lane) = lit[k].secondary.y;
+			LANE(v[k][6], float, lane) = lit[k].secondary.z;
+		}
+	}
+	for (uint i = 0; i < 4; i++) {
+		color->c[i] = flat ? v[2][i] : pack_mix(p, v[0][i], v[1][i], v[2][i]);
+		secondary->c[i] = flat ? v[2][4 + i] : pack_mix(p, v[0][4 + i], v[1][4 + i], v[2][4 + i]);
+	}
+}
+
+/* As combine_plain. */
+WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format, const struct pack_color *p, const packf *s,
+                                                          __global const float *e)
+{
+	struct pack_color out = *p;
+
+	if (mode == GL_DECAL) {
+		const packf a = format == GL_RGBA ? s[3] : (packf)(1);
+
+		for (int i = 0; i < 3 && (format == GL_RGB || format == GL_RGBA || format == GL_RED || format == GL_RG); i++)
+			out.c[i] = p->c[i] * (1.0f - a) + s[i] * a;
+		return out;
+	}
+	for (int i = 0; i < 3 && combine_has_color(format); i++)
+		out.c[i] = mode == GL_REPLACE ? s[i] : mode == GL_BLEND ? p->c[i] * (1.0f - s[i]) + e[i] * s[i] :
+		           mode == GL_ADD ? p->c[i] + s[i] : p->c[i] * s[i];
+	if (combine_has_alpha(format))
+		out.c[3] = mode == GL_REPLACE ? s[3] : mode == GL_BLEND && format == GL_INTENSITY ? p->c[3] * (1.0f - s[3]) + e[3] * s[3] :
+		           mode == GL_ADD && format == GL_INTENSITY ? p->c[3] + s[3] : p->c[3] * s[3];
+	for (int i = 0; i < 4 && mode == GL_ADD; i++)
+		out.c[i] = pack_clamp01(out.c[i]);
+	return out;
+}
+
+/* Textures at the fragments, and fog. */
+struct pack_texturing {
+	packf sample[SCENE_MAX_UNITS][4]; /* in the order of the material's units */
+	packf fog;
+};
+
+WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
+                                             struct pack_kept *kept, struct pack_texturing *out)
+{
+	const struct tables *t = &a->tables;
+	__global const struct scene_material *m = p->material;
+	const float middle = 0.5f - clip_origin(p->view);
+	const uint cut = lanes & pack_bits(p->cut);
+	packu first;
+
+	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
+
+		LANE(first, uint, lane) = t->geometries[list->instance[from]].texcoord_first;
+	}
+	for (uint i = 0; i < m->unit_count; i++) {
+		packf texcoord[3][4];
+
+		for (int k = 0; k < 3; k++)
+			pack_gather(t->texcoords, first + p->number[k] * m->unit_count + i, texcoord[k]);
+		for (uint left = cut; left; left &= left - 1) {
+			const uint lane = popcount((left & -left) - 1);
+
+			pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p, texcoord);
+		}
+		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, out->sample[i]);
+	}
+	out->fog = 1.0f;
+	if (m->fog) {
+		packf v[3][4], c;
+
+		for (int k = 0; k < 3; k++)
+			pack_vertex(t, p->vertex[k], (packu)(PACK_NORMAL), v[k]);
+		c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
+		out->fog = pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+	}
+}
+
+/* As point_finish_in_fog. */
+WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
+                                                         const struct pack_color *lit, const struct pack_color *secondary, packf fog)
+{
+	__global const struct scene_material *m = p->material;
+	struct pack_color color = *lit;
+
+	for (uint i = 0; i < m->unit_count; i++) {
+		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
+
+		color = pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
+	}
+	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
+		color.c[i] += secondary->c[i];
+	for (int i = 0; i < 4; i++)
+		color.c[i] = pack_clamp01(color.c[i]);
+	for (int i = 0; i < 3 && m->fog; i++)
+		color.c[i] = pack_clamp01(color.c[i] * fog + m->fog_color[i] * (1.0f - fog));
+	return color;
+}
+
+/* The colour that point_albedo_of starts from. from_vertices: as they are lit */
+static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                            const struct pack_color *from_vertices)
+{
+	__global const struct scene_material *m = p->material;
+	const uint mode = m->color_material_mode;
+	const packi back = pack_side(p);
+	struct pack_color out = *from_vertices;
+	packf v[3][4];
+
+	if (!m->lighting)
+		return out;
+	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
+		out.c[i] = pack_clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
+	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
+		return out;
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
+		__global const struct geometry *g = &t->geometries[list->instance[from]];
+
+		for (uint k = 0; k < 3; k++) {
+			const struct vec4 c = tables_color(t, g, LANE(p->number[k], uint, lane));
+
+			LANE(v[k][0], float, lane) = c.x;
+			LANE(v[k][1], float, lane) = c.y;
+			LANE(v[k][2], float, lane) = c.z;
+			LANE(v[k][3], float, lane) = c.w;
+		}
+	}
+	for (int i = 0; i < 4; i++)
+		out.c[i] = pack_clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
+	return out;
+}
+
+/* As pixel_nudge. */
+WIDE_VECTORS static inline packf pack_nudge(packf x)
+{
+	const packf codes = pack_clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
+	const packf moved = (code + select((packf)(-0.46f), (packf)(0.46f), rest > 0.0f)) / 255.0f;
+
+	return select(x, moved, fabs(rest) > 0.46f);
+}
+
+/* --- Shading ------------------------------------------------------------------------------------------------------- */
+
+static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color, const struct pack_color *direct)
+{
+	for (uint i = 0; i < 3; i++) {
+		const float c = LANE(direct->c[i], const float, lane);
+
+		out->shadowed[i] = LANE(color->c[i], const float, lane);
+		out->direct[i] = out->mirrored[i] = out->beauty[i] = c;
+	}
+}
+
+/* Find the lanes' places in their triangles. @return the lanes that have one: others lie in slivers */
+static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time, struct pack_kept *kept,
+                              struct pack *p)
+{
+	pack_load(a, list, lanes, p);
+	pack_corners(a, p);
+	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		if (!pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p, 0))
+			lanes &= ~(1u << lane);
+	}
+	pack_edges_of(p->px, p->py, &p->edges);
+	lanes &= pack_bits(fabs(p->edges.area) > 1.0e-6f);
+	if (first_time)
+		pack_unsnap(p);
+	pack_weigh(p);
+	return lanes;
+}
+
+/*
+ * shade_item for fragments first .. of the list, in lanes: those of a plain material whose geometry has no flags and no faces of its own.
+ * @return the lanes that it has done: none of slivers
+ */
+static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint first, uint lanes, struct pack_kept *kept)
+{
+	const struct tables *t = &a->tables;
+	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
+	__global const struct scene_material *m = &t->materials[g->material];
+	struct pack_color from_vertices, secondary, color, direct, albedo;
+	struct pack_texturing texturing;
+	struct pack p;
+	packu lights;
+
+	p.material = m;
+	p.view = &a->views[g->view];
+	lanes = pack_place(a, list, lanes, a->n_slots == 0, kept, &p);
+	if (!lanes)
+		return 0;
+	pack_texture(a, list, &p, lanes, kept, &texturing);
+	if (a->n_slots) {
+		pack_between_relit(a, list, &p, first, lanes, kept, &from_vertices, &secondary);
+	} else {
+		from_vertices = secondary = pack_between(t, &p, PACK_COLOR);
+		if (m->color_sum || (m->lighting && m->separate_specular))
+			secondary = pack_between(t, &p, PACK_SECONDARY);
+	}
+	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary, texturing.fog);
+	for (int i = 0; i < 3; i++) {
+		color.c[i] = pack_nudge(color.c[i]);
+		direct.c[i] = color.c[i] + m->surface.emission[i];
+	}
+	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		pack_store_relit(&a->shaded[first + lane], lane, &color, &direct);
+	}
+	if (a->n_slots)
+		return lanes;
+	albedo = pack_albedo(t, list, &p, lanes, &from_vertices);
+	for (int i = 0; i < 3; i++)
+		secondary.c[i] = 0.0f;
+	albedo = pack_finish(t, &p, &texturing, &albedo, &secondary, (packf)(1));
+	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		__global struct shaded *out = &a->shaded[first + lane];
+		__global struct fragment *f = &a->fragments[first + lane];
+
+		f->b1 = LANE(p.b1, float, lane);
+		f->b2 = LANE(p.b2, float, lane);
+		f->depth = out->depth = LANE(p.depth, float, lane);
+		pack_store_relit(out, lane, &color, &direct);
+		for (int i = 0; i < 4; i++)
+			out->gl[i] = LANE(color.c[i], float, lane);
+		for (int i = 0; i < 3; i++)
+			out->albedo[i] = LANE(albedo.c[i], float, lane);
+		out->flags = LANE(lights, uint, lane);
+	}
+	return lanes;
+}

@@ -1,0 +1,293 @@
+/*
+ * Planes over sixteen triangles at once, a lane each, and samples of one texture there: as kernels/gl/clip.h and texture.h have them for
+ * one, in the same order of operations. OpenCL C only.
+ *
+ * The textures are those that most programs use (pack_knows_texture): images of two dimensions and four bytes a texel, without a border,
+ * repeated or clamped to their edge.
+ */
+#pragma once
+
+#include "kernels/gl/fragment.h"
+#include "kernels/rays/lanes.h"
+
+/* --- Numbers ------------------------------------------------------------------------------------------------------- */
+
+WIDE_VECTORS static inline packf pack_clamp01(packf x)
+{
+	return select((packf)(0), select((packf)(1), x, x < 1.0f), x > 0.0f);
+}
+
+/* What rint and floor do; PoCL's own take twenty instructions. From 2^23 on numbers have no fraction. */
+WIDE_VECTORS static inline packf pack_round(packf x)
+{
+	const packf size = fabs(x), rounded = (size + 0x1p23f) - 0x1p23f;
+
+	return select(x, select(rounded, -rounded, x < 0.0f), size < 0x1p23f);
+}
+
+WIDE_VECTORS static inline packf pack_floor(packf x)
+{
+	const packf rounded = pack_round(x);
+
+	return select(rounded, rounded - 1.0f, rounded > x);
+}
+
+/* As texture_int. */
+WIDE_VECTORS static inline packi pack_int(packf x)
+{
+	return convert_int16(select((packf)(-1.0e9f), select((packf)(1.0e9f), x, x < 1.0e9f), x > -1.0e9f));
+}
+
+/* --- Planes -------------------------------------------------------------------------------------------------------- */
+
+/* As struct clip_edges; area: clip_place_area */
+struct pack_edges {
+	packi turned;
+	packf area, x, y, dx01, dy01, dx20, dy20, one_over_area;
+};
+
+struct pack_plane {
+	packf origin, along_x, along_y;
+};
+
+WIDE_VECTORS static inline void pack_edges_of(const packf *px, const packf *py, struct pack_edges *e)
+{
+	e->area = (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
+	e->turned = e->area < 0.0f;
+	e->x = select(px[0], px[1], e->turned);
+	e->y = select(py[0], py[1], e->turned);
+	e->dx01 = e->x - select(px[1], px[0], e->turned);
+	e->dy01 = e->y - select(py[1], py[0], e->turned);
+	e->dx20 = px[2] - e->x;
+	e->dy20 = py[2] - e->y;
+	e->one_over_area = 1.0f / (e->dx01 * e->dy20 - e->dx20 * e->dy01);
+}
+
+WIDE_VECTORS static inline struct pack_plane pack_plane_through(const struct pack_edges *e, const packf *value)
+{
+	const packf first = select(value[0], value[1], e->turned), v01 = first - select(value[1], value[0], e->turned);
+	const packf v20 = value[2] - first;
+	struct pack_plane out;
+
+	out.along_x = v01 * (e->dy20 * e->one_over_area) - v20 * (e->dy01 * e->one_over_area);
+	out.along_y = v20 * (e->dx01 * e->one_over_area) - v01 * (e->dx20 * e->one_over_area);
+	out.origin = first - (out.along_x * e->x + out.along_y * e->y);
+	return out;
+}
+
+WIDE_VECTORS static inline packf pack_plane_at(const struct pack_plane *p, packf x, packf y)
+{
+	return fma(p->along_y, y, fma(p->along_x, x, p->origin));
+}
+
+/* --- Textures ------------------------------------------------------------------------------------------------------ */
+
+static inline int pack_knows_texture(const struct tables *t, __global const struct scene_unit *unit)
+{
+	__global const struct texture_image *image = &t->textures[unit->texture];
+	const int nearest = unit->mag_filter == GL_NEAREST && unit->min_filter == GL_NEAREST;
+	const int linear = unit->mag_filter == GL_LINEAR && (unit->min_filter == GL_LINEAR || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ||
+	                                                     unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
+
+	return image->target == GL_TEXTURE_2D && image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
+	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !(unit->max_anisotropy > 1.0f) &&
+	       !unit->swizzle && (nearest || linear);
+}
+
+/* A unit's texture where it is looked at: of each lane a level, and what of it. */
+struct pack_level {
+	packu first;        /* where its texels start */
+	packi width, height;
+};
+
+WIDE_VECTORS static inline struct pack_level pack_level(__global const struct texture_image *image, packi level)
+{
+	struct pack_level out;
+
+	for (uint lane = 0; lane < 16; lane++)
+		((uint *)&out.first)[lane] = image->level_first[((const int *)&level)[lane]];
+	out.width = max((packi)((int)image->width) >> level, 1);
+	out.height = max((packi)((int)image->height) >> level, 1);
+	return out;
+}
+
+/* Two texels side by side and the weight of the second, as texture_wrap_8. */
+WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *i0, packi *i1, packu *weight)
+{
+	const packi power_of_two = (n & (n - 1)) == 0;
+	packf at = s * convert_float16(n * 256);
+	packi fixed, place;
+
+	if (wrap == GL_REPEAT && any_pack(~power_of_two))
+		at = select((s - pack_floor(s)) * convert_float16(n) * 256.0f, at, power_of_two);
+	fixed = pack_int(pack_round(at)) - 128;
+	place = as_int16((as_uint16(fixed) + 0x80000000u) >> 8) - 0x800000;
+	*weight = as_uint16(fixed & 255);
+	if (wrap == GL_REPEAT) {
+		const packi inside = select(place, place + n, place < 0);
+
+		*i0 = select(select(inside, inside - n, inside >= n), place & (n - 1), power_of_two);
+		*i1 = select((packi)(0), *i0 + 1, *i0 + 1 < n);
+	} else {
+		*i0 = clamp(place, (packi)(0), n - 1);
+		*i1 = clamp(place + 1, (packi)(0), n - 1);
+	}
+}
+
+/* As texture_wrap for nearest filtering. */
+WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
+{
+	packi place;
+
+	if (wrap == GL_REPEAT && n & (n - 1))
+		s -= pack_floor(s);
+	place = pack_int(pack_floor(s * (float)n));
+	if (wrap != GL_REPEAT)
+		return clamp(place, (packi)(0), (packi)(n - 1));
+	if (!(n & (n - 1)))
+		return place & (n - 1);
+	place = select(place, place + n, place < 0);
+	return select(place, place - n, place >= n);
+}
+
+/* As texture_mix_8. */
+WIDE_VECTORS static inline packu pack_mix_8(packu a, packu b, packu weight)
+{
+	const packu even = (a & 0xff00ffu) * (256u - weight) + (b & 0xff00ffu) * weight + 0x800080u;
+	const packu odd = (a >> 8 & 0xff00ffu) * (256u - weight) + (b >> 8 & 0xff00ffu) * weight + 0x800080u;
+
+	return (even >> 8 & 0xff00ffu) | (odd & 0xff00ff00u);
+}
+
+WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu place)
+{
+	packu out;
+
+	for (uint lane = 0; lane < 16; lane++)
+		((uint *)&out)[lane] = texels[((const uint *)&place)[lane]];
+	return out;
+}
+
+/* As texture_level_8 in two dimensions. */
+WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global const struct scene_unit *unit, const struct pack_level *l,
+                                              packf s, packf r)
+{
+	packi x0, x1, y0, y1;
+	packu wx, wy, row0, row1;
+
+	pack_wrap_8(unit->wrap_s, s, l->width, &x0, &x1, &wx);
+	pack_wrap_8(unit->wrap_t, r, l->height, &y0, &y1, &wy);
+	row0 = l->first + as_uint16(y0 * l->width);
+	row1 = l->first + as_uint16(y1 * l->width);
+	return pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)), pack_texels(t->texels, row0 + as_uint16(x1)), wx),
+	                  pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)), pack_texels(t->texels, row1 + as_uint16(x1)), wx), wy);
+}
+
+/* As texture_half_log2. */
+WIDE_VECTORS static inline packf pack_half_log2(packf rho2)
+{
+	const packu bits = as_uint16(rho2);
+	const packf between = 0.5f * (convert_float16(as_int16(bits >> 23) - 127) +
+	                              (as_float16((bits & 0x7fffffu) | 0x3f800000u) - 1.0f));
+
+	return select((packf)(-100), select((packf)(100), between, rho2 < 1.0e30f), rho2 > 1.0e-30f);
+}
+
+/* Planes of texture coordinates s, t and q over w. */
+struct pack_coords {
+	struct pack_plane s, t, q, w_inv;
+};
+
+WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, packf x, packf y, packf *s, packf *t)
+{
+	const packf w = 1.0f / pack_plane_at(&c->w_inv, x, y), q = 1.0f / (pack_plane_at(&c->q, x, y) * w);
+
+	*s = pack_plane_at(&c->s, x, y) * w * q;
+	*t = pack_plane_at(&c->t, x, y) * w * q;
+}
+
+/* The level of detail, as texture_slope and texture_lod find it for a quad of pixels. */
+WIDE_VECTORS static inline packf pack_lod(__global const struct texture_image *image, __global const struct scene_unit *unit,
+                                          const struct pack_coords *coords, packi x, packi row, float middle)
+{
+	const packf left = convert_float16(x & ~1), top = convert_float16(row & ~1);
+	packf s, t, right_s, right_t, down_s, down_t;
+
+	pack_coords_at(coords, left + middle, top + middle, &s, &t);
+	pack_coords_at(coords, left + 1.0f + middle, top + middle, &right_s, &right_t);
+	pack_coords_at(coords, left + middle, top + 1.0f + middle, &down_s, &down_t);
+	right_s = (right_s - s) * (float)image->width;
+	right_t = (right_t - t) * (float)image->height;
+	down_s = (down_s - s) * (float)image->width;
+	down_t = (down_t - t) * (float)image->height;
+	return fmin(fmax(pack_half_log2(fmax(right_s * right_s + right_t * right_t, down_s * down_s + down_t * down_t)) + unit->lod_bias,
+	                 (packf)(unit->min_lod)), (packf)(unit->max_lod));
+}
+
+/* Linear filtering: one or two levels a lane. */
+WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global const struct texture_image *image,
+                                             __global const struct scene_unit *unit, packf lod, packf s, packf r)
+{
+	const packi last = (int)image->n_levels - 1;
+	packi fine = 0, smaller = unit->min_filter != GL_LINEAR ? lod > 0.0f : (packi)(0), both;
+	packf level, part;
+	struct pack_level l;
+	packu texel;
+
+	if (any_pack(smaller)) {
+		level = pack_floor(unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ? lod + 0.5f : lod);
+		level = fmin(fmax(level, (packf)(0)), convert_float16(last));
+		fine = select((packi)(0), convert_int16(level), smaller);
+	}
+	l = pack_level(image, fine);
+	texel = pack_level_8(t, unit, &l, s, r);
+	if (unit->min_filter != GL_LINEAR_MIPMAP_LINEAR || !any_pack(smaller))
+		return texel;
+	part = fmin(lod, convert_float16(last)) - level;
+	both = smaller & (part > 0.0f) & (fine < last);
+	if (!any_pack(both))
+		return texel;
+	l = pack_level(image, fine - both);
+	return select(texel, pack_mix_8(texel, pack_level_8(t, unit, &l, s, r), convert_uint16(select((packf)(0), part, both) * 256.0f)), both);
+}
+
+/*
+ * A unit's texture in each lane's pixel.
+ * @param w_inv     1 / w of the corners
+ * @param texcoord  theirs, [3][4]
+ * @param row       from the top. middle: as in struct point_quad
+ * @param out       [4]
+ */
+WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __global const struct scene_unit *unit, const struct pack_edges *edges,
+                                            const packf *w_inv, packf (*texcoord)[4], packi x, packi row, float middle, packf *out)
+{
+	__global const struct texture_image *image = &tables->textures[unit->texture];
+	const packf px = convert_float16(x) + middle, py = convert_float16(row) + middle;
+	struct pack_coords coords;
+	packf over_w[3], s, t, lod = 0.0f;
+	packu texel;
+
+	coords.w_inv = pack_plane_through(edges, w_inv);
+	for (int k = 0; k < 3; k++)
+		over_w[k] = texcoord[k][0] * w_inv[k];
+	coords.s = pack_plane_through(edges, over_w);
+	for (int k = 0; k < 3; k++)
+		over_w[k] = texcoord[k][1] * w_inv[k];
+	coords.t = pack_plane_through(edges, over_w);
+	for (int k = 0; k < 3; k++)
+		over_w[k] = texcoord[k][3] * w_inv[k];
+	coords.q = pack_plane_through(edges, over_w);
+	pack_coords_at(&coords, px, py, &s, &t);
+	if (unit->min_filter == GL_NEAREST) {
+		const packu at = as_uint16(pack_wrap_nearest(unit->wrap_t, t, (int)image->height) * (int)image->width +
+		                           pack_wrap_nearest(unit->wrap_s, s, (int)image->width));
+
+		texel = pack_texels(tables->texels + image->level_first[0], at);
+	} else {
+		if (unit->min_filter != unit->mag_filter)
+			lod = pack_lod(image, unit, &coords, x, row, middle);
+		texel = pack_filter(tables, image, unit, lod, s, t);
+	}
+	for (int i = 0; i < 4; i++)
+		out[i] = convert_float16(texel >> (packu)(8 * i) & 255) * (1.0f / 255.0f);
+}
