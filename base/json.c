@@ -67,7 +67,7 @@ void json_uint(struct json *j, uint64_t value)
 	fprintf(j->out, "%" PRIu64, value);
 }
 
-void json_float(struct json *j, double value)
+static void json_float(struct json *j, double value)
 {
 	start_item(j);
 	if (isfinite(value))

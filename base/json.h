@@ -22,7 +22,6 @@ void json_end(struct json *j, char bracket);
 void json_key(struct json *j, const char *name);
 void json_string(struct json *j, const char *text);
 void json_uint(struct json *j, uint64_t value);
-void json_float(struct json *j, double value);
 
 void json_key_string(struct json *j, const char *name, const char *text);
 void json_key_uint(struct json *j, const char *name, uint64_t value);

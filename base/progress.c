@@ -16,7 +16,8 @@ double progress_clock_s(void)
 	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-uint64_t progress_peak_memory(void)
+/* Peak memory of this process so far, in bytes. */
+static uint64_t progress_peak_memory(void)
 {
 	struct rusage usage;
 

@@ -47,9 +47,6 @@ void progress_frame(struct progress *p, uint64_t frame, const char *state, doubl
 /** Print the totals of the run: frames, rate, slowest frames, peak memory. Call after progress_end. */
 void progress_summary(const struct progress *p);
 
-/** Peak memory of this process so far, in bytes. */
-uint64_t progress_peak_memory(void);
-
 /** Clear the bar. Prints nothing itself. */
 void progress_end(struct progress *p);
 

@@ -4,7 +4,6 @@
  */
 #pragma once
 
-#include <stddef.h>
 #include <string.h>
 
 /** How pixels lie in memory (GL 2.1 sec. 3.6.1, table 3.1). All zero but alignment 4 is GL's initial state. */

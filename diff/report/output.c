@@ -11,7 +11,8 @@
 #include "base/part.h"
 #include "diff/score/gates.h"
 
-void output_order(const struct output_run *run, size_t *out)
+/* Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
+static void order_scores(const struct output_run *run, size_t *out)
 {
 	size_t n = 0;
 
@@ -21,7 +22,8 @@ void output_order(const struct output_run *run, size_t *out)
 				out[n++] = i;
 }
 
-void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
+/* A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
+static void gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
 {
 	const struct score_gate_info *info = &score_gates[id];
 	const struct score_gate *gate = &s->gates[id];
@@ -44,7 +46,7 @@ void output_gate_text(const struct score *s, enum score_gate_id id, char *out, s
 }
 
 /** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame". */
-static void output_blame_text(const struct score_blame *b, char *out, size_t size)
+static void blame_text(const struct score_blame *b, char *out, size_t size)
 {
 	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
 
@@ -74,7 +76,8 @@ static int has_warning(const struct score *s)
 	return 0;
 }
 
-const struct score *output_first_wrong(const struct output_run *run)
+/* The first frame, by number, that failed or is missing; NULL where none did. */
+static const struct score *first_wrong(const struct output_run *run)
 {
 	for (size_t i = 0; i < run->n_scores; i++)
 		if (run->scores[i].outcome == SCORE_FRAME_FAILED || run->scores[i].outcome == SCORE_FRAME_MISSING)
@@ -89,7 +92,7 @@ static void print_failure(const struct score *s, FILE *out)
 	for (int g = 0; g < N_GATES; g++) {
 		if (s->gates[g].state < SCORE_WARNED)
 			continue;
-		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+		gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
 		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
 	}
@@ -98,7 +101,7 @@ static void print_failure(const struct score *s, FILE *out)
 	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
 		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
 
-		output_blame_text(&s->blame[b], text, sizeof(text));
+		blame_text(&s->blame[b], text, sizeof(text));
 		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixels\n", text, share, s->blamed_pixels);
 	}
 }
@@ -118,6 +121,28 @@ static void print_columns(const struct score *s, FILE *out)
 		}
 }
 
+/* One line: counts by outcome and the worst frame. */
+static void print_summary(const struct output_run *run, FILE *out)
+{
+	const struct score *worst = NULL;
+
+	fprintf(out, "%zu frame%s:", run->n_scores, run->n_scores == 1 ? "" : "s");
+	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
+		if (run->counts[o] || o == SCORE_FRAME_PASSED)
+			fprintf(out, "%s %" PRIu64 " %s", n++ ? "," : "", run->counts[o], score_outcome_names[o]);
+	for (size_t i = 0; i < run->n_scores; i++) {
+		const struct score *s = &run->scores[i];
+
+		if (output_is_compared(s) && (!worst || s->fidelity < worst->fidelity))
+			worst = s;
+	}
+	if (worst && run->reference)
+		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
+	if (first_wrong(run))
+		fprintf(out, "; first wrong frame %" PRIu64, first_wrong(run)->frame);
+	fputc('\n', out);
+}
+
 void output_table(const struct output_run *run, FILE *out)
 {
 	size_t *order = malloc((run->n_scores ? run->n_scores : 1) * sizeof(*order));
@@ -126,7 +151,7 @@ void output_table(const struct output_run *run, FILE *out)
 		err_report(ERR_SYSTEM, NULL, "out of memory");
 		return;
 	}
-	output_order(run, order);
+	order_scores(run, order);
 	fprintf(out, "%7s %-10s %9s", "frame", "outcome", "fidelity");
 	print_columns(NULL, out);
 	fprintf(out, " %9s\n", "beauty");
@@ -167,33 +192,12 @@ void output_table(const struct output_run *run, FILE *out)
 			fprintf(out, "R4 %s: %s\n", score_gates[GATE_R4].title, s->gates[GATE_R4].note);
 		break;
 	}
-	output_summary(run, out);
-}
-
-void output_summary(const struct output_run *run, FILE *out)
-{
-	const struct score *worst = NULL;
-
-	fprintf(out, "%zu frame%s:", run->n_scores, run->n_scores == 1 ? "" : "s");
-	for (int o = 0, n = 0; o < N_SCORE_OUTCOMES; o++)
-		if (run->counts[o] || o == SCORE_FRAME_PASSED)
-			fprintf(out, "%s %" PRIu64 " %s", n++ ? "," : "", run->counts[o], score_outcome_names[o]);
-	for (size_t i = 0; i < run->n_scores; i++) {
-		const struct score *s = &run->scores[i];
-
-		if (output_is_compared(s) && (!worst || s->fidelity < worst->fidelity))
-			worst = s;
-	}
-	if (worst && run->reference)
-		fprintf(out, "; lowest fidelity %.3f %% (frame %" PRIu64 ")", 100 * worst->fidelity, worst->frame);
-	if (output_first_wrong(run))
-		fprintf(out, "; first wrong frame %" PRIu64, output_first_wrong(run)->frame);
-	fputc('\n', out);
+	print_summary(run, out);
 }
 
 /* JSON. */
 
-void output_json_string(const char *text, FILE *out)
+static void json_string(const char *text, FILE *out)
 {
 	fputc('"', out);
 	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
@@ -229,7 +233,7 @@ static void json_gate(const struct score_gate *gate, const struct score_gate_inf
 		fprintf(out, ", \"bound\": \"%s\"}", info->figures[f].at_least ? "at least" : "at most");
 	}
 	fputs("], \"note\": ", out);
-	output_json_string(gate->note, out);
+	json_string(gate->note, out);
 	fputc('}', out);
 }
 
@@ -261,7 +265,7 @@ static void json_score(const struct score *s, FILE *out)
 	fprintf(out, "    {\"frame\": %" PRIu64 ", \"outcome\": \"%s\", \"width\": %u, \"height\": %u, ", s->frame,
 	        score_outcome_names[s->outcome], s->width, s->height);
 	fputs("\"layer\": ", out);
-	output_json_string(s->layer, out);
+	json_string(s->layer, out);
 	fputs(", ", out);
 	json_number("fidelity", s->fidelity, out);
 	fprintf(out, ", \"failing_pixels\": %" PRIu64 ", \"worst_code\": %u,\n     \"gates\": {", s->failing_pixels, s->worst);
@@ -282,7 +286,7 @@ static void json_score(const struct score *s, FILE *out)
 	fprintf(out, "}},\n     \"blamed_pixels\": %" PRIu64 ", ", s->blamed_pixels);
 	if (s->flaky_reason) {
 		fputs("\"flaky_reason\": ", out);
-		output_json_string(s->flaky_reason, out);
+		json_string(s->flaky_reason, out);
 		fputs(", ", out);
 	}
 	fputs("\"blame\": [", out);
@@ -296,20 +300,20 @@ static void json_score(const struct score *s, FILE *out)
 void output_json_stream(const struct output_run *run, FILE *out)
 {
 	fputs("{\"format\": \"relume-diff\", \"version\": 1,\n \"reference\": ", out);
-	output_json_string(run->reference ? run->reference : "", out);
+	json_string(run->reference ? run->reference : "", out);
 	fputs(", \"traced\": ", out);
-	output_json_string(run->traced, out);
+	json_string(run->traced, out);
 	fputs(", \"baseline\": ", out);
-	output_json_string(run->baseline ? run->baseline : "", out);
+	json_string(run->baseline ? run->baseline : "", out);
 	fputs(",\n \"name\": ", out);
-	output_json_string(run->name, out);
+	json_string(run->name, out);
 	fputs(", \"command\": ", out);
-	output_json_string(run->command, out);
+	json_string(run->command, out);
 	fputs(", \"channel\": ", out);
-	output_json_string(run->options->channel ? run->options->channel : "", out);
+	json_string(run->options->channel ? run->options->channel : "", out);
 	fprintf(out, ", \"seconds\": %.3f,", run->seconds);
-	if (output_first_wrong(run))
-		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", output_first_wrong(run)->frame);
+	if (first_wrong(run))
+		fprintf(out, " \"first_wrong_frame\": %" PRIu64 ",", first_wrong(run)->frame);
 	fputs("\n \"counts\": {", out);
 	for (int o = 0; o < N_SCORE_OUTCOMES; o++)
 		fprintf(out, "%s\"%s\": %" PRIu64, o ? ", " : "", score_outcome_names[o], run->counts[o]);
@@ -337,7 +341,7 @@ int output_json(const struct output_run *run, const char *path)
 
 /* JUnit. */
 
-void output_escaped(const char *text, FILE *out)
+static void put_escaped(const char *text, FILE *out)
 {
 	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
 		switch (*p) {
@@ -361,7 +365,7 @@ static void junit_case(const struct score *s, FILE *out)
 		break;
 	case SCORE_FRAME_FLAKY:
 		fputs(">\n      <skipped message=\"", out);
-		output_escaped(s->flaky_reason, out);
+		put_escaped(s->flaky_reason, out);
 		fputs("\"/>\n    </testcase>\n", out);
 		return;
 	case SCORE_FRAME_UNREADABLE:
@@ -383,9 +387,9 @@ static void junit_case(const struct score *s, FILE *out)
 
 		if (s->gates[g].state != SCORE_FAILED)
 			continue;
-		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+		gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "%s ", score_gates[g].name);
-		output_escaped(text, out);
+		put_escaped(text, out);
 		fputc('\n', out);
 	}
 	fputs("</failure>\n    </testcase>\n", out);
@@ -401,7 +405,7 @@ int output_junit(const struct output_run *run, const char *path)
 	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	fprintf(file.stream, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"relume diff ");
-	output_escaped(run->traced, file.stream);
+	put_escaped(run->traced, file.stream);
 	fprintf(file.stream, "\" tests=\"%zu\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"%" PRIu64
 	        "\" time=\"%.3f\">\n", run->n_scores, failures, errors, skipped, run->seconds);
 	for (size_t i = 0; i < run->n_scores; i++)
@@ -442,12 +446,12 @@ void output_annotations(const struct output_run *run, FILE *out)
 		for (int g = 0; g < N_GATES; g++) {
 			if (s->gates[g].state < SCORE_WARNED)
 				continue;
-			output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+			gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 			fprintf(out, "%%0A%s %s: ", score_gates[g].name, score_gates[g].title);
 			annotation_text(text, out);
 		}
 		if (s->n_blame) {
-			output_blame_text(&s->blame[0], text, sizeof(text));
+			blame_text(&s->blame[0], text, sizeof(text));
 			fputs("%0A", out);
 			annotation_text(text, out);
 		}

@@ -25,17 +25,8 @@ struct output_run {
 /** 1 where the frame was there and was compared. */
 int output_is_compared(const struct score *s);
 
-/** Indices of scores: frames that did not pass come first; each part is in the order of frames. out has n_scores elements. */
-void output_order(const struct output_run *run, size_t *out);
-
 /** The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary. */
 void output_table(const struct output_run *run, FILE *out);
-
-/** One line: counts by outcome and the worst frame. */
-void output_summary(const struct output_run *run, FILE *out);
-
-/** A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
-void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size);
 
 /**
  * JSON: every figure and bar. Numbers that were not measured or are infinite are null.
@@ -44,17 +35,9 @@ void output_gate_text(const struct score *s, enum score_gate_id id, char *out, s
 int output_json(const struct output_run *run, const char *path);
 void output_json_stream(const struct output_run *run, FILE *out);
 
-/** Text as a JSON string, quotes included; may stand inside an HTML script. */
-void output_json_string(const char *text, FILE *out);
-
 /** JUnit XML: a suite with one case for each frame. @return 0 or ERR_SYSTEM (reported) */
 int output_junit(const struct output_run *run, const char *path);
 
 /** Workflow commands: one ::error line for each frame that did not pass, one ::warning line for each that warns. */
 void output_annotations(const struct output_run *run, FILE *out);
 
-/** The first frame, by number, that failed or is missing; NULL where none did. */
-const struct score *output_first_wrong(const struct output_run *run);
-
-/** Write text with the characters escaped that mean something in XML and HTML. */
-void output_escaped(const char *text, FILE *out);

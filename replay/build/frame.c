@@ -8,7 +8,6 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "base/mat4.h"
 #include "base/memory.h"
 #include "base/table.h"
 #include "capture/format/call.h"

@@ -10,7 +10,8 @@
 #include "base/table.h"
 #include "scene/scene.h"
 
-int gls_scene_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
+/* Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
+static int make_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
 {
 	if (wanted > *room)
 		*room = (uint32_t)memory_grow(array, *room, wanted, size);
@@ -19,23 +20,13 @@ int gls_scene_room(void *array, uint32_t *room, uint32_t wanted, size_t size)
 
 uint32_t gls_intern(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *value, size_t size)
 {
-	uint64_t hash = XXH3_64bits(value, size);
-	uint8_t **p = array;
-	uintptr_t found;
-
-	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
-		if (memcmp(*p + (found - 1) * size, value, size) == 0)
-			return (uint32_t)(found - 1);
-	if (gls_scene_room(array, room, *n + 1, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
-		return SCENE_NONE;
-	memcpy(*p + *n * size, value, size);
-	return (*n)++;
+	return gls_intern_array(t, array, n, room, value, 1, size);
 }
 
 uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *room, const void *values, uint32_t count,
                            size_t size)
 {
-	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count);
+	uint64_t hash = XXH3_64bits_withSeed(values, count * size, count - 1);
 	uint8_t **p = array;
 	uintptr_t found;
 
@@ -44,7 +35,7 @@ uint32_t gls_intern_array(struct table *t, void *array, uint32_t *n, uint32_t *r
 	for (; (found = (uintptr_t)table_find(t, hash)); hash++)
 		if (*n - (found - 1) >= count && memcmp(*p + (found - 1) * size, values, count * size) == 0)
 			return (uint32_t)(found - 1);
-	if (gls_scene_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
+	if (make_room(array, room, *n + count, size) || table_set(t, hash, (void *)(uintptr_t)(*n + 1)))
 		return SCENE_NONE;
 	memcpy(*p + *n * size, values, count * size);
 	*n += count;

@@ -6,8 +6,6 @@
 
 #include "base/table.h"
 
-/** Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */
-int gls_scene_room(void *array, uint32_t *room, uint32_t wanted, size_t size);
 /**
  * Find a value in an array, or append it. @return its index; SCENE_NONE: out of memory (reported)
  * @param t      hash -> index + 1

@@ -6,8 +6,6 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
-#include "base/err.h"
-#include "base/mat4.h"
 #include "base/memory.h"
 #include "base/table.h"
 #include "replay/build/frame.h"

@@ -129,6 +129,50 @@ static void init_stack(struct gls_matrix_stack *stack, unsigned max)
 	stack->max = max;
 }
 
+/* ---- share groups ---- */
+
+struct gls_share *gls_share_create(void)
+{
+	struct gls_share *share = calloc(1, sizeof(*share));
+
+	if (share)
+		share->refs = 1;
+	return share;
+}
+
+/* One context fewer. */
+static void release_share(struct gls_share *share)
+{
+	if (--share->refs)
+		return;
+	for (size_t i = 0; i < share->lists.room; i++)
+		if (share->lists.entries[i].value)
+			gls_list_free(share->lists.entries[i].value);
+	for (size_t i = 0; i < share->textures.room; i++)
+		gls_texture_free(share->textures.entries[i].value);
+	for (size_t i = 0; i < share->buffers.room; i++) {
+		struct gls_buffer *b = share->buffers.entries[i].value;
+		if (b)
+			free(b->data);
+		free(b);
+	}
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		gls_texture_free(share->defaults[i]);
+	table_free(&share->lists);
+	table_free(&share->textures);
+	table_free(&share->buffers);
+	for (size_t i = 0; i < share->framebuffers.room; i++)
+		gls_framebuffer_free(share->framebuffers.entries[i].value);
+	for (size_t i = 0; i < share->renderbuffers.room; i++)
+		gls_renderbuffer_free(share->renderbuffers.entries[i].value);
+	table_free(&share->programs);
+	table_free(&share->framebuffers);
+	table_free(&share->renderbuffers);
+	free(share);
+}
+
+/* ---- state ---- */
+
 int gls_state_init(struct gls_state *st)
 {
 	memset(st, 0, sizeof(*st));
@@ -165,49 +209,8 @@ void gls_state_free(struct gls_state *st)
 	free(st->attrib_stack);
 	free(st->client_stack);
 	if (st->share)
-		gls_share_release(st->share);
+		release_share(st->share);
 	memset(st, 0, sizeof(*st));
-}
-
-/* ---- share groups ---- */
-
-struct gls_share *gls_share_create(void)
-{
-	struct gls_share *share = calloc(1, sizeof(*share));
-
-	if (share)
-		share->refs = 1;
-	return share;
-}
-
-void gls_share_release(struct gls_share *share)
-{
-	if (--share->refs)
-		return;
-	for (size_t i = 0; i < share->lists.room; i++)
-		if (share->lists.entries[i].value)
-			gls_list_free(share->lists.entries[i].value);
-	for (size_t i = 0; i < share->textures.room; i++)
-		gls_texture_free(share->textures.entries[i].value);
-	for (size_t i = 0; i < share->buffers.room; i++) {
-		struct gls_buffer *b = share->buffers.entries[i].value;
-		if (b)
-			free(b->data);
-		free(b);
-	}
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
-		gls_texture_free(share->defaults[i]);
-	table_free(&share->lists);
-	table_free(&share->textures);
-	table_free(&share->buffers);
-	for (size_t i = 0; i < share->framebuffers.room; i++)
-		gls_framebuffer_free(share->framebuffers.entries[i].value);
-	for (size_t i = 0; i < share->renderbuffers.room; i++)
-		gls_renderbuffer_free(share->renderbuffers.entries[i].value);
-	table_free(&share->programs);
-	table_free(&share->framebuffers);
-	table_free(&share->renderbuffers);
-	free(share);
 }
 
 /* ---- contexts ---- */

@@ -26,5 +26,3 @@ void gls_state_free(struct gls_state *st);
 
 /** @return a share group of one context, or NULL: out of memory */
 struct gls_share *gls_share_create(void);
-/** One context fewer. */
-void gls_share_release(struct gls_share *share);

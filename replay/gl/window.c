@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/err.h"
 #include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/gl/context.h"

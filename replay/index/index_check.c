@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "replay/gl/dispatch.h"
 #include "replay/index/index_file.h"
 #include "replay/play/player.h"
 

@@ -1,7 +1,6 @@
 /* relume dump: a trace's calls as text, in the manner of `apitrace dump`. */
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/err.h"
 #include "base/frames.h"

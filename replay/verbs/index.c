@@ -2,10 +2,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
-#include "base/err.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "base/json.h"

@@ -1,7 +1,6 @@
 /* relume scene: the scene of a frame, as text or JSON. */
 #include <stdio.h>
 
-#include "base/err.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "replay/replay.h"

@@ -1,5 +1,4 @@
 /* Begin/End and vertex attributes (GL 2.1 sec. 2.6, 2.7). */
-#include <string.h>
 
 #include "gl_tokens.h"
 #include "base/norm.h"

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "capture/format/call.h"
 #include "replay/gl/pixels/teximage.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/texture/level.h"

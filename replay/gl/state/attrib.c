@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/gl/geometry/vertexarray.h"
 #include "replay/gl/texture/texture.h"

@@ -1,5 +1,4 @@
 /* Per-fragment operations and the whole framebuffer (GL 2.1 sec. 4.1, 4.2). */
-#include <string.h>
 
 #include "gl_tokens.h"
 #include "replay/machine/args.h"

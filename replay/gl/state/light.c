@@ -4,7 +4,6 @@
 #include "gl_tokens.h"
 #include "base/mat4.h"
 #include "base/norm.h"
-#include "capture/format/call.h"
 #include "replay/gl/geometry/pending.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"

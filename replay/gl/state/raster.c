@@ -7,7 +7,6 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 GLS_HANDLER(glPointSize, STATE)

@@ -35,7 +35,8 @@ struct gls_drawable *gls_window_of(struct gls_exec *x, const struct gls_state *s
 	return d;
 }
 
-struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
+/* What the context draws to; NULL: out of memory, or an incomplete framebuffer object. */
+static struct gls_surface *surface_of(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_drawable *d;
 
@@ -47,7 +48,7 @@ struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st)
 
 unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_target out[2])
 {
-	struct gls_surface *surface = gls_surface_of(x, st);
+	struct gls_surface *surface = surface_of(x, st);
 	int is_colored = st->a.color.draw_buffer != GL_NONE;
 	struct gls_drawable *d;
 
@@ -76,7 +77,7 @@ const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state
 
 uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st)
 {
-	const struct gls_surface *s = gls_surface_of(x, st);
+	const struct gls_surface *s = surface_of(x, st);
 
 	return s && s->floats ? SCENE_FLOAT_PIXELS : SCENE_COLOR_PIXELS;
 }

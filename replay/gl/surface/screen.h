@@ -8,9 +8,6 @@ struct gls_drawable;
 /** The window of this name, its surfaces with the size it has and the bits of the context. NULL: out of memory */
 struct gls_drawable *gls_window_of(struct gls_exec *x, const struct gls_state *st, uint64_t name);
 
-/** What the context draws to; NULL: out of memory, or an incomplete framebuffer object. */
-struct gls_surface *gls_surface_of(struct gls_exec *x, struct gls_state *st);
-
 /** All surfaces that an event of the context changes. @return how many; 0: none, or out of memory */
 unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_target out[2]);
 

@@ -6,7 +6,6 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
 static struct gls_unit *active_unit(struct gls_state *st)
