@@ -177,7 +177,9 @@ typedef float element_float;
 	IN(ray, rays) AND() VALUE(float, weight) AND() VALUE(uint, n) AND() OUT(ray, shadow_rays) AND() \
 	OUT(path, shadow_paths)
 #define ARGUMENTS_shadow_walk(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() VALUE(uint, n) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
+	VALUE(uint, to_lights) AND()        /* 1: rays to lights; 0: into the surroundings */ \
+	VALUE(uint, n) AND() \
 	OUT(float, visibility) AND()        /* read as well */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
 	OUT(uint, counts)                   /* per path: 1 where it goes on */

@@ -9,6 +9,7 @@
 #include "base/frames.h"
 #include "base/mat4.h"
 #include "look/rules.h"
+#include "look/spare.h"
 #include "look/world.h"
 
 /* --- Which surfaces ------------------------------------------------------------------------------------------------ */
@@ -60,9 +61,9 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
 	if (r->shadows)
-		s->hidden = (s->hidden & ~1u) | (*r->shadows ? 0u : 1u);
+		s->hidden = (s->hidden & SCENE_HIDDEN_FROM_MIRRORS) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
-		s->hidden = (s->hidden & ~2u) | (*r->mirrors ? 0u : 2u);
+		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->lit)
 		s->relit = *r->lit;
 }
@@ -78,6 +79,8 @@ static int changes_light(const struct light_rule *r)
 /* A scene on its way under the rules. */
 struct applying {
 	const struct look *look;
+	const struct rules *rules; /* the look's */
+	struct spare spare;
 	const struct scene *scene;
 	struct scene *out;
 	float eye_from_world[16]; /* where lights stand in the world */
@@ -139,7 +142,7 @@ static void set_light(const struct applying *a, struct scene_light *l, const str
 /* GL's lights of a material under the rules. @return how many */
 static uint32_t list_own_lights(const struct applying *a, const struct scene_material *m, struct scene_light *out)
 {
-	const struct rules *rules = a->look->rules;
+	const struct rules *rules = a->rules;
 	uint32_t n = 0;
 
 	for (uint32_t i = 0; m->lighting && i < m->light_count && n < SCENE_MAX_LIGHTS; i++) {
@@ -197,7 +200,7 @@ static void middle_of(const struct scene *s, const struct scene_instance *in, fl
 static uint32_t list_lights(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
                             struct scene_light out[SCENE_MAX_LIGHTS])
 {
-	const struct rules *rules = a->look->rules;
+	const struct rules *rules = a->rules;
 	uint32_t own = list_own_lights(a, m, out), n = own;
 	float strength[SCENE_MAX_LIGHTS], middle[4];
 
@@ -242,12 +245,14 @@ static void change_instance(const struct applying *a, uint32_t i)
 {
 	const struct scene *scene = a->scene;
 	const struct scene_instance *in = &scene->instances[i];
-	const struct rules *rules = a->look->rules;
+	const struct rules *rules = a->rules;
 	struct scene *out = a->out;
 	struct scene_material *m = &out->materials[out->n_materials];
 	uint32_t n = 0;
 
 	*m = scene->materials[in->material];
+	if (a->spare.bits)
+		m->surface.hidden |= a->spare.bits[i];
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
@@ -263,20 +268,16 @@ static void change_instance(const struct applying *a, uint32_t i)
 	out->n_lights += n;
 }
 
-int look_apply(const struct look *look, const struct scene *scene, struct scene *out)
+static int copy_scene(struct applying *a)
 {
-	struct applying a = { .look = look, .scene = scene, .out = out };
+	const struct scene *scene = a->scene;
+	struct scene *out = a->out;
 	size_t n = scene->n_instances;
-	int in_world = 0;
 
-	for (uint32_t k = 0; k < look->rules->lights_count; k++) {
-		a.lights_change |= changes_light(&look->rules->lights[k]) ? lit_by(&look->rules->lights[k]) : 0;
-		in_world |= is_in_world(&look->rules->lights[k]);
-	}
 	*out = *scene;
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
-	out->lights = malloc((scene->n_lights + (a.lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
+	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
 	if (!out->instances || !out->materials || !out->lights) {
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -287,12 +288,33 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		memcpy(out->materials, scene->materials, scene->n_materials * sizeof(*out->materials));
 	if (scene->n_lights)
 		memcpy(out->lights, scene->lights, scene->n_lights * sizeof(*out->lights));
-	if (in_world && !world_find(look->rules, scene, a.eye_from_world))
-		return 0; /* its lights stand nobody knows where */
-	size_lights(look->rules, out);
-	for (uint32_t i = 0; i < n; i++)
-		change_instance(&a, i);
 	return 0;
+}
+
+int look_apply(const struct look *look, const struct scene *scene, struct scene *out)
+{
+	static const struct rules none = { .surfaces = NULL };
+	struct applying a = { .look = look, .rules = look ? look->rules : &none, .scene = scene, .out = out };
+	int in_world = 0, err = 0;
+
+	for (uint32_t k = 0; k < a.rules->lights_count; k++) {
+		a.lights_change |= changes_light(&a.rules->lights[k]) ? lit_by(&a.rules->lights[k]) : 0;
+		in_world |= is_in_world(&a.rules->lights[k]);
+	}
+	if (!a.rules->spare || *a.rules->spare)
+		err = spare_find(scene, &a.spare);
+	if (!err)
+		err = copy_scene(&a);
+	if (!err && in_world && !world_find(a.rules, scene, a.eye_from_world)) {
+		a.rules = &none; /* its lights stand nobody knows where */
+		a.lights_change = 0;
+	}
+	if (!err)
+		size_lights(a.rules, out);
+	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
+		change_instance(&a, i);
+	spare_free(&a.spare);
+	return err;
 }
 
 void look_release(struct scene *changed)

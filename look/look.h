@@ -9,6 +9,7 @@ struct look;
 
 /**
  * A scene under the rules.
+ * @param look   NULL: none; what does harm is spared all the same (look/spare.h)
  * @param out  a copy that borrows what has not changed; free it with look_release before the scene
  * @return 0 or ERR_SYSTEM (reported)
  */

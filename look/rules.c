@@ -68,6 +68,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
+	TRUTH(struct rules, spare),
 	CYAML_FIELD_END
 };
 

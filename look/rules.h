@@ -38,6 +38,9 @@
  *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 }
  *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
  *
+ *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
+ *                                    # lit as OpenGL lights it (look/spare.h)
+ *
  * Each rule may also say `role`, `confidence` and `why`, for its reader alone. A frame that does not show where the world is, where some
  * light stands in it, is left as OpenGL drew it.
  *
@@ -94,6 +97,7 @@ struct rules {
 	struct surface_rule *surfaces;
 	struct light_rule *lights;
 	struct anchor *world;
+	const bool *spare;
 	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */
 };
 

@@ -162,7 +162,7 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 	struct scene changed = { .instances = NULL };
 	int err;
 
-	if (!settings->look)
+	if (settings->tracer.mode == TRACER_GL)
 		return tracer_render(tracer, scene, &settings->tracer, img);
 	err = look_apply(settings->look, scene, &changed);
 	if (!err)

@@ -51,6 +51,13 @@ struct scene_face {
 	float shininess;
 };
 
+/* What a surface is hidden from. */
+#define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
+#define SCENE_HIDDEN_FROM_MIRRORS 2u /* is not seen in mirrors and through glass */
+#define SCENE_ONE_SIDED 4u           /* light that comes from behind its lit side passes; the draw is lit, on one side */
+#define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
+#define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
+
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {
 	float reflect;   /* share of light mirrored, [0,1] */
@@ -58,7 +65,7 @@ struct scene_surface {
 	float ior;       /* index of refraction where transmit > 0; 0 counts as 1 */
 	float absorb[3]; /* where transmit > 0: what a unit of eye space inside takes of the light, exp(-absorb x length) */
 	float roughness; /* of mirrors: how far directions stray, as a share of the direction's length */
-	uint32_t hidden; /* bits: 1 casts no shadow, 2 is not seen in mirrors and through glass */
+	uint32_t hidden; /* bits: SCENE_HIDDEN_FROM_LIGHTS and what follows it */
 	float emission[3]; /* light of its own beside what GL shows */
 	/* 1: beside GL's picture, which stays, the surface is lit at each pixel by scene.lights[light_first .. +light_count)
 	   instead of GL's own; what GL does not light is then matte, of the colour it shows */

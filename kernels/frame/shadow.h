@@ -134,10 +134,13 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 		place = v3_add(v3_normalize(to), v3_scale(sample_disk(v3_normalize(to), u, v), light->radius));
 	o = curve->smooth ? shadow_curve_origin(curve, plane, p->weight, place, positional, from) :
 	                    point_ray_origin(p->weight, plane, positional ? v3_sub(place, at) : place, from);
+	place = positional ? v3_sub(place, o) : place;
 	v3_store(ray->o, o);
-	v3_store(ray->d, positional ? v3_sub(place, o) : place);
+	v3_store(ray->d, place);
 	ray->t_min = 0.0f;
 	ray->t_max = positional ? 1.0f : 1.0e30f;
+	if (p->material->surface.hidden & SCENE_CARD)
+		ray->t_min = M_MIN(M_MAX(M_MAX(plane->length[0], plane->length[1]), plane->length[2]) / M_SQRT(v3_dot(place, place)), ray->t_max);
 }
 
 /* A triangle as rays from all its fragments need it, kept from the first one. */
@@ -274,7 +277,7 @@ static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint3
 		v3_store(out, v3_add(v3_load(out), weight));
 		return;
 	}
-	weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item]));
+	weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item], a->to_lights));
 	if (!(v3_most(weight) > 0.0f))
 		return;
 	a->next_rays[item] = a->rays[item];

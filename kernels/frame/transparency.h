@@ -62,8 +62,19 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 	          M_EXP(-m->surface.absorb[2] * length));
 }
 
-/* Transmittance of the surface that a ray to a light hit; 1 where it casts no shadow. */
-static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray)
+/* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at infinity. */
+static inline int transparency_is_spared(const struct point *p, struct vec3 d, int at_infinity)
+{
+	const uint32_t hidden = p->material->surface.hidden;
+	struct vec3 lit_side = v3_add(v3_load(p->vertex[0]->normal), v3_add(v3_load(p->vertex[1]->normal), v3_load(p->vertex[2]->normal)));
+
+	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) || (hidden & SCENE_ONE_SIDED && v3_dot(lit_side, d) < 0.0f);
+}
+
+/*
+ * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it looks around
+ */
+static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray, uint32_t to_lights)
 {
 	struct vec3 d = v3_load(ray->d), none = v3(0.0f, 0.0f, 0.0f), all = v3(1.0f, 1.0f, 1.0f), pass;
 	struct point p = point_from_hit(t, hit, d);
@@ -73,7 +84,7 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	struct vec4 color;
 	float cosine, beyond;
 
-	if (m->surface.hidden & 1u)
+	if (m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
 		return all;
 	if (!m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask)
 		return none;

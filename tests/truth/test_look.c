@@ -103,7 +103,7 @@ START_TEST(test_matches)
 			const struct scene_material *m = &changed.materials[changed.instances[k].material];
 
 			ck_assert_msg((m->surface.reflect == 0.25f) == (cases[i].bits >> k & 1), "%s: square %u", cases[i].match, k);
-			ck_assert_uint_eq(m->surface.hidden, m->surface.reflect > 0 ? 2 : 0);
+			ck_assert_uint_eq(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS, m->surface.reflect > 0 ? SCENE_HIDDEN_FROM_MIRRORS : 0u);
 		}
 		look_release(&changed);
 		rules_free(&look);

@@ -129,7 +129,7 @@ static int start_walk(struct job *job, const struct list *list, uint32_t n_rays,
 }
 
 /* The stopped ones of n_rays rays go on through what lets light pass, from surface to surface. */
-static int walk_layers(struct job *job, const struct accel_space *space, uint32_t n_rays, float weight)
+static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays, float weight)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -142,7 +142,7 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
-			                                .rays = *list.rays, .paths = *list.paths, .n = n,
+			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights, .n = n,
 			                                .visibility = b->visibility, .next_rays = *list.next_rays,
 			                                .next_paths = *list.next_paths, .counts = b->next_counts));
 		if (!err)
@@ -151,9 +151,9 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 	return err;
 }
 
-/* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. */
-static int ask_lights(struct job *job, const struct accel_space *space, uint32_t n_rays, uint32_t sample,
-                      uint32_t samples)
+/* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0: they look around */
+static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays, uint32_t sample,
+               uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	float weight = 1.0f / (float)samples;
@@ -162,7 +162,7 @@ static int ask_lights(struct job *job, const struct accel_space *space, uint32_t
 	if (!err)
 		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .occluded = b->occluded, .weight = weight,
 		                                                     .first = sample == 0, .n = n_rays, .visibility = b->visibility));
-	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, n_rays, weight);
+	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, to_lights, n_rays, weight);
 }
 
 static int reserve_light_rays(struct job *job, size_t n_rays)
@@ -205,7 +205,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
-			err = ask_lights(job, space, n_rays, i, samples);
+			err = ask(job, space, 1, n_rays, i, samples);
 	}
 	return err;
 }
@@ -229,7 +229,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 		                                             .wanted = b->wanted, .sample = job->pass * samples + i, .n = n,
 		                                             .n_rays = n_rays, .out = b->rays));
 		if (!err)
-			err = ask_lights(job, space, n_rays, i, samples);
+			err = ask(job, space, 1, n_rays, i, samples);
 	}
 	return err;
 }
@@ -250,7 +250,7 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
 		                                       .rays = b->rays));
 		if (!err)
-			err = ask_lights(job, space, n, i, samples);
+			err = ask(job, space, 0, n, i, samples);
 	}
 	if (err)
 		return err;

@@ -1,0 +1,231 @@
+#include "look/blockers.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/mat4.h"
+
+#define CLUSTER 32u /* triangles that share a box; neighbours in a mesh mostly lie side by side */
+
+struct box {
+	float low[3], high[3];
+};
+
+struct blockers {
+	const struct scene *scene;
+	struct box *boxes;       /* of clusters, mesh after mesh */
+	uint32_t *first;         /* [mesh]: its first cluster; SCENE_NONE: not yet made */
+	float (*eye_inverse)[16]; /* [instance]: from eye to object space */
+	uint8_t *blocks;         /* [instance] */
+};
+
+const float *blockers_corner(const struct scene_mesh *mesh, uint32_t primitive, unsigned corner)
+{
+	return mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + corner];
+}
+
+const float *blockers_normal(const struct scene *scene, const struct scene_instance *in, uint32_t primitive, unsigned corner)
+{
+	const struct scene_mesh *mesh = scene->meshes[in->mesh];
+
+	return mesh->normal ? mesh->normal + 3 * (size_t)mesh->index[3 * (size_t)primitive + corner] : scene->currents[in->current].normal;
+}
+
+static int can_block(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_material *m = &s->materials[in->material];
+
+	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
+	       m->color_mask & 7 && !m->blend && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) && !(m->surface.hidden & 1);
+}
+
+static uint32_t cluster_count(const struct scene_mesh *mesh)
+{
+	return (mesh->primitive_count + CLUSTER - 1) / CLUSTER;
+}
+
+static void box_cluster(const struct scene_mesh *mesh, uint32_t cluster, struct box *out)
+{
+	for (int k = 0; k < 3; k++) {
+		out->low[k] = INFINITY;
+		out->high[k] = -INFINITY;
+	}
+	for (uint32_t i = cluster * CLUSTER; i < (cluster + 1) * CLUSTER && i < mesh->primitive_count; i++)
+		for (unsigned c = 0; c < 3; c++)
+			for (int k = 0; k < 3; k++) {
+				float x = blockers_corner(mesh, i, c)[k];
+
+				out->low[k] = x < out->low[k] ? x : out->low[k];
+				out->high[k] = x > out->high[k] ? x : out->high[k];
+			}
+}
+
+/* Boxes of all meshes that block. */
+static int make_boxes(struct blockers *b)
+{
+	const struct scene *s = b->scene;
+	size_t n = 0;
+
+	for (uint32_t i = 0; i < s->n_meshes; i++)
+		b->first[i] = SCENE_NONE;
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_instance *in = &s->instances[i];
+
+		b->blocks[i] = (uint8_t)(can_block(s, in) && mat4_invert(b->eye_inverse[i], in->modelview));
+		if (!b->blocks[i] || b->first[in->mesh] != SCENE_NONE)
+			continue;
+		b->first[in->mesh] = (uint32_t)n;
+		n += cluster_count(s->meshes[in->mesh]);
+	}
+	b->boxes = malloc((n + 1) * sizeof(*b->boxes));
+	if (!b->boxes)
+		return ERR_SYSTEM;
+	for (uint32_t i = 0; i < s->n_meshes; i++)
+		for (uint32_t k = 0; b->first[i] != SCENE_NONE && k < cluster_count(s->meshes[i]); k++)
+			box_cluster(s->meshes[i], k, &b->boxes[b->first[i] + k]);
+	return 0;
+}
+
+int blockers_create(const struct scene *scene, struct blockers **out)
+{
+	struct blockers *b = calloc(1, sizeof(*b));
+
+	*out = b;
+	if (!b)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	b->scene = scene;
+	b->first = malloc((scene->n_meshes + (size_t)1) * sizeof(*b->first));
+	b->eye_inverse = malloc((scene->n_instances + (size_t)1) * sizeof(*b->eye_inverse));
+	b->blocks = malloc(scene->n_instances + (size_t)1);
+	if (b->first && b->eye_inverse && b->blocks && make_boxes(b) == 0)
+		return 0;
+	blockers_destroy(out);
+	return err_report(ERR_SYSTEM, NULL, "out of memory");
+}
+
+void blockers_destroy(struct blockers **blockers)
+{
+	struct blockers *b = *blockers;
+
+	if (!b)
+		return;
+	free(b->boxes);
+	free(b->first);
+	free(b->eye_inverse);
+	free(b->blocks);
+	free(b);
+	*blockers = NULL;
+}
+
+int blockers_has(const struct blockers *b, uint32_t instance)
+{
+	return b->blocks[instance];
+}
+
+/* --- Rays, in object space ---------------------------------------------------------------------------------------------- */
+
+struct line {
+	float from[3], d[3], t_max;
+};
+
+static int meets_box(const struct line *r, const struct box *box)
+{
+	float near = 0, far = r->t_max;
+
+	for (int k = 0; k < 3; k++) {
+		float a = (box->low[k] - r->from[k]) / r->d[k], b = (box->high[k] - r->from[k]) / r->d[k];
+
+		if (r->d[k] == 0) {
+			if (r->from[k] < box->low[k] || r->from[k] > box->high[k])
+				return 0;
+			continue;
+		}
+		near = fmaxf(near, fminf(a, b));
+		far = fminf(far, fmaxf(a, b));
+	}
+	return near <= far * 1.00001f;
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+	for (int k = 0; k < 3; k++)
+		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static float dot(const float a[3], const float b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Where a line meets a triangle (Moeller and Trumbore 1997); 0: nowhere */
+static float meet_triangle(const struct line *r, const float *a, const float *b, const float *c)
+{
+	float ab[3], ac[3], p[3], q[3], s[3], det, u, v, t;
+
+	for (int k = 0; k < 3; k++) {
+		ab[k] = b[k] - a[k];
+		ac[k] = c[k] - a[k];
+		s[k] = r->from[k] - a[k];
+	}
+	cross(r->d, ac, p);
+	det = dot(ab, p);
+	u = dot(s, p) / det;
+	cross(s, ab, q);
+	v = dot(r->d, q) / det;
+	t = dot(ac, q) / det;
+	return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < r->t_max ? t : 0;
+}
+
+/* Normals are turned by the inverse transpose: against a direction in object space their sign is what it is in eye space. */
+static enum blocker_side side_shown(const struct blockers *b, const struct scene_instance *in, uint32_t primitive, const float d[3])
+{
+	const struct scene_material *m = &b->scene->materials[in->material];
+	float sum = 0;
+
+	if (!m->lighting || m->two_side)
+		return BLOCKER_UNKNOWN_SIDE;
+	for (unsigned c = 0; c < 3; c++)
+		sum += dot(blockers_normal(b->scene, in, primitive, c), d);
+	return sum < 0 ? BLOCKER_LIT_SIDE : BLOCKER_BACK;
+}
+
+static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct line *r, struct blocker_hit *out, unsigned n)
+{
+	const struct scene_instance *in = &b->scene->instances[i];
+	const struct scene_mesh *mesh = b->scene->meshes[in->mesh];
+
+	for (uint32_t k = 0; k < cluster_count(mesh) && n < BLOCKERS_MOST; k++) {
+		if (!meets_box(r, &b->boxes[b->first[in->mesh] + k]))
+			continue;
+		for (uint32_t p = k * CLUSTER; p < (k + 1) * CLUSTER && p < mesh->primitive_count && n < BLOCKERS_MOST; p++) {
+			float t = meet_triangle(r, blockers_corner(mesh, p, 0), blockers_corner(mesh, p, 1), blockers_corner(mesh, p, 2));
+
+			if (t > 0)
+				out[n++] = (struct blocker_hit){ t, i, side_shown(b, in, p, r->d) };
+		}
+	}
+	return n;
+}
+
+unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
+                     struct blocker_hit out[BLOCKERS_MOST])
+{
+	unsigned n = 0;
+
+	for (uint32_t i = 0; i < b->scene->n_instances && n < BLOCKERS_MOST; i++) {
+		const float a[4] = { from[0], from[1], from[2], 1 }, d[4] = { direction[0], direction[1], direction[2], 0 };
+		float origin[4], towards[4];
+		struct line line = { .t_max = t_max };
+
+		if (!b->blocks[i] || b->scene->views[b->scene->instances[i].view].space != space)
+			continue;
+		mat4_transform(origin, b->eye_inverse[i], a);
+		mat4_transform(towards, b->eye_inverse[i], d);
+		memcpy(line.from, origin, sizeof(line.from));
+		memcpy(line.d, towards, sizeof(line.d));
+		n = meet_instance(b, i, &line, out, n);
+	}
+	return n;
+}

@@ -1,0 +1,43 @@
+/*
+ * What stands between a point and a light, for decisions about a scene: a few hundred rays on the host, before anything is traced.
+ *
+ * Surfaces that let some light through (blended, alpha-tested) and those that secondary rays do not see block nothing here.
+ */
+#pragma once
+
+#include "scene/scene.h"
+
+enum { BLOCKERS_MOST = 32 }; /* hits of a ray that are told; further ones are not */
+
+/* Which side a surface shows to the ray's origin, where OpenGL lights one side alone. */
+enum blocker_side { BLOCKER_UNKNOWN_SIDE, BLOCKER_LIT_SIDE, BLOCKER_BACK };
+
+struct blocker_hit {
+	float t; /* in lengths of the ray's direction */
+	uint32_t instance;
+	enum blocker_side side;
+};
+
+struct blockers;
+
+/** @param scene  borrowed until blockers_destroy @return 0 or ERR_SYSTEM (reported) */
+int blockers_create(const struct scene *scene, struct blockers **out);
+void blockers_destroy(struct blockers **blockers);
+
+/** 1 where an instance can block light. */
+int blockers_has(const struct blockers *b, uint32_t instance);
+
+/**
+ * Everything on a ray in eye space, in no order.
+ * @param space   only instances whose views share this eye space (scene_view.space)
+ * @param t_max   the ray's end, in lengths of its direction
+ * @return how many hits
+ */
+unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
+                     struct blocker_hit out[BLOCKERS_MOST]);
+
+/** A triangle's corner in object space. */
+const float *blockers_corner(const struct scene_mesh *mesh, uint32_t primitive, unsigned corner);
+
+/** The normal that lights a corner, in object space: the mesh's own, or the current one. */
+const float *blockers_normal(const struct scene *scene, const struct scene_instance *in, uint32_t primitive, unsigned corner);

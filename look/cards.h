@@ -1,0 +1,12 @@
+/* Crossed cards: flat cut-outs that pass through each other, for trees, bushes and fires. */
+#pragma once
+
+#include "scene/scene.h"
+
+/**
+ * Find instances of which at least half of the rectangles cross a neighbour.
+ * @param bits   [n_instances]: crossed ones get this bit
+ * @param count  how many did
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int cards_find(const struct scene *scene, uint32_t bit, uint32_t *bits, uint32_t *count);

@@ -1,0 +1,27 @@
+/*
+ * Do no harm: surfaces that OpenGL never meant to stand in light's way. A program that knows no shadows may light a closed hall from
+ * outside of it, put a lit figure between walls that are pictures, and cross two cards for a tree. What shadows make of that is
+ * worse than what OpenGL drew. Rules: `spare: no` turns this off; `shadows: yes` of a surface has the last word (look/rules.h).
+ *
+ *   enclosures   A light that reaches less than a tenth of what it lights is shut out. Surfaces that shut it out let through the light
+ *                that comes from behind their lit side, which OpenGL lights no more than they show it; where that does not help,
+ *                as walls are lit on both sides or have an outside as well, they let all light through that comes from beyond.
+ *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
+ *                a shadow, the walls around a lit figure do not.
+ *   cards        Crossed cut-out cards do not shade each other.
+ *
+ * All of it is decided from the geometry of the whole frame, also where something else hides it, so that it changes little as the camera
+ * moves.
+ */
+#pragma once
+
+#include "scene/scene.h"
+
+struct spare {
+	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */
+	uint32_t enclosures, backdrops, cards; /* instances */
+};
+
+/** @param out  filled; free with spare_free @return 0 or ERR_SYSTEM (reported) */
+int spare_find(const struct scene *scene, struct spare *out);
+void spare_free(struct spare *spare);
