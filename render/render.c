@@ -10,6 +10,7 @@
 #include "base/verbs.h"
 #include "render/look.h"
 #include "render/pipeline.h"
+#include "tracer/device/outcome.h"
 
 #define MAX_PATH_BYTES 4096
 
@@ -75,16 +76,17 @@ static void report(const struct pipeline *p)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
 }
 
-static void prepare_device(const struct settings *s, struct device *dev)
+static int prepare_device(const struct settings *s, struct device *dev)
 {
 	char folder[4096];
+	const char *kept = s->no_cache ? NULL : s->cache ? s->cache : folder_cached("devices", folder, sizeof(folder)) ? folder : NULL;
+	int err = outcome_choose(dev, s->family, kept);
 
-	if (s->family >= 0)
-		device_choose_family(dev, (enum device_family)s->family);
 	if (!s->no_cache && s->cache)
 		device_keep_programs(dev, s->cache, 0);
 	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
 		device_keep_programs(dev, folder, 0);
+	return err;
 }
 
 static int render_frames(struct pipeline *p, uint64_t total)
@@ -93,10 +95,12 @@ static int render_frames(struct pipeline *p, uint64_t total)
 	struct progress progress;
 	int err = device_open_list(s->device, s->threads, &p->devices, &p->n_devices);
 
-	if (err)
+	for (size_t i = 0; i < p->n_devices && !err; i++)
+		err = prepare_device(s, p->devices[i]);
+	if (err) {
+		device_close_list(&p->devices, &p->n_devices);
 		return err;
-	for (size_t i = 0; i < p->n_devices; i++)
-		prepare_device(s, p->devices[i]);
+	}
 	p->progress = &progress;
 	p->jobs = s->jobs ? s->jobs : default_jobs();
 	part_sweep(s->output);

@@ -136,6 +136,7 @@ int cl_list(struct device_description **out, size_t *n)
 
 		clGetDeviceInfo(ids[i], CL_DEVICE_NAME, sizeof(list[i].name) - 1, list[i].name, NULL);
 		clGetDeviceInfo(ids[i], CL_DRIVER_VERSION, sizeof(list[i].driver) - 1, list[i].driver, NULL);
+		clGetDeviceInfo(ids[i], CL_DEVICE_VERSION, sizeof(list[i].version) - 1, list[i].version, NULL);
 		clGetDeviceInfo(ids[i], CL_DEVICE_MAX_COMPUTE_UNITS, sizeof(units), &units, NULL);
 		clGetDeviceInfo(ids[i], CL_DEVICE_PLATFORM, sizeof(platform), &platform, NULL);
 		if (platform)

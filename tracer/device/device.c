@@ -21,6 +21,7 @@ struct device {
 	enum device_family family;
 	atomic_int interrupted;
 	struct device_profile *profile; /* or NULL */
+	struct device_description description; /* of an OpenCL device */
 	char name[320];
 };
 
@@ -65,8 +66,7 @@ static size_t find_type(const struct device_description *list, size_t n, const c
 	return i;
 }
 
-/* The device a choice names: a number, a type, a part of a name, or NULL: the first GPU, else the first device. */
-static int choose(const struct device_description *list, size_t n, const char *choice, size_t *number)
+int device_find(const struct device_description *list, size_t n, const char *choice, size_t *number)
 {
 	char *end;
 
@@ -98,14 +98,15 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 
 	if (err)
 		return err;
-	err = choose(list, n, choice, &number);
+	err = device_find(list, n, choice, &number);
 	if (!err)
 		err = cl_open(number, threads, &dev->cl);
-	if (!err)
+	if (!err) {
+		dev->description = list[number];
+		dev->family = device_type_family(list[number].type);
 		snprintf(dev->name, sizeof(dev->name), "%s (%s %s)", list[number].name, list[number].platform,
 		         list[number].driver);
-	if (!err)
-		dev->family = device_type_family(list[number].type);
+	}
 	free(list);
 	return err;
 }
@@ -205,6 +206,7 @@ int device_share(struct device *dev, struct device **out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	other->threads = dev->threads;
 	other->family = dev->family;
+	other->description = dev->description;
 	memcpy(other->name, dev->name, sizeof(other->name));
 	if (dev->cl)
 		err = cl_share(dev->cl, &other->cl);
@@ -234,6 +236,11 @@ int device_is_interrupted(const struct device *dev)
 const char *device_name(const struct device *dev)
 {
 	return dev->name;
+}
+
+const struct device_description *device_describe(const struct device *dev)
+{
+	return dev->cl ? &dev->description : NULL;
 }
 
 enum device_family device_family(const struct device *dev)

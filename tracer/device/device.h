@@ -36,7 +36,7 @@ enum device_type { DEVICE_CPU, DEVICE_GPU, DEVICE_ACCELERATOR, N_DEVICE_TYPES };
 
 /* An OpenCL device as `relume devices` lists it; its place in the list is the number device_open takes. */
 struct device_description {
-	char name[128], platform[64], driver[64];
+	char name[128], platform[64], driver[64], version[128]; /* version: of OpenCL, and what the driver says beside it */
 	enum device_type type;
 	unsigned units;
 	unsigned width; /* floats that a unit computes with at once: of a vector, or work items in step; 0: it does not say */
@@ -54,6 +54,13 @@ enum device_family device_type_family(enum device_type type);
  * @return 0, or ERR_SYSTEM (reported: no device at all names the package to install)
  */
 int device_list(struct device_description **out, size_t *n);
+
+/**
+ * The device of a list that a choice names.
+ * @param choice  as for device_open, without "reference"
+ * @return 0 or ERR_USAGE (reported)
+ */
+int device_find(const struct device_description *list, size_t n, const char *choice, size_t *number);
 
 /**
  * Open a device.
@@ -93,6 +100,9 @@ int device_is_interrupted(const struct device *dev);
 
 /** The device's name and driver version in one line, for people and for EXR attributes. Borrowed. */
 const char *device_name(const struct device *dev);
+
+/** The device as it is listed; NULL: the reference device. Borrowed. */
+const struct device_description *device_describe(const struct device *dev);
 
 /** The family of traversal kernels that it runs: by its kind, until device_choose_family. */
 enum device_family device_family(const struct device *dev);
