@@ -172,12 +172,25 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 	return err;
 }
 
+/* Threads for packing a picture: its share of the cores among the frames under way. */
+static unsigned packer_count(struct pipeline_state *state)
+{
+	const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+	unsigned in_flight;
+
+	pthread_mutex_lock(&state->lock);
+	in_flight = state->in_flight;
+	pthread_mutex_unlock(&state->lock);
+	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
+}
+
 static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
 {
 	double start = progress_clock_s();
 	int err, late;
 
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
+	picture->img.packers = packer_count(w->state);
 	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->frame = scene->frame;
@@ -286,18 +299,6 @@ static void *work(void *arg)
 
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
 
-/* Threads for packing a picture: its share of the cores among the frames under way. */
-static unsigned packer_count(struct pipeline_state *state)
-{
-	const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-	unsigned in_flight;
-
-	pthread_mutex_lock(&state->lock);
-	in_flight = state->in_flight;
-	pthread_mutex_unlock(&state->lock);
-	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
-}
-
 static int write_picture(struct pipeline_state *state, struct picture *picture)
 {
 	char path[MAX_PATH_BYTES];
@@ -311,7 +312,7 @@ static int write_picture(struct pipeline_state *state, struct picture *picture)
 		err = frame_pattern_expand(state->p->settings->output, picture->frame, path, sizeof(path));
 	if (!err)
 		err = folder_make_for(path);
-	return err ? err : image_write_exr(&picture->img, path, packer_count(state));
+	return err ? err : image_write_exr(&picture->img, path);
 }
 
 static void *write_all(void *arg)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "tracer/image/pack.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
 	                               "layers", NULL };
@@ -88,16 +89,14 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	return launch_compose(tr->dev, job->n_pixels, a);
 }
 
-/* The band's part of a plane from the device into its channel. */
-static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, const struct image_channel *to)
+/* The band's part of a plane from the device to its channel. */
+static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, void *to)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
-	size_t row = job->height - job->row_first - job->n_rows, item = c->full ? sizeof(float) : sizeof(uint16_t);
-	size_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane], bytes = job->n_pixels * item;
-	char *plane = c->full ? (char *)to->values : (char *)to->halves;
+	size_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane];
+	size_t bytes = job->n_pixels * (c->full ? sizeof(float) : sizeof(uint16_t));
 
-	return device_read(job->tr->dev, c->full ? b->floats.buffer : b->halves.buffer, place * bytes, plane + row * job->width * item,
-	                   bytes);
+	return device_read(job->tr->dev, c->full ? b->floats.buffer : b->halves.buffer, place * bytes, to, bytes);
 }
 
 /*
@@ -139,12 +138,13 @@ static int describe_image(const struct job *job, struct image *img)
 	return err ? err : describe_camera(job, img);
 }
 
-int compose_start(const struct job *job, struct image *img)
+int compose_start(const struct job *job, uint32_t rows, struct image *img)
 {
 	int err = 0;
 
 	img->width = job->width;
 	img->height = job->height;
+	img->room = rows + PACK_ROWS - 1;
 	for (size_t i = 0; i < N_CHANNELS && !err; i++) {
 		const struct channel *c = &channels[i];
 
@@ -158,7 +158,7 @@ int compose_start(const struct job *job, struct image *img)
 
 int compose_band(struct job *job, struct image *img)
 {
-	uint32_t halves, floats;
+	uint32_t halves, floats, row = job->height - job->row_first - job->n_rows;
 	struct compose_request r = request_of(job, &halves, &floats);
 	size_t n = 0;
 	int err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
@@ -171,6 +171,6 @@ int compose_band(struct job *job, struct image *img)
 		err = run_compose(job, &r);
 	for (size_t i = 0; i < N_CHANNELS && !err; i++)
 		if (compose_wants(wanted(job->options), channels[i].group))
-			err = fetch(job, &channels[i], &r, &img->channels[n++]);
-	return err;
+			err = fetch(job, &channels[i], &r, image_row(img, n++, row));
+	return err ? err : image_finish_rows(img, row + job->n_rows);
 }

@@ -4,11 +4,15 @@
 #include "tracer/frame/frame.h"
 #include "tracer/image/image.h"
 
-/** Give an empty image its size, the channels that are asked for, and attributes. @return 0 or ERR_SYSTEM (reported) */
-int compose_start(const struct job *job, struct image *img);
+/**
+ * Give an empty image its size, the channels that are asked for, and attributes.
+ * @param rows  of a band at most
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int compose_start(const struct job *job, uint32_t rows, struct image *img);
 
 /**
- * Fill in a band's rows.
+ * Fill in a band's rows. Bands come from the top.
  * @param job  its pixels stand in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums
  * @param img  what compose_start made
  * @return 0 or ERR_SYSTEM (reported)

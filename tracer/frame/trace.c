@@ -237,7 +237,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++)
 			err = trace_pass(&job);
 	if (!err)
-		err = compose_start(&job, img);
+		err = compose_start(&job, rows_of_band(&job), img);
 	if (!err)
 		err = trace_pass(&job);
 	if (err)

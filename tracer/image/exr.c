@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <half.h>
 #include <openexr.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +10,11 @@
 
 #include "base/err.h"
 #include "base/part.h"
-#include "tracer/image/exr_pack.h"
 #include "tracer/image/exr_zip.h"
 #include "tracer/image/image.h"
+#include "tracer/image/pack.h"
 
 #define MAX_PIXELS ((uint64_t)1 << 30)
-#define MAX_PACKERS 63 /* threads that pack one picture, beside the caller's */
 
 /* The library's last message on this thread. It reports through a callback; we report once, with the file's name. */
 static _Thread_local char exr_said[160];
@@ -114,219 +112,82 @@ static const struct image_channel *find_channel(const struct image *img, const c
 	return NULL;
 }
 
-static int compare_channels(const void *a, const void *b)
+static exr_result_t define_part(exr_context_t file, const struct image *img, const struct pack *pack)
 {
-	return strcmp((*(const struct image_channel *const *)a)->name, (*(const struct image_channel *const *)b)->name);
-}
-
-static exr_result_t define_part(exr_context_t file, const struct image *img)
-{
-	const struct image_channel **sorted = malloc((img->n_channels + 1) * sizeof(*sorted));
-	exr_result_t rc;
 	int part;
+	exr_result_t rc = exr_add_part(file, "", EXR_STORAGE_SCANLINE, &part);
 
-	if (!sorted)
-		return EXR_ERR_OUT_OF_MEMORY;
-	for (size_t i = 0; i < img->n_channels; i++)
-		sorted[i] = &img->channels[i];
-	qsort(sorted, img->n_channels, sizeof(*sorted), compare_channels);
-	rc = exr_add_part(file, "", EXR_STORAGE_SCANLINE, &part);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = exr_initialize_required_attr_simple(file, part, (int32_t)img->width, (int32_t)img->height,
 		                                         EXR_COMPRESSION_ZIP);
-	for (size_t i = 0; i < img->n_channels && rc == EXR_ERR_SUCCESS; i++)
-		rc = exr_add_channel(file, part, sorted[i]->name,
-		                     sorted[i]->full_float ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
+	for (size_t i = 0; i < pack->n_channels && rc == EXR_ERR_SUCCESS; i++)
+		rc = exr_add_channel(file, part, pack->sorted[i]->name,
+		                     pack->sorted[i]->full_float ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
 		                     EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-	free(sorted);
 	return rc;
 }
 
-/* A picture on its way to chunks. Several threads pack; the one that called for it writes, in order. */
-struct packing {
-	const struct exr_plane *planes;
-	size_t n_planes;
-	uint32_t width, height, rows, n_chunks; /* rows: of a chunk */
-	pthread_mutex_t lock;                   /* of all below */
-	pthread_cond_t packed;
-	uint32_t next;                          /* chunk that nobody packs yet */
-	struct chunk {
-		void *bytes;
-		size_t n;
-	} *chunks;                              /* [n_chunks]; bytes NULL: not packed yet */
-	int failed;
-};
-
-/* Pack the next chunk. @return 1; 0: there is none, or packing has failed */
-static int pack_next(struct packing *p, struct exr_packer *packer)
+static exr_result_t write_chunks(exr_context_t file, const struct pack *pack)
 {
-	struct exr_rows rows = { p->planes, p->n_planes, p->width, 0, p->rows };
-	struct chunk chunk = { NULL, 0 };
-	uint32_t number;
-
-	pthread_mutex_lock(&p->lock);
-	number = p->failed ? p->n_chunks : p->next++;
-	pthread_mutex_unlock(&p->lock);
-	if (number >= p->n_chunks)
-		return 0;
-	rows.first = number * p->rows;
-	if (rows.first + rows.count > p->height)
-		rows.count = p->height - rows.first;
-	if (!exr_pack(packer, &rows)) {
-		chunk = (struct chunk){ malloc(packer->n_packed), packer->n_packed };
-		if (chunk.bytes)
-			memcpy(chunk.bytes, packer->packed, chunk.n);
-	}
-	pthread_mutex_lock(&p->lock);
-	p->chunks[number] = chunk;
-	p->failed |= !chunk.bytes;
-	pthread_cond_signal(&p->packed);
-	pthread_mutex_unlock(&p->lock);
-	return 1;
-}
-
-static void *pack_all(void *arg)
-{
-	struct exr_packer packer = { .size = 0 };
-
-	while (pack_next(arg, &packer))
-		;
-	exr_packer_free(&packer);
-	return NULL;
-}
-
-/* Take a chunk that is packed. @param wait  1: wait for it. @return its bytes, to be freed; NULL: not yet, or packing has failed */
-static void *take_chunk(struct packing *p, uint32_t number, int wait, size_t *n)
-{
-	void *bytes;
-
-	pthread_mutex_lock(&p->lock);
-	while (wait && !p->chunks[number].bytes && !p->failed)
-		pthread_cond_wait(&p->packed, &p->lock);
-	bytes = p->chunks[number].bytes;
-	*n = p->chunks[number].n;
-	p->chunks[number].bytes = NULL;
-	pthread_mutex_unlock(&p->lock);
-	return bytes;
-}
-
-/* Write what is packed, and help with packing meanwhile. */
-static exr_result_t write_packed(exr_context_t file, struct packing *p)
-{
-	struct exr_packer packer = { .size = 0 };
 	exr_result_t rc = EXR_ERR_SUCCESS;
-	int more = 1;
 
-	for (uint32_t i = 0; i < p->n_chunks && rc == EXR_ERR_SUCCESS;) {
-		size_t n;
-		void *bytes = take_chunk(p, i, !more, &n);
-
-		if (bytes)
-			rc = exr_write_scanline_chunk(file, 0, (int)(i++ * p->rows), bytes, n);
-		else if (more)
-			more = pack_next(p, &packer);
-		else
-			rc = EXR_ERR_OUT_OF_MEMORY;
-		free(bytes);
-	}
-	exr_packer_free(&packer);
+	for (uint32_t i = 0; i < pack->n_chunks && rc == EXR_ERR_SUCCESS; i++)
+		rc = exr_write_scanline_chunk(file, 0, (int)(i * PACK_ROWS), pack->chunks[i].bytes, pack->chunks[i].n);
 	return rc;
 }
 
-/* The channels as the file has them, sorted. */
-static int list_planes(exr_context_t file, const struct image *img, struct exr_plane *planes)
-{
-	const exr_attr_chlist_t *channels;
-
-	if (exr_get_channels(file, 0, &channels) != EXR_ERR_SUCCESS)
-		return 0;
-	for (int i = 0; i < channels->num_channels; i++) {
-		const struct image_channel *c = find_channel(img, channels->entries[i].name.str);
-
-		planes[i] = (struct exr_plane){ c->halves, c->halves ? NULL : c->values, c->value, c->full_float };
-	}
-	return channels->num_channels;
-}
-
-static exr_result_t write_chunks(exr_context_t file, const struct image *img, unsigned threads)
-{
-	struct exr_plane *planes = calloc(img->n_channels, sizeof(*planes));
-	struct packing p = { .planes = planes, .width = img->width, .height = img->height };
-	exr_result_t rc = EXR_ERR_OUT_OF_MEMORY;
-	pthread_t helpers[MAX_PACKERS];
-	unsigned n_helpers = 0;
-	int32_t rows = 1;
-
-	exr_get_scanlines_per_chunk(file, 0, &rows);
-	p.rows = (uint32_t)rows;
-	p.n_chunks = (img->height + p.rows - 1) / p.rows;
-	p.chunks = calloc(p.n_chunks, sizeof(*p.chunks));
-	if (planes && p.chunks) {
-		p.n_planes = (size_t)list_planes(file, img, planes);
-		pthread_mutex_init(&p.lock, NULL);
-		pthread_cond_init(&p.packed, NULL);
-		while (n_helpers + 1 < threads && n_helpers < MAX_PACKERS && n_helpers + 1 < p.n_chunks &&
-		       pthread_create(&helpers[n_helpers], NULL, pack_all, &p) == 0)
-			n_helpers++;
-		rc = write_packed(file, &p);
-		pthread_mutex_lock(&p.lock);
-		p.failed |= rc != EXR_ERR_SUCCESS;
-		pthread_mutex_unlock(&p.lock);
-		while (n_helpers)
-			pthread_join(helpers[--n_helpers], NULL);
-		for (uint32_t i = 0; i < p.n_chunks; i++)
-			free(p.chunks[i].bytes);
-		pthread_cond_destroy(&p.packed);
-		pthread_mutex_destroy(&p.lock);
-	}
-	free(p.chunks);
-	free(planes);
-	return rc;
-}
-
-int image_write_exr(const struct image *img, const char *path, unsigned threads)
+/* Write a packed picture under a temporary name. */
+static int write_file(const struct image *img, const struct pack *pack, const char *temporary, const char *path)
 {
 	exr_context_initializer_t setup = context_setup();
 	exr_context_t file = NULL;
-	exr_result_t rc;
-	struct stat status;
-	char temporary[4096];
-	int result = 0;
-
-	if (img->width == 0 || img->height == 0 || img->n_channels == 0)
-		return err_report(ERR_SYSTEM, path, "an empty image cannot be written");
-	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
-		return err_report(ERR_SYSTEM, path, "cannot be written: it is a directory");
-	if (part_begin(path, temporary, sizeof(temporary)))
-		return ERR_SYSTEM;
+	exr_result_t rc, closed;
 
 	errno = 0;
 	rc = exr_start_write(&file, temporary, EXR_WRITE_FILE_DIRECTLY, &setup);
-	if (rc != EXR_ERR_SUCCESS) {
-		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
-		goto fail;
-	}
-	rc = define_part(file, img);
+	if (rc != EXR_ERR_SUCCESS)
+		return err_report(ERR_SYSTEM, path, "cannot be written: %s", errno ? strerror(errno) : reason(rc));
+	rc = define_part(file, img, pack);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = write_attributes(file, img);
 	if (rc == EXR_ERR_SUCCESS)
 		rc = exr_write_header(file);
 	if (rc == EXR_ERR_SUCCESS)
-		rc = write_chunks(file, img, threads);
-	if (rc != EXR_ERR_SUCCESS) {
-		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
-		exr_finish(&file);
-		goto fail;
+		rc = write_chunks(file, pack);
+	if (rc != EXR_ERR_SUCCESS)
+		err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
+	closed = exr_finish(&file);
+	if (rc == EXR_ERR_SUCCESS && closed != EXR_ERR_SUCCESS)
+		err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(closed));
+	return rc == EXR_ERR_SUCCESS && closed == EXR_ERR_SUCCESS ? 0 : ERR_SYSTEM;
+}
+
+int image_write_exr(const struct image *img, const char *path)
+{
+	struct pack *made = NULL;
+	struct stat status;
+	char temporary[4096];
+	int err = 0;
+
+	if (img->width == 0 || img->height == 0 || img->n_channels == 0)
+		return err_report(ERR_SYSTEM, path, "an empty image cannot be written");
+	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
+		return err_report(ERR_SYSTEM, path, "cannot be written: it is a directory");
+	if (!img->pack)
+		err = pack_create(img, 1, &made);
+	if (made)
+		err = pack_until(made, img, img->height);
+	if (!err)
+		err = part_begin(path, temporary, sizeof(temporary));
+	if (!err) {
+		err = write_file(img, made ? made : img->pack, temporary, path);
+		if (err)
+			part_drop(temporary);
+		else
+			err = part_finish(temporary, path);
 	}
-	rc = exr_finish(&file);
-	if (rc != EXR_ERR_SUCCESS) {
-		result = err_report(ERR_SYSTEM, path, "cannot be written: %s", reason(rc));
-		goto fail;
-	}
-	return part_finish(temporary, path);
-fail:
-	part_drop(temporary);
-	return result;
+	pack_destroy(&made);
+	return err;
 }
 
 /* --- Reading --------------------------------------------------------------------------------------------------- */

@@ -44,10 +44,9 @@ static size_t pairs_of(const struct exr_plane *p, uint32_t width)
 	return (size_t)width * (p->full_float ? 2 : 1);
 }
 
-/* The value of a channel's first pixel in these rows. */
-static float first_value(const struct exr_plane *p, size_t at)
+static float value_at(const struct exr_plane *p, size_t at)
 {
-	return p->halves ? imath_half_to_float(p->halves[at]) : p->floats ? p->floats[at] : p->value;
+	return p->halves ? imath_half_to_float(p->halves[at]) : p->floats[at];
 }
 
 /* Whether all these numbers are the first one. */
@@ -56,7 +55,7 @@ static int is_constant(const struct exr_plane *p, size_t at, size_t n)
 	const size_t bytes = p->halves ? sizeof(*p->halves) : sizeof(*p->floats);
 	const char *plane = p->halves ? (const char *)p->halves : (const char *)p->floats;
 
-	return !plane || memcmp(plane + at * bytes, plane + (at + 1) * bytes, (n - 1) * bytes) == 0;
+	return memcmp(plane + at * bytes, plane + (at + 1) * bytes, (n - 1) * bytes) == 0;
 }
 
 /* One line as the file has it; `room` for those that have to be made. */
@@ -67,7 +66,7 @@ static const uint16_t *line_of(const struct exr_plane *p, size_t at, uint32_t wi
 	if (p->floats && p->full_float)
 		return (const uint16_t *)(const void *)(p->floats + at);
 	for (uint32_t x = 0; x < width; x++) {
-		const float value = p->floats ? p->floats[at + x] : p->halves ? imath_half_to_float(p->halves[at + x]) : p->value;
+		const float value = value_at(p, at + x);
 
 		if (p->full_float)
 			memcpy(room + 2 * (size_t)x, &value, sizeof(value));
@@ -89,7 +88,7 @@ static uint64_t name_constant(const struct exr_rows *r)
 		if (!is_constant(&r->planes[i], at, n))
 			return 0;
 	for (size_t i = 0; i < r->n_planes; i++) {
-		const struct { float value; int full_float; } c = { first_value(&r->planes[i], at), r->planes[i].full_float };
+		const struct { float value; int full_float; } c = { value_at(&r->planes[i], at), r->planes[i].full_float };
 
 		name = XXH3_64bits_withSeed(&c, sizeof(c), name);
 	}

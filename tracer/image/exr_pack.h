@@ -12,9 +12,8 @@
 
 /* What a file holds of one channel. */
 struct exr_plane {
-	const uint16_t *halves; /* [height][width], or */
-	const float *floats;    /* the same, or neither: */
-	float value;            /* of all pixels */
+	const uint16_t *halves; /* rows of so many pixels, or */
+	const float *floats;    /* the same */
 	int full_float;         /* 1: the file has floats, 0: it has halves */
 };
 

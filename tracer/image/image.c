@@ -10,17 +10,21 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "tracer/image/pack.h"
 
 static void free_planes(struct image_channel *channel)
 {
 	free(channel->values);
 	free(channel->halves);
+	channel->values = NULL;
+	channel->halves = NULL;
 }
 
 void image_free(struct image *img)
 {
 	for (size_t i = 0; i < img->n_channels; i++)
 		free_planes(&img->channels[i]);
+	pack_destroy(&img->pack);
 	free(img->channels);
 	free(img->attributes);
 	memset(img, 0, sizeof(*img));
@@ -32,9 +36,10 @@ static void *no_memory(const struct image *img, const char *name)
 	return NULL;
 }
 
+/* Of a plane. */
 static size_t pixel_count(const struct image *img)
 {
-	size_t n = (size_t)img->width * img->height;
+	size_t n = (size_t)img->width * (img->packers ? img->room : img->height);
 
 	return n ? n : 1;
 }
@@ -79,14 +84,36 @@ uint16_t *image_add_halves(struct image *img, const char *name)
 	return channel->halves;
 }
 
-int image_add_constant(struct image *img, const char *name, int full_float, float value)
+void *image_row(const struct image *img, size_t i, uint32_t row)
 {
-	struct image_channel *channel = next_channel(img, name, full_float);
+	const struct image_channel *channel = &img->channels[i];
+	const size_t at = (size_t)(row - img->first) * img->width;
 
-	if (!channel)
-		return ERR_SYSTEM;
-	channel->value = value;
-	img->n_channels++;
+	return channel->halves ? (void *)(channel->halves + at) : (void *)(channel->values + at);
+}
+
+int image_finish_rows(struct image *img, uint32_t end)
+{
+	uint32_t first;
+	int err = 0;
+
+	if (!img->packers)
+		return 0;
+	if (!img->pack)
+		err = pack_create(img, img->packers, &img->pack);
+	if (!err)
+		err = pack_until(img->pack, img, end);
+	if (err)
+		return err;
+	first = img->pack->n_packed * PACK_ROWS;
+	for (size_t i = 0; i < img->n_channels && first < end; i++) {
+		const size_t row = img->width * (img->channels[i].halves ? sizeof(uint16_t) : sizeof(float));
+
+		memmove(image_row(img, i, img->first), image_row(img, i, first), (end - first) * row);
+	}
+	img->first = first;
+	for (size_t i = 0; i < img->n_channels && end == img->height; i++)
+		free_planes(&img->channels[i]);
 	return 0;
 }
 
@@ -95,13 +122,13 @@ float *image_values(const struct image *img, size_t i)
 	struct image_channel *channel = &img->channels[i];
 	size_t n = pixel_count(img);
 
-	if (channel->values)
+	if (channel->values || !channel->halves)
 		return channel->values;
 	channel->values = malloc(n * sizeof(*channel->values));
 	if (!channel->values)
 		return no_memory(img, channel->name);
 	for (size_t k = 0; k < n; k++)
-		channel->values[k] = channel->halves ? imath_half_to_float(channel->halves[k]) : channel->value;
+		channel->values[k] = imath_half_to_float(channel->halves[k]);
 	return channel->values;
 }
 

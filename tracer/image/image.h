@@ -12,9 +12,8 @@
 struct image_channel {
 	char name[32];
 	int full_float;   /* 1: stored as 32-bit float in a file, 0: half */
-	float *values;    /* [height][width]; NULL until somebody asks for `halves` or `value` as floats */
+	float *values;    /* [height][width]; NULL until somebody asks for `halves` as floats */
 	uint16_t *halves; /* the same as half floats, or NULL: what the renderer makes, and files take as it is */
-	float value;      /* of every pixel, where neither was made */
 };
 
 struct image_attribute {
@@ -24,6 +23,13 @@ struct image_attribute {
 
 struct image {
 	uint32_t width, height;
+	/*
+	 * 0: planes hold the whole picture. Else rows come from the top, planes hold `room` of them from row `first` on, and so many
+	 * threads pack what is finished (image_finish_rows). Such an image can be written, and nothing else.
+	 */
+	unsigned packers;
+	uint32_t first, room;
+	struct pack *pack; /* owned; what has become of the rows above `first` */
 	struct image_channel *channels; /* owned, in the order they were added */
 	size_t n_channels;
 	struct image_attribute *attributes; /* owned; relume:trace, relume:frame, relume:device, ... */
@@ -42,8 +48,14 @@ float *image_add_channel(struct image *img, const char *name, int full_float);
 /** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats were asked for */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
-/** Add a channel that has one value everywhere, and needs no memory for it. @return 0 or ERR_SYSTEM (reported) */
-int image_add_constant(struct image *img, const char *name, int full_float, float value);
+/** Where a row of channel number i stands. */
+void *image_row(const struct image *img, size_t i, uint32_t row);
+
+/**
+ * All rows above `end` are there. An image with packers packs them and moves what is left of them to the front of its planes.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int image_finish_rows(struct image *img, uint32_t end);
 
 /** The plane of a channel as floats. NULL: there is none of that name, or no memory (reported) */
 float *image_channel(const struct image *img, const char *name);
@@ -62,10 +74,9 @@ const char *image_attribute(const struct image *img, const char *name);
  * Write as OpenEXR: one part, ZIP (exr_pack.h), half or float as the channels say, channels sorted by name. Writes to a
  * temporary name beside `path` and renames it when whole. Same image, same bytes. Attributes are strings, except
  * worldToCamera and worldToNDC: their text is 16 numbers in the file's order (rows of a matrix for row vectors).
- * @param threads  that pack rows, the caller's among them; the bytes do not depend on it
  * @return 0, or ERR_SYSTEM (reported; nothing is left under either name)
  */
-int image_write_exr(const struct image *img, const char *path, unsigned threads);
+int image_write_exr(const struct image *img, const char *path);
 
 /**
  * Read an OpenEXR file of one scan-line part (what image_write_exr writes; half, float and uint channels).
