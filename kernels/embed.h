@@ -9,11 +9,12 @@
 struct kernel_file {
 	const char *name; /* path in the source tree */
 	const char *text;
+	int gathers; /* 1: it consists of other .cl files, whose kernels it has too */
 };
 extern const struct kernel_file kernel_files[];
 extern const size_t n_kernel_files;
 
-/* Where a kernel is defined. */
+/* Where a kernel is defined: in one file, and in those that gather it. */
 struct kernel_place {
 	const char *kernel;
 	size_t file; /* in kernel_files */

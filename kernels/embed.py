@@ -54,8 +54,8 @@ def main():
         places += [(name, index) for name in KERNEL.findall("\n".join(lines))]
         text.append('\t{ "%s",' % path)
         text += [quote(line) for line in lines]
-        text.append("\t},")
-    text += ["\t{ 0, 0 }", "};", "const size_t n_kernel_files = %d;" % len(files), "",
+        text.append("\t, %d }," % any(inner.endswith(".cl") for inner in seen[1:]))
+    text += ["\t{ 0, 0, 0 }", "};", "const size_t n_kernel_files = %d;" % len(files), "",
              "const struct kernel_place kernel_places[] = {"]
     text += ['\t{ "%s", %d },' % place for place in sorted(places)]
     text += ["\t{ 0, 0 }", "};", "const size_t n_kernel_places = %d;" % len(places), ""]

@@ -23,7 +23,7 @@
 
 /* The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many fragments so far. */
 #define NO_DEPTH 2.0f
-struct pack {
+struct camera_pack {
 	packu order, instance, primitive;
 	packf b1, b2, depth, steps; /* steps: depth in steps of 2^-24, as it is compared */
 	packi counts;
@@ -56,7 +56,7 @@ struct tile {
 	struct batch_far far;
 	float z_far;   /* in normalised device coordinates: nothing behind it matters */
 	struct pending pending;
-	struct pack packs[TILE_BLOCKS][TILE_BLOCKS];
+	struct camera_pack packs[TILE_BLOCKS][TILE_BLOCKS];
 };
 
 /* A candidate: its numbers. */
@@ -76,7 +76,7 @@ WIDE_VECTORS static inline packf round_steps(packf x)
 }
 
 /* No branches: which pixels take a candidate cannot be foretold. */
-WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct pack *p, packi covered, packf b1, packf b2, packf depth, struct candidate c)
+WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera_pack *p, packi covered, packf b1, packf b2, packf depth, struct candidate c)
 {
 	const packi before = t->mode == CAMERA_NEAREST_LESS ? (packu)(c.order) < p->order : (packu)(c.order) > p->order;
 	const packf steps = round_steps(depth * 16777215.0f);
@@ -147,7 +147,7 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 
 	t->changed = 0;
 	for (int i = 0; i < 16; i++) {
-		const struct pack *above = &t->packs[i / 4 * 2][i % 4 * 2], *below = above + TILE_BLOCKS;
+		const struct camera_pack *above = &t->packs[i / 4 * 2][i % 4 * 2], *below = above + TILE_BLOCKS;
 
 		cell[i] = pack_max(pack_max(above[0].depth, above[1].depth), pack_max(below[0].depth, below[1].depth));
 	}
@@ -201,7 +201,7 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
                                            const struct clip_corner *const *corner, struct candidate c)
 {
 	const int exact = t->mode != CAMERA_COLUMN && LANE_INT(s->exact, lane);
-	struct pack *p = &t->packs[y][x];
+	struct camera_pack *p = &t->packs[y][x];
 	packf depth, b1, b2;
 
 	b1 = weight_at(s, lane, 0, x, y, at[1]);
@@ -539,7 +539,7 @@ WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, 
 
 static inline void store_pixel(const struct tile *t, int x, int y, __global uint *counts)
 {
-	const struct pack *p = &t->packs[y / BLOCK][x / BLOCK];
+	const struct camera_pack *p = &t->packs[y / BLOCK][x / BLOCK];
 	const size_t pixel = place_of(t, x, y);
 	const uint lane = y % BLOCK * BLOCK + x % BLOCK;
 	struct fragment f;
@@ -567,7 +567,7 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 #define STORE_LAST_FIRST(a, b) (packu)(a.s23, b.s01, a.s67, b.s45, a.sab, b.s89, a.sef, b.scd)
 
 /* A block's fragments, six numbers each: of each row, its quarter of all six vectors one after the other. */
-WIDE_VECTORS static inline void lay_out(const struct pack *p, packu *out)
+WIDE_VECTORS static inline void lay_out(const struct camera_pack *p, packu *out)
 {
 	const packu b1 = as_uint16(p->b1), b2 = as_uint16(p->b2), depth = as_uint16(pack_min(p->depth, (packf)(1)));
 	const packu ids01 = STORE_LOW(p->order, p->instance), ids23 = STORE_HIGH(p->order, p->instance);
@@ -660,7 +660,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 	}
 	for (int y = 0; y < TILE_BLOCKS; y++)
 		for (int x = 0; x < TILE_BLOCKS; x++) {
-			struct pack *p = &t->packs[y][x];
+			struct camera_pack *p = &t->packs[y][x];
 
 			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;

@@ -413,21 +413,19 @@ unsigned cl_programs_found(struct cl_device *dev)
 static int make_kernel(struct cl_device *dev, enum kernel kernel)
 {
 	const char *name = kernel_entries[kernel].name;
+	const size_t file = cl_program_of(dev->common->root, name);
 	cl_int code;
 	int err;
 
-	for (size_t i = 0; i < n_kernel_places; i++) {
-		if (strcmp(kernel_places[i].kernel, name) != 0)
-			continue;
-		pthread_mutex_lock(&dev->common->lock);
-		err = build_program(dev->common, kernel_places[i].file);
-		pthread_mutex_unlock(&dev->common->lock);
-		if (err)
-			return err;
-		dev->kernels[kernel] = clCreateKernel(dev->common->programs[kernel_places[i].file], name, &code);
-		return dev->kernels[kernel] ? 0 : cl_report(code, name);
-	}
-	return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
+	if (file == n_kernel_files)
+		return err_report(ERR_SYSTEM, "OpenCL", "there is no kernel %s in this build", name);
+	pthread_mutex_lock(&dev->common->lock);
+	err = build_program(dev->common, file);
+	pthread_mutex_unlock(&dev->common->lock);
+	if (err)
+		return err;
+	dev->kernels[kernel] = clCreateKernel(dev->common->programs[file], name, &code);
+	return dev->kernels[kernel] ? 0 : cl_report(code, name);
 }
 
 int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args)

@@ -43,13 +43,18 @@ static void platform_text(cl_device_id device, cl_platform_info what, char *text
 		clGetPlatformInfo(platform, what, size - 1, text, NULL);
 }
 
-void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping)
+static int is_pocl(cl_device_id device)
 {
 	char platform[128];
 
 	platform_text(device, CL_PLATFORM_NAME, platform, sizeof(platform));
+	return strcmp(platform, "Portable Computing Language") == 0;
+}
+
+void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping)
+{
 	keeping->folder[0] = '\0';
-	if (!always && strcmp(platform, "Portable Computing Language") == 0)
+	if (!always && is_pocl(device))
 		return;
 	if (snprintf(keeping->folder, sizeof(keeping->folder), "%s", folder) >= (int)sizeof(keeping->folder))
 		keeping->folder[0] = '\0';
@@ -205,6 +210,18 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	clReleaseProgram(*out);
 	*out = NULL;
 	return ERR_SYSTEM;
+}
+
+size_t cl_program_of(cl_device_id device, const char *kernel)
+{
+	const int gathered = is_pocl(device);
+	size_t file = n_kernel_files;
+
+	for (size_t i = 0; i < n_kernel_places; i++)
+		if (strcmp(kernel_places[i].kernel, kernel) == 0 &&
+		    (file == n_kernel_files || kernel_files[kernel_places[i].file].gathers == gathered))
+			file = kernel_places[i].file;
+	return file;
 }
 
 int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out)

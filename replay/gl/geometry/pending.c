@@ -120,10 +120,14 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 	struct gls_geometry *g = &p->geometry;
 	enum scene_primitive kind = gls_mode_kind(mode);
 
-	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
+	if (st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
-	if (gls_refuses(x, st, !kind, GL_INVALID_ENUM))
+	}
+	if (!kind) {
+		gls_error(x, st, GL_INVALID_ENUM);
 		return;
+	}
 	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
 	                      (!p->mixes && g->quads != (mode == GL_QUADS))))
 		gls_flush(x);
@@ -149,8 +153,10 @@ static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 
 void gls_end(struct gls_exec *x, struct gls_state *st)
 {
-	if (gls_refuses(x, st, !st->begin_mode, GL_INVALID_OPERATION))
+	if (!st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
+	}
 	if (x->want) {
 		cut_primitives(x, st);
 		x->pending.geometry.n_draws++;
@@ -162,8 +168,10 @@ void gls_restart(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 
-	if (gls_refuses(x, st, !st->begin_mode, GL_INVALID_OPERATION))
+	if (!st->begin_mode) {
+		gls_error(x, st, GL_INVALID_OPERATION);
 		return;
+	}
 	if (x->want)
 		cut_primitives(x, st);
 	g->begin_vertex = g->n_vertices;

@@ -1,0 +1,10 @@
+/*
+ * The kernels of a plain frame by packets as one program. PoCL reads 900 KB of its own headers for each program, in every run.
+ */
+#include "kernels/camera/camera_packet.cl"
+#include "kernels/frame/compose_packet.cl"
+#include "kernels/frame/resolve.cl"
+#include "kernels/frame/shade_packet.cl"
+#include "kernels/frame/shadow.cl"
+#include "kernels/frame/shadow_packet.cl"
+#include "kernels/frame/vertex.cl"
