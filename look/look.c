@@ -80,7 +80,7 @@ static int changes_light(const struct light_rule *r)
 struct applying {
 	const struct look *look;
 	const struct rules *rules; /* the look's */
-	struct spare spare;
+	const struct spare *spare; /* NULL: nothing is spared */
 	const struct scene *scene;
 	struct scene *out;
 	float eye_from_world[16]; /* where lights stand in the world */
@@ -251,8 +251,10 @@ static void change_instance(const struct applying *a, uint32_t i)
 	uint32_t n = 0;
 
 	*m = scene->materials[in->material];
-	if (a->spare.bits)
-		m->surface.hidden |= a->spare.bits[i];
+	if (!a->spare)
+		m->surface.hidden |= SCENE_FACETED;
+	else if (a->spare->bits)
+		m->surface.hidden |= a->spare->bits[i];
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
@@ -291,18 +293,19 @@ static int copy_scene(struct applying *a)
 	return 0;
 }
 
-int look_apply(const struct look *look, const struct scene *scene, struct scene *out)
+int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
 {
 	static const struct rules none = { .surfaces = NULL };
 	struct applying a = { .look = look, .rules = look ? look->rules : &none, .scene = scene, .out = out };
-	int in_world = 0, err = 0;
+	struct spare spare;
+	int in_world = 0, err = spare_find(scene, &spare);
 
+	spare.kept = a.rules->spare && !*a.rules->spare;
+	a.spare = spare.kept ? NULL : &spare;
 	for (uint32_t k = 0; k < a.rules->lights_count; k++) {
 		a.lights_change |= changes_light(&a.rules->lights[k]) ? lit_by(&a.rules->lights[k]) : 0;
 		in_world |= is_in_world(&a.rules->lights[k]);
 	}
-	if (!a.rules->spare || *a.rules->spare)
-		err = spare_find(scene, &a.spare);
 	if (!err)
 		err = copy_scene(&a);
 	if (!err && in_world && !world_find(a.rules, scene, a.eye_from_world)) {
@@ -313,7 +316,10 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		size_lights(a.rules, out);
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
 		change_instance(&a, i);
-	spare_free(&a.spare);
+	if (found)
+		*found = spare;
+	else
+		spare_free(&spare);
 	return err;
 }
 

@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "look/spare.h"
 #include "scene/scene.h"
 
 struct look;
@@ -10,8 +11,9 @@ struct look;
 /**
  * A scene under the rules.
  * @param look   NULL: none; what does harm is spared all the same (look/spare.h)
- * @param out  a copy that borrows what has not changed; free it with look_release before the scene
+ * @param out    a copy that borrows what has not changed; free it with look_release before the scene
+ * @param found  receives what is spared, or would be if rules did not say no; spare_free. NULL: not asked for
  * @return 0 or ERR_SYSTEM (reported)
  */
-int look_apply(const struct look *look, const struct scene *scene, struct scene *out);
+int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found);
 void look_release(struct scene *changed);

@@ -1,6 +1,7 @@
 #include "look/spare.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,18 +19,12 @@
 /* What lies within this times the lit world's radius is in it. */
 #define WORLD_MARGIN 1.1f
 
-enum { RECEIVERS = 256, FIRST_RECEIVERS = 24, FEWEST_RECEIVERS = 4, MOST_LIGHTS = 16, PER_INSTANCE = 8 };
+enum { RECEIVERS = 256, FIRST_RECEIVERS = 24, FEWEST_RECEIVERS = 4, PER_INSTANCE = 8 };
 
 /* A place that OpenGL lights, in eye space, and how large the surface is that it stands for. */
 struct receiver {
 	float at[3], normal[3], area;
 	uint32_t instance;
-};
-
-/* A light, once for all materials that have it. */
-struct lamp {
-	float position[4];
-	uint32_t space;
 };
 
 struct sparing {
@@ -38,8 +33,6 @@ struct sparing {
 	struct blockers *blockers;
 	struct receiver receivers[RECEIVERS];
 	uint32_t n_receivers;
-	struct lamp lamps[MOST_LIGHTS];
-	uint32_t n_lamps;
 };
 
 /* --- What is lit -------------------------------------------------------------------------------------------------------- */
@@ -67,12 +60,12 @@ static void add_lamps(struct sparing *a, uint32_t instance)
 		const float *position = s->lights[m->light_first + i].position_eye;
 		uint32_t k = 0;
 
-		while (k < a->n_lamps && (a->lamps[k].space != space || memcmp(a->lamps[k].position, position, sizeof(a->lamps[k].position)) != 0))
+		while (k < a->out->n_lamps && (a->out->lamps[k].space != space || memcmp(a->out->lamps[k].position, position, sizeof(a->out->lamps[k].position)) != 0))
 			k++;
-		if (k < a->n_lamps || k == MOST_LIGHTS)
+		if (k < a->out->n_lamps || k == SPARE_MOST_LAMPS)
 			continue;
-		a->lamps[a->n_lamps].space = space;
-		memcpy(a->lamps[a->n_lamps++].position, position, sizeof(a->lamps[k].position));
+		a->out->lamps[a->out->n_lamps].space = space;
+		memcpy(a->out->lamps[a->out->n_lamps++].position, position, sizeof(a->out->lamps[k].position));
 	}
 }
 
@@ -165,7 +158,7 @@ static void find_receivers(struct sparing *a)
 /* --- Enclosures --------------------------------------------------------------------------------------------------------- */
 
 /* The ray from a receiver to a lamp. @return 0: the lamp does not light it */
-static int ray_to(const struct sparing *a, const struct receiver *r, const struct lamp *lamp, float from[3], float d[3])
+static int ray_to(const struct sparing *a, const struct receiver *r, const struct spare_lamp *lamp, float from[3], float d[3])
 {
 	float cosine = 0, length = 0, off = 0;
 
@@ -181,7 +174,7 @@ static int ray_to(const struct sparing *a, const struct receiver *r, const struc
 }
 
 /* 1 where a hit still stops light under the bits found so far. */
-static int stops(const struct sparing *a, const struct lamp *lamp, const struct blocker_hit *hit, const uint32_t *bits)
+static int stops(const struct sparing *a, const struct spare_lamp *lamp, const struct blocker_hit *hit, const uint32_t *bits)
 {
 	uint32_t b = bits[hit->instance];
 
@@ -199,7 +192,7 @@ struct fare {
  * Send a lamp's rays, one in `step`. at_lit_side, at_last: [n_instances], NULL where not asked for: the area for which each instance stops
  * them at its lit side, and as the last one on the way.
  */
-static struct fare follow(const struct sparing *a, const struct lamp *lamp, const uint32_t *bits, uint32_t step, float *at_lit_side,
+static struct fare follow(const struct sparing *a, const struct spare_lamp *lamp, const uint32_t *bits, uint32_t step, float *at_lit_side,
                           float *at_last)
 {
 	struct fare fare = { 0, 0, 0 };
@@ -248,7 +241,7 @@ static uint32_t mark(const struct sparing *a, const float *stopped, const struct
 }
 
 /* Let a lamp in that an enclosure shuts out. stopped, bits: [n_instances], room to try in */
-static void let_in(struct sparing *a, const struct lamp *lamp, float *stopped, uint32_t *bits)
+static void let_in(struct sparing *a, const struct spare_lamp *lamp, float *stopped, uint32_t *bits)
 {
 	const uint32_t n = a->scene->n_instances;
 	struct fare fare = follow(a, lamp, a->out->bits, a->n_receivers / FIRST_RECEIVERS + 1, NULL, NULL);
@@ -282,8 +275,8 @@ static int find_enclosures(struct sparing *a)
 	float *stopped = malloc((n + 1) * sizeof(*stopped));
 	uint32_t *bits = malloc((n + 1) * sizeof(*bits));
 
-	for (uint32_t i = 0; stopped && bits && i < a->n_lamps; i++)
-		let_in(a, &a->lamps[i], stopped, bits);
+	for (uint32_t i = 0; stopped && bits && i < a->out->n_lamps; i++)
+		let_in(a, &a->out->lamps[i], stopped, bits);
 	free(stopped);
 	free(bits);
 	return stopped && bits ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -384,8 +377,8 @@ static void find_backdrops(struct sparing *a)
 
 static int has_sun(const struct sparing *a)
 {
-	for (uint32_t i = 0; i < a->n_lamps; i++)
-		if (a->lamps[i].position[3] == 0)
+	for (uint32_t i = 0; i < a->out->n_lamps; i++)
+		if (a->out->lamps[i].position[3] == 0)
 			return 1;
 	return 0;
 }
@@ -417,8 +410,10 @@ int spare_find(const struct scene *scene, struct spare *out)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);
 	blockers_destroy(&a->blockers);
 	free(a);
-	if (err || !(out->enclosures + out->backdrops + out->cards))
-		spare_free(out);
+	if (err || !(out->enclosures + out->backdrops + out->cards)) {
+		free(out->bits);
+		out->bits = NULL;
+	}
 	return err;
 }
 
@@ -426,4 +421,38 @@ void spare_free(struct spare *spare)
 {
 	free(spare->bits);
 	*spare = (struct spare){ .bits = NULL };
+}
+
+char *spare_tell_lights(const struct spare *spare)
+{
+	char *text = NULL;
+	size_t size;
+	FILE *out = open_memstream(&text, &size);
+
+	for (uint32_t i = 0; out && i < spare->n_lamps; i++) {
+		const float *p = spare->lamps[i].position;
+
+		fprintf(out, "%s%.9g %.9g %.9g %.9g", i ? "," : "", (double)p[0], (double)p[1], (double)p[2], (double)p[3]);
+	}
+	if (out)
+		fclose(out);
+	return text;
+}
+
+char *spare_tell_cards(const struct spare *spare, const struct scene *scene)
+{
+	char *text = NULL;
+	size_t size;
+	FILE *out = open_memstream(&text, &size);
+	int any = 0;
+
+	for (uint32_t i = 0; out && spare->bits && spare->kept && i < scene->n_instances; i++) {
+		uint32_t first = scene->instances[i].draw, end = i + 1 < scene->n_instances ? scene->instances[i + 1].draw : scene->n_draws + 1;
+
+		if (spare->bits[i] & SCENE_CARD)
+			fprintf(out, "%s%u-%u", any++ ? "," : "", first, end > first ? end - 1 : first);
+	}
+	if (out)
+		fclose(out);
+	return text;
 }

@@ -9,6 +9,7 @@
  *   backdrops    What OpenGL does not light stops no light at infinity, unless it stands within the lit world: a tree on a lit hill casts
  *                a shadow, the walls around a lit figure do not.
  *   cards        Crossed cut-out cards do not shade each other.
+ *   terminator   Flat faces with smooth normals do not stop light that grazes them (kernels/frame/shadow.h); that is found by the kernels.
  *
  * All of it is decided from the geometry of the whole frame, also where something else hides it, so that it changes little as the camera
  * moves.
@@ -17,11 +18,29 @@
 
 #include "scene/scene.h"
 
+enum { SPARE_MOST_LAMPS = 16 };
+
+/* A light, once for all materials that have it. */
+struct spare_lamp {
+	float position[4]; /* as in scene_light */
+	uint32_t space;    /* as in scene_view */
+};
+
 struct spare {
 	uint32_t *bits; /* [n_instances]: SCENE_ONE_SIDED and the like; NULL: nothing is spared */
 	uint32_t enclosures, backdrops, cards; /* instances */
+	struct spare_lamp lamps[SPARE_MOST_LAMPS];
+	uint32_t n_lamps;
+	int kept; /* 1: rules keep all this from being spared (look_apply) */
 };
 
 /** @param out  filled; free with spare_free @return 0 or ERR_SYSTEM (reported) */
 int spare_find(const struct scene *scene, struct spare *out);
 void spare_free(struct spare *spare);
+
+/**
+ * What diff's gate N wants to know: places of lights ("x y z w,..."), draw numbers of cards that shade each other ("3-7,12"). To be
+ * freed; NULL: out of memory.
+ */
+char *spare_tell_lights(const struct spare *spare);
+char *spare_tell_cards(const struct spare *spare, const struct scene *scene);

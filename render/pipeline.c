@@ -156,19 +156,38 @@ static int start_tracer(const struct worker *w, struct tracer **out)
 	return err;
 }
 
+/* What gate N (diff/score/harm.c) wants to know of a frame. */
+static int tell_harm(const struct spare *found, const struct scene *scene, struct image *img)
+{
+	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene);
+	int err = lights && cards ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	if (!err && *lights)
+		err = image_set_attribute(img, "relume:lights", "%s", lights);
+	if (!err && *cards)
+		err = image_set_attribute(img, "relume:cards", "%s", cards);
+	free(lights);
+	free(cards);
+	return err;
+}
+
 /* The scene as the rules change it, traced. */
 static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
 {
 	struct scene changed = { .instances = NULL };
+	struct spare found = { .bits = NULL };
 	int err;
 
 	if (settings->tracer.mode == TRACER_GL)
 		return tracer_render(tracer, scene, &settings->tracer, img);
-	err = look_apply(settings->look, scene, &changed);
+	err = look_apply(settings->look, scene, &changed, &found);
 	if (!err)
 		err = tracer_render(tracer, &changed, &settings->tracer, img);
+	if (!err)
+		err = tell_harm(&found, scene, img);
 	if (changed.instances)
 		look_release(&changed);
+	spare_free(&found);
 	return err;
 }
 

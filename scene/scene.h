@@ -57,6 +57,7 @@ struct scene_face {
 #define SCENE_ONE_SIDED 4u           /* light that comes from behind its lit side passes; the draw is lit, on one side */
 #define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
 #define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
+#define SCENE_FACETED 32u            /* rays to lights start on its faces, whatever surface its normals mean */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {

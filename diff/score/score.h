@@ -1,9 +1,9 @@
 /*
  * The score of one frame: how well a traced picture agrees with its reference, gate by gate.
  *
- * The gates ask three separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on the
- * gl channels)? Do the effect channels explain what the beauty adds (E1 to E3)? Where there is an approved frame, gate B asks a
- * fourth: is everything as it was when somebody approved it?
+ * The gates ask separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on the gl
+ * channels)? Do the effect channels explain what the beauty adds (E1 to E3), and is nothing darker than its shadows explain (N)?
+ * Where there is an approved frame, gate B asks another: is everything as it was when somebody approved it?
  *
  * Conventions
  *   codes    display-referred numbers of 8 bits; linear channels go through sRGB's curve and are rounded half to even

@@ -61,7 +61,7 @@ static inline struct shadow_curve shadow_curve_of(const struct point *p)
 
 	for (int i = 0; i < 3; i++)
 		c.normal[i] = v3_scale(v3_normalize(v3_load(p->vertex[i]->normal)), side); /* GL need not have normalised it */
-	c.smooth = p->material->lighting && p->material->shade_model != GL_FLAT &&
+	c.smooth = p->material->lighting && p->material->shade_model != GL_FLAT && !(p->material->surface.hidden & SCENE_FACETED) &&
 	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2]));
 	return c;
 }

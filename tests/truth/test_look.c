@@ -98,7 +98,7 @@ START_TEST(test_matches)
 
 		snprintf(text, sizeof(text), "surfaces:\n- match: %s\n  reflect: 0.25\n  mirrors: no\n", cases[i].match);
 		ck_assert_msg(load(text, &look) == 0, "%s", said);
-		ck_assert_int_eq(look_apply(look, &t.scene, &changed), 0);
+		ck_assert_int_eq(look_apply(look, &t.scene, &changed, NULL), 0);
 		for (uint32_t k = 0; k < 4; k++) {
 			const struct scene_material *m = &changed.materials[changed.instances[k].material];
 
@@ -125,7 +125,7 @@ static void render_under(const struct truth *t, const char *text, struct image *
 	struct look *look;
 
 	ck_assert_msg(load(text, &look) == 0, "%s", said);
-	ck_assert_int_eq(look_apply(look, &t->scene, &changed.scene), 0);
+	ck_assert_int_eq(look_apply(look, &t->scene, &changed.scene, NULL), 0);
 	truth_render_with(&changed, &options, img);
 	truth_check_closure(img);
 	look_release(&changed.scene);
@@ -177,7 +177,7 @@ START_TEST(test_light_of_an_object)
 	make_squares(&t, draws);
 	t.instances[2].modelview[12] = 3; /* moved by 3 along x */
 	ck_assert_int_eq(load("lights:\n- position: [1, 2, 3, 1]\n  object: \"0000000600000002\"\n", &look), 0);
-	ck_assert_int_eq(look_apply(look, &t.scene, &changed), 0);
+	ck_assert_int_eq(look_apply(look, &t.scene, &changed, NULL), 0);
 	light = &changed.lights[changed.materials[changed.instances[0].material].surface.light_first + 1];
 	ck_assert_float_eq(light->position_eye[0], 4);
 	ck_assert_float_eq(light->position_eye[1], 2);

@@ -22,7 +22,7 @@ static float dark_share(struct truth *t, const char *rules)
 	*kept = t->scene;
 	if (rules)
 		ck_assert_int_eq(rules_parse("rules", rules, strlen(rules), &look), 0);
-	ck_assert_int_eq(look_apply(look, kept, &changed), 0);
+	ck_assert_int_eq(look_apply(look, kept, &changed, NULL), 0);
 	t->scene = changed;
 	truth_render(t, "whitted", &img);
 	t->scene = *kept;

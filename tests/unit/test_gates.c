@@ -195,7 +195,7 @@ START_TEST(good_frame_passes_every_gate)
 {
 	expect_all_passed();
 	for (int g = 0; g < N_GATES; g++)
-		if (g != GATE_R1B && g != GATE_E3 && g != GATE_B) /* no layers, no range asked for, nothing approved */
+		if (g != GATE_R1B && g != GATE_E3 && g != GATE_N && g != GATE_B) /* no layers, no range, no normals, nothing approved */
 			ck_assert_msg(state((enum score_gate_id)g) == SCORE_PASSED, "%s", score_gates[g].name);
 	ck_assert_double_eq(score.fidelity, 1);
 	ck_assert_double_eq(score.gates[GATE_P].value[0], 0);
@@ -514,6 +514,91 @@ START_TEST(effects_within_their_range)
 }
 END_TEST
 
+/* N */
+
+/* The traced frame's surfaces: all face the viewer; `fold`: the plane of the box turns away from the light that its normals face. */
+static void add_surfaces(int fold)
+{
+	static const char *const names[9] = { "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z" };
+	const float *id = image_channel(&traced, "id");
+	float *plane[9];
+
+	for (int k = 0; k < 9; k++)
+		plane[k] = add(&traced, names[k]);
+	for (int i = 0; i < N; i++) {
+		const float x = (float)(i % WIDTH), at[6] = { 0, 0, 1, x, (float)(-i / WIDTH), fold && id[i] == 1 ? 0.5f * x : -10 * id[i] };
+
+		for (int k = 0; k < 9; k++)
+			plane[k][i] = k < 3 ? 0.5f : at[k - 3];
+	}
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:lights", "%s", "1 0 0.25 0"), 0);
+}
+
+/* Let a share of the light through where `where` says so; the channels agree on it. */
+static void darken(float share, int where(int i))
+{
+	for (int i = 0; i < N; i++)
+		for (int c = 0; c < 3; c++) {
+			char names[3][16];
+			float *shadow, beauty;
+
+			snprintf(names[0], sizeof(names[0]), "shadow.%c", "RGB"[c]);
+			snprintf(names[1], sizeof(names[1]), "gl.%c", "RGB"[c]);
+			snprintf(names[2], sizeof(names[2]), "reflect.%c", "RGB"[c]);
+			shadow = image_channel(&traced, names[0]);
+			shadow[i] = where(i) ? share : 1;
+			beauty = image_channel(&traced, names[1])[i] * shadow[i] + image_channel(&traced, names[2])[i];
+			image_channel(&traced, (const char[]){ "RGB"[c], 0 })[i] = beauty;
+		}
+}
+
+static int on_box(int i)
+{
+	return image_channel(&traced, "id")[i] == 1;
+}
+
+static int on_half_of_box(int i)
+{
+	return on_box(i) && i % WIDTH < 60;
+}
+
+START_TEST(dark_without_an_edge)
+{
+	add_surfaces(0);
+	darken(0.2f, on_half_of_box); /* an edge in the middle of the box: a shadow */
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_N), SCORE_PASSED);
+	darken(0.2f, on_box); /* all of it, up to its outline */
+	expect_failed(GATE_N);
+	ck_assert_double_gt(score.gates[GATE_N].value[0], 20);
+	ck_assert_double_eq(score.gates[GATE_N].value[1], 0);
+}
+END_TEST
+
+START_TEST(dark_faces_with_lit_normals)
+{
+	add_surfaces(1);
+	darken(0.2f, on_half_of_box);
+	expect_failed(GATE_N);
+	ck_assert_double_gt(score.gates[GATE_N].value[1], 10);
+}
+END_TEST
+
+START_TEST(named_faults)
+{
+	add_surfaces(0);
+	darken(0.2f, on_half_of_box);
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:cards", "%s", "2-3"), 0);
+	expect_all_passed(); /* the box is draw 1 */
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:cards", "%s", "1"), 0);
+	expect_failed(GATE_N);
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:cards", "%s", ""), 0);
+	expect_all_passed();
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:targets", "%s", "3,1"), 0);
+	expect_failed(GATE_N);
+}
+END_TEST
+
 /* P */
 
 START_TEST(drift_that_no_pixel_shows)
@@ -768,6 +853,9 @@ int main(void)
 	tcase_add_test(tests, channels_that_do_not_add_up);
 	tcase_add_test(tests, unexplained_difference);
 	tcase_add_test(tests, effects_within_their_range);
+	tcase_add_test(tests, dark_without_an_edge);
+	tcase_add_test(tests, dark_faces_with_lit_normals);
+	tcase_add_test(tests, named_faults);
 	tcase_add_test(tests, drift_that_no_pixel_shows);
 	tcase_add_test(tests, gamma_twice);
 	tcase_add_test(tests, plain_pictures_are_compared_by_colour);

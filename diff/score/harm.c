@@ -1,0 +1,284 @@
+/*
+ * Gate N: is a frame darker than its shadows explain? Two figures.
+ *
+ * Dark without an edge. A shadow that something casts ends somewhere: beside it the same surface is lit. Where a light was shut out
+ * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
+ * of their light; those that touch form a patch. A pixel's neighbour is an edge where it is not dark, lies on the same surface (the
+ * same draw, or normals within 37 degrees, and in its plane as far as depth goes) and shows more light of its own colour than
+ * the dark one by a quarter. A patch is explained where its edges are as long as a quarter of a square's side of its area;
+ * patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An honest room in the shade of its own walls took 1.1 % (rooms
+ * lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
+ *
+ * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face (the shadow
+ * terminator: the normal faces a light, the pixels' own plane turns away), dark ones of crossed cards that shade each other (attribute
+ * relume:cards), and lit pictures of framebuffer objects that no ray saw (relume:targets). Bar: 0.3 % of the frame, for shadows of
+ * others that fall on such places: up to 0.08 % (the hall). Low-poly blocks took 0.7 %, trees of crossed cards 2 % and more.
+ *
+ * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:cards and relume:targets, draw
+ * numbers, where rules kept these from being spared. Frames without them are judged by what they hold.
+ */
+#include "diff/score/measures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/frames.h"
+#include "diff/score/picture.h"
+
+#define DARK_CODES 16    /* a step that one sees at once */
+#define DARK_SHARE 0.7f  /* of the light that is left */
+#define LEAST_PATCH 64u
+#define EDGE_PER_SIDE 0.25
+enum { MOST_LIGHTS = 16 };
+
+struct harm {
+	const struct gate_frame *f;
+	uint32_t width, height;
+	const float *gl[3], *shadow[3], *albedo[3], *normal[3], *place[3], *id;
+	float lights[MOST_LIGHTS][4];
+	int n_lights;
+	float *light;  /* [n]: of gl x shadow, luminance */
+	uint8_t *dark; /* [n]: 1; 2: of a patch that was seen */
+	uint32_t *patch; /* [n]: room for one */
+};
+
+static int find_planes(const struct image *img, const char *layer, const char *letters, const float *planes[3])
+{
+	for (int c = 0; c < 3; c++) {
+		char name[16];
+
+		snprintf(name, sizeof(name), "%s.%c", layer, letters[c]);
+		planes[c] = image_channel(img, name);
+		if (!planes[c])
+			return 0;
+	}
+	return 1;
+}
+
+static int find_all_planes(const struct image *img, struct harm *h)
+{
+	h->id = image_channel(img, "id");
+	return h->id && find_planes(img, "gl", "RGB", h->gl) && find_planes(img, "shadow", "RGB", h->shadow) &&
+	       find_planes(img, "albedo", "RGB", h->albedo) && find_planes(img, "N", "XYZ", h->normal) && find_planes(img, "P", "XYZ", h->place);
+}
+
+static float luminance(float red, float green, float blue)
+{
+	return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
+}
+
+static float gl_light(const struct harm *h, size_t i)
+{
+	return luminance(h->gl[0][i], h->gl[1][i], h->gl[2][i]);
+}
+
+/* Light for each unit of a surface's own colour. */
+static float shade(const struct harm *h, size_t i, float light)
+{
+	return light / fmaxf(luminance(h->albedo[0][i], h->albedo[1][i], h->albedo[2][i]), 1e-4f);
+}
+
+static void find_dark(const struct harm *h, size_t n, int is_display)
+{
+	for (size_t i = 0; i < n; i++) {
+		float gl = gl_light(h, i), left;
+		int lost;
+
+		left = luminance(h->gl[0][i] * h->shadow[0][i], h->gl[1][i] * h->shadow[1][i], h->gl[2][i] * h->shadow[2][i]);
+		lost = is_display ? (int)(255 * (gl - left)) : score_code_from_linear(gl) - score_code_from_linear(left);
+		h->light[i] = left;
+		h->dark[i] = !score_ignores(h->f->ref, i) && lost >= DARK_CODES && left < DARK_SHARE * gl;
+	}
+}
+
+static void subtract(const struct harm *h, size_t a, size_t b, float out[3])
+{
+	for (int k = 0; k < 3; k++)
+		out[k] = h->place[k][a] - h->place[k][b];
+}
+
+static float dot(const float a[3], const float b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void normal_at(const struct harm *h, size_t i, float out[3])
+{
+	for (int k = 0; k < 3; k++)
+		out[k] = h->normal[k][i];
+}
+
+/* 1 where a dark pixel's neighbour is the lit side of a shadow's edge. */
+static int is_edge(const struct harm *h, size_t dark, size_t lit)
+{
+	float apart[3], normal[3], other[3];
+
+	if (h->dark[lit] || shade(h, lit, h->light[lit]) <= 1.25f * shade(h, dark, h->light[dark]))
+		return 0;
+	subtract(h, lit, dark, apart);
+	normal_at(h, dark, normal);
+	normal_at(h, lit, other);
+	return (h->id[lit] == h->id[dark] || dot(normal, other) > 0.8f) && fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
+}
+
+/* The patch that a dark pixel belongs to, into h->patch; *edge: the length of its edges. @return its size */
+static uint32_t collect_patch(const struct harm *h, uint32_t start, uint64_t *edge)
+{
+	uint32_t n = 0;
+
+	*edge = 0;
+	h->dark[start] = 2;
+	h->patch[n++] = start;
+	for (uint32_t next = 0; next < n; next++) {
+		const uint32_t i = h->patch[next], x = i % h->width, y = i / h->width;
+		const uint32_t around[4] = { x ? i - 1 : i, x + 1 < h->width ? i + 1 : i, y ? i - h->width : i, y + 1 < h->height ? i + h->width : i };
+
+		for (int k = 0; k < 4; k++) {
+			*edge += around[k] != i && is_edge(h, i, around[k]);
+			if (h->dark[around[k]] == 1) {
+				h->dark[around[k]] = 2;
+				h->patch[n++] = around[k];
+			}
+		}
+	}
+	return n;
+}
+
+/* Pixels of patches that no edge explains; they are blamed. */
+static uint64_t count_unbounded(const struct harm *h, uint32_t n)
+{
+	uint64_t unbounded = 0;
+
+	for (uint32_t start = 0; start < n; start++) {
+		uint64_t edge;
+		uint32_t size;
+
+		if (h->dark[start] != 1)
+			continue;
+		size = collect_patch(h, start, &edge);
+		if (size < LEAST_PATCH || (double)edge >= EDGE_PER_SIDE * sqrt(size))
+			continue;
+		unbounded += size;
+		for (uint32_t k = 0; k < size; k++)
+			h->f->blamed[h->patch[k]] = 1;
+	}
+	return unbounded;
+}
+
+/* --- Known faults -------------------------------------------------------------------------------------------------------- */
+
+static void read_lights(struct harm *h)
+{
+	const char *at = image_attribute(h->f->img, "relume:lights");
+	float *l = h->lights[0];
+	int length;
+
+	for (; at && h->n_lights < MOST_LIGHTS && sscanf(at, " %f %f %f %f%n", &l[0], &l[1], &l[2], &l[3], &length) == 4; l += 4) {
+		h->n_lights++;
+		at += length + (at[length] == ',');
+	}
+}
+
+/* The plane of a pixel and its neighbours in the same draw, on its normal's side. @return 0: it has none */
+static int plane_at(const struct harm *h, uint32_t i, const float normal[3], float out[3])
+{
+	const uint32_t x = i % h->width, y = i / h->width;
+	const uint32_t u = x + 1 < h->width && h->id[i + 1] == h->id[i] ? i + 1 : x ? i - 1 : i;
+	const uint32_t v = y + 1 < h->height && h->id[i + h->width] == h->id[i] ? i + h->width : y ? i - h->width : i;
+	float a[3], b[3], length, side;
+
+	if (u == i || v == i || h->id[u] != h->id[i] || h->id[v] != h->id[i])
+		return 0;
+	subtract(h, u, i, a);
+	subtract(h, v, i, b);
+	for (int k = 0; k < 3; k++)
+		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+	length = sqrtf(dot(out, out));
+	side = dot(out, normal) < 0 ? -1.0f : 1.0f;
+	for (int k = 0; k < 3; k++)
+		out[k] *= side / length;
+	return length > 0 && dot(out, normal) > 0.5f; /* else the neighbours lie on another face */
+}
+
+/* 1 where a dark pixel's normal faces a light from which its own plane turns away. */
+static int is_terminator(const struct harm *h, uint32_t i)
+{
+	float normal[3], plane[3];
+
+	normal_at(h, i, normal);
+	if (!h->dark[i] || !plane_at(h, i, normal, plane))
+		return 0;
+	for (int l = 0; l < h->n_lights; l++) {
+		const float *light = h->lights[l];
+		float to[3], length;
+
+		for (int k = 0; k < 3; k++)
+			to[k] = light[3] != 0 ? light[k] / light[3] - h->place[k][i] : light[k];
+		length = sqrtf(dot(to, to));
+		if (dot(normal, to) > 0.05f * length && dot(plane, to) < -0.02f * length)
+			return 1;
+	}
+	return 0;
+}
+
+/* Pixels of draws that an attribute names, blamed. dark: 1: dark ones alone */
+static uint64_t count_named(const struct harm *h, const char *attribute, uint32_t n, int dark)
+{
+	const char *text = image_attribute(h->f->img, attribute);
+	struct frame_list draws = { 0 };
+	uint64_t count = 0;
+
+	if (!text || !*text || frame_list_parse(text, &draws) != 0)
+		return 0;
+	for (uint32_t i = 0; i < n; i++)
+		if ((!dark || h->dark[i]) && h->id[i] >= 1 && frame_list_contains(&draws, (uint64_t)h->id[i])) {
+			h->f->blamed[i] = 1;
+			count++;
+		}
+	frame_list_free(&draws);
+	return count;
+}
+
+/* Pixels with a known fault; they are blamed. */
+static uint64_t count_faults(const struct harm *h, uint32_t n)
+{
+	uint64_t faults = count_named(h, "relume:cards", n, 1) + count_named(h, "relume:targets", n, 0);
+
+	for (uint32_t i = 0; i < n; i++)
+		if (is_terminator(h, i)) {
+			h->f->blamed[i] = 1;
+			faults++;
+		}
+	return faults;
+}
+
+int gate_harm(struct gate_frame *f)
+{
+	const uint32_t n = f->img->width * f->img->height;
+	const char *encoding = image_attribute(f->img, "relume:encoding");
+	struct harm h = { .f = f, .width = f->img->width, .height = f->img->height };
+	int err = 0;
+
+	if (!find_all_planes(f->img, &h)) {
+		gate_note(f, GATE_N, "the frame has no gl, shadow, albedo, N, P and id channels");
+		return 0;
+	}
+	h.light = malloc((n + (size_t)1) * sizeof(*h.light));
+	h.dark = malloc(n + (size_t)1);
+	h.patch = malloc((n + (size_t)1) * sizeof(*h.patch));
+	if (h.light && h.dark && h.patch) {
+		read_lights(&h);
+		find_dark(&h, n, encoding && strcmp(encoding, "display") == 0);
+		gate_measure(f, GATE_N, 0, 100 * (double)count_unbounded(&h, n) / n);
+		gate_measure(f, GATE_N, 1, 100 * (double)count_faults(&h, n) / n);
+	} else {
+		err = err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", h.width, h.height);
+	}
+	free(h.light);
+	free(h.dark);
+	free(h.patch);
+	return err;
+}
