@@ -413,7 +413,7 @@ unsigned cl_programs_found(struct cl_device *dev)
 static int make_kernel(struct cl_device *dev, enum kernel kernel)
 {
 	const char *name = kernel_entries[kernel].name;
-	const size_t file = cl_program_of(dev->common->root, name);
+	const size_t file = cl_program_of(dev->common->root, &dev->common->keeping, name);
 	cl_int code;
 	int err;
 

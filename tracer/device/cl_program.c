@@ -212,9 +212,9 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	return ERR_SYSTEM;
 }
 
-size_t cl_program_of(cl_device_id device, const char *kernel)
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, const char *kernel)
 {
-	const int gathered = is_pocl(device);
+	const int gathered = !keeping->folder[0] && is_pocl(device);
 	size_t file = n_kernel_files;
 
 	for (size_t i = 0; i < n_kernel_places; i++)

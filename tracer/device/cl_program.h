@@ -21,11 +21,11 @@ struct cl_keeping {
 void cl_program_keep(cl_device_id device, const char *folder, int always, struct cl_keeping *keeping);
 
 /**
- * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40 ms. Others
- * compile all kernels of a program at once, and want only those that a run needs.
+ * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40 ms, unless it is
+ * kept here. Others compile all kernels of a program at once, and want only those that a run needs.
  * @return its number in kernel_files, n_kernel_files: there is no such kernel
  */
-size_t cl_program_of(cl_device_id device, const char *kernel);
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, const char *kernel);
 
 /**
  * Make the program of one file of kernels.
