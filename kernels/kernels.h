@@ -148,6 +148,23 @@ typedef float element_float;
 	VALUE(uint, n) AND()                /* pixels */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
+/* Plain frames: kernels/frame/plain.h. */
+#define ARGUMENTS_plain(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
+	IN(fragment, sparse) AND()          /* per pixel of the band, where it lies in the rectangle */ \
+	VALUE(camera_rectangle, rectangle) AND() /* counted from the band's first row */ \
+	VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the drawable */ \
+	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
+	VALUE(uint, bits) AND() \
+	IN(frame_pixel, cleared) AND()      /* one: what a pixel is before it is drawn */ \
+	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
+	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
+	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none */ \
+	VALUE(uint, n) AND()                /* places of rays a slot: the blocks' pixels */ \
+	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one; read as well */ \
+	OUT(ray, rays) AND()                /* [slot][n] */ \
+	OUT(half, halves) AND() OUT(float, floats)
+
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
@@ -236,7 +253,7 @@ typedef float element_float;
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(credit) X(ao_shade) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+	X(shade_hit) X(credit) X(ao_shade) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -324,6 +341,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
+	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
+	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, COMPOSE_PACKET pixels a work item (CPUs) */
 

@@ -367,5 +367,9 @@ SHARED_SIZE(struct compose_request, 152);
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u
 
+/* Pixels of a work item of plain and plain_shadow: columns, rows. */
+#define PLAIN_WIDTH 16u
+#define PLAIN_ROWS 4u
+
 /* Numbers of a pixel that are means of all passes: shadowed, direct, mirrored, beauty. */
 #define PASS_PARTS 12u

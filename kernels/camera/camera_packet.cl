@@ -582,11 +582,10 @@ WIDE_VECTORS static inline void lay_out(const struct camera_pack *p, packu *out)
 	out[5] = STORE_LAST(first23, last23);
 }
 
-/* Past the caches where that can be: nobody reads it soon, and it is not read before it is written. */
 static inline void store_pack(packu value, __global uint *to, int aligned)
 {
 	if (aligned)
-		STREAM(value, (__global packu *)to);
+		*(__global packu *)to = value;
 	else
 		vstore16(value, 0, to);
 }
@@ -622,7 +621,7 @@ WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y,
 		__global uint *to = counts + pixel + (size_t)row * t->width;
 
 		if (aligned)
-			STREAM(both, (__global uint8 *)to);
+			*(__global uint8 *)to = both;
 		else
 			vstore8(both, 0, to);
 	}

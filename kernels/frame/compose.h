@@ -244,6 +244,22 @@ static inline void compose_store(const struct compose_lanes *l, const struct com
 	}
 }
 
+/* From pixels as they were loaded to numbers as they are stored. */
+static inline void compose_colors(struct compose_lanes *l, const struct compose_request *r)
+{
+	for (uint32_t c = 0u; c < 3u; c++)
+		compose_nudge(l, c);
+	if (r->normals)
+		compose_normals(l);
+	for (uint32_t i = 0u; i < N_COLORS; i++)
+		compose_encode(l, i, r->display);
+	for (uint32_t c = 0u; c < 3u; c++)
+		compose_channel(l, c);
+	for (uint32_t c = 0u; c < 3u && r->normals; c++)
+		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
+			l->halves[COMPOSE_BEAUTY + c][k] = l->color[COLOR_GL + c][k];
+}
+
 /*
  * compose: pixels first .. first + COMPOSE_LANES - 1 of n, counted from the bottom row, into their planes. sums: what add_pass left
  * of the parts of all passes but this one; not looked at where there is but one.
@@ -259,17 +275,7 @@ static inline void compose_item(const struct compose_arguments *a, uint32_t firs
 		l.at[k] = (r->height - 1u - pixel / r->width) * r->width + pixel % r->width;
 		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? (a->first_pixel + pixel) * PASS_PARTS : 0u), r, k, &l);
 	}
-	for (uint32_t c = 0u; c < 3u; c++)
-		compose_nudge(&l, c);
-	if (r->normals)
-		compose_normals(&l);
-	for (uint32_t i = 0u; i < N_COLORS; i++)
-		compose_encode(&l, i, r->display);
-	for (uint32_t c = 0u; c < 3u; c++)
-		compose_channel(&l, c);
-	for (uint32_t c = 0u; c < 3u && r->normals; c++)
-		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-			l.halves[COMPOSE_BEAUTY + c][k] = l.color[COLOR_GL + c][k];
+	compose_colors(&l, r);
 	compose_store(&l, r, a->n - first < COMPOSE_LANES ? a->n - first : COMPOSE_LANES, a->halves, a->floats);
 }
 

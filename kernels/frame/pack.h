@@ -24,6 +24,7 @@ struct pack {
 	__global const struct scene_material *material;
 	__global const struct view *view;
 	packi x, row;             /* pixels, row 0 at the top */
+	int uniform;              /* all lie in the same triangle */
 	packi cut, front;         /* all ones: leaves the view volume; shows its front */
 	packu number[3];          /* of the vertices in the mesh */
 	packu vertex[3];          /* and in the frame */
@@ -75,6 +76,22 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 	return plain;
 }
 
+/* Those of some lanes that a pack can take with the first of them. material: receives that one's */
+static inline uint pack_same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
+{
+	uint same = 0;
+
+	*material = t->geometries[list->instance[popcount((lanes & -lanes) - 1)]].material;
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		__global const struct geometry *g = &t->geometries[list->instance[lane]];
+
+		if (g->material == *material && !g->flags && !(g->attributes & SCENE_HAS_FACE))
+			same |= left & -left;
+	}
+	return same;
+}
+
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
@@ -84,6 +101,12 @@ static inline void pack_load(const struct shade_arguments *a, const struct pack_
 	const uint first = popcount((lanes & -lanes) - 1);
 	packu pixel;
 
+	p->uniform = 1;
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		p->uniform &= list->primitive[lane] == list->primitive[first] && list->instance[lane] == list->instance[first];
+	}
 	for (uint lane = 0; lane < PACK_SIZE; lane++) {
 		const uint from = lanes >> lane & 1 ? lane : first, primitive = list->primitive[from];
 		__global const struct geometry *g = &t->geometries[list->instance[from]];
@@ -106,6 +129,22 @@ static inline void pack_load(const struct shade_arguments *a, const struct pack_
 	p->row = (int)a->height - 1 - p->row;
 }
 
+/* Of a table of four numbers each, the lanes' entries; one for all in a uniform pack. */
+WIDE_VECTORS static inline void pack_row(__global const float *table, const struct pack *p, packu index, packf *row)
+{
+	float4 all;
+
+	if (!p->uniform) {
+		pack_gather(table, index, row);
+		return;
+	}
+	all = vload4(index.s0, table);
+	row[0] = all.x;
+	row[1] = all.y;
+	row[2] = all.z;
+	row[3] = all.w;
+}
+
 /* A row of the vertex stage's numbers, four at a time: struct shaded_vertex has eight fours. */
 #define PACK_CLIP 0u
 #define PACK_EYE 1u
@@ -114,9 +153,9 @@ static inline void pack_load(const struct shade_arguments *a, const struct pack_
 #define PACK_NORMAL 6u    /* and the fog coordinate */
 #define PACK_LIT 7u
 
-WIDE_VECTORS static inline void pack_vertex(const struct tables *t, packu vertex, packu four, packf *row)
+WIDE_VECTORS static inline void pack_vertex(const struct tables *t, const struct pack *p, int k, packu four, packf *row)
 {
-	pack_gather((__global const float *)t->vertices, vertex * 8 + four, row);
+	pack_row((__global const float *)t->vertices, p, p->vertex[k] * 8 + four, row);
 }
 
 /* The corners of whole triangles, and which side they show. */
@@ -130,8 +169,8 @@ WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, st
 	packi placed = -1, clockwise;
 
 	for (int k = 0; k < 3; k++) {
-		pack_gather((__global const float *)a->windows, p->vertex[k], window);
-		pack_vertex(&a->tables, p->vertex[k], PACK_CLIP, clip[k]);
+		pack_row((__global const float *)a->windows, p, p->vertex[k], window);
+		pack_vertex(&a->tables, p, k, PACK_CLIP, clip[k]);
 		x[k] = convert_float16(as_int16(window[0]));
 		y[k] = convert_float16(as_int16(window[1]));
 		placed &= window[3] > 0.0f;
@@ -273,16 +312,25 @@ WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t
 	packf v[3][4];
 	struct pack_color out;
 
-	pack_vertex(t, p->vertex[2], row, v[2]);
+	pack_vertex(t, p, 2, row, v[2]);
 	for (int i = 0; i < 4; i++)
 		out.c[i] = v[2][i];
 	if (p->material->shade_model == GL_FLAT)
 		return out;
-	pack_vertex(t, p->vertex[0], row, v[0]);
-	pack_vertex(t, p->vertex[1], row, v[1]);
+	pack_vertex(t, p, 0, row, v[0]);
+	pack_vertex(t, p, 1, row, v[1]);
 	for (int i = 0; i < 4; i++)
 		out.c[i] = pack_mix(p, v[0][i], v[1][i], v[2][i]);
 	return out;
+}
+
+/* As point_lit_from_vertices; secondary colours only where they are looked at. */
+WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p, struct pack_color *color,
+                                                       struct pack_color *secondary)
+{
+	*color = *secondary = pack_between(t, p, PACK_COLOR);
+	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
+		*secondary = pack_between(t, p, PACK_SECONDARY);
 }
 
 /* A bit for each light that lights a vertex. */
@@ -292,10 +340,10 @@ WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struc
 	packf v[4];
 	packu lights;
 
-	pack_vertex(t, p->vertex[2], (packu)(PACK_LIT), v);
+	pack_vertex(t, p, 2, (packu)(PACK_LIT), v);
 	lights = as_uint16(select(v[0], v[1], back));
 	for (int k = 0; k < 2 && p->material->shade_model != GL_FLAT; k++) {
-		pack_vertex(t, p->vertex[k], (packu)(PACK_LIT), v);
+		pack_vertex(t, p, k, (packu)(PACK_LIT), v);
 		lights |= as_uint16(select(v[0], v[1], back));
 	}
 	return lights;
@@ -406,7 +454,7 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 		packf texcoord[3][4];
 
 		for (int k = 0; k < 3; k++)
-			pack_gather(t->texcoords, first + p->number[k] * m->unit_count + i, texcoord[k]);
+			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord[k]);
 		for (uint left = cut; left; left &= left - 1) {
 			const uint lane = popcount((left & -left) - 1);
 
@@ -419,7 +467,7 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 		packf v[3][4], c;
 
 		for (int k = 0; k < 3; k++)
-			pack_vertex(t, p->vertex[k], (packu)(PACK_NORMAL), v[k]);
+			pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
 		c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
 		out->fog = pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
 	}
@@ -447,7 +495,7 @@ WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t,
 }
 
 /* The colour that point_albedo_of starts from. from_vertices: as they are lit */
-static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
                                             const struct pack_color *from_vertices)
 {
 	__global const struct scene_material *m = p->material;
@@ -480,6 +528,18 @@ static inline struct pack_color pack_albedo(const struct tables *t, const struct
 	return out;
 }
 
+/* As point_albedo_of. */
+static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                            const struct pack_texturing *texturing, const struct pack_color *from_vertices)
+{
+	const struct pack_color matte = pack_matte(t, list, p, lanes, from_vertices);
+	struct pack_color none;
+
+	for (int i = 0; i < 4; i++)
+		none.c[i] = 0.0f;
+	return pack_finish(t, p, texturing, &matte, &none, (packf)(1));
+}
+
 /* As pixel_nudge. */
 WIDE_VECTORS static inline packf pack_nudge(packf x)
 {
@@ -507,6 +567,8 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 {
 	pack_load(a, list, lanes, p);
 	pack_corners(a, p);
+	for (int k = 0; k < 3; k++)
+		p->corner1[k] = p->corner2[k] = 0.0f;
 	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
@@ -544,9 +606,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	if (a->n_slots) {
 		pack_between_relit(a, list, &p, first, lanes, kept, &from_vertices, &secondary);
 	} else {
-		from_vertices = secondary = pack_between(t, &p, PACK_COLOR);
-		if (m->color_sum || (m->lighting && m->separate_specular))
-			secondary = pack_between(t, &p, PACK_SECONDARY);
+		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
 	}
 	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary, texturing.fog);
 	for (int i = 0; i < 3; i++) {
@@ -560,10 +620,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	}
 	if (a->n_slots)
 		return lanes;
-	albedo = pack_albedo(t, list, &p, lanes, &from_vertices);
-	for (int i = 0; i < 3; i++)
-		secondary.c[i] = 0.0f;
-	albedo = pack_finish(t, &p, &texturing, &albedo, &secondary, (packf)(1));
+	albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
 	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
 	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);

@@ -32,29 +32,13 @@ static inline uint load_list(const struct shade_arguments *a, uint first, struct
 	return lanes;
 }
 
-/* Those of some lanes that a pack can take with the first of them. material: receives that one's */
-static inline uint same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
-{
-	uint same = 0;
-
-	*material = t->geometries[list->instance[popcount((lanes & -lanes) - 1)]].material;
-	for (uint left = lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-		__global const struct geometry *g = &t->geometries[list->instance[lane]];
-
-		if (g->material == *material && !g->flags && !(g->attributes & SCENE_HAS_FACE))
-			same |= left & -left;
-	}
-	return same;
-}
-
 static inline void shade_sixteen(const struct shade_arguments *a, uint first, struct shade_kept *kept)
 {
 	struct pack_list list;
 	uint material, lanes = load_list(a, first, &list);
 
 	while (lanes) {
-		const uint bit = lanes & -lanes, same = same_kind(&a->tables, &list, lanes, &material);
+		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &list, lanes, &material);
 		uint done = 0;
 
 		if (same & bit && pack_is_plain(a, &a->tables.materials[material]))

@@ -44,16 +44,6 @@
 #define PREFETCH(p)
 #endif
 
-/* *p = value, aligned, which is not read soon. */
-#if defined(__has_builtin) && !defined(LANES_PORTABLE)
-#if __has_builtin(__builtin_nontemporal_store)
-#define STREAM(value, p) __builtin_nontemporal_store(value, p)
-#endif
-#endif
-#ifndef STREAM
-#define STREAM(value, p) (*(p) = (value))
-#endif
-
 /* One bit a lane. */
 static inline uint lane_bits(int8 mask)
 {

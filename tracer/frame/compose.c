@@ -156,21 +156,36 @@ int compose_start(const struct job *job, uint32_t rows, struct image *img)
 	return err ? err : describe_image(job, img);
 }
 
+int compose_reserve(struct job *job, struct compose_request *request)
+{
+	uint32_t halves, floats;
+	int err;
+
+	*request = request_of(job, &halves, &floats);
+	err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
+	return err ? err : frame_reserve(job->tr, floats, (size_t)floats * job->n_pixels);
+}
+
+int compose_fetch(struct job *job, const struct compose_request *request, struct image *img)
+{
+	uint32_t row = job->height - job->row_first - job->n_rows;
+	size_t n = 0;
+	int err = 0;
+
+	for (size_t i = 0; i < N_CHANNELS && !err; i++)
+		if (compose_wants(wanted(job->options), channels[i].group))
+			err = fetch(job, &channels[i], request, image_row(img, n++, row));
+	return err ? err : image_finish_rows(img, row + job->n_rows);
+}
+
 int compose_band(struct job *job, struct image *img)
 {
-	uint32_t halves, floats, row = job->height - job->row_first - job->n_rows;
-	struct compose_request r = request_of(job, &halves, &floats);
-	size_t n = 0;
-	int err = frame_reserve(job->tr, halves, (size_t)halves * job->n_pixels);
+	struct compose_request r;
+	int err = compose_reserve(job, &r);
 
-	if (!err)
-		err = frame_reserve(job->tr, floats, (size_t)floats * job->n_pixels);
 	if (!err)
 		err = frame_reserve(job->tr, sums, 1); /* where there is one pass, nobody has */
 	if (!err)
 		err = run_compose(job, &r);
-	for (size_t i = 0; i < N_CHANNELS && !err; i++)
-		if (compose_wants(wanted(job->options), channels[i].group))
-			err = fetch(job, &channels[i], &r, image_row(img, n++, row));
-	return err ? err : image_finish_rows(img, row + job->n_rows);
+	return err ? err : compose_fetch(job, &r, img);
 }

@@ -11,6 +11,12 @@
  */
 int compose_start(const struct job *job, uint32_t rows, struct image *img);
 
+/** What the kernels are asked to make of a band, and room for its planes. @return 0 or ERR_SYSTEM (reported) */
+int compose_reserve(struct job *job, struct compose_request *request);
+
+/** Copy the band's planes from the device into what compose_start made. @return 0 or ERR_SYSTEM (reported) */
+int compose_fetch(struct job *job, const struct compose_request *request, struct image *img);
+
 /**
  * Fill in a band's rows. Bands come from the top.
  * @param job  its pixels stand in buffers.frame, the sums of all passes but this one, where there were several, in buffers.sums

@@ -165,7 +165,7 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
 	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, to_lights, n_rays, weight);
 }
 
-static int reserve_light_rays(struct job *job, size_t n_rays)
+int secondary_reserve_rays(struct job *job, size_t n_rays)
 {
 	struct tracer *tr = job->tr;
 	int err = frame_reserve(tr, rays, n_rays);
@@ -175,6 +175,11 @@ static int reserve_light_rays(struct job *job, size_t n_rays)
 	if (!err)
 		err = frame_reserve(tr, visibility, 3 * (size_t)n_rays);
 	return err;
+}
+
+int secondary_ask_lights(struct job *job, const struct accel_space *space, uint32_t n_rays)
+{
+	return ask(job, space, 1, n_rays, 0, 1);
 }
 
 /* Rays to each light a pass. */
@@ -192,7 +197,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
-	int err = reserve_light_rays(job, n_rays);
+	int err = secondary_reserve_rays(job, n_rays);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
 		const struct shadow_ray_launch *a =
@@ -216,7 +221,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4;
-	int err = reserve_light_rays(job, n_rays);
+	int err = secondary_reserve_rays(job, n_rays);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
@@ -241,7 +246,7 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	uint32_t samples = job->options->rays;
-	int err = reserve_light_rays(job, n);
+	int err = secondary_reserve_rays(job, n);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
 		err = launch_ao_ray(tr->dev, n, LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,

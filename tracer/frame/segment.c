@@ -7,8 +7,7 @@
 #include "kernels/gl/pixel.h"
 #include "tracer/frame/secondary.h"
 
-/* The pixels of the band that lie in a scissor rectangle. */
-static struct camera_rectangle band_rectangle(const struct job *job, const int32_t scissor[4])
+struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4])
 {
 	const int32_t first = (int32_t)job->row_first, end = first + (int32_t)job->n_rows;
 	struct camera_rectangle r = camera_rectangle(scissor[0], scissor[1], scissor[2], scissor[3], job->width, job->height);
@@ -20,8 +19,7 @@ static struct camera_rectangle band_rectangle(const struct job *job, const int32
 	return r;
 }
 
-/* The same as places in the buffers of pixels. */
-static struct camera_rectangle in_buffers(const struct job *job, struct camera_rectangle r)
+struct camera_rectangle segment_in_buffers(const struct job *job, struct camera_rectangle r)
 {
 	r.y0 -= (int32_t)job->row_first;
 	r.y1 -= (int32_t)job->row_first;
@@ -41,10 +39,10 @@ void segment_draw_to(struct job *job, uint32_t sample, uint32_t note)
 
 static int clear_sample(struct job *job, const struct scene_clear *clear)
 {
-	struct camera_rectangle r = band_rectangle(job, clear->scissor);
+	struct camera_rectangle r = segment_rectangle(job, clear->scissor);
 	uint32_t n = rectangle_area(r);
 
-	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = in_buffers(job, r), .width = job->width, .bits = job->bits,
+	return launch_clear(job->tr->dev, n, LAUNCH(clear, .clear = *clear, .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits,
 	                                            .n = n, .frame = *job->frame));
 }
 
@@ -74,28 +72,37 @@ static int clears_whole(const struct job *job, const struct scene_clear *clear)
 	       (!(clear->buffers & 4) || (clear->stencil_mask & stencil) == stencil);
 }
 
-int segment_clear_all(struct job *job, uint32_t *n_done)
+uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out)
 {
 	const struct segment *segment = job->prepared.segments;
-	struct scene_clear clear = { .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height },
-		                     .depth = 1, .color_mask = 15, .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
+	uint32_t n = 0;
 
-	for (*n_done = 0; job->prepared.n_segments && *n_done < segment->clear_count; ++*n_done) {
-		const struct scene_clear *next = &job->scene->clears[segment->clear_first + *n_done];
+	*out = (struct scene_clear){ .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height }, .depth = 1,
+		                     .color_mask = 15, .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
+	for (; job->prepared.n_segments && n < segment->clear_count; n++) {
+		const struct scene_clear *next = &job->scene->clears[segment->clear_first + n];
 
 		if (!clears_whole(job, next))
 			break;
 		if (next->buffers & 1)
-			memcpy(clear.color, next->color, sizeof(clear.color));
+			memcpy(out->color, next->color, sizeof(out->color));
 		if (next->buffers & 2)
-			clear.depth = next->depth;
+			out->depth = next->depth;
 		if (next->buffers & 4)
-			clear.stencil = next->stencil;
+			out->stencil = next->stencil;
 	}
+	return n;
+}
+
+int segment_clear_all(struct job *job, uint32_t *n_done)
+{
+	struct scene_clear clear;
+
+	*n_done = segment_whole_clear(job, &clear);
 	return run_clear(job, &clear);
 }
 
-static int run_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
+int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -163,7 +170,7 @@ static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots
 		return err;
 	return launch_gather(tr->dev, n, LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
 	                                        .list = b->fragments, .pixels = b->pixels, .after = b->after,
-	                                        .rectangle = in_buffers(job, r), .width = job->width,
+	                                        .rectangle = segment_in_buffers(job, r), .width = job->width,
 	                                        .first_pixel = frame_first_pixel(job), .n = n));
 }
 
@@ -188,7 +195,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	uint32_t n = rectangle_area(r);
 
 	return launch_resolve(tr->dev, n, LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded,
-	                                         .first = b->first, .counts = b->counts, .rectangle = in_buffers(job, r), .width = job->width,
+	                                         .first = b->first, .counts = b->counts, .rectangle = segment_in_buffers(job, r), .width = job->width,
 	                                         .bits = job->bits, .n = n, .frame = *job->frame));
 }
 
@@ -213,11 +220,21 @@ static int shade_list(struct job *job, uint32_t view, uint32_t n)
 	return err;
 }
 
+int segment_reserve(struct job *job, uint32_t slots)
+{
+	struct tracer *tr = job->tr;
+	int err = frame_reserve(tr, counts, job->n_pixels);
+
+	if (!err)
+		err = frame_reserve(tr, after, job->n_pixels);
+	return err ? err : frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
+}
+
 /* Draw a segment to the present sample; without multisampling, to all samples. */
 static int run_draws(struct job *job, const struct segment *segment)
 {
 	struct tracer *tr = job->tr;
-	struct camera_rectangle r = band_rectangle(job, job->prepared.views[segment->view].scissor);
+	struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
 	int more = rectangle_area(r) != 0, err;
 
@@ -226,9 +243,9 @@ static int run_draws(struct job *job, const struct segment *segment)
 	memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
 	err = frame_upload(tr, after, tr->counts, job->n_pixels);
 	if (!err)
-		err = frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
+		err = segment_reserve(job, slots);
 	while (more && !err) {
-		err = run_camera(job, segment, r);
+		err = segment_trace_camera(job, segment, r);
 		if (!err)
 			err = place_fragments(job, r, slots, &n_list, &more);
 		if (err || n_list == 0)

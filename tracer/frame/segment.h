@@ -9,6 +9,19 @@
 /** Draw to one of the pixels' samples from now on. @param note  what the kernels are told of it (pixel_sample, PIXEL_FOLLOWS) */
 void segment_draw_to(struct job *job, uint32_t sample, uint32_t note);
 
+/** The pixels of the band that lie in a scissor rectangle; and as places in the buffers of pixels. */
+struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4]);
+struct camera_rectangle segment_in_buffers(const struct job *job, struct camera_rectangle r);
+
+/** Make room for what the camera finds in the band: `slots` fragments a pixel. */
+int segment_reserve(struct job *job, uint32_t slots);
+
+/** Trace a segment's camera rays, those of a rectangle of the band, into buffers.sparse and buffers.counts. */
+int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r);
+
+/** The clears of the whole picture that the first segment begins with, as one. @return how many they are */
+uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out);
+
 /**
  * What nobody cleared is black, far and nothing. Where the first segment begins with clears of the whole picture, as most frames do,
  * theirs is done at once.

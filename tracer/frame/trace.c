@@ -10,6 +10,7 @@
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
 #include "tracer/frame/picture.h"
+#include "tracer/frame/plain.h"
 #include "tracer/frame/segment.h"
 #include "tracer/frame/upload.h"
 
@@ -136,8 +137,11 @@ static uint32_t rows_of_band(const struct job *job)
 static int trace_band(struct job *job)
 {
 	uint32_t n_cleared = 0;
-	int err = reserve_pixels(job);
+	int err;
 
+	if (plain_suits(job))
+		return plain_band(job);
+	err = reserve_pixels(job);
 	memset(job->background, 0, sizeof(job->background));
 	if (!err)
 		err = job->scene->start || job->scene->needs_previous ? picture_upload_start(job) : segment_clear_all(job, &n_cleared);

@@ -1,0 +1,179 @@
+/*
+ * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the same bits, for
+ * pixels without reflections and refractions. OpenCL C only.
+ */
+#pragma once
+
+#include "kernels/frame/compose.h"
+#include "kernels/frame/pack.h"
+
+#if defined(__has_builtin) && !defined(LANES_PORTABLE)
+#if defined(__AVX512F__) && __has_builtin(__builtin_ia32_vcvtps2ph512_mask)
+#define PACK_HALF16 1
+#elif defined(__F16C__) && __has_builtin(__builtin_ia32_vcvtps2ph256)
+#define PACK_HALF8 1
+#endif
+#endif
+
+/* The same with the alignment of their elements: PoCL's vstore16 stores one after the other. */
+typedef ushort16 pack_loose_halves __attribute__((aligned(2)));
+typedef float16 pack_loose_floats __attribute__((aligned(4)));
+
+/* Pixels before they are composed; colours as GL counts them. */
+struct pack_pixels {
+	packf gl[4], shadowed[3], direct[3], albedo[3];
+	packf drawn, depth, normal[3], position[3], id;
+};
+
+/* Where they go. */
+struct pack_planes {
+	const struct compose_request *request;
+	__global ushort *halves;
+	__global float *floats;
+	uint at, n; /* of the first pixel in each plane; how many of the sixteen there are */
+};
+
+/* As compose_half. */
+WIDE_VECTORS static inline ushort16 pack_half(packf x)
+{
+#if defined(PACK_HALF16) || defined(PACK_HALF8)
+	/* One kind of NaN. */
+	const packf value = select(x, as_float16((as_uint16(x) & 0x80000000u) | 0x7fc00000u), isnan(x));
+#endif
+#ifdef PACK_HALF16
+	return as_ushort16(__builtin_ia32_vcvtps2ph512_mask(value, 8, as_short16((ushort16)(0)), (ushort)0xffff));
+#elif defined(PACK_HALF8)
+	return (ushort16)(as_ushort8(__builtin_ia32_vcvtps2ph256(value.lo, 0)), as_ushort8(__builtin_ia32_vcvtps2ph256(value.hi, 0)));
+#else
+	const packu bits = as_uint16(x), size = bits & 0x7fffffffu;
+	const packu normal = (size - 0x38000000u + 0xfffu + (size >> 13 & 1u)) >> 13;
+	const packu small = as_uint16(as_float16(size) + 0.5f) - 0x3f000000u;
+	const packu odd = select((packu)(0x7c00u), (packu)(0x7e00u), size > 0x7f800000u);
+	const packu finite = select(normal, small, size < 0x38800000u);
+
+	return convert_ushort16((bits >> 16 & 0x8000u) | select(odd, finite, size < 0x47800000u));
+#endif
+}
+
+/* As compose_rounded. */
+WIDE_VECTORS static inline packf pack_rounded(packf x)
+{
+	const packu bits = as_uint16(x), size = bits & 0x7fffffffu;
+	const packu normal = (size + 0xfffu + (size >> 13 & 1u)) & ~0x1fffu;
+	const packu small = as_uint16((as_float16(size) + 0.5f) - 0.5f);
+
+	return as_float16((bits & 0x80000000u) | select(normal, small, size < 0x38800000u));
+}
+
+/* As compose_power. */
+WIDE_VECTORS static inline packf pack_power(packf x)
+{
+	const packu bits = as_uint16(x) - 0x3f3504f3u;
+	const packf m = as_float16((bits & 0x7fffffu) + 0x3f3504f3u), e = convert_float16(as_int16(bits) >> 23);
+	const packf s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
+	const packf log2m = s * (2.885390082f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * 0.412198583f)));
+	const packf up = 2.4f * (e + log2m) + 12582912.0f, whole = up - 12582912.0f;
+	const packf f = (2.4f * e - whole) + 2.4f * log2m;
+	const packf p = 1.0f + f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
+	                f * (0.0013333558f + f * 0.0001540353f)))));
+
+	return p * as_float16((as_uint16(up) - 0x4b400000u + 127u) << 23);
+}
+
+/* As compose_linear. */
+WIDE_VECTORS static inline packf pack_linear(packf display)
+{
+	const packf x = as_float16(as_uint16(display) & 0x7fffffffu), large = select((packf)(1.0e15f), x, x < 1.0e15f);
+	const packf y = select(x * 0.0773993808f, pack_power((large + 0.055f) * 0.9478672986f), x > 0.04045f);
+
+	return as_float16(as_uint16(y) | (as_uint16(display) & 0x80000000u));
+}
+
+/* As compose_nudged. */
+WIDE_VECTORS static inline packf pack_nudged(packf gl)
+{
+	const packf steps = gl * 255.0f, code = pack_round(steps);
+	const packf moved = (code + select((packf)(-COMPOSE_CODE_REACH), (packf)(COMPOSE_CODE_REACH), steps > code)) / 255.0f;
+
+	return select(gl, moved, (gl >= 0.0f) & (gl <= 1.0f) & (fabs(steps - code) > COMPOSE_CODE_REACH));
+}
+
+/* As compose_effect. */
+WIDE_VECTORS static inline packf pack_effect(packf rest, packf of)
+{
+	return select((packf)(0), pack_rounded(rest), fabs(rest) > fabs(of) * 0.001953125f);
+}
+
+WIDE_VECTORS static inline void pack_store_half(const struct pack_planes *to, uint plane, packf x)
+{
+	__global ushort *out = to->halves + to->request->half_plane[plane] * to->request->width * to->request->height + to->at;
+	ushort16 value;
+
+	if (to->request->half_plane[plane] == SCENE_NONE)
+		return;
+	value = pack_half(x);
+	if (to->n == PACK_SIZE)
+		*(__global pack_loose_halves *)out = value;
+	for (uint i = 0; i < to->n && to->n < PACK_SIZE; i++)
+		out[i] = ((const ushort *)&value)[i];
+}
+
+WIDE_VECTORS static inline void pack_store_float(const struct pack_planes *to, uint plane, packf x)
+{
+	__global float *out = to->floats + to->request->float_plane[plane] * to->request->width * to->request->height + to->at;
+
+	if (to->request->float_plane[plane] == SCENE_NONE)
+		return;
+	if (to->n == PACK_SIZE)
+		*(__global pack_loose_floats *)out = x;
+	for (uint i = 0; i < to->n && to->n < PACK_SIZE; i++)
+		out[i] = ((const float *)&x)[i];
+}
+
+/* A number as it is encoded; `before`, encoded already as `known`, is mostly the same. */
+WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, packf x, packf before, packf known)
+{
+	if (r->display)
+		return x;
+	return any_pack(as_int16(x) != as_int16(before)) ? pack_linear(x) : known;
+}
+
+/* One colour channel, as compose_nudge, compose_encode and compose_channel take it apart. */
+WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, int c, const struct pack_planes *to)
+{
+	const packf nudged = pack_nudged(p->gl[c]);
+	const packf display_shadowed = select(p->shadowed[c], nudged, p->shadowed[c] == p->gl[c]);
+	const packf display_direct = select(p->direct[c], nudged, p->direct[c] == p->gl[c]);
+	const packf exact = to->request->display ? nudged : pack_linear(nudged);
+	const packf shadowed = pack_encode(to->request, display_shadowed, nudged, exact);
+	const packf direct = pack_encode(to->request, display_direct, display_shadowed, shadowed);
+	const packf gl = pack_rounded(exact), share = shadowed / exact;
+	const packf shadow = select((packf)(1), pack_rounded(select((packf)(0), share, share > 0.0f)), (gl > 0.0f) & (shadowed < exact));
+	const packf relight = pack_effect(direct - gl * shadow, direct);
+
+	pack_store_half(to, COMPOSE_BEAUTY + c, gl * shadow + relight + 0.0f);
+	pack_store_half(to, COMPOSE_GL + c, gl);
+	pack_store_half(to, COMPOSE_SHADOW + c, shadow);
+	pack_store_half(to, COMPOSE_RELIGHT + c, relight);
+	pack_store_half(to, COMPOSE_REFLECT + c, (packf)(0));
+	pack_store_half(to, COMPOSE_REFRACT + c, (packf)(0));
+	if (to->request->half_plane[COMPOSE_ALBEDO + c] != SCENE_NONE)
+		pack_store_half(to, COMPOSE_ALBEDO + c, to->request->display ? p->albedo[c] : pack_linear(p->albedo[c]));
+}
+
+/* All planes. */
+WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to)
+{
+	for (int c = 0; c < 3; c++)
+		pack_compose_channel(p, c, to);
+	pack_store_half(to, COMPOSE_BEAUTY + 3, p->drawn);
+	pack_store_half(to, COMPOSE_GL + 3, p->gl[3]);
+	for (int i = 0; i < 3; i++) {
+		pack_store_half(to, COMPOSE_NORMAL + i, p->normal[i]);
+		pack_store_float(to, COMPOSE_POSITION + i, p->position[i]);
+	}
+	pack_store_float(to, COMPOSE_DEPTH, p->depth);
+	pack_store_float(to, COMPOSE_Z, -p->position[2]);
+	pack_store_float(to, COMPOSE_ID, p->id);
+	pack_store_float(to, COMPOSE_LAYERS, (packf)(0));
+}

@@ -1,0 +1,248 @@
+/*
+ * Where sixteen fragments lie in eye space, and their rays to lights: what point.h and shadow.h have for one, in the same order of
+ * operations. OpenCL C only.
+ */
+#pragma once
+
+#include "kernels/frame/pack.h"
+#include "kernels/frame/shadow.h"
+
+struct pack_vec {
+	packf x, y, z;
+};
+
+WIDE_VECTORS static inline struct pack_vec pack_vec(packf x, packf y, packf z)
+{
+	struct pack_vec v;
+
+	v.x = x;
+	v.y = y;
+	v.z = z;
+	return v;
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_add(struct pack_vec a, struct pack_vec b)
+{
+	return pack_vec(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_sub(struct pack_vec a, struct pack_vec b)
+{
+	return pack_vec(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_scale(struct pack_vec a, packf s)
+{
+	return pack_vec(a.x * s, a.y * s, a.z * s);
+}
+
+WIDE_VECTORS static inline packf pack_dot(struct pack_vec a, struct pack_vec b)
+{
+	return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_cross(struct pack_vec a, struct pack_vec b)
+{
+	return pack_vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_choose(struct pack_vec a, struct pack_vec b, packi second)
+{
+	return pack_vec(select(a.x, b.x, second), select(a.y, b.y, second), select(a.z, b.z, second));
+}
+
+/* As v3_normalize. */
+WIDE_VECTORS static inline struct pack_vec pack_normalize(struct pack_vec a)
+{
+	const packf length2 = pack_dot(a, a);
+
+	return pack_choose(a, pack_scale(a, 1.0f / sqrt(length2)), length2 > 0.0f);
+}
+
+/* The fragments' triangles in eye space, as struct point_plane. */
+struct pack_surface {
+	struct pack_vec corner[3], plane; /* plane: point_plane_normal */
+	packf length[3], area;            /* once pack_measure has found them */
+};
+
+WIDE_VECTORS static inline void pack_surface(const struct tables *t, const struct pack *p, struct pack_surface *out)
+{
+	struct pack_vec n;
+
+	for (int k = 0; k < 3; k++) {
+		packf e[4];
+
+		pack_vertex(t, p, k, (packu)(PACK_EYE), e);
+		out->corner[k] = pack_vec(e[0], e[1], e[2]);
+		if (any_pack(e[3] != 1.0f))
+			out->corner[k] = pack_choose(pack_scale(out->corner[k], 1.0f / e[3]), out->corner[k], e[3] == 1.0f);
+	}
+	n = pack_normalize(pack_cross(pack_sub(out->corner[1], out->corner[0]), pack_sub(out->corner[2], out->corner[0])));
+	out->plane = pack_choose(pack_vec(0, 0, 0), n, pack_dot(n, n) > 0.0f);
+}
+
+/* As point_place. */
+WIDE_VECTORS static inline struct pack_vec pack_place_at(const struct pack_surface *s, const packf *weight)
+{
+	return pack_add(pack_add(pack_scale(s->corner[0], weight[0]), pack_scale(s->corner[1], weight[1])),
+	                pack_scale(s->corner[2], weight[2]));
+}
+
+/* As point_normal. */
+WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, const struct pack *p, const struct pack_surface *s)
+{
+	const packi seen = p->material->front_face == GL_CW ? p->front : ~p->front;
+	const struct pack_vec n = pack_scale(s->plane, select((packf)(1), (packf)(-1), seen));
+	struct pack_vec v[3], smooth;
+
+	if (!p->material->lighting)
+		return n;
+	for (int k = 0; k < 3; k++) {
+		packf row[4];
+
+		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
+		v[k] = pack_scale(pack_vec(row[0], row[1], row[2]), p->weight[k]);
+	}
+	smooth = pack_normalize(pack_add(pack_add(v[0], v[1]), v[2]));
+	return pack_choose(n, pack_choose(smooth, pack_scale(smooth, (packf)(-1)), pack_dot(smooth, n) < 0.0f),
+	                   pack_dot(smooth, smooth) > 0.0f);
+}
+
+/* As stage_view_direction. */
+WIDE_VECTORS static inline struct pack_vec pack_view_direction(const struct pack *p, uint height)
+{
+	__global const float *v = p->view->viewport, *m = p->view->inverse;
+	const packf nx = 2.0f * (convert_float16(p->x) + 0.5f - v[0]) / v[2] - 1.0f;
+	const packf ny = 2.0f * (convert_float16((int)height - 1 - p->row) + 0.5f - v[1]) / v[3] - 1.0f;
+	packf near[4], far[4];
+
+	for (int i = 0; i < 4; i++) {
+		near[i] = m[i] * nx + m[4 + i] * ny + -m[8 + i] + m[12 + i];
+		far[i] = m[i] * nx + m[4 + i] * ny + m[8 + i] + m[12 + i];
+	}
+	return pack_vec(far[0] * near[3] - near[0] * far[3], far[1] * near[3] - near[1] * far[3], far[2] * near[3] - near[2] * far[3]);
+}
+
+/* Lengths and area of the triangles. */
+WIDE_VECTORS static inline void pack_measure(struct pack_surface *s)
+{
+	const struct pack_vec edge[3] = { pack_sub(s->corner[2], s->corner[1]), pack_sub(s->corner[0], s->corner[2]),
+		                          pack_sub(s->corner[1], s->corner[0]) };
+	const struct pack_vec cross = pack_cross(edge[2], edge[0]);
+
+	s->area = sqrt(pack_dot(cross, cross));
+	for (int i = 0; i < 3; i++)
+		s->length[i] = sqrt(pack_dot(edge[i], edge[i]));
+}
+
+/* --- Rays ------------------------------------------------------------------------------------------------------------ */
+
+/* As point_ray_origin. back: against the rays that led to the fragments, length 1 */
+WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point, const struct pack_surface *s, struct pack_vec towards,
+                                                           struct pack_vec back)
+{
+	const struct pack_vec n = pack_choose(s->plane, pack_scale(s->plane, (packf)(-1)), pack_dot(s->plane, towards) < 0.0f);
+	struct pack_vec at = pack_place_at(s, of_point);
+	const packf size = pack_max(pack_max(fabs(at.x), fabs(at.y)), fabs(at.z)) * 6.103515625e-5f;
+	packf weight[3], sum = 0.0f;
+
+	for (int i = 0; i < 3; i++) {
+		const packf length = s->length[i];
+
+		weight[i] = pack_max(of_point[i], select((packf)(1.0f / 3.0f), size * length / s->area, size * length * 3.0f < s->area));
+		sum += weight[i];
+	}
+	for (int i = 0; i < 3; i++)
+		weight[i] /= sum;
+	at = pack_place_at(s, weight);
+	at = pack_choose(at, pack_add(at, pack_scale(back, size)), pack_dot(n, back) > 0.0f);
+	return pack_add(at, pack_scale(n, size));
+}
+
+/* As struct shadow_curve. */
+struct pack_curve {
+	packi smooth;
+	struct pack_vec normal[3];
+};
+
+WIDE_VECTORS static inline packi pack_is_other(struct pack_vec a, struct pack_vec b)
+{
+	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
+}
+
+WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const struct pack *p, struct pack_curve *c)
+{
+	const packf side = select((packf)(1), (packf)(-1), pack_side(p));
+
+	c->smooth = 0;
+	if (!p->material->lighting || p->material->shade_model == GL_FLAT)
+		return;
+	for (int k = 0; k < 3; k++) {
+		packf row[4];
+
+		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
+		c->normal[k] = pack_scale(pack_normalize(pack_vec(row[0], row[1], row[2])), side);
+	}
+	c->smooth = pack_is_other(c->normal[0], c->normal[1]) | pack_is_other(c->normal[0], c->normal[2]);
+}
+
+/* As shadow_lit_weights. @return all ones where a corner faces the light */
+WIDE_VECTORS static inline packi pack_lit_weights(const packf *of_point, const packf *cosine, packf *weight)
+{
+	const packi one = cosine[1] > cosine[0];
+	const packi two = select(cosine[2] > cosine[0], cosine[2] > cosine[1], one);
+	const packf best = select(select(cosine[0], cosine[1], one), cosine[2], two);
+	const packf here = of_point[0] * cosine[0] + of_point[1] * cosine[1] + of_point[2] * cosine[2];
+	const packf move = select((packf)(0), -here / (best - here), here < 0.0f);
+	const packf moved[3] = { select((packf)(0), move, ~(one | two)), select((packf)(0), move, one & ~two), select((packf)(0), move, two) };
+
+	for (int i = 0; i < 3; i++)
+		weight[i] = of_point[i] * (1.0f - move) + moved[i];
+	return best > 0.0f;
+}
+
+/* As shadow_curve_origin, for lanes that are smooth; others start on their triangles. straight: what point_ray_origin goes towards */
+WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s, const packf *of_point,
+                                                             struct pack_vec to, int positional, struct pack_vec straight,
+                                                             struct pack_vec back)
+{
+	struct pack_vec n = pack_vec(0, 0, 0), lift = n, at, curved;
+	packf cosine[3], weight[3];
+	packi bent;
+
+	if (!any_pack(c->smooth))
+		return pack_ray_origin(of_point, s, straight, back);
+	for (int i = 0; i < 3; i++)
+		cosine[i] = pack_dot(c->normal[i], pack_normalize(positional ? pack_sub(to, s->corner[i]) : to));
+	bent = c->smooth & pack_lit_weights(of_point, cosine, weight);
+	at = pack_place_at(s, weight);
+	for (int i = 0; i < 3; i++) {
+		const packf below = pack_max(pack_dot(pack_sub(s->corner[i], at), c->normal[i]), (packf)(0));
+
+		lift = pack_add(lift, pack_scale(c->normal[i], weight[i] * below));
+		n = pack_add(n, pack_scale(c->normal[i], weight[i]));
+	}
+	curved = pack_add(pack_ray_origin(weight, s, n, back), lift);
+	return any_pack(~bent) ? pack_choose(pack_ray_origin(of_point, s, straight, back), curved, bent) : curved;
+}
+
+/* As stage_light_ray for a light without a size: rays[lane] of the lanes that want one. */
+static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve, struct pack_vec back,
+                                   __global const struct scene_light *light, uint lanes, __global struct ray *rays)
+{
+	const int positional = light->position_eye[3] != 0.0f;
+	const float scale = positional ? 1.0f / light->position_eye[3] : 1.0f;
+	const struct pack_vec place = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
+	                                       (packf)(light->position_eye[2] * scale));
+	const struct pack_vec straight = positional ? pack_sub(place, pack_place_at(s, p->weight)) : place;
+	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, place, positional, straight, back);
+	const struct pack_vec d = positional ? pack_sub(place, o) : place;
+
+	for (; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+		const float8 ray = (float8)(LANE(o.x, float, lane), LANE(o.y, float, lane), LANE(o.z, float, lane), 0,
+		                            LANE(d.x, float, lane), LANE(d.y, float, lane), LANE(d.z, float, lane), positional ? 1.0f : 1.0e30f);
+
+		vstore8(ray, lane, (__global float *)rays);
+	}
+}

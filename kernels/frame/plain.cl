@@ -1,0 +1,329 @@
+/*
+ * plain, plain_shadow: see kernels/frame/plain.h. A row of sixteen pixels at once, its fragments material by material
+ * (kernels/frame/pack.h); those that packs do not know one by one.
+ */
+#include "kernels/frame/pack.h"
+#include "kernels/frame/pack_compose.h"
+#include "kernels/frame/pack_ray.h"
+#include "kernels/frame/plain.h"
+
+/* A row of sixteen pixels on its way. */
+struct plain_row {
+	struct pack_list list;
+	struct pack_pixels pixels;
+	uint x, y, base; /* of the first pixel in the band; of its place among the rays */
+	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
+};
+
+/* What is kept from one fragment to the next. */
+struct plain_kept {
+	struct pack_kept pack;
+	struct setup_kept one;
+	struct shadow_kept ray;
+};
+
+static inline packi mask_of(uint bits)
+{
+	return ((packi)((int)bits) >> PACK_LANES & 1) != 0;
+}
+
+/* Some lanes of a number. */
+WIDE_VECTORS static inline void put(packf *number, packf value, packi mask)
+{
+	*number = select(*number, value, mask);
+}
+
+static inline int wants_surface(const struct compose_request *r)
+{
+	return (r->half_plane[COMPOSE_NORMAL] & r->float_plane[COMPOSE_POSITION] & r->float_plane[COMPOSE_Z]) != SCENE_NONE;
+}
+
+/* The fragments of a row. @return a bit for each pixel that has one */
+static inline uint load_row(const struct plain_arguments *a, struct plain_row *row)
+{
+	uint lanes = 0;
+
+	row->dimmed = 0;
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const struct fragment f = plain_fragment(a, row->x + lane, row->y);
+		const uint there = f.order != SCENE_NONE;
+
+		row->list.instance[lane] = f.instance;
+		row->list.primitive[lane] = f.primitive;
+		row->list.b1[lane] = f.b1;
+		row->list.b2[lane] = f.b2;
+		row->list.depth[lane] = f.depth;
+		row->list.pixel[lane] = a->first_pixel + row->y * a->width + row->x + lane;
+		lanes |= there << lane;
+	}
+	return lanes;
+}
+
+/* All pixels as they were cleared. */
+WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct pack_pixels *p)
+{
+	for (int i = 0; i < 3; i++) {
+		p->gl[i] = cleared->gl[i];
+		p->shadowed[i] = cleared->shadowed[i];
+		p->direct[i] = cleared->direct[i];
+		p->albedo[i] = p->normal[i] = p->position[i] = 0.0f;
+	}
+	p->gl[3] = cleared->gl[3];
+	p->depth = cleared->depth_exact;
+	p->drawn = p->id = 0.0f;
+}
+
+/* --- Sixteen at once ------------------------------------------------------------------------------------------------- */
+
+/* Which fragments show: those before what was cleared. */
+WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m, packf depth)
+{
+	const uint bits = pixel_depth_bits(a->bits);
+	const packu before = a->cleared->depth;
+	packu steps;
+
+	if (bits > 24)
+		steps = select((packu)(0xffffffffu), convert_uint16(select((packf)(0), depth, depth < 1.0f) * 2147483648.0f) << 1, depth < 1.0f);
+	else
+		steps = convert_uint16(pack_round(depth * (float)pixel_bits_mask(bits)));
+	return m->depth_func == GL_LEQUAL ? steps <= before : steps < before;
+}
+
+/* Colours of lanes that show. */
+WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct pack_color *gl,
+                                           const struct pack_color *shadowed, packi show)
+{
+	for (int i = 0; i < 3; i++) {
+		put(&to->gl[i], gl->c[i], show);
+		put(&to->shadowed[i], shadowed->c[i], show);
+		put(&to->direct[i], shadowed->c[i] + p->material->surface.emission[i], show);
+	}
+	put(&to->gl[3], gl->c[3], show);
+	put(&to->drawn, (packf)(1), show);
+	put(&to->depth, p->depth, show);
+}
+
+/* Where they are, and their draws. */
+static inline void put_surface(const struct plain_arguments *a, struct plain_row *row, const struct pack *p, const struct pack_surface *s,
+                               packi show)
+{
+	struct pack_pixels *to = &row->pixels;
+
+	if (wants_surface(&a->request)) {
+		const struct pack_vec normal = pack_normal(&a->tables, p, s), at = pack_place_at(s, p->weight);
+
+		put(&to->normal[0], normal.x, show);
+		put(&to->normal[1], normal.y, show);
+		put(&to->normal[2], normal.z, show);
+		put(&to->position[0], at.x, show);
+		put(&to->position[1], at.y, show);
+		put(&to->position[2], at.z, show);
+	}
+	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(show) : 0; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+
+		LANE(to->id, float, lane) = (float)plain_draw(&a->tables, row->list.instance[lane], row->list.primitive[lane]);
+	}
+}
+
+/* Rays to the lights that light them. */
+static inline void send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p, struct pack_surface *s,
+                             uint lanes)
+{
+	const packu lights = pack_lights(&a->tables, p);
+	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
+	struct pack_curve curve;
+
+	pack_measure(s);
+	pack_curve_of(&a->tables, p, &curve);
+	for (uint slot = 0; slot < a->n_slots; slot++) {
+		__global struct ray *rays = a->rays + slot * a->n + row->base;
+		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);
+
+		if (wanted)
+			pack_light_rays(p, s, &curve, back, &a->tables.lights[p->material->light_first + slot], wanted, rays);
+		for (uint left = lanes & ~wanted; left; left &= left - 1)
+			stage_no_ray(&rays[popcount((left & -left) - 1)]);
+	}
+}
+
+/* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
+static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
+                               struct pack_kept *kept)
+{
+	const struct tables *t = &a->tables;
+	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
+	struct pack_color lit, secondary, color, shadowed;
+	struct pack_texturing texturing;
+	struct pack_surface surface;
+	struct pack p;
+	packi show;
+
+	p.material = &t->materials[g->material];
+	p.view = &a->views[g->view];
+	lanes = pack_place(s, &row->list, lanes, 1, kept, &p);
+	if (!lanes)
+		return 0;
+	show = mask_of(lanes) & shows(a, p.material, p.depth);
+	pack_texture(s, &row->list, &p, lanes, kept, &texturing);
+	pack_lit_from_vertices(t, &p, &lit, &secondary);
+	color = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
+	for (int i = 0; i < 3; i++)
+		color.c[i] = pack_nudge(color.c[i]);
+	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE) {
+		const struct pack_color albedo = pack_albedo(t, &row->list, &p, lanes, &texturing, &lit);
+
+		for (int i = 0; i < 3; i++)
+			put(&row->pixels.albedo[i], albedo.c[i], show);
+	}
+	shadowed = color;
+	if (lanes & row->dimmed) {
+		pack_between_relit(s, &row->list, &p, row->base, lanes & row->dimmed, kept, &lit, &secondary);
+		lit = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
+		for (int i = 0; i < 3; i++)
+			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), mask_of(row->dimmed));
+	}
+	put_colors(&row->pixels, &p, &color, &shadowed, show);
+	if (wants_surface(&a->request) || (a->n_slots && !s->n_slots))
+		pack_surface(t, &p, &surface);
+	put_surface(a, row, &p, &surface, show);
+	if (a->n_slots && !s->n_slots)
+		send_rays(a, row, &p, &surface, lanes);
+	return lanes;
+}
+
+/* --- One by one ------------------------------------------------------------------------------------------------------ */
+
+/* A fragment as it is shaded, to its lane. */
+static inline void put_one(const struct plain_arguments *a, struct plain_row *row, uint lane)
+{
+	__global const struct shaded *s = &a->shaded[row->base + lane];
+	const struct fragment f = a->fragments[row->base + lane];
+	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
+	struct pack_pixels *to = &row->pixels;
+	struct vec3 normal, position;
+
+	if (!(s->flags & SHADED_THERE) ||
+	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps, a->cleared->depth))
+		return;
+	for (uint i = 0; i < 3; i++) {
+		LANE(to->gl[i], float, lane) = s->gl[i];
+		LANE(to->shadowed[i], float, lane) = s->shadowed[i];
+		LANE(to->direct[i], float, lane) = s->direct[i];
+		LANE(to->albedo[i], float, lane) = s->albedo[i];
+	}
+	compose_surface(&a->tables, a->windows, &f, &normal, &position);
+	LANE(to->normal[0], float, lane) = normal.x;
+	LANE(to->normal[1], float, lane) = normal.y;
+	LANE(to->normal[2], float, lane) = normal.z;
+	LANE(to->position[0], float, lane) = position.x;
+	LANE(to->position[1], float, lane) = position.y;
+	LANE(to->position[2], float, lane) = position.z;
+	LANE(to->gl[3], float, lane) = s->gl[3];
+	LANE(to->drawn, float, lane) = 1;
+	LANE(to->depth, float, lane) = s->depth;
+	LANE(to->id, float, lane) = (float)plain_draw(&a->tables, f.instance, f.primitive);
+}
+
+static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lane,
+                             struct plain_kept *kept)
+{
+	const uint item = row->base + lane;
+
+	if (!s->n_slots) {
+		const struct shadow_ray_arguments r = plain_rays(a);
+		struct fragment f = plain_fragment(a, row->x + lane, row->y);
+
+		a->fragments[item] = f;
+		a->pixels[item] = row->list.pixel[lane];
+		shade_item(s, item, 0, &kept->one);
+		for (uint slot = 0; slot < a->n_slots; slot++)
+			shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
+	} else {
+		shade_item(s, item, 0, &kept->one);
+	}
+	put_one(a, row, lane);
+}
+
+/* --- Rows ------------------------------------------------------------------------------------------------------------ */
+
+static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
+                             struct plain_kept *kept)
+{
+	uint material;
+
+	while (lanes) {
+		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->list, lanes, &material);
+		uint done = 0;
+
+		if (same & bit && pack_is_plain(s, &a->tables.materials[material]) &&
+		    !(a->tables.materials[material].surface.hidden & SCENE_CARD)) /* its rays start otherwise */
+			done = shade_lanes(a, s, row, same, &kept->pack);
+		if (!(done & bit)) {
+			shade_one(a, s, row, popcount(bit - 1), kept);
+			done |= bit;
+		}
+		lanes &= ~done;
+	}
+}
+
+static inline void compose_row(const struct plain_arguments *a, const struct plain_row *row)
+{
+	struct pack_planes to;
+
+	to.request = &a->request;
+	to.halves = a->halves;
+	to.floats = a->floats;
+	to.at = (a->request.height - 1 - row->y) * a->width + row->x;
+	to.n = min(PACK_SIZE, a->width - row->x);
+	pack_compose(&row->pixels, &to);
+}
+
+/* s: what packs and shade_item take, with visibility where lights have been asked */
+static inline void do_block(const struct plain_arguments *a, const struct shade_arguments *s, uint item)
+{
+	struct plain_kept kept;
+	struct plain_row row;
+
+	for (uint i = 0; i < SHADE_TRIANGLES; i++)
+		kept.pack.lit[i].instance = SCENE_NONE;
+	for (uint i = 0; i < PACK_CUTS; i++)
+		kept.pack.cuts[i].instance = SCENE_NONE;
+	row.x = item % plain_columns(a->width) * PLAIN_WIDTH;
+	for (uint k = 0; k < PLAIN_ROWS; k++) {
+		uint lanes;
+
+		row.y = item / plain_columns(a->width) * PLAIN_ROWS + k;
+		row.base = (item * PLAIN_ROWS + k) * PLAIN_WIDTH;
+		lanes = row.y < a->request.height ? load_row(a, &row) : 0;
+		for (uint lane = 0; lane < PACK_SIZE && s->n_slots; lane++)
+			if (lanes >> lane & 1 && stage_dimmed(a->visibility, s->n_slots, a->n, row.base + lane))
+				row.dimmed |= 1u << lane;
+		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots; i++)
+			if (!(lanes >> i % PACK_SIZE & 1))
+				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
+		if (row.y >= a->request.height || (s->n_slots && !row.dimmed))
+			continue;
+		clear_row(a->cleared, &row.pixels);
+		shade_row(a, s, &row, lanes, &kept);
+		compose_row(a, &row);
+	}
+}
+
+KERNEL_OF(float16) void plain(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, 0);
+
+	if ((uint)get_global_id(0) < n / (PLAIN_WIDTH * PLAIN_ROWS))
+		do_block(&a, &s, (uint)get_global_id(0));
+}
+
+KERNEL_OF(float16) void plain_shadow(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, n_slots);
+
+	if ((uint)get_global_id(0) < n / (PLAIN_WIDTH * PLAIN_ROWS))
+		do_block(&a, &s, (uint)get_global_id(0));
+}

@@ -1,0 +1,79 @@
+/*
+ * plain, plain_shadow: frames that are cleared and drawn once, each pixel showing its nearest fragment as it is: no blending, no mirrors,
+ * no pixels from before. Their pixels go from what the camera found to the planes of the picture in one step.
+ *
+ * plain makes all planes without shadows, and a ray to each light that a fragment wants. plain_shadow makes planes again where a light
+ * is dimmed. What they compute is what shade, resolve and compose do one after the other, to the bit.
+ *
+ * Rays, and what is kept of fragments that are shaded one by one, stand block by block: PLAIN_WIDTH pixels of PLAIN_ROWS rows of the band
+ * a work item.
+ */
+#pragma once
+
+#include "kernels/frame/shadow.h"
+
+/** How many blocks a band takes. */
+static inline uint32_t plain_columns(uint32_t width)
+{
+	return (width + PLAIN_WIDTH - 1u) / PLAIN_WIDTH;
+}
+
+/* The fragment of a pixel of the band; its order is SCENE_NONE where there is none. */
+static inline struct fragment plain_fragment(const struct plain_arguments *a, uint32_t x, uint32_t y)
+{
+	struct fragment none;
+
+	none.order = none.instance = none.primitive = SCENE_NONE;
+	none.b1 = none.b2 = none.depth = 0.0f;
+	if ((int32_t)x < a->rectangle.x0 || (int32_t)x >= a->rectangle.x1 || (int32_t)y < a->rectangle.y0 || (int32_t)y >= a->rectangle.y1)
+		return none;
+	return a->sparse[y * a->width + x];
+}
+
+/* What shade_item takes, for fragments of a->fragments. n_slots: 0, or with visibility */
+static inline struct shade_arguments plain_shading(const struct plain_arguments *a, uint32_t n_slots)
+{
+	struct shade_arguments s;
+
+	s.tables = a->tables;
+	s.views = a->views;
+	s.windows = a->windows;
+	s.fragments = a->fragments;
+	s.pixels = a->pixels;
+	s.width = a->width;
+	s.height = a->height;
+	s.bits = a->bits;
+	s.visibility = a->visibility;
+	s.n_slots = n_slots;
+	s.transport = TRANSPORT_GL;
+	s.n = a->n;
+	s.shaded = a->shaded;
+	return s;
+}
+
+/* What shadow_ray_item takes, for the same ones. */
+static inline struct shadow_ray_arguments plain_rays(const struct plain_arguments *a)
+{
+	struct shadow_ray_arguments s;
+
+	s.tables = a->tables;
+	s.views = a->views;
+	s.windows = a->windows;
+	s.fragments = a->fragments;
+	s.pixels = a->pixels;
+	s.width = a->width;
+	s.shaded = a->shaded;
+	s.sample = 0u;
+	s.n = a->n;
+	s.n_rays = a->n * a->n_slots;
+	s.rays = a->rays;
+	return s;
+}
+
+/* The number of a fragment's draw. */
+static inline uint32_t plain_draw(const struct tables *t, uint32_t instance, uint32_t primitive)
+{
+	GLOBAL const struct geometry *g = &t->geometries[instance];
+
+	return g->draw + (g->primitive_draw != SCENE_NONE ? t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] : 0u);
+}

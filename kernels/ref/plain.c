@@ -1,0 +1,67 @@
+/* C twins of kernels/frame/plain.cl: a pixel after the other through the steps that frames which are not plain take. */
+#include "kernels/frame/plain.h"
+
+#include "kernels/frame/compose.h"
+
+/* Compose a pixel of the band. */
+static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
+{
+	struct compose_lanes l;
+
+	l.at[0] = (a->request.height - 1 - y) * a->width + x;
+	compose_load(&a->tables, a->windows, pixel, NULL, &a->request, 0, &l);
+	compose_colors(&l, &a->request);
+	compose_store(&l, &a->request, 1, a->halves, a->floats);
+}
+
+/* s: with visibility where lights have been asked */
+static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	const struct shadow_ray_arguments rays = plain_rays(a);
+	const struct fragment f = plain_fragment(a, x, y);
+	struct frame_pixel pixel = *a->cleared;
+	struct shadow_kept shadow_kept;
+	struct setup_kept kept;
+
+	for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+		stage_no_ray(&a->rays[slot * a->n + item]);
+	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE))
+		return;
+	if (f.order != SCENE_NONE) {
+		const struct shade_arguments first = plain_shading(a, 0);
+
+		a->fragments[item] = f;
+		a->pixels[item] = a->first_pixel + y * a->width + x;
+		shade_item(&first, item, 0, &kept);
+		for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+			shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
+		if (s->n_slots)
+			shade_item(s, item, 0, &kept);
+		pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
+		           plain_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
+	}
+	compose_pixel(a, x, y, &pixel);
+}
+
+static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last)
+{
+	const struct shade_arguments s = plain_shading(a, n_slots);
+	const uint32_t columns = plain_columns(a->width);
+
+	for (size_t i = first * PLAIN_WIDTH * PLAIN_ROWS; i < last * PLAIN_WIDTH * PLAIN_ROWS && i < a->n; i++) {
+		const uint32_t block = (uint32_t)i / (PLAIN_WIDTH * PLAIN_ROWS), place = (uint32_t)i % (PLAIN_WIDTH * PLAIN_ROWS);
+
+		do_pixel(a, &s, block % columns * PLAIN_WIDTH + place % PLAIN_WIDTH, block / columns * PLAIN_ROWS + place / PLAIN_WIDTH,
+		         (uint32_t)i);
+	}
+}
+
+void plain_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, 0, first, last);
+}
+
+void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, a->n_slots, first, last);
+}

@@ -1,0 +1,125 @@
+#include "tracer/frame/plain.h"
+
+#include <string.h>
+
+#include "kernels/camera/camera.h"
+#include "kernels/frame/plain.h"
+#include "tracer/frame/compose.h"
+#include "tracer/frame/secondary.h"
+#include "tracer/frame/segment.h"
+
+/* Whether shadows and mirrors are followed, and there are lights of a size among the first. */
+static int is_lit_simply(const struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	if (job->options->mode == TRACER_GL)
+		return 1;
+	if (job->options->mode != TRACER_WHITTED || secondary_transport(job->options) != TRANSPORT_GL ||
+	    (job->prepared.has_mirrors && job->options->depth))
+		return 0;
+	for (uint32_t i = 0; i < scene->n_lights; i++)
+		if (scene->lights[i].radius > 0)
+			return 0;
+	return 1;
+}
+
+int plain_suits(const struct job *job)
+{
+	const struct prepared *p = &job->prepared;
+	const struct segment *segment = p->segments;
+	struct scene_clear clear;
+
+	if (device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
+	    job->scene->start || job->scene->needs_previous || !is_lit_simply(job))
+		return 0;
+	if (p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
+	    segment_whole_clear(job, &clear) != segment->clear_count)
+		return 0;
+	for (uint32_t i = 0; i < segment->instance_count; i++) {
+		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
+
+		if ((m->color_mask & 15) != 15 || m->alpha_to_one)
+			return 0;
+	}
+	return 1;
+}
+
+/* One pixel as all are before they are drawn. */
+static int clear_pixel(struct job *job)
+{
+	const struct camera_rectangle one = { 0, 0, 1, 1 };
+	struct scene_clear clear;
+	int err = frame_reserve(job->tr, frame, 1);
+
+	segment_whole_clear(job, &clear);
+	return err ? err : launch_clear(job->tr->dev, 1, LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1,
+	                                                        .bits = job->bits, .n = 1, .frame = job->tr->buffers.frame));
+}
+
+/* What kernels leave for n fragments and their rays. */
+static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
+{
+	struct tracer *tr = job->tr;
+	int err = segment_reserve(job, 1);
+
+	if (!err)
+		err = frame_reserve(tr, fragments, n);
+	if (!err)
+		err = frame_reserve(tr, pixels, n);
+	if (!err)
+		err = frame_reserve(tr, shaded, n);
+	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
+}
+
+/* The planes that shadows change. */
+static struct compose_request shadow_request(struct compose_request r)
+{
+	for (uint32_t i = 0; i < N_COMPOSE_HALVES; i++)
+		if (!(i < COMPOSE_BEAUTY + 3 || (i >= COMPOSE_SHADOW && i < COMPOSE_REFLECT)))
+			r.half_plane[i] = SCENE_NONE;
+	memset(r.float_plane, 0xff, sizeof(r.float_plane));
+	return r;
+}
+
+static struct plain_launch launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+                                     const struct compose_request *request)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
+	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
+	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->frame, .request = *request,
+	               .visibility = b->visibility, .n_slots = n_slots, .n = n, .fragments = b->fragments, .pixels = b->pixels,
+	               .shaded = b->shaded, .rays = b->rays, .halves = b->halves, .floats = b->floats);
+}
+
+int plain_band(struct job *job)
+{
+	const struct segment *segment = job->prepared.segments;
+	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
+	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
+	const uint32_t blocks = plain_columns(job->width) * ((job->n_rows + PLAIN_ROWS - 1) / PLAIN_ROWS);
+	const uint32_t n = blocks * PLAIN_WIDTH * PLAIN_ROWS, n_slots = space ? job->prepared.n_light_slots : 0;
+	struct compose_request request;
+	struct plain_launch a;
+	int err = clear_pixel(job);
+
+	if (!err)
+		err = reserve(job, n, n_slots);
+	if (!err)
+		err = compose_reserve(job, &request);
+	if (!err && r.x0 < r.x1)
+		err = segment_trace_camera(job, segment, r);
+	if (err)
+		return err;
+	a = launch_of(job, r, n, n_slots, &request);
+	err = launch_plain(job->tr->dev, blocks, &a);
+	if (!err && n_slots)
+		err = secondary_ask_lights(job, space, n * n_slots);
+	if (!err && n_slots) {
+		a.request = shadow_request(request);
+		err = launch_plain_shadow(job->tr->dev, blocks, &a);
+	}
+	return err ? err : compose_fetch(job, &request, job->image);
+}
