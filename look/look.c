@@ -5,9 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/mat4.h"
+#include "look/modelview.h"
 #include "look/rules.h"
 #include "look/spare.h"
 #include "look/world.h"
@@ -19,6 +21,18 @@ static int has_texture(const struct scene *s, const struct scene_material *m, co
 	for (uint32_t i = 0; i < m->unit_count; i++)
 		if (world_hash_begins(s->textures[s->units[m->unit_first + i].texture]->hash, text))
 			return 1;
+	return 0;
+}
+
+static int is_environment_mapped(const struct scene *s, const struct scene_material *m)
+{
+	for (uint32_t i = 0; i < m->unit_count; i++)
+		for (int c = 0; c < 3; c++) {
+			uint32_t mode = s->units[m->unit_first + i].gen_mode[c];
+
+			if (mode == GL_SPHERE_MAP || mode == GL_REFLECTION_MAP)
+				return 1;
+		}
 	return 0;
 }
 
@@ -41,6 +55,11 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 		return 0;
 	if (r->list && (!draw || draw->list != *r->list))
 		return 0;
+	if (r->modelview && modelview_named(r->modelview) != modelview_kind_of(in->modelview))
+		return 0;
+	if ((r->units && *r->units != m->unit_count) || differs(r->stencil_tested, (int)m->stencil_test) ||
+	    differs(r->environment_mapped, is_environment_mapped(s, m)))
+		return 0;
 	return !differs(r->program, (int)m->program) && !differs(r->lit, (int)m->lighting) &&
 	       !differs(r->textured, m->unit_count > 0) && !differs(r->blended, (int)m->blend) &&
 	       !differs(r->alpha_tested, (int)m->alpha_test) && !differs(r->depth_tested, (int)m->depth_test);
@@ -61,9 +80,13 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
 	if (r->shadows)
-		s->hidden = (s->hidden & SCENE_HIDDEN_FROM_MIRRORS) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
+		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
+	if (r->left_out)
+		s->hidden = (s->hidden & ~SCENE_LEFT_OUT) | (*r->left_out ? SCENE_LEFT_OUT : 0);
+	if (r->solid)
+		s->hidden = (s->hidden & ~SCENE_SOLID) | (*r->solid ? SCENE_SOLID : 0);
 	if (r->lit)
 		s->relit = *r->lit;
 }
@@ -73,7 +96,9 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 /* Rules that only give a light a size leave GL's lighting as it is. */
 static int changes_light(const struct light_rule *r)
 {
-	return !r->light || r->off || r->position || r->ambient || r->diffuse || r->specular || r->attenuation || r->spot;
+	if (!r->light)
+		return !r->off || !*r->off;
+	return r->off || r->position || r->ambient || r->diffuse || r->specular || r->attenuation || r->spot;
 }
 
 /* A scene on its way under the rules. */
@@ -240,6 +265,12 @@ static void size_lights(const struct rules *rules, struct scene *s)
 				s->lights[i].radius = *rules->lights[k].radius;
 }
 
+/* 1 where a rule replaces a trick, and the file says that tricks stay. */
+static int is_kept(const struct rules *rules, const struct surface_rule *r)
+{
+	return rules->replace && !*rules->replace && (r->left_out || r->solid);
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static void change_instance(const struct applying *a, uint32_t i)
 {
@@ -256,7 +287,7 @@ static void change_instance(const struct applying *a, uint32_t i)
 	else if (a->spare->bits)
 		m->surface.hidden |= a->spare->bits[i];
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
-		if (matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
+		if (!is_kept(rules, &rules->surfaces[k]) && matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
 	if (m->surface.relit) {

@@ -5,6 +5,7 @@
 
 #include "base/config.h"
 #include "base/err.h"
+#include "look/modelview.h"
 #include "scene/scene.h"
 
 /* --- The file ------------------------------------------------------------------------------------------------------ */
@@ -22,14 +23,17 @@ static const cyaml_schema_value_t number = { CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAUL
 static const cyaml_schema_field_t match_fields[] = {
 	TEXT(struct match, texture), TEXT(struct match, mesh), TEXT(struct match, draws), TEXT(struct match, call),
 	COUNT(struct match, list), TRUTH(struct match, program), TRUTH(struct match, lit), TRUTH(struct match, textured),
-	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested), CYAML_FIELD_END
+	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested),
+	TRUTH(struct match, stencil_tested), TRUTH(struct match, environment_mapped), COUNT(struct match, units), TEXT(struct match, modelview),
+	CYAML_FIELD_END
 };
 
 /* `confidence` and the like; libcyaml finds them inside the rule. */
 #define REASON(type) \
 	CYAML_FIELD_STRING_PTR("role", OPTIONAL_POINTER, type, reason.role, 1, 64), \
 	CYAML_FIELD_STRING_PTR("why", OPTIONAL_POINTER, type, reason.why, 1, 1000), \
-	CYAML_FIELD_FLOAT_PTR("confidence", OPTIONAL_POINTER, type, reason.confidence)
+	CYAML_FIELD_FLOAT_PTR("confidence", OPTIONAL_POINTER, type, reason.confidence), \
+	CYAML_FIELD_SEQUENCE_FIXED("plane", OPTIONAL_POINTER, type, reason.plane, &number, 4)
 
 static const cyaml_schema_field_t surface_fields[] = {
 	REASON(struct surface_rule),
@@ -37,7 +41,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
 	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
-	TRUTH(struct surface_rule, lit), CYAML_FIELD_END
+	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, left_out), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {
@@ -68,7 +72,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
-	TRUTH(struct rules, spare),
+	TRUTH(struct rules, spare), TRUTH(struct rules, replace),
 	CYAML_FIELD_END
 };
 
@@ -112,6 +116,9 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 		if (!err)
 			err = check_number(path, list, i, "emission", r->emission ? r->emission + c : NULL, 0, 1e30f);
 	}
+	if (!err && r->match && r->match->modelview && modelview_named(r->match->modelview) == N_MODELVIEW_KINDS)
+		err = err_report(ERR_INPUT, path, "surfaces, rule %u: modelview is plain, mirrored or singular, not '%s'", i + 1,
+		                 r->match->modelview);
 	if (!err && r->match)
 		err = check_hash(path, list, i, "mesh", r->match->mesh);
 	if (!err && r->match)

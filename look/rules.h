@@ -14,6 +14,10 @@
  *           blended: no
  *           alpha_tested: no
  *           depth_tested: yes
+ *           stencil_tested: no
+ *           environment_mapped: no   # a texture's coordinates are made from what the surface mirrors
+ *           units: 2                 # texture units
+ *           modelview: plain         # mirrored, or singular as of shadows on a plane
  *         reflect: 0.2               # [0,1]
  *         transmit: 0.8              # [0,1], with reflect at most 1
  *         ior: 1.5                   # 1 and more
@@ -23,6 +27,8 @@
  *         shadows: yes               # casts them
  *         mirrors: yes               # is seen in them and through glass
  *         lit: yes                   # takes the lights below where OpenGL does not light it
+ *         left_out: yes              # a trick: only OpenGL's picture shows it
+ *         solid: yes                 # a mirror that is blended over its picture: the traced one is not
  *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
  *       - mesh: 90c2                 # enough of them shows where the viewer is
  *         at: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]
@@ -40,14 +46,14 @@
  *
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
  *                                    # lit as OpenGL lights it (look/spare.h)
+ *     replace: yes                   # no: rules with left_out or solid do nothing
  *
- * Each rule may also say `role`, `confidence` and `why`, for its reader alone. A frame that does not show where the world is, where some
- * light stands in it, is left as OpenGL drew it.
+ * Each rule may also say `role`, `confidence`, `why` and `plane` (four numbers), for its reader alone. A frame that does not show where
+ * the world is, where some light stands in it, is left as OpenGL drew it.
  *
  * OpenGL's own picture (channels gl.*) never changes: channel relight has what rules do to lights and emission.
  */
-#ifndef LOOK_RULES_H
-#define LOOK_RULES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -59,20 +65,22 @@
 struct match {
 	const char *texture, *mesh, *draws, *call;
 	const uint32_t *list;
-	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested;
+	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped;
+	const uint32_t *units;
+	const char *modelview;
 };
 
 /* What a rule says to its reader alone. */
 struct rule_reason {
 	const char *role, *why;
-	const float *confidence;
+	const float *confidence, *plane;
 };
 
 struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
-	const bool *shadows, *mirrors, *lit;
+	const bool *shadows, *mirrors, *lit, *left_out, *solid;
 };
 
 struct spot {
@@ -98,6 +106,7 @@ struct rules {
 	struct light_rule *lights;
 	struct anchor *world;
 	const bool *spare;
+	const bool *replace;
 	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */
 };
 
@@ -112,5 +121,3 @@ int rules_load(const char *path, struct look **out);
 /** The same for text in memory. @param name  what messages call it */
 int rules_parse(const char *name, const char *text, size_t n, struct look **out);
 void rules_free(struct look **look);
-
-#endif

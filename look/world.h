@@ -1,6 +1,5 @@
 /* Where the world is in a frame, by meshes that stand still in it (rules.h: `world`). */
-#ifndef LOOK_WORLD_H
-#define LOOK_WORLD_H
+#pragma once
 
 #include <stdint.h>
 
@@ -16,5 +15,3 @@ int world_hash_begins(const uint64_t hash[2], const char *text);
  * @return 1; 0: the frame draws no anchor, or there is none
  */
 int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16]);
-
-#endif

@@ -1,6 +1,5 @@
 /* Studying a recording: it is replayed without pixels, frame by frame, into look/study. */
-#ifndef RENDER_LOOK_H
-#define RENDER_LOOK_H
+#pragma once
 
 #include "base/frames.h"
 
@@ -13,5 +12,3 @@ struct look;
  * @return 0 or ERR_* (reported)
  */
 int look_study(const char *trace, const struct frame_list *frames, struct look **look);
-
-#endif

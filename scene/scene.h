@@ -51,13 +51,15 @@ struct scene_face {
 	float shininess;
 };
 
-/* What a surface is hidden from. */
+/* What a surface is hidden from, and what of it the beauty goes without. */
 #define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
 #define SCENE_HIDDEN_FROM_MIRRORS 2u /* is not seen in mirrors and through glass */
 #define SCENE_ONE_SIDED 4u           /* light that comes from behind its lit side passes; the draw is lit, on one side */
 #define SCENE_STOPS_NO_SUN 8u        /* light at infinity passes */
 #define SCENE_CARD 16u               /* nothing nearer than its own primitive's longest edge shades it */
 #define SCENE_FACETED 32u            /* rays to lights start on its faces, whatever surface its normals mean */
+#define SCENE_LEFT_OUT 64u           /* all: a trick that OpenGL drew; traced light does the same */
+#define SCENE_SOLID 128u             /* its blending: that mixes in what stands for a mirror's picture */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {

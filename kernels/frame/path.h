@@ -306,7 +306,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - a->rays[item].t_min));
 	split = split_light(&p, d);
 	own = v3(color.x, color.y, color.z);
-	if (p.material->blend && !(split.through > 0.0f)) {
+	if (p.material->blend && !(split.through > 0.0f) && !(p.material->surface.hidden & SCENE_SOLID)) {
 		own = transparency_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
 		branch_on(&b, &a->rays[item], hit.t, v3_mul(v3_scale(weight, split.base), transparency_of_blend(p.material, color)));
 	}

@@ -101,7 +101,7 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 			pass = v3_mul(pass, glass_absorb(m, (hit->t - ray->t_min) * M_SQRT(v3_dot(d, d))));
 		return pass;
 	}
-	if (!m->blend)
+	if (!m->blend || m->surface.hidden & SCENE_SOLID)
 		return none;
 	/* Blended draws that leave no depth are light or film (glows, blob shadows), nothing that stands in light's way. */
 	return m->depth_write ? transparency_of_blend(m, color) : all;

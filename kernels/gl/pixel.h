@@ -256,10 +256,14 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 	gl = pixel_source(m, v4(s->gl[0], s->gl[1], s->gl[2], opacity), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
 	pixel_store(pixel->gl, v3(gl.x, gl.y, gl.z), mask);
 	pixel_part(m, s->shadowed, opacity, alpha, pixel->shadowed, 0);
-	pixel_part(m, s->direct, opacity, alpha, pixel->direct, 0);
-	pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, 0);
-	/* Refractions are traced; blending would show them once more. */
-	pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, m->surface.transmit > 0.0f);
+	if (!(m->surface.hidden & SCENE_LEFT_OUT)) {
+		int solid = (m->surface.hidden & SCENE_SOLID) != 0u;
+
+		pixel_part(m, s->direct, opacity, alpha, pixel->direct, solid);
+		pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, solid);
+		/* Refractions are traced; blending would show them once more. */
+		pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, solid || m->surface.transmit > 0.0f);
+	}
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
 	pixel->id = draw;

@@ -2,8 +2,7 @@
  * Matrices of doubles: m[16], column-major, column vectors, p' = M p, as OpenGL's. What a recording holds are products of floats;
  * inverses and null vectors of those need more digits than they have.
  */
-#ifndef LOOK_STUDY_MATRIX_H
-#define LOOK_STUDY_MATRIX_H
+#pragma once
 
 extern const double matrix_identity[16];
 
@@ -28,5 +27,3 @@ double matrix_null(double out[4], const double m[16], int left);
 
 /** Length of the longest column of the upper left 3 x 3: how large it makes things. */
 double matrix_scale(const double m[16]);
-
-#endif

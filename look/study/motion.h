@@ -4,8 +4,7 @@
  * A mesh that was drawn before says where the camera must be for it to stand still: its modelview times the inverse of its place in
  * the world. What most of the frame says, by size, is the camera's motion. World space is the eye space of the first frame.
  */
-#ifndef LOOK_STUDY_MOTION_H
-#define LOOK_STUDY_MOTION_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -70,5 +69,3 @@ const struct motion_camera *motion_now(const struct motion *m);
 
 /** 1 where a thing stood still, as far as it was seen again. */
 int motion_is_static(const struct motion_thing *t);
-
-#endif

@@ -3,11 +3,14 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "look/study/findings.h"
 #include "look/study/motion.h"
+#include "look/study/tricks.h"
 #include "look/study/world.h"
 
 struct study {
 	struct motion motion;
+	struct tricks tricks;
 };
 
 int study_create(struct study **out)
@@ -32,7 +35,9 @@ uint64_t study_most_frames(void)
 
 int study_add(struct study *study, const struct scene *scene)
 {
-	return motion_add(&study->motion, scene);
+	int err = motion_add(&study->motion, scene);
+
+	return err ? err : tricks_add(&study->tricks, scene, &study->motion);
 }
 
 void study_write(const struct study *study, const char *trace, FILE *out)
@@ -45,6 +50,7 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 		        (unsigned long long)m->cameras[m->n_frames - 1].frame);
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
-	fprintf(out, "surfaces: []\nlights: []\n");
+	fprintf(out, "replace: yes # no: tricks stay as they are\n");
+	findings_write(&study->tricks, out);
 	world_write(m, out);
 }

@@ -3,8 +3,7 @@
  *
  * motion.h finds the camera and what moves; the other files look at what was drawn in its light.
  */
-#ifndef LOOK_STUDY_STUDY_H
-#define LOOK_STUDY_STUDY_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -32,5 +31,3 @@ int study_add(struct study *study, const struct scene *scene);
  * @param trace  the recording's name, for the file's reader
  */
 void study_write(const struct study *study, const char *trace, FILE *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a study knows of camera and world, as text. */
-#ifndef LOOK_STUDY_WORLD_H
-#define LOOK_STUDY_WORLD_H
+#pragma once
 
 #include <stdio.h>
 
@@ -11,5 +10,3 @@ void world_report(const struct motion *m, FILE *out);
 
 /** The list `world`: meshes that stand still, so many that each frame shows some of them. Nothing where none is known. */
 void world_write(const struct motion *m, FILE *out);
-
-#endif

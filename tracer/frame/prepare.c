@@ -222,7 +222,8 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 
 	if (!m->blend && !m->alpha_test && !m->alpha_to_coverage && !m->logic_op && draws_color)
 		flags |= INSTANCE_OPAQUE;
-	if (m->depth_test && draws_color && shape == PREPARED_FILLED)
+	if (m->depth_test && draws_color && shape == PREPARED_FILLED && 
+	    (~m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS)))
 		flags |= INSTANCE_SECONDARY;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_FRONT_AND_BACK)
 		flags |= INSTANCE_CULL_FRONT;
@@ -343,7 +344,7 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 		return CAMERA_COLUMN;
 	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
 	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
-	    (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
+	    m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;

@@ -1,0 +1,13 @@
+/*
+ * Shadows flattened onto a plane (Blinn 1988, "Me and My (Fake) Shadow"): a mesh drawn once as it is, and once more, dark, under a
+ * matrix that takes the light to nothing. What leads from the one draw to the other is k I - L P^T in eye space: its null vector is
+ * the light L, its left null vector the plane P.
+ */
+#pragma once
+
+#include "look/study/tricks.h"
+
+struct pairs;
+
+/** @return 0 or ERR_SYSTEM (reported) */
+int shadows_add(struct tricks *t, const struct scene *scene, const struct motion *motion);

@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+# limit: 400 s
+"""Tricks that stand for light are told by their matrices (corpus/tricks): light and plane are found to 0.1 %, and the beauty without
+the trick equals that of the same scene drawn without it. OpenGL's own picture stays."""
+import pathlib
+import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
+from exr import Image  # noqa: E402
+from helpers import SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
+
+FRAME, COLORS, GL = 2, ["R", "G", "B"], ["gl.R", "gl.G", "gl.B", "Z", "id"]
+# World space is the first frame's eye space: the program's world, moved by (0, -1.5, -8).
+LIGHT, DIRECTION, FLOOR, MIRROR = (2, 2.5, -7, 1), (0.4364358, 0.8728716, 0.2182179, 0), (0, 1, 0, 1.5), (0, 0, 1, 11)
+
+
+def traced(kind, rules=None, name="traced"):
+    """The frame's picture, under rules if there are some."""
+    file = render(SCRATCH / f"{kind}.trace", SCRATCH / f"{kind}-{name}", "-f", FRAME, "--aov", "gl,Z,id", *(("--look", rules) if rules else ()))[0]
+    return Image(file, COLORS + GL)
+
+
+def numbers(text, key):
+    """All that a key says, each as a list of numbers."""
+    return [[float(x) for x in found.split(",")] for found in re.findall(rf"^ +{key}: \[([^]]*)\]", text, re.M)]
+
+
+def check_numbers(found, true, what):
+    length = sum(x * x for x in true) ** 0.5
+    off = min((sum((a - b) ** 2 for a, b in zip(f, true)) ** 0.5 for f in found), default=None)
+    check(found and all(sum((a - b) ** 2 for a, b in zip(f, true)) ** 0.5 < 1e-3 * length for f in found), f"{what}: off by {off} of {length}: {found}")
+
+
+def worst(a, b, channels):
+    return max(abs(x - y) for c in channels for p, q in zip(a.planes[c], b.planes[c]) for x, y in zip(p, q))
+
+
+for kind in ("none", "traced-mirror", "planar", "directional", "zpass", "zfail", "mirror"):
+    record(SCRATCH / f"{kind}.trace", corpus("tricks"), kind, "--frames", FRAME + 1, options=())
+plain, mirror = traced("none"), traced("traced-mirror")
+
+for kind, role, light, plane in (("planar", "planar shadow", LIGHT, FLOOR), ("directional", "planar shadow", DIRECTION, FLOOR),
+                                 ("zpass", r"shadow volume \(z-pass\)", LIGHT, None), ("zfail", r"shadow volume \(z-fail\)", LIGHT, None),
+                                 ("mirror", "stencil mirror", None, MIRROR)):
+    rules = SCRATCH / f"{kind}.look.yaml"
+    must(relume("look", SCRATCH / f"{kind}.trace", "-o", rules))
+    text = rules.read_text()
+    check(len(re.findall(rf"^  - role: {role}$", text, re.M)) == 1, f"{kind}: found once: {text}")
+    found = numbers(text, "position")
+    check(len(found) == (light is not None), f"{kind}: lights: {found}")
+    if light:
+        check_numbers(found, light, f"{kind}: the light")
+    if plane:
+        check_numbers(numbers(text, "plane"), plane, f"{kind}: the plane")
+    if kind not in ("planar", "zfail", "mirror"):
+        continue
+    after = traced(kind, "auto", "after")
+    off = worst(after, mirror if kind == "mirror" else plain, COLORS)
+    check(off < 0.002, f"{kind}: the beauty is that of the scene without the trick: off by {off}")
+    if kind == "planar":
+        before = traced(kind, name="before")
+        check(all(before.planes[c] == after.planes[c] for c in GL), f"{kind}: OpenGL's picture stays")
+        check(worst(after, before, COLORS) > 0.02, f"{kind}: the beauty differs from that with it")
+        rules.write_text(text.replace("replace: yes", "replace: no"))
+        check(worst(traced(kind, rules, "kept"), before, COLORS) == 0, f"{kind}: one key keeps the trick")
+finish()
