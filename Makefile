@@ -227,7 +227,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-farm
+	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-device-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -354,6 +354,10 @@ show-seek: all
 
 show-batch-faults: all $(HELPERS)
 	@tests/xvfb.sh $(PYTHON) tests/real/test_batch_faults.py $(BUILD)
+
+# Every call of OpenCL fails once: some minutes.
+show-device-faults: all $(HELPERS)
+	@tests/xvfb.sh $(PYTHON) tests/real/test_device_faults.py $(BUILD)
 
 show-kill: all $(HELPERS)
 	@$(PYTHON) tests/show/kill.py $(BUILD)

@@ -184,6 +184,8 @@ int bench_main(int argc, char **argv)
 		err = bench_accel(b, o.kinds, o.repeats, o.json);
 	else if (!err)
 		err = measure_all(b, o.repeats, o.json);
+	if (err == ERR_MEMORY)
+		err = device_report_lack(dev);
 	bench_destroy(&b);
 	device_close(&dev);
 	return -err;

@@ -266,6 +266,12 @@ cl_int clReleaseMemObject(cl_mem mem)
 	return CL_SUCCESS;
 }
 
+/* Of CL_MEM_SIZE. */
+cl_int clGetMemObjectInfo(cl_mem mem, cl_mem_info what, size_t size, void *value, size_t *needed)
+{
+	return what == CL_MEM_SIZE ? tell(&mem->bytes, sizeof(mem->bytes), size, value, needed) : CL_INVALID_VALUE;
+}
+
 static int is_whole(cl_mem mem)
 {
 	for (size_t i = 0; i < GUARD_BYTES; i++)

@@ -22,16 +22,14 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tests/real"))
+sys.path[:0] = [str(ROOT / "tests/real"), str(ROOT / "tests/check")]
 import exr  # noqa: E402
+import host  # noqa: E402
 
 SHOW = len(sys.argv) > 1
 BUILD = pathlib.Path(sys.argv[1] if SHOW else os.environ.get("RELUME_BUILD", ROOT / "build")).resolve()
 SCRATCH = pathlib.Path(os.environ.get("TMPDIR", "/tmp"))
 FAMILIES = ("packets", "binary", "compressed")
-COMPILE = ["clang", "-shared", "-fPIC", "-gline-tables-only", "-x", "cl", "-cl-std=CL1.2", "-cl-no-stdinc", "-D__OPENCL_VERSION__=120", "-Wall",
-           "-Wno-unknown-pragmas", "-Wno-unused-function", "-Wno-c++20-designator", "-Wno-psabi", "-I", str(ROOT), "-I", str(BUILD / "gen"),
-           "-ftrivial-auto-var-init=pattern"]
 SANITIZE = ["-fsanitize=undefined,float-cast-overflow", "-fsanitize-minimal-runtime"]
 
 # Builds: options, environment, whether results are the twins' to the bit.
@@ -55,8 +53,6 @@ RECORDINGS = ("golden/cornell.trace", "golden/two_triangles.trace") if SHOW else
 if not shutil.which("clang"):
     print("no clang here: kernels are not compiled for this processor")
     sys.exit(77)
-kept = BUILD / "tests/host-programs"
-kept.mkdir(parents=True, exist_ok=True)
 checks, wrong = [], []
 
 
@@ -77,13 +73,6 @@ def pictures(text):
     return re.findall(r"^((?:packets|binary|compressed) .*), (all channels .*)$", text, re.MULTILINE)
 
 
-def forget_old():
-    """Programs of older kernels are of no use."""
-    newest = sorted(kept.glob("*.so"), key=lambda f: f.stat().st_mtime, reverse=True)
-    for file in newest[200:]:
-        file.unlink(missing_ok=True)
-
-
 def frame(trace, *options, env=None):
     folder = pathlib.Path(tempfile.mkdtemp(dir=SCRATCH))
     code, _, said = run(BUILD / "relume", "render", ROOT / "tests" / trace, "-f", "0", "-o", folder / "x.#.exr", "--no-cache", *options, env=env)
@@ -91,8 +80,7 @@ def frame(trace, *options, env=None):
 
 
 def try_build(name, options, more, exact):
-    env = dict(os.environ, LD_PRELOAD=str(BUILD / "tests/check/host_cl.so"), HOST_CL_FOLDER=str(kept),
-               HOST_CL_COMPILE=" ".join([*COMPILE, *options]), **more)
+    env = host.environment(BUILD, options, **more)
     for family in FAMILIES:
         code, out, said = run(BUILD / "tests/bench/tiny", "0", family, env=env)
         want = pictures(run(BUILD / "tests/bench/tiny", "reference", family)[1])
@@ -120,7 +108,6 @@ for title, (flags, extra, same) in BUILDS.items():
     try_build(title, flags, extra, same)
     if SHOW:
         print(f"{title}: {'agrees' if len(wrong) == before else 'does not agree'}", flush=True)
-forget_old()
 if SHOW:
     version = run("clang", "--version")[1].splitlines()[0]
     row = {"what": f"kernels built {len(BUILDS)} ways for {platform.machine()}: comparisons with the C twins that fail",

@@ -1,16 +1,20 @@
 /*
- * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, it
- *   FAIL_AFTER=N   refuses to run kernels from the N-th launch on, as a GPU does that fell off the bus
- *   FAIL_ONLY=1    the same on the first device used alone: others go on
- *   EDIT=THIS|THAT compiles kernels that have THAT where their text has THIS
- *   DIE=WORD       ends the process when such a kernel is to run
- *   HANG=WORD      never returns when such a kernel is to run
- *   SLOW_BUILD=1   compiles for a second and a half longer
- *   AS_TYPE=gpu    says that it is a GPU (accelerator: one of these)
- *   AS_DRIVER=TEXT says that its driver has this version
- *   AS_MEMORY=N    says that it has so many bytes of memory
- *   AS_BUFFER=N    says that no buffer may be larger
- * Everything else goes to the real device.
+ * An OpenCL device that fails, or has less than it seems: preloaded before the ICD loader, with a real device underneath.
+ *   FAIL_CALL=N      the N-th call (from 1) fails; FAIL_NAME=clName: the N-th of this function
+ *   FAIL_GONE=1      and so does every later one
+ *   FAIL_CODE=-N     with this error; CL_OUT_OF_RESOURCES
+ *   FAIL_ONLY=1      on the first device used alone: others go on. Of launches only
+ *   COUNT_CALLS=FILE leaves there the number of calls, the most memory that was used, and the largest buffer's
+ *   EDIT=THIS|THAT   compiles kernels that have THAT where their text has THIS
+ *   DIE=WORD         ends the process when such a kernel is to run
+ *   HANG=WORD        never returns when such a kernel is to run
+ *   SLOW_BUILD=1     compiles for a second and a half longer
+ *   AS_TYPE=gpu      says that it is a GPU (accelerator: one of these)
+ *   AS_PLATFORM=NAME, AS_DRIVER=VERSION  says so
+ *   AS_MEMORY=N      has so many bytes of memory
+ *   AS_BUFFER=N      makes no buffer that is larger
+ *   MOST_ITEMS=N     cannot run launches of more work items
+ *   ITEM_NS=N        says that a work item takes so long. A launch of over a second is killed, and nothing works after that
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -24,19 +28,97 @@
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-static atomic_long launches;
+static atomic_long calls, all_calls;
+static atomic_int killed;
+static atomic_ullong used_bytes, most_bytes, largest_bytes;
 static _Atomic(cl_device_id) first;
 
-/* Whether launches on a queue's device may fail. */
+static unsigned long long number(const char *name)
+{
+	const char *text = getenv(name);
+
+	return text ? strtoull(text, NULL, 10) : 0;
+}
+
+/* Whether what is done on a queue's device may fail. */
 static int is_chosen(cl_command_queue queue)
 {
 	cl_device_id device = NULL, none = NULL;
 
 	if (!getenv("FAIL_ONLY"))
 		return 1;
-	clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof(device), &device, NULL);
+	REAL(clGetCommandQueueInfo)(queue, CL_QUEUE_DEVICE, sizeof(device), &device, NULL);
 	return atomic_compare_exchange_strong(&first, &none, device) || none == device;
 }
+
+/* How a call ends before it begins, or CL_SUCCESS. */
+static cl_int fate(const char *name)
+{
+	const char *only = getenv("FAIL_NAME"), *code = getenv("FAIL_CODE");
+	const long which = (long)number("FAIL_CALL");
+	long n;
+
+	atomic_fetch_add(&all_calls, 1);
+	if (atomic_load(&killed))
+		return CL_INVALID_COMMAND_QUEUE;
+	if (!which || (only && strcmp(only, name) != 0))
+		return CL_SUCCESS;
+	n = atomic_fetch_add(&calls, 1) + 1;
+	return n == which || (n > which && getenv("FAIL_GONE")) ? code ? atoi(code) : CL_OUT_OF_RESOURCES : CL_SUCCESS;
+}
+
+__attribute__((destructor)) static void leave_count(void)
+{
+	const char *path = getenv("COUNT_CALLS");
+	FILE *file = path ? fopen(path, "w") : NULL;
+
+	if (file) {
+		fprintf(file, "%ld %llu %llu\n", atomic_load(&all_calls), atomic_load(&most_bytes), atomic_load(&largest_bytes));
+		fclose(file);
+	}
+}
+
+/* --- Calls that do nothing but fail -------------------------------------------------------------------------------- */
+
+/* Functions that return a code, and those that return an object and put the code at the end. */
+#define CODE(name, parameters, ...) \
+	cl_int name parameters \
+	{ \
+		const cl_int code = fate(#name); \
+\
+		return code ? code : REAL(name)(__VA_ARGS__); \
+	}
+#define OBJECT(type, name, parameters, ...) \
+	type name parameters \
+	{ \
+		const cl_int failed = fate(#name); \
+\
+		*code = failed; \
+		return failed ? NULL : REAL(name)(__VA_ARGS__, code); \
+	}
+
+CODE(clGetPlatformIDs, (cl_uint n, cl_platform_id *out, cl_uint *found), n, out, found)
+CODE(clGetDeviceIDs, (cl_platform_id p, cl_device_type type, cl_uint n, cl_device_id *out, cl_uint *found), p, type, n, out, found)
+CODE(clCreateSubDevices, (cl_device_id d, const cl_device_partition_property *how, cl_uint n, cl_device_id *out, cl_uint *made), d, how, n, out, made)
+CODE(clGetProgramInfo, (cl_program p, cl_program_info what, size_t size, void *value, size_t *needed), p, what, size, value, needed)
+CODE(clGetProgramBuildInfo, (cl_program p, cl_device_id d, cl_program_build_info what, size_t size, void *value, size_t *needed), p, d, what, size, value, needed)
+CODE(clSetKernelArg, (cl_kernel k, cl_uint i, size_t size, const void *value), k, i, size, value)
+CODE(clGetEventInfo, (cl_event e, cl_event_info what, size_t size, void *value, size_t *needed), e, what, size, value, needed)
+CODE(clFinish, (cl_command_queue q), q)
+CODE(clEnqueueWriteBuffer, (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, const void *data, cl_uint n, const cl_event *events, cl_event *event),
+     q, m, wait, at, size, data, n, events, event)
+CODE(clEnqueueReadBuffer, (cl_command_queue q, cl_mem m, cl_bool wait, size_t at, size_t size, void *data, cl_uint n, const cl_event *events, cl_event *event),
+     q, m, wait, at, size, data, n, events, event)
+OBJECT(cl_context, clCreateContext,
+       (const cl_context_properties *properties, cl_uint n, const cl_device_id *d, void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *), void *user, cl_int *code),
+       properties, n, d, notify, user)
+OBJECT(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_command_queue_properties properties, cl_int *code), c, d, properties)
+OBJECT(cl_program, clCreateProgramWithBinary,
+       (cl_context c, cl_uint n, const cl_device_id *d, const size_t *lengths, const unsigned char **binaries, cl_int *status, cl_int *code),
+       c, n, d, lengths, binaries, status)
+OBJECT(cl_kernel, clCreateKernel, (cl_program p, const char *name, cl_int *code), p, name)
+
+/* --- Calls that a device answers otherwise ------------------------------------------------------------------------- */
 
 /* Whether a kernel's name holds the word that a variable names. */
 static int is_named(const char *variable, cl_kernel kernel)
@@ -47,18 +129,82 @@ static int is_named(const char *variable, cl_kernel kernel)
 	return word && clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(name) - 1, name, NULL) == CL_SUCCESS && strstr(name, word);
 }
 
+/* The last launches that somebody measures. */
+#define N_LAUNCHES 256
+static struct launch {
+	cl_event event;
+	size_t items;
+} launches[N_LAUNCHES];
+static atomic_ulong n_launches;
+
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
                               const size_t *global, const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
 {
-	const char *after = getenv("FAIL_AFTER");
+	cl_int code = is_chosen(queue) ? fate("clEnqueueNDRangeKernel") : CL_SUCCESS;
 
 	if (is_named("DIE", kernel))
 		abort();
 	while (is_named("HANG", kernel))
 		pause();
-	if (after && is_chosen(queue) && atomic_fetch_add(&launches, 1) >= atol(after))
+	if (code)
+		return code;
+	if (getenv("MOST_ITEMS") && *global > number("MOST_ITEMS"))
 		return CL_OUT_OF_RESOURCES;
-	return REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
+	if (*global * number("ITEM_NS") > 1000000000u)
+		atomic_store(&killed, 1);
+	code = REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
+	if (!code && event)
+		launches[atomic_fetch_add(&n_launches, 1) % N_LAUNCHES] = (struct launch){ *event, *global };
+	return code;
+}
+
+cl_int clGetEventProfilingInfo(cl_event event, cl_profiling_info what, size_t size, void *value, size_t *needed)
+{
+	const cl_int code = fate("clGetEventProfilingInfo");
+	cl_ulong ns = 1;
+
+	if (code || !getenv("ITEM_NS"))
+		return code ? code : REAL(clGetEventProfilingInfo)(event, what, size, value, needed);
+	for (size_t i = 0; what == CL_PROFILING_COMMAND_END && i < N_LAUNCHES; i++)
+		if (launches[i].event == event)
+			ns += launches[i].items * number("ITEM_NS");
+	memcpy(value, &ns, sizeof(ns));
+	return CL_SUCCESS;
+}
+
+static void raise_to(atomic_ullong *most, unsigned long long value)
+{
+	unsigned long long seen = atomic_load(most);
+
+	while (seen < value && !atomic_compare_exchange_weak(most, &seen, value))
+		;
+}
+
+cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host, cl_int *code)
+{
+	cl_mem mem = NULL;
+
+	*code = fate("clCreateBuffer");
+	if (!*code && getenv("AS_BUFFER") && bytes > number("AS_BUFFER"))
+		*code = CL_INVALID_BUFFER_SIZE;
+	if (!*code && getenv("AS_MEMORY") && atomic_load(&used_bytes) + bytes > number("AS_MEMORY"))
+		*code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+	if (!*code)
+		mem = REAL(clCreateBuffer)(context, flags, bytes, host, code);
+	if (mem) {
+		raise_to(&most_bytes, atomic_fetch_add(&used_bytes, bytes) + bytes);
+		raise_to(&largest_bytes, bytes);
+	}
+	return mem;
+}
+
+cl_int clReleaseMemObject(cl_mem mem)
+{
+	size_t bytes = 0;
+
+	REAL(clGetMemObjectInfo)(mem, CL_MEM_SIZE, sizeof(bytes), &bytes, NULL);
+	atomic_fetch_sub(&used_bytes, bytes);
+	return REAL(clReleaseMemObject)(mem);
 }
 
 /* A text with its first `this` replaced; NULL: there is none. */
@@ -77,6 +223,9 @@ cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char *
 {
 	const char *edit = getenv("EDIT"), *that = edit ? strchr(edit, '|') : NULL, *changed[8];
 
+	*code = fate("clCreateProgramWithSource");
+	if (*code)
+		return NULL;
 	for (cl_uint i = 0; that && i < n && n <= 8; i++) {
 		char *text = edited(texts[i], edit, (size_t)(that - edit), that + 1);
 
@@ -88,28 +237,49 @@ cl_program clCreateProgramWithSource(cl_context context, cl_uint n, const char *
 cl_int clBuildProgram(cl_program program, cl_uint n, const cl_device_id *devices, const char *options,
                       void(CL_CALLBACK *notify)(cl_program, void *), void *user)
 {
+	const cl_int code = fate("clBuildProgram");
+
 	if (getenv("SLOW_BUILD"))
 		nanosleep(&(struct timespec){ 1, 500000000 }, NULL);
-	return REAL(clBuildProgram)(program, n, devices, options, notify, user);
+	return code ? code : REAL(clBuildProgram)(program, n, devices, options, notify, user);
+}
+
+/* A text in place of the real one. */
+static void say(const char *text, size_t size, void *value, size_t *needed)
+{
+	if (value && size)
+		snprintf(value, size, "%s", text);
+	if (needed)
+		*needed = strlen(text) + 1;
+}
+
+cl_int clGetPlatformInfo(cl_platform_id platform, cl_platform_info what, size_t size, void *value, size_t *needed)
+{
+	cl_int code = fate("clGetPlatformInfo");
+
+	if (!code)
+		code = REAL(clGetPlatformInfo)(platform, what, size, value, needed);
+	if (!code && what == CL_PLATFORM_NAME && getenv("AS_PLATFORM"))
+		say(getenv("AS_PLATFORM"), size, value, needed);
+	return code;
 }
 
 cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t size, void *value, size_t *needed)
 {
-	const cl_int code = REAL(clGetDeviceInfo)(device, what, size, value, needed);
-	const char *type = getenv("AS_TYPE"), *memory = getenv("AS_MEMORY"), *buffer = getenv("AS_BUFFER"),
-	           *driver = getenv("AS_DRIVER");
-	cl_device_type as = type && strcmp(type, "gpu") == 0 ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_ACCELERATOR;
-	cl_ulong bytes;
+	const cl_int code = fate("clGetDeviceInfo");
+	const cl_int real = code ? code : REAL(clGetDeviceInfo)(device, what, size, value, needed);
+	const char *type = getenv("AS_TYPE");
+	const cl_device_type as = type && strcmp(type, "gpu") == 0 ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_ACCELERATOR;
+	const cl_ulong bytes = what == CL_DEVICE_GLOBAL_MEM_SIZE ? number("AS_MEMORY") :
+	                       what == CL_DEVICE_MAX_MEM_ALLOC_SIZE ? number("AS_BUFFER") : 0;
 
-	if (code != CL_SUCCESS || !value)
-		return code;
+	if (real || !value)
+		return real;
 	if (what == CL_DEVICE_TYPE && type)
 		memcpy(value, &as, sizeof(as));
-	if (what == CL_DRIVER_VERSION && driver)
-		snprintf(value, size, "%s", driver);
-	bytes = memory && what == CL_DEVICE_GLOBAL_MEM_SIZE ? strtoull(memory, NULL, 10) :
-	        buffer && what == CL_DEVICE_MAX_MEM_ALLOC_SIZE ? strtoull(buffer, NULL, 10) : 0;
+	if (what == CL_DRIVER_VERSION && getenv("AS_DRIVER"))
+		say(getenv("AS_DRIVER"), size, value, needed);
 	if (bytes)
 		memcpy(value, &bytes, sizeof(bytes));
-	return code;
+	return real;
 }

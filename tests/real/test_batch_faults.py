@@ -101,7 +101,7 @@ judge("recording is gone", relume(*command(cut, SCRATCH / "gone")), SCRATCH / "g
 # A device that fails at once, and one that fails in the middle.
 for after in (0, 40):
     folder = SCRATCH / f"device{after}"
-    done = relume(*command(trace, folder), env=dict(shim, FAIL_AFTER=str(after)))
+    done = relume(*command(trace, folder), env=dict(shim, FAIL_CALL=str(after + 1), FAIL_NAME="clEnqueueNDRangeKernel", FAIL_GONE="1"))
     judge(f"device fails at launch {after}", done, folder, 5, "CL_OUT_OF_RESOURCES")
     goes_on(f"device fails at launch {after}", folder)
 

@@ -69,7 +69,7 @@ for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("A
 
 # One of two devices fails in the middle: the other one takes what it had, and every frame is there.
 must(render("alone"))
-two = fake(POCL_DEVICES="pthread pthread", FAIL_AFTER="60", FAIL_ONLY="1")
+two = fake(POCL_DEVICES="pthread pthread", FAIL_CALL="61", FAIL_NAME="clEnqueueNDRangeKernel", FAIL_GONE="1", FAIL_ONLY="1")
 done = render("left", "--device", "all", "-j", "1", env=two)
 check(done.returncode == 0, f"one of two devices fails: exit code {done.returncode}: {done.stderr[-600:]}")
 check(done.stderr.count("CL_OUT_OF_RESOURCES") == 1 and done.stderr.count("not used again") == 1, f"it is said once: {done.stderr[-600:]}")

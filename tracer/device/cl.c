@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "tracer/device/cl_error.h"
+#include "tracer/device/cl_launch.h"
 #include "tracer/device/cl_program.h"
 #include "kernels/embed.h"
 
@@ -29,6 +30,7 @@ struct cl_common {
 	cl_context context;
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
 	struct cl_keeping keeping;
+	int said; /* cl_report */
 	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
 };
 
@@ -36,7 +38,9 @@ struct cl_device {
 	struct cl_common *common;
 	cl_command_queue queue;
 	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
+	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
 	int cpu;
+	char lack[160]; /* what the last ERR_MEMORY was about */
 };
 
 struct cl_buffer {
@@ -166,7 +170,7 @@ static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 	if (code == CL_SUCCESS)
 		return 0;
 	dev->id = dev->root;
-	return cl_report(code, "this device cannot be limited to fewer threads");
+	return cl_report(&dev->said, code, "this device cannot be limited to fewer threads");
 }
 
 static void release_common(struct cl_common *c)
@@ -212,8 +216,8 @@ static int open_queue(struct cl_device *dev)
 {
 	cl_int code;
 
-	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, 0, &code);
-	return dev->queue ? 0 : cl_report(code, "clCreateCommandQueue");
+	dev->queue = clCreateCommandQueue(dev->common->context, dev->common->id, dev->cpu ? 0 : CL_QUEUE_PROFILING_ENABLE, &code);
+	return dev->queue ? 0 : cl_report(&dev->common->said, code, "clCreateCommandQueue");
 }
 
 int cl_open(size_t number, unsigned threads, struct cl_device **out)
@@ -246,7 +250,7 @@ int cl_open(size_t number, unsigned threads, struct cl_device **out)
 		goto fail;
 	common->context = clCreateContext(NULL, 1, &common->id, NULL, NULL, &code);
 	if (!common->context) {
-		err = cl_report(code, "clCreateContext");
+		err = cl_report(&common->said, code, "clCreateContext");
 		goto fail;
 	}
 	err = open_queue(dev);
@@ -285,23 +289,42 @@ void cl_close(struct cl_device **dev)
 	*dev = NULL;
 	if (!d)
 		return;
-	for (size_t i = 0; i < N_KERNELS; i++)
+	for (size_t i = 0; i < N_KERNELS; i++) {
+		cl_pace_free(&d->paces[i]);
 		if (d->kernels[i])
 			clReleaseKernel(d->kernels[i]);
+	}
 	if (d->queue)
 		clReleaseCommandQueue(d->queue);
 	release_common(d->common);
 	free(d);
 }
 
-/* Count a buffer of so many bytes. @return 0, or ERR_SYSTEM (reported: there is no room for it) */
-static int take_memory(struct cl_common *c, size_t bytes)
+int cl_report_lack(struct cl_device *dev)
 {
+	return __atomic_exchange_n(&dev->common->said, 1, __ATOMIC_RELAXED) ? ERR_SYSTEM : err_report(ERR_SYSTEM, "OpenCL", "%s", dev->lack);
+}
+
+/* Note an OpenCL error. @return ERR_MEMORY where it says that there is too little of something; ERR_SYSTEM (reported) */
+static int lack_or_report(struct cl_device *dev, cl_int code, const char *what)
+{
+	if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_INVALID_BUFFER_SIZE)
+		return cl_report(&dev->common->said, code, what);
+	snprintf(dev->lack, sizeof(dev->lack), "%s: %s (%d)", what, cl_error_name(code), code);
+	return ERR_MEMORY;
+}
+
+/* Count a buffer of so many bytes. @return 0, or ERR_MEMORY: there is no room for it */
+static int take_memory(struct cl_device *dev, size_t bytes)
+{
+	struct cl_common *c = dev->common;
 	uint64_t used;
 
-	if (bytes > c->buffer_bytes)
-		return err_report(ERR_SYSTEM, "OpenCL", "a buffer of %llu MiB is needed, and this device makes none of more than %llu: "
-		                  "choose another --device", (unsigned long long)bytes >> 20, (unsigned long long)c->buffer_bytes >> 20);
+	if (bytes > c->buffer_bytes) {
+		snprintf(dev->lack, sizeof(dev->lack), "a buffer of %llu MiB is needed, and this device makes none of more than %llu: choose another "
+		         "--device", (unsigned long long)(bytes + 0xfffff) >> 20, (unsigned long long)c->buffer_bytes >> 20);
+		return ERR_MEMORY;
+	}
 	pthread_mutex_lock(&c->lock);
 	used = c->used_bytes + bytes;
 	if (used <= c->memory_bytes)
@@ -309,8 +332,9 @@ static int take_memory(struct cl_common *c, size_t bytes)
 	pthread_mutex_unlock(&c->lock);
 	if (used <= c->memory_bytes)
 		return 0;
-	return err_report(ERR_SYSTEM, "OpenCL", "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
-	                  (unsigned long long)used >> 20, (unsigned long long)c->memory_bytes >> 20);
+	snprintf(dev->lack, sizeof(dev->lack), "%llu MiB are needed on this device, which has %llu: fewer --jobs, or another --device",
+	         (unsigned long long)(used + 0xfffff) >> 20, (unsigned long long)c->memory_bytes >> 20);
+	return ERR_MEMORY;
 }
 
 static void give_memory(struct cl_common *c, size_t bytes)
@@ -339,13 +363,13 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes)
 	b->mem = NULL;
 	give_memory(dev->common, b->bytes);
 	b->bytes = 0;
-	if (take_memory(dev->common, bytes))
-		return ERR_SYSTEM;
+	if (take_memory(dev, bytes))
+		return ERR_MEMORY;
 	b->mem = clCreateBuffer(dev->common->context, CL_MEM_READ_WRITE, bytes, NULL, &code);
 	if (!b->mem) {
 		give_memory(dev->common, bytes);
 		snprintf(what, sizeof(what), "a buffer of %zu bytes", bytes);
-		return cl_report(code, what);
+		return lack_or_report(dev, code, what);
 	}
 	b->bytes = bytes;
 	return 0;
@@ -368,7 +392,9 @@ int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, con
 	if (bytes == 0)
 		return 0;
 	code = clEnqueueWriteBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
-	return code == CL_SUCCESS ? 0 : cl_report(code, "writing a buffer");
+	if (code == CL_MEM_OBJECT_ALLOCATION_FAILURE)
+		return lack_or_report(dev, code, "writing a buffer");
+	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "writing a buffer");
 }
 
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes)
@@ -378,19 +404,19 @@ int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset
 	if (bytes == 0)
 		return 0;
 	code = clEnqueueReadBuffer(dev->queue, buffer->mem, CL_TRUE, offset, bytes, data, 0, NULL, NULL);
-	return code == CL_SUCCESS ? 0 : cl_report(code, "reading a buffer");
+	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "reading a buffer");
 }
 
 int cl_finish(struct cl_device *dev)
 {
 	cl_int code = clFinish(dev->queue);
 
-	return code == CL_SUCCESS ? 0 : cl_report(code, "clFinish");
+	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "clFinish");
 }
 
 static int build_program(struct cl_common *c, size_t file)
 {
-	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, &c->keeping, &c->programs[file]);
+	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, &c->keeping, &c->said, &c->programs[file]);
 }
 
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always)
@@ -425,13 +451,11 @@ static int make_kernel(struct cl_device *dev, enum kernel kernel)
 	if (err)
 		return err;
 	dev->kernels[kernel] = clCreateKernel(dev->common->programs[file], name, &code);
-	return dev->kernels[kernel] ? 0 : cl_report(code, name);
+	return dev->kernels[kernel] ? 0 : cl_report(&dev->common->said, code, name);
 }
 
 int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args)
 {
-	const size_t local = dev->cpu ? GROUP_CPU : GROUP_GPU;
-	const size_t global = (n_items + local - 1) / local * local;
 	char what[96];
 	cl_int code = CL_SUCCESS;
 	int err;
@@ -450,13 +474,13 @@ int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const stru
 			code = clSetKernelArg(dev->kernels[kernel], (cl_uint)i, args[i].bytes, args[i].value);
 		if (code != CL_SUCCESS) {
 			snprintf(what, sizeof(what), "kernel %s, argument %zu", kernel_entries[kernel].name, i);
-			return cl_report(code, what);
+			return cl_report(&dev->common->said, code, what);
 		}
 	}
-	code = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel], 1, NULL, &global, &local, 0, NULL, NULL);
+	code = cl_launch(dev->queue, dev->kernels[kernel], n_items, dev->cpu ? GROUP_CPU : GROUP_GPU, dev->cpu ? NULL : &dev->paces[kernel]);
 	if (code != CL_SUCCESS) {
 		snprintf(what, sizeof(what), "kernel %s", kernel_entries[kernel].name);
-		return cl_report(code, what);
+		return lack_or_report(dev, code, what);
 	}
 	return 0;
 }

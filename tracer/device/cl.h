@@ -30,6 +30,7 @@ void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
 unsigned cl_programs_found(struct cl_device *dev);
 
 /* As their namesakes in device.h. */
+int cl_report_lack(struct cl_device *dev);
 int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
 void cl_release(struct cl_device *dev, struct cl_buffer **buffer);
 int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes);
@@ -43,5 +44,5 @@ struct cl_arg {
 	size_t bytes;
 };
 
-/** Queue a kernel; its program is compiled at its first use. @return 0 or ERR_SYSTEM (reported) */
+/** Queue a kernel; its program is compiled at its first use. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
 int cl_run(struct cl_device *dev, enum kernel kernel, size_t n_items, const struct cl_arg *args, size_t n_args);

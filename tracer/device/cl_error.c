@@ -5,7 +5,7 @@
 /* Not in the core header: what the ICD loader says when no driver is installed. */
 #define CL_PLATFORM_NOT_FOUND (-1001)
 
-static const char *error_name(cl_int code)
+const char *cl_error_name(cl_int code)
 {
 	static const struct {
 		cl_int code;
@@ -31,7 +31,8 @@ static const char *error_name(cl_int code)
 	return "an unnamed OpenCL error";
 }
 
-int cl_report(cl_int code, const char *what)
+int cl_report(int *said, cl_int code, const char *what)
 {
-	return err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, error_name(code), code);
+	return __atomic_exchange_n(said, 1, __ATOMIC_RELAXED) ? ERR_SYSTEM :
+	       err_report(ERR_SYSTEM, "OpenCL", "%s: %s (%d)", what, cl_error_name(code), code);
 }

@@ -192,21 +192,21 @@ static cl_int compile(cl_program program, cl_device_id device, const char *name)
 	return code;
 }
 
-static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, cl_program *out)
+static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, int *said, cl_program *out)
 {
 	const char *texts[] = { prelude, kernels->text };
 	cl_int code;
 
 	*out = clCreateProgramWithSource(context, 2, texts, NULL, &code);
 	if (!*out)
-		return cl_report(code, kernels->name);
+		return cl_report(said, code, kernels->name);
 	code = compile(*out, device, kernels->name);
 	if (code == CL_SUCCESS)
 		return 0;
 	if (code == CL_BUILD_PROGRAM_FAILURE)
 		report_build_log(*out, device, kernels->name);
 	else
-		cl_report(code, kernels->name);
+		cl_report(said, code, kernels->name);
 	clReleaseProgram(*out);
 	*out = NULL;
 	return ERR_SYSTEM;
@@ -224,7 +224,7 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, cons
 	return file;
 }
 
-int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out)
+int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, int *said, cl_program *out)
 {
 	const struct kernel_file *kernels = &kernel_files[file];
 	char path[PATH_MAX];
@@ -240,7 +240,7 @@ int cl_program_make(cl_context context, cl_device_id device, size_t file, struct
 		keeping->found++;
 		return 0;
 	}
-	err = build_program(context, device, kernels, out);
+	err = build_program(context, device, kernels, said, out);
 	if (!err && keeping->folder[0])
 		leave_program(*out, path, key, keeping);
 	return err;

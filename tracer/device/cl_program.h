@@ -31,7 +31,8 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, cons
  * Make the program of one file of kernels.
  * @param file     in kernel_files (kernels/embed.h)
  * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
+ * @param said     as for cl_report
  * @param out      to be released by the caller
  * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)
  */
-int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, cl_program *out);
+int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, int *said, cl_program *out);

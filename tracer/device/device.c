@@ -269,6 +269,11 @@ unsigned device_programs_found(const struct device *dev)
 	return dev->cl ? cl_programs_found(dev->cl) : 0;
 }
 
+int device_report_lack(struct device *dev)
+{
+	return dev->cl ? cl_report_lack(dev->cl) : ERR_SYSTEM;
+}
+
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes)
 {
 	struct device_buffer *b = *buffer;

@@ -123,15 +123,25 @@ void device_keep_programs(struct device *dev, const char *folder, int always);
 unsigned device_programs_found(const struct device *dev);
 
 /**
+ * ERR_MEMORY, in what follows: the device has too little memory for what was asked for; less at once may do. It is not reported. A
+ * launch may be done in part. Whoever cannot ask for less reports it here.
+ * @return ERR_SYSTEM (reported: what was asked for, and what the device has)
+ */
+int device_report_lack(struct device *dev);
+
+/**
  * Make a buffer at least so large; contents are lost where it grows. *buffer NULL: a new one. 0 bytes count as 16.
  * Drivers hand out memory that is not there and fail when it is used. So this device counts all buffers of its own and of those
  * shared from it.
- * @return 0 or ERR_SYSTEM (reported with the size, and what the device has)
+ * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int device_reserve(struct device *dev, struct device_buffer **buffer, size_t bytes);
 void device_release(struct device *dev, struct device_buffer **buffer);
 
-/** Copy into or out of a buffer; both return when the bytes have been copied and all earlier kernels are done. */
+/**
+ * Copy into or out of a buffer; both return when the bytes have been copied and all earlier kernels are done.
+ * @return 0, ERR_MEMORY (of device_write) or ERR_SYSTEM (reported)
+ */
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes);
 

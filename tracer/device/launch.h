@@ -51,7 +51,7 @@ KERNEL_LISTS(LAUNCH_STRUCT)
  * Queue a kernel; kernels of a device run one after the other, in the order queued.
  * @param n_items  work items; 0: nothing is queued
  * @param a        copied
- * @return 0 or ERR_SYSTEM (reported: kernel, OpenCL's error by name)
+ * @return 0, ERR_MEMORY, or ERR_SYSTEM (reported: kernel, OpenCL's error by name)
  */
 #define LAUNCH_DECLARE(name, list) int launch_##name(struct device *dev, size_t n_items, const struct list##_launch *a);
 KERNELS(LAUNCH_DECLARE)

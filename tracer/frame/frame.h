@@ -1,5 +1,7 @@
 /*
  * What the files of this room share: the tracer with its buffers on the device, and a frame on its way through it.
+ *
+ * Every function that uses the device may return ERR_MEMORY (tracer/device/device.h). trace.c then asks for less, or reports it.
  */
 #pragma once
 
@@ -14,17 +16,21 @@
 #include "tracer/frame/traverse.h"
 
 /* X(element, name): the buffers of a frame that are neither pools nor trees. */
-#define FRAME_BUFFERS(X) \
+#define FRAME_BUFFERS(X) FRAME_WHOLE_BUFFERS(X) FRAME_BAND_BUFFERS(X)
+
+/* Those that a frame keeps from band to band, and those of a band. */
+#define FRAME_WHOLE_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
 	X(uint, stipples) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) \
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums)
+#define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
 	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
 	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) X(uint, scan) \
 	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
 	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
 	X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
-	X(float, sums) X(half, halves) X(float, floats)
+	X(half, halves) X(float, floats)
 
 struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;
@@ -42,6 +48,7 @@ struct tracer {
 	struct frame_buffers buffers;
 	uint32_t *counts, *first; /* [pixels], host copies */
 	size_t n_counted;
+	uint32_t most_rows; /* of a band, as the device had too little memory for more; 0: no limit */
 	struct tracer_undrawn undrawn;
 	struct picture_kept drawn; /* the picture that was drawn last */
 };

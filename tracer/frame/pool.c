@@ -84,6 +84,11 @@ int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, s
 			pool->capacity = pool->capacity ? pool->capacity * 2 : POOL_LEAST_WORDS;
 	}
 	err = device_reserve(dev, &pool->buffer, (pool->capacity ? pool->capacity : 1) * sizeof(uint32_t));
+	if (err == ERR_MEMORY && pool->capacity > total) {
+		/* Without room for more. */
+		pool->capacity = total;
+		err = device_reserve(dev, &pool->buffer, total * sizeof(uint32_t));
+	}
 	for (size_t i = 0; i < n && !err; i++) {
 		struct pool_entry *entry = find(pool, items[i].hash);
 

@@ -35,7 +35,7 @@ typedef void pool_fill(const void *object, uint32_t *words);
 
 /**
  * Bring all of a frame's items into the buffer. Items placed for earlier frames may go.
- * @return 0 or ERR_SYSTEM (reported)
+ * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, size_t n, pool_fill *fill);
 

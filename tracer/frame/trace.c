@@ -30,6 +30,16 @@ int tracer_create(struct tracer **out, struct device *dev)
 	return 0;
 }
 
+#define RELEASE(element, name) device_release(tr->dev, &tr->buffers.name.buffer);
+
+static void release_band(struct tracer *tr)
+{
+	FRAME_BAND_BUFFERS(RELEASE)
+	device_release(tr->dev, &tr->buffers.frame.buffer);
+	for (int i = 0; i < SCENE_SAMPLES; i++)
+		device_release(tr->dev, &tr->buffers.samples[i].buffer);
+}
+
 void tracer_destroy(struct tracer **tracer)
 {
 	struct tracer *tr = *tracer;
@@ -40,11 +50,8 @@ void tracer_destroy(struct tracer **tracer)
 	pool_free(&tr->attributes, tr->dev);
 	pool_free(&tr->indices, tr->dev);
 	pool_free(&tr->texels, tr->dev);
-#define RELEASE(element, name) device_release(tr->dev, &tr->buffers.name.buffer);
-	FRAME_BUFFERS(RELEASE)
-	device_release(tr->dev, &tr->buffers.frame.buffer);
-	for (int i = 0; i < SCENE_SAMPLES; i++)
-		device_release(tr->dev, &tr->buffers.samples[i].buffer);
+	FRAME_WHOLE_BUFFERS(RELEASE)
+	release_band(tr);
 	traverse_release(tr->dev, &tr->trees);
 	picture_kept_free(&tr->drawn);
 	free(tr->counts);
@@ -128,12 +135,14 @@ static void count_undrawn(struct job *job)
 static uint32_t rows_of_band(const struct job *job)
 {
 	const uint32_t pixels = device_family(job->tr->dev) == FAMILY_PACKETS ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
-	const uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
+	uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
 
+	if (job->tr->most_rows && rows > job->tr->most_rows)
+		rows = job->tr->most_rows;
 	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
 }
 
-/* Draw a band, and hand it on. */
+/* Draw a band, and hand it on. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
 static int trace_band(struct job *job)
 {
 	uint32_t n_cleared = 0;
@@ -152,15 +161,67 @@ static int trace_band(struct job *job)
 		err = segment_merge_samples(job);
 	if (err)
 		return err;
-	if (job->pass > 0)
-		return segment_add_pass(job, job->pass == job->n_passes - 1);
+	if (job->pass > 0) {
+		/* What was added in part cannot be added again. */
+		err = segment_add_pass(job, job->pass == job->n_passes - 1);
+		return err == ERR_MEMORY ? device_report_lack(job->tr->dev) : err;
+	}
 	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
+}
+
+/* Where the device has too little memory for a band, bands have half as many rows from now on. */
+static int trace_bands(struct job *job)
+{
+	uint32_t end = job->height;
+	int err = 0;
+
+	while (end > 0 && !err) {
+		const uint32_t rows = rows_of_band(job);
+
+		job->row_first = (end - 1) / rows * rows;
+		job->n_rows = end - job->row_first;
+		job->n_pixels = job->n_rows * job->width;
+		err = trace_band(job);
+		if (!err) {
+			end = job->row_first;
+		} else if (err == ERR_MEMORY && job->n_rows > CAMERA_TILE) {
+			job->tr->most_rows = job->n_rows / 2;
+			release_band(job->tr);
+			err = 0;
+		}
+	}
+	return err;
+}
+
+/* Bring what all bands need to the device: state, vertices, trees. */
+static int place_frame(struct job *job, const float shift[2])
+{
+	int err = prepare_frame(job->scene, shift, &job->prepared);
+
+	if (err)
+		return err;
+	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
+	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
+	if (!job->expanded || !job->extra)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	err = upload_state(job);
+	return err ? err : geometry_place(job);
+}
+
+static void forget_frame(struct job *job)
+{
+	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
+		expanded_free(&job->expanded[i]);
+	free(job->expanded);
+	free(job->extra);
+	job->expanded = NULL;
+	job->extra = NULL;
+	prepared_free(&job->prepared);
 }
 
 /* One look at the frame, band by band, top rows first. */
 static int trace_pass(struct job *job)
 {
-	const uint32_t rows = rows_of_band(job);
 	float shift[2] = { 0, 0 };
 	int err;
 
@@ -168,30 +229,18 @@ static int trace_pass(struct job *job)
 		sample_shift(job->turn, job->pass, shift);
 	/* Of several passes each looks at one place in a pixel; the one that makes GL's picture has GL's samples. */
 	job->n_samples = job->scene->samples > 1 && job->pass == 0 ? SCENE_SAMPLES : 1;
-	err = prepare_frame(job->scene, shift, &job->prepared);
-	if (err)
-		return err;
-	if (job->pass == 0)
-		count_undrawn(job);
-	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
-	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
-	if (!job->expanded || !job->extra)
-		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (!err)
-		err = upload_state(job);
-	if (!err)
-		err = geometry_place(job);
-	for (uint32_t end = job->height; end > 0 && !err; end = job->row_first) {
-		job->row_first = (end - 1) / rows * rows;
-		job->n_rows = end - job->row_first;
-		job->n_pixels = job->n_rows * job->width;
-		err = trace_band(job);
+	err = place_frame(job, shift);
+	if (err == ERR_MEMORY) {
+		/* Bands of the frame before may have taken it. */
+		forget_frame(job);
+		release_band(job->tr);
+		err = place_frame(job, shift);
 	}
-	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
-		expanded_free(&job->expanded[i]);
-	free(job->expanded);
-	free(job->extra);
-	prepared_free(&job->prepared);
+	if (!err && job->pass == 0)
+		count_undrawn(job);
+	if (!err)
+		err = trace_bands(job);
+	forget_frame(job);
 	return err;
 }
 
@@ -220,7 +269,7 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	err = trace_pass(&job);
 	if (!err)
 		picture_keep(&tracer->drawn, scene, picture);
-	return err;
+	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
@@ -246,5 +295,5 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = trace_pass(&job);
 	if (err)
 		image_free(img);
-	return err;
+	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }

@@ -158,7 +158,10 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	}
 	if (err || from == pool.n)
 		return err;
-	return device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+	err = device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+	if (err)
+		tr->tree_room[part] = 0;
+	return err;
 }
 
 /* The pools that the device's kernels walk. */

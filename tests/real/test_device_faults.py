@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""test_device_faults.py [BUILD] (with BUILD as `make show-device-faults`): devices with little memory, with a watchdog, and that fail.
+
+Frames that need more memory than a device has are drawn in smaller bands, and launches that a watchdog would kill in parts: the same
+bytes. Where that does not help, and where a call of OpenCL fails, the run ends with exit code 5 and one line; frames that are there are
+whole. Every call is tried by `make show-device-faults`, one in some twenty by the test.
+
+limit: 300 s
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import random
+import shutil
+import sys
+import tempfile
+
+if len(sys.argv) > 1:
+    os.environ["RELUME_BUILD"] = str(pathlib.Path(sys.argv[1]).resolve())
+    os.environ.setdefault("TMPDIR", tempfile.mkdtemp(prefix="relume-device-faults-"))
+
+from helpers import BUILD, ROOT, SCRATCH, check, finish, must, record, relume  # noqa: E402
+import exr  # noqa: E402
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests/check"))
+import host  # noqa: E402
+
+SHIM = BUILD / "tests/real/failing_cl.so"
+LOST = ("-5", "-4", "-2", "-36")  # CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_DEVICE_NOT_AVAILABLE, CL_INVALID_COMMAND_QUEUE
+SHOW = len(sys.argv) > 1
+EVERY = 1 if SHOW else 20
+rows = []
+
+
+def planes(folder):
+    return {p.name: exr.Image(p).planes for p in sorted(folder.iterdir())} if folder.is_dir() else {}
+
+
+def files(folder):
+    return {p.name: p.read_bytes() for p in folder.iterdir()} if folder.is_dir() else {}
+
+
+def lines_of(done):
+    return [line for line in done.stderr.splitlines() if line]
+
+
+def render(trace, name, env, *options):
+    return relume("render", trace, "-o", SCRATCH / name / "x.####.exr", "-j", "1", "--no-cache", "--progress", "none", *options, env=env, timeout=250)
+
+
+# --- Little memory, and a watchdog: PoCL underneath ------------------------------------------------------------------
+
+scene = SCRATCH / "scene.trace"
+record(scene, BUILD / "tests/real/samples", options=())
+
+
+def fake(**more):
+    return dict(os.environ, LD_PRELOAD=str(SHIM), **more)
+
+
+COUNT = SCRATCH / "count"
+FRAMES = ("-f", "0-1")
+must(render(scene, "whole", fake(AS_TYPE="gpu", COUNT_CALLS=str(COUNT)), *FRAMES))
+whole = files(SCRATCH / "whole")
+check(len(whole) == 2, f"frames {list(whole)}")
+_, peak, largest = map(int, COUNT.read_text().split())
+SMALL = {
+    "a little less memory": {"AS_TYPE": "gpu", "AS_MEMORY": str(peak - 1)},
+    "85 % of the memory": {"AS_TYPE": "gpu", "AS_MEMORY": str(int(0.85 * peak))},
+    "85 % of the memory, a CPU": {"AS_MEMORY": str(int(0.85 * peak))},
+    "smaller buffers": {"AS_TYPE": "gpu", "AS_BUFFER": str(largest - 1)},
+    "launches of 1000 work items": {"AS_TYPE": "gpu", "MOST_ITEMS": "1000"},
+    "work items of 60 us, and a watchdog": {"AS_TYPE": "gpu", "ITEM_NS": "60000"},
+    "one buffer that cannot be made": {"FAIL_CALL": "25", "FAIL_NAME": "clCreateBuffer", "FAIL_CODE": "-4", "AS_TYPE": "gpu"},
+    "one launch that cannot be queued": {"FAIL_CALL": "30", "FAIL_NAME": "clEnqueueNDRangeKernel", "AS_TYPE": "gpu"},
+}
+for what, env in SMALL.items():
+    folder = what.replace(" ", "_")
+    done = render(scene, folder, fake(**env), *FRAMES)
+    same = files(SCRATCH / folder) == whole
+    check(done.returncode == 0 and not done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
+    check(same, f"{what}: another picture")
+    rows.append({"what": f"a device with {what}", "figure": "the same bytes" if same else "another picture", "bar": "the same bytes",
+                 "peer": "", "passed": done.returncode == 0 and same})
+# Too little for the smallest band; work items so slow that any launch is killed.
+for what, env, words in (("100 KB of memory", {"AS_MEMORY": "100000"}, "are needed on this device, which has 0"),
+                         ("buffers of 2 KB", {"AS_BUFFER": "2000"}, "makes none of more than 0"),
+                         ("launches of 100 work items", {"MOST_ITEMS": "100"}, "CL_OUT_OF_RESOURCES"),
+                         ("a watchdog that kills all", {"ITEM_NS": "1000000000"}, "CL_INVALID_COMMAND_QUEUE")):
+    folder = what.replace(" ", "_")
+    done = render(scene, folder, fake(AS_TYPE="gpu", **env), *FRAMES)
+    check(done.returncode == 5 and len(lines_of(done)) == 1 and words in done.stderr, f"{what}: exit code {done.returncode}: {done.stderr}")
+    check(not files(SCRATCH / folder), f"{what}: something was written: {list(files(SCRATCH / folder))}")
+
+# --- Every call of OpenCL that may fail: a device in this process, which starts quickly ------------------------------
+
+
+def try_call(trace, want, kind, n, gone, code):
+    """What is wrong where call n fails; "" where all is as it should be."""
+    folder = f"{trace.stem}-{kind}-{n}-{gone}"
+    env = host.environment(BUILD, ["-O0", "-march=native"], [SHIM], FAIL_CALL=str(n), FAIL_CODE=code)
+    if gone:
+        env["FAIL_GONE"] = "1"
+    if kind == "gpu":
+        env["AS_TYPE"] = kind
+    try:
+        done = render(trace, folder, env, *FRAMES)
+    except Exception as error:  # pylint: disable=broad-except
+        return f"{error}"
+    got = planes(SCRATCH / folder)
+    shutil.rmtree(SCRATCH / folder, ignore_errors=True)
+    torn = [name for name, image in got.items() if want.get(name) != image]
+    if torn:
+        return f"torn, or another picture: {torn}: {done.stderr}"
+    if done.returncode == 0:
+        return "" if got.keys() == want.keys() and not done.stderr else f"exit code 0, {list(got)}: {done.stderr}"
+    return "" if done.returncode == 5 and len(lines_of(done)) == 1 else f"exit code {done.returncode}: {done.stderr}"
+
+
+def try_calls(trace, kind):
+    """Render with each call failing, once and from then on. Returns how many were tried, and what went wrong."""
+    env = host.environment(BUILD, ["-O0", "-march=native"], [SHIM], COUNT_CALLS=str(COUNT))
+    if kind == "gpu":
+        env["AS_TYPE"] = kind
+    name = f"{trace.stem}-{kind}"
+    must(render(trace, name, env, *FRAMES))
+    want, n_calls = planes(SCRATCH / name), int(COUNT.read_text().split()[0])
+    check(len(want) == 2, f"{name}: frames {list(want)}")
+    cases = [(n, gone, LOST[(n + gone) % len(LOST)]) for n in range(1 + (random.randrange(EVERY)), n_calls + 1, EVERY) for gone in (0, 1)]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        wrong = [(case, what) for case, what in zip(cases, pool.map(lambda c: try_call(trace, want, kind, *c), cases)) if what]
+    return len(cases), wrong
+
+
+if shutil.which("clang"):
+    calls = SCRATCH / "calls.trace"
+    record(calls, BUILD / "tests/real/targets", options=())
+    for kind in ("cpu", "gpu"):
+        tried, wrong = try_calls(calls, kind)
+        check(tried and not wrong, f"calls that fail on a {kind}: {len(wrong)} of {tried} end badly; (call, gone, code): {wrong[:5]}")
+        rows.append({"what": f"calls of OpenCL that fail on a {kind}: ends that are not exit code 5 and one line, or the same picture",
+                     "figure": f"{len(wrong)} of {tried}", "bar": "0", "peer": "", "passed": not wrong})
+
+if SHOW:
+    (BUILD / "show").mkdir(exist_ok=True)
+    (BUILD / "show/device-faults.json").write_text(json.dumps({"name": "device-faults", "command": "make show-device-faults", "rows": rows},
+                                                              indent=1) + "\n")
+    for row in rows:
+        print(f"{row['what']}: {row['figure']} (bar: {row['bar']}): {'passed' if row['passed'] else 'FAILED'}")
+finish()

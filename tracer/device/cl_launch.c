@@ -1,0 +1,70 @@
+#include "tracer/device/cl_launch.h"
+
+#define PART_NS 1e8
+#define FIRST_ITEMS ((size_t)1 << 14) /* of a kernel that nobody has measured */
+#define LEAST_ITEMS ((size_t)1 << 8)
+#define MOST_GROWTH 8
+
+static void forget(struct cl_pace *pace)
+{
+	if (pace->measured)
+		clReleaseEvent(pace->measured);
+	pace->measured = NULL;
+}
+
+void cl_pace_free(struct cl_pace *pace)
+{
+	forget(pace);
+}
+
+/* What the measured launch tells, once it is done. Nothing is waited for. */
+static void learn(struct cl_pace *pace)
+{
+	cl_ulong start = 0, end = 0;
+	cl_int status = CL_QUEUED;
+	double items;
+
+	if (!pace->measured ||
+	    clGetEventInfo(pace->measured, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof(status), &status, NULL) != CL_SUCCESS ||
+	    status > CL_COMPLETE)
+		return;
+	if (clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_START, sizeof(start), &start, NULL) == CL_SUCCESS &&
+	    clGetEventProfilingInfo(pace->measured, CL_PROFILING_COMMAND_END, sizeof(end), &end, NULL) == CL_SUCCESS && end > start) {
+		items = PART_NS * (double)pace->n_measured / (double)(end - start);
+		if (items > MOST_GROWTH * (double)pace->most_items)
+			items = MOST_GROWTH * (double)pace->most_items;
+		pace->most_items = items < (double)LEAST_ITEMS ? LEAST_ITEMS : items < 4e9 ? (size_t)items : (size_t)4000000000u;
+	}
+	forget(pace);
+}
+
+cl_int cl_launch(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_t group, struct cl_pace *pace)
+{
+	struct cl_pace whole = { .most_items = n_items };
+	cl_int code = CL_SUCCESS;
+
+	if (!pace)
+		pace = &whole;
+	else if (pace->most_items == 0)
+		pace->most_items = FIRST_ITEMS;
+	for (size_t first = 0; first < n_items && code == CL_SUCCESS;) {
+		size_t part = n_items - first, global;
+		int measure;
+
+		learn(pace);
+		measure = pace != &whole && !pace->measured;
+		if (part > pace->most_items)
+			part = pace->most_items / group * group;
+		global = (part + group - 1) / group * group;
+		code = clEnqueueNDRangeKernel(queue, kernel, 1, &first, &global, &group, 0, NULL, measure ? &pace->measured : NULL);
+		if (code == CL_SUCCESS) {
+			pace->n_measured = measure ? part : pace->n_measured;
+			first += part;
+		} else if (code == CL_OUT_OF_RESOURCES && pace != &whole && part > LEAST_ITEMS) {
+			/* Too much at once. */
+			pace->most_items = part / 2;
+			code = CL_SUCCESS;
+		}
+	}
+	return code;
+}
