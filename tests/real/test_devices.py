@@ -58,7 +58,7 @@ done = subprocess.run([RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "slow
                       stdin=subprocess.DEVNULL, timeout=150, check=False)
 os.close(end)
 said = os.read(terminal, 65536).decode()
-check(done.returncode == 0 and re.search(r"compiling kernels/camera/camera_packet.cl for this device", said), f"slow to compile: {said}")
+check(done.returncode == 0 and re.search(r"compiling kernels/\w+/\w+_packet.cl for this device", said), f"slow to compile: {said}")
 
 # Memory that is not there is said before it is used, in one line.
 for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("AS_BUFFER", "makes none of more than 2")):
