@@ -344,7 +344,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
-	X(compose_packet, compose)      /* the same, COMPOSE_PACKET pixels a work item (CPUs) */
+	X(compose_packet, compose)      /* the same, COMPOSE_PACKET pixels of a row a work item (CPUs) */
 
 enum kernel {
 #define KERNEL_ENUM(name, list) KERNEL_##name,

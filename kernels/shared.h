@@ -359,8 +359,8 @@ struct compose_request {
 };
 SHARED_SIZE(struct compose_request, 152);
 
-/* Pixels of a work item of compose_packet. */
-#define COMPOSE_PACKET 8u
+/* Pixels of a row that a work item of compose_packet takes. */
+#define COMPOSE_PACKET 16u
 
 /* Fragments of a work item of shade_packet, and rays of one of shadow_ray_packet: where each pixel has one fragment, a block of the
  * list (tracer/frame/segment.c). And triangles that it keeps, by number: neighbours mostly have numbers close together. */

@@ -14,6 +14,12 @@
 #define COMPOSE_LANES 1u
 #endif
 
+/** Work items of compose_packet for a row of a picture. */
+static inline uint32_t compose_columns(uint32_t width)
+{
+	return (width + COMPOSE_PACKET - 1u) / COMPOSE_PACKET;
+}
+
 /* --- Numbers ------------------------------------------------------------------------------------------------------ */
 
 /*

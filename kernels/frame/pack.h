@@ -95,9 +95,8 @@ static inline uint pack_same_kind(const struct tables *t, const struct pack_list
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
-static inline void pack_load(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack *p)
+static inline void pack_load(const struct tables *t, uint width, uint height, const struct pack_list *list, uint lanes, struct pack *p)
 {
-	const struct tables *t = &a->tables;
 	const uint first = popcount((lanes & -lanes) - 1);
 	packu pixel;
 
@@ -122,11 +121,11 @@ static inline void pack_load(const struct shade_arguments *a, const struct pack_
 	p->b1 = vload16(0, list->b1);
 	p->b2 = vload16(0, list->b2);
 	p->depth = vload16(0, list->depth);
-	p->row = convert_int16(convert_float16(pixel) / (float)a->width);
-	p->x = as_int16(pixel) - p->row * (int)a->width;
-	p->row += (p->x < 0) - (p->x >= (int)a->width); /* the quotient may be off by one; true is -1 */
-	p->x = as_int16(pixel) - p->row * (int)a->width;
-	p->row = (int)a->height - 1 - p->row;
+	p->row = convert_int16(convert_float16(pixel) / (float)width);
+	p->x = as_int16(pixel) - p->row * (int)width;
+	p->row += (p->x < 0) - (p->x >= (int)width); /* the quotient may be off by one; true is -1 */
+	p->x = as_int16(pixel) - p->row * (int)width;
+	p->row = (int)height - 1 - p->row;
 }
 
 /* Of a table of four numbers each, the lanes' entries; one for all in a uniform pack. */
@@ -158,36 +157,55 @@ WIDE_VECTORS static inline void pack_vertex(const struct tables *t, const struct
 	pack_row((__global const float *)t->vertices, p, p->vertex[k] * 8 + four, row);
 }
 
-/* The corners of whole triangles, and which side they show. */
+/* Triangles that run clockwise, from clip space. */
+WIDE_VECTORS static inline packi pack_by_clip(packf (*c)[4])
+{
+	const packf x = c[0][1] * c[1][3] - c[0][3] * c[1][1], y = c[0][3] * c[1][0] - c[0][0] * c[1][3];
+	const packf z = c[0][0] * c[1][1] - c[0][1] * c[1][0];
+
+	return x * c[2][0] + y * c[2][1] + z * c[2][3] < 0.0f;
+}
+
+/* The triangles in the window, and which side they show. */
+WIDE_VECTORS static inline void pack_window(const struct tables *t, __global const struct window_vertex *windows, struct pack *p)
+{
+	packf x[3], y[3], window[4];
+	packi placed = -1, clockwise;
+
+	for (int k = 0; k < 3; k++) {
+		pack_row((__global const float *)windows, p, p->vertex[k], window);
+		x[k] = convert_float16(as_int16(window[0]));
+		y[k] = convert_float16(as_int16(window[1]));
+		placed &= window[3] > 0.0f;
+		p->z[k] = window[2];
+		p->w_inv[k] = p->vertex_w_inv[k] = window[3];
+	}
+	clockwise = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) < 0.0f;
+	if (any_pack(~placed)) {
+		packf clip[3][4];
+
+		for (int k = 0; k < 3; k++)
+			pack_vertex(t, p, k, PACK_CLIP, clip[k]);
+		clockwise = select(pack_by_clip(clip), clockwise, placed);
+	}
+	p->front = p->material->front_face == GL_CW ? clockwise : ~clockwise;
+}
+
+/* Where the vertices fall, not snapped. */
 WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, struct pack *p)
 {
 	__global const struct view *view = p->view;
 	const float half_x = view->viewport[2] * 0.5f, half_y = -view->viewport[3] * 0.5f;
 	const float middle_x = view->viewport[0] + view->viewport[2] * 0.5f;
 	const float middle_y = (float)a->height - (view->viewport[1] + view->viewport[3] * 0.5f);
-	packf x[3], y[3], clip[3][4], window[4];
-	packi placed = -1, clockwise;
 
 	for (int k = 0; k < 3; k++) {
-		pack_row((__global const float *)a->windows, p, p->vertex[k], window);
-		pack_vertex(&a->tables, p, k, PACK_CLIP, clip[k]);
-		x[k] = convert_float16(as_int16(window[0]));
-		y[k] = convert_float16(as_int16(window[1]));
-		placed &= window[3] > 0.0f;
-		p->z[k] = window[2];
-		p->w_inv[k] = p->vertex_w_inv[k] = window[3];
-		p->px[k] = fma((packf)(half_x), clip[k][0] * (1.0f / clip[k][3]), (packf)(middle_x)) - clip_origin(view);
-		p->py[k] = fma((packf)(half_y), clip[k][1] * (1.0f / clip[k][3]), (packf)(middle_y)) - clip_origin(view);
-	}
-	clockwise = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) < 0.0f;
-	if (any_pack(~placed)) {
-		const packf cx = clip[0][1] * clip[1][3] - clip[0][3] * clip[1][1], cy = clip[0][3] * clip[1][0] - clip[0][0] * clip[1][3];
-		const packf cz = clip[0][0] * clip[1][1] - clip[0][1] * clip[1][0];
-		const packi by_clip = cx * clip[2][0] + cy * clip[2][1] + cz * clip[2][3] < 0.0f;
+		packf clip[4];
 
-		clockwise = select(by_clip, clockwise, placed);
+		pack_vertex(&a->tables, p, k, PACK_CLIP, clip);
+		p->px[k] = fma((packf)(half_x), clip[0] * (1.0f / clip[3]), (packf)(middle_x)) - clip_origin(view);
+		p->py[k] = fma((packf)(half_y), clip[1] * (1.0f / clip[3]), (packf)(middle_y)) - clip_origin(view);
 	}
-	p->front = p->material->front_face == GL_CW ? clockwise : ~clockwise;
 }
 
 /* What the view volume leaves of a lane's triangle. */
@@ -561,11 +579,21 @@ static inline void pack_store_relit(__global struct shaded *out, uint lane, cons
 	}
 }
 
+/* The lanes' triangles and the weights of their vertices, for fragments that have been shaded. */
+static inline void pack_locate(const struct tables *t, __global const struct window_vertex *windows, uint width, uint height,
+                               const struct pack_list *list, uint lanes, struct pack *p)
+{
+	pack_load(t, width, height, list, lanes, p);
+	pack_window(t, windows, p);
+	pack_weigh(p);
+}
+
 /* Find the lanes' places in their triangles. @return the lanes that have one: others lie in slivers */
 static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time, struct pack_kept *kept,
                               struct pack *p)
 {
-	pack_load(a, list, lanes, p);
+	pack_load(&a->tables, a->width, a->height, list, lanes, p);
+	pack_window(&a->tables, a->windows, p);
 	pack_corners(a, p);
 	for (int k = 0; k < 3; k++)
 		p->corner1[k] = p->corner2[k] = 0.0f;

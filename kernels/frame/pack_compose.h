@@ -1,11 +1,12 @@
 /*
- * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the same bits, for
- * pixels without reflections and refractions. OpenCL C only.
+ * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the same bits.
+ * OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/compose.h"
 #include "kernels/frame/pack.h"
+#include "kernels/frame/pack_ray.h"
 
 #if defined(__has_builtin) && !defined(LANES_PORTABLE)
 #if defined(__AVX512F__) && __has_builtin(__builtin_ia32_vcvtps2ph512_mask)
@@ -21,8 +22,8 @@ typedef float16 pack_loose_floats __attribute__((aligned(4)));
 
 /* Pixels before they are composed; colours as GL counts them. */
 struct pack_pixels {
-	packf gl[4], shadowed[3], direct[3], albedo[3];
-	packf drawn, depth, normal[3], position[3], id;
+	packf gl[4], shadowed[3], direct[3], mirrored[3], beauty[3], albedo[3];
+	packf drawn, depth, normal[3], position[3], id, layers;
 };
 
 /* Where they go. */
@@ -104,6 +105,55 @@ WIDE_VECTORS static inline packf pack_effect(packf rest, packf of)
 	return select((packf)(0), pack_rounded(rest), fabs(rest) > fabs(of) * 0.001953125f);
 }
 
+/* Whether any plane shows where surfaces lie. */
+static inline int pack_wants_surface(const struct compose_request *r)
+{
+	return r->normals || (r->half_plane[COMPOSE_NORMAL] & r->half_plane[COMPOSE_NORMAL + 1] & r->half_plane[COMPOSE_NORMAL + 2] &
+	                      r->float_plane[COMPOSE_POSITION] & r->float_plane[COMPOSE_POSITION + 1] & r->float_plane[COMPOSE_POSITION + 2] &
+	                      r->float_plane[COMPOSE_Z]) != SCENE_NONE;
+}
+
+/* All lanes of a mask. */
+static inline packi pack_mask(uint lanes)
+{
+	return ((packi)((int)lanes) >> PACK_LANES & 1) != 0;
+}
+
+/* Some lanes of a number. */
+WIDE_VECTORS static inline void pack_put(packf *number, packf value, packi mask)
+{
+	*number = select(*number, value, mask);
+}
+
+/* Where the surfaces of some lanes lie. */
+WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const struct pack *p, const struct pack_surface *s, packi mask,
+                                                 struct pack_pixels *to)
+{
+	const struct pack_vec normal = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
+
+	pack_put(&to->normal[0], normal.x, mask);
+	pack_put(&to->normal[1], normal.y, mask);
+	pack_put(&to->normal[2], normal.z, mask);
+	pack_put(&to->position[0], at.x, mask);
+	pack_put(&to->position[1], at.y, mask);
+	pack_put(&to->position[2], at.z, mask);
+}
+
+/* The same for one lane whose fragment is known, whatever it is of. */
+static inline void pack_put_one(const struct tables *t, __global const struct window_vertex *windows, const struct fragment *f, uint lane,
+                                struct pack_pixels *to)
+{
+	struct vec3 normal, position;
+
+	compose_surface(t, windows, f, &normal, &position);
+	LANE(to->normal[0], float, lane) = normal.x;
+	LANE(to->normal[1], float, lane) = normal.y;
+	LANE(to->normal[2], float, lane) = normal.z;
+	LANE(to->position[0], float, lane) = position.x;
+	LANE(to->position[1], float, lane) = position.y;
+	LANE(to->position[2], float, lane) = position.z;
+}
+
 WIDE_VECTORS static inline void pack_store_half(const struct pack_planes *to, uint plane, packf x)
 {
 	__global ushort *out = to->halves + to->request->half_plane[plane] * to->request->width * to->request->height + to->at;
@@ -138,25 +188,40 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
 	return any_pack(as_int16(x) != as_int16(before)) ? pack_linear(x) : known;
 }
 
-/* One colour channel, as compose_nudge, compose_encode and compose_channel take it apart. */
+/* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not encoded */
+WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf color, packf sum)
+{
+	const packi differ = display != before;
+
+	return any_pack(differ) ? select((packf)(0), pack_rounded(color - sum), differ) : (packf)(0);
+}
+
+/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. */
 WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, int c, const struct pack_planes *to)
 {
 	const packf nudged = pack_nudged(p->gl[c]);
+	const packf first = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged;
 	const packf display_shadowed = select(p->shadowed[c], nudged, p->shadowed[c] == p->gl[c]);
 	const packf display_direct = select(p->direct[c], nudged, p->direct[c] == p->gl[c]);
-	const packf exact = to->request->display ? nudged : pack_linear(nudged);
-	const packf shadowed = pack_encode(to->request, display_shadowed, nudged, exact);
+	const packf display_mirrored = select(p->mirrored[c], nudged, p->mirrored[c] == p->gl[c]);
+	const packf display_beauty = select(p->beauty[c], nudged, p->beauty[c] == p->gl[c]);
+	const packf exact = to->request->display ? first : pack_linear(first);
+	const packf shadowed = pack_encode(to->request, display_shadowed, first, exact);
 	const packf direct = pack_encode(to->request, display_direct, display_shadowed, shadowed);
+	const packf mirrored = pack_encode(to->request, display_mirrored, display_direct, direct);
+	const packf beauty = pack_encode(to->request, display_beauty, display_mirrored, mirrored);
 	const packf gl = pack_rounded(exact), share = shadowed / exact;
 	const packf shadow = select((packf)(1), pack_rounded(select((packf)(0), share, share > 0.0f)), (gl > 0.0f) & (shadowed < exact));
-	const packf relight = pack_effect(direct - gl * shadow, direct);
+	const packf relight = pack_effect(direct - gl * shadow, direct), sum = gl * shadow + relight;
+	const packf reflect = pack_part_of(display_mirrored, display_direct, mirrored, sum);
+	const packf refract = pack_part_of(display_beauty, display_mirrored, beauty, sum + reflect);
 
-	pack_store_half(to, COMPOSE_BEAUTY + c, gl * shadow + relight + 0.0f);
+	pack_store_half(to, COMPOSE_BEAUTY + c, to->request->normals ? exact : sum + reflect + refract);
 	pack_store_half(to, COMPOSE_GL + c, gl);
 	pack_store_half(to, COMPOSE_SHADOW + c, shadow);
 	pack_store_half(to, COMPOSE_RELIGHT + c, relight);
-	pack_store_half(to, COMPOSE_REFLECT + c, (packf)(0));
-	pack_store_half(to, COMPOSE_REFRACT + c, (packf)(0));
+	pack_store_half(to, COMPOSE_REFLECT + c, reflect);
+	pack_store_half(to, COMPOSE_REFRACT + c, refract);
 	if (to->request->half_plane[COMPOSE_ALBEDO + c] != SCENE_NONE)
 		pack_store_half(to, COMPOSE_ALBEDO + c, to->request->display ? p->albedo[c] : pack_linear(p->albedo[c]));
 }
@@ -175,5 +240,5 @@ WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const 
 	pack_store_float(to, COMPOSE_DEPTH, p->depth);
 	pack_store_float(to, COMPOSE_Z, -p->position[2]);
 	pack_store_float(to, COMPOSE_ID, p->id);
-	pack_store_float(to, COMPOSE_LAYERS, (packf)(0));
+	pack_store_float(to, COMPOSE_LAYERS, p->layers);
 }

@@ -22,22 +22,6 @@ struct plain_kept {
 	struct shadow_kept ray;
 };
 
-static inline packi mask_of(uint bits)
-{
-	return ((packi)((int)bits) >> PACK_LANES & 1) != 0;
-}
-
-/* Some lanes of a number. */
-WIDE_VECTORS static inline void put(packf *number, packf value, packi mask)
-{
-	*number = select(*number, value, mask);
-}
-
-static inline int wants_surface(const struct compose_request *r)
-{
-	return (r->half_plane[COMPOSE_NORMAL] & r->float_plane[COMPOSE_POSITION] & r->float_plane[COMPOSE_Z]) != SCENE_NONE;
-}
-
 /* The fragments of a row. @return a bit for each pixel that has one */
 static inline uint load_row(const struct plain_arguments *a, struct plain_row *row)
 {
@@ -70,7 +54,7 @@ WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cle
 	}
 	p->gl[3] = cleared->gl[3];
 	p->depth = cleared->depth_exact;
-	p->drawn = p->id = 0.0f;
+	p->drawn = p->id = p->layers = 0.0f;
 }
 
 /* --- Sixteen at once ------------------------------------------------------------------------------------------------- */
@@ -94,13 +78,13 @@ WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct 
                                            const struct pack_color *shadowed, packi show)
 {
 	for (int i = 0; i < 3; i++) {
-		put(&to->gl[i], gl->c[i], show);
-		put(&to->shadowed[i], shadowed->c[i], show);
-		put(&to->direct[i], shadowed->c[i] + p->material->surface.emission[i], show);
+		pack_put(&to->gl[i], gl->c[i], show);
+		pack_put(&to->shadowed[i], shadowed->c[i], show);
+		pack_put(&to->direct[i], shadowed->c[i] + p->material->surface.emission[i], show);
 	}
-	put(&to->gl[3], gl->c[3], show);
-	put(&to->drawn, (packf)(1), show);
-	put(&to->depth, p->depth, show);
+	pack_put(&to->gl[3], gl->c[3], show);
+	pack_put(&to->drawn, (packf)(1), show);
+	pack_put(&to->depth, p->depth, show);
 }
 
 /* Where they are, and their draws. */
@@ -109,16 +93,8 @@ static inline void put_surface(const struct plain_arguments *a, struct plain_row
 {
 	struct pack_pixels *to = &row->pixels;
 
-	if (wants_surface(&a->request)) {
-		const struct pack_vec normal = pack_normal(&a->tables, p, s), at = pack_place_at(s, p->weight);
-
-		put(&to->normal[0], normal.x, show);
-		put(&to->normal[1], normal.y, show);
-		put(&to->normal[2], normal.z, show);
-		put(&to->position[0], at.x, show);
-		put(&to->position[1], at.y, show);
-		put(&to->position[2], at.z, show);
-	}
+	if (pack_wants_surface(&a->request))
+		pack_put_surface(&a->tables, p, s, show, to);
 	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(show) : 0; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 
@@ -164,7 +140,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	lanes = pack_place(s, &row->list, lanes, 1, kept, &p);
 	if (!lanes)
 		return 0;
-	show = mask_of(lanes) & shows(a, p.material, p.depth);
+	show = pack_mask(lanes) & shows(a, p.material, p.depth);
 	pack_texture(s, &row->list, &p, lanes, kept, &texturing);
 	pack_lit_from_vertices(t, &p, &lit, &secondary);
 	color = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
@@ -174,17 +150,17 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 		const struct pack_color albedo = pack_albedo(t, &row->list, &p, lanes, &texturing, &lit);
 
 		for (int i = 0; i < 3; i++)
-			put(&row->pixels.albedo[i], albedo.c[i], show);
+			pack_put(&row->pixels.albedo[i], albedo.c[i], show);
 	}
 	shadowed = color;
 	if (lanes & row->dimmed) {
 		pack_between_relit(s, &row->list, &p, row->base, lanes & row->dimmed, kept, &lit, &secondary);
 		lit = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
 		for (int i = 0; i < 3; i++)
-			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), mask_of(row->dimmed));
+			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
 	}
 	put_colors(&row->pixels, &p, &color, &shadowed, show);
-	if (wants_surface(&a->request) || (a->n_slots && !s->n_slots))
+	if (pack_wants_surface(&a->request) || (a->n_slots && !s->n_slots))
 		pack_surface(t, &p, &surface);
 	put_surface(a, row, &p, &surface, show);
 	if (a->n_slots && !s->n_slots)
@@ -201,7 +177,6 @@ static inline void put_one(const struct plain_arguments *a, struct plain_row *ro
 	const struct fragment f = a->fragments[row->base + lane];
 	const uint steps = pixel_depth_steps(s->depth, pixel_depth_bits(a->bits));
 	struct pack_pixels *to = &row->pixels;
-	struct vec3 normal, position;
 
 	if (!(s->flags & SHADED_THERE) ||
 	    !pixel_compare(a->tables.materials[a->tables.geometries[f.instance].material].depth_func, steps, a->cleared->depth))
@@ -212,13 +187,7 @@ static inline void put_one(const struct plain_arguments *a, struct plain_row *ro
 		LANE(to->direct[i], float, lane) = s->direct[i];
 		LANE(to->albedo[i], float, lane) = s->albedo[i];
 	}
-	compose_surface(&a->tables, a->windows, &f, &normal, &position);
-	LANE(to->normal[0], float, lane) = normal.x;
-	LANE(to->normal[1], float, lane) = normal.y;
-	LANE(to->normal[2], float, lane) = normal.z;
-	LANE(to->position[0], float, lane) = position.x;
-	LANE(to->position[1], float, lane) = position.y;
-	LANE(to->position[2], float, lane) = position.z;
+	pack_put_one(&a->tables, a->windows, &f, lane, to);
 	LANE(to->gl[3], float, lane) = s->gl[3];
 	LANE(to->drawn, float, lane) = 1;
 	LANE(to->depth, float, lane) = s->depth;
@@ -267,7 +236,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 	}
 }
 
-static inline void compose_row(const struct plain_arguments *a, const struct plain_row *row)
+static inline void compose_row(const struct plain_arguments *a, struct plain_row *row)
 {
 	struct pack_planes to;
 
@@ -276,6 +245,8 @@ static inline void compose_row(const struct plain_arguments *a, const struct pla
 	to.floats = a->floats;
 	to.at = (a->request.height - 1 - row->y) * a->width + row->x;
 	to.n = min(PACK_SIZE, a->width - row->x);
+	for (int i = 0; i < 3; i++)
+		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
 	pack_compose(&row->pixels, &to);
 }
 

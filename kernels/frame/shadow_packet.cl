@@ -1,17 +1,87 @@
 /*
- * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: as in shade_packet.cl, what rays from a
- * triangle share is found once.
+ * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: sixteen fragments of one material at once
+ * (kernels/frame/pack_ray.h). Those that packs do not know send theirs one by one; what rays from a triangle share is found once.
  */
-#include "kernels/frame/shadow.h"
+#include "kernels/frame/pack_ray.h"
 
-KERNEL_OF(float4) void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
+/* Sixteen fragments of the list from `first` on, `end` excluded, that want a ray to a light. @return a bit for each */
+static inline uint load_wanting(const struct shadow_ray_arguments *a, uint first, uint end, uint slot, struct pack_list *list)
 {
-	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
+	uint lanes = 0;
+
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint i = min(first + lane, end - 1), flags = a->shaded[i].flags;
+
+		list->instance[lane] = a->fragments[i].instance;
+		list->primitive[lane] = a->fragments[i].primitive;
+		list->b1[lane] = a->fragments[i].b1;
+		list->b2[lane] = a->fragments[i].b2;
+		list->depth[lane] = a->fragments[i].depth;
+		list->pixel[lane] = a->pixels[i];
+		if (first + lane < end && flags & SHADED_THERE && flags & SHADED_WANTS(slot))
+			lanes |= 1u << lane;
+	}
+	return lanes;
+}
+
+/* 1 where a light asks for nothing but what pack_light_rays does. */
+static inline int is_simple(const struct tables *t, __global const struct scene_material *m, uint slot)
+{
+	return !m->surface.relit && !(m->surface.hidden & SCENE_CARD) && !(t->lights[m->light_first + slot].radius > 0.0f);
+}
+
+static inline void send_lanes(const struct shadow_ray_arguments *a, const struct pack_list *list, __global const struct scene_material *m,
+                              uint lanes, uint slot, __global struct ray *rays)
+{
+	struct pack_surface surface;
+	struct pack_curve curve;
+	struct pack_vec back;
+	struct pack p;
+
+	p.material = m;
+	p.view = &a->views[a->tables.geometries[list->instance[popcount((lanes & -lanes) - 1)]].view];
+	pack_locate(&a->tables, a->windows, a->width, 1, list, lanes, &p);
+	pack_surface(&a->tables, &p, &surface);
+	pack_measure(&surface);
+	pack_curve_of(&a->tables, &p, &curve);
+	back = pack_scale(pack_normalize(pack_view_direction(&p, 1)), (packf)(-1));
+	pack_light_rays(&p, &surface, &curve, back, &a->tables.lights[m->light_first + slot], lanes, rays);
+}
+
+/* Rays first .. end - 1 of a slot, sixteen at most. */
+static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot, uint first, uint end, struct shadow_kept *kept)
+{
+	__global struct ray *rays = a->rays + slot * a->n + first;
+	struct pack_list list;
+	uint material, lanes = load_wanting(a, first, end, slot, &list);
+
+	for (uint lane = 0; lane < end - first; lane++)
+		if (!(lanes >> lane & 1))
+			stage_no_ray(&rays[lane]);
+	while (lanes) {
+		const uint bit = lanes & -lanes, lane = popcount(bit - 1), same = pack_same_kind(&a->tables, &list, lanes, &material);
+
+		if (same & bit && is_simple(&a->tables, &a->tables.materials[material], slot)) {
+			send_lanes(a, &list, &a->tables.materials[material], same, slot, rays);
+			lanes &= ~same;
+		} else {
+			shadow_ray_item(a, slot * a->n + first + lane, 1, &kept[list.primitive[lane] % SHADE_TRIANGLES]);
+			lanes &= ~bit;
+		}
+	}
+}
+
+KERNEL_OF(float16) void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
+{
+	const uint first = (uint)get_global_id(0) * SHADE_PACKET, last = min(first + SHADE_PACKET, n_rays);
 	const struct shadow_ray_arguments a = KERNEL_STRUCT(shadow_ray);
 	struct shadow_kept kept[SHADE_TRIANGLES];
 
-	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
+	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept[i].instance = SCENE_NONE;
-	for (uint32_t i = first; i < first + SHADE_PACKET && i < n_rays; i++)
-		shadow_ray_item(&a, i, 1, &kept[fragments[i % n].primitive % SHADE_TRIANGLES]);
+	for (uint at = first, end; at < last; at = end) {
+		/* Sixteen at most, of one slot. */
+		end = min(min(at + PACK_SIZE, last), (at / n + 1) * n);
+		send_sixteen(&a, at / n, at % n, at % n + (end - at), kept);
+	}
 }

@@ -12,17 +12,23 @@
 #define GATHER_SECOND_PAIRS(a, b)                                                                                                 \
 	(packf)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se, a.sf, b.se, b.sf)
 
-/* Sixteen of a table's entries of four numbers, turned into rows. */
-WIDE_VECTORS INLINED void pack_gather(__global const float *table, packu index, packf *row)
+/* Four numbers from each of sixteen places on, turned into rows. */
+WIDE_VECTORS INLINED void pack_gather_from(__global const float *table, packu place, packf *row)
 {
-	const packf a = (packf)(vload4(index.s0, table), vload4(index.s4, table), vload4(index.s8, table), vload4(index.sc, table));
-	const packf b = (packf)(vload4(index.s1, table), vload4(index.s5, table), vload4(index.s9, table), vload4(index.sd, table));
-	const packf c = (packf)(vload4(index.s2, table), vload4(index.s6, table), vload4(index.sa, table), vload4(index.se, table));
-	const packf d = (packf)(vload4(index.s3, table), vload4(index.s7, table), vload4(index.sb, table), vload4(index.sf, table));
+	const packf a = (packf)(vload4(0, table + place.s0), vload4(0, table + place.s4), vload4(0, table + place.s8), vload4(0, table + place.sc));
+	const packf b = (packf)(vload4(0, table + place.s1), vload4(0, table + place.s5), vload4(0, table + place.s9), vload4(0, table + place.sd));
+	const packf c = (packf)(vload4(0, table + place.s2), vload4(0, table + place.s6), vload4(0, table + place.sa), vload4(0, table + place.se));
+	const packf d = (packf)(vload4(0, table + place.s3), vload4(0, table + place.s7), vload4(0, table + place.sb), vload4(0, table + place.sf));
 	const packf ab = GATHER_LOW(a, b), cd = GATHER_LOW(c, d), ab_high = GATHER_HIGH(a, b), cd_high = GATHER_HIGH(c, d);
 
 	row[0] = GATHER_FIRST_PAIRS(ab, cd);
 	row[1] = GATHER_SECOND_PAIRS(ab, cd);
 	row[2] = GATHER_FIRST_PAIRS(ab_high, cd_high);
 	row[3] = GATHER_SECOND_PAIRS(ab_high, cd_high);
+}
+
+/* Sixteen of a table's entries of four numbers. */
+WIDE_VECTORS INLINED void pack_gather(__global const float *table, packu index, packf *row)
+{
+	pack_gather_from(table, index * 4, row);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "kernels/gl/tables.h"
+#include "kernels/frame/compose.h"
 #include "tests/case.h"
 #include "tracer/device/launch.h"
 
@@ -110,7 +111,7 @@ static void run(struct device *dev, const struct content *c, const struct compos
 	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] }, .sums = { b[6] }, .first_pixel = 0,
 	            .request = *request, .n = n, .halves = { b[7] }, .floats = { b[8] });
 	if (packets)
-		ck_assert_int_eq(launch_compose_packet(dev, (n + COMPOSE_PACKET - 1) / COMPOSE_PACKET, a), 0);
+		ck_assert_int_eq(launch_compose_packet(dev, compose_columns(request->width) * request->height, a), 0);
 	else
 		ck_assert_int_eq(launch_compose(dev, n, a), 0);
 	ck_assert_int_eq(device_read(dev, b[7], 0, out->halves, sizeof(out->halves)), 0);

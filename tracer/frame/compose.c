@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "kernels/frame/compose.h"
 #include "tracer/image/pack.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
@@ -85,7 +86,7 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	                                        .floats = b->floats);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS)
-		return launch_compose_packet(tr->dev, (job->n_pixels + COMPOSE_PACKET - 1) / COMPOSE_PACKET, a);
+		return launch_compose_packet(tr->dev, compose_columns(job->width) * job->n_rows, a);
 	return launch_compose(tr->dev, job->n_pixels, a);
 }
 
