@@ -316,6 +316,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, const struct scene_material *m,
                              const float (*values)[4])
 {
+	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
 	struct scene *s = f->out;
 	struct scene_current current;
 	uint32_t varying = mesh->attributes, textured = 0;
@@ -323,13 +324,12 @@ uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, c
 	memset(&current, 0, sizeof(current));
 	for (uint32_t i = 0; i < m->unit_count; i++)
 		textured |= 1u << s->units[m->unit_first + i].unit;
-	for (unsigned i = 0; i < 4; i++) {
-		current.color[i] = varying & SCENE_HAS_COLOR ? 1 : values[GLS_ATTR_COLOR][i];
-		current.secondary[i] = varying & SCENE_HAS_SECONDARY ? i == 3 : values[GLS_ATTR_SECONDARY][i];
-		current.normal[i] = i < 3 ? (varying & SCENE_HAS_NORMAL ? i == 2 : values[GLS_ATTR_NORMAL][i]) : 0;
-		for (unsigned u = 0; u < SCENE_MAX_UNITS; u++)
-			current.texcoord[u][i] = varying >> (GLS_ATTR_TEXCOORD + u) & 1 || !(textured >> u & 1)
-			                             ? i == 3 : values[GLS_ATTR_TEXCOORD + u][i];
+	memcpy(current.color, varying & SCENE_HAS_COLOR ? white : values[GLS_ATTR_COLOR], 16);
+	memcpy(current.secondary, varying & SCENE_HAS_SECONDARY ? origin : values[GLS_ATTR_SECONDARY], 16);
+	memcpy(current.normal, varying & SCENE_HAS_NORMAL ? up : values[GLS_ATTR_NORMAL], 12);
+	for (unsigned u = 0; u < SCENE_MAX_UNITS; u++) {
+		int is_read = textured >> u & 1 && !(varying >> (GLS_ATTR_TEXCOORD + u) & 1);
+		memcpy(current.texcoord[u], is_read ? values[GLS_ATTR_TEXCOORD + u] : origin, 16);
 	}
 	current.fog_coord = varying & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
 	return gls_intern(&f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));

@@ -39,10 +39,8 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	x->command = command;
 	x->unpack = unpack;
 	if (rules[k->kind]) {
-		if (st->begin_mode) {
-			gls_error(x, st, GL_INVALID_OPERATION);
+		if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 			return;
-		}
 		if (rules[k->kind] & DRAW_PENDING && x->pending.geometry.n_vertices)
 			gls_flush(x);
 		if (rules[k->kind] & STALE)

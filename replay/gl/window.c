@@ -37,15 +37,18 @@ static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, c
 	return ctx ? ctx : gls_context_create(x, handle, 0, NULL, api);
 }
 
-static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context,
-                         const char *api)
+static void create_context(struct gls_exec *x, const struct call *c, int64_t share, const struct trace_value *config, const char *api)
+{
+	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)share, config, api);
+}
+
+static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context, const char *api)
 {
 	uint64_t handle = (uint64_t)arg_i(c, context);
 
 	if (c->ret.type != TRACE_NONE && gls_value_int(&c->ret) == 0)
 		return; /* it failed: the old one stays current */
-	set_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable),
-	                 (uint64_t)arg_i(c, read));
+	set_current(x, handle ? find_or_create(x, handle, api) : NULL, (uint64_t)arg_i(c, drawable), (uint64_t)arg_i(c, read));
 }
 
 static void destroy_context(struct gls_exec *x, const struct call *c, unsigned context)
@@ -66,18 +69,9 @@ static void swap(struct gls_exec *x, uint64_t drawable)
 	x->frame_ended = 1;
 }
 
-GLS_HANDLER(glXCreateContext, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
-}
-GLS_HANDLER(glXCreateNewContext, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 3), arg(c, 1), "GLX");
-}
-GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "GLX");
-}
+GLS_HANDLER(glXCreateContext, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "GLX"); }
+GLS_HANDLER(glXCreateNewContext, WINDOW) { create_context(x, c, arg_i(c, 3), arg(c, 1), "GLX"); }
+GLS_HANDLER(glXCreateContextAttribsARB, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "GLX"); }
 GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
 GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "GLX"); }
@@ -85,10 +79,7 @@ GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state between contexts"); }
 
-GLS_HANDLER(eglCreateContext, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 2), arg(c, 1), "EGL");
-}
+GLS_HANDLER(eglCreateContext, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL"); }
 GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
 GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
@@ -101,18 +92,9 @@ GLS_HANDLER(glFrameTerminatorGREMEDY, WINDOW)
 }
 
 /* OSMesa draws into the program's memory: each context is its own drawable. */
-GLS_HANDLER(OSMesaCreateContext, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
-}
-GLS_HANDLER(OSMesaCreateContextExt, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 4), NULL, "OSMesa");
-}
-GLS_HANDLER(OSMesaCreateContextAttribs, WINDOW)
-{
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)arg_i(c, 1), NULL, "OSMesa");
-}
+GLS_HANDLER(OSMesaCreateContext, WINDOW) { create_context(x, c, arg_i(c, 1), NULL, "OSMesa"); }
+GLS_HANDLER(OSMesaCreateContextExt, WINDOW) { create_context(x, c, arg_i(c, 4), NULL, "OSMesa"); }
+GLS_HANDLER(OSMesaCreateContextAttribs, WINDOW) { create_context(x, c, arg_i(c, 1), NULL, "OSMesa"); }
 GLS_HANDLER(OSMesaDestroyContext, WINDOW) { destroy_context(x, c, 0); }
 GLS_HANDLER(OSMesaMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 0, "OSMesa"); }
 
@@ -121,7 +103,7 @@ GLS_HANDLER(wglSwapBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapLayerBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(wglSwapMultipleBuffers, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
 GLS_HANDLER(CGLFlushDrawable, WINDOW) { swap(x, x->st ? x->st->drawable : 0); }
-GLS_HANDLER(wglCreateContext, WINDOW) { gls_context_create(x, (uint64_t)gls_value_int(&c->ret), 0, NULL, "WGL"); }
+GLS_HANDLER(wglCreateContext, WINDOW) { create_context(x, c, 0, NULL, "WGL"); }
 GLS_HANDLER(wglMakeCurrent, WINDOW) { make_current(x, c, 0, 0, 1, "WGL"); }
 
 /* ---- markers of our recorder (capture/format/trace.md) and of rtMaterialEXT ---- */

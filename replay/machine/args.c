@@ -51,37 +51,38 @@ int64_t gls_value_int(const struct trace_value *v)
 	}
 }
 
-unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n)
+/* The elements of an array argument, or one number; none where it is neither. */
+static const struct trace_value *number_or_items(const struct call *c, unsigned i, uint64_t *n)
 {
 	const struct trace_value *v = arg(c, i);
+
+	if (v->type == TRACE_ARRAY) {
+		*n = v->count;
+		return v->items;
+	}
+	*n = v->type != TRACE_NONE && v->type != TRACE_NULL && v->type != TRACE_BLOB && v->type != TRACE_OPAQUE;
+	return v;
+}
+
+unsigned arg_floats(const struct call *c, unsigned i, float *out, unsigned n)
+{
+	uint64_t count;
+	const struct trace_value *items = number_or_items(c, i, &count);
 	unsigned got;
 
-	if (v->type != TRACE_ARRAY) {
-		if (v->type == TRACE_NONE || v->type == TRACE_NULL || v->type == TRACE_BLOB || v->type == TRACE_OPAQUE || !n)
-			return 0;
-		out[0] = (float)gls_value_double(v);
-		return 1;
-	}
-	for (got = 0; got < n && got < v->count; got++) {
-		const struct trace_value *item = &v->items[got];
-		out[got] = item->type == TRACE_FLOAT ? item->f : (float)gls_value_double(item);
-	}
+	for (got = 0; got < n && got < count; got++)
+		out[got] = items[got].type == TRACE_FLOAT ? items[got].f : (float)gls_value_double(&items[got]);
 	return got;
 }
 
 unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n)
 {
-	const struct trace_value *v = arg(c, i);
+	uint64_t count;
+	const struct trace_value *items = number_or_items(c, i, &count);
 	unsigned got;
 
-	if (v->type != TRACE_ARRAY) {
-		if (v->type == TRACE_NONE || v->type == TRACE_NULL || v->type == TRACE_BLOB || v->type == TRACE_OPAQUE || !n)
-			return 0;
-		out[0] = (uint32_t)gls_value_int(v);
-		return 1;
-	}
-	for (got = 0; got < n && got < v->count; got++)
-		out[got] = (uint32_t)gls_value_int(&v->items[got]);
+	for (got = 0; got < n && got < count; got++)
+		out[got] = (uint32_t)gls_value_int(&items[got]);
 	return got;
 }
 
@@ -101,6 +102,17 @@ const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *
 
 	*n = v->type == TRACE_ARRAY ? v->count : 0;
 	return *n ? v->items : NULL;
+}
+
+uint32_t arg_next_name(const struct call *c, unsigned i, uint64_t *at)
+{
+	uint64_t n;
+	const struct trace_value *names = arg_items(c, i, &n);
+	uint32_t name = 0;
+
+	while (!name && *at < n)
+		name = (uint32_t)gls_value_int(&names[(*at)++]);
+	return name;
 }
 
 const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n)

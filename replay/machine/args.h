@@ -52,6 +52,8 @@ unsigned arg_uints(const struct call *c, unsigned i, uint32_t *out, unsigned n);
 void arg_color(const struct gls_exec *x, const struct call *c, unsigned i, float out[4]);
 /** Elements of an array argument; NULL and 0 if it is no array. */
 const struct trace_value *arg_items(const struct call *c, unsigned i, uint64_t *n);
+/** Names of objects in an array argument, one a call; 0 is passed over. *at counts, from 0. @return a name; 0: there are no more */
+uint32_t arg_next_name(const struct call *c, unsigned i, uint64_t *at);
 /** Bytes of a blob argument; NULL if it is no blob. */
 const uint8_t *arg_blob(const struct call *c, unsigned i, size_t *n);
 /** 1 if the argument is an address or NULL: an offset in a buffer object. */

@@ -1,6 +1,7 @@
 /* What can go wrong in a handler: errors of the program, calls that are not done yet, failures of ours. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,6 +10,14 @@ struct gls_state;
 
 /** The program made a GL error in the current call. The handler changes nothing else. */
 void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error);
+
+/** The same where it is `wrong`. @return wrong */
+static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wrong, uint32_t error)
+{
+	if (wrong)
+		gls_error(x, st, error);
+	return wrong;
+}
 
 /** Count the current call as not done. why: the part that is missing, a static string. */
 void gls_unsupported(struct gls_exec *x, const char *why);

@@ -56,16 +56,15 @@ def main(out, sources):
             if not enum.bits:
                 values.setdefault("", set()).add(enum.value & 0xFFFFFFFF)
     values["values"] = set().union(*(values[group] for group in VALUES))
-    handlers = gen.read_handlers(sources)
-    chapters = {name: number for number, source in enumerate(sources) for name in gen.read_handlers([source])}
+    chapters = {name: number for number, source in enumerate(sources) for name in gen.handled(gen.read_handlers([source]), known)}
     commands = {}
-    for name in sorted(known.keys() | handlers.keys()):
-        if name in handlers and name in OTHERS:
+    for name in sorted(known.keys() | chapters.keys()):
+        if name in chapters and name in OTHERS:
             commands[name] = (OTHERS[name], [""] * len(OTHERS[name]), chapters[name])
-        elif name in known and (name in handlers or known[name].alias in handlers):
+        elif name in known and (name in chapters or known[name].alias in chapters):
             params = known[name].params[:MOST_PARAMS]
             commands[name] = ("".join(map(letter, params)), [group_of(name, p, values) for p in params],
-                              chapters[name if name in handlers else known[name].alias])
+                              chapters[name if name in chapters else known[name].alias])
     numbers = {}
     for name in commands:
         number = zlib.crc32(name.encode()) & 0xFFFF

@@ -41,10 +41,8 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	struct gls_array *array = &st->client.arrays[index];
 	const struct trace_value *v = arg(c, pointer);
 
-	if (stride < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, stride < 0, GL_INVALID_VALUE))
 		return;
-	}
 	array->size = size;
 	array->type = type;
 	array->stride = stride;
@@ -61,66 +59,41 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	}
 }
 
-GLS_HANDLER(glVertexPointer, CLIENT)
+/* Arguments: size, type, stride, what else there is, and the pointer. */
+static void set_sized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, unsigned pointer)
 {
-	set_pointer(x, st, c, GLS_ARRAY_VERTEX, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
+	set_pointer(x, st, c, index, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), pointer);
 }
-GLS_HANDLER(glNormalPointer, CLIENT)
+
+/* The same without a size. */
+static void set_unsized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, int32_t size, unsigned pointer)
 {
-	set_pointer(x, st, c, GLS_ATTR_NORMAL, 3, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
+	set_pointer(x, st, c, index, size, arg_u(c, 0), (int32_t)arg_i(c, 1), pointer);
 }
-GLS_HANDLER(glColorPointer, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_COLOR, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
-}
-GLS_HANDLER(glSecondaryColorPointer, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_SECONDARY, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 3);
-}
-GLS_HANDLER(glFogCoordPointer, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_FOG_COORD, 1, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
-}
-GLS_HANDLER(glTexCoordPointer, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, (int32_t)arg_i(c, 0), arg_u(c, 1),
-	            (int32_t)arg_i(c, 2), 3);
-}
+
+GLS_HANDLER(glVertexPointer, CLIENT) { set_sized(x, st, c, GLS_ARRAY_VERTEX, 3); }
+GLS_HANDLER(glColorPointer, CLIENT) { set_sized(x, st, c, GLS_ATTR_COLOR, 3); }
+GLS_HANDLER(glSecondaryColorPointer, CLIENT) { set_sized(x, st, c, GLS_ATTR_SECONDARY, 3); }
+GLS_HANDLER(glTexCoordPointer, CLIENT) { set_sized(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, 3); }
+GLS_HANDLER(glNormalPointer, CLIENT) { set_unsized(x, st, c, GLS_ATTR_NORMAL, 3, 2); }
+GLS_HANDLER(glFogCoordPointer, CLIENT) { set_unsized(x, st, c, GLS_ATTR_FOG_COORD, 1, 2); }
+GLS_HANDLER(glIndexPointer, CLIENT) { set_unsized(x, st, c, GLS_ARRAY_INDEX, 1, 2); }
 GLS_HANDLER(glEdgeFlagPointer, CLIENT)
 {
 	set_pointer(x, st, c, GLS_ARRAY_EDGE_FLAG, 1, GL_UNSIGNED_BYTE, (int32_t)arg_i(c, 0), 1);
 }
-GLS_HANDLER(glIndexPointer, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ARRAY_INDEX, 1, arg_u(c, 0), (int32_t)arg_i(c, 1), 2);
-}
 
 /* EXT_vertex_array: a count in front of the pointer. */
-GLS_HANDLER(glVertexPointerEXT, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ARRAY_VERTEX, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 4);
-}
-GLS_HANDLER(glNormalPointerEXT, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_NORMAL, 3, arg_u(c, 0), (int32_t)arg_i(c, 1), 3);
-}
-GLS_HANDLER(glColorPointerEXT, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_COLOR, (int32_t)arg_i(c, 0), arg_u(c, 1), (int32_t)arg_i(c, 2), 4);
-}
-GLS_HANDLER(glTexCoordPointerEXT, CLIENT)
-{
-	set_pointer(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, (int32_t)arg_i(c, 0), arg_u(c, 1),
-	            (int32_t)arg_i(c, 2), 4);
-}
+GLS_HANDLER(glVertexPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ARRAY_VERTEX, 4); }
+GLS_HANDLER(glColorPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ATTR_COLOR, 4); }
+GLS_HANDLER(glTexCoordPointerEXT, CLIENT) { set_sized(x, st, c, GLS_ATTR_TEXCOORD + st->client.active_texture, 4); }
+GLS_HANDLER(glNormalPointerEXT, CLIENT) { set_unsized(x, st, c, GLS_ATTR_NORMAL, 3, 3); }
 
 GLS_HANDLER(glClientActiveTexture, CLIENT)
 {
 	uint32_t unit = arg_u(c, 0) - GL_TEXTURE0;
 
-	if (unit >= GLS_MAX_UNITS)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, unit >= GLS_MAX_UNITS, GL_INVALID_ENUM))
 		st->client.active_texture = unit;
 }
 

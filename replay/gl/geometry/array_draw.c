@@ -216,10 +216,8 @@ void gls_draw_elements(struct gls_exec *x, struct gls_state *st, uint32_t mode, 
 	uint32_t *elements;
 	int64_t begin = 0;
 
-	if (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT, GL_INVALID_ENUM))
 		return;
-	}
 	if (!check_mode(x, st, mode, count) || count == 0 || (!x->want && !st->list))
 		return;
 	if (indices->type == TRACE_BLOB) {

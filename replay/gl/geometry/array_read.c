@@ -7,29 +7,14 @@
 #include "gl_tokens.h"
 #include "base/half.h"
 #include "base/norm.h"
+#include "capture/format/sizes.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
 size_t gls_type_bytes(uint32_t type)
 {
-	switch (type) {
-	case GL_BYTE:
-	case GL_UNSIGNED_BYTE:
-		return 1;
-	case GL_SHORT:
-	case GL_UNSIGNED_SHORT:
-	case GL_HALF_FLOAT:
-		return 2;
-	case GL_INT:
-	case GL_UNSIGNED_INT:
-	case GL_FLOAT:
-		return 4;
-	case GL_DOUBLE:
-		return 8;
-	default:
-		return 0;
-	}
+	return type <= GL_FLOAT || type == GL_HALF_FLOAT || type == GL_DOUBLE ? (size_t)type_bytes(type) : 0;
 }
 
 static unsigned components(const struct gls_array *array)

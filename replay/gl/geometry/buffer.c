@@ -91,12 +91,10 @@ static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
 
 GLS_HANDLER(glDeleteBuffers, CLIENT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-		struct gls_buffer *b = name ? table_remove(&st->share->buffers, name) : NULL;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
+		struct gls_buffer *b = table_remove(&st->share->buffers, name);
 		if (!b)
 			continue;
 		unmap_buffer(x, b);
@@ -121,10 +119,8 @@ static void set_data(struct gls_exec *x, struct gls_state *st, const struct call
 
 	if (!b)
 		return;
-	if (size < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, size < 0, GL_INVALID_VALUE))
 		return;
-	}
 	if (size > INT32_MAX) {
 		gls_unsupported(x, "buffers of 2 GiB and more");
 		return;

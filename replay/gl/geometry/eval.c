@@ -112,10 +112,8 @@ GLS_FAMILY(glMap, STATE)
 	const struct trace_value *values = arg_items(c, which ? 9 : 5, &n_values);
 	unsigned size;
 
-	if (target >= N_TARGETS) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, target >= N_TARGETS, GL_INVALID_ENUM))
 		return;
-	}
 	size = sizes[target];
 	for (unsigned d = 0; d <= which; d++) {
 		int64_t order = arg_i(c, 4 + 4 * d);
@@ -296,10 +294,8 @@ GLS_FAMILY(glEvalCoord, INSIDE)
 
 static void set_grid(struct gls_exec *x, struct gls_state *st, int64_t segments, float from, float to, int32_t *n, float grid[2])
 {
-	if (segments < 1) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, segments < 1, GL_INVALID_VALUE))
 		return;
-	}
 	*n = (int32_t)(segments < INT32_MAX ? segments : INT32_MAX);
 	grid[0] = from;
 	grid[1] = to;
@@ -313,10 +309,8 @@ GLS_FAMILY(glMapGrid, STATE)
 		set_grid(x, st, arg_i(c, 0), arg_f(c, 1), arg_f(c, 2), &e->grid1_segments, e->grid1);
 		return;
 	}
-	if (arg_i(c, 3) < 1) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 3) < 1, GL_INVALID_VALUE))
 		return;
-	}
 	set_grid(x, st, arg_i(c, 0), arg_f(c, 1), arg_f(c, 2), &e->grid2_segments[0], e->grid2);
 	if (arg_i(c, 0) >= 1)
 		set_grid(x, st, arg_i(c, 3), arg_f(c, 4), arg_f(c, 5), &e->grid2_segments[1], e->grid2 + 2);
@@ -360,10 +354,8 @@ GLS_HANDLER(glEvalMesh1, STATE)
 {
 	uint32_t mode = arg_u(c, 0);
 
-	if (mode != GL_POINT && mode != GL_LINE) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_POINT && mode != GL_LINE, GL_INVALID_ENUM))
 		return;
-	}
 	if (!mesh_fits(x, arg_i32(c, 2) - arg_i32(c, 1) + 1, 1))
 		return;
 	gls_begin(x, st, mode == GL_POINT ? GL_POINTS : GL_LINE_STRIP);
@@ -378,10 +370,8 @@ GLS_HANDLER(glEvalMesh2, STATE)
 	uint32_t mode = arg_u(c, 0);
 	int64_t i1 = arg_i32(c, 1), i2 = arg_i32(c, 2), j1 = arg_i32(c, 3), j2 = arg_i32(c, 4);
 
-	if (mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_POINT && mode != GL_LINE && mode != GL_FILL, GL_INVALID_ENUM))
 		return;
-	}
 	if (!mesh_fits(x, i2 - i1 + 1, j2 - j1 + 1))
 		return;
 	for (int64_t j = j1; j <= j2 - (mode == GL_FILL); j++) {

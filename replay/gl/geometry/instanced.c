@@ -77,10 +77,8 @@ static void draw_indirect(struct gls_exec *x, struct gls_state *st, const struct
 	const uint64_t size = 4 * (elements ? ELEMENTS_WORDS : ARRAYS_WORDS);
 	const uint8_t *commands;
 
-	if (draws < 0 || stride < 0 || stride % 4) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, draws < 0 || stride < 0 || stride % 4, GL_INVALID_VALUE))
 		return;
-	}
 	stride = stride ? stride : (int64_t)size;
 	commands = draws && draws <= INT32_MAX && stride <= INT32_MAX ?
 	           find_commands(x, st, c, argument, (uint64_t)(draws - 1) * (uint64_t)stride + size) : NULL;

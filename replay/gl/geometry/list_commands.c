@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "base/table.h"
 #include "capture/format/call.h"
+#include "capture/format/sizes.h"
 #include "replay/gl/geometry/effect.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/geometry/list_assemble.h"
@@ -22,18 +23,12 @@ GLS_HANDLER(glNewList, NOW)
 {
 	uint32_t name = arg_u(c, 0), mode = arg_u(c, 1);
 
-	if (name == 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, name == 0, GL_INVALID_VALUE))
 		return;
-	}
-	if (mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE, GL_INVALID_ENUM))
 		return;
-	}
-	if (st->list) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, st->list, GL_INVALID_OPERATION))
 		return;
-	}
 	st->list = calloc(1, sizeof(*st->list));
 	if (!st->list) {
 		gls_out_of_memory(x, sizeof(*st->list));
@@ -57,10 +52,8 @@ GLS_HANDLER(glEndList, NOW)
 {
 	struct gls_list *list = st->list;
 
-	if (!list) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !list, GL_INVALID_OPERATION))
 		return;
-	}
 	st->list = NULL;
 	list = gls_list_assemble(x, list);
 	remove_list(st, st->list_name);
@@ -76,10 +69,8 @@ GLS_HANDLER(glDeleteLists, NOW)
 	int64_t range = arg_i(c, 1);
 	const struct table *lists = &st->share->lists;
 
-	if (range < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, range < 0, GL_INVALID_VALUE))
 		return;
-	}
 	if ((uint64_t)range <= 2 * lists->room) {
 		for (int64_t i = 0; i < range; i++)
 			remove_list(st, first + (uint32_t)i);
@@ -115,10 +106,8 @@ static void set_attributes(struct gls_exec *x, struct gls_state *st, uint32_t ma
 
 static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_op_mesh *op)
 {
-	if (st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 		return;
-	}
 	gls_flush(x);
 	set_attributes(x, st, op->before, op->before_values);
 	if (!st->a.current.edge_flag && op->mesh)
@@ -169,28 +158,6 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 GLS_HANDLER(glCallList, INSIDE, CALL_LIST) { call_list(x, st, arg_u(c, 0)); }
 
 /* Bytes of an element of CallLists (sec. 5.4); 0: no type. */
-static unsigned element_bytes(uint32_t type)
-{
-	switch (type) {
-	case GL_BYTE:
-	case GL_UNSIGNED_BYTE:
-		return 1;
-	case GL_SHORT:
-	case GL_UNSIGNED_SHORT:
-	case GL_2_BYTES:
-		return 2;
-	case GL_3_BYTES:
-		return 3;
-	case GL_INT:
-	case GL_UNSIGNED_INT:
-	case GL_FLOAT:
-	case GL_4_BYTES:
-		return 4;
-	default:
-		return 0;
-	}
-}
-
 static uint32_t element_value(uint32_t type, const uint8_t *p)
 {
 	uint16_t u16;
@@ -227,7 +194,7 @@ GLS_HANDLER(glCallLists, INSIDE)
 {
 	int64_t n = arg_i(c, 0);
 	uint32_t type = arg_u(c, 1), base = st->a.list_base;
-	unsigned size = element_bytes(type);
+	size_t size = type <= GL_4_BYTES ? (size_t)type_bytes(type) : 0;
 	size_t n_bytes;
 	uint64_t n_items;
 	const uint8_t *bytes = arg_blob(c, 2, &n_bytes);
@@ -238,7 +205,7 @@ GLS_HANDLER(glCallLists, INSIDE)
 		return;
 	}
 	for (int64_t i = 0; i < n && bytes && (uint64_t)(i + 1) * size <= n_bytes; i++)
-		call_list(x, st, base + element_value(type, bytes + i * size));
+		call_list(x, st, base + element_value(type, bytes + (size_t)i * size));
 	for (int64_t i = 0; i < n && items && (uint64_t)i < n_items; i++)
 		call_list(x, st, base + (uint32_t)gls_value_int(&items[i]));
 }

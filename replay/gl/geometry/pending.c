@@ -120,14 +120,10 @@ void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)
 	struct gls_geometry *g = &p->geometry;
 	enum scene_primitive kind = gls_mode_kind(mode);
 
-	if (st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, st->begin_mode, GL_INVALID_OPERATION))
 		return;
-	}
-	if (!kind) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !kind, GL_INVALID_ENUM))
 		return;
-	}
 	if (g->n_vertices && (g->kind != kind || g->n_vertices > GLS_MAX_PENDING_VERTICES ||
 	                      (!p->mixes && g->quads != (mode == GL_QUADS))))
 		gls_flush(x);
@@ -153,10 +149,8 @@ static void cut_primitives(struct gls_exec *x, const struct gls_state *st)
 
 void gls_end(struct gls_exec *x, struct gls_state *st)
 {
-	if (!st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !st->begin_mode, GL_INVALID_OPERATION))
 		return;
-	}
 	if (x->want) {
 		cut_primitives(x, st);
 		x->pending.geometry.n_draws++;
@@ -168,10 +162,8 @@ void gls_restart(struct gls_exec *x, struct gls_state *st)
 {
 	struct gls_geometry *g = &x->pending.geometry;
 
-	if (!st->begin_mode) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !st->begin_mode, GL_INVALID_OPERATION))
 		return;
-	}
 	if (x->want)
 		cut_primitives(x, st);
 	g->begin_vertex = g->n_vertices;

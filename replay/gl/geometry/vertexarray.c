@@ -67,14 +67,9 @@ GLS_HANDLER(glBindVertexArrayAPPLE, CLIENT) { gls_vertex_array_bind(x, st, arg_u
 
 GLS_HANDLER(glDeleteVertexArrays, CLIENT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-
-		if (!name)
-			continue;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
 		if (name == st->client.vertex_array)
 			gls_vertex_array_bind(x, st, 0);
 		gls_vertex_array_free(table_remove(&st->vertex_arrays, name));

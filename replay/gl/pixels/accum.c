@@ -121,10 +121,8 @@ GLS_HANDLER(glAccum, STATE)
 	struct area area;
 	struct gls_drawable *d;
 
-	if (op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, op != GL_ACCUM && op != GL_LOAD && op != GL_RETURN && op != GL_MULT && op != GL_ADD, GL_INVALID_ENUM))
 		return;
-	}
 	if (!gls_renders(st))
 		return;
 	if (!x->want) {

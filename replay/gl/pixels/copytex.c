@@ -92,10 +92,8 @@ GLS_FAMILY(glCopyTexSubImage, STATE)
 
 	if (!l)
 		return;
-	if (!l->texels) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !l->texels, GL_INVALID_OPERATION))
 		return;
-	}
 	for (unsigned i = 0; i < n_dims; i++)
 		to[i] = arg_i32(c, 2 + i) + l->border;
 	if (to[0] < 0 || to[1] < 0 || to[2] < 0 || size[0] < 0 || size[1] < 0 || to[0] > l->width || to[1] > l->height ||

@@ -21,10 +21,8 @@ GLS_HANDLER(glBitmap, STATE)
 	float *at = st->a.current.raster_position;
 	uint8_t *texels;
 
-	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 0) < 0 || arg_i(c, 1) < 0, GL_INVALID_VALUE))
 		return;
-	}
 	if (!st->a.current.raster_valid)
 		return;
 	p.data = gls_pixel_source(st, c, 6, &p.n);
@@ -90,10 +88,8 @@ GLS_HANDLER(glDrawPixels, STATE)
 	struct gls_rectangle r;
 	uint8_t *texels, *stencil;
 
-	if (arg_i(c, 0) < 0 || arg_i(c, 1) < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 0) < 0 || arg_i(c, 1) < 0, GL_INVALID_VALUE))
 		return;
-	}
 	p.data = gls_pixel_source(st, c, 4, &p.n);
 	if (!p.data || !is_drawable(x, st, p.width, p.height))
 		return;
@@ -156,10 +152,8 @@ GLS_HANDLER(glCopyPixels, STATE)
 	uint8_t *texels;
 	size_t bytes;
 
-	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE))
 		return;
-	}
 	if (!is_drawable(x, st, width, height))
 		return;
 	if (kind == SCENE_COLOR_PIXELS)

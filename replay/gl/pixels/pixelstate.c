@@ -104,14 +104,10 @@ GLS_FAMILY(glPixelMap, STATE)
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
 	int indices = which < 2; /* I_TO_I and S_TO_S hold indices, the rest colours */
 
-	if (which >= N_GLS_PIXEL_MAPS) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, which >= N_GLS_PIXEL_MAPS, GL_INVALID_ENUM))
 		return;
-	}
-	if (!size || size > GLS_MAX_PIXEL_MAP || (which < 6 && size & (size - 1))) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, !size || size > GLS_MAX_PIXEL_MAP || (which < 6 && size & (size - 1)), GL_INVALID_VALUE))
 		return;
-	}
 	memset(m, 0, sizeof(*m));
 	m->size = size;
 	if (gls_client_store(x, st)->buffer ? buffered(st, c, size, type, m->values) : arg_floats(c, 2, m->values, size) < size)

@@ -27,14 +27,10 @@ struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state 
 	if (token == GL_PROXY_TEXTURE_1D || token == GL_PROXY_TEXTURE_2D || token == GL_PROXY_TEXTURE_3D ||
 	    token == GL_PROXY_TEXTURE_CUBE_MAP || token == GL_PROXY_TEXTURE_RECTANGLE)
 		return NULL;
-	if (target < 0) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, target < 0, GL_INVALID_ENUM))
 		return NULL;
-	}
-	if (level < 0 || level >= GLS_MAX_LEVELS) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, level < 0 || level >= GLS_MAX_LEVELS, GL_INVALID_VALUE))
 		return NULL;
-	}
 	t = gls_texture_bound(x, st, st->a.texturing.active, (unsigned)target);
 	gls_texture_update(x, st, t);
 	return t;
@@ -108,19 +104,15 @@ GLS_FAMILY(glTexSubImage, STATE)
 
 	if (!l)
 		return;
-	if (!l->texels) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !l->texels, GL_INVALID_OPERATION))
 		return;
-	}
 	for (unsigned i = 0; i < n_dims; i++) {
 		int64_t room = i == 0 ? l->width : i == 1 ? l->height : l->depth;
 
 		at[i] = arg_i32(c, 2 + i) + l->border;
 		size[i] = arg_i32(c, 2 + n_dims + i);
-		if (at[i] < 0 || size[i] < 0 || at[i] > room || size[i] > room - at[i]) {
-			gls_error(x, st, GL_INVALID_VALUE);
+		if (gls_refuses(x, st, at[i] < 0 || size[i] < 0 || at[i] > room || size[i] > room - at[i], GL_INVALID_VALUE))
 			return;
-		}
 	}
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	if (!p.data || !size[0] || !size[1] || !size[2])
@@ -188,10 +180,8 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 		at[i] = arg_i32(c, 2 + i);
 		size[i] = arg_i32(c, 2 + n_dims + i);
 	}
-	if (!l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims)) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !l->texels || l->internal_format != arg_u(c, 2 + 2 * n_dims), GL_INVALID_OPERATION))
 		return;
-	}
 	for (unsigned i = 0; i < 3; i++)
 		if (at[i] < 0 || size[i] < 0 || at[i] + size[i] > (i == 0 ? l->width : i == 1 ? l->height : l->depth)) {
 			gls_error(x, st, GL_INVALID_VALUE);
@@ -236,10 +226,8 @@ GLS_HANDLER(glClearTexImage, OBJECT)
 	struct gls_texture *t = table_find(&st->share->textures, arg_u(c, 0));
 	uint8_t texel[16] = { 0 };
 
-	if (!t || arg_i(c, 1) < 0 || arg_i(c, 1) >= GLS_MAX_LEVELS) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !t || arg_i(c, 1) < 0 || arg_i(c, 1) >= GLS_MAX_LEVELS, GL_INVALID_OPERATION))
 		return;
-	}
 	gls_texture_update(x, st, t);
 	pixel.data = arg_blob(c, 4, &pixel.n);
 	for (unsigned face = 0; face < 6; face++) {

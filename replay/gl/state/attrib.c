@@ -186,10 +186,8 @@ GLS_HANDLER(glHint, STATE)
 	struct gls_hint *h = &st->a.hint;
 	uint32_t mode = arg_u(c, 1);
 
-	if (mode != GL_DONT_CARE && mode != GL_FASTEST && mode != GL_NICEST) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_DONT_CARE && mode != GL_FASTEST && mode != GL_NICEST, GL_INVALID_ENUM))
 		return;
-	}
 	switch (arg_u(c, 0)) {
 	case GL_FOG_HINT:
 		h->fog = mode;
@@ -228,10 +226,8 @@ GLS_HANDLER(glRenderMode, OBJECT)
 {
 	uint32_t mode = arg_u(c, 0);
 
-	if (mode != GL_RENDER && mode != GL_SELECT && mode != GL_FEEDBACK) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_RENDER && mode != GL_SELECT && mode != GL_FEEDBACK, GL_INVALID_ENUM))
 		return;
-	}
 	st->render_mode = mode;
 }
 
@@ -241,10 +237,8 @@ GLS_HANDLER(glPushAttrib, STATE)
 {
 	struct gls_saved_attribs *saved;
 
-	if (st->attrib_depth == GLS_MAX_ATTRIB_DEPTH) {
-		gls_error(x, st, GL_STACK_OVERFLOW);
+	if (gls_refuses(x, st, st->attrib_depth == GLS_MAX_ATTRIB_DEPTH, GL_STACK_OVERFLOW))
 		return;
-	}
 	saved = &st->attrib_stack[st->attrib_depth++];
 	saved->mask = arg_u(c, 0);
 	saved->attribs = st->a;
@@ -285,10 +279,8 @@ GLS_HANDLER(glPopAttrib, STATE, SELECT)
 	struct gls_attribs *old;
 	uint32_t mask;
 
-	if (st->attrib_depth == 0) {
-		gls_error(x, st, GL_STACK_UNDERFLOW);
+	if (gls_refuses(x, st, st->attrib_depth == 0, GL_STACK_UNDERFLOW))
 		return;
-	}
 	mask = st->attrib_stack[--st->attrib_depth].mask;
 	old = &st->attrib_stack[st->attrib_depth].attribs;
 	for (size_t i = 0; i < sizeof(groups) / sizeof(groups[0]); i++)
@@ -308,10 +300,8 @@ GLS_HANDLER(glPushClientAttrib, NOW)
 {
 	struct gls_saved_client *saved;
 
-	if (st->client_depth == GLS_MAX_ATTRIB_DEPTH) {
-		gls_error(x, st, GL_STACK_OVERFLOW);
+	if (gls_refuses(x, st, st->client_depth == GLS_MAX_ATTRIB_DEPTH, GL_STACK_OVERFLOW))
 		return;
-	}
 	saved = &st->client_stack[st->client_depth++];
 	saved->mask = arg_u(c, 0);
 	saved->client = st->client;
@@ -321,10 +311,8 @@ GLS_HANDLER(glPopClientAttrib, NOW)
 {
 	struct gls_saved_client *saved;
 
-	if (st->client_depth == 0) {
-		gls_error(x, st, GL_STACK_UNDERFLOW);
+	if (gls_refuses(x, st, st->client_depth == 0, GL_STACK_UNDERFLOW))
 		return;
-	}
 	saved = &st->client_stack[--st->client_depth];
 	if (saved->mask & GL_CLIENT_PIXEL_STORE_BIT) {
 		st->client.pack = saved->client.pack;

@@ -18,20 +18,16 @@ static int is_compare_func(uint32_t func)
 
 GLS_HANDLER(glScissor, STATE)
 {
-	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE))
 		return;
-	}
 	for (unsigned i = 0; i < 4; i++)
 		st->a.scissor.rect[i] = (int32_t)arg_i(c, i);
 }
 
 GLS_HANDLER(glAlphaFunc, STATE)
 {
-	if (!is_compare_func(arg_u(c, 0))) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
 		return;
-	}
 	st->a.color.alpha_func = arg_u(c, 0);
 	st->a.color.alpha_ref = arg_f(c, 1);
 }
@@ -104,9 +100,7 @@ GLS_HANDLER(glActiveStencilFaceEXT, STATE) { st->a.stencil.active_face = arg_u(c
 
 GLS_HANDLER(glDepthFunc, STATE)
 {
-	if (!is_compare_func(arg_u(c, 0)))
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, !is_compare_func(arg_u(c, 0)), GL_INVALID_ENUM))
 		st->a.depth.func = arg_u(c, 0);
 }
 
@@ -144,10 +138,8 @@ static void blend_func(struct gls_exec *x, struct gls_state *st, uint32_t src_rg
 
 static void blend_equation(struct gls_exec *x, struct gls_state *st, uint32_t rgb, uint32_t alpha)
 {
-	if (!is_blend_equation(rgb) || !is_blend_equation(alpha)) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !is_blend_equation(rgb) || !is_blend_equation(alpha), GL_INVALID_ENUM))
 		return;
-	}
 	st->a.color.equation_rgb = rgb;
 	st->a.color.equation_alpha = alpha;
 }
@@ -180,9 +172,7 @@ GLS_HANDLER(glClampColor, STATE)
 
 GLS_HANDLER(glLogicOp, STATE)
 {
-	if (arg_u(c, 0) < GL_CLEAR || arg_u(c, 0) > GL_SET)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, arg_u(c, 0) < GL_CLEAR || arg_u(c, 0) > GL_SET, GL_INVALID_ENUM))
 		st->a.color.logic_op = arg_u(c, 0);
 }
 

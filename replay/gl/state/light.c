@@ -21,10 +21,8 @@ GLS_FAMILY(glLight, STATE)
 	float v[4] = { 0, 0, 0, 0 };
 	unsigned n;
 
-	if (index >= GLS_MAX_LIGHTS) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, index >= GLS_MAX_LIGHTS, GL_INVALID_ENUM))
 		return;
-	}
 	light = &st->a.lighting.lights[index].value;
 	n = arg_floats(c, 2, v, 4);
 	if (pname == GL_AMBIENT || pname == GL_DIFFUSE || pname == GL_SPECULAR)
@@ -48,28 +46,22 @@ GLS_FAMILY(glLight, STATE)
 			light->spot_direction_eye[r] = modelview[r] * v[0] + modelview[4 + r] * v[1] + modelview[8 + r] * v[2];
 		break;
 	case GL_SPOT_EXPONENT:
-		if (!(v[0] >= 0 && v[0] <= 128))
-			goto bad_value;
-		light->spot_exponent = v[0];
+		if (!gls_refuses(x, st, !(v[0] >= 0 && v[0] <= 128), GL_INVALID_VALUE))
+			light->spot_exponent = v[0];
 		break;
 	case GL_SPOT_CUTOFF:
-		if (!(v[0] >= 0 && v[0] <= 90) && v[0] != 180)
-			goto bad_value;
-		light->spot_cutoff_deg = v[0];
+		if (!gls_refuses(x, st, !(v[0] >= 0 && v[0] <= 90) && v[0] != 180, GL_INVALID_VALUE))
+			light->spot_cutoff_deg = v[0];
 		break;
 	case GL_CONSTANT_ATTENUATION:
 	case GL_LINEAR_ATTENUATION:
 	case GL_QUADRATIC_ATTENUATION:
-		if (!(v[0] >= 0))
-			goto bad_value;
-		light->attenuation[pname - GL_CONSTANT_ATTENUATION] = v[0];
+		if (!gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
+			light->attenuation[pname - GL_CONSTANT_ATTENUATION] = v[0];
 		break;
 	default:
 		gls_error(x, st, GL_INVALID_ENUM);
 	}
-	return;
-bad_value:
-	gls_error(x, st, GL_INVALID_VALUE);
 }
 
 GLS_FAMILY(glLightModel, STATE)
@@ -89,9 +81,7 @@ GLS_FAMILY(glLightModel, STATE)
 		l->two_side = v[0] != 0;
 		break;
 	case GL_LIGHT_MODEL_COLOR_CONTROL:
-		if (v[0] != GL_SINGLE_COLOR && v[0] != GL_SEPARATE_SPECULAR_COLOR)
-			gls_error(x, st, GL_INVALID_ENUM);
-		else
+		if (!gls_refuses(x, st, v[0] != GL_SINGLE_COLOR && v[0] != GL_SEPARATE_SPECULAR_COLOR, GL_INVALID_ENUM))
 			l->separate_specular = v[0] == GL_SEPARATE_SPECULAR_COLOR;
 		break;
 	default:
@@ -120,17 +110,13 @@ GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 	uint32_t face = arg_u(c, 0), pname = arg_u(c, 1);
 	float v[4] = { 0 };
 
-	if (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK, GL_INVALID_ENUM))
 		return;
-	}
 	arg_floats(c, 2, v, 4);
 	for (unsigned i = 0; i < 4 && gls_commands[x->command].suffix.type == GLS_SUFFIX_I && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
 		v[i] = norm_int(v[i]);
-	if (pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128)) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128), GL_INVALID_VALUE))
 		return;
-	}
 	gls_before_material(x, st);
 	for (unsigned side = 0; side < 2; side++) {
 		struct scene_face *f = &st->a.lighting.face[side];
@@ -185,9 +171,7 @@ GLS_HANDLER(glShadeModel, STATE)
 {
 	uint32_t model = arg_u(c, 0);
 
-	if (model != GL_FLAT && model != GL_SMOOTH)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, model != GL_FLAT && model != GL_SMOOTH, GL_INVALID_ENUM))
 		st->a.lighting.shade_model = model;
 }
 
@@ -196,9 +180,7 @@ GLS_HANDLER(glProvokingVertex, STATE)
 {
 	uint32_t mode = arg_u(c, 0);
 
-	if (mode != GL_FIRST_VERTEX_CONVENTION && mode != GL_LAST_VERTEX_CONVENTION)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, mode != GL_FIRST_VERTEX_CONVENTION && mode != GL_LAST_VERTEX_CONVENTION, GL_INVALID_ENUM))
 		st->a.lighting.first_provokes = mode == GL_FIRST_VERTEX_CONVENTION;
 }
 
@@ -214,15 +196,11 @@ GLS_FAMILY(glFog, STATE)
 	token = token_of_float(v[0]);
 	switch (arg_u(c, 0)) {
 	case GL_FOG_MODE:
-		if (token != GL_LINEAR && token != GL_EXP && token != GL_EXP2)
-			gls_error(x, st, GL_INVALID_ENUM);
-		else
+		if (!gls_refuses(x, st, token != GL_LINEAR && token != GL_EXP && token != GL_EXP2, GL_INVALID_ENUM))
 			fog->mode = token;
 		break;
 	case GL_FOG_DENSITY:
-		if (!(v[0] >= 0))
-			gls_error(x, st, GL_INVALID_VALUE);
-		else
+		if (!gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
 			fog->density = v[0];
 		break;
 	case GL_FOG_START:
@@ -238,9 +216,7 @@ GLS_FAMILY(glFog, STATE)
 		arg_color(x, c, 1, fog->color);
 		break;
 	case GL_FOG_COORD_SRC:
-		if (token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH)
-			gls_error(x, st, GL_INVALID_ENUM);
-		else
+		if (!gls_refuses(x, st, token != GL_FOG_COORD && token != GL_FRAGMENT_DEPTH, GL_INVALID_ENUM))
 			fog->coord_source = token;
 		break;
 	case GL_FOG_DISTANCE_MODE_NV:

@@ -39,10 +39,8 @@ GLS_HANDLER(glMatrixMode, MATRIX, SELECT)
 {
 	uint32_t mode = arg_u(c, 0);
 
-	if (mode != GL_MODELVIEW && mode != GL_PROJECTION && mode != GL_TEXTURE && mode != GL_COLOR) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, mode != GL_MODELVIEW && mode != GL_PROJECTION && mode != GL_TEXTURE && mode != GL_COLOR, GL_INVALID_ENUM))
 		return;
-	}
 	st->a.transform.matrix_mode = mode;
 }
 
@@ -50,10 +48,8 @@ GLS_HANDLER(glPushMatrix, MATRIX, PUSH_MATRIX)
 {
 	struct gls_matrix_stack *stack = gls_current_stack(st);
 
-	if (stack->depth + 1 >= stack->max) {
-		gls_error(x, st, GL_STACK_OVERFLOW);
+	if (gls_refuses(x, st, stack->depth + 1 >= stack->max, GL_STACK_OVERFLOW))
 		return;
-	}
 	memcpy(stack->matrices[stack->depth + 1], stack->matrices[stack->depth], 64);
 	stack->depth++;
 }
@@ -62,10 +58,8 @@ GLS_HANDLER(glPopMatrix, MATRIX, POP_MATRIX)
 {
 	struct gls_matrix_stack *stack = gls_current_stack(st);
 
-	if (stack->depth == 0) {
-		gls_error(x, st, GL_STACK_UNDERFLOW);
+	if (gls_refuses(x, st, stack->depth == 0, GL_STACK_UNDERFLOW))
 		return;
-	}
 	change_matrix(st);
 	stack->depth--;
 }
@@ -138,10 +132,8 @@ GLS_HANDLER(glFrustum, MATRIX)
 	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
 	float m[16];
 
-	if (n <= 0 || f <= 0 || n == f || l == r || t == b) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, n <= 0 || f <= 0 || n == f || l == r || t == b, GL_INVALID_VALUE))
 		return;
-	}
 	mat4_frustum(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
 	multiply(st, m);
 }
@@ -151,10 +143,8 @@ GLS_HANDLER(glOrtho, MATRIX)
 	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
 	float m[16];
 
-	if (n == f || l == r || t == b) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, n == f || l == r || t == b, GL_INVALID_VALUE))
 		return;
-	}
 	mat4_ortho(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
 	multiply(st, m);
 }
@@ -166,10 +156,8 @@ GLS_HANDLER(glViewport, STATE)
 	float *rect = st->a.viewport.rect;
 	struct gls_drawable *drawable = gls_drawable_of(x, st->drawable);
 
-	if (arg_i(c, 2) < 0 || arg_i(c, 3) < 0) {
-		gls_error(x, st, GL_INVALID_VALUE);
+	if (gls_refuses(x, st, arg_i(c, 2) < 0 || arg_i(c, 3) < 0, GL_INVALID_VALUE))
 		return;
-	}
 	for (unsigned i = 0; i < 4; i++)
 		rect[i] = (float)arg_i(c, i);
 	/* The only record of the window's size in traces of other recorders; see trace.md. */
@@ -197,10 +185,8 @@ GLS_HANDLER(glClipPlane, STATE)
 	uint32_t plane = arg_u(c, 0) - GL_CLIP_PLANE0;
 	float equation[4] = { 0 }, inverse[16];
 
-	if (plane >= GLS_MAX_CLIP_PLANES) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, plane >= GLS_MAX_CLIP_PLANES, GL_INVALID_ENUM))
 		return;
-	}
 	arg_floats(c, 1, equation, 4);
 	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
 	mat4_transform_plane(st->a.transform.clip_plane_eye[plane], equation, inverse);

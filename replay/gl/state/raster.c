@@ -11,9 +11,7 @@
 
 GLS_HANDLER(glPointSize, STATE)
 {
-	if (!(arg_f(c, 0) > 0))
-		gls_error(x, st, GL_INVALID_VALUE);
-	else
+	if (!gls_refuses(x, st, !(arg_f(c, 0) > 0), GL_INVALID_VALUE))
 		st->a.point.size = arg_f(c, 0);
 }
 
@@ -27,10 +25,8 @@ GLS_FAMILY(glPointParameter, STATE)
 	case GL_POINT_SIZE_MIN:
 	case GL_POINT_SIZE_MAX:
 	case GL_POINT_FADE_THRESHOLD_SIZE:
-		if (!(v[0] >= 0)) {
-			gls_error(x, st, GL_INVALID_VALUE);
+		if (gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
 			return;
-		}
 		*(arg_u(c, 0) == GL_POINT_SIZE_MIN   ? &point->size_min
 		  : arg_u(c, 0) == GL_POINT_SIZE_MAX ? &point->size_max
 		                                     : &point->fade_threshold) = v[0];
@@ -48,9 +44,7 @@ GLS_FAMILY(glPointParameter, STATE)
 
 GLS_HANDLER(glLineWidth, STATE)
 {
-	if (!(arg_f(c, 0) > 0))
-		gls_error(x, st, GL_INVALID_VALUE);
-	else
+	if (!gls_refuses(x, st, !(arg_f(c, 0) > 0), GL_INVALID_VALUE))
 		st->a.line.width = arg_f(c, 0);
 }
 
@@ -66,9 +60,7 @@ GLS_HANDLER(glCullFace, STATE)
 {
 	uint32_t face = arg_u(c, 0);
 
-	if (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK, GL_INVALID_ENUM))
 		st->a.polygon.cull_face = face;
 }
 
@@ -76,9 +68,7 @@ GLS_HANDLER(glFrontFace, STATE)
 {
 	uint32_t face = arg_u(c, 0);
 
-	if (face != GL_CW && face != GL_CCW)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, face != GL_CW && face != GL_CCW, GL_INVALID_ENUM))
 		st->a.polygon.front_face = face;
 }
 

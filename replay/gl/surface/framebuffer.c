@@ -249,10 +249,8 @@ static void bind_read(struct gls_exec *x, struct gls_state *st, uint32_t name)
 
 static void bind_framebuffer(struct gls_exec *x, struct gls_state *st, uint32_t target, uint32_t name)
 {
-	if (target != GL_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER && target != GL_READ_FRAMEBUFFER) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, target != GL_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER && target != GL_READ_FRAMEBUFFER, GL_INVALID_ENUM))
 		return;
-	}
 	if (target != GL_READ_FRAMEBUFFER)
 		bind_draw(x, st, name);
 	if (target != GL_DRAW_FRAMEBUFFER)
@@ -264,12 +262,10 @@ GLS_HANDLER(glBindFramebufferEXT, OBJECT) { bind_framebuffer(x, st, arg_u(c, 0),
 
 GLS_HANDLER(glDeleteFramebuffers, OBJECT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-		struct gls_framebuffer *fb = name ? table_find(&st->share->framebuffers, name) : NULL;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
+		struct gls_framebuffer *fb = table_find(&st->share->framebuffers, name);
 
 		if (!fb)
 			continue;
@@ -290,10 +286,8 @@ static void attach(struct gls_exec *x, struct gls_state *st, const struct call *
 	struct gls_attachment kept = { 0 }; /* texture 0 detaches, whatever its level is */
 	int color = gls_attachment_color(point);
 
-	if (!fb || (a->texture && (!t || a->level >= GLS_MAX_LEVELS))) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, !fb || (a->texture && (!t || a->level >= GLS_MAX_LEVELS)), GL_INVALID_OPERATION))
 		return;
-	}
 	if (!x->want)
 		gls_framebuffer_skip(x, st);
 	update(x, st->share, fb);
@@ -314,9 +308,7 @@ GLS_FAMILY(glFramebufferTexture, OBJECT)
 	uint32_t layer = gls_commands[x->command].suffix.n == 3 ? arg_u(c, 5) : 0;
 	unsigned face = 0;
 
-	if (arg_u(c, 3) && gls_texture_target_of(arg_u(c, 2), &face) < 0)
-		gls_error(x, st, GL_INVALID_ENUM);
-	else
+	if (!gls_refuses(x, st, arg_u(c, 3) && gls_texture_target_of(arg_u(c, 2), &face) < 0, GL_INVALID_ENUM))
 		attach(x, st, c, &(struct gls_attachment){ arg_u(c, 3), 0, face, arg_u(c, 4), layer });
 }
 
@@ -345,14 +337,9 @@ GLS_HANDLER(glBindRenderbufferEXT, NOW) { bind_renderbuffer(x, st, arg_u(c, 1));
 
 GLS_HANDLER(glDeleteRenderbuffers, OBJECT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-
-		if (!name)
-			continue;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
 		detach(x, st, &(struct gls_attachment){ .renderbuffer = name });
 		gls_renderbuffer_free(table_remove(&st->share->renderbuffers, name));
 		if (st->renderbuffer == name)
@@ -388,14 +375,10 @@ GLS_HANDLER(glRenderbufferStorageMultisample, OBJECT)
 
 GLS_HANDLER(glDeleteTextures, OBJECT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
 	struct gls_texture *t;
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-		if (!name)
-			continue;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
 		detach(x, st, &(struct gls_attachment){ .texture = name });
 		t = table_remove(&st->share->textures, name);
 		st->share->epoch += t != NULL;

@@ -32,10 +32,8 @@ GLS_FAMILY(glTexEnv, STATE)
 		e->coord_replace = v[0] != 0;
 		return;
 	}
-	if (target != GL_TEXTURE_ENV) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, target != GL_TEXTURE_ENV, GL_INVALID_ENUM))
 		return;
-	}
 	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 4) {
 		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
 		return;
@@ -72,10 +70,8 @@ GLS_FAMILY(glTexEnv, STATE)
 		break;
 	case GL_RGB_SCALE:
 	case GL_ALPHA_SCALE:
-		if (v[0] != 1 && v[0] != 2 && v[0] != 4) {
-			gls_error(x, st, GL_INVALID_VALUE);
+		if (gls_refuses(x, st, v[0] != 1 && v[0] != 2 && v[0] != 4, GL_INVALID_VALUE))
 			return;
-		}
 		*(pname == GL_RGB_SCALE ? &e->scale_rgb : &e->scale_alpha) = v[0];
 		break;
 	default:
@@ -91,10 +87,8 @@ GLS_FAMILY(glTexGen, STATE)
 	uint32_t coord = arg_u(c, 0) - GL_S, mode;
 	float v[4] = { 0 }, inverse[16];
 
-	if (coord > 3) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, coord > 3, GL_INVALID_ENUM))
 		return;
-	}
 	arg_floats(c, 2, v, 4);
 	mode = token_of_float(v[0]);
 	switch (arg_u(c, 1)) {

@@ -165,10 +165,8 @@ GLS_HANDLER(glBindTexture, STATE, BIND_TEXTURE)
 		return;
 	}
 	t = name ? table_find(&st->share->textures, name) : NULL;
-	if (t && t->target != (uint32_t)target) {
-		gls_error(x, st, GL_INVALID_OPERATION);
+	if (gls_refuses(x, st, t && t->target != (uint32_t)target, GL_INVALID_OPERATION))
 		return;
-	}
 	if (name && !t) {
 		t = create(name, (uint32_t)target);
 		if (!t || table_set(&st->share->textures, name, t)) {
@@ -285,10 +283,8 @@ static void set_number(struct gls_exec *x, struct gls_state *st, struct gls_text
 static void set_swizzles(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, const float v[4])
 {
 	for (unsigned i = 0; i < 4; i++)
-		if (!(v[i] >= 0.0f) || !is_swizzle(t, v[i])) {
-			gls_error(x, st, GL_INVALID_ENUM);
+		if (gls_refuses(x, st, !(v[i] >= 0.0f) || !is_swizzle(t, v[i]), GL_INVALID_ENUM))
 			return;
-		}
 	for (unsigned i = 0; i < 4; i++)
 		t->parameters.swizzle[i] = token_of_float(v[i]);
 }
@@ -353,14 +349,9 @@ GLS_HANDLER(glBindSampler, STATE)
 
 GLS_HANDLER(glDeleteSamplers, OBJECT)
 {
-	uint64_t n;
-	const struct trace_value *names = arg_items(c, 1, &n);
+	uint64_t at = 0;
 
-	for (uint64_t i = 0; i < n; i++) {
-		uint32_t name = (uint32_t)gls_value_int(&names[i]);
-
-		if (!name)
-			continue;
+	for (uint32_t name; (name = arg_next_name(c, 1, &at));) {
 		gls_texture_free(table_remove(&st->share->textures, SAMPLER_KEY(name)));
 		for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 			if (st->a.texturing.units[u].sampler == name)
@@ -407,10 +398,8 @@ struct gls_level *gls_texture_specify(struct gls_exec *x, struct gls_state *st, 
 		gls_error(x, st, GL_INVALID_VALUE);
 		return NULL;
 	}
-	if (width * height * depth * gls_texel_bytes(internal_format) >= MAX_BYTES) {
-		gls_error(x, st, GL_OUT_OF_MEMORY);
+	if (gls_refuses(x, st, width * height * depth * gls_texel_bytes(internal_format) >= MAX_BYTES, GL_OUT_OF_MEMORY))
 		return NULL;
-	}
 	bytes = (size_t)(width * height * depth) * (gls_texel_bytes(internal_format) + (gls_format_stencil_bits(internal_format) ? 1 : 0));
 	free(l->texels);
 	*l = (struct gls_level){ .width = (uint32_t)width, .height = (uint32_t)height, .depth = (uint32_t)depth,

@@ -7,6 +7,7 @@
 #include "base/half.h"
 #include "base/norm.h"
 #include "capture/format/call.h"
+#include "capture/format/sizes.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/transfer.h"
 #include "replay/machine/args.h"
@@ -68,26 +69,12 @@ static const struct packed *find_packed(uint32_t token)
 	return NULL;
 }
 
+/* Bytes of a component, or of packed depth and stencil; 0: no such type. */
 static size_t plain_bytes(uint32_t type)
 {
-	switch (type) {
-	case GL_UNSIGNED_BYTE:
-	case GL_BYTE:
-		return 1;
-	case GL_UNSIGNED_SHORT:
-	case GL_SHORT:
-	case GL_HALF_FLOAT:
-		return 2;
-	case GL_UNSIGNED_INT:
-	case GL_INT:
-	case GL_FLOAT:
-	case GL_UNSIGNED_INT_24_8:
-		return 4;
-	case GL_FLOAT_32_UNSIGNED_INT_24_8_REV:
-		return 8;
-	default:
-		return 0;
-	}
+	int is_depth = type == GL_UNSIGNED_INT_24_8 || type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV;
+
+	return type <= GL_FLOAT || type == GL_HALF_FLOAT || is_depth ? (size_t)type_bytes(type) : 0;
 }
 
 static uint32_t load(const uint8_t *p, size_t n, int swap)
