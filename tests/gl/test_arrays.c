@@ -120,6 +120,29 @@ START_TEST(test_array_element)
 }
 END_TEST
 
+/* A secondary colour in a buffer, blue first (EXT_vertex_array_bgra). Beyond the buffer's end it is (0, 0, 0). */
+START_TEST(test_array_element_bgra)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	client_arrays(&gl);
+	gl_call(&gl, "glBindBuffer", "eu", GL_ARRAY_BUFFER, 3u);
+	gl_call(&gl, "glBufferData", "eibe", GL_ARRAY_BUFFER, 8, (size_t)8, colors, GL_STATIC_DRAW);
+	gl_call(&gl, "glSecondaryColorPointer", "ieip", (int)GL_BGRA, GL_UNSIGNED_BYTE, 0, (uint64_t)0);
+	gl_call(&gl, "glEnableClientState", "e", GL_SECONDARY_COLOR_ARRAY);
+	gl_call(&gl, "glBegin", "e", GL_TRIANGLES);
+	for (int i = 0; i < 3; i++)
+		gl_call(&gl, "glArrayElement", "i", i);
+	gl_call(&gl, "glEnd", "");
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_primitives, 1);
+	ck_assert_floats(12, s->meshes[0]->secondary, 0, 0, 1, 1, 0, 1, 0, 1, 0, 0, 0, 1);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Table 2.5. */
 START_TEST(test_interleaved)
 {
@@ -414,5 +437,5 @@ START_TEST(test_instances)
 }
 END_TEST
 
-GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_interleaved,
+GL_TESTS("arrays", test_modes, test_instances, test_mapped_again, test_restart, test_copy_buffer, test_client_arrays, test_buffers, test_empty_buffers, test_into_list, test_array_element, test_array_element_bgra, test_interleaved,
          test_errors_and_shortness, test_vertex_array_objects)
