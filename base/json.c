@@ -76,6 +76,12 @@ static void json_float(struct json *j, double value)
 		fputs("null", j->out);
 }
 
+void json_key_begin(struct json *j, const char *name, char bracket)
+{
+	json_key(j, name);
+	json_begin(j, bracket);
+}
+
 void json_key_string(struct json *j, const char *name, const char *text)
 {
 	json_key(j, name);

@@ -23,6 +23,7 @@ void json_key(struct json *j, const char *name);
 void json_string(struct json *j, const char *text);
 void json_uint(struct json *j, uint64_t value);
 
+void json_key_begin(struct json *j, const char *name, char bracket);
 void json_key_string(struct json *j, const char *name, const char *text);
 void json_key_uint(struct json *j, const char *name, uint64_t value);
 void json_key_bool(struct json *j, const char *name, int value);

@@ -13,8 +13,7 @@
 
 static void json_extension(struct json *j, const char *name, const char *key, float value)
 {
-	json_key(j, name);
-	json_begin(j, '{');
+	json_key_begin(j, name, '{');
 	if (key)
 		json_key_float(j, key, (double)value);
 	json_end(j, '}');
@@ -23,14 +22,12 @@ static void json_extension(struct json *j, const char *name, const char *key, fl
 static void write_look(struct json *j, const struct gltf_look *l)
 {
 	json_begin(j, '{');
-	json_key(j, "pbrMetallicRoughness");
-	json_begin(j, '{');
+	json_key_begin(j, "pbrMetallicRoughness", '{');
 	json_key_floats(j, "baseColorFactor", l->base, 4);
 	json_key_float(j, "metallicFactor", (double)l->metallic);
 	json_key_float(j, "roughnessFactor", (double)l->roughness);
 	if (l->texture != SCENE_NONE) {
-		json_key(j, "baseColorTexture");
-		json_begin(j, '{');
+		json_key_begin(j, "baseColorTexture", '{');
 		json_key_uint(j, "index", l->texture);
 		json_end(j, '}');
 	}
@@ -43,8 +40,7 @@ static void write_look(struct json *j, const struct gltf_look *l)
 		json_key_float(j, "alphaCutoff", (double)l->cutoff);
 	json_key_bool(j, "doubleSided", (int)l->double_sided);
 	if (l->unlit || l->transmission > 0) {
-		json_key(j, "extensions");
-		json_begin(j, '{');
+		json_key_begin(j, "extensions", '{');
 		if (l->unlit)
 			json_extension(j, "KHR_materials_unlit", NULL, 0);
 		if (l->transmission > 0) {
@@ -88,11 +84,9 @@ static void write_mesh(struct json *j, const struct gltf *g, const struct gltf_p
 	const uint32_t accessors[] = { p->position, p->normal, p->color, p->texcoord };
 
 	json_begin(j, '{');
-	json_key(j, "primitives");
-	json_begin(j, '[');
+	json_key_begin(j, "primitives", '[');
 	json_begin(j, '{');
-	json_key(j, "attributes");
-	json_begin(j, '{');
+	json_key_begin(j, "attributes", '{');
 	for (int i = 0; i < 4; i++)
 		if (accessors[i] != SCENE_NONE)
 			json_key_uint(j, names[i], accessors[i]);
@@ -132,8 +126,7 @@ static void write_camera(struct json *j, const struct scene_view *v)
 
 	json_begin(j, '{');
 	json_key_string(j, "type", kind);
-	json_key(j, kind);
-	json_begin(j, '{');
+	json_key_begin(j, kind, '{');
 	if (perspective) {
 		json_key_float(j, "yfov", 2 * atan(1 / (double)p[5]));
 		json_key_float(j, "aspectRatio", (double)(p[5] / p[0]));
@@ -176,8 +169,7 @@ static void write_light(struct json *j, const struct scene_light *l, const float
 	json_key_floats(j, "color", color, 3);
 	json_key_float(j, "intensity", intensity);
 	if (spot) {
-		json_key(j, "spot");
-		json_begin(j, '{');
+		json_key_begin(j, "spot", '{');
 		json_key_float(j, "outerConeAngle", (double)l->spot_cutoff_deg * PI / 180);
 		json_end(j, '}');
 	}
@@ -205,10 +197,8 @@ static void write_light_node(struct json *j, const struct scene_light *l, uint32
 	y[2] = z[0] * x[1] - z[1] * x[0];
 	json_begin(j, '{');
 	json_key_floats(j, "matrix", m, 16);
-	json_key(j, "extensions");
-	json_begin(j, '{');
-	json_key(j, "KHR_lights_punctual");
-	json_begin(j, '{');
+	json_key_begin(j, "extensions", '{');
+	json_key_begin(j, "KHR_lights_punctual", '{');
 	json_key_uint(j, "light", number);
 	json_end(j, '}');
 	json_end(j, '}');
@@ -258,8 +248,7 @@ static void write_of_kind(struct json *j, const struct gltf *g, enum gltf_node_k
 			if (n->kind != kind)
 				continue;
 			if (!any++) {
-				json_key(j, name);
-				json_begin(j, '[');
+				json_key_begin(j, name, '[');
 			}
 			if (kind == GLTF_LIGHT)
 				write_light(j, &g->s->lights[n->index], g->spaces[s].middle);
@@ -274,14 +263,12 @@ static void write_scenes(struct json *j, const struct gltf *g)
 {
 	uint32_t largest = 0;
 
-	json_key(j, "scenes");
-	json_begin(j, '[');
+	json_key_begin(j, "scenes", '[');
 	for (uint32_t s = 0; s < g->n_spaces; s++) {
 		if (g->spaces[s].n_primitives > g->spaces[largest].n_primitives)
 			largest = s;
 		json_begin(j, '{');
-		json_key(j, "nodes");
-		json_begin(j, '[');
+		json_key_begin(j, "nodes", '[');
 		for (uint32_t i = 0; i < g->spaces[s].node_count; i++)
 			json_uint(j, g->spaces[s].node_first + i);
 		json_end(j, ']');
@@ -303,8 +290,7 @@ static void write_extensions_used(struct json *j, const struct gltf *g)
 	}
 	if (!lights && !unlit && !transmission)
 		return;
-	json_key(j, "extensionsUsed");
-	json_begin(j, '[');
+	json_key_begin(j, "extensionsUsed", '[');
 	if (lights)
 		json_string(j, "KHR_lights_punctual");
 	if (unlit)
@@ -315,10 +301,8 @@ static void write_extensions_used(struct json *j, const struct gltf *g)
 	}
 	json_end(j, ']');
 	if (lights) {
-		json_key(j, "extensions");
-		json_begin(j, '{');
-		json_key(j, "KHR_lights_punctual");
-		json_begin(j, '{');
+		json_key_begin(j, "extensions", '{');
+		json_key_begin(j, "KHR_lights_punctual", '{');
 		write_of_kind(j, g, GLTF_LIGHT, "lights");
 		json_end(j, '}');
 		json_end(j, '}');
@@ -329,8 +313,7 @@ static void write_extensions_used(struct json *j, const struct gltf *g)
 	do { \
 		if (!(n)) \
 			break; \
-		json_key(j, name); \
-		json_begin(j, '['); \
+		json_key_begin(j, name, '['); \
 		for (uint32_t i = 0; i < (n); i++) \
 			write; \
 		json_end(j, ']'); \
@@ -355,15 +338,13 @@ static void write_image(struct json *j, const struct gltf_sampled *s)
 static void write_text(struct json *j, const struct gltf *g)
 {
 	json_begin(j, '{');
-	json_key(j, "asset");
-	json_begin(j, '{');
+	json_key_begin(j, "asset", '{');
 	json_key_string(j, "version", "2.0");
 	json_key_string(j, "generator", "relume");
 	json_end(j, '}');
 	write_extensions_used(j, g);
 	write_scenes(j, g);
-	json_key(j, "nodes");
-	json_begin(j, '[');
+	json_key_begin(j, "nodes", '[');
 	write_nodes(j, g);
 	json_end(j, ']');
 	write_of_kind(j, g, GLTF_CAMERA, "cameras");
@@ -374,8 +355,7 @@ static void write_text(struct json *j, const struct gltf *g)
 	LIST("samplers", g->n_sampled, write_sampler(j, &g->sampled[i]));
 	LIST("accessors", g->n_accessors, write_accessor(j, &g->accessors[i]));
 	LIST("bufferViews", g->n_pieces, write_piece(j, &g->pieces[i]));
-	json_key(j, "buffers");
-	json_begin(j, '[');
+	json_key_begin(j, "buffers", '[');
 	json_begin(j, '{');
 	json_key_uint(j, "byteLength", g->n_bytes);
 	json_end(j, '}');

@@ -234,8 +234,7 @@ static void write_floats(struct json *j, const char *name, const float *values, 
 
 static void write_faces(struct json *j, const struct scene_mesh *m)
 {
-	json_key(j, "face");
-	json_begin(j, '[');
+	json_key_begin(j, "face", '[');
 	for (size_t v = 0; v < m->vertex_count; v++) {
 		json_begin(j, '{');
 		json_key(j, "front");
@@ -283,8 +282,7 @@ static void write_mesh(struct json *j, const struct scene_mesh *m, int vertices)
 
 #define LIST(name, write) \
 	do { \
-		json_key(j, #name); \
-		json_begin(j, '['); \
+		json_key_begin(j, #name, '['); \
 		for (uint32_t i = 0; i < s->n_##name; i++) \
 			write; \
 		json_end(j, ']'); \

@@ -6,19 +6,14 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "gl_tokens.h"
 #include "base/err.h"
 #include "base/memory.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/build/material.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/texture/image.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/machine.h"
-#include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 #include "scene/release.h"
 
 /* The caller of replay_next_frame and surfaces hold references. */

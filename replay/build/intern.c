@@ -7,7 +7,6 @@
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "base/table.h"
 #include "scene/scene.h"
 
 /* Make room for as many items as wanted. @return 0 or ERR_SYSTEM (reported) */

@@ -7,14 +7,11 @@
 
 #include "gl_tokens.h"
 #include "base/memory.h"
-#include "base/table.h"
-#include "replay/build/frame.h"
 #include "replay/build/intern.h"
 #include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
 {

@@ -5,11 +5,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/table.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MESH_KEEP_FRAMES 120             /* frames that an unused mesh is kept */
 #define MESH_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */

@@ -7,7 +7,6 @@
 #include "gl_tokens.h"
 #include "base/err.h"
 #include "base/mat4.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/gl/geometry/eval.h"
 #include "replay/gl/geometry/list.h"
@@ -18,7 +17,6 @@
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MAX_CONTEXTS 4096
 

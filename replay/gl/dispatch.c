@@ -6,7 +6,6 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/context.h"
@@ -16,11 +15,8 @@
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/image.h"
-#include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MAX_THREADS 65536
 

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/gl/context.h"
 #include "replay/gl/geometry/pending.h"
@@ -12,7 +11,6 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static void set_current(struct gls_exec *x, struct gls_context *ctx, uint64_t drawable, uint64_t read)
 {

@@ -6,7 +6,6 @@
 #include "capture/format/call.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define REPEATED (1u << 16)
 #define REPEATED_A_CALL 128

@@ -8,7 +8,6 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/memory.h"
-#include "replay/machine/state.h"
 
 void gls_geometry_clear(struct gls_geometry *g)
 {

@@ -8,7 +8,6 @@
 
 #include "replay/machine/machine.h"
 #include "replay/trace/reader.h"
-#include "scene/scene.h"
 
 /* All zero: closed. */
 struct player {

@@ -1,7 +1,5 @@
 #include "replay/trace/reader_values.h"
 
-#include "replay/trace/reader_sigs.h"
-
 #define MAX_DEPTH 16 /* arrays in structs in arrays; recorders need 3 */
 
 static const struct trace_value *read_items(struct trace_reader *r, struct arena *a, uint64_t n, unsigned depth)

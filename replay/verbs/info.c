@@ -110,8 +110,7 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 
 static void json_counts(struct json *j, const char *name, const struct replay_count *counts, size_t n, const char *why)
 {
-	json_key(j, name);
-	json_begin(j, '[');
+	json_key_begin(j, name, '[');
 	for (size_t i = 0; i < n; i++) {
 		json_begin(j, '{');
 		json_key_string(j, "call", counts[i].name);
@@ -136,8 +135,7 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 	json_key_string(&j, "program", replay_program(rp));
 	json_key_uint(&j, "frames", replay_frame(rp));
 	json_key_uint(&j, "calls", replay_call_count(rp));
-	json_key(&j, "show_earlier");
-	json_begin(&j, '[');
+	json_key_begin(&j, "show_earlier", '[');
 	for (size_t i = 0; i < earlier->n; i++) {
 		json_begin(&j, '[');
 		json_uint(&j, earlier->ranges[i][0]);
@@ -145,8 +143,7 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 		json_end(&j, ']');
 	}
 	json_end(&j, ']');
-	json_key(&j, "contexts");
-	json_begin(&j, '[');
+	json_key_begin(&j, "contexts", '[');
 	n = replay_contexts(rp, &contexts);
 	for (size_t i = 0; i < n; i++) {
 		json_begin(&j, '{');

@@ -8,7 +8,6 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/geometry/array_read.h"
@@ -18,9 +17,7 @@
 #include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g, const struct gls_sources *s,
                       uint64_t element)

@@ -10,7 +10,6 @@
 #include "capture/format/sizes.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/state.h"
 
 size_t gls_type_bytes(uint32_t type)
 {

@@ -3,14 +3,12 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {

@@ -15,13 +15,11 @@
 
 #include "gl_tokens.h"
 #include "base/err.h"
-#include "base/table.h"
 #include "replay/gl/geometry/list.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MAX_OPS (1u << 16) /* of a list, with those inlined */
 #define MAX_NESTING 8      /* of lists inlined */

@@ -15,9 +15,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MAX_ORDER 30
 #define POINTS_A_REPEAT 64 /* that count as much as an operation of a list (gls_is_beyond_measure) */

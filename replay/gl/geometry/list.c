@@ -3,14 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/arena.h"
 #include "base/err.h"
 #include "capture/format/call.h"
 #include "replay/build/mesh.h"
-#include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static int all_floats(const struct trace_value *v, uint64_t n)
 {

@@ -12,9 +12,7 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* Pairs of Begin and End with nothing but vertex attributes between. */
 struct batch {

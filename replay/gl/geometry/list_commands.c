@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "capture/format/sizes.h"
 #include "replay/gl/geometry/effect.h"
@@ -15,7 +14,6 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* ---- making and deleting ---- */
 

@@ -8,9 +8,7 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 void gls_flush(struct gls_exec *x)
 {

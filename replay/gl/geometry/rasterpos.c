@@ -9,7 +9,6 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static void clamp_color(float out[4], struct vec4 c)
 {

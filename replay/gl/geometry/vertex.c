@@ -7,7 +7,6 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 GLS_HANDLER(glBegin, INSIDE, BEGIN) { gls_begin(x, st, arg_u(c, 0)); }
 GLS_HANDLER(glEnd, INSIDE, END) { gls_end(x, st); }

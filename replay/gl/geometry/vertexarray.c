@@ -14,7 +14,6 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
-#include "replay/machine/state.h"
 
 void gls_arrays_init(struct gls_array arrays[N_GLS_ARRAYS])
 {

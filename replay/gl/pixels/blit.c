@@ -10,7 +10,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */

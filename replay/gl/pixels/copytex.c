@@ -14,7 +14,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 /* A rectangle of the screen, and where it goes in a level. */
 struct copy {

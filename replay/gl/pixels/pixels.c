@@ -13,7 +13,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 GLS_HANDLER(glBitmap, STATE)
 {

@@ -8,7 +8,6 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* ---- storage, sec. 3.6.1 ---- */
 

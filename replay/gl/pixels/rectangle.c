@@ -9,9 +9,7 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/draw.h"
 #include "replay/gl/texture/image.h"
-#include "replay/machine/geometry.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* A mesh of one point. @return a reference; NULL: out of memory (reported) */
 static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, float depth)

@@ -4,19 +4,16 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
 #include "replay/gl/texture/texcompress.h"
 #include "replay/gl/texture/texformat.h"
-#include "replay/gl/texture/texture.h"
 #include "replay/gl/texture/unpack.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 struct gls_texture *gls_texture_find_level(struct gls_exec *x, struct gls_state *st, uint32_t token, int64_t level,
                                            unsigned *face)

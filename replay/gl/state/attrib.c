@@ -10,7 +10,6 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* ---- enables ---- */
 

@@ -5,13 +5,11 @@
  */
 #include "replay/gl/state/config.h"
 
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 enum { GLX_RGBA = 4, GLX_DOUBLEBUFFER = 5, GLX_STEREO = 6, GLX_USE_GL = 1 }; /* attributes without a value, visuals only */
 enum { GLX_ALPHA_SIZE = 11, GLX_DEPTH_SIZE = 12, GLX_STENCIL_SIZE = 13 };

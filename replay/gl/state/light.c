@@ -9,7 +9,6 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* ---- lights, sec. 2.14.2 ---- */
 

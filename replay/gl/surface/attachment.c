@@ -5,14 +5,11 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "replay/build/frame.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 enum { DEPTH = GLS_ATTACHMENT_DEPTH, STENCIL = GLS_ATTACHMENT_STENCIL };
 

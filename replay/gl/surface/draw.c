@@ -1,13 +1,11 @@
 /* Drawing and clearing: from the state to the surfaces that it draws to. */
 #include "replay/gl/surface/draw.h"
 
-#include "replay/build/frame.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/screen.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 /* 1 where an event can change a surface. If its colours go elsewhere, only depth and stencil count. */
 static int is_reached(const struct gls_target *target, const struct gls_event *e)

@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "base/table.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 

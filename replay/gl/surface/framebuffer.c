@@ -11,10 +11,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "capture/format/call.h"
-#include "replay/build/frame.h"
-#include "replay/gl/surface/attachment.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
@@ -24,7 +21,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 #define MANY_EVENTS (1u << 16) /* that an object collects before they are written to its attachments */
 

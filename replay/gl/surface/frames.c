@@ -8,7 +8,6 @@
 #include "replay/gl/surface/screen.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 #include "scene/release.h"
 
 #define MANY_EVENTS (1u << 14) /* of deferred frames, before their scene ends */

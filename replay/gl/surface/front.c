@@ -13,14 +13,12 @@
 #include <string.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
-#include "replay/machine/state.h"
 
 static int is_front(uint32_t buffer)
 {

@@ -2,13 +2,11 @@
 #include "replay/gl/surface/screen.h"
 
 #include "gl_tokens.h"
-#include "replay/build/frame.h"
 #include "replay/gl/surface/drawable.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/front.h"
 #include "replay/gl/surface/surface.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 static void describe(struct gls_surface *s, const struct gls_drawable *d, const struct gls_state *st)
 {

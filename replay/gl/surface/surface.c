@@ -8,7 +8,6 @@
 #include "replay/gl/surface/surface.h"
 
 #include "base/err.h"
-#include "replay/build/frame.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"

@@ -7,13 +7,11 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
-#include "base/table.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define IMAGE_KEEP_FRAMES 8                  /* frames that an unused image is kept */
 #define IMAGE_KEEP_BYTES ((size_t)64 << 20) /* cache size below which nothing is dropped */

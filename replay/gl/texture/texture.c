@@ -5,17 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gl_tokens.h"
-#include "base/table.h"
 #include "capture/format/call.h"
 #include "replay/gl/texture/image.h"
-#include "replay/gl/texture/level.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/machine/args.h"
-#include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
-#include "replay/machine/state.h"
 
 #define MAX_SIZE 16384
 #define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */
