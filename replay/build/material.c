@@ -188,8 +188,8 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 	m->front = l->face[0];
 	m->back = l->face[1];
 	if (l->color_material) {
-		gls_track_color(l, 0, color, &m->front);
-		gls_track_color(l, 1, color, &m->back);
+		gls_set_face_colors(&m->front, gls_tracked_colors(l, 0), color);
+		gls_set_face_colors(&m->back, gls_tracked_colors(l, 1), color);
 	}
 	m->color_material = l->color_material ? l->color_material_face : 0;
 	m->color_material_mode = l->color_material_mode;

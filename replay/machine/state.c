@@ -18,25 +18,39 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
 	}
 }
 
-void gls_track_color(const struct gls_lighting *l, unsigned side, const float color[4], struct scene_face *face)
+int gls_is_face(uint32_t token)
 {
-	if (l->color_material_face == (side ? GL_FRONT : GL_BACK))
-		return;
-	switch (l->color_material_mode) {
-	case GL_EMISSION:
-		memcpy(face->emission, color, 16);
-		break;
-	case GL_SPECULAR:
-		memcpy(face->specular, color, 16);
-		break;
+	return token == GL_FRONT || token == GL_BACK || token == GL_FRONT_AND_BACK;
+}
+
+unsigned gls_face_colors(uint32_t parameter)
+{
+	switch (parameter) {
 	case GL_AMBIENT:
-		memcpy(face->ambient, color, 16);
-		break;
+		return 1;
 	case GL_DIFFUSE:
-		memcpy(face->diffuse, color, 16);
-		break;
-	default: /* GL_AMBIENT_AND_DIFFUSE */
-		memcpy(face->ambient, color, 16);
-		memcpy(face->diffuse, color, 16);
+		return 2;
+	case GL_AMBIENT_AND_DIFFUSE:
+		return 3;
+	case GL_SPECULAR:
+		return 4;
+	case GL_EMISSION:
+		return 8;
+	default:
+		return 0;
 	}
+}
+
+unsigned gls_tracked_colors(const struct gls_lighting *l, unsigned side)
+{
+	return l->color_material_face == (side ? GL_FRONT : GL_BACK) ? 0 : gls_face_colors(l->color_material_mode);
+}
+
+void gls_set_face_colors(struct scene_face *face, unsigned colors, const float value[4])
+{
+	float *const places[4] = { face->ambient, face->diffuse, face->specular, face->emission };
+
+	for (unsigned i = 0; i < 4; i++)
+		if (colors >> i & 1)
+			memcpy(places[i], value, 16);
 }

@@ -312,12 +312,14 @@ struct gls_share {
 
 /** The stack that matrix commands change. */
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
-/**
- * ColorMaterial (GL 2.1 sec. 2.14.3): give a face the colour where its material follows the current one. The caller has looked
- * whether COLOR_MATERIAL is enabled.
- * @param side  0 front, 1 back
- */
-void gls_track_color(const struct gls_lighting *l, unsigned side, const float color[4], struct scene_face *face);
+
+/** 1 for FRONT, BACK and FRONT_AND_BACK. */
+int gls_is_face(uint32_t token);
+/** Colours of a face that a material parameter names: bit 0 ambient, 1 diffuse, 2 specular, 3 emission. @return 0: none */
+unsigned gls_face_colors(uint32_t parameter);
+/** Those that follow the current colour where COLOR_MATERIAL is enabled (GL 2.1 sec. 2.14.3). @param side  0 front, 1 back */
+unsigned gls_tracked_colors(const struct gls_lighting *l, unsigned side);
+void gls_set_face_colors(struct scene_face *face, unsigned colors, const float value[4]);
 
 /** Record a GL error of the program (sec. 2.5): the first one sticks. */
 static inline void gls_set_error(struct gls_state *st, uint32_t error)

@@ -34,7 +34,7 @@ void gls_flush(struct gls_exec *x)
 void gls_color_changed(struct gls_state *st)
 {
 	for (unsigned side = 0; side < 2; side++)
-		gls_track_color(&st->a.lighting, side, st->a.current.attribute[GLS_ATTR_COLOR], &st->a.lighting.face[side]);
+		gls_set_face_colors(&st->a.lighting.face[side], gls_tracked_colors(&st->a.lighting, side), st->a.current.attribute[GLS_ATTR_COLOR]);
 	st->dirty |= GLS_DIRTY_MATERIAL;
 }
 

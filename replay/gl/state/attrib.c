@@ -187,32 +187,18 @@ GLS_HANDLER(glHint, STATE)
 
 	if (gls_refuses(x, st, mode != GL_DONT_CARE && mode != GL_FASTEST && mode != GL_NICEST, GL_INVALID_ENUM))
 		return;
-	switch (arg_u(c, 0)) {
-	case GL_FOG_HINT:
-		h->fog = mode;
-		break;
-	case GL_PERSPECTIVE_CORRECTION_HINT:
-		h->perspective = mode;
-		break;
-	case GL_POINT_SMOOTH_HINT:
-		h->point = mode;
-		break;
-	case GL_LINE_SMOOTH_HINT:
-		h->line = mode;
-		break;
-	case GL_POLYGON_SMOOTH_HINT:
-		h->polygon = mode;
-		break;
-	case GL_GENERATE_MIPMAP_HINT:
-		h->mipmap = mode;
-		break;
-	case GL_TEXTURE_COMPRESSION_HINT:
-	case GL_FRAGMENT_SHADER_DERIVATIVE_HINT:
-	case GL_CLIP_VOLUME_CLIPPING_HINT_EXT:
-		break;
-	default:
-		gls_error(x, st, GL_INVALID_ENUM);
-	}
+	const struct { uint32_t name, *word; } hints[] = {
+		{ GL_FOG_HINT, &h->fog }, { GL_PERSPECTIVE_CORRECTION_HINT, &h->perspective }, { GL_POINT_SMOOTH_HINT, &h->point },
+		{ GL_LINE_SMOOTH_HINT, &h->line }, { GL_POLYGON_SMOOTH_HINT, &h->polygon }, { GL_GENERATE_MIPMAP_HINT, &h->mipmap },
+		{ GL_TEXTURE_COMPRESSION_HINT, NULL }, { GL_FRAGMENT_SHADER_DERIVATIVE_HINT, NULL }, { GL_CLIP_VOLUME_CLIPPING_HINT_EXT, NULL },
+	};
+	for (size_t i = 0; i < sizeof(hints) / sizeof(hints[0]); i++)
+		if (hints[i].name == arg_u(c, 0)) {
+			if (hints[i].word)
+				*hints[i].word = mode;
+			return;
+		}
+	gls_error(x, st, GL_INVALID_ENUM);
 }
 
 /* The program has seen its error: the next one is the first again. */

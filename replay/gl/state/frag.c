@@ -51,10 +51,8 @@ static int changes_side(const struct gls_state *st, unsigned side, uint32_t face
 static void stencil_func(struct gls_exec *x, struct gls_state *st, uint32_t face, uint32_t func, uint32_t ref,
                          uint32_t mask)
 {
-	if (!is_compare_func(func) || (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !is_compare_func(func) || !gls_is_face(face), GL_INVALID_ENUM))
 		return;
-	}
 	for (unsigned side = 0; side < 2; side++) {
 		if (!changes_side(st, side, face))
 			continue;
@@ -67,11 +65,8 @@ static void stencil_func(struct gls_exec *x, struct gls_state *st, uint32_t face
 static void stencil_op(struct gls_exec *x, struct gls_state *st, uint32_t face, uint32_t fail, uint32_t zfail,
                        uint32_t zpass)
 {
-	if (!is_stencil_op(fail) || !is_stencil_op(zfail) || !is_stencil_op(zpass) ||
-	    (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !is_stencil_op(fail) || !is_stencil_op(zfail) || !is_stencil_op(zpass) || !gls_is_face(face), GL_INVALID_ENUM))
 		return;
-	}
 	for (unsigned side = 0; side < 2; side++) {
 		if (!changes_side(st, side, face))
 			continue;

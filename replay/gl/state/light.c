@@ -88,31 +88,18 @@ GLS_FAMILY(glLightModel, STATE)
 	}
 }
 
-/* ---- materials, sec. 2.14.2; those that follow the current color cannot be set ---- */
-
-static int is_tracked(const struct gls_lighting *l, unsigned side, uint32_t parameter)
-{
-	if (!l->color_material || l->color_material_face == (side ? GL_FRONT : GL_BACK))
-		return 0;
-	return l->color_material_mode == parameter ||
-	       (l->color_material_mode == GL_AMBIENT_AND_DIFFUSE && (parameter == GL_AMBIENT || parameter == GL_DIFFUSE));
-}
-
-static void set_color(struct gls_state *st, unsigned side, uint32_t parameter, float *to, const float v[4])
-{
-	if (!is_tracked(&st->a.lighting, side, parameter))
-		memcpy(to, v, 16);
-}
+/* ---- materials, sec. 2.14.2: colours that follow the current one cannot be set ---- */
 
 GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 {
 	uint32_t face = arg_u(c, 0), pname = arg_u(c, 1);
+	const unsigned colors = gls_face_colors(pname);
 	float v[4] = { 0 };
 
-	if (gls_refuses(x, st, face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK, GL_INVALID_ENUM))
+	if (gls_refuses(x, st, !gls_is_face(face), GL_INVALID_ENUM))
 		return;
 	arg_floats(c, 2, v, 4);
-	for (unsigned i = 0; i < 4 && gls_commands[x->command].suffix.type == GLS_SUFFIX_I && pname != GL_SHININESS && pname != GL_COLOR_INDEXES; i++)
+	for (unsigned i = 0; i < 4 && colors && gls_commands[x->command].suffix.type == GLS_SUFFIX_I; i++)
 		v[i] = norm_int(v[i]);
 	if (gls_refuses(x, st, pname == GL_SHININESS && !(v[0] >= 0 && v[0] <= 128), GL_INVALID_VALUE))
 		return;
@@ -121,45 +108,20 @@ GLS_FAMILY(glMaterial, INSIDE, MATERIAL)
 		struct scene_face *f = &st->a.lighting.face[side];
 		if (face == (side ? GL_FRONT : GL_BACK))
 			continue;
-		switch (pname) {
-		case GL_AMBIENT:
-			set_color(st, side, GL_AMBIENT, f->ambient, v);
-			break;
-		case GL_DIFFUSE:
-			set_color(st, side, GL_DIFFUSE, f->diffuse, v);
-			break;
-		case GL_AMBIENT_AND_DIFFUSE:
-			set_color(st, side, GL_AMBIENT, f->ambient, v);
-			set_color(st, side, GL_DIFFUSE, f->diffuse, v);
-			break;
-		case GL_SPECULAR:
-			set_color(st, side, GL_SPECULAR, f->specular, v);
-			break;
-		case GL_EMISSION:
-			set_color(st, side, GL_EMISSION, f->emission, v);
-			break;
-		case GL_SHININESS:
+		gls_set_face_colors(f, st->a.lighting.color_material ? colors & ~gls_tracked_colors(&st->a.lighting, side) : colors, v);
+		if (pname == GL_SHININESS)
 			f->shininess = v[0];
-			break;
-		case GL_COLOR_INDEXES: /* colour index mode only */
-			break;
-		default:
-			gls_error(x, st, GL_INVALID_ENUM);
-			return;
-		}
 	}
+	if (!colors && pname != GL_SHININESS && pname != GL_COLOR_INDEXES) /* colour index mode only */
+		gls_error(x, st, GL_INVALID_ENUM);
 }
 
 GLS_HANDLER(glColorMaterial, STATE)
 {
 	uint32_t face = arg_u(c, 0), mode = arg_u(c, 1);
 
-	if ((face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK) ||
-	    (mode != GL_EMISSION && mode != GL_AMBIENT && mode != GL_DIFFUSE && mode != GL_SPECULAR &&
-	     mode != GL_AMBIENT_AND_DIFFUSE)) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, !gls_is_face(face) || !gls_face_colors(mode), GL_INVALID_ENUM))
 		return;
-	}
 	st->a.lighting.color_material_face = face;
 	st->a.lighting.color_material_mode = mode;
 	if (st->a.lighting.color_material)

@@ -58,10 +58,8 @@ GLS_HANDLER(glLineStipple, STATE)
 
 GLS_HANDLER(glCullFace, STATE)
 {
-	uint32_t face = arg_u(c, 0);
-
-	if (!gls_refuses(x, st, face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK, GL_INVALID_ENUM))
-		st->a.polygon.cull_face = face;
+	if (!gls_refuses(x, st, !gls_is_face(arg_u(c, 0)), GL_INVALID_ENUM))
+		st->a.polygon.cull_face = arg_u(c, 0);
 }
 
 GLS_HANDLER(glFrontFace, STATE)
@@ -76,11 +74,8 @@ GLS_HANDLER(glPolygonMode, STATE)
 {
 	uint32_t face = arg_u(c, 0), mode = arg_u(c, 1);
 
-	if ((mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) ||
-	    (face != GL_FRONT && face != GL_BACK && face != GL_FRONT_AND_BACK)) {
-		gls_error(x, st, GL_INVALID_ENUM);
+	if (gls_refuses(x, st, (mode != GL_POINT && mode != GL_LINE && mode != GL_FILL) || !gls_is_face(face), GL_INVALID_ENUM))
 		return;
-	}
 	if (face != GL_BACK)
 		st->a.polygon.mode[0] = mode;
 	if (face != GL_FRONT)

@@ -34,22 +34,15 @@ GLS_FAMILY(glTexEnv, STATE)
 	}
 	if (gls_refuses(x, st, target != GL_TEXTURE_ENV, GL_INVALID_ENUM))
 		return;
-	if (pname >= GL_SOURCE0_RGB && pname < GL_SOURCE0_RGB + 4) {
-		e->source_rgb[pname - GL_SOURCE0_RGB] = token;
-		return;
-	}
-	if (pname >= GL_SOURCE0_ALPHA && pname < GL_SOURCE0_ALPHA + 4) {
-		e->source_alpha[pname - GL_SOURCE0_ALPHA] = token;
-		return;
-	}
-	if (pname >= GL_OPERAND0_RGB && pname < GL_OPERAND0_RGB + 4) {
-		e->operand_rgb[pname - GL_OPERAND0_RGB] = token;
-		return;
-	}
-	if (pname >= GL_OPERAND0_ALPHA && pname < GL_OPERAND0_ALPHA + 4) {
-		e->operand_alpha[pname - GL_OPERAND0_ALPHA] = token;
-		return;
-	}
+	const struct { uint32_t first, *tokens; } operands[] = {
+		{ GL_SOURCE0_RGB, e->source_rgb }, { GL_SOURCE0_ALPHA, e->source_alpha },
+		{ GL_OPERAND0_RGB, e->operand_rgb }, { GL_OPERAND0_ALPHA, e->operand_alpha },
+	};
+	for (unsigned i = 0; i < 4; i++)
+		if (pname >= operands[i].first && pname < operands[i].first + 4) {
+			operands[i].tokens[pname - operands[i].first] = token;
+			return;
+		}
 	switch (pname) {
 	case GL_TEXTURE_ENV_MODE:
 		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
