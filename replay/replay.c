@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/memory.h"
 #include "capture/format/call.h"
 #include "gl_tokens.h"
 #include "replay/gl/dispatch.h"
@@ -210,18 +211,10 @@ const char *replay_program(const struct replay *rp)
 
 /* ---- counts ---- */
 
-static int put(struct replay *rp, size_t at, const char *name, const char *why, uint64_t count)
+static void put(struct replay *rp, size_t *n, const char *name, const char *why, uint64_t count)
 {
-	if (at == rp->room) {
-		size_t room = rp->room ? 2 * rp->room : 64;
-		struct replay_count *grown = realloc(rp->counts, room * sizeof(*grown));
-		if (!grown)
-			return 0;
-		rp->counts = grown;
-		rp->room = room;
-	}
-	rp->counts[at] = (struct replay_count){ name, why, count };
-	return 1;
+	if (count && !MEMORY_GROW(rp->counts, rp->room, *n + 1))
+		rp->counts[(*n)++] = (struct replay_count){ name, why, count };
 }
 
 static int more_often(const void *a, const void *b)
@@ -233,50 +226,41 @@ static int more_often(const void *a, const void *b)
 	return strcmp(l->name, r->name);
 }
 
-static size_t finish(struct replay *rp, size_t n, const struct replay_count **out)
+/* What was counted by command, and by name where the call is in no table, most frequent first. */
+static size_t collect(struct replay *rp, const uint64_t *counts, const char *(*why)(const struct gls_exec *x, unsigned command),
+                      const struct table *unknown, const struct replay_count **out)
 {
+	size_t n = 0;
+
+	for (unsigned i = 0; i < n_gls_commands; i++)
+		put(rp, &n, gls_commands[i].name, why && counts[i] ? why(rp->player.exec, i) : NULL, counts[i]);
+	for (size_t i = 0; unknown && i < unknown->room; i++)
+		if (unknown->entries[i].value)
+			put(rp, &n, ((const struct call_sig *)(uintptr_t)unknown->entries[i].key)->name, NULL, (uintptr_t)unknown->entries[i].value);
 	if (n)
 		qsort(rp->counts, n, sizeof(rp->counts[0]), more_often);
 	*out = rp->counts;
 	return n;
 }
 
-static size_t put_unknown(struct replay *rp, size_t n, const char *why)
+static const char *what_is_missing(const struct gls_exec *x, unsigned command)
 {
-	const struct table *t = &rp->player.exec->counts.unknown;
-
-	for (size_t i = 0; i < t->room; i++)
-		if (t->entries[i].value)
-			n += (size_t)put(rp, n, ((const struct call_sig *)(uintptr_t)t->entries[i].key)->name, why,
-			                 (uintptr_t)t->entries[i].value);
-	return n;
+	return x->counts.why[command];
 }
 
 size_t replay_unsupported(struct replay *rp, const struct replay_count **out)
 {
-	const struct gls_exec *x = rp->player.exec;
-	size_t n = 0;
-
-	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->counts.unsupported[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, x->counts.why[i], x->counts.unsupported[i]);
-	return finish(rp, put_unknown(rp, n, NULL), out);
+	return collect(rp, rp->player.exec->counts.unsupported, what_is_missing, &rp->player.exec->counts.unknown, out);
 }
 
 size_t replay_calls(struct replay *rp, const struct replay_count **out)
 {
-	const struct gls_exec *x = rp->player.exec;
-	size_t n = 0;
-
-	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->counts.calls[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, NULL, x->counts.calls[i]);
-	return finish(rp, put_unknown(rp, n, NULL), out);
+	return collect(rp, rp->player.exec->counts.calls, NULL, &rp->player.exec->counts.unknown, out);
 }
 
-static const char *error_name(uint32_t error)
+static const char *error_name(const struct gls_exec *x, unsigned command)
 {
-	switch (error) {
+	switch (x->counts.error_code[command]) {
 	case GL_INVALID_ENUM:
 		return "GL_INVALID_ENUM";
 	case GL_INVALID_VALUE:
@@ -294,13 +278,7 @@ static const char *error_name(uint32_t error)
 
 size_t replay_gl_errors(struct replay *rp, const struct replay_count **out)
 {
-	const struct gls_exec *x = rp->player.exec;
-	size_t n = 0;
-
-	for (unsigned i = 0; i < n_gls_commands; i++)
-		if (x->counts.errors[i])
-			n += (size_t)put(rp, n, gls_commands[i].name, error_name(x->counts.error_code[i]), x->counts.errors[i]);
-	return finish(rp, n, out);
+	return collect(rp, rp->player.exec->counts.errors, error_name, NULL, out);
 }
 
 size_t replay_contexts(struct replay *rp, const struct replay_context **out)

@@ -83,23 +83,13 @@ int gls_geometry_vary_face(struct gls_geometry *g, const struct scene_face face[
 
 enum scene_primitive gls_mode_kind(uint32_t mode)
 {
-	switch (mode) {
-	case GL_POINTS:
-		return SCENE_POINTS;
-	case GL_LINES:
-	case GL_LINE_LOOP:
-	case GL_LINE_STRIP:
-		return SCENE_LINES;
-	case GL_TRIANGLES:
-	case GL_TRIANGLE_STRIP:
-	case GL_TRIANGLE_FAN:
-	case GL_QUADS:
-	case GL_QUAD_STRIP:
-	case GL_POLYGON:
-		return SCENE_TRIANGLES;
-	default:
-		return 0;
-	}
+	static const uint8_t kinds[] = {
+		[GL_POINTS] = SCENE_POINTS, [GL_LINES] = SCENE_LINES, [GL_LINE_LOOP] = SCENE_LINES, [GL_LINE_STRIP] = SCENE_LINES,
+		[GL_TRIANGLES] = SCENE_TRIANGLES, [GL_TRIANGLE_STRIP] = SCENE_TRIANGLES, [GL_TRIANGLE_FAN] = SCENE_TRIANGLES,
+		[GL_QUADS] = SCENE_TRIANGLES, [GL_QUAD_STRIP] = SCENE_TRIANGLES, [GL_POLYGON] = SCENE_TRIANGLES,
+	};
+
+	return mode < sizeof(kinds) ? kinds[mode] : 0;
 }
 
 /* ---- cutting ---- */
