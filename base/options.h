@@ -37,6 +37,9 @@ struct options_row {
 	int kind;                 /* the verb's own */
 };
 
+/* An array of rows and how many there are, in a table's initializer. */
+#define OPTIONS_ROWS(array) .rows = (array), .n_rows = sizeof(array) / sizeof((array)[0])
+
 struct options_table {
 	const char *verb;
 	const char *head;  /* usage, then what the verb does */

@@ -101,8 +101,7 @@ static const struct options_table table = {
 	        "Processes that the program starts are recorded as well, into NAME.1.trace and so on.\n"
 	        "SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGUSR1 are passed on to the program. SIGUSR2 switches recording off and on\n"
 	        "again at the end of a frame. What the program makes and sets meanwhile is kept, so what follows is complete.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exits with the program's code; 2: wrong usage, 5: the program cannot be started or nothing can be written.\n",
 	.most = -1,
 	.stops = 1,

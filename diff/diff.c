@@ -106,8 +106,7 @@ static const struct options_table table = {
 	        "TRACED  images: those of 'relume render', or any\n"
 	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
 	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
 	.takes = "REF and TRACED, or --baseline DIR and TRACED",

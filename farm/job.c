@@ -68,8 +68,7 @@ const struct options_table farm_options = {
 	        "status  says how many frames are whole and what waits and runs; exits with 1 while frames are missing\n"
 	        "retry   renders frames that are missing or damaged and that no task waits or runs for, and scores again\n"
 	        "cancel  ends what waits and runs; frames that are whole stay\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
 	         "5 Slurm or the system failed.\n",
 	.takes = "one TRACE, -f FRAMES and -o PATTERN",

@@ -42,8 +42,7 @@ static const struct options_table table = {
 	        "\n"
 	        "TRACED    frames that 'relume render' wrote: a folder, a pattern, or one file\n"
 	        "BASELINE  a folder that holds a folder for each device\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
 	.takes = "TRACED and BASELINE",
 	.least = 2,

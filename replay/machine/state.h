@@ -18,7 +18,6 @@
 #define GLS_MAX_MATRICES 32
 #define GLS_MAX_TEXTURE_MATRICES 10
 #define GLS_MAX_ATTRIB_DEPTH 16
-#define GLS_MAX_GENERIC 16
 
 /* Vertex attributes; the conventional ones are those of scene_current. */
 enum gls_attribute {

@@ -155,8 +155,7 @@ static const struct options_table table = {
 	.head = "usage: relume dump [OPTIONS] TRACE\n"
 	        "\n"
 	        "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace",
 	.least = 1,
 	.most = 1,

@@ -27,8 +27,7 @@ static const struct options_table table = {
 	        "\n"
 	        "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
 	        "cameras and lights. What glTF has no words for is left out and named.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o FILE.glb",
 	.least = 1,
 	.most = 1,

@@ -30,8 +30,7 @@ static const struct options_table table = {
 	        "Make the index of a recording, which lets 'relume render' begin at any frame at once. It is made on first need\n"
 	        "anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
 	        "TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace",
 	.least = 1,
 	.most = 1,

@@ -61,8 +61,7 @@ static const struct options_table table = {
 	        "Say what a trace holds: frames, calls, contexts, drawable size, frames that may show what earlier ones\n"
 	        "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
 	        "program itself made.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace",
 	.least = 1,
 	.most = 1,

@@ -55,8 +55,7 @@ static const struct options_table table = {
 	        "Xvfb with Mesa's software rasterizer where there is none. 'relume diff' takes the images as its REF.\n"
 	        "Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
 	        "such a visual. The first frame of another recorder's trace is left out: glretrace does not show it reliably.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace and -o PATTERN.png",
 	.least = 1,
 	.most = 1,

@@ -26,8 +26,7 @@ static const struct options_table table = {
 	        "to there that had returned. NEW is whole and packed in Snappy chunks, whatever TRACE was packed in. What follows\n"
 	        "damage cannot be read: calls are only known by what stands before them. Damage that leaves the bytes readable but\n"
 	        "changes what they say goes unnoticed, as recordings hold no checksums.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
 	.takes = "one trace and -o with the file to write",
 	.least = 1,

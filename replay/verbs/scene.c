@@ -23,8 +23,7 @@ static const struct options_table table = {
 	.head = "usage: relume scene [OPTIONS] TRACE\n"
 	        "\n"
 	        "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.takes = "one trace",
 	.least = 1,
 	.most = 1,

@@ -198,8 +198,7 @@ static const struct options_table table = {
 	        "tools. Its frames are counted from 0. Where FIRST may show what earlier frames drew (a screen that is not cleared, or\n"
 	        "is copied), NEW begins with the frame from which on nothing does, and trim says so.\n"
 	        "Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n",
 	.takes = "one trace, -f with the frames and -o with the file to write",
 	.least = 1,

@@ -144,11 +144,13 @@ GLS_HANDLER(glBlendFuncSeparate, STATE) { blend_func(x, st, arg_u(c, 0), arg_u(c
 GLS_HANDLER(glBlendEquation, STATE) { blend_equation(x, st, arg_u(c, 0), arg_u(c, 0)); }
 GLS_HANDLER(glBlendEquationSeparate, STATE) { blend_equation(x, st, arg_u(c, 0), arg_u(c, 1)); }
 
-GLS_HANDLER(glBlendColor, STATE)
+static void read_color(const struct call *c, float out[4])
 {
 	for (unsigned i = 0; i < 4; i++)
-		st->a.color.blend_color[i] = arg_f(c, i);
+		out[i] = arg_f(c, i);
 }
+
+GLS_HANDLER(glBlendColor, STATE) { read_color(c, st->a.color.blend_color); }
 
 /* ARB_color_buffer_float; colours that are read (CLAMP_READ_COLOR) go to the program alone. */
 GLS_HANDLER(glClampColor, STATE)
@@ -212,18 +214,8 @@ GLS_HANDLER(glDrawBuffer, STATE)
 
 GLS_HANDLER(glReadBuffer, STATE) { st->a.pixel.read_buffer = arg_u(c, 0); }
 
-GLS_HANDLER(glClearColor, STATE)
-{
-	for (unsigned i = 0; i < 4; i++)
-		st->a.color.clear[i] = arg_f(c, i);
-}
-
+GLS_HANDLER(glClearColor, STATE) { read_color(c, st->a.color.clear); }
 GLS_HANDLER(glClearDepth, STATE) { st->a.depth.clear = clamp01(arg_d(c, 0)); }
 GLS_HANDLER(glClearStencil, STATE) { st->a.stencil.clear = arg_u(c, 0); }
 GLS_HANDLER(glClearIndex, STATE) {} /* colour index mode only */
-
-GLS_HANDLER(glClearAccum, STATE)
-{
-	for (unsigned i = 0; i < 4; i++)
-		st->a.accum.clear[i] = arg_f(c, i);
-}
+GLS_HANDLER(glClearAccum, STATE) { read_color(c, st->a.accum.clear); }

@@ -127,27 +127,22 @@ GLS_FAMILY(glRotate, MATRIX, TRANSFORM)
 	multiply(st, m);
 }
 
-GLS_HANDLER(glFrustum, MATRIX)
+/* Frustum and Ortho: left, right, bottom, top, near, far. */
+static void project(struct gls_exec *x, struct gls_state *st, const struct call *c, int perspective)
 {
-	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
+	double v[6];
 	float m[16];
 
-	if (gls_refuses(x, st, n <= 0 || f <= 0 || n == f || l == r || t == b, GL_INVALID_VALUE))
+	for (unsigned i = 0; i < 6; i++)
+		v[i] = arg_d(c, i);
+	if (gls_refuses(x, st, (perspective && (v[4] <= 0 || v[5] <= 0)) || v[4] == v[5] || v[0] == v[1] || v[2] == v[3], GL_INVALID_VALUE))
 		return;
-	mat4_frustum(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
+	(perspective ? mat4_frustum : mat4_ortho)(m, (float)v[0], (float)v[1], (float)v[2], (float)v[3], (float)v[4], (float)v[5]);
 	multiply(st, m);
 }
 
-GLS_HANDLER(glOrtho, MATRIX)
-{
-	double l = arg_d(c, 0), r = arg_d(c, 1), b = arg_d(c, 2), t = arg_d(c, 3), n = arg_d(c, 4), f = arg_d(c, 5);
-	float m[16];
-
-	if (gls_refuses(x, st, n == f || l == r || t == b, GL_INVALID_VALUE))
-		return;
-	mat4_ortho(m, (float)l, (float)r, (float)b, (float)t, (float)n, (float)f);
-	multiply(st, m);
-}
+GLS_HANDLER(glFrustum, MATRIX) { project(x, st, c, 1); }
+GLS_HANDLER(glOrtho, MATRIX) { project(x, st, c, 0); }
 
 /* ---- viewport and clip planes ---- */
 
