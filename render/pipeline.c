@@ -16,6 +16,7 @@
 
 #define MAX_PATH_BYTES 4096
 #define MAX_WRITERS 8
+#define ENOUGH_BYTES ((uint64_t)1200 << 20) /* a third frame is not begun where it would take more, whatever --jobs says */
 
 /* What the threads of one pipeline share. */
 struct pipeline_state {
@@ -25,7 +26,11 @@ struct pipeline_state {
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
 	int writer_said;      /* a writer has reported its failure */
-	unsigned workers;     /* still at work */
+	struct worker *seats; /* [n_seats]; started as frames need them */
+	size_t n_seats, n_started;
+	unsigned workers;     /* neither ended nor failed, started or not */
+	unsigned at_work;     /* of these, started */
+	unsigned untraced;    /* scenes handed out and not yet traced */
 	unsigned in_flight;   /* scenes handed out and not yet on disk */
 	uint64_t frame_bytes; /* most memory that a frame in flight took so far; 0: not known yet */
 	uint64_t idle_bytes;  /* memory before the first frame */
@@ -80,16 +85,19 @@ static void note(struct pipeline_state *state, uint64_t frame, const char *outco
 
 /* --- Decoding ------------------------------------------------------------------------------------------------------ */
 
-/*
- * Wait until the memory limit allows another frame in flight. The first goes alone and shows what a frame takes.
- */
+/* Whether memory is short for another frame. A limit lets the first go alone, to see what it takes. */
+static int is_crowded(const struct pipeline_state *state)
+{
+	const uint64_t limit = state->p->settings->memory_bytes, most = limit ? limit : ENOUGH_BYTES;
+
+	return state->in_flight >= (limit ? 1 : 2) &&
+	       (!state->frame_bytes || state->idle_bytes + state->frame_bytes * (state->in_flight + 1) > most);
+}
+
 static void wait_for_memory(struct pipeline_state *state)
 {
-	uint64_t limit = state->p->settings->memory_bytes;
-
 	pthread_mutex_lock(&state->lock);
-	while (limit && state->in_flight && !watch_is_over(state->p->watch) &&
-	       (!state->frame_bytes || state->idle_bytes + state->frame_bytes * (state->in_flight + 1) > limit)) {
+	while (is_crowded(state) && !watch_is_over(state->p->watch)) {
 		struct timespec until;
 
 		clock_gettime(CLOCK_REALTIME, &until);
@@ -98,6 +106,29 @@ static void wait_for_memory(struct pipeline_state *state)
 	}
 	state->in_flight++;
 	pthread_mutex_unlock(&state->lock);
+}
+
+static void *work(void *arg);
+
+/* Start another worker where scenes would wait for one. @return 0 or ERR_SYSTEM (reported): there is none at all */
+static int call_worker(struct pipeline_state *state)
+{
+	int err = 0;
+
+	pthread_mutex_lock(&state->lock);
+	state->untraced++;
+	if (state->n_started < state->n_seats && state->at_work < state->untraced) {
+		struct worker *w = &state->seats[state->n_started];
+
+		if (pthread_create(&w->thread, NULL, work, w) == 0) {
+			state->n_started++;
+			state->at_work++;
+		} else if (state->at_work == 0) {
+			err = err_report(ERR_SYSTEM, NULL, "no thread can be started");
+		}
+	}
+	pthread_mutex_unlock(&state->lock);
+	return err;
 }
 
 static int is_there(const struct pipeline_state *state, uint64_t frame)
@@ -120,6 +151,8 @@ static int hand_out(struct pipeline_state *state, uint64_t frame)
 	more = replay_next_frame(state->p->replay, 1, &scene);
 	if (more == 1 && !state->begun++)
 		progress_start(state->p->progress, frame, progress_clock_s() - state->p->start_s);
+	if (more == 1 && call_worker(state))
+		more = ERR_SYSTEM;
 	if (more == 1 && queue_put(&state->scenes, scene))
 		return 1;
 	scene_release(&scene);
@@ -236,11 +269,14 @@ static void retire(struct pipeline_state *state, struct scene *scene)
 
 	pthread_mutex_lock(&state->lock);
 	left = --state->workers;
+	state->at_work--;
 	pthread_mutex_unlock(&state->lock);
 	if (left) {
 		err_warn(NULL, "frame %llu goes to another device or queue; this one is not used again",
 		         (unsigned long long)scene->frame);
 		queue_put_back(&state->scenes, scene);
+		if (call_worker(state))
+			fail(state, ERR_SYSTEM);
 		return;
 	}
 	fail(state, ERR_SYSTEM);
@@ -302,8 +338,12 @@ static void *work(void *arg)
 
 	if (start_tracer(w, &tracer))
 		fail(state, ERR_SYSTEM);
-	while (tracer && sound && (scene = queue_take(&state->scenes)))
+	while (tracer && sound && (scene = queue_take(&state->scenes))) {
 		sound = work_on(w, &tracer, scene);
+		pthread_mutex_lock(&state->lock);
+		state->untraced--;
+		pthread_mutex_unlock(&state->lock);
+	}
 	if (tracer)
 		add_undrawn(state, tracer);
 	tracer_destroy(&tracer);
@@ -371,12 +411,12 @@ static int seat_workers(struct pipeline_state *state, struct worker *workers, si
 	struct pipeline *p = state->p;
 
 	for (size_t i = 0; i < n; i++) {
-		struct device *dev = p->devices[i / p->jobs];
+		struct device *dev = p->devices[i % p->n_devices];
 
 		workers[i].state = state;
-		if (i % p->jobs && device_share(dev, &workers[i].dev))
+		if (i >= p->n_devices && device_share(dev, &workers[i].dev))
 			return ERR_SYSTEM;
-		if (i % p->jobs == 0)
+		if (i < p->n_devices)
 			workers[i].dev = dev;
 		workers[i].seat = watch_add(p->watch, workers[i].dev);
 		if (workers[i].seat < 0)
@@ -389,22 +429,19 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 {
 	pthread_t writers[MAX_WRITERS];
 	unsigned n_writers = 0;
-	size_t started = 0;
 	int err;
 
+	state->seats = workers;
+	state->n_seats = n;
 	state->workers = (unsigned)n;
 	state->idle_bytes = watch_memory();
 	while (n_writers < writer_count() && pthread_create(&writers[n_writers], NULL, write_all, state) == 0)
 		n_writers++;
-	while (n_writers && started < n && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0)
-		started++;
-	if (started < n)
-		fail(state, err_report(ERR_SYSTEM, NULL, "no thread can be started"));
-	err = decode(state);
+	err = n_writers ? decode(state) : err_report(ERR_SYSTEM, NULL, "no thread can be started");
 	if (err)
 		fail(state, err);
 	queue_close(&state->scenes);
-	for (size_t i = 0; i < started; i++)
+	for (size_t i = 0; i < state->n_started; i++)
 		pthread_join(workers[i].thread, NULL);
 	for (struct scene *scene; (scene = queue_take(&state->scenes));)
 		scene_release(&scene); /* every worker was gone */
@@ -445,9 +482,9 @@ int pipeline_run(struct pipeline *p)
 	supply_free(&supply);
 	blas_cache_destroy(&state.cache);
 	for (size_t i = 0; workers && i < n; i++)
-		p->shares[i / p->jobs] += workers[i].done;
+		p->shares[i % p->n_devices] += workers[i].done;
 	for (size_t i = 0; workers && i < n; i++)
-		if (i % p->jobs && workers[i].dev)
+		if (i >= p->n_devices && workers[i].dev)
 			device_close(&workers[i].dev);
 	queue_free(&state.scenes);
 	queue_free(&state.pictures);

@@ -115,8 +115,8 @@ static const struct options_row rows[] = {
 	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light between surfaces; "
 	  "path: all bounces", options_word, AT(tracer.mode), .words = settings_mode_names },
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
-	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all)",
-	  take_aov, AT(tracer.aov) },
+	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
+	  "gl is enough for scratch frames)", take_aov, AT(tracer.aov) },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },
