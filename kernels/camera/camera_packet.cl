@@ -385,15 +385,15 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 }
 
 /* A node, or a leaf of `count` blocks of faces, and how far it reaches before the far plane. */
-struct entry {
+struct tile_entry {
 	float reach;
 	uint child, count;
 };
 
 /* Push the children of a node that the tile may see; the one that reaches farthest before the far plane is popped first. nodes, faces:
  * the instance's. */
-static inline uint push_children(const struct frustum8 *f, __global const struct node8 *nodes, __global const struct face8 *faces,
-                                 uint index, struct entry *stack, uint depth)
+static inline uint tile_push_children(const struct frustum8 *f, __global const struct node8 *nodes, __global const struct face8 *faces,
+                                 uint index, struct tile_entry *stack, uint depth)
 {
 	__global const struct node8 *node = &nodes[index];
 	const uint bottom = depth;
@@ -430,18 +430,18 @@ static inline struct frustum8 instance_frustum(const struct tile *t, __global co
 	return frustum8_from(tile_frustum(t, instance->eye_from_obj, extent), FAR_PLANE);
 }
 
-static inline void walk_blas(struct tile *t, uint index)
+static inline void tile_walk_blas(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
 	__global const struct node8 *nodes = t->nodes + instance->node8_first;
 	__global const struct face8 *faces = t->faces + instance->triangle8_first;
 	struct frustum8 f = instance_frustum(t, instance);
-	struct entry stack[RAYS_WIDE_STACK], entry = { 0, 0, 0 }, leaf = { 0, 0, 0 };
+	struct tile_entry stack[RAYS_WIDE_STACK], entry = { 0, 0, 0 }, leaf = { 0, 0, 0 };
 	uint depth = 0;
 
 	for (;;) {
 		if (entry.count == 0) {
-			depth = push_children(&f, nodes, faces, entry.child, stack, depth);
+			depth = tile_push_children(&f, nodes, faces, entry.child, stack, depth);
 		} else {
 			/* A leaf's faces are on their way for as long as another leaf's are added. */
 			for (uint i = 0; i < leaf.count; i++)
@@ -468,7 +468,7 @@ static inline void walk_blas(struct tile *t, uint index)
 	}
 }
 
-static inline void walk_top(struct tile *t, __global const struct node2 *top, __global const uint *instance_list)
+static inline void tile_walk_top(struct tile *t, __global const struct node2 *top, __global const uint *instance_list)
 {
 	uint stack[BVH_MAX_DEPTH + 1], depth = 0;
 
@@ -485,7 +485,7 @@ static inline void walk_top(struct tile *t, __global const struct node2 *top, __
 			if (node->count[side] == 0 || !frustum_meets(frustum_reach(&f, node, side)))
 				continue;
 			for (uint k = 0; k < node->count[side]; k++)
-				walk_blas(t, instance_list[node->child[side] + k]);
+				tile_walk_blas(t, instance_list[node->child[side] + k]);
 		}
 		for (int i = 0; i < 2; i++) {
 			const uint side = !(first ^ i);
@@ -706,7 +706,7 @@ KERNEL_OF(float16) void camera_packet(KERNEL_ARGUMENTS(camera_packet))
 	if (view->tlas_count) {
 		open_pixels(&t, fmax((float)r.x0, viewport[0]), fmax((float)r.y0, viewport[1]),
 		            fmin((float)r.x1, viewport[0] + viewport[2]), fmin((float)r.y1, viewport[1] + viewport[3]));
-		walk_top(&t, top + view->tlas_first, instance_list);
+		tile_walk_top(&t, top + view->tlas_first, instance_list);
 	}
 	open_pixels(&t, (float)r.x0, (float)r.y0, (float)r.x1, (float)r.y1);
 	for (uint i = 0; i < view->screen_count; i++)

@@ -9,3 +9,4 @@
 #include "kernels/frame/shadow.cl"
 #include "kernels/frame/shadow_packet.cl"
 #include "kernels/frame/vertex.cl"
+#include "kernels/rays/rays_packet.cl"
