@@ -107,6 +107,7 @@ static void show_picture(void)
 	if (is_by("blit")) {
 		glBindFramebuffer(GL_READ_FRAMEBUFFER, target);
 		glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 		glBlitFramebuffer(0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT, 0, 0, PROGRAM_WIDTH, PROGRAM_HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 		return;
 	}

@@ -301,6 +301,11 @@ static void change_instance(const struct applying *a, uint32_t i)
 	out->n_lights += n;
 }
 
+int look_spares(const struct look *look)
+{
+	return !look || !look->rules->spare || *look->rules->spare;
+}
+
 static int copy_scene(struct applying *a)
 {
 	const struct scene *scene = a->scene;
@@ -331,7 +336,7 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	struct spare spare;
 	int in_world = 0, err = spare_find(scene, &spare);
 
-	spare.kept = a.rules->spare && !*a.rules->spare;
+	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
 	for (uint32_t k = 0; k < a.rules->lights_count; k++) {
 		a.lights_change |= changes_light(&a.rules->lights[k]) ? lit_by(&a.rules->lights[k]) : 0;

@@ -16,4 +16,7 @@ struct look;
  * @return 0 or ERR_SYSTEM (reported)
  */
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found);
+/** 1 unless rules say `spare: no`. @param look  NULL: none */
+int look_spares(const struct look *look);
+
 void look_release(struct scene *changed);

@@ -45,7 +45,8 @@
  *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
  *
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
- *                                    # lit as OpenGL lights it (look/spare.h)
+ *                                    # lit as OpenGL lights it (look/spare.h), and what covers the window as
+ *                                    # the picture of a framebuffer object is traced (replay/gl/surface/shown.h)
  *     replace: yes                   # no: rules with left_out or solid do nothing
  *
  * Each rule may also say `role`, `confidence`, `why` and `plane` (four numbers), for its reader alone. A frame that does not show where

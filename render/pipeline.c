@@ -199,6 +199,8 @@ static int tell_harm(const struct spare *found, const struct scene *scene, struc
 		err = image_set_attribute(img, "relume:lights", "%s", lights);
 	if (!err && *cards)
 		err = image_set_attribute(img, "relume:cards", "%s", cards);
+	if (!err && scene->untraced_draw)
+		err = image_set_attribute(img, "relume:targets", "%u", scene->untraced_draw);
 	free(lights);
 	free(cards);
 	return err;
@@ -476,6 +478,8 @@ int pipeline_run(struct pipeline *p)
 		err = seat_workers(&state, workers, n);
 	supply.cache = state.cache;
 	replay_set_supplier(p->replay, supply_picture, &supply);
+	if (!look_spares(p->settings->look))
+		replay_keep_targets(p->replay);
 	if (!err)
 		err = start_and_join(&state, workers, n);
 	replay_set_supplier(p->replay, NULL, NULL);

@@ -61,6 +61,11 @@ void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user)
 	player_set_supplier(&rp->player, supply, user);
 }
 
+void replay_keep_targets(struct replay *rp)
+{
+	player_keep_targets(&rp->player);
+}
+
 int replay_next_frame(struct replay *rp, int want, struct scene **scene)
 {
 	return player_next_frame(&rp->player, want, scene);

@@ -63,6 +63,12 @@ int replay_one_frame(const char *path, uint64_t frame, struct scene **scene);
 void replay_set_supplier(struct replay *rp, scene_supply *supply, void *user);
 
 /**
+ * Leave pictures of framebuffer objects that cover the window what they are. Without this, scenes hold what drew them: OpenGL's pixels are
+ * the same, and rays see it. Call it before the first frame.
+ */
+void replay_keep_targets(struct replay *rp);
+
+/**
  * Do the frames up to and including `last` need pixels of frames that were skipped? Builds them without rendering: a frame that does
  * not clear the screen counts as one that shows what was there before. Afterwards the replay can only be closed.
  * @return 1 they do; 0 they do not; ERR_* (reported)

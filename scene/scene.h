@@ -324,6 +324,7 @@ struct scene {
 	uint32_t n_draws;
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
+	uint32_t untraced_draw; /* a draw that shows the lit picture of a framebuffer object, whose scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture should hold what an earlier frame drew, and does not: nobody renders for this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: black, far and 0, or not known */
 

@@ -63,6 +63,14 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface);
 /** Take the scene out of the surface, which has no events then. @return a reference for the caller */
 struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
+/**
+ * Let other events come in place of a surface's, which showed what these draw: their colours, the depth and stencil values of its own.
+ * In shown.c.
+ * @param drawn  the surface's afterwards
+ * @param depth  that what showed them left everywhere; NULL: none
+ * @return 1; 0: out of memory (reported), and `drawn` is the caller's still
+ */
+int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gls_frame *drawn, const float *depth);
 /** Forget all events. */
 void gls_frame_drop(struct gls_surface *surface);
 /** Nothing from before the events shows any more. */

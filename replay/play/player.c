@@ -37,6 +37,11 @@ void player_set_supplier(struct player *p, scene_supply *supply, void *user)
 	p->exec->feedback.supply_user = p->supply_user = user;
 }
 
+void player_keep_targets(struct player *p)
+{
+	p->exec->feedback.keeps_targets = p->keeps_targets = 1;
+}
+
 int player_try_frame(struct player *p, int want, struct scene **scene)
 {
 	struct gls_exec *x = p->exec;
@@ -87,6 +92,7 @@ static int rewind_and_build(struct player *p)
 		return rc;
 	p->exec->feedback.supply = p->supply;
 	p->exec->feedback.supply_user = p->supply_user;
+	p->exec->feedback.keeps_targets = p->keeps_targets;
 	p->exec->feedback.fronts = fronts;
 	p->build_all = 1;
 	return 1;
@@ -113,6 +119,7 @@ void player_use(struct player *p, struct gls_exec *x)
 	gls_exec_take_counts(x, p->exec);
 	x->feedback.supply = p->supply;
 	x->feedback.supply_user = p->supply_user;
+	x->feedback.keeps_targets = p->keeps_targets;
 	x->feedback.fronts = p->exec->feedback.fronts;
 	gls_exec_destroy(&p->exec);
 	p->exec = x;

@@ -16,6 +16,7 @@ struct player {
 	struct gls_exec *exec;
 	scene_supply *supply; /* NULL: nobody makes pixels */
 	void *supply_user;
+	int keeps_targets; /* as in gls_feedback */
 	int build_all; /* 1: some frame needs pixels of earlier ones; all are built */
 };
 
@@ -25,6 +26,9 @@ void player_close(struct player *p);
 
 /** As replay_set_supplier. */
 void player_set_supplier(struct player *p, scene_supply *supply, void *user);
+
+/** replay_keep_targets. */
+void player_keep_targets(struct player *p);
 
 /** As replay_next_frame. */
 int player_next_frame(struct player *p, int want, struct scene **scene);

@@ -1,14 +1,20 @@
 #!/usr/bin/python3
 # limit: 300 s
 """Programs whose traced picture was worse than OpenGL's (corpus): gate N says so of each as it was, and of none as it is now."""
+from exr import Image
 from helpers import SCRATCH, check, check_gates, corpus, diff, finish, record, render
 
 OFF = SCRATCH / "off.yaml"
 OFF.write_text("spare: no\n")
 
-for name in ("closed_hall", "arena", "blocks", "tree_cards"):
+PROGRAMS = {
+    "closed_hall": ["closed_hall"], "arena": ["arena"], "blocks": ["blocks"], "tree_cards": ["tree_cards"],
+    "board_quad": ["board_fbo"], "board_blit": ["board_fbo", "--by", "blit"],
+}
+
+for name, (program, *options) in PROGRAMS.items():
     trace = SCRATCH / f"{name}.trace"
-    record(trace, corpus(name), "--frames", 1)
+    record(trace, corpus(program), "--frames", 1, *options)
     render(trace, SCRATCH / name)
     code, score = diff(trace, SCRATCH / name)
     check(code == 0, f"{name}: relume diff exits with {code}")
@@ -20,4 +26,10 @@ for name in ("closed_hall", "arena", "blocks", "tree_cards"):
     check(code == 1, f"{name}, not spared: relume diff exits with {code}")
     failed = [gate for gate, found in score["frames"][0]["gates"].items() if found["state"] == "failed"]
     check(failed == ["N"], f"{name}, not spared: fails {failed}")
+
+# What covers the window as a framebuffer object's picture is traced: pieces throw shadows on the board.
+board = {shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"] for shown in ("board_quad", "board_blit")}
+dark = sum(share < 0.9 for row in board["board_quad"] for share in row)
+check(5000 < dark < 50000, f"{dark} pixels of the board lie in shadow")
+check(board["board_quad"] == board["board_blit"], "by a quad and by a blit the board is the same")
 finish()

@@ -5,6 +5,7 @@
 #include "gl_tokens.h"
 #include "replay/gl/pixels/rectangle.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/surface/shown.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -63,16 +64,19 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	struct blit b;
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
+	struct gls_frame *drawn;
 
 	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;
 	if (arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1))
 		gls_unsupported(x, "linear filtering: the nearest pixel is taken");
+	drawn = gls_shown_by_blit(x, st);
 	p = gls_read_screen(x, st);
+	if (p && mask & GL_COLOR_BUFFER_BIT)
+		blit_one(x, st, &b, gls_color_pixels(x, st), p);
+	gls_shown_end(x, st, drawn);
 	if (!p)
 		return;
-	if (mask & GL_COLOR_BUFFER_BIT)
-		blit_one(x, st, &b, gls_color_pixels(x, st), p);
 	if (mask & GL_DEPTH_BUFFER_BIT)
 		blit_one(x, st, &b, SCENE_DEPTH_PIXELS, p);
 	if (mask & GL_STENCIL_BUFFER_BIT)

@@ -77,6 +77,25 @@ static int has_alpha(uint32_t base)
 	return base == GL_RGBA || base == GL_ALPHA || base == GL_LUMINANCE_ALPHA || base == GL_INTENSITY;
 }
 
+int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_attachment *a)
+{
+	struct target t;
+
+	if (!find_target(share, a, &t))
+		return 0;
+	switch (t.format) {
+	case 3:
+	case 4:
+	case GL_RGB:
+	case GL_RGBA:
+	case GL_RGB8:
+	case GL_RGBA8:
+		return 1;
+	default:
+		return 0;
+	}
+}
+
 int gls_attachments_describe(const struct gls_share *share, const struct gls_attachment attached[N_GLS_ATTACHMENTS], uint32_t colors,
                              struct gls_surface *s)
 {

@@ -29,6 +29,9 @@ int gls_attachment_color(uint32_t buffer);
 /** 1 where both name the same texture or renderbuffer. */
 int gls_attachment_is_same(const struct gls_attachment *a, const struct gls_attachment *b);
 
+/** 1 where an attachment's colours are red, green and blue of 8 bits each, as a window's are. */
+int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_attachment *a);
+
 /**
  * Give a surface the size and bits that depth, stencil and these colours (1 << number) have together.
  * @return 0: nothing is attached there

@@ -4,6 +4,7 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/surface/shown.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
@@ -20,10 +21,12 @@ static int is_reached(const struct gls_target *target, const struct gls_event *e
 void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
 {
 	struct gls_target targets[2];
+	struct gls_frame *drawn;
 	unsigned n, added = 0;
 
 	if (!x->want)
 		return;
+	drawn = gls_shown_by_draw(x, st, e);
 	gls_units_update(x, st, &e->attribs->texturing);
 	n = gls_targets_of(x, st, targets);
 	for (unsigned i = 0; i < n; i++) {
@@ -33,6 +36,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 			gls_frame_pass(targets[i].surface);
 	}
 	st->dirty = 0;
+	gls_shown_end(x, st, drawn);
 	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled))
 		gls_unsupported(x, "programs: drawn as fixed function");
 }

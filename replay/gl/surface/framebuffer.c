@@ -85,6 +85,40 @@ static void update(struct gls_exec *x, const struct gls_share *share, struct gls
 	s->skipped = 0;
 }
 
+/* The color attachment that a frame's events drew to alone, if it holds 8 bits a channel; else NULL. */
+static const struct gls_attachment *only_color(const struct gls_share *share, const struct gls_framebuffer *fb)
+{
+	const uint32_t colors = drawn_colors(fb);
+	const struct gls_attachment *a = colors && !(colors & (colors - 1)) ? &fb->attached[__builtin_ctz(colors)] : NULL;
+
+	return a && gls_attachment_has_8_bits(share, a) ? a : NULL;
+}
+
+struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture, uint32_t name)
+{
+	const struct gls_share *share = st->share;
+	struct gls_framebuffer *found = name ? table_find(&share->framebuffers, name) : NULL;
+	const struct gls_attachment *color;
+	struct gls_frame *frame;
+
+	for (size_t i = 0; texture && !found && i < share->framebuffers.room; i++) {
+		struct gls_framebuffer *fb = share->framebuffers.entries[i].value;
+
+		color = fb && fb->surface.frame ? only_color(share, fb) : NULL;
+		if (color && color->texture == texture && !color->level && !color->face && !color->layer)
+			found = fb;
+	}
+	if (!found || !found->surface.frame || !gls_frame_events(&found->surface) || !only_color(share, found) ||
+	    !gls_attachments_describe(share, found->attached, drawn_colors(found), &found->surface))
+		return NULL;
+	update_colors(x, share, found);
+	frame = found->surface.frame;
+	found->surface.frame = NULL;
+	gls_surface_free(&found->surface);
+	found->surface.skipped = 0;
+	return frame;
+}
+
 /* Update all objects but one (NULL: all) to which this is attached. */
 static void update_sharing(struct gls_exec *x, const struct gls_share *share, const struct gls_attachment *what,
                            const struct gls_framebuffer *but)

@@ -35,5 +35,12 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 /** The same of all textures that a draw with these units looks at. */
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing);
 
+/**
+ * Bring up to date what was drawn to, and take the events that did it: those to a texture's first level, or to an object's only colours.
+ * @param texture  its name, or 0: then `name` is that of an object
+ * @return a frame, the caller's; NULL: there is none, or the colours have not 8 bits each
+ */
+struct gls_frame *gls_framebuffer_take_drawn(struct gls_exec *x, const struct gls_state *st, uint32_t texture, uint32_t name);
+
 void gls_framebuffer_free(struct gls_framebuffer *fb);
 void gls_renderbuffer_free(struct gls_renderbuffer *r);

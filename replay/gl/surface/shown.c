@@ -1,0 +1,215 @@
+#include "replay/gl/surface/shown.h"
+
+#include <math.h>
+
+#include "base/mat4.h"
+#include "gl_tokens.h"
+#include "replay/build/material.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/framebuffer.h"
+#include "replay/gl/surface/screen.h"
+#include "replay/gl/surface/surface.h"
+#include "replay/gl/texture/texture.h"
+#include "replay/machine/machine.h"
+#include "replay/machine/state.h"
+
+#define PIXEL_SLACK 0.01f /* of a pixel, by which a corner may be off */
+
+/* --- Taking ---------------------------------------------------------------------------------------------------------------- */
+
+struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
+{
+	const struct gls_texturing *texturing = &e->attribs->texturing;
+	const struct gls_texture *t;
+
+	if (st->draw_framebuffer || !st->share->framebuffers.n || e->rectangle || e->mesh->mesh.kind != SCENE_TRIANGLES ||
+	    e->mesh->mesh.primitive_count > 2 || st->program || st->arb_vertex_enabled || st->arb_fragment_enabled ||
+	    !(texturing->units[0].enabled >> GLS_TEXTURE_2D & 1))
+		return NULL;
+	t = gls_texture_bound(x, st, 0, GLS_TEXTURE_2D);
+	return t && t->attached ? gls_framebuffer_take_drawn(x, st, t->name, 0) : NULL;
+}
+
+struct gls_frame *gls_shown_by_blit(struct gls_exec *x, struct gls_state *st)
+{
+	return st->draw_framebuffer || !st->read_framebuffer ? NULL : gls_framebuffer_take_drawn(x, st, 0, st->read_framebuffer);
+}
+
+/* --- Is it shown unchanged? -------------------------------------------------------------------------------------------------- */
+
+static int blends_with_own_alpha(const struct scene_material *m)
+{
+	return m->blend && (m->blend_src_rgb == GL_DST_ALPHA || m->blend_src_rgb == GL_ONE_MINUS_DST_ALPHA ||
+	                    m->blend_src_rgb == GL_SRC_ALPHA_SATURATE || m->blend_dst_rgb == GL_DST_ALPHA ||
+	                    m->blend_dst_rgb == GL_ONE_MINUS_DST_ALPHA);
+}
+
+/* Depth bits that count (struct scene_picture). */
+static uint32_t counted(uint32_t depth_bits)
+{
+	return depth_bits > 24 ? 24 : depth_bits;
+}
+
+/* 1 where events give the same colours in the window as in their object. */
+static int suits(const struct scene *s, const struct gls_surface *window)
+{
+	if (s->needs_previous || s->start || s->floats || window->floats || s->width != window->width || s->height != window->height ||
+	    counted(s->depth_bits) != counted(window->depth_bits) || (s->samples > 1) != (window->samples > 1) || s->samples > 1)
+		return 0;
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_material *m = &s->materials[s->instances[i].material];
+
+		if ((m->stencil_test && s->stencil_bits != window->stencil_bits) || (blends_with_own_alpha(m) && s->alpha_bits != window->alpha_bits))
+			return 0;
+	}
+	return 1;
+}
+
+/* 1 where fragments land as they are. */
+static int passes_through(const struct scene *s, const struct scene_material *m)
+{
+	const struct scene_unit *u = &s->units[m->unit_first];
+
+	return !m->lighting && !m->fog && !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 &&
+	       !m->program && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->color_sum && m->polygon_mode_front == GL_FILL &&
+	       m->polygon_mode_back == GL_FILL && (!m->depth_test || m->depth_func == GL_ALWAYS || m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL) &&
+	       m->unit_count == 1 && (u->env_mode == GL_REPLACE || u->env_mode == GL_MODULATE) && !u->swizzle && !u->compare_mode &&
+	       (u->min_filter == GL_NEAREST || u->min_filter == GL_LINEAR) && !u->gen_mode[0] && !u->gen_mode[1];
+}
+
+/* 1 where a quad's colour leaves texels as they are. */
+static int is_white(const struct scene *s, const struct scene_instance *in, const struct scene_material *m)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const float *color = s->currents[in->current].color;
+
+	if (s->units[m->unit_first].env_mode == GL_REPLACE)
+		return 1;
+	for (uint32_t v = 0; mesh->color && v < mesh->vertex_count; v++)
+		for (int k = 0; k < 3; k++)
+			if (mesh->color[4 * v + (uint32_t)k] != 1)
+				return 0;
+	return mesh->color || (color[0] == 1 && color[1] == 1 && color[2] == 1);
+}
+
+/* A corner's place in the window, if that is the place of its texel. @return 0: it is not, or lies behind what depths there are */
+static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v, float out[2])
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const struct scene_view *view = &s->views[in->view];
+	const struct scene_unit *u = &s->units[s->materials[in->material].unit_first];
+	const float *given = mesh->texcoord[0] ? mesh->texcoord[0] + 4 * (size_t)v : s->currents[in->current].texcoord[0];
+	float eye[4], clip[4], texel[4];
+	const float size[2] = { (float)s->width, (float)s->height };
+
+	mat4_transform(eye, in->modelview, mesh->position + 4 * (size_t)v);
+	mat4_transform(clip, view->projection, eye);
+	mat4_transform(texel, u->matrix, given);
+	if (!(clip[3] > 0) || clip[2] < -clip[3] || clip[2] >= clip[3] || texel[3] == 0)
+		return 0;
+	for (int k = 0; k < 2; k++) {
+		out[k] = (clip[k] / clip[3] * 0.5f + 0.5f) * size[k];
+		if (!(fabsf(out[k] - texel[k] / texel[3] * size[k]) < PIXEL_SLACK))
+			return 0;
+	}
+	return 1;
+}
+
+static int covers_window(const struct scene *s, const struct scene_view *view)
+{
+	return view->viewport[0] == 0 && view->viewport[1] == 0 && view->viewport[2] == (float)s->width &&
+	       view->viewport[3] == (float)s->height && view->scissor[0] == 0 && view->scissor[1] == 0 &&
+	       (uint32_t)view->scissor[2] == s->width && (uint32_t)view->scissor[3] == s->height;
+}
+
+/* 1 where triangles bring each texel to its pixel, in all of the window. */
+static int is_whole_quad(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_texture *t = s->textures[s->units[m->unit_first].texture];
+	const float right = (float)s->width + PIXEL_SLACK, top = (float)s->height + PIXEL_SLACK;
+	float area = 0, corner[3][2];
+
+	if (t->width != s->width || t->height != s->height || t->floats || !covers_window(s, &s->views[in->view]))
+		return 0;
+	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+		float twice;
+
+		for (uint32_t c = 0; c < 3; c++)
+			if (!corner_at(s, in, mesh->index[3 * p + c], corner[c]) || corner[c][0] < -PIXEL_SLACK || corner[c][0] > right ||
+			    corner[c][1] < -PIXEL_SLACK || corner[c][1] > top)
+				return 0;
+		twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) - (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+		if (m->cull_face && m->cull_face != ((twice > 0) == (m->front_face == GL_CCW) ? GL_BACK : GL_FRONT))
+			return 0;
+		area += 0.5f * fabsf(twice);
+	}
+	return fabsf(area - (float)s->width * (float)s->height) < 1;
+}
+
+/* The depth that a quad leaves everywhere, into *depth. @return 0: it is not the same everywhere */
+static int left_depth(const struct scene *s, const struct scene_instance *in, float *depth)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const struct scene_view *view = &s->views[in->view];
+	int same = 1;
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		float eye[4], clip[4], z;
+
+		mat4_transform(eye, in->modelview, mesh->position + 4 * (size_t)v);
+		mat4_transform(clip, view->projection, eye);
+		z = view->depth_range[0] + (clip[2] / clip[3] * 0.5f + 0.5f) * (view->depth_range[1] - view->depth_range[0]);
+		same &= v == 0 || z == *depth;
+		*depth = z;
+	}
+	return same;
+}
+
+/* 1 where a blit's pixels cover the window. */
+static int is_whole_rectangle(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_rectangle *r = &s->rectangles[in->rectangle - 1];
+	const float *corner = s->meshes[in->mesh]->position;
+
+	return r->kind == SCENE_COLOR_PIXELS && r->width == s->width && r->height == s->height && r->zoom[0] == 1 && r->zoom[1] == 1 &&
+	       corner[0] == 0 && corner[1] == 0 && (uint32_t)s->views[in->view].scissor[2] == s->width &&
+	       (uint32_t)s->views[in->view].scissor[3] == s->height;
+}
+
+static int is_lit(const struct scene *s)
+{
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		if (s->materials[s->instances[i].material].lighting)
+			return 1;
+	return 0;
+}
+
+/* --- Giving ---------------------------------------------------------------------------------------------------------------- */
+
+/* What the context draws to, if that is a window's back buffer alone. */
+static struct gls_surface *window_of(struct gls_exec *x, struct gls_state *st)
+{
+	struct gls_target targets[2];
+
+	return gls_targets_of(x, st, targets) == 1 && targets[0].colored ? targets[0].surface : NULL;
+}
+
+void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_frame *drawn)
+{
+	struct gls_surface taken = { .frame = drawn }, *window = drawn ? window_of(x, st) : NULL;
+	struct scene *s = window && window->frame ? gls_frame_scene(x, window) : NULL;
+	const struct scene_instance *in = s && s->n_instances == 1 ? &s->instances[0] : NULL;
+	const struct scene_material *m = in ? &s->materials[in->material] : NULL;
+	int leaves_depth = m && m->depth_test && m->depth_write, whole = m && suits(drawn->out, window);
+	float depth = 1;
+
+	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) : passes_through(s, m) && is_white(s, in, m) && is_whole_quad(s, in));
+	whole = whole && (!leaves_depth || left_depth(s, in, &depth));
+	if (whole && x->feedback.keeps_targets)
+		s->untraced_draw = is_lit(drawn->out) ? in->draw : 0;
+	else if (whole && gls_frame_precede(x, window, drawn, leaves_depth ? &depth : NULL))
+		return;
+	gls_frame_drop(&taken);
+}
