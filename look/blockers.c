@@ -38,7 +38,8 @@ static int can_block(const struct scene *s, const struct scene_instance *in)
 	const struct scene_material *m = &s->materials[in->material];
 
 	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
-	       m->color_mask & 7 && !m->blend && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) && !(m->surface.hidden & 1);
+	       m->color_mask & 7 && (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
+	       !(m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS);
 }
 
 static uint32_t cluster_count(const struct scene_mesh *mesh)

@@ -1,7 +1,8 @@
 /*
  * What stands between a point and a light, for decisions about a scene: a few hundred rays on the host, before anything is traced.
  *
- * Surfaces that let some light through (blended, alpha-tested) and those that secondary rays do not see block nothing here.
+ * Surfaces with holes (alpha test), films (blended, without depth) and those that secondary rays do not see block nothing here. Others that
+ * are blended count as opaque: walls are often drawn so.
  */
 #pragma once
 

@@ -106,8 +106,13 @@ START_TEST(test_unlit_walls)
 	truth_add_square(&t, 0, (float[3]){ 0, 0, -6 }, z_axis, x_axis, 0.7f, 4);
 	memcpy(t.instances[0].modelview, (float[16]){ 1, 0, 0, 0, 0, 0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, -4, -1, 1 }, sizeof(t.instances[0].modelview));
 	truth_add_square(&t, unlit, (float[3]){ 3, 0, -6 }, minus_z, y_axis, 6, 1);
-	ck_assert_float_eq(dark_share(&t, NULL), 0);
-	ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
+	for (uint32_t blend = 0; blend < 2; blend++) {
+		t.materials[unlit].blend = blend; /* by an alpha of 1: opaque all the same */
+		t.materials[unlit].blend_src_rgb = t.materials[unlit].blend_src_alpha = GL_SRC_ALPHA;
+		t.materials[unlit].blend_dst_rgb = t.materials[unlit].blend_dst_alpha = GL_ONE_MINUS_SRC_ALPHA;
+		ck_assert_float_eq(dark_share(&t, NULL), 0);
+		ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
+	}
 	truth_free(&t);
 
 	truth_init(&t, SIZE, SIZE, 0.6f);
