@@ -226,7 +226,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 		uint done = 0;
 
 		if (same & bit && pack_is_plain(s, &a->tables.materials[material]) &&
-		    !(a->tables.materials[material].surface.hidden & SCENE_CARD)) /* its rays start otherwise */
+		    !(a->tables.materials[material].surface.hidden & (SCENE_CARD | SCENE_FACETED))) /* their rays start otherwise */
 			done = shade_lanes(a, s, row, same, &kept->pack);
 		if (!(done & bit)) {
 			shade_one(a, s, row, popcount(bit - 1), kept);
