@@ -349,6 +349,16 @@ show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 show-rooms: all
 	@$(PYTHON) -B tests/show/rooms.py $(BUILD)
 
+# What a study finds: lights of lightmaps, lights and planes of drawn shadows and mirrors.
+SHOWS += show-look show-relit
+show-look: all
+	@$(PYTHON) -B tests/show/look.py $(BUILD)
+
+# Pictures to be looked at: raster, beauty, relit.
+DEPS_relit := openimageio-tools
+show-relit: all $(BUILD)/deps.relit
+	@$(PYTHON) -B tests/show/relit.py $(BUILD) $(ONLY)
+
 show-seek: all
 	@$(PYTHON) tests/show/seek.py $(BUILD)
 

@@ -24,6 +24,12 @@ static int has_texture(const struct scene *s, const struct scene_material *m, co
 	return 0;
 }
 
+int look_multiplies(const struct scene_material *m)
+{
+	return m->blend && ((m->blend_src_rgb == GL_DST_COLOR && m->blend_dst_rgb == GL_ZERO) ||
+	                    (m->blend_src_rgb == GL_ZERO && m->blend_dst_rgb == GL_SRC_COLOR));
+}
+
 static int is_environment_mapped(const struct scene *s, const struct scene_material *m)
 {
 	for (uint32_t i = 0; i < m->unit_count; i++)
@@ -58,7 +64,7 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 	if (r->modelview && modelview_named(r->modelview) != modelview_kind_of(in->modelview))
 		return 0;
 	if ((r->units && *r->units != m->unit_count) || differs(r->stencil_tested, (int)m->stencil_test) ||
-	    differs(r->environment_mapped, is_environment_mapped(s, m)))
+	    differs(r->multiplies, look_multiplies(m)) || differs(r->environment_mapped, is_environment_mapped(s, m)))
 		return 0;
 	return !differs(r->program, (int)m->program) && !differs(r->lit, (int)m->lighting) &&
 	       !differs(r->textured, m->unit_count > 0) && !differs(r->blended, (int)m->blend) &&
@@ -87,6 +93,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 		s->hidden = (s->hidden & ~SCENE_LEFT_OUT) | (*r->left_out ? SCENE_LEFT_OUT : 0);
 	if (r->solid)
 		s->hidden = (s->hidden & ~SCENE_SOLID) | (*r->solid ? SCENE_SOLID : 0);
+	if (r->lightmap)
+		s->light_unit = *r->lightmap + 1;
 	if (r->lit)
 		s->relit = *r->lit;
 }
@@ -290,6 +298,8 @@ static void change_instance(const struct applying *a, uint32_t i)
 		if (!is_kept(rules, &rules->surfaces[k]) && matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
+	if (!m->surface.relit)
+		m->surface.light_unit = 0;
 	if (m->surface.relit) {
 		n = list_lights(a, in, m, out->lights + out->n_lights);
 		m->surface.light_first = out->n_lights;

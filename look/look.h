@@ -20,3 +20,6 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 int look_spares(const struct look *look);
 
 void look_release(struct scene *changed);
+
+/** 1 where a draw multiplies what is there by its own colour. */
+int look_multiplies(const struct scene_material *m);

@@ -24,7 +24,8 @@ static const cyaml_schema_field_t match_fields[] = {
 	TEXT(struct match, texture), TEXT(struct match, mesh), TEXT(struct match, draws), TEXT(struct match, call),
 	COUNT(struct match, list), TRUTH(struct match, program), TRUTH(struct match, lit), TRUTH(struct match, textured),
 	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested),
-	TRUTH(struct match, stencil_tested), TRUTH(struct match, environment_mapped), COUNT(struct match, units), TEXT(struct match, modelview),
+	TRUTH(struct match, stencil_tested), TRUTH(struct match, environment_mapped), TRUTH(struct match, multiplies),
+	COUNT(struct match, units), TEXT(struct match, modelview),
 	CYAML_FIELD_END
 };
 
@@ -41,7 +42,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
 	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
-	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, left_out), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
+	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {

@@ -17,6 +17,7 @@
  *           stencil_tested: no
  *           environment_mapped: no   # a texture's coordinates are made from what the surface mirrors
  *           units: 2                 # texture units
+ *           multiplies: no           # is blended so that it multiplies what is there
  *           modelview: plain         # mirrored, or singular as of shadows on a plane
  *         reflect: 0.2               # [0,1]
  *         transmit: 0.8              # [0,1], with reflect at most 1
@@ -26,6 +27,7 @@
  *         emission: [0, 0, 0]        # beside what OpenGL shows
  *         shadows: yes               # casts them
  *         mirrors: yes               # is seen in them and through glass
+ *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         left_out: yes              # a trick: only OpenGL's picture shows it
  *         solid: yes                 # a mirror that is blended over its picture: the traced one is not
@@ -66,7 +68,7 @@
 struct match {
 	const char *texture, *mesh, *draws, *call;
 	const uint32_t *list;
-	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped;
+	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped, *multiplies;
 	const uint32_t *units;
 	const char *modelview;
 };
@@ -81,6 +83,7 @@ struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
+	const uint32_t *lightmap;
 	const bool *shadows, *mirrors, *lit, *left_out, *solid;
 };
 

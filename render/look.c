@@ -62,6 +62,8 @@ static int play(struct replay *replay, const char *trace, const struct frame_lis
 			err = study_add(study, scene);
 		scene_release(&scene);
 	}
+	if (!err && more >= 0)
+		err = study_finish(study);
 	return err ? err : more < 0 ? more : 0;
 }
 

@@ -60,6 +60,11 @@ static void write_polygons(FILE *out, const struct world *world, const struct le
 	free(visible);
 }
 
+static double largest_extent(struct box box)
+{
+	return fmax(fmax(box.max.x - box.min.x, box.max.y - box.min.y), box.max.z - box.min.z);
+}
+
 void world_write_truth(const struct world *world, const struct level *level, const char *path)
 {
 	const struct face *mirror = draw_mirror_of(&world->mesh);
@@ -71,6 +76,9 @@ void world_write_truth(const struct world *world, const struct level *level, con
 	}
 	fprintf(out, "{\n");
 	write_lights(out, level);
+	fprintf(out, "  \"start\": ");
+	write_vec(out, level->start);
+	fprintf(out, ", \"start_yaw\": %g, \"size\": %.9g,\n", level->start_yaw_deg, largest_extent(world->octree.nodes[0].box));
 	if (mirror) {
 		fprintf(out, "  \"mirror\": {\"normal\": ");
 		write_vec(out, mirror->plane.n);

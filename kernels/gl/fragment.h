@@ -220,9 +220,12 @@ static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const st
 	return format == GL_DEPTH_COMPONENT ? unit->depth_mode : format;
 }
 
-/* Texture environments, colour sum and fog over a lit colour; clamped. fog_factor: 1 leaves the colour as it is */
+/*
+ * Texture environments, colour sum and fog over a lit colour; clamped. fog_factor: 1 leaves the colour as it is.
+ * without: 1 + the number of a unit that is passed by; 0: none
+ */
 static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                              const struct lit *lit, float fog_factor)
+                                              const struct lit *lit, float fog_factor, uint32_t without)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct vec4 color = lit->color;
@@ -231,6 +234,8 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
 		struct vec4 sample = texturing->sample[unit->unit];
 
+		if (unit->unit + 1u == without)
+			continue;
 		color = unit->env_mode == GL_COMBINE || unit->env_mode == GL_COMBINE4_NV ?
 		                combine_full(unit, color, sample, lit->color, texturing->sample) :
 		                combine_plain(unit->env_mode, point_unit_format(t, unit), color, sample, v4_load(unit->env_color));
@@ -253,7 +258,14 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                        const struct lit *lit)
 {
-	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor);
+	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor, 0u);
+}
+
+/* The same without light that a texture holds. */
+static inline struct vec4 point_finish_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
+                                             const struct lit *lit)
+{
+	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor, p->material->surface.light_unit);
 }
 
 /* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
@@ -272,7 +284,7 @@ static inline struct vec4 point_albedo_of(const struct tables *t, const struct p
 		                                          v4_load(tables_face(t, p->geometry, p->number[1], side)->diffuse),
 		                                          v4_load(tables_face(t, p->geometry, p->number[2], side)->diffuse)));
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
-	return point_finish_in_fog(t, p, texturing, &lit, 1.0f);
+	return point_finish_in_fog(t, p, texturing, &lit, 1.0f, m->surface.light_unit);
 }
 
 static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct texturing *texturing)

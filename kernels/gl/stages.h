@@ -149,7 +149,7 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 		return stage_radiance(t, p, texturing, seen);
 	if (transport == TRANSPORT_RELIGHT || p->material->surface.relit) {
 		lit = point_lit_here(t, p, seen);
-		color = point_finish(t, p, texturing, &lit);
+		color = point_finish_relit(t, p, texturing, &lit);
 	}
 	return v3_add(v3(color.x, color.y, color.z), v3_load(p->material->surface.emission));
 }

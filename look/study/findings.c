@@ -16,19 +16,46 @@ static void write_plane(const struct trick_found *f, FILE *out)
 	fprintf(out, "    plane: [%.7g, %.7g, %.7g, %.7g]\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3]);
 }
 
-static void write_shadow(const struct trick_found *f, FILE *out)
+/* How much of the lightmaps the lights explain. */
+static double explained_share(const struct solved *s)
+{
+	return s->signal > 0 ? 1 - s->residual * s->residual / (s->signal * s->signal) : 0;
+}
+
+/* 1 where the lights explain the lightmaps so well that walls may be lit anew. */
+static int relights(const struct solved *s)
+{
+	return s->n && explained_share(s) > 0.9;
+}
+
+/* 1 where traced light makes the same shadow: of a light of OpenGL's, or of one that lights walls anew. */
+static int is_replaced(const struct trick_found *f, const struct solved *s)
+{
+	for (unsigned i = 0; i < s->n && relights(s) && f->light[3] != 0; i++) {
+		double off = 0, far = 0;
+
+		for (int k = 0; k < 3; k++) {
+			off += (s->lights[i].at[k] - f->light[k]) * (s->lights[i].at[k] - f->light[k]);
+			far += f->light[k] * f->light[k];
+		}
+		if (sqrt(off) < 0.02 * (1 + sqrt(far)))
+			return 1;
+	}
+	return f->has_opengl_light;
+}
+
+static void write_shadow(const struct trick_found *f, const struct solved *s, FILE *out)
 {
 	int is_volume = f->kind != TRICK_PLANAR_SHADOW;
 
 	fprintf(out, "  - role: %s\n    confidence: %.2f\n", trick_names[f->kind], confidence_of(f));
 	fprintf(out, "    why: \"%u draws in %u frames %s one light; %s\"\n", f->votes, f->frames,
 	        is_volume ? "have edges that meet in" : "are flattened away from",
-	        f->has_opengl_light ? "OpenGL lights what they darken from there, so that its traced shadows replace them"
-	                            : "OpenGL has no light there, and so they stay");
+	        is_replaced(f, s) ? "what they darken is lit from there, and traced shadows replace them" : "no light is known there, and so they stay");
 	if (!is_volume)
 		write_plane(f, out);
 	fprintf(out, "    match: %s\n", is_volume ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" : "{ modelview: singular, lit: no }");
-	if (f->has_opengl_light)
+	if (is_replaced(f, s))
 		fprintf(out, "    left_out: yes\n    shadows: no\n    mirrors: no\n");
 }
 
@@ -56,20 +83,55 @@ static void write_light(const struct trick_found *f, FILE *out)
 	fprintf(out, "    off: yes\n    space: world\n    position: [%.7g, %.7g, %.7g, %g]\n", f->light[0], f->light[1], f->light[2], f->light[3]);
 }
 
-void findings_write(const struct tricks *t, FILE *out)
+static void write_walls(const struct lightmaps *maps, const struct solved *s, FILE *out)
+{
+	static const char *const stays = "; they are too few, and lightmaps stay";
+	double share = explained_share(s);
+
+	if (maps->n_units)
+		fprintf(out, "  - role: lightmap in a second unit\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
+		        "    match: { units: 2, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n%s",
+		        fmax(0, share), maps->n_units, s->n, 100 * share, relights(s) ? "" : stays, relights(s) ? "    lit: yes\n" : "");
+	if (maps->n_units && relights(s))
+		fprintf(out, "    lightmap: %u\n", maps->unit);
+	if (maps->n_passes)
+		fprintf(out, "  - role: lightmap pass\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
+		        "    match: { multiplies: yes, units: 1, lit: no, stencil_tested: no }\n%s",
+		        fmax(0, share), maps->n_passes, s->n, 100 * share, relights(s) ? "" : stays, relights(s) ? "    left_out: yes\n" : "");
+	if (maps->n_passes && relights(s))
+		fprintf(out, "  - role: wall below a lightmap pass\n    confidence: %.2f\n    why: \"its light comes by the pass\"\n"
+		        "    match: { units: 1, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n    lit: yes\n", share);
+}
+
+static void write_solved(const struct solved *s, FILE *out)
+{
+	fprintf(out, "  - role: ambient light of lightmaps\n    confidence: %.2f\n    why: \"what no light explains is as bright as this everywhere\"\n"
+	        "    on: unlit\n    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n",
+	        explained_share(s), s->ambient[0], s->ambient[1], s->ambient[2]);
+	for (unsigned i = 0; i < s->n; i++)
+		fprintf(out, "  - role: light of lightmaps\n    confidence: %.2f\n    why: \"without it %.0f %% of what is explained is not; %zu texels, rest %.2g\"\n"
+		        "    on: unlit\n    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.5g, %.5g, %.5g]\n    specular: [0, 0, 0]\n"
+		        "    attenuation: [0, 0, 1]\n", s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
+		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1], s->lights[i].color[2]);
+}
+
+void findings_write(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, FILE *out)
 {
 	unsigned lights = 0;
 
-	fprintf(out, t->n ? "surfaces:\n" : "surfaces: []\n");
+	fprintf(out, t->n || maps->n ? "surfaces:\n" : "surfaces: []\n");
 	for (unsigned i = 0; i < t->n; i++) {
 		lights += t->found[i].kind != TRICK_MIRROR;
 		if (t->found[i].kind == TRICK_MIRROR)
 			write_mirror(&t->found[i], out);
 		else
-			write_shadow(&t->found[i], out);
+			write_shadow(&t->found[i], s, out);
 	}
-	fprintf(out, lights ? "lights:\n" : "lights: []\n");
+	write_walls(maps, s, out);
+	fprintf(out, lights || relights(s) ? "lights:\n" : "lights: []\n");
 	for (unsigned i = 0; i < t->n; i++)
 		if (t->found[i].kind != TRICK_MIRROR)
 			write_light(&t->found[i], out);
+	if (relights(s))
+		write_solved(s, out);
 }

@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#include "look/study/lightmaps.h"
+#include "look/study/solve.h"
 #include "look/study/tricks.h"
 
-void findings_write(const struct tricks *tricks, FILE *out);
+void findings_write(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, FILE *out);

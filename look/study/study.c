@@ -4,13 +4,17 @@
 
 #include "base/err.h"
 #include "look/study/findings.h"
+#include "look/study/lightmaps.h"
 #include "look/study/motion.h"
+#include "look/study/solve.h"
 #include "look/study/tricks.h"
 #include "look/study/world.h"
 
 struct study {
 	struct motion motion;
 	struct tricks tricks;
+	struct lightmaps lightmaps;
+	struct solved solved;
 };
 
 int study_create(struct study **out)
@@ -24,6 +28,7 @@ void study_destroy(struct study **study)
 	if (!*study)
 		return;
 	motion_free(&(*study)->motion);
+	lightmaps_free(&(*study)->lightmaps);
 	free(*study);
 	*study = NULL;
 }
@@ -37,7 +42,14 @@ int study_add(struct study *study, const struct scene *scene)
 {
 	int err = motion_add(&study->motion, scene);
 
-	return err ? err : tricks_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		err = tricks_add(&study->tricks, scene, &study->motion);
+	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
+}
+
+int study_finish(struct study *study)
+{
+	return study->lightmaps.n ? solve_lights(&study->lightmaps, &study->solved) : 0;
 }
 
 void study_write(const struct study *study, const char *trace, FILE *out)
@@ -51,6 +63,6 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	findings_write(&study->tricks, out);
+	findings_write(&study->tricks, &study->lightmaps, &study->solved, out);
 	world_write(m, out);
 }

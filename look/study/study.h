@@ -26,6 +26,9 @@ uint64_t study_most_frames(void);
  */
 int study_add(struct study *study, const struct scene *scene);
 
+/** After the last frame: solve for lights. @return 0 or ERR_SYSTEM (reported) */
+int study_finish(struct study *study);
+
 /**
  * Write the rules, each with its role, its confidence and why.
  * @param trace  the recording's name, for the file's reader

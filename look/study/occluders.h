@@ -1,0 +1,23 @@
+/* What stands still and stops light: triangles in world space, and whether one lies between two places. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct occluder_node;
+
+/* All zero: empty. */
+struct occluders {
+	double (*corners)[9]; /* of each triangle */
+	size_t n, room;
+	struct occluder_node *nodes; /* after occluders_build */
+};
+
+/** @return 0 or ERR_SYSTEM (reported) */
+int occluders_put(struct occluders *o, const double corners[9]);
+/** After the last triangle, before the first question. @return 0 or ERR_SYSTEM (reported) */
+int occluders_build(struct occluders *o);
+void occluders_free(struct occluders *o);
+
+/** 1 where nothing stands between two places, but for a thousandth of the way at either end. */
+int occluders_sees(const struct occluders *o, const double from[3], const double to[3]);

@@ -1,0 +1,322 @@
+#include "look/study/solve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, ROUNDS = 4 };
+#define CUT_OFF (254.5 / 255)
+
+struct sample {
+	double at[3], normal[3], light[3];
+	double rest[3]; /* what the lights so far leave */
+	double gain[SOLVE_MOST_LIGHTS]; /* light of each at unit strength */
+	unsigned wall;
+};
+
+struct solving {
+	struct sample *samples;
+	size_t n, step; /* a search looks at each step-th sample */
+	const struct occluders *walls;
+	struct solved *out;
+};
+
+/* Light of unit strength from a place, if nothing stands between. */
+static double gain_of(const struct solving *s, const struct sample *x, const double at[3], int looks)
+{
+	double square = 0, along = 0, from[3];
+
+	for (int k = 0; k < 3; k++) {
+		square += (at[k] - x->at[k]) * (at[k] - x->at[k]);
+		along += (at[k] - x->at[k]) * x->normal[k];
+	}
+	if (along <= 0 || square <= 0)
+		return 0;
+	for (int k = 0; k < 3; k++) /* off the wall */
+		from[k] = x->at[k] + 1e-3 * sqrt(square) * x->normal[k];
+	return looks && !occluders_sees(s->walls, from, at) ? 0 : along / (square * sqrt(square));
+}
+
+/* How much of the rest a light at a place explains at its best strength: the drop of the sum of squares. seen: of every sample, or NULL */
+static double explained(const struct solving *s, const double at[3], const unsigned char *seen, unsigned char *sees)
+{
+	double product[3] = { 0, 0, 0 }, square[3] = { 0, 0, 0 }, sum = 0;
+
+	for (size_t i = 0; i < s->n; i += s->step) {
+		const struct sample *x = &s->samples[i];
+		double gain = seen && !seen[i] ? 0 : gain_of(s, x, at, !seen);
+
+		if (sees)
+			sees[i] = gain > 0;
+		for (int c = 0; c < 3; c++) {
+			if (x->light[c] >= CUT_OFF)
+				continue;
+			product[c] += gain * x->rest[c];
+			square[c] += gain * gain;
+		}
+	}
+	for (int c = 0; c < 3; c++)
+		sum += product[c] > 0 && square[c] > 0 ? product[c] * product[c] / square[c] : 0;
+	return sum;
+}
+
+/* Walk to a better place, in steps that shrink, and look around anew whenever the place has settled. */
+static double search(const struct solving *s, double at[3], double step, unsigned char *sees)
+{
+	double best = explained(s, at, NULL, sees);
+
+	for (int round = 0; round < 4; round++, step *= 0.5) {
+		double reach = step;
+
+		while (reach > 1e-4 * step) {
+			int better = 0;
+
+			for (int k = 0; k < 6; k++) {
+				double to[3] = { at[0], at[1], at[2] }, value;
+
+				to[k / 2] += k % 2 ? reach : -reach;
+				value = explained(s, to, sees, NULL);
+				if (value <= best * (1 + 1e-12))
+					continue;
+				best = value;
+				memcpy(at, to, sizeof(to));
+				better = 1;
+			}
+			reach *= better ? 1 : 0.5;
+		}
+		best = explained(s, at, NULL, sees);
+	}
+	return best;
+}
+
+/* --- Strengths ---------------------------------------------------------------------------------------------------------- */
+
+/* Of all lights and the ambient light together, none negative: coordinate descent on the normal equations. */
+static void fit_strengths(struct solving *s)
+{
+	struct solved *out = s->out;
+
+	for (int c = 0; c < 3; c++) {
+		double a[SOLVE_MOST_LIGHTS + 1][SOLVE_MOST_LIGHTS + 1] = { { 0 } }, b[SOLVE_MOST_LIGHTS + 1] = { 0 }, x[SOLVE_MOST_LIGHTS + 1] = { 0 };
+		unsigned n = out->n + 1;
+
+		for (size_t i = 0; i < s->n; i++) {
+			const struct sample *p = &s->samples[i];
+
+			for (unsigned j = 0; j < n && p->light[c] < CUT_OFF; j++) {
+				double gj = j < out->n ? p->gain[j] : 1;
+
+				b[j] += gj * p->light[c];
+				for (unsigned k = 0; k < n && gj > 0; k++)
+					a[j][k] += gj * (k < out->n ? p->gain[k] : 1);
+			}
+		}
+		for (int sweep = 0; sweep < 400; sweep++)
+			for (unsigned j = 0; j < n; j++) {
+				double rest = b[j];
+
+				for (unsigned k = 0; k < n; k++)
+					rest -= k == j ? 0 : a[j][k] * x[k];
+				x[j] = a[j][j] > 0 && rest > 0 ? rest / a[j][j] : 0;
+			}
+		for (unsigned j = 0; j < out->n; j++)
+			out->lights[j].color[c] = x[j];
+		out->ambient[c] = x[out->n];
+	}
+}
+
+/* What is left of each sample without light `without`; where the lightmap is cut off nothing is known. */
+static void leave_rest(struct solving *s, unsigned without)
+{
+	for (size_t i = 0; i < s->n; i++)
+		for (int c = 0; c < 3; c++) {
+			struct sample *x = &s->samples[i];
+
+			x->rest[c] = x->light[c] - s->out->ambient[c];
+			for (unsigned j = 0; j < s->out->n; j++)
+				x->rest[c] -= j == without ? 0 : s->out->lights[j].color[c] * x->gain[j];
+			if (x->light[c] >= CUT_OFF && x->rest[c] < 0)
+				x->rest[c] = 0;
+		}
+}
+
+static void light_samples(struct solving *s, unsigned which)
+{
+	for (size_t i = 0; i < s->n; i++)
+		s->samples[i].gain[which] = gain_of(s, &s->samples[i], s->out->lights[which].at, 1);
+}
+
+static double squares_left(const struct solving *s)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < s->n; i++)
+		for (int c = 0; c < 3; c++)
+			sum += s->samples[i].light[c] < CUT_OFF ? s->samples[i].rest[c] * s->samples[i].rest[c] : 0;
+	return sum;
+}
+
+/* --- Places ------------------------------------------------------------------------------------------------------------- */
+
+/* Walls with the most rest: a light stands before them. Fills places to begin at. @return how many */
+static unsigned find_seeds(const struct solving *s, double scale, double seeds[][3], unsigned most)
+{
+	unsigned n = 0, n_walls = 0;
+	double (*sum)[7]; /* weight, place, normal */
+
+	for (size_t i = 0; i < s->n; i++)
+		n_walls = s->samples[i].wall >= n_walls ? s->samples[i].wall + 1 : n_walls;
+	sum = calloc(n_walls + 1, sizeof(*sum));
+	for (size_t i = 0; i < s->n && sum; i++) {
+		const struct sample *x = &s->samples[i];
+		double weight = fmax(0, x->rest[0]) + fmax(0, x->rest[1]) + fmax(0, x->rest[2]);
+
+		weight *= weight;
+		sum[x->wall][0] += weight;
+		for (int k = 0; k < 3; k++) {
+			sum[x->wall][1 + k] += weight * x->at[k];
+			sum[x->wall][4 + k] += weight * x->normal[k];
+		}
+	}
+	for (unsigned wall = 0; wall < SEEDS && sum && n_walls; wall++) {
+		unsigned best = 0;
+
+		for (unsigned i = 0; i < n_walls; i++)
+			best = sum[i][0] > sum[best][0] ? i : best;
+		if (!(sum[best][0] > 0))
+			break;
+		for (double height = 0.005 * scale; height < 0.2 * scale && n < most; height *= 1.7, n++)
+			for (int k = 0; k < 3; k++)
+				seeds[n][k] = sum[best][1 + k] / sum[best][0] + height * sum[best][4 + k] / sum[best][0];
+		sum[best][0] = 0;
+	}
+	free(sum);
+	return n;
+}
+
+/* One more light where it explains most. @return 1; 0: none explains enough */
+static int add_light(struct solving *s, double scale, unsigned char *sees)
+{
+	double seeds[SEEDS * 8][3], best = 0, before = squares_left(s), at[3] = { 0, 0, 0 };
+	unsigned n = find_seeds(s, scale, seeds, SEEDS * 8);
+	double value[SEEDS * 8];
+
+	for (unsigned i = 0; i < n; i++)
+		value[i] = explained(s, seeds[i], NULL, NULL);
+	for (unsigned rank = 0; rank < 3 && n; rank++) { /* the most promising ones are followed */
+		double place[3], found;
+		unsigned first = 0;
+
+		for (unsigned i = 0; i < n; i++)
+			first = value[i] > value[first] ? i : first;
+		memcpy(place, seeds[first], sizeof(place));
+		value[first] = -1;
+		found = search(s, place, 0.05 * scale, sees);
+		if (found > best) {
+			best = found;
+			memcpy(at, place, sizeof(at));
+		}
+	}
+	if (!(best * (double)s->step > 0.02 * before))
+		return 0;
+	memcpy(s->out->lights[s->out->n].at, at, sizeof(at));
+	light_samples(s, s->out->n++);
+	return 1;
+}
+
+/* Each light moves to where it explains best what the others leave. */
+static void polish(struct solving *s, double scale, unsigned char *sees)
+{
+	for (int round = 0; round < ROUNDS; round++)
+		for (unsigned j = 0; j < s->out->n; j++) {
+			leave_rest(s, j);
+			search(s, s->out->lights[j].at, 0.01 * scale, sees);
+			light_samples(s, j);
+			fit_strengths(s);
+		}
+}
+
+/* Lights that explain next to nothing go. */
+static void prune(struct solving *s)
+{
+	double all = 0;
+
+	leave_rest(s, SOLVE_MOST_LIGHTS);
+	all = squares_left(s);
+	for (unsigned j = s->out->n; j-- > 0;) {
+		struct solved_light *l = &s->out->lights[j];
+		double without;
+
+		leave_rest(s, j);
+		without = squares_left(s);
+		l->share = without > 0 ? 1 - all / without : 0;
+		if (l->color[0] + l->color[1] + l->color[2] > 0 && l->share > 0.05)
+			continue;
+		s->out->n--;
+		memmove(l, l + 1, (s->out->n - j) * sizeof(*l));
+		for (size_t i = 0; i < s->n; i++)
+			memmove(&s->samples[i].gain[j], &s->samples[i].gain[j + 1], (s->out->n - j) * sizeof(double));
+		fit_strengths(s);
+		leave_rest(s, SOLVE_MOST_LIGHTS);
+		all = squares_left(s);
+	}
+	leave_rest(s, SOLVE_MOST_LIGHTS);
+}
+
+static double extent_of(const struct lightmaps *maps)
+{
+	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, most = 0;
+
+	for (size_t i = 0; i < maps->n; i++)
+		for (int k = 0; k < 3; k++) {
+			low[k] = fmin(low[k], maps->texels[i].at[k]);
+			high[k] = fmax(high[k], maps->texels[i].at[k]);
+		}
+	for (int k = 0; k < 3; k++)
+		most = fmax(most, high[k] - low[k]);
+	return most;
+}
+
+int solve_lights(struct lightmaps *maps, struct solved *out)
+{
+	struct solving s = { .walls = &maps->walls, .out = out };
+	size_t every = maps->n / MOST_SAMPLES + 1;
+	unsigned char *sees = calloc(maps->n + 1, 1);
+	double scale = extent_of(maps), dark[3] = { 1, 1, 1 };
+	int err = occluders_build(&maps->walls);
+
+	*out = (struct solved){ .n = 0 };
+	s.samples = calloc(maps->n / every + 1, sizeof(*s.samples));
+	if (!s.samples || !sees || err) {
+		free(s.samples);
+		free(sees);
+		return err ? err : err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	for (size_t i = 0; i < maps->n; i += every, s.n++) {
+		struct sample *x = &s.samples[s.n];
+
+		memcpy(x->at, maps->texels[i].at, sizeof(x->at));
+		memcpy(x->normal, maps->texels[i].normal, sizeof(x->normal));
+		memcpy(x->light, maps->texels[i].light, sizeof(x->light));
+		x->wall = maps->texels[i].wall;
+		for (int c = 0; c < 3; c++)
+			dark[c] = fmin(dark[c], x->light[c]);
+	}
+	s.step = s.n / SEARCH_SAMPLES + 1;
+	memcpy(out->ambient, dark, sizeof(dark));
+	leave_rest(&s, SOLVE_MOST_LIGHTS);
+	out->signal = sqrt(squares_left(&s) / (3.0 * (double)s.n + 1));
+	while (s.n && out->n < SOLVE_MOST_LIGHTS && sqrt(squares_left(&s) / (3.0 * (double)s.n)) > 1.0 / 255 && add_light(&s, scale, sees)) {
+		fit_strengths(&s);
+		polish(&s, scale, sees);
+		leave_rest(&s, SOLVE_MOST_LIGHTS);
+	}
+	prune(&s);
+	out->residual = sqrt(squares_left(&s) / (3.0 * (double)s.n + 1));
+	out->texels = s.n;
+	free(s.samples);
+	free(sees);
+	return 0;
+}

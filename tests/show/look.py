@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""tests/show/look.py BUILD (as `make show-look`): what `relume look` finds in levels of corpus/rooms with lightmaps whose lights are known,
+and in corpus/tricks: how many lights, how far off, and what it costs."""
+import json
+import math
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+LEVELS = 20
+PLACE, STRENGTH, TRICK = 0.02, 0.1, 0.001
+
+
+def numbers(text, key):
+    found = re.search(rf"^ +{key}: \[([^]]*)\]", text, re.M)
+    return [float(x) for x in found[1].split(",")] if found else None
+
+
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+
+
+def solved_lights(text):
+    """[(position, colour)] of lights that come of lightmaps, and the ambient light."""
+    rules = re.split(r"^  - ", text.partition("\nlights:")[2].partition("\nworld:")[0], flags=re.M)
+    lights = [(numbers(r, "position")[:3], numbers(r, "diffuse")) for r in rules if r.startswith("role: light of lightmaps")]
+    ambient = [numbers(r, "ambient") for r in rules if r.startswith("role: ambient light of lightmaps")]
+    return lights, ambient[0] if ambient else None
+
+
+def into_world(truth, position):
+    """A place of the level in world space, the eye space of the first frame: moved to the start, turned by its yaw."""
+    turned, start = math.radians(truth["start_yaw"]), truth["start"]
+    x, y, z = (p - s for p, s in zip(position, start))
+    return [math.cos(turned) * x + math.sin(turned) * z, y, -math.sin(turned) * x + math.cos(turned) * z]
+
+
+def compare_lights(truth, text):
+    """Pair found lights with true ones, nearest first: how many, how far off as shares of the level's size and of their strength."""
+    lights, ambient = solved_lights(text)
+    left, found, off, strength_off = list(lights), 0, 0.0, 0.0
+    for light in truth["lights"]:
+        place = into_world(truth, light["position"])
+        best = min(left, key=lambda l: distance(l[0], place), default=None)
+        if best is None or distance(best[0], place) > PLACE * truth["size"]:
+            continue
+        left.remove(best)
+        found += 1
+        off = max(off, distance(best[0], place) / truth["size"])
+        strength_off = max(strength_off, *(abs(a - b) / b for a, b in zip(best[1], light["color"])))
+    ambient_off = max(abs(a - truth["ambient"]) for a in ambient) / truth["ambient"] if ambient else 1.0
+    return {"found": found, "missed": len(truth["lights"]) - found, "invented": len(left), "off": off, "strength_off": strength_off,
+            "ambient_off": ambient_off}
+
+
+def run(*args):
+    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+
+def study(build, work, program, *options):
+    """Record a program and study it: the rules, and processor seconds of the study."""
+    trace, rules = work / "x.trace", work / "x.look.yaml"
+    for old in work.glob("x.*"):
+        old.unlink()
+    done = run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options)
+    if done.returncode:
+        sys.exit(done.stderr)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = run(build / "relume", "look", trace, "-o", rules)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return rules.read_text(), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main(build):
+    rows, bad = [], 0
+
+    def row(what, figure, bar, passed):
+        nonlocal bad
+        bad += passed is False
+        rows.append({"what": what, "figure": figure, "bar": bar, "peer": None, "passed": passed})
+        print(f"{what}: {figure}" + (f" (bar: {bar})" if bar else ""), flush=True)
+
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        for lighting in ("multitexture", "pass"):
+            scores, seconds = [], 0.0
+            for seed in range(LEVELS):
+                truth = work / "truth.json"
+                text, took = study(build, work, "rooms", "--seed", seed, "--lights", 1 + seed % 6, "--frames", 2, "--animate", "camera",
+                                   "--lighting", lighting, "--truth", truth)
+                scores.append(compare_lights(json.loads(truth.read_text()), text))
+                seconds += took
+            total = {key: sum(s[key] for s in scores) for key in ("found", "missed", "invented")}
+            row(f"{lighting}: lights of {LEVELS} levels found, missed, invented", ", ".join(str(n) for n in total.values()), "none missed or invented",
+                not total["missed"] and not total["invented"])
+            row(f"{lighting}: farthest off, of the level's size", f"{max(s['off'] for s in scores):.4f}", PLACE, max(s["off"] for s in scores) <= PLACE)
+            row(f"{lighting}: strength off at most", f"{max(s['strength_off'] for s in scores):.4f}", STRENGTH,
+                max(s["strength_off"] for s in scores) <= STRENGTH)
+            row(f"{lighting}: processor seconds of a study", f"{seconds / LEVELS:.2f}", None, None)
+        for kind, key, true in (("planar", "position", (2, 2.5, -7, 1)), ("zpass", "position", (2, 2.5, -7, 1)), ("zfail", "position", (2, 2.5, -7, 1)),
+                                ("directional", "position", (0.4364358, 0.8728716, 0.2182179, 0)), ("mirror", "plane", (0, 0, 1, 11))):
+            found = numbers(study(build, work, "tricks", kind, "--frames", 3)[0], key) or [1e9] * 4
+            off = distance(found, true) / distance(true, (0, 0, 0, 0))
+            row(f"tricks {kind}: {'plane' if key == 'plane' else 'light'} off by", f"{off:.2g}", TRICK, off <= TRICK)
+    (build / "show").mkdir(parents=True, exist_ok=True)
+    (build / "show/look.json").write_text(json.dumps({"name": "look", "command": "make show-look", "rows": rows}, indent=1))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
