@@ -227,7 +227,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
 SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-device-faults show-farm
+	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-devices show-device-faults show-farm
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
@@ -334,6 +334,15 @@ show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
 # Kernels built for this processor with the freedoms of OpenCL C, beside their C twins.
 show-host: all $(HELPERS) $(HOST_TESTS) $(BUILD)/tests/bench/tiny
 	@$(PYTHON) tests/check/test_host.py $(BUILD)
+
+# Every family of kernels on every OpenCL implementation for CPUs. Intel's comes from PyPI into a virtual environment of its own.
+DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
+$(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0
+	@touch $@
+
+show-devices: all $(HELPERS) $(BUILD)/show/devices/intel/ready
+	@$(PYTHON) -B tests/show/devices.py $(BUILD) $(ONLY:%=--only %)
 
 # Frame rates beside a thesis' figures, POV-Ray and Blender Cycles.
 DEPS_thesis := povray blender python3-numpy

@@ -1,0 +1,237 @@
+#!/usr/bin/python3
+"""tests/show/devices.py BUILD [--only PART]... (as `make show-devices`): the same pictures on every OpenCL implementation.
+
+Eight programs are recorded, rendered with each family of traversal kernels on PoCL and on Intel's runtime for CPUs, each compiling
+for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. The family of a line "no options" is
+what `relume render` takes there by itself. Times are processor time:
+
+  cold, warm  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels
+  slowest     the file of kernels that took longest to compile (tests/real/build_shim.c)
+  ms a frame  of each program: a run of several frames less one of a single frame
+
+Oclgrind interprets kernels and rusticl (Mesa's llvmpipe) is young: `relume devices --check` tells how far these come.
+Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only takes parts of implementations' names.
+"""
+import argparse
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import time
+
+import programs
+import recording
+import scoring
+from display import need_display
+
+FAMILIES = (None, "binary", "compressed")  # None: no options
+N_FRAMES = 3
+LIMIT_S = 900  # for one command
+CHECK_S = 60  # for a scene of --check
+COLD_S, WARM_S, FILE_S = 20, 0.2, 10  # bars: first frame, kept kernels, one file
+LIVE = ("glxgears", "neverball", "queens", "superquadrics")
+CORPUS = {"Cornell": ("cornell", "--animate", "camera"), "spheres": ("spheres", "--animate", "camera"),
+          "glass": ("still_life", "--animate", "camera"), "hall": ("hall", "--animate", "camera")}
+
+
+@dataclasses.dataclass
+class Implementation:
+    name: str
+    environment: dict
+    demanded: bool  # its bars count
+    preload: tuple = ()
+
+
+def has_avx512():
+    return re.search(r"^flags.* avx512f ", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE) is not None
+
+
+def vendor_folder(folder, library):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "only.icd").write_text(f"{library}\n")
+    return {"OCL_ICD_VENDORS": str(folder), "OPENCL_VENDOR_PATH": str(folder)}
+
+
+def intel_environment(base):
+    """Intel's runtime out of its virtual environment, without the loader that comes with it."""
+    libraries = base / "intel-lib"
+    libraries.mkdir(exist_ok=True)
+    for file in (base / "intel" / "lib").iterdir():
+        if "libOpenCL" not in file.name and not file.is_dir() and not (libraries / file.name).exists():
+            (libraries / file.name).symlink_to(file)
+    return {**vendor_folder(base / "vendors-intel", libraries / "libintelocl.so"), "LD_LIBRARY_PATH": str(libraries)}
+
+
+def implementations(build, base):
+    pocl = vendor_folder(base / "vendors-pocl", pathlib.Path("/etc/OpenCL/vendors/pocl.icd").read_text().strip())
+    intel, shim = intel_environment(base), (str(build / "tests/real/avx2_shim.so"),)
+    wide = has_avx512()
+    if wide:
+        yield Implementation("Intel, AVX-512", {**intel, "CL_CONFIG_CPU_TARGET_ARCH": "skx"}, True)
+    yield Implementation("Intel, AVX2", {**intel, "CL_CONFIG_CPU_TARGET_ARCH": "core-avx2"}, True)
+    if wide:
+        yield Implementation("PoCL, AVX-512", pocl, True)
+    yield Implementation("PoCL, AVX2", pocl, True, shim if wide else ())
+    yield Implementation("Oclgrind", {**vendor_folder(base / "vendors-oclgrind", "/usr/lib/oclgrind/liboclgrind-rt-icd.so"),
+                                      "OCLGRIND_BUILD_OPTIONS": "-cl-opt-disable -D LANES_PORTABLE"}, False)
+    yield Implementation("rusticl", {**vendor_folder(base / "vendors-rusticl", "libRusticlOpenCL.so.1"), "RUSTICL_ENABLE": "llvmpipe"}, False)
+
+
+class Runner:
+    """Runs the command on one implementation, with caches of its own."""
+
+    def __init__(self, build, base, implementation, family):
+        self.relume, self.implementation, self.family = build / "relume", implementation, family
+        self.folder = base / re.sub(r"\W+", "_", f"{implementation.name}_{family or 'default'}")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+        self.log = self.folder / "builds"
+        self.environment = dict(os.environ, **implementation.environment, BUILD_LOG=str(self.log), XDG_CACHE_HOME=str(self.folder / "cache"),
+                                POCL_CACHE_DIR=str(self.folder / "pocl"),
+                                LD_PRELOAD=":".join((str(build / "tests/real/build_shim.so"), *implementation.preload)))
+
+    def run(self, *command):
+        """Exit code, output and processor time."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        try:
+            done = subprocess.run([str(a) for a in command], env=self.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                  errors="replace", timeout=LIMIT_S, check=False)
+            code, out, err = done.returncode, done.stdout, done.stderr
+        except subprocess.TimeoutExpired:
+            code, out, err = 124, "", f"not done in {LIMIT_S} s"
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return code, out, err, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    def render(self, trace, frames, name="x"):
+        """Exit code, what was said last, processor time; {kernels: (how, seconds)} of what was built."""
+        self.log.unlink(missing_ok=True)
+        pictures = self.folder / name
+        shutil.rmtree(pictures, ignore_errors=True)
+        code, _, err, cpu_s = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "none", "-o",
+                                       pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()))
+        built = {}
+        for line in self.log.read_text().splitlines() if self.log.exists() else ():
+            how, seconds, kernels = (line + " ").split(" ", 2)
+            built[kernels.strip()] = (how, float(seconds))
+        return code, (err.splitlines() or [""])[-1][:120], cpu_s, built
+
+    def score(self, reference, frames, name="x"):
+        """The gates that frames do not pass; "" where they pass all."""
+        try:
+            scored = json.loads(self.run(self.relume, "diff", reference, self.folder / name, "-f", ",".join(map(str, frames)), "--json", "-")[1])
+        except ValueError:
+            return "not scored"
+        missed = sorted({gate for frame in scored["frames"] for gate in scoring.missed_gates(frame, scoring.GATES)})
+        return ", ".join(missed) if len(scored["frames"]) == len(frames) else "frames are missing"
+
+
+def show_family(build, base, implementation, family, recordings):
+    runner = Runner(build, base, implementation, family)
+    what = f"{implementation.name}, {family or 'no options'}"
+    rows = []
+
+    def row(text, figure, bar, passed):
+        rows.append({"what": f"{what}: {text}", "figure": figure, "bar": bar if implementation.demanded else None, "peer": None,
+                     "passed": passed if implementation.demanded and bar else None})
+        print(f"{rows[-1]['what']}: {figure}" + (f" (bar: {bar})" if rows[-1]["bar"] else ""), flush=True)
+
+    cornell = recordings["Cornell"]
+    code, said, cold_s, built = runner.render(cornell.trace, cornell.references[:1])
+    if code:
+        row("first frame of the Cornell box", f"exit code {code}: {said}", f"at most {COLD_S} s", False)
+        return rows
+    _, _, warm_s, found = runner.render(cornell.trace, cornell.references[:1])
+    kernels_s, kept_s = sum(s for _, s in built.values()), sum(s for _, s in found.values())
+    slowest = max(built, key=lambda k: built[k][1])
+    intel = "Intel" in implementation.name
+    row("first frame from an empty cache", f"{cold_s:.1f} s, kernels {kernels_s:.1f} s", f"at most {COLD_S} s" if intel and not family else None,
+        cold_s <= COLD_S)
+    row("the same again", f"{warm_s:.2f} s, kernels {kept_s:.2f} s", f"kernels at most {WARM_S} s" if intel else None, kept_s <= WARM_S)
+    row("the file that takes longest to compile", f"{built[slowest][1]:.1f} s ({slowest.split(';')[0]})", f"at most {FILE_S} s",
+        built[slowest][1] <= FILE_S)
+    passed, missed, speeds = 0, [], []
+    for name, done in recordings.items():
+        if done is None:
+            missed.append(f"{name}: not recorded")
+            continue
+        frames = done.references[-N_FRAMES:]
+        runner.render(done.trace, frames[:1])  # trees and indices are kept from now on
+        code, said, one_s, _ = runner.render(done.trace, frames[:1])
+        if not code and len(frames) > 1:
+            code, said, all_s, _ = runner.render(done.trace, frames)
+            speeds.append(f"{name} {1e3 * max(0, all_s - one_s) / (len(frames) - 1):.0f}")
+        bad = f"exit code {code}: {said}" if code else runner.score(done.reference, frames)
+        passed += not bad
+        missed += [f"{name}: {bad}"] if bad else []
+    row("programs that pass all gates", f"{passed} of {len(recordings)}" + "".join(f"; {m}" for m in missed),
+        f"{len(recordings)} of {len(recordings)}", passed == len(recordings))
+    row("ms a frame", ", ".join(speeds), None, None)
+    return rows
+
+
+def show_checked(build, base, implementation):
+    """How far an implementation comes that is too slow for whole frames."""
+    runner = Runner(build, base, implementation, None)
+    code, out, err, _ = runner.run(build / "relume", "devices", "--check", "--json", "--timeout", CHECK_S)
+    try:
+        devices = json.loads(out)
+    except ValueError:
+        devices = []
+    rows = []
+    for device in devices:
+        for family in device["families"]:
+            scenes = ", ".join(f"{scene} {state}" for scene, state in family["scenes"].items())
+            rows.append({"what": f"{implementation.name}, {family['kernels']}: relume devices --check, {CHECK_S} s a scene", "figure": scenes,
+                         "bar": None, "peer": None, "passed": None})
+    if not rows:
+        rows.append({"what": f"{implementation.name}: relume devices --check", "figure": f"exit code {code}: {err.strip()[-100:]}", "bar": None,
+                     "peer": None, "passed": None})
+    for row in rows:
+        print(f"{row['what']}: {row['figure']}", flush=True)
+    return rows
+
+
+def record_all(build):
+    """{name: recording}, or None in the place of one that cannot be made."""
+    listed = [programs.Program(name, "", (str(build / "corpus" / command[0]), *command[1:], "--frames", "8"), ref_every=1)
+              for name, command in CORPUS.items()]
+    listed += [program for program in programs.OPEN if program.name in LIVE]
+    recordings = {}
+    for program in listed:
+        done = recording.record(build / "relume", program, build / "show" / "parity" / program.name)
+        recordings[program.name] = done if done.trace and done.references else None
+    return recordings
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only", action="append", default=[], help="part of an implementation's name")
+    options = parser.parse_args()
+    need_display()
+    build = options.build.resolve()
+    base = build / "show" / "devices"
+    base.mkdir(parents=True, exist_ok=True)
+    recordings, rows = record_all(build), []
+    for implementation in implementations(build, base):
+        if options.only and not any(part in implementation.name for part in options.only):
+            continue
+        begin = time.monotonic()
+        if implementation.demanded:
+            for family in FAMILIES:
+                rows += show_family(build, base, implementation, family, recordings)
+        else:
+            rows += show_checked(build, base, implementation)
+        print(f"({implementation.name}: {time.monotonic() - begin:.0f} s)", flush=True)
+    if not options.only:
+        (build / "show" / "devices.json").write_text(json.dumps({"name": "devices", "command": "make show-devices", "rows": rows}, indent=1) + "\n")
+    return 1 if any(row["passed"] is False for row in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
