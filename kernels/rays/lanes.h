@@ -27,20 +27,24 @@
 #endif
 #endif
 
-/* LANES_PORTABLE: for interpreters of kernels, which know the language and no compiler's own functions. */
-#if defined(__has_builtin) && !defined(LANES_PORTABLE)
-#if __has_builtin(__builtin_reduce_or)
-#define LANES_REDUCE 1
+/*
+ * Functions of the compiler's own, where it takes what Clang's language offers: PoCL's compiles for a processor, Intel's says SPIR. Others
+ * translate and fail (rusticl 22.3: "Unexpected llvm intrinsic: llvm.prefetch"). LANES_PORTABLE: for interpreters of kernels.
+ */
+#if defined(__has_builtin) && !defined(LANES_PORTABLE) && (defined(__x86_64__) || defined(__aarch64__) || defined(__SPIR__))
+#define LANES_OWN(function) __has_builtin(function)
+#else
+#define LANES_OWN(function) 0
 #endif
+
+#if LANES_OWN(__builtin_reduce_or)
+#define LANES_REDUCE 1
 #endif
 
 /* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL leaves it out. */
-#if defined(__has_builtin) && !defined(LANES_PORTABLE)
-#if __has_builtin(__builtin_prefetch)
+#if LANES_OWN(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
-#endif
-#endif
-#ifndef PREFETCH
+#else
 #define PREFETCH(p)
 #endif
 
