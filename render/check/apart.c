@@ -29,6 +29,22 @@ void apart_free(void *memory, size_t bytes)
 		munmap(memory, bytes);
 }
 
+/* Whether a process holds more than half of the machine's memory: some compilers of kernels take all of it. */
+static int is_greedy(pid_t process)
+{
+	char path[64];
+	long pages = 0;
+	FILE *file;
+
+	snprintf(path, sizeof(path), "/proc/%ld/statm", (long)process);
+	file = fopen(path, "re");
+	if (!file || fscanf(file, "%*d %ld", &pages) != 1)
+		pages = 0;
+	if (file)
+		fclose(file);
+	return pages > sysconf(_SC_PHYS_PAGES) / 2;
+}
+
 enum apart_end apart_run(void (*function)(void *user), void *user, const volatile int *step, double seconds)
 {
 	double end_s = progress_clock_s() + seconds;
@@ -52,7 +68,7 @@ enum apart_end apart_run(void (*function)(void *user), void *user, const volatil
 			before = *step;
 			end_s = progress_clock_s() + seconds;
 		}
-		if (progress_clock_s() > end_s) {
+		if (progress_clock_s() > end_s || is_greedy(child)) {
 			kill(child, SIGKILL);
 			waitpid(child, &status, 0);
 			return APART_LATE;
