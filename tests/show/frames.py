@@ -24,7 +24,7 @@ FEW, MANY = 2, 12
 ROUNDS = 3
 SCENES = ("cornell", "spheres", "hall", "still_life")
 HACKS = {"superquadrics": ["/usr/libexec/xscreensaver/superquadrics", "-geometry", "640x480"], "glxgears": ["glxgears", "-geometry", "800x600"]}
-TRACES = {"neverball": 100, "openarena": 100}  # recordings of ../shared/traces and where in them play is under way
+TRACES = {"neverball": 8, "openarena": 8}  # recordings of ../shared/traces, and the first frame of those that are compared
 SIZES = ("800x600", "1920x1080", "3840x2160")
 BARS = {"whole": 3, "raster": 1.0, "whitted": 0.5, "cores": 0.95, "memory": 1.5, "start": 0.25, "pixels": 1.2}
 
