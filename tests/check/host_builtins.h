@@ -235,6 +235,7 @@ HOST_OVER uint clz(uint x)
 	HOST_OVER T##n fmin(T##n x, T##n y) HOST_LANES(T, n, fmin(x[i], y[i])) \
 	HOST_OVER T##n fmax(T##n x, T##n y) HOST_LANES(T, n, fmax(x[i], y[i])) \
 	HOST_OVER int##n isfinite(T##n x) HOST_LANES(int, n, -isfinite(x[i])) \
+	HOST_OVER int##n isnan(T##n x) HOST_LANES(int, n, -(x[i] != x[i])) \
 	HOST_OVER T##n select(T##n x, T##n y, int##n which) HOST_LANES(T, n, which[i] < 0 ? y[i] : x[i]) \
 	HOST_OVER T##n select(T##n x, T##n y, uint##n which) HOST_LANES(T, n, which[i] >> 31 ? y[i] : x[i]) \
 	HOST_OVER T##n convert_float##n(int##n x) HOST_LANES(T, n, (float)x[i]) \
@@ -274,6 +275,7 @@ HOST_WIDTHS(HOST_INTEGERS, uint)
 #define HOST_CONVERSIONS(T, n) \
 	HOST_OVER int##n convert_int##n(T##n x) HOST_LANES(int, n, (int)x[i]) \
 	HOST_OVER uint##n convert_uint##n(T##n x) HOST_LANES(uint, n, (uint)x[i]) \
+	HOST_OVER ushort##n convert_ushort##n(T##n x) HOST_LANES(ushort, n, (ushort)x[i]) \
 	HOST_OVER long##n convert_long##n(T##n x) HOST_LANES(long, n, (long)x[i])
 HOST_WIDTHS(HOST_CONVERSIONS, float)
 HOST_WIDTHS(HOST_CONVERSIONS, int)
@@ -327,6 +329,9 @@ HOST_WIDTHS(HOST_TRUTH, int)
 #define as_int16(x) __builtin_astype((x), int16)
 #define as_uint16(x) __builtin_astype((x), uint16)
 #define as_float16(x) __builtin_astype((x), float16)
+#define as_ushort8(x) __builtin_astype((x), ushort8)
+#define as_short16(x) __builtin_astype((x), short16)
+#define as_ushort16(x) __builtin_astype((x), ushort16)
 
 /* --- Starting kernels ---------------------------------------------------------------------------------------------- */
 
