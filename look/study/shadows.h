@@ -9,5 +9,5 @@
 
 struct pairs;
 
-/** @return 0 or ERR_SYSTEM (reported) */
+/** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */
 int shadows_add(struct tricks *t, const struct scene *scene, const struct motion *motion);

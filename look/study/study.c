@@ -5,9 +5,12 @@
 #include "base/err.h"
 #include "look/study/findings.h"
 #include "look/study/lightmaps.h"
+#include "look/study/mirrors.h"
 #include "look/study/motion.h"
+#include "look/study/shadows.h"
 #include "look/study/solve.h"
 #include "look/study/tricks.h"
+#include "look/study/volumes.h"
 #include "look/study/world.h"
 
 struct study {
@@ -43,7 +46,11 @@ int study_add(struct study *study, const struct scene *scene)
 	int err = motion_add(&study->motion, scene);
 
 	if (!err)
-		err = tricks_add(&study->tricks, scene, &study->motion);
+		err = shadows_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		err = mirrors_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		err = volumes_add(&study->tricks, scene, &study->motion);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
 }
 

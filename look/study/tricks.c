@@ -5,9 +5,6 @@
 
 #include "look/modelview.h"
 #include "look/study/matrix.h"
-#include "look/study/mirrors.h"
-#include "look/study/shadows.h"
-#include "look/study/volumes.h"
 
 /* The same light or plane, said twice: lights of one level are farther from each other. */
 #define SAME 0.01
@@ -124,13 +121,4 @@ int tricks_opengl_lights(const struct scene *s, const double light[4], const dou
 		lit += (uint32_t)is_lit_from(s, m, light);
 	}
 	return 2 * lit > all;
-}
-
-int tricks_add(struct tricks *t, const struct scene *scene, const struct motion *motion)
-{
-	int err = shadows_add(t, scene, motion);
-
-	if (!err)
-		err = mirrors_add(t, scene, motion);
-	return err ? err : volumes_add(t, scene, motion);
 }

@@ -34,10 +34,7 @@ struct tricks {
 	unsigned darkenings; /* draws that darken where the stencil buffer says so, in frames with shadow volumes */
 };
 
-/** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */
-int tricks_add(struct tricks *t, const struct scene *scene, const struct motion *motion);
-
-/** A finding to be noted, or added to what it equals. For shadows.c, mirrors.c and volumes.c. @return NULL: there are too many */
+/** A finding to be noted, or added to what it equals. @return NULL: there are too many */
 struct trick_found *tricks_note(struct tricks *t, const struct trick_found *what, uint64_t frame);
 
 /**

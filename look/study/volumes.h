@@ -6,5 +6,5 @@
 
 #include "look/study/tricks.h"
 
-/** @return 0 or ERR_SYSTEM (reported) */
+/** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */
 int volumes_add(struct tricks *t, const struct scene *scene, const struct motion *motion);
