@@ -45,7 +45,7 @@
 #if LANES_OWN(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
 #else
-#define PREFETCH(p)
+#define PREFETCH(p) ((void)(p))
 #endif
 
 /* One bit a lane. */
