@@ -36,7 +36,8 @@ def sheet(frames, out):
 
 
 def gate(build, trace, folder):
-    frame = json.loads(run(build / "relume", "diff", trace, folder, "--json", "-"))["frames"][0]
+    scored = json.loads(run(build / "relume", "diff", trace, folder, "--json", "-"))["frames"]
+    frame = next(f for f in scored if f["frame"] == FRAME)
     return frame["gates"]["N"]["state"], frame["gates"]["R1"]["state"]
 
 
