@@ -151,8 +151,11 @@ START_TEST(test_programs_are_kept)
 	ck_assert_uint_eq(run_kept(folder, 0), 0); /* PoCL keeps its own */
 	ck_assert_int_eq(the_file(folder, path, sizeof(path)), -1);
 	ck_assert_uint_eq(run_kept(folder, 1), 0);
+	/* PoCL's binary grows once its own cache holds the kernels that ran: the size is that of a second compilation. */
+	ck_assert_int_gt(the_file(folder, path, sizeof(path)), 1000);
+	ck_assert_int_eq(unlink(path), 0);
+	ck_assert_uint_eq(run_kept(folder, 1), 0);
 	size = the_file(folder, path, sizeof(path));
-	ck_assert_int_gt(size, 1000);
 	ck_assert_uint_eq(run_kept(folder, 1), 1);
 	/* Damaged in its content, in its key, and cut: found out each time, and put right. */
 	for (int damage = 0; damage < 3; damage++) {
