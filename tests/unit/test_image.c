@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "tests/case.h"
+#include "tracer/image/exr_pack.h"
 #include "tracer/image/image.h"
 
 static char folder[] = "/tmp/test_image.XXXXXX";
@@ -114,6 +115,45 @@ START_TEST(test_same_bytes)
 	ck_assert_mem_eq(a, b, (size_t)n1);
 	free(a);
 	free(b);
+	image_free(&img);
+}
+END_TEST
+
+/* Fill the stack that the next call uses. */
+__attribute__((noinline)) static void dirty_stack(uint16_t value)
+{
+	volatile uint16_t stack[200000];
+
+	for (size_t i = 0; i < sizeof(stack) / sizeof(stack[0]); i++)
+		stack[i] = value;
+}
+
+/* What memory held before changes no byte of a chunk. */
+START_TEST(test_dirty_stack)
+{
+	const uint32_t width = 640;
+	struct image img = make_image(width, 16);
+	struct exr_plane planes[] = { { NULL, img.channels[0].values, 0 }, { NULL, img.channels[1].values, 1 } };
+	struct exr_rows rows = { planes, 2, width, 0, 16 };
+	struct exr_packer packer = { 0 };
+	uint32_t seed = 1;
+	uint8_t *first;
+	size_t n;
+
+	for (size_t i = 0; i < (size_t)width * 16; i++) /* few values: matches are found at every distance */
+		img.channels[1].values[i] = roundf(4 * noise(&seed));
+	ck_assert_int_eq(exr_pack(&packer, &rows), 0);
+	n = packer.n_packed;
+	first = malloc(n);
+	memcpy(first, packer.packed, n);
+	for (uint16_t value = 0; value < 256; value++) {
+		dirty_stack(value);
+		ck_assert_int_eq(exr_pack(&packer, &rows), 0);
+		ck_assert_uint_eq(packer.n_packed, n);
+		ck_assert_mem_eq(packer.packed, first, n);
+	}
+	free(first);
+	exr_packer_free(&packer);
 	image_free(&img);
 }
 END_TEST
@@ -233,6 +273,7 @@ int main(void)
 	tcase_add_test(tests, test_round_trip);
 	tcase_add_test(tests, test_every_small_size);
 	tcase_add_test(tests, test_same_bytes);
+	tcase_add_test(tests, test_dirty_stack);
 	tcase_add_test(tests, test_bands);
 	tcase_add_test(tests, test_half_rounds_to_nearest_even);
 	tcase_add_test(tests, test_cut_file);

@@ -138,7 +138,7 @@ static size_t store(const struct exr_rows *r, uint8_t *out, uint16_t *room)
 /* @return bytes, or 0: they would be no fewer */
 static size_t deflate_bytes(uint8_t *in, size_t n, uint8_t *tables, uint8_t *out)
 {
-	struct isal_zstream z;
+	struct isal_zstream z = { 0 }; /* isal_deflate_stateless_init() leaves hist_bits as it is: any window, so other bytes */
 
 	isal_deflate_stateless_init(&z);
 	z.level = LEVEL;
