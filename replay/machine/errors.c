@@ -50,6 +50,17 @@ void *gls_scratch(struct gls_exec *x, size_t n)
 	return x->scratch.bytes;
 }
 
+void *gls_object_create(struct gls_exec *x, struct table *t, uint64_t name, size_t n)
+{
+	void *object = calloc(1, n);
+
+	if (object && !table_set(t, name, object))
+		return object;
+	free(object);
+	gls_out_of_memory(x, n);
+	return NULL;
+}
+
 int gls_is_beyond_measure(struct gls_exec *x, uint64_t n, const char *why)
 {
 	uint64_t most = REPEATED + REPEATED_A_CALL * x->call->number;

@@ -7,6 +7,7 @@
 
 struct gls_exec;
 struct gls_state;
+struct table;
 
 /** The program made a GL error in the current call. The handler changes nothing else. */
 void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error);
@@ -24,6 +25,8 @@ void gls_unsupported(struct gls_exec *x, const char *why);
 
 /** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported). */
 void *gls_scratch(struct gls_exec *x, size_t n);
+/** An object of n bytes, all zero, under its name in a table, which owns it. @return NULL: out of memory (reported) */
+void *gls_object_create(struct gls_exec *x, struct table *t, uint64_t name, size_t n);
 /** Report that memory is short. The replay ends after this call. */
 void gls_out_of_memory(struct gls_exec *x, size_t bytes);
 /** End the replay after this call, for a failure that is already reported. */

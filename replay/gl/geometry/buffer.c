@@ -16,13 +16,9 @@ static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, 
 
 	if (b || !name)
 		return b;
-	b = calloc(1, sizeof(*b));
-	if (!b || table_set(&st->share->buffers, name, b)) {
-		free(b);
-		gls_out_of_memory(x, sizeof(*b));
-		return NULL;
-	}
-	b->version = ++x->caches.versions;
+	b = gls_object_create(x, &st->share->buffers, name, sizeof(*b));
+	if (b)
+		b->version = ++x->caches.versions;
 	return b;
 }
 

@@ -36,13 +36,9 @@ static struct gls_vertex_array *find_or_make(struct gls_exec *x, struct gls_stat
 
 	if (object)
 		return object;
-	object = calloc(1, sizeof(*object));
-	if (!object || table_set(&st->vertex_arrays, name, object)) {
-		free(object);
-		gls_out_of_memory(x, sizeof(*object));
-		return NULL;
-	}
-	gls_arrays_init(object->arrays);
+	object = gls_object_create(x, &st->vertex_arrays, name, sizeof(*object));
+	if (object)
+		gls_arrays_init(object->arrays);
 	return object;
 }
 

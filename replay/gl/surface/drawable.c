@@ -1,7 +1,5 @@
 #include "replay/gl/surface/drawable.h"
 
-#include <stdlib.h>
-
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
@@ -11,12 +9,8 @@ struct gls_drawable *gls_drawable_of(struct gls_exec *x, uint64_t name)
 
 	if (d)
 		return d;
-	d = calloc(1, sizeof(*d));
-	if (!d || table_set(&x->drawables, name, d)) {
-		free(d);
-		gls_out_of_memory(x, sizeof(*d));
-		return NULL;
-	}
-	d->front.is_front = 1;
+	d = gls_object_create(x, &x->drawables, name, sizeof(*d));
+	if (d)
+		d->front.is_front = 1;
 	return d;
 }

@@ -158,12 +158,9 @@ static struct gls_framebuffer *find(struct gls_exec *x, struct gls_state *st, ui
 
 	if (fb)
 		return fb;
-	fb = calloc(1, sizeof(*fb));
-	if (!fb || table_set(&st->share->framebuffers, name, fb)) {
-		free(fb);
-		gls_out_of_memory(x, sizeof(*fb));
+	fb = gls_object_create(x, &st->share->framebuffers, name, sizeof(*fb));
+	if (!fb)
 		return NULL;
-	}
 	fb->draw_buffer = fb->read_buffer = name ? GL_COLOR_ATTACHMENT0 : GL_BACK;
 	fb->drawn_buffer = fb->draw_buffer;
 	return fb;
@@ -350,16 +347,9 @@ GLS_HANDLER(glFramebufferRenderbuffer, OBJECT) { attach(x, st, c, &(struct gls_a
 
 static void bind_renderbuffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
-	struct gls_renderbuffer *r;
-
 	st->renderbuffer = name;
-	if (!name || table_find(&st->share->renderbuffers, name))
-		return;
-	r = calloc(1, sizeof(*r));
-	if (!r || table_set(&st->share->renderbuffers, name, r)) {
-		free(r);
-		gls_out_of_memory(x, sizeof(*r));
-	}
+	if (name && !table_find(&st->share->renderbuffers, name))
+		gls_object_create(x, &st->share->renderbuffers, name, sizeof(struct gls_renderbuffer));
 }
 
 GLS_HANDLER(glBindRenderbuffer, NOW) { bind_renderbuffer(x, st, arg_u(c, 1)); }
