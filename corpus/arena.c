@@ -4,8 +4,6 @@
  *
  *   cc -o arena corpus/arena.c -lglut -lGLU -lGL -lm
  */
-#include <math.h>
-
 #include "program.h"
 
 static const float half_size = 10, height = 7;
@@ -36,10 +34,7 @@ static void init(void)
 	glEnable(GL_DEPTH_TEST);
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHT0);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(50, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.1, 60);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(50, 0.1, 60);
 }
 
 /** A wall of the arena from one corner of the floor to the next. */
@@ -82,21 +77,19 @@ static void draw_arena(void)
 
 static void draw_figure(void)
 {
-	static const float red[4] = { 0.9f, 0.3f, 0.15f, 1 }, pale[4] = { 0.85f, 0.8f, 0.7f, 1 };
-
-	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, red);
+	program_color(0.9f, 0.3f, 0.15f);
 	glPushMatrix();
 	glRotatef(-90, 1, 0, 0);
 	glutSolidCone(1.1, 2.6, 48, 16);
 	glPopMatrix();
-	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, pale);
+	program_color(0.85f, 0.8f, 0.7f);
 	glTranslatef(0, 2.7f, 0);
 	glutSolidSphere(0.75, 48, 32);
 }
 
 static void draw(void)
 {
-	float walk = program.animate_camera ? 0.1f * (float)program_frame : 0;
+	float walk = program_moved(program.animate_camera, 0.1f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();

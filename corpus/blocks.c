@@ -16,15 +16,7 @@ static void init(void)
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHTING);
 	glEnable(GL_LIGHT0);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(40, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 1, 50);
-	glMatrixMode(GL_MODELVIEW);
-}
-
-static void set_color(float red, float green, float blue)
-{
-	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
+	program_perspective(40, 1, 50);
 }
 
 /** A cube from -1 to 1 whose corners have one normal each, along the diagonals. */
@@ -57,22 +49,21 @@ static void draw_plate(void)
 
 static void draw(void)
 {
-	float turn = 0.05f * (float)program_frame;
-	float camera = program.animate_camera ? turn : 0, light = program.animate_light ? turn : 0;
+	float camera = program_moved(program.animate_camera, 0.05f), light = program_moved(program.animate_light, 0.05f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();
 	gluLookAt(9 * sinf(camera), 4, 9 * cosf(camera), 0, 0, 0, 0, 1, 0);
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ cosf(light), 0.5f, 0.35f + sinf(light), 0 });
-	set_color(0.7f, 0.7f, 0.7f);
+	program_color(0.7f, 0.7f, 0.7f);
 	draw_plate();
-	set_color(0.85f, 0.5f, 0.25f);
+	program_color(0.85f, 0.5f, 0.25f);
 	glTranslatef(-2.6f, 0, 0);
 	draw_block();
-	set_color(0.35f, 0.6f, 0.8f);
+	program_color(0.35f, 0.6f, 0.8f);
 	glTranslatef(2.6f, 0, 0.8f);
 	glutSolidSphere(1, 10, 6);
-	set_color(0.5f, 0.75f, 0.35f);
+	program_color(0.5f, 0.75f, 0.35f);
 	glTranslatef(2.6f, -1, -0.8f);
 	glRotatef(-90, 1, 0, 0);
 	glutSolidCone(1, 2, 7, 3);

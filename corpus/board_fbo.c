@@ -42,20 +42,12 @@ static void init(void)
 	make_target();
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHT0);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(40, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 1, 50);
-	glMatrixMode(GL_MODELVIEW);
-}
-
-static void set_color(float red, float green, float blue)
-{
-	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
+	program_perspective(40, 1, 50);
 }
 
 static void draw_board(void)
 {
-	float turn = program.animate_camera ? 0.05f * (float)program_frame : 0;
+	float turn = program_moved(program.animate_camera, 0.05f);
 
 	glClearColor(0.25f, 0.3f, 0.35f, 1);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -67,7 +59,7 @@ static void draw_board(void)
 	for (int i = 0; i < 64; i++) {
 		float x = (float)(i % 8) - 4, z = (float)(i / 8) - 4, shade = (i + i / 8) % 2 ? 0.85f : 0.35f;
 
-		set_color(shade, shade * 0.85f, shade * 0.65f);
+		program_color(shade, shade * 0.85f, shade * 0.65f);
 		glBegin(GL_QUADS);
 		glNormal3f(0, 1, 0);
 		glVertex3f(x, 0, z + 1);
@@ -79,7 +71,7 @@ static void draw_board(void)
 	for (int i = 0; i < 8; i++) {
 		glPushMatrix();
 		glTranslatef((float)(i * 3 % 8) - 3.5f, 0.4f, (float)i - 3.5f);
-		set_color(i % 2 ? 0.9f : 0.2f, i % 2 ? 0.85f : 0.15f, i % 2 ? 0.75f : 0.15f);
+		program_color(i % 2 ? 0.9f : 0.2f, i % 2 ? 0.85f : 0.15f, i % 2 ? 0.75f : 0.15f);
 		glutSolidSphere(0.4, 32, 24);
 		glPopMatrix();
 	}

@@ -23,10 +23,7 @@ static void init(void)
 	glEnable(GL_COLOR_MATERIAL);
 	glLightfv(GL_LIGHT0, GL_DIFFUSE, first);
 	glLightfv(GL_LIGHT1, GL_DIFFUSE, second);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(60, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.1, 50);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(60, 0.1, 50);
 }
 
 /** A wall by its corner and two edges; its front is where right x up points. */
@@ -69,7 +66,7 @@ static void draw_pillar(float x, float z)
 
 static void draw(void)
 {
-	float turn = program.animate_camera ? 0.03f * (float)program_frame : 0;
+	float turn = program_moved(program.animate_camera, 0.03f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();

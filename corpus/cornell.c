@@ -116,10 +116,7 @@ static void init(void)
 	glEnable(GL_LIGHT0);
 	glEnable(GL_COLOR_MATERIAL);
 	glLightfv(GL_LIGHT0, GL_AMBIENT, (const float[]){ 0.1f, 0.1f, 0.1f, 1 });
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(45, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.1, 20);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(45, 0.1, 20);
 }
 
 static void draw_model(void)

@@ -83,10 +83,7 @@ static void init(void)
 	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[]){ 0.25f, 0.3f, 0.4f, 1 });
 	glLightf(GL_LIGHT0, GL_LINEAR_ATTENUATION, 0.03f);
 	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ 1, 1, 1, 1 });
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(60, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.2, 100);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(60, 0.2, 100);
 }
 
 static void draw_part(enum part where)
@@ -105,8 +102,7 @@ static void draw_part(enum part where)
 
 static void draw(void)
 {
-	float time = 0.05f * (float)program_frame;
-	float walk = program.animate_camera ? time : 0, swing = program.animate_light ? time : 0;
+	float walk = program_moved(program.animate_camera, 0.05f), swing = program_moved(program.animate_light, 0.05f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();

@@ -18,15 +18,7 @@ static void init(void)
 	glEnable(GL_LIGHTING);
 	glEnable(GL_LIGHT0);
 	glEnable(GL_NORMALIZE);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(40, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 1, 50);
-	glMatrixMode(GL_MODELVIEW);
-}
-
-static void set_color(float red, float green, float blue)
-{
-	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
+	program_perspective(40, 1, 50);
 }
 
 /** The plate in pieces, so that lighting at its vertices varies across it. */
@@ -62,20 +54,19 @@ static void draw_model(void)
 
 static void draw(void)
 {
-	float turn = 0.05f * (float)program_frame;
-	float camera = program.animate_camera ? turn : 0, light = program.animate_light ? turn : 0;
+	float camera = program_moved(program.animate_camera, 0.05f), light = program_moved(program.animate_light, 0.05f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();
 	gluLookAt(8 * sinf(camera), 5, 8 * cosf(camera), 0, 0.5, 0, 0, 1, 0);
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ 5 * cosf(light) - 3, 7, 5 * sinf(light) + 4, 1 });
 
-	set_color(0.7f, 0.7f, 0.7f);
+	program_color(0.7f, 0.7f, 0.7f);
 	draw_plate();
-	set_color(0.3f, 0.4f, 0.8f);
+	program_color(0.3f, 0.4f, 0.8f);
 	glutSolidCube(2);
 	glTranslatef(0, 2, 0);
-	set_color(0.9f, 0.6f, 0.2f);
+	program_color(0.9f, 0.6f, 0.2f);
 	draw_model();
 }
 

@@ -116,3 +116,24 @@ static void program_run(int argc, char **argv, const char *title, void (*init)(v
 	glutDisplayFunc(program_display);
 	glutMainLoop();
 }
+
+/** A perspective projection that suits the window; the modelview matrix is current afterwards. */
+static inline void program_perspective(double fovy_deg, double near, double far)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	gluPerspective(fovy_deg, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, near, far);
+	glMatrixMode(GL_MODELVIEW);
+}
+
+/** The ambient and diffuse colour of both sides of what is drawn next. */
+static inline void program_color(float red, float green, float blue)
+{
+	glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
+}
+
+/** How far something has moved by this frame, at so much a frame; 0 where it stands still. */
+static inline float program_moved(int is_animated, float a_frame)
+{
+	return is_animated ? a_frame * (float)program_frame : 0;
+}

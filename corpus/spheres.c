@@ -42,10 +42,7 @@ static void init(void)
 	glEnable(GL_DEPTH_TEST);
 	glEnable(GL_LIGHTING);
 	glEnable(GL_LIGHT0);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(45, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.5, 60);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(45, 0.5, 60);
 }
 
 static void draw_sphere(float x, float y, float z, const float color[4])
@@ -78,8 +75,7 @@ static void draw_floor(void)
 
 static void draw(void)
 {
-	float turn = 0.05f * (float)program_frame;
-	float sway = program.animate_camera ? sinf(turn) : 0, light = program.animate_light ? turn : 0;
+	float sway = sinf(program_moved(program.animate_camera, 0.05f)), light = program_moved(program.animate_light, 0.05f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();

@@ -44,15 +44,7 @@ static void init(void)
 	glEnable(GL_LIGHT0);
 	glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
 	glAlphaFunc(GL_GEQUAL, 0.5f);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(45, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.5, 80);
-	glMatrixMode(GL_MODELVIEW);
-}
-
-static void set_color(float red, float green, float blue)
-{
-	glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, (const float[]){ red, green, blue, 1 });
+	program_perspective(45, 0.5, 80);
 }
 
 static void card(float x, float z, float across, float along)
@@ -70,7 +62,7 @@ static void card(float x, float z, float across, float along)
 
 static void draw_trees(void)
 {
-	set_color(1, 1, 1);
+	program_color(1, 1, 1);
 	glEnable(GL_TEXTURE_2D);
 	glEnable(GL_ALPHA_TEST);
 	glBegin(GL_QUADS);
@@ -88,7 +80,7 @@ static void draw_trees(void)
 
 static void draw_ground(void)
 {
-	set_color(0.75f, 0.8f, 0.65f);
+	program_color(0.75f, 0.8f, 0.65f);
 	glBegin(GL_QUADS);
 	glNormal3f(0, 1, 0);
 	glVertex3f(-25, 0, 15);
@@ -100,8 +92,7 @@ static void draw_ground(void)
 
 static void draw(void)
 {
-	float turn = 0.05f * (float)program_frame;
-	float camera = program.animate_camera ? turn : 0, light = program.animate_light ? turn : 0;
+	float camera = program_moved(program.animate_camera, 0.05f), light = program_moved(program.animate_light, 0.05f);
 
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();
@@ -109,7 +100,7 @@ static void draw(void)
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ cosf(light), 0.8f, 0.5f + sinf(light), 0 });
 	draw_ground();
 	draw_trees();
-	set_color(0.7f, 0.45f, 0.35f);
+	program_color(0.7f, 0.45f, 0.35f);
 	glTranslatef(3, 0.75f, 4);
 	glutSolidCube(1.5);
 }

@@ -261,10 +261,7 @@ static void init(void)
 	glEnable(GL_DEPTH_TEST);
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHT0);
-	glMatrixMode(GL_PROJECTION);
-	glLoadIdentity();
-	gluPerspective(45, (double)PROGRAM_WIDTH / PROGRAM_HEIGHT, 0.5, 60);
-	glMatrixMode(GL_MODELVIEW);
+	program_perspective(45, 0.5, 60);
 }
 
 int main(int argc, char **argv)
