@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The recorder's generated part: one thunk for every command of gl.xml, glx.xml and overlay.txt, and the names of enumerants.
+"""The recorder's generated part: one thunk for every command of gl.xml, glx.xml and overlay.txt's headers, and names of enumerants.
 
     gen.py OVERLAY OUTPUT-DIRECTORY
 
@@ -46,10 +46,10 @@ class Overlay:
         word, _, rest = line.partition(" ")
         rest = rest.strip()
         if word == "type":
-            fields = rest.split()
-            if len(fields) < 3:
-                self.fail(number, "type needs a name, a C type and a kind")
-            self.types[fields[0]] = (" ".join(fields[1:-1]), fields[-1])
+            match = re.fullmatch(r"(\w+) +(.*\S) *= *(\w[\w ]*)", rest)
+            if not match:
+                self.fail(number, "type needs a kind, a C type, '=' and names")
+            self.types.update((name, (match[2], match[1])) for name in match[3].split())
         elif word == "suffix":
             self.suffixes = rest.split()
         elif word == "len":
@@ -57,8 +57,9 @@ class Overlay:
             if not equals:
                 self.fail(number, "len needs ' = '")
             self.lengths[text.strip()] = expression.strip()
-        elif word == "command":
-            self.command(number, rest)
+        elif word == "header":
+            file, _, names = rest.partition(" ")
+            self.header(number, file, self.pattern(number, names.strip()))
         elif word in self.STATEMENTS:
             patterns, more = self.STATEMENTS[word]
             fields = rest.split(None, patterns) if more else [rest, ""]
@@ -74,20 +75,14 @@ class Overlay:
         except re.error as error:
             return self.fail(number, f"'{text}' is no regular expression: {error}")
 
-    def command(self, number, text):
-        match = re.fullmatch(r"(.+?[\s*])(\w+)\s*\((.*)\)", text)
-        if not match:
-            self.fail(number, "a command is RESULT NAME (PARAMS)")
-        params = []
-        for part in match.group(3).split(","):
-            part = part.strip()
-            if part == "void":
-                continue
-            param = re.fullmatch(r"(.+?[\s*])(\w+)", part)
-            if not param:
-                self.fail(number, f"'{part}' is no parameter")
-            params.append(registry.Param(param.group(2), re.sub(r"\s*\*\s*", " *", param.group(1)).strip()))
-        self.commands[match.group(2)] = registry.Command(match.group(2), match.group(1).strip(), params)
+    def header(self, number, file, names):
+        try:
+            found = {name: command for name, command in registry.read_header(file).items() if names.fullmatch(name)}
+        except OSError as error:
+            self.fail(number, error)
+        if not found:
+            self.fail(number, f"{file} has no such command")
+        self.commands.update(found)
 
     def check_used(self, commands):
         """Each line must match something: a misspelt name would otherwise be silent."""

@@ -1,4 +1,4 @@
-"""Khronos' XML registries (Debian package khronos-api) as plain Python objects, for the generators of capture/ and replay/.
+"""Khronos' XML registries (Debian package khronos-api) and headers as plain Python objects, for the generators of capture/ and replay/.
 
 Standard library only. Everything comes back in a fixed order, so that what is generated from it is the same each time.
 """
@@ -32,6 +32,11 @@ class Command:
     group: str = ""      # enum group of the result, if the registry names one
 
 
+def _plain(text):
+    """A C type with its spaces and stars written one way."""
+    return re.sub(r"\s*\*\s*", " *", re.sub(r"\s+", " ", text)).replace("* *", "**").strip()
+
+
 def _declaration(element):
     """The C type of a <proto> or <param>: all its text but the name."""
     text = element.text or ""
@@ -39,7 +44,7 @@ def _declaration(element):
         if child.tag != "name":
             text += child.text or ""
         text += child.tail or ""
-    return re.sub(r"\s*\*\s*", " *", re.sub(r"\s+", " ", text)).replace("* *", "**").strip()
+    return _plain(text)
 
 
 def read(file_name):
@@ -65,6 +70,17 @@ def read(file_name):
         if element.get("api") in (None, "gl") and not element.get("value").startswith('"'):
             enums[element.get("name")] = int(element.get("value"), 0)
     return dict(sorted(commands.items())), dict(sorted(enums.items()))
+
+
+def read_header(file_name):
+    """{name: Command} of a header's prototypes: "EGLAPI EGLint EGLAPIENTRY eglGetError (void);"."""
+    with open(f"/usr/include/{file_name}", encoding="utf-8") as stream:
+        text = re.sub(r"/\*.*?\*/", " ", stream.read(), flags=re.S)
+    commands = {}
+    for result, name, params in re.findall(r"\b(?:EGL|GL)API\s+([^;()]+?)\s*\b\w*APIENTRY\s+(\w+)\s*\(([^;]*?)\)\s*;", text):
+        declared = [re.fullmatch(r"\s*(.+?)(\w+)\s*", part, re.S) for part in params.split(",") if part.strip() != "void"]
+        commands[name] = Command(name, _plain(result), [Param(match[2], _plain(match[1])) for match in declared])
+    return commands
 
 
 @dataclass

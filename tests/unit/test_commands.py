@@ -73,7 +73,8 @@ class Commands(unittest.TestCase):
         for line, complaint in (("frobnicate glBegin", "there is no statement"), ("arg glBegin nothing opaque", "no command has"),
                                 ("when glBeginn 1", "no command has"), ("arg glBegin( mode opaque", "no regular expression"),
                                 ("len COMPSIZE(x)", "len needs"), ("type GLfoo", "type needs"), ("pass glBegin", "pass needs"),
-                                ("command nonsense", "a command is")):
+                                ("header EGL/egl.h eglNonsense", "no such command"),
+                                ("header EGL/none.h egl\\w+", "No such file")):
             with tempfile.TemporaryDirectory() as folder:
                 overlay = pathlib.Path(folder, "overlay.txt")
                 overlay.write_text(text + line + "\n")
