@@ -4,7 +4,9 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "base/verbs.h"
+#include "base/version.h"
 #include "diff/diff.h"
 #include "replay/draw_names.h"
 
@@ -48,6 +50,8 @@ static void print_help(FILE *out)
 		fprintf(out, "  %-9s %s\n", verbs[i].name, verbs[i].summary);
 	fputs("  help      this text, or 'relume help VERB' for a verb's own\n"
 	      "\n"
+	      "relume --version prints the version.\n"
+	      "\n"
 	      "Exit codes: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,\n"
 	      "4 baseline new or missing, 5 a device or the system failed.\n",
 	      out);
@@ -59,6 +63,16 @@ static const struct verb *find_verb(const char *name)
 		if (strcmp(verbs[i].name, name) == 0)
 			return &verbs[i];
 	return NULL;
+}
+
+static int refuse(const char *typed)
+{
+	struct nearest nearest = { .typed = typed };
+
+	for (size_t i = 0; i < sizeof(verbs) / sizeof(verbs[0]); i++)
+		nearest_try(&nearest, verbs[i].name);
+	return err_report(ERR_USAGE, NULL, "there is no verb '%s'%s%s; 'relume help' lists them", typed,
+	                  nearest.word ? ", but " : "", nearest.word ? nearest.word : "");
 }
 
 int main(int argc, char **argv)
@@ -76,10 +90,13 @@ int main(int argc, char **argv)
 		print_help(stdout);
 		return 0;
 	}
+	if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
+		printf("relume %s\n", RELUME_VERSION);
+		return 0;
+	}
 	verb = find_verb(argv[wants_help ? 2 : 1]);
 	if (!verb)
-		return -err_report(ERR_USAGE, NULL, "there is no verb '%s'; 'relume help' lists them",
-		                   argv[wants_help ? 2 : 1]);
+		return -refuse(argv[wants_help ? 2 : 1]);
 	if (wants_help)
 		return verb->main(2, (char *[]){ argv[2], "--help", NULL });
 	return verb->main(argc - 1, argv + 1);

@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/nearest.h"
 
 /* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
 enum { NAME_COLUMNS = 25, PAGE_COLUMNS = 114, FIRST_ROW = 256 /* what getopt_long returns for the first row */ };
@@ -73,7 +74,7 @@ int options_misuse(const struct options_table *table)
 
 /* What getopt_long takes; the row of --help is the last one. */
 static void make_getopt(const struct options_table *table, struct option longs[OPTIONS_MAX_ROWS + 2],
-                        char letters[2 * OPTIONS_MAX_ROWS + 4])
+                        char letters[2 * OPTIONS_MAX_ROWS + 5])
 {
 	const size_t n = table->n_rows;
 	int n_longs = 0;
@@ -81,6 +82,7 @@ static void make_getopt(const struct options_table *table, struct option longs[O
 	assert(n <= OPTIONS_MAX_ROWS);
 	if (table->stops)
 		*letters++ = '+';
+	*letters++ = ':'; /* getopt_long tells a missing argument from an unknown option, and prints nothing */
 	for (size_t i = 0; i <= n; i++) {
 		const struct options_row *row = i < n ? &table->rows[i] : &help_row;
 
@@ -106,10 +108,29 @@ static size_t find_row(const struct options_table *table, int c)
 	return i;
 }
 
+/* @param word what getopt_long stopped at  @param c what it returned: ':' where a value is missing, '?' otherwise */
+static int refuse(const struct options_table *table, const struct option *longs, const char *word, int c)
+{
+	const int is_letter = optopt > 0 && optopt < FIRST_ROW;
+	const char letter[3] = { '-', (char)optopt, '\0' };
+	char name[64];
+	struct nearest nearest = { .typed = name + 2 };
+
+	snprintf(name, sizeof(name), "%.*s", is_letter ? 2 : (int)strcspn(word, "="), is_letter ? letter : word);
+	if (c == ':')
+		return err_report(ERR_USAGE, NULL, "%s: %s takes a value; 'relume help %s' says which", table->verb, name, table->verb);
+	if (optopt >= FIRST_ROW)
+		return err_report(ERR_USAGE, NULL, "%s: %s takes no value", table->verb, name);
+	for (; !is_letter && longs->name; longs++)
+		nearest_try(&nearest, longs->name);
+	return err_report(ERR_USAGE, NULL, "%s has no option '%s'%s%s; 'relume help %s' lists them", table->verb, name,
+	                  nearest.word ? ", but --" : "", nearest.word ? nearest.word : "", table->verb);
+}
+
 int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line)
 {
 	struct option longs[OPTIONS_MAX_ROWS + 2] = { { 0 } };
-	char letters[2 * OPTIONS_MAX_ROWS + 4];
+	char letters[2 * OPTIONS_MAX_ROWS + 5];
 	int c, err;
 
 	*line = (struct options_line){ 0 };
@@ -119,8 +140,8 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 		const size_t i = find_row(table, c);
 		const struct options_row *row = &table->rows[i];
 
-		if (c == '?')
-			return ERR_USAGE; /* getopt_long has said what */
+		if (c == '?' || c == ':')
+			return refuse(table, longs, argv[optind - 1], c);
 		if (i == table->n_rows) {
 			options_print_help(table, stdout);
 			return 1;

@@ -11,6 +11,16 @@ check({"record", "info", "index", "dump", "scene", "render", "raster", "diff", "
       f"help lists the verbs: {verbs}")
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
+near, far = relume("rendr"), relume("paint")
+check("there is no verb 'rendr', but render;" in near.stderr and "but" not in far.stderr, f"a verb that is near is named: {near.stderr}{far.stderr}")
+version = relume("--version")
+check(version.returncode == 0 and re.fullmatch(r"relume \d+\.\d+\n", version.stdout), f"--version: {version.stdout}")
+for words, said in ((("render", "--frmes", "1"), "render has no option '--frmes', but --frames;"), (("render", "--zzz"), "render has no option '--zzz';"),
+                    (("render", "-y"), "render has no option '-y';"), (("render", "--frames"), "render: --frames takes a value;"),
+                    (("render", "-f"), "render: -f takes a value;"), (("render", "--no-cache=2"), "render: --no-cache takes no value"),
+                    (("render", "--no-cache", "-yq"), "render has no option '-y';")):
+    wrong = relume(*words)
+    check(wrong.returncode == 2 and said in wrong.stderr and wrong.stderr.count("\n") == 1, f"{' '.join(words)}: {wrong.stderr}")
 
 for verb in verbs:
     if verb == "help":

@@ -17,7 +17,7 @@ expect() {
 expect 0 "usage: relume record" --help
 expect 2 "no program to record"
 expect 2 "no program to record" -o x.trace --
-expect 2 "unrecognized option" --frobnicate -- true
+expect 2 "no option .--frobnicate" --frobnicate -- true
 expect 2 "--ref takes" --ref colour -- true
 expect 2 "takes a number of frames" --quit-after 0 -- true
 expect 2 "takes a number of frames" --max-frames 1x -- true
