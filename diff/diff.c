@@ -220,6 +220,7 @@ static int score_image(struct work *w, uint64_t frame, struct score_picture *pic
 	                                (uint32_t[]){ picture->width, picture->height }, &settings);
 
 	picture->ignore = settings.ignore;
+	picture->recording = w->ref->trace_hash;
 	if (!err && w->baseline->dir)
 		err = baseline_look_up(w->baseline, image, frame, &was, &approved, &found);
 	if (!err)
@@ -268,6 +269,20 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	return err;
 }
 
+/** "failed (R4, R5), fidelity 99.912 %" */
+static void say_outcome(const struct score *s, int has_fidelity, char *text, size_t size)
+{
+	size_t n = (size_t)snprintf(text, size, "%s", score_outcome_names[s->outcome]), n_failed = 0;
+
+	for (int g = 0; g < N_GATES && n < size; g++)
+		if (s->gates[g].state == SCORE_FAILED)
+			n += (size_t)snprintf(text + n, size - n, "%s%s", n_failed++ ? ", " : " (", score_gates[g].name);
+	if (n < size)
+		n += (size_t)snprintf(text + n, size - n, "%s", n_failed ? ")" : "");
+	if (has_fidelity && n < size)
+		snprintf(text + n, size - n, ", fidelity %.3f %%", 100 * s->fidelity);
+}
+
 static void *score_frames(void *arg)
 {
 	struct work *w = arg;
@@ -276,13 +291,12 @@ static void *score_frames(void *arg)
 	while (!w->err && w->next < w->run->n_scores) {
 		size_t i = w->next++;
 		struct score *s = &w->run->scores[i];
-		char text[64];
+		char text[128];
 		int err;
 
 		pthread_mutex_unlock(&w->lock);
 		err = score_one(w, w->frames[i], s);
-		snprintf(text, sizeof(text), w->run->reference ? "%s, fidelity %.3f %%" : "%s", score_outcome_names[s->outcome],
-		         100 * s->fidelity);
+		say_outcome(s, w->run->reference != NULL, text, sizeof(text));
 		pthread_mutex_lock(&w->lock);
 		if (err)
 			w->err = err;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "capture/format/call.h"
 #include "gl_tokens.h"
@@ -13,7 +14,6 @@
 #include "replay/index/index_build.h"
 #include "replay/machine/commands.h"
 #include "replay/play/player.h"
-#include "replay/trace/hash.h"
 #include "scene/release.h"
 
 #define FEW_FRAMES 8 /* a way so short is executed, without the index */

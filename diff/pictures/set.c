@@ -12,6 +12,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/frames.h"
+#include "base/hash.h"
 #include "diff/pictures/oiio.h"
 
 void set_free(struct set *set)
@@ -176,6 +177,7 @@ static int open_trace(struct set *set, const char *trace)
 	size_t stem = strlen(trace) - (extension[0] ? strlen(extension) + 1 : 0);
 	char path[4096];
 	struct stat st;
+	int err;
 
 	if (snprintf(path, sizeof(path), "%.*s.ref", (int)stem, trace) >= (int)sizeof(path))
 		return err_report(ERR_USAGE, trace, "the file name is too long");
@@ -187,7 +189,9 @@ static int open_trace(struct set *set, const char *trace)
 	set->trace = strdup(trace);
 	if (!set->name || !set->trace)
 		return err_report(ERR_SYSTEM, path, "out of memory");
-	return open_ref(set, path);
+	err = stat(trace, &st) == 0 ? hash_name(trace, (uint64_t)st.st_size, set->trace_hash)
+	                            : err_report(ERR_INPUT, trace, "%s", strerror(errno));
+	return err ? err : open_ref(set, path);
 }
 
 /** A file is a reference file by its first bytes, whatever its name. */

@@ -19,6 +19,7 @@ struct set {
 	struct set_entry *entries; /* sorted by frame, one for each */
 	size_t n_entries;
 	char *trace; /* the trace that named the set; NULL: none did */
+	char trace_hash[33]; /* its hash_name(); "" without a trace */
 	int is_single; /* one image, named as such: its frame number may be anything */
 	struct ref_file ref; /* open where the set is a .ref file */
 };

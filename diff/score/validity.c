@@ -14,7 +14,7 @@ int gate_validity(struct gate_frame *f)
 	const struct score_picture *ref = f->ref;
 	const struct image *img = f->img;
 	const size_t n = (size_t)img->width * img->height;
-	const char *number = image_attribute(img, "relume:frame");
+	const char *number = image_attribute(img, "relume:frame"), *recording = image_attribute(img, "relume:trace");
 	const char *odd_channel = NULL;
 	const float *planes[3];
 	uint64_t odd = 0;
@@ -34,7 +34,10 @@ int gate_validity(struct gate_frame *f)
 	if (odd_channel)
 		gate_note(f, GATE_V, "first in channel %s", odd_channel);
 
-	if (img->width != ref->width || img->height != ref->height) {
+	if (recording && ref->recording && ref->recording[0] && strcmp(recording, ref->recording) != 0) {
+		gate_fail(f, GATE_V, "made from another recording: one of hash %.8s, and the reference's is %.8s (relume info)", recording,
+		          ref->recording);
+	} else if (img->width != ref->width || img->height != ref->height) {
 		gate_fail(f, GATE_V, "size %u x %u, but the reference is %u x %u", img->width, img->height, ref->width, ref->height);
 	} else if (!score_find_layer(img, f->layer, planes)) {
 		gate_fail(f, GATE_V, "there is no layer \"%s\"", f->layer);

@@ -9,9 +9,9 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/hash.h"
 #include "replay/index/pack.h"
 #include "replay/index/snapshot_layout.h"
-#include "replay/trace/hash.h"
 
 #define MAX_BYTES ((uint64_t)1 << 40)
 

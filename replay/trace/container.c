@@ -10,8 +10,8 @@
 #include <zlib.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
-#include "replay/trace/hash.h"
 
 #define PIECE_BYTES (1u << 20)
 #define READ_BYTES (64u << 10) /* of the file at once, at least */

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "base/hash.h"
 #include "base/options.h"
 #include "base/verbs.h"
 #include "base/json.h"
 #include "replay/index/index_build.h"
 #include "replay/index/index_check.h"
 #include "replay/play/player.h"
-#include "replay/trace/hash.h"
 
 struct asked {
 	int force, check, json;

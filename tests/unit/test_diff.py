@@ -181,6 +181,16 @@ class Diff(unittest.TestCase):
         (self.dir / "t.ref").write_bytes(data[:-10000])  # the last frame's colour is cut, too
         self.assertEqual(self.outcomes(self.dir / "t.ref", self.traced, expect=4)[4], "extra")
 
+    def test_frames_of_another_recording(self):
+        golden = pathlib.Path(__file__).resolve().parent.parent / "golden"
+        (self.dir / "t.ref").write_bytes(b"RELREF1\n" + ref_color(1, picture(1)))
+        frame = golden / "cornell.0001.exr"
+        for trace, said in (("cornell", False), ("two_triangles", True)):
+            (self.dir / "t.trace").write_bytes((golden / f"{trace}.trace").read_bytes())
+            done = self.diff(self.dir / "t.trace", frame, expect=1)
+            self.assertEqual("made from another recording" in done.stdout, said, done.stdout)
+            self.assertIn("failed (V)", done.stderr)
+
     def test_junit(self):
         write_png(self.traced / "b.3.png", picture(9))
         (self.traced / "b.4.png").write_bytes(b"no")

@@ -1,4 +1,4 @@
-#include "replay/trace/hash.h"
+#include "base/hash.h"
 
 #include <errno.h>
 #include <fcntl.h>
