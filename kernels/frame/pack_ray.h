@@ -175,7 +175,7 @@ WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const stru
 	const packf side = select((packf)(1), (packf)(-1), pack_side(p));
 
 	c->smooth = 0;
-	if (!p->material->lighting || p->material->shade_model == GL_FLAT)
+	if (!shadow_may_curve(p->material))
 		return;
 	for (int k = 0; k < 3; k++) {
 		packf row[4];
@@ -226,7 +226,13 @@ WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_c
 	return any_pack(~bent) ? pack_choose(pack_ray_origin(of_point, s, straight, back), curved, bent) : curved;
 }
 
-/* As stage_light_ray for a light without a size: rays[lane] of the lanes that want one. */
+/* Whether pack_light_rays knows all that a material asks for. */
+static inline int pack_knows_rays(__global const struct scene_material *m)
+{
+	return !m->surface.relit && !(m->surface.hidden & SCENE_CARD);
+}
+
+/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[lane] of the lanes that want one. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve, struct pack_vec back,
                                    __global const struct scene_light *light, uint lanes, __global struct ray *rays)
 {

@@ -225,8 +225,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->list, lanes, &material);
 		uint done = 0;
 
-		if (same & bit && pack_is_plain(s, &a->tables.materials[material]) &&
-		    !(a->tables.materials[material].surface.hidden & (SCENE_CARD | SCENE_FACETED))) /* their rays start otherwise */
+		if (same & bit && pack_is_plain(s, &a->tables.materials[material]) && pack_knows_rays(&a->tables.materials[material]))
 			done = shade_lanes(a, s, row, same, &kept->pack);
 		if (!(done & bit)) {
 			shade_one(a, s, row, popcount(bit - 1), kept);

@@ -54,6 +54,12 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
+/* Whether normals may bend a material's triangles. */
+static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
+{
+	return m->lighting && m->shade_model != GL_FLAT && !(m->surface.hidden & SCENE_FACETED);
+}
+
 static inline struct shadow_curve shadow_curve_of(const struct point *p)
 {
 	struct shadow_curve c;
@@ -61,7 +67,7 @@ static inline struct shadow_curve shadow_curve_of(const struct point *p)
 
 	for (int i = 0; i < 3; i++)
 		c.normal[i] = v3_scale(v3_normalize(v3_load(p->vertex[i]->normal)), side); /* GL need not have normalised it */
-	c.smooth = p->material->lighting && p->material->shade_model != GL_FLAT && !(p->material->surface.hidden & SCENE_FACETED) &&
+	c.smooth = shadow_may_curve(p->material) &&
 	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2]));
 	return c;
 }

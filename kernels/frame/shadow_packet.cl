@@ -24,12 +24,6 @@ static inline uint load_wanting(const struct shadow_ray_arguments *a, uint first
 	return lanes;
 }
 
-/* 1 where a light asks for nothing but what pack_light_rays does. */
-static inline int is_simple(const struct tables *t, __global const struct scene_material *m, uint slot)
-{
-	return !m->surface.relit && !(m->surface.hidden & SCENE_CARD) && !(t->lights[m->light_first + slot].radius > 0.0f);
-}
-
 static inline void send_lanes(const struct shadow_ray_arguments *a, const struct pack_list *list, __global const struct scene_material *m,
                               uint lanes, uint slot, __global struct ray *rays)
 {
@@ -60,9 +54,10 @@ static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot,
 			stage_no_ray(&rays[lane]);
 	while (lanes) {
 		const uint bit = lanes & -lanes, lane = popcount(bit - 1), same = pack_same_kind(&a->tables, &list, lanes, &material);
+		__global const struct scene_material *m = &a->tables.materials[material];
 
-		if (same & bit && is_simple(&a->tables, &a->tables.materials[material], slot)) {
-			send_lanes(a, &list, &a->tables.materials[material], same, slot, rays);
+		if (same & bit && pack_knows_rays(m) && !(a->tables.lights[m->light_first + slot].radius > 0.0f)) {
+			send_lanes(a, &list, m, same, slot, rays);
 			lanes &= ~same;
 		} else {
 			shadow_ray_item(a, slot * a->n + first + lane, 1, &kept[list.primitive[lane] % SHADE_TRIANGLES]);

@@ -1,0 +1,32 @@
+#!/usr/bin/python3
+# limit: 300 s
+"""Plain frames go through packets in one step (kernels/frame/plain.h), others stage by stage: both leave the files of other kernels, byte by
+byte; with rules that have rays to lights start on flat faces, too."""
+import json
+
+from helpers import SCRATCH, check, corpus, finish, must, record, relume, render
+
+FLAT = SCRATCH / "flat.yaml"
+FLAT.write_text("spare: no\n")
+
+PROGRAMS = {  # and whether their frames are plain
+    "box": (True, ["cornell", "--size", "317x203", "--animate", "light"]),
+    "arena": (True, ["arena"]),
+    "blocks": (True, ["blocks"]),
+    "spheres": (False, ["spheres", "--size", "320x240"]),
+    "still_life": (False, ["still_life", "--size", "320x240"]),
+}
+
+for name, (plain, (program, *options)) in PROGRAMS.items():
+    trace = SCRATCH / f"{name}.trace"
+    record(trace, corpus(program), "--frames", 1, *options, options=())
+    stages = {row["what"] for row in json.loads(must(relume("bench", trace, "--repeat", 1, "--json")).stdout)["spent"]}
+    check(("plain" in stages) == plain, f"{name}: goes through {sorted(stages)}")
+    default = None
+    for how, rules in (("default", ()), ("flat", ("--look", FLAT))):
+        pictures = [render(trace, SCRATCH / f"{name}-{how}-{kernels}", "--kernels", kernels, *rules)[0].read_bytes()
+                    for kernels in ("packets", "binary")]
+        check(pictures[0] == pictures[1], f"{name}, {how}: packets leave another file than binary")
+        check(pictures[0] != default, f"{name}: rules change nothing")
+        default = pictures[0]
+finish()
