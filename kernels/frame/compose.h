@@ -1,6 +1,5 @@
 /*
- * A finished frame as the planes of its picture, COMPOSE_LANES consecutive pixels a work item: one, unless who includes this says
- * otherwise. Loops over lanes have no branches, so that compilers do many at once.
+ * A finished frame as the planes of its picture, one pixel a work item. compose_packet does sixteen (pack_compose.h).
  *
  * Beauty = gl x shadow + relight + reflect + refract holds for the numbers as they are stored: each part is rounded to
  * half before the next is computed from it, so what rounding leaves ends in relight and reflect.
@@ -9,10 +8,6 @@
 
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
-
-#ifndef COMPOSE_LANES
-#define COMPOSE_LANES 1u
-#endif
 
 /** Work items of compose_packet for a row of a picture. */
 static inline uint32_t compose_columns(uint32_t width)
@@ -104,50 +99,45 @@ static inline float compose_nudged(float gl)
 #define COLOR_ALBEDO 15u
 #define N_COLORS 18u
 
-/* A work item's pixels, a number's lanes beside each other. */
-struct compose_lanes {
-	float display[N_COLORS][COMPOSE_LANES], color[N_COLORS][COMPOSE_LANES]; /* before and after encoding */
-	float halves[N_COMPOSE_HALVES][COMPOSE_LANES], floats[N_COMPOSE_FLOATS][COMPOSE_LANES];
-	uint32_t at[COMPOSE_LANES]; /* places in the planes */
+/* A pixel on its way. */
+struct compose_pixel {
+	float display[N_COLORS], color[N_COLORS]; /* before and after encoding */
+	float halves[N_COMPOSE_HALVES], floats[N_COMPOSE_FLOATS];
 };
 
 /* One colour channel, taken apart. */
-static inline void compose_channel(struct compose_lanes *l, uint32_t c)
+static inline void compose_channel(struct compose_pixel *p, uint32_t c)
 {
-	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
-		float exact = l->color[COLOR_GL + c][k], gl = compose_rounded(exact), shadowed = l->color[COLOR_SHADOWED + c][k];
-		float direct = l->color[COLOR_DIRECT + c][k], share = shadowed / exact, shadow, relight, reflect, refract, sum;
+	float exact = p->color[COLOR_GL + c], gl = compose_rounded(exact), shadowed = p->color[COLOR_SHADOWED + c];
+	float direct = p->color[COLOR_DIRECT + c], share = shadowed / exact, shadow, relight, reflect, refract, sum;
 
-		share = compose_rounded(share > 0.0f ? share : 0.0f);
-		shadow = gl > 0.0f && shadowed < exact ? share : 1.0f;
-		relight = compose_effect(direct - gl * shadow, direct);
-		sum = gl * shadow + relight;
-		reflect = compose_rounded(l->color[COLOR_MIRRORED + c][k] - sum);
-		reflect = l->display[COLOR_MIRRORED + c][k] != l->display[COLOR_DIRECT + c][k] ? reflect : 0.0f;
-		sum += reflect;
-		refract = compose_rounded(l->color[COLOR_BEAUTY + c][k] - sum);
-		refract = l->display[COLOR_BEAUTY + c][k] != l->display[COLOR_MIRRORED + c][k] ? refract : 0.0f;
-		l->halves[COMPOSE_BEAUTY + c][k] = sum + refract;
-		l->halves[COMPOSE_GL + c][k] = gl;
-		l->halves[COMPOSE_SHADOW + c][k] = shadow;
-		l->halves[COMPOSE_RELIGHT + c][k] = relight;
-		l->halves[COMPOSE_REFLECT + c][k] = reflect;
-		l->halves[COMPOSE_REFRACT + c][k] = refract;
-		l->halves[COMPOSE_ALBEDO + c][k] = l->color[COLOR_ALBEDO + c][k];
-	}
+	share = compose_rounded(share > 0.0f ? share : 0.0f);
+	shadow = gl > 0.0f && shadowed < exact ? share : 1.0f;
+	relight = compose_effect(direct - gl * shadow, direct);
+	sum = gl * shadow + relight;
+	reflect = compose_rounded(p->color[COLOR_MIRRORED + c] - sum);
+	reflect = p->display[COLOR_MIRRORED + c] != p->display[COLOR_DIRECT + c] ? reflect : 0.0f;
+	sum += reflect;
+	refract = compose_rounded(p->color[COLOR_BEAUTY + c] - sum);
+	refract = p->display[COLOR_BEAUTY + c] != p->display[COLOR_MIRRORED + c] ? refract : 0.0f;
+	p->halves[COMPOSE_BEAUTY + c] = sum + refract;
+	p->halves[COMPOSE_GL + c] = gl;
+	p->halves[COMPOSE_SHADOW + c] = shadow;
+	p->halves[COMPOSE_RELIGHT + c] = relight;
+	p->halves[COMPOSE_REFLECT + c] = reflect;
+	p->halves[COMPOSE_REFRACT + c] = refract;
+	p->halves[COMPOSE_ALBEDO + c] = p->color[COLOR_ALBEDO + c];
 }
 
-/* One number's lanes encoded. Those that stand for what the number before them stands for, as most do, are known already. */
-static inline void compose_encode(struct compose_lanes *l, uint32_t i, uint32_t is_display)
+/* One number encoded. Most stand for what the number before them stands for, which is known already. */
+static inline void compose_encode(struct compose_pixel *p, uint32_t i, uint32_t is_display)
 {
-	uint32_t differ = 0u;
-
-	for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-		differ |= i < 3u ? 1u : M_BITS(l->display[i][k]) ^ M_BITS(l->display[i - 3u][k]);
-	for (uint32_t k = 0u; k < COMPOSE_LANES && (is_display || !differ); k++)
-		l->color[i][k] = is_display ? l->display[i][k] : l->color[i - 3u][k];
-	for (uint32_t k = 0u; k < COMPOSE_LANES && !is_display && differ; k++)
-		l->color[i][k] = compose_linear(l->display[i][k]);
+	if (is_display)
+		p->color[i] = p->display[i];
+	else if (i >= 3u && M_BITS(p->display[i]) == M_BITS(p->display[i - 3u]))
+		p->color[i] = p->color[i - 3u];
+	else
+		p->color[i] = compose_linear(p->display[i]);
 }
 
 /* Where the visible surface of a pixel lies; all 0 where there is none. */
@@ -164,125 +154,89 @@ static inline void compose_surface(const struct tables *t, GLOBAL const struct w
 	*position = point_position(&p);
 }
 
-/* What a lane takes from its pixel: all but the colours' encoding and what follows from it. */
-static inline void compose_load(const struct tables *t, GLOBAL const struct window_vertex *windows,
-                                GLOBAL const struct frame_pixel *pixel, GLOBAL const float *sums,
-                                const struct compose_request *r, uint32_t k, struct compose_lanes *l)
+/* What is taken from a pixel: all but the colours' encoding and what follows from it. */
+static inline void compose_load(const struct compose_arguments *a, uint32_t number, struct compose_pixel *p)
 {
+	GLOBAL const struct frame_pixel *pixel = &a->frame[number];
 	uint32_t drawn = pixel->id != 0u || pixel->unknown & PIXEL_BEFORE;
 	struct fragment surface = pixel->surface;
 	struct vec3 normal, position;
 
-	compose_surface(t, windows, &surface, &normal, &position);
+	compose_surface(&a->tables, a->windows, &surface, &normal, &position);
 	for (uint32_t c = 0u; c < 3u; c++) {
-		l->display[COLOR_GL + c][k] = pixel->gl[c];
-		l->display[COLOR_SHADOWED + c][k] = pixel->shadowed[c];
-		l->display[COLOR_DIRECT + c][k] = pixel->direct[c];
-		l->display[COLOR_MIRRORED + c][k] = pixel->mirrored[c];
-		l->display[COLOR_BEAUTY + c][k] = pixel->beauty[c];
-		l->display[COLOR_ALBEDO + c][k] = drawn ? pixel->albedo[c] : 0.0f;
+		p->display[COLOR_GL + c] = pixel->gl[c];
+		p->display[COLOR_SHADOWED + c] = pixel->shadowed[c];
+		p->display[COLOR_DIRECT + c] = pixel->direct[c];
+		p->display[COLOR_MIRRORED + c] = pixel->mirrored[c];
+		p->display[COLOR_BEAUTY + c] = pixel->beauty[c];
+		p->display[COLOR_ALBEDO + c] = drawn ? pixel->albedo[c] : 0.0f;
 	}
-	if (r->n_passes > 1u)
-		for (uint32_t i = 0u; i < PASS_PARTS; i++)
-			l->display[COLOR_SHADOWED + i][k] = (sums[i] + l->display[COLOR_SHADOWED + i][k]) / (float)r->n_passes;
-	l->halves[COMPOSE_BEAUTY + 3u][k] = drawn ? 1.0f : 0.0f;
-	l->halves[COMPOSE_GL + 3u][k] = pixel->gl[3];
-	l->halves[COMPOSE_NORMAL][k] = normal.x;
-	l->halves[COMPOSE_NORMAL + 1u][k] = normal.y;
-	l->halves[COMPOSE_NORMAL + 2u][k] = normal.z;
-	l->floats[COMPOSE_DEPTH][k] = pixel->depth_exact;
-	l->floats[COMPOSE_Z][k] = -position.z;
-	l->floats[COMPOSE_POSITION][k] = position.x;
-	l->floats[COMPOSE_POSITION + 1u][k] = position.y;
-	l->floats[COMPOSE_POSITION + 2u][k] = position.z;
-	l->floats[COMPOSE_ID][k] = (float)pixel->id;
-	l->floats[COMPOSE_LAYERS][k] = (float)pixel->layers;
+	for (uint32_t i = 0u; i < PASS_PARTS && a->request.n_passes > 1u; i++) {
+		float sum = a->sums[(a->first_pixel + number) * PASS_PARTS + i];
+
+		p->display[COLOR_SHADOWED + i] = (sum + p->display[COLOR_SHADOWED + i]) / (float)a->request.n_passes;
+	}
+	p->halves[COMPOSE_BEAUTY + 3u] = drawn ? 1.0f : 0.0f;
+	p->halves[COMPOSE_GL + 3u] = pixel->gl[3];
+	p->halves[COMPOSE_NORMAL] = normal.x;
+	p->halves[COMPOSE_NORMAL + 1u] = normal.y;
+	p->halves[COMPOSE_NORMAL + 2u] = normal.z;
+	p->floats[COMPOSE_DEPTH] = pixel->depth_exact;
+	p->floats[COMPOSE_Z] = -position.z;
+	p->floats[COMPOSE_POSITION] = position.x;
+	p->floats[COMPOSE_POSITION + 1u] = position.y;
+	p->floats[COMPOSE_POSITION + 2u] = position.z;
+	p->floats[COMPOSE_ID] = (float)pixel->id;
+	p->floats[COMPOSE_LAYERS] = (float)pixel->layers;
 }
 
 /* GL's number goes off the borders between codes, and what equals it with it: no effect comes of it. */
-static inline void compose_nudge(struct compose_lanes *l, uint32_t c)
+static inline void compose_nudge(struct compose_pixel *p, uint32_t c)
 {
-	float gl[COMPOSE_LANES], nudged[COMPOSE_LANES];
+	const float gl = p->display[COLOR_GL + c], nudged = compose_nudged(gl);
 
-	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
-		gl[k] = l->display[COLOR_GL + c][k];
-		nudged[k] = compose_nudged(gl[k]);
-	}
 	for (uint32_t i = COLOR_GL + c; i < COLOR_ALBEDO; i += 3u)
-		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-			l->display[i][k] = l->display[i][k] == gl[k] ? nudged[k] : l->display[i][k];
-}
-
-/* The normal as a colour, in place of GL's. */
-static inline void compose_normals(struct compose_lanes *l)
-{
-	for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-		for (uint32_t c = 0u; c < 3u; c++)
-			l->display[COLOR_GL + c][k] =
-				l->halves[COMPOSE_BEAUTY + 3u][k] > 0.0f ? l->halves[COMPOSE_NORMAL + c][k] * 0.5f + 0.5f : 0.0f;
-}
-
-/* Lanes to their planes: the first n of them. */
-static inline void compose_store(const struct compose_lanes *l, const struct compose_request *r, uint32_t n, GLOBAL uint16_t *halves,
-                                 GLOBAL float *floats)
-{
-	const uint32_t whole = n == COMPOSE_LANES && l->at[COMPOSE_LANES - 1u] == l->at[0] + COMPOSE_LANES - 1u; /* of one row */
-
-	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++) {
-		GLOBAL uint16_t *plane = halves + r->half_plane[i] * r->width * r->height;
-
-		if (r->half_plane[i] == SCENE_NONE)
-			continue;
-		for (uint32_t k = 0u; k < COMPOSE_LANES && whole; k++)
-			plane[l->at[0] + k] = (uint16_t)compose_half(l->halves[i][k]);
-		for (uint32_t k = 0u; k < n && !whole; k++)
-			plane[l->at[k]] = (uint16_t)compose_half(l->halves[i][k]);
-	}
-	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++) {
-		GLOBAL float *plane = floats + r->float_plane[i] * r->width * r->height;
-
-		if (r->float_plane[i] == SCENE_NONE)
-			continue;
-		for (uint32_t k = 0u; k < COMPOSE_LANES && whole; k++)
-			plane[l->at[0] + k] = l->floats[i][k];
-		for (uint32_t k = 0u; k < n && !whole; k++)
-			plane[l->at[k]] = l->floats[i][k];
-	}
+		p->display[i] = p->display[i] == gl ? nudged : p->display[i];
 }
 
 /* From pixels as they were loaded to numbers as they are stored. */
-static inline void compose_colors(struct compose_lanes *l, const struct compose_request *r)
+static inline void compose_colors(struct compose_pixel *p, const struct compose_request *r)
 {
 	for (uint32_t c = 0u; c < 3u; c++)
-		compose_nudge(l, c);
-	if (r->normals)
-		compose_normals(l);
+		compose_nudge(p, c);
+	for (uint32_t c = 0u; c < 3u && r->normals; c++) /* the normal as a colour, in place of GL's */
+		p->display[COLOR_GL + c] = p->halves[COMPOSE_BEAUTY + 3u] > 0.0f ? p->halves[COMPOSE_NORMAL + c] * 0.5f + 0.5f : 0.0f;
 	for (uint32_t i = 0u; i < N_COLORS; i++)
-		compose_encode(l, i, r->display);
+		compose_encode(p, i, r->display);
 	for (uint32_t c = 0u; c < 3u; c++)
-		compose_channel(l, c);
+		compose_channel(p, c);
 	for (uint32_t c = 0u; c < 3u && r->normals; c++)
-		for (uint32_t k = 0u; k < COMPOSE_LANES; k++)
-			l->halves[COMPOSE_BEAUTY + c][k] = l->color[COLOR_GL + c][k];
+		p->halves[COMPOSE_BEAUTY + c] = p->color[COLOR_GL + c];
 }
 
 /*
- * compose: pixels first .. first + COMPOSE_LANES - 1 of n, counted from the bottom row, into their planes. sums: what add_pass left
- * of the parts of all passes but this one; not looked at where there is but one.
+ * A pixel of a->frame to a place in the planes. a->sums: what add_pass left of the parts of all passes but this one; not looked at where
+ * there is but one.
  */
-static inline void compose_item(const struct compose_arguments *a, uint32_t first)
+static inline void compose_one(const struct compose_arguments *a, uint32_t number, uint32_t at)
 {
 	const struct compose_request *r = &a->request;
-	struct compose_lanes l;
+	struct compose_pixel p;
 
-	for (uint32_t k = 0u; k < COMPOSE_LANES; k++) {
-		uint32_t pixel = first + k < a->n ? first + k : a->n - 1u;
+	compose_load(a, number, &p);
+	compose_colors(&p, r);
+	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
+		if (r->half_plane[i] != SCENE_NONE)
+			a->halves[r->half_plane[i] * r->width * r->height + at] = (uint16_t)compose_half(p.halves[i]);
+	for (uint32_t i = 0u; i < N_COMPOSE_FLOATS; i++)
+		if (r->float_plane[i] != SCENE_NONE)
+			a->floats[r->float_plane[i] * r->width * r->height + at] = p.floats[i];
+}
 
-		l.at[k] = (r->height - 1u - pixel / r->width) * r->width + pixel % r->width;
-		compose_load(&a->tables, a->windows, &a->frame[pixel], a->sums + (r->n_passes > 1u ? (a->first_pixel + pixel) * PASS_PARTS : 0u), r, k, &l);
-	}
-	compose_colors(&l, r);
-	compose_store(&l, r, a->n - first < COMPOSE_LANES ? a->n - first : COMPOSE_LANES, a->halves, a->floats);
+/* compose: a pixel, counted from the bottom row, to its place from the top. */
+static inline void compose_item(const struct compose_arguments *a, uint32_t item)
+{
+	compose_one(a, item, (a->request.height - 1u - item / a->request.width) * a->request.width + item % a->request.width);
 }
 
 /* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */

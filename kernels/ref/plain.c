@@ -6,12 +6,11 @@
 /* Compose a pixel of the band. */
 static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
 {
-	struct compose_lanes l;
+	const struct compose_arguments one = {
+		.tables = a->tables, .windows = a->windows, .frame = pixel, .request = a->request, .halves = a->halves, .floats = a->floats,
+	};
 
-	l.at[0] = (a->request.height - 1 - y) * a->width + x;
-	compose_load(&a->tables, a->windows, pixel, NULL, &a->request, 0, &l);
-	compose_colors(&l, &a->request);
-	compose_store(&l, &a->request, 1, a->halves, a->floats);
+	compose_one(&one, 0, (a->request.height - 1 - y) * a->width + x);
 }
 
 /* s: with visibility where lights have been asked */
