@@ -57,6 +57,21 @@ struct pack_kept {
 
 #define LANE(vector, type, lane) (((type *)&(vector))[lane])
 
+/* Which sixteen fragments of n, from `first` on. Lanes beyond them repeat the last. */
+static inline void pack_list(__global const struct fragment *fragments, __global const uint *pixels, uint first, uint n, struct pack_list *list)
+{
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint i = min(first + lane, n - 1);
+
+		list->instance[lane] = fragments[i].instance;
+		list->primitive[lane] = fragments[i].primitive;
+		list->b1[lane] = fragments[i].b1;
+		list->b2[lane] = fragments[i].b2;
+		list->depth[lane] = fragments[i].depth;
+		list->pixel[lane] = pixels[i];
+	}
+}
+
 /* --- Which ones ---------------------------------------------------------------------------------------------------- */
 
 static inline int pack_knows_unit(const struct tables *t, __global const struct scene_unit *unit)
@@ -612,7 +627,7 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 }
 
 /*
- * shade_item for fragments first .. of the list, in lanes: those of a plain material whose geometry has no flags and no faces of its own.
+ * shade_item for fragments first .. of the list, in lanes: those that pack_same_kind finds, of a plain material.
  * @return the lanes that it has done: none of slivers
  */
 static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint first, uint lanes, struct pack_kept *kept)

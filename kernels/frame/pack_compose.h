@@ -139,7 +139,7 @@ WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const s
 	pack_put(&to->position[2], at.z, mask);
 }
 
-/* The same for one lane whose fragment is known, whatever it is of. */
+/* The same for one lane. f: its fragment, of any kind */
 static inline void pack_put_one(const struct tables *t, __global const struct window_vertex *windows, const struct fragment *f, uint lane,
                                 struct pack_pixels *to)
 {

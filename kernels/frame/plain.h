@@ -33,40 +33,23 @@ static inline struct fragment plain_fragment(const struct plain_arguments *a, ui
 /* What shade_item takes, for fragments of a->fragments. n_slots: 0, or with visibility */
 static inline struct shade_arguments plain_shading(const struct plain_arguments *a, uint32_t n_slots)
 {
-	struct shade_arguments s;
+	const struct shade_arguments s = {
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
+		.height = a->height, .bits = a->bits, .visibility = a->visibility, .n_slots = n_slots, .transport = TRANSPORT_GL, .n = a->n,
+		.shaded = a->shaded,
+	};
 
-	s.tables = a->tables;
-	s.views = a->views;
-	s.windows = a->windows;
-	s.fragments = a->fragments;
-	s.pixels = a->pixels;
-	s.width = a->width;
-	s.height = a->height;
-	s.bits = a->bits;
-	s.visibility = a->visibility;
-	s.n_slots = n_slots;
-	s.transport = TRANSPORT_GL;
-	s.n = a->n;
-	s.shaded = a->shaded;
 	return s;
 }
 
 /* What shadow_ray_item takes, for the same ones. */
 static inline struct shadow_ray_arguments plain_rays(const struct plain_arguments *a)
 {
-	struct shadow_ray_arguments s;
+	const struct shadow_ray_arguments s = {
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
+		.shaded = a->shaded, .sample = 0u, .n = a->n, .n_rays = a->n * a->n_slots, .rays = a->rays,
+	};
 
-	s.tables = a->tables;
-	s.views = a->views;
-	s.windows = a->windows;
-	s.fragments = a->fragments;
-	s.pixels = a->pixels;
-	s.width = a->width;
-	s.shaded = a->shaded;
-	s.sample = 0u;
-	s.n = a->n;
-	s.n_rays = a->n * a->n_slots;
-	s.rays = a->rays;
 	return s;
 }
 

@@ -1,7 +1,7 @@
 /*
  * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: sixteen at a time in vectors, material by
- * material (kernels/frame/pack.h). What that does not know is shaded one by one. Neighbours mostly lie in the same triangle, whose set-up
- * is found once. kernels/README.md has the figures.
+ * material (kernels/frame/pack.h). What that does not know is shaded one by one. Neighbours mostly lie in the same triangle: it is set up
+ * once. kernels/README.md has the figures.
  */
 #include "kernels/frame/pack.h"
 
@@ -11,32 +11,23 @@ struct shade_kept {
 	struct pack_kept pack;
 };
 
-/* The fragments first .. as far as they are there. @return a bit for each that is to be shaded */
-static inline uint load_list(const struct shade_arguments *a, uint first, struct pack_list *list)
+/* A bit for each of sixteen fragments that is to be shaded. */
+static inline uint to_shade(const struct shade_arguments *a, uint first)
 {
 	uint lanes = 0;
 
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const uint i = min(first + lane, a->n - 1);
-
-		list->instance[lane] = a->fragments[i].instance;
-		list->primitive[lane] = a->fragments[i].primitive;
-		list->b1[lane] = a->fragments[i].b1;
-		list->b2[lane] = a->fragments[i].b2;
-		list->depth[lane] = a->fragments[i].depth;
-		list->pixel[lane] = a->pixels[i];
-		if (first + lane < a->n &&
-		    (!a->n_slots || (a->shaded[i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, i))))
-			lanes |= 1u << lane;
-	}
+	for (uint i = first; i < min(first + PACK_SIZE, a->n); i++)
+		if (!a->n_slots || (a->shaded[i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, i)))
+			lanes |= 1u << (i - first);
 	return lanes;
 }
 
 static inline void shade_sixteen(const struct shade_arguments *a, uint first, struct shade_kept *kept)
 {
 	struct pack_list list;
-	uint material, lanes = load_list(a, first, &list);
+	uint material, lanes = to_shade(a, first);
 
+	pack_list(a->fragments, a->pixels, first, a->n, &list);
 	while (lanes) {
 		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &list, lanes, &material);
 		uint done = 0;

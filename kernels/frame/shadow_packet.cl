@@ -4,23 +4,14 @@
  */
 #include "kernels/frame/pack_ray.h"
 
-/* Sixteen fragments of the list from `first` on, `end` excluded, that want a ray to a light. @return a bit for each */
-static inline uint load_wanting(const struct shadow_ray_arguments *a, uint first, uint end, uint slot, struct pack_list *list)
+/* A bit for each of the fragments first .. end - 1, sixteen at most, that wants a ray to a light. */
+static inline uint wanting(const struct shadow_ray_arguments *a, uint first, uint end, uint slot)
 {
 	uint lanes = 0;
 
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const uint i = min(first + lane, end - 1), flags = a->shaded[i].flags;
-
-		list->instance[lane] = a->fragments[i].instance;
-		list->primitive[lane] = a->fragments[i].primitive;
-		list->b1[lane] = a->fragments[i].b1;
-		list->b2[lane] = a->fragments[i].b2;
-		list->depth[lane] = a->fragments[i].depth;
-		list->pixel[lane] = a->pixels[i];
-		if (first + lane < end && flags & SHADED_THERE && flags & SHADED_WANTS(slot))
-			lanes |= 1u << lane;
-	}
+	for (uint i = first; i < end; i++)
+		if (a->shaded[i].flags & SHADED_THERE && a->shaded[i].flags & SHADED_WANTS(slot))
+			lanes |= 1u << (i - first);
 	return lanes;
 }
 
@@ -47,8 +38,9 @@ static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot,
 {
 	__global struct ray *rays = a->rays + slot * a->n + first;
 	struct pack_list list;
-	uint material, lanes = load_wanting(a, first, end, slot, &list);
+	uint material, lanes = wanting(a, first, end, slot);
 
+	pack_list(a->fragments, a->pixels, first, end, &list);
 	for (uint lane = 0; lane < end - first; lane++)
 		if (!(lanes >> lane & 1))
 			stage_no_ray(&rays[lane]);
