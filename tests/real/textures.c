@@ -335,7 +335,7 @@ static void points(void)
 /* What environments make of depths: alpha, luminance and intensity. */
 static void depth_environments(void)
 {
-	static const int modes[3] = { GL_ALPHA, GL_LUMINANCE, GL_INTENSITY }, environments[4] = { GL_REPLACE, GL_MODULATE, GL_ADD, GL_BLEND };
+	static const int modes[3] = { GL_ALPHA, GL_LUMINANCE, GL_INTENSITY }, environments[4] = { GL_REPLACE_EXT, GL_MODULATE, GL_ADD, GL_BLEND };
 	static const float depths[4] = { 0.1f, 0.4f, 0.6f, 0.9f };
 
 	glEnable(GL_BLEND);

@@ -45,6 +45,8 @@ GLS_FAMILY(glTexEnv, STATE)
 		}
 	switch (pname) {
 	case GL_TEXTURE_ENV_MODE:
+		if (token == GL_REPLACE_EXT)
+			token = GL_REPLACE;
 		if (token != GL_MODULATE && token != GL_DECAL && token != GL_BLEND && token != GL_REPLACE && token != GL_ADD &&
 		    token != GL_COMBINE && token != GL_COMBINE4_NV) {
 			gls_error(x, st, GL_INVALID_ENUM);
