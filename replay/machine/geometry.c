@@ -228,8 +228,9 @@ void gls_geometry_turn_quads(struct gls_geometry *g)
 	}
 }
 
-int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n)
+int gls_quads_turn(const struct gls_state *st, const float *position, const uint32_t *index, uint32_t n_primitives)
 {
+	static const unsigned corners[4] = { 0, 1, 2, 4 }; /* of the six indices of its two triangles */
 	const struct gls_attribs *a = &st->a;
 	float mvp[16];
 
@@ -237,10 +238,10 @@ int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n
 	    a->transform.clip_plane_mask)
 		return 0;
 	mat4_mul(mvp, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
-	for (uint32_t i = 0; i < n; i++) {
+	for (uint32_t i = 0; i < 2 * n_primitives; i++) {
 		float c[4];
 
-		mat4_transform(c, mvp, position + 4 * (size_t)i);
+		mat4_transform(c, mvp, position + 4 * (size_t)index[6 * (size_t)(i / 4) + corners[i % 4]]);
 		if (!(fabsf(c[0]) <= c[3] && fabsf(c[1]) <= c[3] && fabsf(c[2]) <= c[3]))
 			return 0;
 	}

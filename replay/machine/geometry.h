@@ -51,5 +51,8 @@ int gls_geometry_cut(struct gls_geometry *g, uint32_t mode, uint32_t first, uint
  * come without indices (hence not from lists), are shaded smoothly and need no clipping.
  */
 void gls_geometry_turn_quads(struct gls_geometry *g);
-/** 1 if quads with these positions ([n][4]) are cut the other way under this state. */
-int gls_quads_turn(const struct gls_state *st, const float *position, uint32_t n);
+/**
+ * 1 if quads are cut the other way under this state.
+ * @param index  [n_primitives][3], as gls_geometry_cut makes them of GL_QUADS: vertices of quads that are not whole do not count
+ */
+int gls_quads_turn(const struct gls_state *st, const float *position, const uint32_t *index, uint32_t n_primitives);

@@ -1,6 +1,7 @@
 /*
  * Shapes whose pixels hang on the last bits of Mesa's arithmetic, one thing a frame: lines of all slopes and widths, lines, smooth ones too,
- * drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators. Recorded by test_shapes.py.
+ * drawn over themselves under GL_LESS, turned and coplanar surfaces, materials that change between Begin and End, points, evaluators,
+ * quads that are not whole. Recorded by test_shapes.py.
  */
 #include <math.h>
 
@@ -190,9 +191,42 @@ static void evaluated(void)
 	glEvalMesh2(GL_LINE, 0, 9, 0, 7);
 }
 
+/* Bent quads, smooth, in view: how they are cut shows. Vertices of a quad that is not whole, far out of view, change nothing. */
+static void incomplete_quads(void)
+{
+	float position[7][3], color[7][3];
+
+	for (int row = 0; row < 6; row++) {
+		for (int i = 0; i < 7; i++) {
+			position[i][0] = 0.35f * (float)(i == 1 || i == 2) - 0.4f + (i < 4 ? 0 : 90);
+			position[i][1] = 0.15f * (float)(i >= 2) + 0.17f * (float)row - 0.5f;
+			position[i][2] = i & 1 ? -2.4f : -2;
+			for (int c = 0; c < 3; c++)
+				color[i][c] = (float)((i * 3 + c * 5 + row) % 4) / 3;
+		}
+		if (row & 1) {
+			glVertexPointer(3, GL_FLOAT, 0, position);
+			glColorPointer(3, GL_FLOAT, 0, color);
+			glEnableClientState(GL_VERTEX_ARRAY);
+			glEnableClientState(GL_COLOR_ARRAY);
+			glDrawArrays(GL_QUADS, 0, 4 + row / 2);
+			glDisableClientState(GL_VERTEX_ARRAY);
+			glDisableClientState(GL_COLOR_ARRAY);
+			continue;
+		}
+		glBegin(GL_QUADS);
+		for (int i = 0; i < 5 + row / 2; i++) {
+			glColor3fv(color[i]);
+			glVertex3fv(position[i]);
+		}
+		glEnd();
+	}
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { spokes, net, smooth_net, smooth_dots, coplanar, materials, points, evaluated };
+	static void (*const frames[])(void) = { spokes, net, smooth_net, smooth_dots, coplanar, materials, points, evaluated,
+		                                       incomplete_quads };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {

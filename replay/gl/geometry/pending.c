@@ -17,7 +17,7 @@ void gls_flush(struct gls_exec *x)
 	uint32_t list = x->drawn_list;
 
 	if (g->n_primitives && x->st) {
-		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->n_vertices))
+		if (g->quads && !x->pending.list && gls_quads_turn(x->st, g->position, g->index, g->n_primitives))
 			gls_geometry_turn_quads(g);
 		mesh = gls_geometry_mesh(x, g);
 		x->drawn_list = x->pending.list;
