@@ -3,11 +3,12 @@
 
 Eight programs are recorded, rendered with each family of traversal kernels on PoCL and on Intel's runtime for CPUs, each compiling
 for AVX-512 (where the processor has it) and for AVX2, and scored: all gates on the last frames. The family of a line "no options" is
-what `relume render` takes there by itself. Times are processor time:
+what `relume render` takes there by itself. Times are processor time, which other work on the machine makes longer: where a bar is
+missed, the least of TRIES counts.
 
-  cold, warm  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels
+  cold, kept  a whole run for one frame of the Cornell box, from an empty cache and once more; of it, kernels
   slowest     the file of kernels that took longest to compile (tests/real/build_shim.c)
-  ms a frame  of each program: a run of several frames less one of a single frame
+  ms a frame  of each program: what its frames take after the first one, the replay between them counted
 
 Oclgrind interprets kernels and rusticl (Mesa's llvmpipe) is young: `relume devices --check` tells how far these come.
 Recordings stay in BUILD/show/parity, which `make show-parity` uses as well; --only takes parts of implementations' names.
@@ -18,10 +19,11 @@ import json
 import os
 import pathlib
 import re
-import resource
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import time
 
 import programs
@@ -31,6 +33,7 @@ from display import need_display
 
 FAMILIES = (None, "binary", "compressed")  # None: no options
 N_FRAMES = 3
+TRIES = 3
 LIMIT_S = 900  # for one command
 CHECK_S = 60  # for a scene of --check
 COLD_S, WARM_S, FILE_S = 20, 0.2, 10  # bars: first frame, kept kernels, one file
@@ -91,87 +94,120 @@ class Runner:
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
         self.log = self.folder / "builds"
-        self.environment = dict(os.environ, **implementation.environment, BUILD_LOG=str(self.log), XDG_CACHE_HOME=str(self.folder / "cache"),
-                                POCL_CACHE_DIR=str(self.folder / "pocl"),
+        self.caches = self.folder / "cache", self.folder / "pocl"
+        self.environment = dict(os.environ, **implementation.environment, BUILD_LOG=str(self.log), XDG_CACHE_HOME=str(self.caches[0]),
+                                POCL_CACHE_DIR=str(self.caches[1]),
                                 LD_PRELOAD=":".join((str(build / "tests/real/build_shim.so"), *implementation.preload)))
 
     def run(self, *command):
-        """Exit code, output and processor time."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        try:
-            done = subprocess.run([str(a) for a in command], env=self.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                  errors="replace", timeout=LIMIT_S, check=False)
-            code, out, err = done.returncode, done.stdout, done.stderr
-        except subprocess.TimeoutExpired:
-            code, out, err = 124, "", f"not done in {LIMIT_S} s"
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return code, out, err, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        """Exit code, lines of output, errors, and the processor time that was used when each line came."""
+        errors, out, used = self.folder / "errors", [], []
+        with open(errors, "w") as file:
+            process = subprocess.Popen([str(a) for a in command], env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                       stderr=file, text=True, errors="replace")
+        late = threading.Timer(LIMIT_S, process.kill)
+        late.start()
+        for line in process.stdout:
+            used.append(time.clock_gettime(~process.pid << 3 | 2))  # the process' clock, as clock_getcpuclockid() names it
+            out.append(line)
+        code = process.wait()
+        late.cancel()
+        return code, out, errors.read_text(errors="replace"), used
 
-    def render(self, trace, frames, name="x"):
-        """Exit code, what was said last, processor time; {kernels: (how, seconds)} of what was built."""
+    def render(self, trace, frames):
+        """Exit code, what was said last, processor time at the end of each frame and of all; {kernels: seconds} of what was built."""
         self.log.unlink(missing_ok=True)
-        pictures = self.folder / name
+        pictures = self.folder / "x"
         shutil.rmtree(pictures, ignore_errors=True)
-        code, _, err, cpu_s = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "none", "-o",
-                                       pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()))
+        code, lines, err, used = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "json", "-o",
+                                          pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()))
         built = {}
         for line in self.log.read_text().splitlines() if self.log.exists() else ():
-            how, seconds, kernels = (line + " ").split(" ", 2)
-            built[kernels.strip()] = (how, float(seconds))
-        return code, (err.splitlines() or [""])[-1][:120], cpu_s, built
+            _, seconds, kernels = (line + " ").split(" ", 2)
+            built[kernels.strip()] = float(seconds)
+        times = [seconds for line, seconds in zip(lines, used) if json.loads(line)["event"] in ("frame", "end")]
+        if code == -signal.SIGKILL:
+            err = f"not done in {LIMIT_S} s"
+        return code, (err.splitlines() or [""])[-1][:120], times, built
 
-    def score(self, reference, frames, name="x"):
+    def start(self, trace, frame, bars_hold, cold):
+        """The same for one frame: of some runs the least time, of the whole run and of each program; until bars hold."""
+        least_s, least = None, {}
+        for _ in range(TRIES):
+            for cache in self.caches if cold else ():
+                shutil.rmtree(cache, ignore_errors=True)
+            code, said, times, built = self.render(trace, [frame])
+            if code:
+                return code, said, 0, {}
+            least_s = min(times[-1], least_s or times[-1])
+            least = {kernels: min(seconds, least.get(kernels, seconds)) for kernels, seconds in built.items()}
+            if bars_hold(least_s, least):
+                break
+        return 0, "", least_s, least
+
+    def score(self, reference, frames):
         """The gates that frames do not pass; "" where they pass all."""
         try:
-            scored = json.loads(self.run(self.relume, "diff", reference, self.folder / name, "-f", ",".join(map(str, frames)), "--json", "-")[1])
+            scored = json.loads("".join(self.run(self.relume, "diff", reference, self.folder / "x", "-f", ",".join(map(str, frames)), "--json", "-")[1]))
         except ValueError:
             return "not scored"
         missed = sorted({gate for frame in scored["frames"] for gate in scoring.missed_gates(frame, scoring.GATES)})
         return ", ".join(missed) if len(scored["frames"]) == len(frames) else "frames are missing"
 
 
-def show_family(build, base, implementation, family, recordings):
-    runner = Runner(build, base, implementation, family)
-    what = f"{implementation.name}, {family or 'no options'}"
-    rows = []
-
-    def row(text, figure, bar, passed):
-        rows.append({"what": f"{what}: {text}", "figure": figure, "bar": bar if implementation.demanded else None, "peer": None,
-                     "passed": passed if implementation.demanded and bar else None})
-        print(f"{rows[-1]['what']}: {figure}" + (f" (bar: {bar})" if rows[-1]["bar"] else ""), flush=True)
-
-    cornell = recordings["Cornell"]
-    code, said, cold_s, built = runner.render(cornell.trace, cornell.references[:1])
-    if code:
-        row("first frame of the Cornell box", f"exit code {code}: {said}", f"at most {COLD_S} s", False)
-        return rows
-    _, _, warm_s, found = runner.render(cornell.trace, cornell.references[:1])
-    kernels_s, kept_s = sum(s for _, s in built.values()), sum(s for _, s in found.values())
-    slowest = max(built, key=lambda k: built[k][1])
-    intel = "Intel" in implementation.name
-    row("first frame from an empty cache", f"{cold_s:.1f} s, kernels {kernels_s:.1f} s", f"at most {COLD_S} s" if intel and not family else None,
-        cold_s <= COLD_S)
-    row("the same again", f"{warm_s:.2f} s, kernels {kept_s:.2f} s", f"kernels at most {WARM_S} s" if intel else None, kept_s <= WARM_S)
-    row("the file that takes longest to compile", f"{built[slowest][1]:.1f} s ({slowest.split(';')[0]})", f"at most {FILE_S} s",
-        built[slowest][1] <= FILE_S)
-    passed, missed, speeds = 0, [], []
+def show_programs(runner, recordings):
+    """How many programs pass all gates, the others' names and what is wrong, {program: seconds a frame}."""
+    passed, missed, speeds = 0, [], {}
     for name, done in recordings.items():
         if done is None:
             missed.append(f"{name}: not recorded")
             continue
         frames = done.references[-N_FRAMES:]
-        runner.render(done.trace, frames[:1])  # trees and indices are kept from now on
-        code, said, one_s, _ = runner.render(done.trace, frames[:1])
-        if not code and len(frames) > 1:
-            code, said, all_s, _ = runner.render(done.trace, frames)
-            speeds.append(f"{name} {1e3 * max(0, all_s - one_s) / (len(frames) - 1):.0f}")
+        code, said, times, _ = runner.render(done.trace, frames)
         bad = f"exit code {code}: {said}" if code else runner.score(done.reference, frames)
+        if not code:
+            speeds[name] = (times[len(frames) - 1] - times[0]) / (len(frames) - 1)
         passed += not bad
         missed += [f"{name}: {bad}"] if bad else []
+    return passed, missed, speeds
+
+
+def show_family(build, base, implementation, family, recordings, table):
+    runner = Runner(build, base, implementation, family)
+    what = f"{implementation.name}, {family or 'no options'}"
+    rows = []
+
+    def row(text, figure, bar, passed):
+        rows.append({"what": f"{what}: {text}", "figure": figure, "bar": bar, "peer": None, "passed": passed if bar else None})
+        print(f"{rows[-1]['what']}: {figure}" + (f" (bar: {bar})" if rows[-1]["bar"] else ""), flush=True)
+
+    cornell = recordings["Cornell"]
+    code, said, cold_s, built = runner.start(cornell.trace, cornell.references[0],
+                                             lambda s, built: s <= COLD_S and max(built.values()) <= FILE_S, True)
+    if code:
+        row("first frame of the Cornell box", f"exit code {code}: {said}", f"at most {COLD_S} s", False)
+        return rows
+    _, _, kept_s, found = runner.start(cornell.trace, cornell.references[0], lambda _, found: sum(found.values()) <= WARM_S, False)
+    slowest = max(built, key=built.get)
+    row("first frame from an empty cache", f"{cold_s:.1f} s, kernels {sum(built.values()):.1f} s", f"at most {COLD_S} s", cold_s <= COLD_S)
+    row("the same again", f"{kept_s:.2f} s, kernels {sum(found.values()):.2f} s", f"kernels at most {WARM_S} s", sum(found.values()) <= WARM_S)
+    row("the file that takes longest to compile", f"{built[slowest]:.1f} s ({slowest.split(';')[0]})", f"at most {FILE_S} s",
+        built[slowest] <= FILE_S)
+    passed, missed, speeds = show_programs(runner, recordings)
     row("programs that pass all gates", f"{passed} of {len(recordings)}" + "".join(f"; {m}" for m in missed),
         f"{len(recordings)} of {len(recordings)}", passed == len(recordings))
-    row("ms a frame", ", ".join(speeds), None, None)
+    row("ms a frame", ", ".join(f"{name} {1e3 * s:.0f}" for name, s in speeds.items()), None, None)
+    table.append((what, f"{passed} of {len(recordings)}", f"{cold_s:.1f}", f"{built[slowest]:.1f}", f"{sum(found.values()):.2f}",
+                  *(f"{1e3 * speeds[name]:.0f}" if name in speeds else "-" for name in recordings)))
     return rows
+
+
+def print_table(table, recordings):
+    """All families of all implementations, a line each."""
+    head = ("device, family", "gates", "cold s", "slowest s", "kept s", *(f"{name} ms" for name in recordings))
+    widths = [max(len(line[i]) for line in (head, *table)) for i in range(len(head))]
+    for line in (head, *table) if table else ():
+        print("  ".join(text.ljust(width) if i == 0 else text.rjust(width) for i, (text, width) in enumerate(zip(line, widths))), flush=True)
 
 
 def show_checked(build, base, implementation):
@@ -179,7 +215,7 @@ def show_checked(build, base, implementation):
     runner = Runner(build, base, implementation, None)
     code, out, err, _ = runner.run(build / "relume", "devices", "--check", "--json", "--timeout", CHECK_S)
     try:
-        devices = json.loads(out)
+        devices = json.loads("".join(out))
     except ValueError:
         devices = []
     rows = []
@@ -217,17 +253,18 @@ def main():
     build = options.build.resolve()
     base = build / "show" / "devices"
     base.mkdir(parents=True, exist_ok=True)
-    recordings, rows = record_all(build), []
+    recordings, rows, table = record_all(build), [], []
     for implementation in implementations(build, base):
         if options.only and not any(part in implementation.name for part in options.only):
             continue
         begin = time.monotonic()
         if implementation.demanded:
             for family in FAMILIES:
-                rows += show_family(build, base, implementation, family, recordings)
+                rows += show_family(build, base, implementation, family, recordings, table)
         else:
             rows += show_checked(build, base, implementation)
         print(f"({implementation.name}: {time.monotonic() - begin:.0f} s)", flush=True)
+    print_table(table, recordings)
     if not options.only:
         (build / "show" / "devices.json").write_text(json.dumps({"name": "devices", "command": "make show-devices", "rows": rows}, indent=1) + "\n")
     return 1 if any(row["passed"] is False for row in rows) else 0
