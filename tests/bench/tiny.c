@@ -17,7 +17,7 @@ static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEX
 	                                      .n_bytes = sizeof(texels) };
 static const struct scene_texture *const textures[] = { &texture };
 
-static void add_unit(struct truth *t, struct scene_unit *unit)
+static void add_unit(struct made *t, struct scene_unit *unit)
 {
 	*unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT, .wrap_r = GL_REPEAT, .min_filter = GL_LINEAR,
 		                     .mag_filter = GL_LINEAR, .max_lod = 1000, .min_lod = -1000, .max_anisotropy = 1,
@@ -33,50 +33,50 @@ static void add_unit(struct truth *t, struct scene_unit *unit)
 }
 
 /* A sky, a textured floor, a mirror, glass, a film and a leaf with holes, in wire and points too. */
-static void make_scene(struct truth *t, struct scene_unit *unit, uint32_t size)
+static void make_scene(struct made *t, struct scene_unit *unit, uint32_t size)
 {
 	uint32_t sky, floor, mirror, glass, film, leaf, wire;
 
-	truth_init(t, size, size, 0.6f);
+	made_init(t, size, size, 0.6f);
 	add_unit(t, unit);
-	truth_add_light(t, 2, 3, -2, 1);
+	made_add_light(t, 2, 3, -2, 1);
 	t->lights[0].specular[0] = 1;
 	t->lights[0].radius = 0.3f;
-	truth_add_light(t, -1, 1, 1, 0);
+	made_add_light(t, -1, 1, 1, 0);
 	t->lights[1].radius = 0.1f;
-	sky = truth_add_material(t, 0.3f);
+	sky = made_add_material(t, 0.3f);
 	t->materials[sky].lighting = t->materials[sky].depth_write = t->materials[sky].depth_test = 0;
-	floor = truth_add_material(t, 0.7f);
+	floor = made_add_material(t, 0.7f);
 	t->materials[floor].unit_count = 1;
 	t->materials[floor].fog = 1;
 	t->materials[floor].fog_mode = GL_EXP;
 	t->materials[floor].fog_density = 0.02f;
-	mirror = truth_add_material(t, 0.4f);
+	mirror = made_add_material(t, 0.4f);
 	t->materials[mirror].surface.reflect = 0.6f;
 	t->materials[mirror].surface.roughness = 0.05f;
-	glass = truth_add_material(t, 0.9f);
+	glass = made_add_material(t, 0.9f);
 	t->materials[glass].surface.transmit = 0.9f;
 	t->materials[glass].surface.ior = 1.5f;
 	t->materials[glass].surface.absorb[1] = 0.2f;
-	film = truth_add_material(t, 0.9f);
+	film = made_add_material(t, 0.9f);
 	t->materials[film].blend = 1;
 	t->materials[film].blend_src_rgb = t->materials[film].blend_src_alpha = GL_DST_COLOR;
 	t->materials[film].blend_dst_rgb = t->materials[film].blend_dst_alpha = GL_ONE;
-	leaf = truth_add_material(t, 0.5f);
+	leaf = made_add_material(t, 0.5f);
 	t->materials[leaf].unit_count = 1;
 	t->materials[leaf].alpha_test = 1;
 	t->materials[leaf].alpha_func = GL_GREATER;
 	t->materials[leaf].alpha_ref = 0.5f;
-	wire = truth_add_material(t, 0.5f);
+	wire = made_add_material(t, 0.5f);
 	t->materials[wire].polygon_mode_front = GL_LINE;
 	t->materials[wire].polygon_mode_back = GL_POINT;
-	truth_add_square(t, sky, (float[3]){ 0, 0, -40 }, right, up, 30, 1);
-	truth_add_square(t, floor, (float[3]){ 0, 0, -12 }, right, up, 6, 2);
-	truth_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ 0.7f, 0, 0.7f }, up, 1.3f, 1);
-	truth_add_square(t, glass, (float[3]){ 1.2f, 0.6f, -7 }, right, (float[3]){ 0, 0.7f, 0.7f }, 0.8f, 1);
-	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, right, up, 0.9f, 1);
-	truth_add_square(t, leaf, (float[3]){ -0.5f, 0.9f, -6 }, right, up, 0.9f, 1);
-	truth_add_square(t, wire, (float[3]){ 0, 0, -4 }, right, up, 0.5f, 1);
+	made_add_square(t, sky, (float[3]){ 0, 0, -40 }, right, up, 30, 1);
+	made_add_square(t, floor, (float[3]){ 0, 0, -12 }, right, up, 6, 2);
+	made_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ 0.7f, 0, 0.7f }, up, 1.3f, 1);
+	made_add_square(t, glass, (float[3]){ 1.2f, 0.6f, -7 }, right, (float[3]){ 0, 0.7f, 0.7f }, 0.8f, 1);
+	made_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, right, up, 0.9f, 1);
+	made_add_square(t, leaf, (float[3]){ -0.5f, 0.9f, -6 }, right, up, 0.9f, 1);
+	made_add_square(t, wire, (float[3]){ 0, 0, -4 }, right, up, 0.5f, 1);
 }
 
 static uint64_t hash_of(const struct image *img)
@@ -99,7 +99,7 @@ START_TEST(render_pictures)
 	struct device *dev = NULL;
 	struct tracer *tracer = NULL;
 	enum device_family kernels = 0;
-	struct truth t;
+	struct made t;
 	struct scene_unit unit;
 
 	make_scene(&t, &unit, 7);
@@ -122,7 +122,7 @@ START_TEST(render_pictures)
 	}
 	tracer_destroy(&tracer);
 	device_close(&dev);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

@@ -12,50 +12,50 @@
 
 #define SIZE 64
 
-static void make_scene(struct truth *t)
+static void make_scene(struct made *t)
 {
 	const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 }, r = sqrtf(0.5f);
 	uint32_t floor, mirror, film, flat, glass;
 
-	truth_init(t, SIZE, SIZE, 0.6f);
-	truth_add_light(t, 2, 3, -2, 1);
+	made_init(t, SIZE, SIZE, 0.6f);
+	made_add_light(t, 2, 3, -2, 1);
 	t->lights[0].specular[0] = t->lights[0].specular[1] = 1;
 	t->lights[0].attenuation[1] = 0.05f;
-	truth_add_light(t, -1, 1, 1, 0);
+	made_add_light(t, -1, 1, 1, 0);
 	t->lights[1].diffuse[2] = 0.25f;
 	t->lights[1].ambient[0] = 0.1f;
-	floor = truth_add_material(t, 0.7f);
+	floor = made_add_material(t, 0.7f);
 	t->materials[floor].front.specular[0] = 0.5f;
 	t->materials[floor].front.shininess = 12;
 	t->materials[floor].fog = 1;
 	t->materials[floor].fog_mode = GL_EXP;
 	t->materials[floor].fog_density = 0.02f;
-	mirror = truth_add_material(t, 0.4f);
+	mirror = made_add_material(t, 0.4f);
 	t->materials[mirror].surface.reflect = 0.6f;
 	t->materials[mirror].two_side = t->materials[mirror].local_viewer = 1;
-	film = truth_add_material(t, 0.9f);
+	film = made_add_material(t, 0.9f);
 	t->materials[film].blend = 1;
 	t->materials[film].blend_src_rgb = t->materials[film].blend_src_alpha = GL_DST_COLOR;
 	t->materials[film].blend_dst_rgb = t->materials[film].blend_dst_alpha = GL_ONE;
 	t->materials[film].depth_write = 0;
-	flat = truth_add_material(t, 0.5f);
+	flat = made_add_material(t, 0.5f);
 	t->materials[flat].shade_model = GL_FLAT;
-	glass = truth_add_material(t, 0.8f);
+	glass = made_add_material(t, 0.8f);
 	t->materials[glass].surface.transmit = 0.8f;
 	t->materials[glass].surface.ior = 1.4f;
 	t->materials[glass].surface.absorb[2] = 0.3f;
-	truth_add_square(t, floor, (float[3]){ 0, 0, -12 }, x, y, 6, 6);
-	truth_add_square(t, glass, (float[3]){ -0.9f, 1.2f, -7 }, (float[3]){ r, 0, r }, y, 0.9f, 2);
-	truth_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ r, 0, r }, y, 1.3f, 2);
-	truth_add_square(t, flat, (float[3]){ 1.2f, 0.6f, -7 }, x, (float[3]){ 0, r, r }, 0.8f, 3);
-	truth_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
+	made_add_square(t, floor, (float[3]){ 0, 0, -12 }, x, y, 6, 6);
+	made_add_square(t, glass, (float[3]){ -0.9f, 1.2f, -7 }, (float[3]){ r, 0, r }, y, 0.9f, 2);
+	made_add_square(t, mirror, (float[3]){ -1, -1, -8 }, (float[3]){ r, 0, r }, y, 1.3f, 2);
+	made_add_square(t, flat, (float[3]){ 1.2f, 0.6f, -7 }, x, (float[3]){ 0, r, r }, 0.8f, 3);
+	made_add_square(t, film, (float[3]){ 0.3f, -0.5f, -5 }, x, y, 0.9f, 1);
 }
 
 /* Four samples a pixel; the film covers whole pixels, and so do the tests of all samples there. */
-static void take_samples(struct truth *t)
+static void take_samples(struct made *t)
 {
 	t->scene.samples = SCENE_SAMPLES;
-	for (uint32_t m = 0; m < TRUTH_MAX; m++)
+	for (uint32_t m = 0; m < MADE_MAX; m++)
 		t->materials[m].multisample = !t->materials[m].blend;
 	t->materials[0].samples_off = 2;
 }
@@ -63,7 +63,7 @@ static void take_samples(struct truth *t)
 START_TEST(test_device_against_twins)
 {
 	struct device_description *devices = NULL;
-	struct truth t;
+	struct made t;
 	struct image c, cl;
 	size_t n = 0;
 
@@ -97,7 +97,7 @@ START_TEST(test_device_against_twins)
 		image_free(&cl);
 	}
 	image_free(&c);
-	truth_free(&t);
+	made_free(&t);
 	free(devices);
 }
 END_TEST

@@ -13,9 +13,9 @@ enum { WIDTH = 45, HEIGHT = 100, PIXELS = WIDTH * HEIGHT };
 static uint8_t start_rgba[4 * PIXELS], start_stencil[PIXELS];
 static uint32_t start_depth[PIXELS];
 
-static uint32_t glass(struct truth *t)
+static uint32_t glass(struct made *t)
 {
-	uint32_t m = truth_add_material(t, 0.8f);
+	uint32_t m = made_add_material(t, 0.8f);
 
 	t->materials[m].surface.transmit = 0.7f;
 	t->materials[m].surface.reflect = 0.2f;
@@ -23,9 +23,9 @@ static uint32_t glass(struct truth *t)
 	return m;
 }
 
-static uint32_t film(struct truth *t)
+static uint32_t film(struct made *t)
 {
-	uint32_t m = truth_add_material(t, 0.3f);
+	uint32_t m = made_add_material(t, 0.3f);
 
 	t->materials[m].blend = 1;
 	t->materials[m].depth_write = 0;
@@ -35,10 +35,10 @@ static uint32_t film(struct truth *t)
 }
 
 /* Writes the stencil buffer where it passes, and draws where the buffer says so. */
-static uint32_t stencilled(struct truth *t, uint32_t func)
+static uint32_t stencilled(struct made *t, uint32_t func)
 {
 	struct scene_material *m;
-	uint32_t i = truth_add_material(t, 0.6f);
+	uint32_t i = made_add_material(t, 0.6f);
 
 	m = &t->materials[i];
 	m->stencil_test = 1;
@@ -48,22 +48,22 @@ static uint32_t stencilled(struct truth *t, uint32_t func)
 	return i;
 }
 
-static void fill(struct truth *t, int plain)
+static void fill(struct made *t, int plain)
 {
 	const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 }, tilted[3] = { 0, 0.8f, -0.6f };
 	uint32_t matte;
 
-	truth_init(t, WIDTH, HEIGHT, 0.6f);
-	truth_add_light(t, 2, 6, 0, 1);
-	matte = truth_add_material(t, 0.9f);
-	truth_add_square(t, matte, (float[3]){ 0, 0, -20 }, right, up, 9, 7);
-	truth_add_square(t, matte, (float[3]){ 1, 1, -9 }, right, up, 0.7f, 1);
+	made_init(t, WIDTH, HEIGHT, 0.6f);
+	made_add_light(t, 2, 6, 0, 1);
+	matte = made_add_material(t, 0.9f);
+	made_add_square(t, matte, (float[3]){ 0, 0, -20 }, right, up, 9, 7);
+	made_add_square(t, matte, (float[3]){ 1, 1, -9 }, right, up, 0.7f, 1);
 	if (plain)
 		return;
-	truth_add_square(t, glass(t), (float[3]){ -1, -2, -10 }, right, tilted, 2, 2);
-	truth_add_square(t, stencilled(t, GL_ALWAYS), (float[3]){ 0, 3, -8 }, right, up, 0.9f, 1);
-	truth_add_square(t, stencilled(t, GL_EQUAL), (float[3]){ 0.5f, 3.5f, -7 }, right, up, 0.9f, 1);
-	truth_add_square(t, film(t), (float[3]){ 0, -1, -6 }, right, up, 1.5f, 2);
+	made_add_square(t, glass(t), (float[3]){ -1, -2, -10 }, right, tilted, 2, 2);
+	made_add_square(t, stencilled(t, GL_ALWAYS), (float[3]){ 0, 3, -8 }, right, up, 0.9f, 1);
+	made_add_square(t, stencilled(t, GL_EQUAL), (float[3]){ 0.5f, 3.5f, -7 }, right, up, 0.9f, 1);
+	made_add_square(t, film(t), (float[3]){ 0, -1, -6 }, right, up, 1.5f, 2);
 }
 
 static void compare(const struct image *a, const struct image *b, const char *what, unsigned rows)
@@ -78,7 +78,7 @@ static void compare(const struct image *a, const struct image *b, const char *wh
 	}
 }
 
-static void check(struct tracer *tracer, const struct truth *t, struct tracer_options options, const char *what)
+static void check(struct tracer *tracer, const struct made *t, struct tracer_options options, const char *what)
 {
 	static const unsigned rows[] = { 1, 64 }; /* 1: as few as there can be */
 	struct image whole = { .width = 0 };
@@ -105,7 +105,7 @@ START_TEST(test_number_of_bands)
 	const char *choice = getenv("RELUME_TEST_DEVICE");
 	struct device *dev = NULL;
 	struct tracer *tracer = NULL;
-	struct truth t;
+	struct made t;
 
 	several.samples = 2;
 	ck_assert_int_eq(device_open(choice ? choice : "reference", 0, &dev), 0);
@@ -129,7 +129,7 @@ START_TEST(test_number_of_bands)
 			start_stencil[i] = (uint8_t)(i / WIDTH / 40);
 		}
 		check(tracer, &t, options, "pixels from before");
-		truth_free(&t);
+		made_free(&t);
 	}
 	tracer_destroy(&tracer);
 	device_close(&dev);

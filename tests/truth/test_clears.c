@@ -67,10 +67,10 @@ START_TEST(test_clears_against_account)
 	struct account found, expected;
 	struct scene_picture picture = { .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .rgba = found.rgba, .depth = found.depth,
 		                         .stencil = found.stencil };
-	struct truth t;
+	struct made t;
 	uint32_t seed = 20;
 
-	truth_init(&t, WIDTH, HEIGHT, 1);
+	made_init(&t, WIDTH, HEIGHT, 1);
 	t.scene.alpha_bits = 8;
 	t.scene.clears = clears;
 	ck_assert_int_eq(device_open(choice ? choice : "reference", 0, &dev), 0);
@@ -91,7 +91,7 @@ START_TEST(test_clears_against_account)
 	}
 	tracer_destroy(&tracer);
 	device_close(&dev);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

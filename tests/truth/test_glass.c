@@ -13,18 +13,18 @@
 static const float up[3] = { 0, 1, 0 };
 
 /* A material that glows, and shows nothing else. */
-static uint32_t add_glow(struct truth *t, float emission)
+static uint32_t add_glow(struct made *t, float emission)
 {
-	uint32_t m = truth_add_material(t, 0);
+	uint32_t m = made_add_material(t, 0);
 
 	for (int c = 0; c < 3; c++)
 		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
 	return m;
 }
 
-static uint32_t add_glass(struct truth *t, float ior)
+static uint32_t add_glass(struct made *t, float ior)
 {
-	uint32_t m = truth_add_material(t, 1);
+	uint32_t m = made_add_material(t, 1);
 
 	t->materials[m].surface.transmit = 1;
 	t->materials[m].surface.ior = ior;
@@ -32,11 +32,11 @@ static uint32_t add_glass(struct truth *t, float ior)
 }
 
 /* A square at `centre`, turned by `angle` about the vertical; its front looks at the viewer, or away from him. */
-static void add_pane(struct truth *t, uint32_t material, const float centre[3], float angle, int away)
+static void add_pane(struct made *t, uint32_t material, const float centre[3], float angle, int away)
 {
 	float across[3] = { cosf(angle), 0, sinf(angle) }, down[3] = { 0, -1, 0 };
 
-	truth_add_square(t, material, centre, across, away ? down : up, 6, 1);
+	made_add_square(t, material, centre, across, away ? down : up, 6, 1);
 }
 
 static float fresnel(float n1, float n2, float angle)
@@ -71,14 +71,14 @@ START_TEST(test_snell)
 			float a = angles_deg[i] * 0.0174532925f, b = asinf(sinf(a) / iors[k]), d = 0.8f;
 			float half[3] = { -d / 2 * sinf(a), 0, d / 2 * cosf(a) }; /* from the middle to the front, along its normal */
 			float moved = d * sinf(a - b) / cosf(b);
-			struct truth t;
+			struct made t;
 			struct image img;
 			uint32_t glass, bright;
 
-			truth_init(&t, SIZE, SIZE, 0);
+			made_init(&t, SIZE, SIZE, 0);
 			bright = add_glow(&t, 1);
 			glass = add_glass(&t, iors[k]);
-			truth_add_square(&t, bright, (float[3]){ -4, 0, -30 }, (float[3]){ 1, 0, 0 }, up, 4, 1);
+			made_add_square(&t, bright, (float[3]){ -4, 0, -30 }, (float[3]){ 1, 0, 0 }, up, 4, 1);
 			add_pane(&t, glass, (float[3]){ half[0], half[1], -10 + half[2] }, a, 0);
 			add_pane(&t, glass, (float[3]){ -half[0], -half[1], -10 - half[2] }, a, 1);
 			truth_render(&t, "whitted", &img);
@@ -86,7 +86,7 @@ START_TEST(test_snell)
 			ck_assert_float_eq_tol(border(&img), -moved, 1.5f * 2 / SIZE);
 			truth_check_closure(&img);
 			image_free(&img);
-			truth_free(&t);
+			made_free(&t);
 		}
 }
 END_TEST
@@ -97,14 +97,14 @@ START_TEST(test_fresnel)
 	for (int i = 0; i < 2; i++)
 		for (float deg = 0; deg < 80; deg += 9) {
 			float a = deg * 0.0174532925f, n1 = i ? 1.5f : 1, n2 = i ? 1 : 1.5f, f = fresnel(n1, n2, a);
-			struct truth t;
+			struct made t;
 			struct image img;
 			uint32_t glass, bright;
 
-			truth_init(&t, SIZE, SIZE, 0);
+			made_init(&t, SIZE, SIZE, 0);
 			bright = add_glow(&t, 1);
 			glass = add_glass(&t, 1.5f);
-			truth_add_square(&t, bright, (float[3]){ 0, 0, -90 }, (float[3]){ 1, 0, 0 }, up, 89, 1);
+			made_add_square(&t, bright, (float[3]){ 0, 0, -90 }, (float[3]){ 1, 0, 0 }, up, 89, 1);
 			add_pane(&t, glass, (float[3]){ 0, 0, -10 }, a, i);
 			truth_render(&t, "whitted", &img);
 			if (f < 1) /* bent rays all meet the wall */
@@ -113,7 +113,7 @@ START_TEST(test_fresnel)
 				ck_assert_float_eq(truth_at(&img, "refract.R", SIZE / 2, SIZE / 2), 0);
 			truth_check_closure(&img);
 			image_free(&img);
-			truth_free(&t);
+			made_free(&t);
 		}
 }
 END_TEST
@@ -122,22 +122,22 @@ END_TEST
 START_TEST(test_total_reflection)
 {
 	const float a = 0.7853981634f; /* 45 degrees: beyond asin(1 / 1.5) */
-	struct truth t;
+	struct made t;
 	struct image img;
 	uint32_t glass, bright;
 
-	truth_init(&t, SIZE, SIZE, 0);
+	made_init(&t, SIZE, SIZE, 0);
 	bright = add_glow(&t, 0.7f);
 	glass = add_glass(&t, 1.5f);
 	/* the pane sends what looks along -z to -x */
-	truth_add_square(&t, bright, (float[3]){ -20, 0, -10 }, (float[3]){ 0, 0, -1 }, up, 15, 1);
+	made_add_square(&t, bright, (float[3]){ -20, 0, -10 }, (float[3]){ 0, 0, -1 }, up, 15, 1);
 	add_pane(&t, glass, (float[3]){ 0, 0, -10 }, a, 1);
 	truth_render(&t, "whitted", &img);
 	ck_assert_float_eq_tol(truth_at(&img, "reflect.R", SIZE / 2, SIZE / 2), 0.7f, 1e-3f);
 	ck_assert_float_eq(truth_at(&img, "refract.R", SIZE / 2, SIZE / 2), 0);
 	truth_check_closure(&img);
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -150,19 +150,19 @@ START_TEST(test_beer)
 	for (int i = 0; i < 3; i++) {
 		const float s = scales[i], one = expf(-absorb * d);
 		float truth = (1 - f) * (1 - f) * one;
-		struct truth t;
+		struct made t;
 		struct image img;
 		uint32_t glass, bright;
 
-		truth_init(&t, SIZE, SIZE, 0.1f);
+		made_init(&t, SIZE, SIZE, 0.1f);
 		t.view.projection[14] *= s; /* near and far move with the scene */
 		bright = add_glow(&t, 1);
 		glass = add_glass(&t, 1.5f);
 		for (int c = 0; c < 3; c++)
 			t.materials[glass].surface.absorb[c] = c == 1 ? 0 : absorb / s;
-		truth_add_square(&t, bright, (float[3]){ 0, 0, -30 * s }, (float[3]){ 1, 0, 0 }, up, 10 * s, 1);
-		truth_add_square(&t, glass, (float[3]){ 0, 0, -10 * s }, (float[3]){ 1, 0, 0 }, up, 3 * s, 1);
-		truth_add_square(&t, glass, (float[3]){ 0, 0, (-10 - d) * s }, (float[3]){ 1, 0, 0 },
+		made_add_square(&t, bright, (float[3]){ 0, 0, -30 * s }, (float[3]){ 1, 0, 0 }, up, 10 * s, 1);
+		made_add_square(&t, glass, (float[3]){ 0, 0, -10 * s }, (float[3]){ 1, 0, 0 }, up, 3 * s, 1);
+		made_add_square(&t, glass, (float[3]){ 0, 0, (-10 - d) * s }, (float[3]){ 1, 0, 0 },
 		                 (float[3]){ 0, -1, 0 }, 3 * s, 1);
 		truth_render(&t, "whitted", &img);
 		for (uint32_t y = 0; y < SIZE; y++)
@@ -171,7 +171,7 @@ START_TEST(test_beer)
 				ck_assert_float_eq_tol(truth_at(&img, "G", x, y), (1 - f) * (1 - f), 3e-3f);
 			}
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
@@ -179,24 +179,24 @@ END_TEST
 /* What of a light comes through a caster over a floor, seen from below past it: material -> shadow.R, shadow.G. */
 static void check_shadow(void (*change)(struct scene_material *m), float red, float green)
 {
-	struct truth t;
+	struct made t;
 	struct image img;
 	uint32_t floor, caster;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	truth_add_light(&t, 0, 0, 50, 1);
-	floor = truth_add_material(&t, 1);
-	caster = truth_add_material(&t, 1);
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0, 0, 50, 1);
+	floor = made_add_material(&t, 1);
+	caster = made_add_material(&t, 1);
 	change(&t.materials[caster]);
-	truth_add_square(&t, floor, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, up, 3, 1);
+	made_add_square(&t, floor, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, up, 3, 1);
 	/* nearer than the viewer's near plane: not in the picture, only in the light's way */
-	truth_add_square(&t, caster, (float[3]){ 0, 0, 10 }, (float[3]){ 1, 0, 0 }, up, 5, 1);
+	made_add_square(&t, caster, (float[3]){ 0, 0, 10 }, (float[3]){ 1, 0, 0 }, up, 5, 1);
 	truth_render(&t, "whitted", &img);
 	ck_assert_float_eq_tol(truth_at(&img, "shadow.R", SIZE / 2, SIZE / 2), red, 2e-3f);
 	ck_assert_float_eq_tol(truth_at(&img, "shadow.G", SIZE / 2, SIZE / 2), green, 2e-3f);
 	truth_check_closure(&img);
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 
 static void change_nothing(struct scene_material *m) { (void)m; }

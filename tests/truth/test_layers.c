@@ -11,16 +11,16 @@
 enum { STRIPS = 8, STRIP = 8, SIZE = STRIPS * STRIP, CLEARED_ROWS = 16 };
 
 /** A sheet over the full height, from the left border of a strip to the right one of the picture. */
-static void add_sheet(struct truth *t, uint32_t material, int first_strip, float z)
+static void add_sheet(struct made *t, uint32_t material, int first_strip, float z)
 {
 	float left = 2.0f * (float)first_strip / STRIPS - 1, half = (1 - left) / 2;
 
-	truth_add_square(t, material, (float[3]){ left + half, 0, z }, (float[3]){ half, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 1);
+	made_add_square(t, material, (float[3]){ left + half, 0, z }, (float[3]){ half, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 1);
 }
 
-static uint32_t add_film(struct truth *t)
+static uint32_t add_film(struct made *t)
 {
-	uint32_t film = truth_add_material(t, 0.5f);
+	uint32_t film = made_add_material(t, 0.5f);
 
 	t->materials[film].blend = 1;
 	t->materials[film].blend_src_rgb = t->materials[film].blend_src_alpha = GL_SRC_ALPHA;
@@ -34,10 +34,10 @@ START_TEST(test_number_of_layers)
 	/* wall and what follows it, see below */
 	static const float counted[STRIPS] = { 1, 1, 2, 2, 2, 2, 0, 1 }, after_clear[STRIPS] = { 0, 0, 0, 0, 0, 0, 0, 1 };
 	static const char *const modes[] = { "gl", "whitted" };
-	struct truth t;
+	struct made t;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	uint32_t wall = truth_add_material(&t, 0.5f), film = add_film(&t), discarded = add_film(&t), red = truth_add_material(&t, 0.5f);
+	made_init(&t, SIZE, SIZE, 0);
+	uint32_t wall = made_add_material(&t, 0.5f), film = add_film(&t), discarded = add_film(&t), red = made_add_material(&t, 0.5f);
 
 	t.materials[discarded].alpha_test = 1;
 	t.materials[discarded].alpha_func = GL_NEVER;
@@ -73,7 +73,7 @@ START_TEST(test_number_of_layers)
 			}
 		image_free(&img);
 	}
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

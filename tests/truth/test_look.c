@@ -61,19 +61,20 @@ START_TEST(test_wrong_files)
 END_TEST
 
 /* Four squares with one draw each, and what is known of them beside. */
-static void make_squares(struct truth *t, struct scene_draw *draws)
+static void make_squares(struct made *t, struct scene_draw *draws)
 {
 	static const float up[3] = { 0, 1, 0 }, right[3] = { 1, 0, 0 };
 	uint32_t lit, plain;
 
-	truth_init(t, SIZE, SIZE, 0);
-	truth_add_light(t, 0, 0, 10, 0);
-	lit = truth_add_material(t, 0.5f);
-	plain = truth_add_material(t, 0.5f);
+	made_init(t, SIZE, SIZE, 0);
+	made_add_light(t, 0, 0, 10, 0);
+	lit = made_add_material(t, 0.5f);
+	plain = made_add_material(t, 0.5f);
 	t->materials[plain].lighting = t->materials[plain].light_count = 0;
 	for (uint32_t i = 0; i < 4; i++) {
-		truth_add_square(t, i % 2 ? plain : lit, (float[3]){ i < 2 ? -0.5f : 0.5f, i % 2 ? -0.5f : 0.5f, -10 }, right,
+		made_add_square(t, i % 2 ? plain : lit, (float[3]){ i < 2 ? -0.5f : 0.5f, i % 2 ? -0.5f : 0.5f, -10 }, right,
 		                 up, 0.5f, 1);
+		t->meshes[i].hash[1] = (uint64_t)6 << 32 | i; /* named below */
 		draws[i + 1] = (struct scene_draw){ i < 2 ? "glCallList" : "glEnd", i, i < 2 ? 7 : 0 };
 	}
 	t->scene.draws = draws;
@@ -88,7 +89,7 @@ START_TEST(test_matches)
 		{ "{ program: yes }", 0 }, { "{ alpha_tested: no }", 15 },
 	};
 	struct scene_draw draws[5];
-	struct truth t;
+	struct made t;
 
 	make_squares(&t, draws);
 	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
@@ -108,7 +109,7 @@ START_TEST(test_matches)
 		look_release(&changed);
 		rules_free(&look);
 	}
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -118,10 +119,10 @@ static float corner(const struct image *img, const char *channel, int square)
 	return truth_at(img, channel, square < 2 ? SIZE / 4 : 3 * SIZE / 4, square % 2 ? 3 * SIZE / 4 : SIZE / 4);
 }
 
-static void render_under(const struct truth *t, const char *text, struct image *img)
+static void render_under(const struct made *t, const char *text, struct image *img)
 {
 	struct tracer_options options = { .mode = TRACER_WHITTED, .display = 1, .depth = 4 };
-	struct truth changed = *t;
+	struct made changed = *t;
 	struct look *look;
 
 	ck_assert_msg(load(text, &look) == 0, "%s", said);
@@ -136,7 +137,7 @@ static void render_under(const struct truth *t, const char *text, struct image *
 START_TEST(test_lights)
 {
 	struct scene_draw draws[5];
-	struct truth t;
+	struct made t;
 	struct image img;
 
 	make_squares(&t, draws);
@@ -161,7 +162,7 @@ START_TEST(test_lights)
 	ck_assert_float_eq_tol(corner(&img, "relight.R", 0), 0.125f, 1e-3f);
 	ck_assert_float_eq_tol(corner(&img, "R", 2), 0.625f, 1e-3f);
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -169,7 +170,7 @@ END_TEST
 START_TEST(test_light_of_an_object)
 {
 	struct scene_draw draws[5];
-	struct truth t;
+	struct made t;
 	struct scene changed;
 	struct look *look;
 	const struct scene_light *light;
@@ -183,7 +184,7 @@ START_TEST(test_light_of_an_object)
 	ck_assert_float_eq(light->position_eye[1], 2);
 	look_release(&changed);
 	rules_free(&look);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

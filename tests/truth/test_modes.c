@@ -36,18 +36,18 @@ START_TEST(test_penumbra)
 	for (int i = 0; i < 3; i++) {
 		float blocker = blockers[i], width = (receiver - blocker) / blocker * 2 * radius;
 		struct tracer_options options = options_of(TRACER_WHITTED);
-		struct truth t;
+		struct made t;
 		struct image img;
 		uint32_t matte;
 
-		truth_init(&t, SIZE, SIZE, 0);
-		truth_add_light(&t, 0, 0, receiver - 10, 1);
+		made_init(&t, SIZE, SIZE, 0);
+		made_add_light(&t, 0, 0, receiver - 10, 1);
 		t.lights[0].radius = radius;
 		options.rays = 256;
-		matte = truth_add_material(&t, 1);
-		truth_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 2, 1);
+		matte = made_add_material(&t, 1);
+		made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 2, 1);
 		/* its edge is at x = 0; beyond the viewer, so that the picture shows the floor alone */
-		truth_add_square(&t, matte, (float[3]){ -20, 0, receiver - 10 - blocker }, right, up, 20, 1);
+		made_add_square(&t, matte, (float[3]){ -20, 0, receiver - 10 - blocker }, right, up, 20, 1);
 		truth_render_with(&t, &options, &img);
 		for (uint32_t x = 0; x < SIZE; x++) {
 			float px = 2 * ((float)x + 0.5f) / SIZE - 1, shadow = truth_at(&img, "shadow.R", x, SIZE / 2);
@@ -60,7 +60,7 @@ START_TEST(test_penumbra)
 		}
 		truth_check_closure(&img);
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
@@ -75,7 +75,7 @@ START_TEST(test_openness_under_disk)
 	for (int i = 0; i < 3; i++) {
 		const float h = heights[i] + 9, r = 10; /* the disk is behind the viewer */
 		struct tracer_options options = options_of(TRACER_AO);
-		struct truth t;
+		struct made t;
 		struct image img;
 		uint32_t matte;
 
@@ -88,12 +88,12 @@ START_TEST(test_openness_under_disk)
 				position[3 * s + k][2] = -10 + h;
 				normal[3 * s + k][2] = -1;
 			}
-		truth_init(&t, SIZE, SIZE, 0);
+		made_init(&t, SIZE, SIZE, 0);
 		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
 		options.rays = 1024;
-		matte = truth_add_material(&t, 1);
-		truth_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
-		truth_add_triangles(&t, matte, (const float (*)[3])position, (const float (*)[3])normal, 3 * SEGMENTS);
+		matte = made_add_material(&t, 1);
+		made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
+		made_add_triangles(&t, matte, (const float (*)[3])position, (const float (*)[3])normal, 3 * SEGMENTS);
 		truth_render_with(&t, &options, &img);
 		ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 2, SIZE / 2), h * h / (r * r + h * h), 0.005f);
 		truth_check_closure(&img);
@@ -102,7 +102,7 @@ START_TEST(test_openness_under_disk)
 		truth_render_with(&t, &options, &img);
 		ck_assert_float_eq(truth_at(&img, "R", SIZE / 2, SIZE / 2), 1);
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 	}
 	free(position);
 	free(normal);
@@ -110,7 +110,7 @@ START_TEST(test_openness_under_disk)
 END_TEST
 
 /* A ball of radius 3 around `centre`, seen from outside or, turned inside out, from within. */
-static void add_ball(struct truth *t, uint32_t material, const float centre[3], float r, int inside)
+static void add_ball(struct made *t, uint32_t material, const float centre[3], float r, int inside)
 {
 	enum { RINGS = 16, SECTORS = 32, N = RINGS * SECTORS * 6 };
 	static const int corner[6][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 1, 0 } };
@@ -128,12 +128,12 @@ static void add_ball(struct truth *t, uint32_t material, const float centre[3], 
 					normal[n][i] = inside ? -d[i] : d[i];
 				}
 			}
-	truth_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
+	made_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
 	free(position);
 	free(normal);
 }
 
-static void glow(struct truth *t, uint32_t m, float emission)
+static void glow(struct made *t, uint32_t m, float emission)
 {
 	for (int c = 0; c < 3; c++)
 		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
@@ -148,14 +148,14 @@ START_TEST(test_white_furnace)
 		float albedo = kind ? 1 : 0.7f;
 		double sum = 0;
 		uint32_t matte, n = 0;
-		struct truth t;
+		struct made t;
 		struct image img;
 
-		truth_init(&t, SIZE, SIZE, 0);
+		made_init(&t, SIZE, SIZE, 0);
 		for (int c = 0; c < 3; c++)
 			t.clear.color[c] = 1;
 		options.depth = kind == 2 ? 32 : 4; /* light goes to and fro in glass for long */
-		matte = truth_add_material(&t, albedo);
+		matte = made_add_material(&t, albedo);
 		t.materials[matte].surface.reflect = kind == 1;
 		t.materials[matte].surface.transmit = kind == 2;
 		t.materials[matte].surface.ior = 1.5f;
@@ -174,7 +174,7 @@ START_TEST(test_white_furnace)
 		ck_assert_double_eq_tol(sum / n, (double)albedo, 5e-3);
 		truth_check_closure(&img);
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
@@ -186,13 +186,13 @@ START_TEST(test_glowing_ball)
 
 	for (unsigned depth = 0; depth < 6; depth++) {
 		struct tracer_options options = options_of(TRACER_PATH);
-		struct truth t;
+		struct made t;
 		struct image img;
 		uint32_t matte;
 		float truth = e * (1 - powf(a, (float)depth + 1)) / (1 - a);
 
-		truth_init(&t, SIZE, SIZE, 1);
-		matte = truth_add_material(&t, a);
+		made_init(&t, SIZE, SIZE, 1);
+		matte = made_add_material(&t, a);
 		glow(&t, matte, e);
 		add_ball(&t, matte, (float[3]){ 0, 0, 0 }, 5, 1);
 		options.depth = depth;
@@ -207,7 +207,7 @@ START_TEST(test_glowing_ball)
 		ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 3, SIZE / 3), e + a * e, 2e-3f);
 		ck_assert_float_eq_tol(truth_at(&img, "relight.R", SIZE / 3, SIZE / 3), a * e, 2e-3f);
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
@@ -217,14 +217,14 @@ START_TEST(test_samples)
 {
 	struct tracer_options options = options_of(TRACER_WHITTED);
 	const float edge = 2 * (SIZE / 2 + 0.3f) / SIZE - 1; /* 30 % into the pixel right of the middle */
-	struct truth t;
+	struct made t;
 	struct image one, many, again;
 	uint32_t bright;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	bright = truth_add_material(&t, 0);
+	made_init(&t, SIZE, SIZE, 0);
+	bright = made_add_material(&t, 0);
 	glow(&t, bright, 1);
-	truth_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
+	made_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
 	truth_render_with(&t, &options, &one);
 	options.samples = 64;
 	truth_render_with(&t, &options, &many);
@@ -246,7 +246,7 @@ START_TEST(test_samples)
 	image_free(&one);
 	image_free(&many);
 	image_free(&again);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -259,14 +259,14 @@ START_TEST(test_samples_differ_from_pixel_to_pixel)
 	struct tracer_options options = options_of(TRACER_WHITTED);
 	const float edge = 2 * (SIZE / 2 + 0.4f) / SIZE - 1;
 	uint32_t bright, seen[5] = { 0 }, kinds = 0;
-	struct truth t;
+	struct made t;
 	struct image img;
 	float mean = 0;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	bright = truth_add_material(&t, 0);
+	made_init(&t, SIZE, SIZE, 0);
+	bright = made_add_material(&t, 0);
 	glow(&t, bright, 1);
-	truth_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
+	made_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
 	options.samples = 4;
 	truth_render_with(&t, &options, &img);
 	for (uint32_t y = 0; y < SIZE; y++) {
@@ -281,7 +281,7 @@ START_TEST(test_samples_differ_from_pixel_to_pixel)
 	ck_assert_uint_ge(kinds, 2);
 	ck_assert_float_eq_tol(mean, 0.4f * 0.75f, 0.15f); /* the sample at the centre sees nothing of it */
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -290,14 +290,14 @@ START_TEST(test_relight)
 {
 	struct tracer_options options = options_of(TRACER_WHITTED);
 	const float h = 0.5f;
-	struct truth t;
+	struct made t;
 	struct image img;
 	uint32_t matte;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	truth_add_light(&t, 0, 0, -10 + h, 1);
-	matte = truth_add_material(&t, 0.8f);
-	truth_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0, 0, -10 + h, 1);
+	matte = made_add_material(&t, 0.8f);
+	made_add_square(&t, matte, (float[3]){ 0, 0, -10 }, right, up, 1, 1);
 	options.relight = 1;
 	truth_render_with(&t, &options, &img);
 	for (uint32_t y = 0; y < SIZE; y++)
@@ -311,7 +311,7 @@ START_TEST(test_relight)
 		}
 	truth_check_closure(&img);
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

@@ -21,13 +21,13 @@ static float at(const struct image *img, const char *channel, uint32_t x, uint32
 /* A square at distance 10 under a point light at height h over it: cos(angle), interpolated between fine cells. */
 START_TEST(test_square_under_point_light)
 {
-	struct truth t;
+	struct made t;
 	struct image img;
 	const float h = 3, albedo = 0.8f;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	truth_add_light(&t, 0, 0, -10 + h, 1);
-	truth_add_square(&t, truth_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 },
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0, 0, -10 + h, 1);
+	made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 },
 	                 (float[3]){ 0, 1, 0 }, 1, 48);
 	truth_render(&t, "whitted", &img);
 	for (uint32_t y = 0; y < SIZE; y++)
@@ -43,7 +43,7 @@ START_TEST(test_square_under_point_light)
 			ck_assert_float_eq(at(&img, "A", x, y), 1);
 		}
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -53,7 +53,7 @@ START_TEST(test_enclosing_sphere)
 	enum { RINGS = 24, SECTORS = 48, N = RINGS * SECTORS * 6 };
 	float (*position)[3] = malloc(N * sizeof(*position)), (*normal)[3] = malloc(N * sizeof(*normal));
 	static const int corner[6][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 1, 0 } };
-	struct truth t;
+	struct made t;
 	struct image img;
 	uint32_t n = 0;
 
@@ -68,9 +68,9 @@ START_TEST(test_enclosing_sphere)
 					normal[n][i] = -d[i];
 				}
 			}
-	truth_init(&t, SIZE, SIZE, 1);
-	truth_add_light(&t, 0, 0, 0, 1);
-	truth_add_triangles(&t, truth_add_material(&t, 0.5f), (const float (*)[3])position, (const float (*)[3])normal, n);
+	made_init(&t, SIZE, SIZE, 1);
+	made_add_light(&t, 0, 0, 0, 1);
+	made_add_triangles(&t, made_add_material(&t, 0.5f), (const float (*)[3])position, (const float (*)[3])normal, n);
 	truth_render(&t, "whitted", &img);
 	for (uint32_t y = 0; y < SIZE; y++)
 		for (uint32_t x = 0; x < SIZE; x++) {
@@ -79,7 +79,7 @@ START_TEST(test_enclosing_sphere)
 			ck_assert_float_eq(at(&img, "shadow.G", x, y), 1);
 		}
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 	free(position);
 	free(normal);
 }
@@ -91,16 +91,16 @@ END_TEST
  */
 START_TEST(test_shadow_shape)
 {
-	struct truth t;
+	struct made t;
 	struct image img;
 	const float s = 0.3f;
 	uint32_t material;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	truth_add_light(&t, 0, 0, -2, 1);
-	material = truth_add_material(&t, 0.9f);
-	truth_add_square(&t, material, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 8);
-	truth_add_square(&t, material, (float[3]){ 0, 0, -6 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, s, 1);
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0, 0, -2, 1);
+	material = made_add_material(&t, 0.9f);
+	made_add_square(&t, material, (float[3]){ 0, 0, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 1, 8);
+	made_add_square(&t, material, (float[3]){ 0, 0, -6 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, s, 1);
 	truth_render(&t, "whitted", &img);
 	for (uint32_t y = 0; y < SIZE; y++)
 		for (uint32_t x = 0; x < SIZE; x++) {
@@ -114,33 +114,33 @@ START_TEST(test_shadow_shape)
 			ck_assert_float_eq_tol(at(&img, "B", x, y), at(&img, "gl.B", x, y) * at(&img, "shadow.B", x, y), 1e-6f);
 		}
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
 /* A perfect mirror, tilted by 45 degrees, shows a wall to its left that is lit past the mirror, at 45 degrees. */
 START_TEST(test_mirror)
 {
-	struct truth t;
+	struct made t;
 	struct image img;
 	const float r = sqrtf(0.5f);
 	uint32_t matte, mirror;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	truth_add_light(&t, 1, 0, 1, 0);
-	matte = truth_add_material(&t, 0.6f);
-	mirror = truth_add_material(&t, 0.2f);
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 1, 0, 1, 0);
+	matte = made_add_material(&t, 0.6f);
+	mirror = made_add_material(&t, 0.2f);
 	t.materials[mirror].surface.reflect = 1;
-	truth_add_square(&t, mirror, (float[3]){ 0, 0, -10 }, (float[3]){ r, 0, r }, (float[3]){ 0, 1, 0 }, 0.5f, 1);
+	made_add_square(&t, mirror, (float[3]){ 0, 0, -10 }, (float[3]){ r, 0, r }, (float[3]){ 0, 1, 0 }, 0.5f, 1);
 	/* out of the picture, facing right; the mirror turns -z into -x */
-	truth_add_square(&t, matte, (float[3]){ -4, 0, -10 }, (float[3]){ 0, 0, -1 }, (float[3]){ 0, 1, 0 }, 3, 4);
+	made_add_square(&t, matte, (float[3]){ -4, 0, -10 }, (float[3]){ 0, 0, -1 }, (float[3]){ 0, 1, 0 }, 3, 4);
 	truth_render(&t, "whitted", &img);
 	ck_assert_float_eq_tol(at(&img, "R", SIZE / 2, SIZE / 2), 0.6f * r, 1e-3f);
 	ck_assert_float_eq_tol(at(&img, "gl.R", SIZE / 2, SIZE / 2) + at(&img, "reflect.R", SIZE / 2, SIZE / 2),
 	                       0.6f * r, 1e-3f);
 	ck_assert_float_eq(at(&img, "R", 2, 2), 0);
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
@@ -180,31 +180,31 @@ static uint32_t corner_specks(float turn_y, float turn_x, float overlap, uint32_
 	static const float axis[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 	const float middle[3] = { 0, 0, -4 * scale }, half = (1 + overlap) * scale;
 	float e[3][3];
-	struct truth t;
+	struct made t;
 	struct image img;
 	uint32_t material, specks = 0;
 
 	for (int i = 0; i < 3; i++)
 		turn(turn_y, turn_x, axis[i], e[i]);
-	truth_init(&t, SIZE, SIZE, 0.6f);
+	made_init(&t, SIZE, SIZE, 0.6f);
 	t.view.projection[14] *= scale; /* near and far */
-	truth_add_light(&t, middle[0] + 0.3f * scale * (e[0][0] + e[1][0] + e[2][0]),
+	made_add_light(&t, middle[0] + 0.3f * scale * (e[0][0] + e[1][0] + e[2][0]),
 	                middle[1] + 0.3f * scale * (e[0][1] + e[1][1] + e[2][1]),
 	                middle[2] + 0.3f * scale * (e[0][2] + e[1][2] + e[2][2]), 1);
-	material = truth_add_material(&t, 0.7f);
+	material = made_add_material(&t, 0.7f);
 	for (int i = 0; i < 3; i++) { /* the wall at -1 on axis i; -overlap .. beyond it on the others */
 		float centre[3];
 
 		for (int k = 0; k < 3; k++)
 			centre[k] = middle[k] - scale * (e[i][k] + overlap * (e[(i + 1) % 3][k] + e[(i + 2) % 3][k]));
-		truth_add_square(&t, material, centre, e[(i + 1) % 3], e[(i + 2) % 3], half, cells);
+		made_add_square(&t, material, centre, e[(i + 1) % 3], e[(i + 2) % 3], half, cells);
 	}
 	truth_render(&t, "whitted", &img);
 	for (uint32_t y = 0; y < SIZE; y++)
 		for (uint32_t x = 0; x < SIZE; x++)
 			specks += inside(&img, x, y, middle, e, scale) && at(&img, "shadow.G", x, y) < 1;
 	image_free(&img);
-	truth_free(&t);
+	made_free(&t);
 	return specks;
 }
 
@@ -234,15 +234,15 @@ START_TEST(test_shadows_at_any_scale)
 	for (int i = 0; i < 5; i++) {
 		const float s = scales[i];
 		uint32_t floor, dark = 0, bright = 0;
-		struct truth t;
+		struct made t;
 		struct image img;
 
-		truth_init(&t, SIZE, SIZE, 0.6f);
+		made_init(&t, SIZE, SIZE, 0.6f);
 		t.view.projection[14] *= s; /* near and far */
-		truth_add_light(&t, 2 * s, 1 * s, -6 * s, 1);
-		floor = truth_add_material(&t, 0.7f);
-		truth_add_square(&t, floor, (float[3]){ 0, -1 * s, -6 * s }, (float[3]){ 0, 0, s }, (float[3]){ s, 0, 0 }, 3, 5);
-		truth_add_square(&t, floor, (float[3]){ 0, -0.25f * s, -6 * s }, (float[3]){ 0, 0, 12 * s }, (float[3]){ 0, 0.75f * s, 0 }, 1, 1);
+		made_add_light(&t, 2 * s, 1 * s, -6 * s, 1);
+		floor = made_add_material(&t, 0.7f);
+		made_add_square(&t, floor, (float[3]){ 0, -1 * s, -6 * s }, (float[3]){ 0, 0, s }, (float[3]){ s, 0, 0 }, 3, 5);
+		made_add_square(&t, floor, (float[3]){ 0, -0.25f * s, -6 * s }, (float[3]){ 0, 0, 12 * s }, (float[3]){ 0, 0.75f * s, 0 }, 1, 1);
 		truth_render(&t, "whitted", &img);
 		for (uint32_t y = 0; y < SIZE; y++)
 			for (uint32_t x = 0; x < SIZE; x++) {
@@ -259,7 +259,7 @@ START_TEST(test_shadows_at_any_scale)
 		ck_assert_uint_gt(dark, SIZE);
 		ck_assert_uint_gt(bright, SIZE);
 		image_free(&img);
-		truth_free(&t);
+		made_free(&t);
 		ck_assert_uint_eq(corner_specks(-0.67f, 0.49f, 0.25f, 7, s), 0);
 	}
 }
@@ -276,13 +276,13 @@ START_TEST(test_smooth_lines_cover_their_width)
 	struct device *dev = NULL;
 	struct tracer *tracer = NULL;
 	struct image img = { .width = 0 };
-	struct truth t;
+	struct made t;
 	uint32_t material;
 	float *alpha, sum = 0, partial = 0;
 
-	truth_init(&t, SIZE, SIZE, 0);
-	material = truth_add_material(&t, 0.7f);
-	truth_add_square(&t, material, (float[3]){ 0, 0.0123f, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 0.5f, 2);
+	made_init(&t, SIZE, SIZE, 0);
+	material = made_add_material(&t, 0.7f);
+	made_add_square(&t, material, (float[3]){ 0, 0.0123f, -10 }, (float[3]){ 1, 0, 0 }, (float[3]){ 0, 1, 0 }, 0.5f, 2);
 	t.materials[material].polygon_mode_front = t.materials[material].polygon_mode_back = GL_LINE;
 	t.materials[material].line_smooth = 1;
 	ck_assert_int_eq(device_open("reference", 0, &dev), 0);
@@ -301,7 +301,7 @@ START_TEST(test_smooth_lines_cover_their_width)
 	image_free(&img);
 	tracer_destroy(&tracer);
 	device_close(&dev);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

@@ -11,7 +11,7 @@ static const float x_axis[3] = { 1, 0, 0 }, y_axis[3] = { 0, 1, 0 }, z_axis[3] =
 static const float minus_x[3] = { -1, 0, 0 }, minus_z[3] = { 0, 0, -1 };
 
 /* The share of the pixels of draw 1 that are lit but for a shadow. rules: NULL: none */
-static float dark_share(struct truth *t, const char *rules)
+static float dark_share(struct made *t, const char *rules)
 {
 	struct look *look = NULL;
 	struct scene changed, *kept = malloc(sizeof(*kept));
@@ -40,27 +40,27 @@ static float dark_share(struct truth *t, const char *rules)
 }
 
 /* A room of six walls that show their fronts inwards, and a table top within. Draw 1 is the floor, 7 the table. */
-static void build_room(struct truth *t, int two_side, float w)
+static void build_room(struct made *t, int two_side, float w)
 {
 	uint32_t walls;
 
-	truth_init(t, SIZE, SIZE, 1);
-	truth_add_light(t, 4, 8, 3, w);
-	walls = truth_add_material(t, 0.7f);
+	made_init(t, SIZE, SIZE, 1);
+	made_add_light(t, 4, 8, 3, w);
+	walls = made_add_material(t, 0.7f);
 	t->materials[walls].two_side = (uint32_t)two_side;
-	truth_add_square(t, walls, (float[3]){ 0, -3, -2.5f }, z_axis, x_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ 0, 3, -2.5f }, x_axis, z_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ -3, 0, -2.5f }, y_axis, z_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ 3, 0, -2.5f }, z_axis, y_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ 0, 0, -5.5f }, x_axis, y_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ 0, 0, 0.5f }, minus_x, y_axis, 3, 4);
-	truth_add_square(t, walls, (float[3]){ 0, -2, -4 }, z_axis, x_axis, 0.8f, 1);
+	made_add_square(t, walls, (float[3]){ 0, -3, -2.5f }, z_axis, x_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ 0, 3, -2.5f }, x_axis, z_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ -3, 0, -2.5f }, y_axis, z_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ 3, 0, -2.5f }, z_axis, y_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ 0, 0, -5.5f }, x_axis, y_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ 0, 0, 0.5f }, minus_x, y_axis, 3, 4);
+	made_add_square(t, walls, (float[3]){ 0, -2, -4 }, z_axis, x_axis, 0.8f, 1);
 }
 
 START_TEST(test_closed_room_is_lit_from_outside)
 {
 	for (int k = 0; k < 4; k++) {
-		struct truth t;
+		struct made t;
 		float dark;
 
 		build_room(&t, k & 1, k & 2 ? 1 : 0);
@@ -68,7 +68,7 @@ START_TEST(test_closed_room_is_lit_from_outside)
 		ck_assert_msg(dark > 0.01f && dark < 0.5f, "room %d: %g of the floor is dark, not the table's shadow alone", k, (double)dark);
 		ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
 		ck_assert_float_eq(dark_share(&t, "surfaces:\n- shadows: yes\n"), 1);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
@@ -76,36 +76,36 @@ END_TEST
 /* A roof over half a floor is no enclosure, whatever its sides are. */
 START_TEST(test_roof_shades)
 {
-	struct truth t;
+	struct made t;
 	float with, without;
 
-	truth_init(&t, SIZE, SIZE, 0.6f);
-	truth_add_light(&t, 0, 1, 0, 0);
-	truth_add_material(&t, 0.7f);
-	truth_add_square(&t, 0, (float[3]){ 0, -2, -7 }, z_axis, x_axis, 3, 8);
-	truth_add_square(&t, 0, (float[3]){ -1.5f, 3.5f, -7 }, x_axis, z_axis, 2, 2);
+	made_init(&t, SIZE, SIZE, 0.6f);
+	made_add_light(&t, 0, 1, 0, 0);
+	made_add_material(&t, 0.7f);
+	made_add_square(&t, 0, (float[3]){ 0, -2, -7 }, z_axis, x_axis, 3, 8);
+	made_add_square(&t, 0, (float[3]){ -1.5f, 3.5f, -7 }, x_axis, z_axis, 2, 2);
 	with = dark_share(&t, NULL);
 	without = dark_share(&t, "spare: no\n");
 	ck_assert_float_gt(with, 0.3f);
 	ck_assert_float_eq(with, without);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
 /* Walls that OpenGL does not light, around a small lit square: a backdrop. The same wall within a lit plain: an object. */
 START_TEST(test_unlit_walls)
 {
-	struct truth t;
+	struct made t;
 	uint32_t unlit;
 
-	truth_init(&t, SIZE, SIZE, 0.6f);
-	truth_add_light(&t, 1, 0.5f, 0.2f, 0);
-	truth_add_material(&t, 0.7f);
-	unlit = truth_add_material(&t, 0.7f);
+	made_init(&t, SIZE, SIZE, 0.6f);
+	made_add_light(&t, 1, 0.5f, 0.2f, 0);
+	made_add_material(&t, 0.7f);
+	unlit = made_add_material(&t, 0.7f);
 	t.materials[unlit].lighting = 0;
-	truth_add_square(&t, 0, (float[3]){ 0, 0, -6 }, z_axis, x_axis, 0.7f, 4);
+	made_add_square(&t, 0, (float[3]){ 0, 0, -6 }, z_axis, x_axis, 0.7f, 4);
 	memcpy(t.instances[0].modelview, (float[16]){ 1, 0, 0, 0, 0, 0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, -4, -1, 1 }, sizeof(t.instances[0].modelview));
-	truth_add_square(&t, unlit, (float[3]){ 3, 0, -6 }, minus_z, y_axis, 6, 1);
+	made_add_square(&t, unlit, (float[3]){ 3, 0, -6 }, minus_z, y_axis, 6, 1);
 	for (uint32_t blend = 0; blend < 2; blend++) {
 		t.materials[unlit].blend = blend; /* by an alpha of 1: opaque all the same */
 		t.materials[unlit].blend_src_rgb = t.materials[unlit].blend_src_alpha = GL_SRC_ALPHA;
@@ -113,22 +113,22 @@ START_TEST(test_unlit_walls)
 		ck_assert_float_eq(dark_share(&t, NULL), 0);
 		ck_assert_float_eq(dark_share(&t, "spare: no\n"), 1);
 	}
-	truth_free(&t);
+	made_free(&t);
 
-	truth_init(&t, SIZE, SIZE, 0.6f);
-	truth_add_light(&t, 1, 0.5f, 0.2f, 0);
-	truth_add_material(&t, 0.7f);
-	unlit = truth_add_material(&t, 0.7f);
+	made_init(&t, SIZE, SIZE, 0.6f);
+	made_add_light(&t, 1, 0.5f, 0.2f, 0);
+	made_add_material(&t, 0.7f);
+	unlit = made_add_material(&t, 0.7f);
 	t.materials[unlit].lighting = 0;
-	truth_add_square(&t, 0, (float[3]){ 0, -2, -10 }, z_axis, x_axis, 8, 8);
-	truth_add_square(&t, unlit, (float[3]){ 1, -1, -6 }, minus_z, y_axis, 1, 1);
+	made_add_square(&t, 0, (float[3]){ 0, -2, -10 }, z_axis, x_axis, 8, 8);
+	made_add_square(&t, unlit, (float[3]){ 1, -1, -6 }, minus_z, y_axis, 1, 1);
 	ck_assert_float_gt(dark_share(&t, NULL), 0.05f);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 
 /* Two cards crossed at their middle do not shade each other; a wall beside them shades both. */
-static void build_cards(struct truth *t, int wall)
+static void build_cards(struct made *t, int wall)
 {
 	static const struct scene_unit unit = { .min_filter = GL_NEAREST, .mag_filter = GL_NEAREST, .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT,
 		                                .wrap_r = GL_REPEAT, .env_mode = GL_MODULATE, .max_lod = 1000,
@@ -139,35 +139,35 @@ static void build_cards(struct truth *t, int wall)
 	static const struct scene_texture *textures[] = { &texture };
 	uint32_t cards, opaque;
 
-	truth_init(t, SIZE, SIZE, 0.6f);
+	made_init(t, SIZE, SIZE, 0.6f);
 	t->scene.units = (struct scene_unit *)(uintptr_t)&unit;
 	t->scene.textures = textures;
 	t->scene.n_units = t->scene.n_textures = 1;
-	truth_add_light(t, 1, 0.1f, 0.6f, 0);
-	cards = truth_add_material(t, 0.7f);
-	opaque = truth_add_material(t, 0.7f);
+	made_add_light(t, 1, 0.1f, 0.6f, 0);
+	cards = made_add_material(t, 0.7f);
+	opaque = made_add_material(t, 0.7f);
 	t->materials[cards].unit_count = 1;
 	t->materials[cards].alpha_test = 1;
 	t->materials[cards].alpha_func = GL_GREATER;
 	t->materials[cards].alpha_ref = 0.5f;
 	t->materials[cards].two_side = 1;
-	truth_add_square(t, cards, (float[3]){ 0, 0, -6 }, x_axis, y_axis, 1.5f, 1);
-	truth_add_square(t, cards, (float[3]){ 0, 0, -6 }, minus_z, y_axis, 1.5f, 1);
+	made_add_square(t, cards, (float[3]){ 0, 0, -6 }, x_axis, y_axis, 1.5f, 1);
+	made_add_square(t, cards, (float[3]){ 0, 0, -6 }, minus_z, y_axis, 1.5f, 1);
 	if (wall)
-		truth_add_square(t, opaque, (float[3]){ 10, 0, -1 }, minus_z, y_axis, 4, 1);
+		made_add_square(t, opaque, (float[3]){ 10, 0, -1 }, minus_z, y_axis, 4, 1);
 }
 
 START_TEST(test_crossed_cards)
 {
-	struct truth t;
+	struct made t;
 
 	build_cards(&t, 0);
 	ck_assert_float_eq(dark_share(&t, NULL), 0);
 	ck_assert_float_gt(dark_share(&t, "spare: no\n"), 0.3f);
-	truth_free(&t);
+	made_free(&t);
 	build_cards(&t, 1);
 	ck_assert_float_gt(dark_share(&t, NULL), 0.9f);
-	truth_free(&t);
+	made_free(&t);
 }
 END_TEST
 

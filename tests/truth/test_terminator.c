@@ -10,7 +10,7 @@
 #define SIZE 96
 
 /* A sphere of a few faces, its corners' normals pointing from its centre. */
-static void add_sphere(struct truth *t, uint32_t material, float z, float radius)
+static void add_sphere(struct made *t, uint32_t material, float z, float radius)
 {
 	enum { RINGS = 5, SECTORS = 8, N = RINGS * SECTORS * 6 };
 	static const int corner[6][2] = { { 0, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 }, { 1, 0 }, { 1, 1 } };
@@ -28,11 +28,11 @@ static void add_sphere(struct truth *t, uint32_t material, float z, float radius
 					position[n][i] = radius * d[i] + (i == 2 ? z : 0);
 				}
 			}
-	truth_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
+	made_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
 }
 
 /* Pixels of the sphere that are lit but for a shadow; *lit: that are lit. */
-static uint32_t shaded_pixels(const struct truth *t, uint32_t *lit)
+static uint32_t shaded_pixels(const struct made *t, uint32_t *lit)
 {
 	struct image img;
 	uint32_t n = 0;
@@ -50,12 +50,12 @@ static uint32_t shaded_pixels(const struct truth *t, uint32_t *lit)
 	return n;
 }
 
-static void set_up(struct truth *t, float scale, float angle, float w)
+static void set_up(struct made *t, float scale, float angle, float w)
 {
-	truth_init(t, SIZE, SIZE, 0.6f);
+	made_init(t, SIZE, SIZE, 0.6f);
 	t->view.projection[14] *= scale; /* near and far */
-	truth_add_light(t, 5 * scale * cosf(angle), 0.7f * scale, scale * (5 * sinf(angle) - 6 * w), w);
-	add_sphere(t, truth_add_material(t, 0.7f), -6 * scale, 2 * scale);
+	made_add_light(t, 5 * scale * cosf(angle), 0.7f * scale, scale * (5 * sinf(angle) - 6 * w), w);
+	add_sphere(t, made_add_material(t, 0.7f), -6 * scale, 2 * scale);
 }
 
 START_TEST(test_round_shape_shades_nothing_of_itself)
@@ -65,13 +65,13 @@ START_TEST(test_round_shape_shades_nothing_of_itself)
 	for (int i = 0; i < 3; i++)
 		for (int k = 0; k < 16; k++) {
 			const float w = k & 1 ? 1 : 0;
-			struct truth t;
+			struct made t;
 			uint32_t lit, dark;
 
 			set_up(&t, scales[i], 0.4f * (float)k, w);
 			dark = shaded_pixels(&t, &lit);
 			ck_assert_msg(dark == 0, "scale %g, light %d: %u of %u lit pixels lie in shadow", (double)scales[i], k, dark, lit);
-			truth_free(&t);
+			made_free(&t);
 		}
 }
 END_TEST
@@ -83,18 +83,18 @@ START_TEST(test_others_shade_it_alike_at_any_scale)
 
 	for (int i = 0; i < 3; i++) {
 		const float s = scales[i];
-		struct truth t;
+		struct made t;
 		uint32_t lit, dark;
 
 		set_up(&t, s, 0.8f, 0);
-		truth_add_square(&t, 0, (float[3]){ 2.4f * s, 0.2f * s, -3.4f * s }, (float[3]){ 0.7f * s, 0, -0.7f * s }, (float[3]){ 0, s, 0 },
+		made_add_square(&t, 0, (float[3]){ 2.4f * s, 0.2f * s, -3.4f * s }, (float[3]){ 0.7f * s, 0, -0.7f * s }, (float[3]){ 0, s, 0 },
 		                 0.6f, 1);
 		dark = shaded_pixels(&t, &lit);
 		first = i == 0 ? dark : first;
 		ck_assert_uint_gt(dark, 100);
 		ck_assert_uint_lt(dark, lit / 2);
 		ck_assert_msg(abs((int)dark - (int)first) <= 3, "scale %g: %u pixels in shadow, %u at scale 1", (double)s, dark, first);
-		truth_free(&t);
+		made_free(&t);
 	}
 }
 END_TEST
