@@ -5,7 +5,9 @@
  * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
  * of their light; those that touch form a patch. A pixel's neighbour is an edge where it is not dark, lies on the same surface (the
  * same draw, or normals within 37 degrees, and in its plane as far as depth goes) and shows more light of its own colour than
- * the dark one by a quarter. A patch is explained where its edges are as long as a quarter of a square's side of its area;
+ * the dark one by a quarter. Where a film is blended over either, the colour is not known (albedo is the film's, as black as a drawn
+ * shadow's), and the light itself is compared. Light is gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow
+ * still has both. A patch is explained where its edges are as long as a quarter of a square's side of its area;
  * patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An honest room in the shade of its own walls took 1.1 % (rooms
  * lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
  *
@@ -38,9 +40,11 @@ struct harm {
 	const struct gate_frame *f;
 	uint32_t width, height;
 	const float *gl[3], *shadow[3], *albedo[3], *normal[3], *place[3], *id;
+	const float *relight[3]; /* [0] NULL: nothing is lit anew */
+	const float *layers; /* NULL: the frame does not say */
 	float lights[MOST_LIGHTS][4];
 	int n_lights;
-	float *light;  /* [n]: of gl x shadow, luminance */
+	float *light;  /* [n]: luminance of what no mirror adds to */
 	uint8_t *dark; /* [n]: 1; 2: of a patch that was seen */
 	uint32_t *patch; /* [n]: room for one */
 };
@@ -61,6 +65,9 @@ static int find_planes(const struct image *img, const char *layer, const char *l
 static int find_all_planes(const struct image *img, struct harm *h)
 {
 	h->id = image_channel(img, "id");
+	h->layers = image_channel(img, "layers");
+	if (!find_planes(img, "relight", "RGB", h->relight))
+		h->relight[0] = NULL;
 	return h->id && find_planes(img, "gl", "RGB", h->gl) && find_planes(img, "shadow", "RGB", h->shadow) &&
 	       find_planes(img, "albedo", "RGB", h->albedo) && find_planes(img, "N", "XYZ", h->normal) && find_planes(img, "P", "XYZ", h->place);
 }
@@ -76,9 +83,17 @@ static float gl_light(const struct harm *h, size_t i)
 }
 
 /* Light for each unit of a surface's own colour. */
-static float shade(const struct harm *h, size_t i, float light)
+static float shade(const struct harm *h, size_t i)
 {
-	return light / fmaxf(luminance(h->albedo[0][i], h->albedo[1][i], h->albedo[2][i]), 1e-4f);
+	return h->light[i] / fmaxf(luminance(h->albedo[0][i], h->albedo[1][i], h->albedo[2][i]), 1e-4f);
+}
+
+/* 1 where a pixel shows more light than another by a quarter. */
+static int is_lighter(const struct harm *h, size_t i, size_t than)
+{
+	if (h->layers && (h->layers[i] > 0 || h->layers[than] > 0))
+		return h->light[i] > 1.25f * h->light[than];
+	return shade(h, i) > 1.25f * shade(h, than);
 }
 
 static void find_dark(const struct harm *h, size_t n, int is_display)
@@ -88,6 +103,8 @@ static void find_dark(const struct harm *h, size_t n, int is_display)
 		int lost;
 
 		left = luminance(h->gl[0][i] * h->shadow[0][i], h->gl[1][i] * h->shadow[1][i], h->gl[2][i] * h->shadow[2][i]);
+		if (h->relight[0])
+			left += luminance(h->relight[0][i], h->relight[1][i], h->relight[2][i]);
 		lost = is_display ? (int)(255 * (gl - left)) : score_code_from_linear(gl) - score_code_from_linear(left);
 		h->light[i] = left;
 		h->dark[i] = !score_ignores(h->f->ref, i) && lost >= DARK_CODES && left < DARK_SHARE * gl;
@@ -116,7 +133,7 @@ static int is_edge(const struct harm *h, size_t dark, size_t lit)
 {
 	float apart[3], normal[3], other[3];
 
-	if (h->dark[lit] || shade(h, lit, h->light[lit]) <= 1.25f * shade(h, dark, h->light[dark]))
+	if (h->dark[lit] || !is_lighter(h, lit, dark))
 		return 0;
 	subtract(h, lit, dark, apart);
 	normal_at(h, dark, normal);

@@ -575,6 +575,26 @@ START_TEST(dark_without_an_edge)
 }
 END_TEST
 
+/* A drawn shadow lies where the traced one falls: albedo is the film's, which is black, and says nothing of the floor's light. */
+START_TEST(dark_below_a_film)
+{
+	static const char *const albedo[3] = { "albedo.R", "albedo.G", "albedo.B" };
+	float *layers = add(&traced, "layers");
+
+	add_surfaces(0);
+	darken(0.2f, on_half_of_box);
+	for (int i = 0; i < N; i++)
+		for (int c = 0; c < 3; c++) {
+			layers[i] = on_half_of_box(i);
+			image_channel(&traced, albedo[c])[i] = on_half_of_box(i) ? 0 : 0.5f;
+		}
+	expect_all_passed();
+	ck_assert_int_eq(state(GATE_N), SCORE_PASSED);
+	darken(0.2f, on_box); /* the film covers half of it; the dark ends at no edge all the same */
+	expect_failed(GATE_N);
+}
+END_TEST
+
 START_TEST(dark_faces_with_lit_normals)
 {
 	add_surfaces(1);
@@ -854,6 +874,7 @@ int main(void)
 	tcase_add_test(tests, unexplained_difference);
 	tcase_add_test(tests, effects_within_their_range);
 	tcase_add_test(tests, dark_without_an_edge);
+	tcase_add_test(tests, dark_below_a_film);
 	tcase_add_test(tests, dark_faces_with_lit_normals);
 	tcase_add_test(tests, named_faults);
 	tcase_add_test(tests, drift_that_no_pixel_shows);
