@@ -67,8 +67,7 @@ static uint32_t count_differing(const float *a, const float *b, size_t n)
 	return differ;
 }
 
-/* Find the channel that differs most. */
-static enum outcome_state compare(const struct image *want, const struct image *found, uint32_t *n_differ, char channel[32])
+enum outcome_state check_compare(const struct image *want, const struct image *found, uint32_t *n_differ, char channel[32])
 {
 	const size_t n_pixels = (size_t)want->width * want->height;
 
@@ -153,9 +152,9 @@ static double check_scene(struct tracer *tracer, struct check_world *world, stru
 	if (!err)
 		err = draw(tracer, world, &again, &warm_s);
 	if (!err)
-		state = compare(&d->truth->pictures[d->at], &img, n_differ, d->result.scenes[d->at].channel);
+		state = check_compare(&d->truth->pictures[d->at], &img, n_differ, d->result.scenes[d->at].channel);
 	if (!err && state == OUTCOME_RIGHT)
-		state = compare(&d->truth->pictures[d->at], &again, n_differ, d->result.scenes[d->at].channel);
+		state = check_compare(&d->truth->pictures[d->at], &again, n_differ, d->result.scenes[d->at].channel);
 	if (!err && cold_s > warm_s)
 		d->result.all.compile_s += cold_s - warm_s;
 	d->result.scenes[d->at].state = (int)state;

@@ -29,6 +29,13 @@ struct check_result {
 int check_truth_make(struct check_truth *truth);
 void check_truth_free(struct check_truth *truth);
 
+/**
+ * Compare a picture with what the twins draw.
+ * @param n_differ  pixels in the channel that differs most, and its name; both are kept where they are worse already. All 0 at first
+ * @return OUTCOME_RIGHT or OUTCOME_WRONG
+ */
+enum outcome_state check_compare(const struct image *want, const struct image *found, uint32_t *n_differ, char channel[32]);
+
 /** As device_list, in a process of its own. */
 int check_list(struct device_description **out, size_t *n);
 
