@@ -52,11 +52,6 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
-DEPS_parity := xdotool inventor-clients inventor-data inventor-demo billard-gl gltron neverball openarena crrcsim rss-glx \
-	xscreensaver-gl xscreensaver-gl-extra
-DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
-	geomview g3dviewer
-
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
@@ -225,29 +220,45 @@ check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$
 demo:
 	@corpus/demo.sh $(BUILD)
 
-# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold.
-SHOWS := show-house show-overhead show-kill show-sanitize show-crashes show-parity show-sweep show-sweep-record show-replay show-mutants show-export \
-	show-rays show-frames show-hits show-build show-oclgrind show-host show-thesis show-faults show-metrics show-page show-rooms show-seek show-batch-faults show-devices show-device-faults show-farm
+# Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
+# must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
+SHOWS := show-house show-rays show-hits show-build show-host show-metrics show-batch-faults show-device-faults
+SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity relit replay rooms sanitize seek \
+	sweep sweep-record thesis
+ON_SCREEN := crashes frames replay
+SHOWS += $(SCRIPTS:%=show-%)
 
 show:
 	@$(MAKE) -k --no-print-directory $(SHOWS); $(PYTHON) tests/show/table.py $(BUILD)/show
 
+DEPS_parity := xdotool inventor-clients inventor-data inventor-demo billard-gl gltron neverball openarena crrcsim rss-glx \
+	xscreensaver-gl xscreensaver-gl-extra
+DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
+	geomview g3dviewer
+DEPS_sweep-record := $(DEPS_sweep)
+DEPS_crashes := extremetuxracer foobillardplus
+DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
+DEPS_export := blender python3-numpy
+DEPS_faults := openimageio-tools
+DEPS_metrics := python3-venv openimageio-tools
+DEPS_oclgrind := oclgrind valgrind
+DEPS_page := chromium
+DEPS_relit := openimageio-tools
+DEPS_thesis := povray blender python3-numpy
+NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
+NEEDS_frames := $(BUILD)/tests/bench/frame_rays
+NEEDS_kill = $(HELPERS)
+NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
+NEEDS_overhead = $(HELPERS)
+NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
+
+.SECONDEXPANSION:
+$(SCRIPTS:%=show-%): show-%: all $$(NEEDS_$$*) $$(if $$(DEPS_$$*),$(BUILD)/deps.$$*)
+	@$(if $(filter $*,$(ON_SCREEN)),tests/xvfb.sh) $(PYTHON) -B tests/show/$(subst -,_,$*).py $(BUILD) $(ONLY:%=--only %)
+
 # What the house looks like: circles, sizes, repetitions.
 show-house: all
 	@$(PYTHON) -B tests/house.py $(BUILD) --count --json $(BUILD)/show/house.json
-
-show-farm: all
-	@$(PYTHON) tests/show/farm.py $(BUILD)
-
-show-parity: all $(BUILD)/deps.parity
-	@$(PYTHON) -B tests/show/parity.py $(BUILD) $(ONLY:%=--only %)
-
-show-sweep: all $(BUILD)/deps.sweep
-	@$(PYTHON) -B tests/show/sweep.py $(BUILD) $(ONLY:%=--only %)
-
-# The recorder alone on the same programs.
-show-sweep-record: all $(BUILD)/deps.sweep
-	@$(PYTHON) -B tests/show/sweep_record.py $(BUILD) $(ONLY:%=--only %)
 
 # The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
 MODELS ?= ../shared/models
@@ -269,9 +280,6 @@ $(BUILD)/tests/bench/frame_rays: tests/bench/frame_rays.c $(BUILD)/parts.a
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
 
-show-frames: all $(BUILD)/tests/bench/frame_rays
-	@tests/xvfb.sh $(PYTHON) -B tests/show/frames.py $(BUILD) $(ONLY:%=--only %)
-
 # Hits ray by ray, against Embree's. The test of the same name in tests/check runs it with fewer rays.
 $(BUILD)/tests/bench/hits: tests/bench/hits.c $(BUILD)/parts.a
 	@mkdir -p $(@D)
@@ -290,107 +298,35 @@ show-build: $(BUILD)/tests/bench/build
 	@mkdir -p $(BUILD)/show
 	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/build.json --command "make show-build"
 
-# Exported frames in another program.
-DEPS_export := blender python3-numpy
-show-export: all $(BUILD)/deps.export
-	@$(PYTHON) tests/show/export.py $(BUILD)
-
-# Seeded faults and harmless variations, beside idiff.
-DEPS_faults := openimageio-tools
-show-faults: all $(BUILD)/deps.faults
-	@$(PYTHON) -B tests/show/faults.py $(BUILD)
-
-# Metrics beside other implementations, which come from PyPI into a virtual environment of their own.
-DEPS_metrics := python3-venv openimageio-tools
+# Packages of PyPI in virtual environments of their own: metrics beside other implementations, and Intel's OpenCL.
 $(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 scikit-image==0.26.0
+	@touch $@
+
+$(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0
 	@touch $@
 
 show-metrics: all $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
 	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)
 
-# The report's page in a real browser.
-DEPS_page := chromium
-show-page: all $(BUILD)/deps.page
-	@$(PYTHON) -B tests/show/page.py $(BUILD)
-
-show-overhead: all $(HELPERS)
-	@$(PYTHON) tests/show/overhead.py $(BUILD)
-
-# Two threads with a context each, recorded by a recorder that is built with the sanitizers.
-show-sanitize: all $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
-	@$(PYTHON) tests/show/sanitize.py $(BUILD)
-
-# Two games on which the usual recorder crashes.
-DEPS_crashes := extremetuxracer foobillardplus
-show-crashes: all $(BUILD)/deps.crashes
-	@tests/xvfb.sh $(PYTHON) tests/show/crashes.py $(BUILD)
-
-# Every kernel under tools that watch it.
-DEPS_oclgrind := oclgrind valgrind
-show-oclgrind: all $(BUILD)/tests/bench/tiny $(BUILD)/deps.oclgrind
-	@$(PYTHON) tests/show/oclgrind.py $(BUILD)
-
 # Kernels built for this processor with the freedoms of OpenCL C, beside their C twins.
 show-host: all $(HELPERS) $(HOST_TESTS) $(BUILD)/tests/bench/tiny
 	@$(PYTHON) tests/check/test_host.py $(BUILD)
 
-# Every family of kernels on every OpenCL implementation for CPUs. Intel's comes from PyPI into a virtual environment of its own.
-DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
-$(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
-	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0
-	@touch $@
-
-show-devices: all $(HELPERS) $(BUILD)/show/devices/intel/ready
-	@$(PYTHON) -B tests/show/devices.py $(BUILD) $(ONLY:%=--only %)
-
-# Frame rates beside a thesis' figures, POV-Ray and Blender Cycles.
-DEPS_thesis := povray blender python3-numpy
-show-thesis: all $(BUILD)/deps.thesis
-	@$(PYTHON) tests/show/thesis.py $(BUILD)
+# Tests whose whole campaigns take minutes: every call of OpenCL fails once; a batch meets every fault.
+show-device-faults show-batch-faults: show-%: all $(HELPERS)
+	@tests/xvfb.sh $(PYTHON) tests/real/test_$(subst -,_,$*).py $(BUILD)
 
 # Not part of `make show`: piglit is 2 GB large, and each takes a quarter of an hour or more.
 DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
-# Levels of rooms: sound, and drawn alike with every culling.
-show-rooms: all
-	@$(PYTHON) -B tests/show/rooms.py $(BUILD)
-
-# What a study finds: lights of lightmaps, lights and planes of drawn shadows and mirrors.
-SHOWS += show-look show-relit
-show-look: all
-	@$(PYTHON) -B tests/show/look.py $(BUILD)
-
-# Pictures to be looked at: raster, beauty, relit.
-DEPS_relit := openimageio-tools
-show-relit: all $(BUILD)/deps.relit
-	@$(PYTHON) -B tests/show/relit.py $(BUILD) $(ONLY)
-
-show-seek: all
-	@$(PYTHON) tests/show/seek.py $(BUILD)
-
-show-batch-faults: all $(HELPERS)
-	@tests/xvfb.sh $(PYTHON) tests/real/test_batch_faults.py $(BUILD)
-
-# Every call of OpenCL fails once: some minutes.
-show-device-faults: all $(HELPERS)
-	@tests/xvfb.sh $(PYTHON) tests/real/test_device_faults.py $(BUILD)
-
-show-kill: all $(HELPERS)
-	@$(PYTHON) tests/show/kill.py $(BUILD)
-
 # Not part of `make show`: needs root, and minutes.
 DEPS_fresh := debootstrap
 show-fresh: $(BUILD)/deps.fresh
 	@tests/fresh.sh $(BUILD)
-
-show-mutants: all
-	@$(PYTHON) tests/show/mutants.py $(BUILD)
-
-show-replay: all
-	@tests/xvfb.sh $(PYTHON) tests/show/replay.py $(BUILD)
 
 # libFuzzer under sanitizers: on reader and state machine (replay), on calls of the state machine alone (calls). What they find worth
 # keeping goes into tests/fuzz/kept and kept_calls.
