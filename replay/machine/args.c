@@ -20,9 +20,7 @@ double gls_value_double(const struct trace_value *v)
 		return (double)v->i;
 	case TRACE_TRUE:
 		return 1;
-	case TRACE_UINT:
-	case TRACE_BITMASK:
-	case TRACE_OPAQUE:
+	case TRACE_UINT: case TRACE_BITMASK: case TRACE_OPAQUE:
 		return (double)v->u;
 	case TRACE_REPR:
 		return gls_value_double(&v->items[1]);
@@ -41,9 +39,7 @@ int64_t gls_value_int(const struct trace_value *v)
 	case TRACE_SINT:
 	case TRACE_ENUM:
 		return v->i;
-	case TRACE_UINT:
-	case TRACE_BITMASK:
-	case TRACE_OPAQUE:
+	case TRACE_UINT: case TRACE_BITMASK: case TRACE_OPAQUE:
 		return (int64_t)v->u;
 	default:
 		d = gls_value_double(v);

@@ -42,9 +42,7 @@ static int copy_value(struct arena *a, struct trace_value *to, const struct trac
 		bytes[from->count] = 0;
 		to->blob = bytes;
 		return 0;
-	case TRACE_ARRAY:
-	case TRACE_STRUCT:
-	case TRACE_REPR:
+	case TRACE_ARRAY: case TRACE_STRUCT: case TRACE_REPR:
 		items = arena_alloc(a, (from->count + !from->count) * sizeof(*items));
 		if (!items)
 			return ERR_SYSTEM;

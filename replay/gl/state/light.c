@@ -52,9 +52,7 @@ GLS_FAMILY(glLight, STATE)
 		if (!gls_refuses(x, st, !(v[0] >= 0 && v[0] <= 90) && v[0] != 180, GL_INVALID_VALUE))
 			light->spot_cutoff_deg = v[0];
 		break;
-	case GL_CONSTANT_ATTENUATION:
-	case GL_LINEAR_ATTENUATION:
-	case GL_QUADRATIC_ATTENUATION:
+	case GL_CONSTANT_ATTENUATION: case GL_LINEAR_ATTENUATION: case GL_QUADRATIC_ATTENUATION:
 		if (!gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
 			light->attenuation[pname - GL_CONSTANT_ATTENUATION] = v[0];
 		break;

@@ -22,9 +22,7 @@ GLS_FAMILY(glPointParameter, STATE)
 
 	arg_floats(c, 1, v, 3);
 	switch (arg_u(c, 0)) {
-	case GL_POINT_SIZE_MIN:
-	case GL_POINT_SIZE_MAX:
-	case GL_POINT_FADE_THRESHOLD_SIZE:
+	case GL_POINT_SIZE_MIN: case GL_POINT_SIZE_MAX: case GL_POINT_FADE_THRESHOLD_SIZE:
 		if (gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
 			return;
 		*(arg_u(c, 0) == GL_POINT_SIZE_MIN   ? &point->size_min

@@ -84,12 +84,7 @@ int gls_attachment_has_8_bits(const struct gls_share *share, const struct gls_at
 	if (!find_target(share, a, &t))
 		return 0;
 	switch (t.format) {
-	case 3:
-	case 4:
-	case GL_RGB:
-	case GL_RGBA:
-	case GL_RGB8:
-	case GL_RGBA8:
+	case 3: case 4: case GL_RGB: case GL_RGBA: case GL_RGB8: case GL_RGBA8:
 		return 1;
 	default:
 		return 0;
