@@ -5,7 +5,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/err.h"
 #include "base/folder.h"
@@ -94,12 +93,12 @@ static int get_toc(struct index *index, const void *data, size_t n)
 static uint8_t *read_toc(FILE *file, const struct index_header *h)
 {
 	char *packed = h->toc_packed < MAX_BYTES ? malloc(h->toc_packed + 1) : NULL, *data = NULL;
-	XXH128_hash_t hash;
+	uint64_t hash[2];
 
 	if (!packed || pread(fileno(file), packed, h->toc_packed, (off_t)h->toc_offset) != (ssize_t)h->toc_packed)
 		goto done;
-	hash = XXH3_128bits(packed, h->toc_packed);
-	if (hash.low64 == h->toc_hash[0] && hash.high64 == h->toc_hash[1] && h->toc_bytes <= MAX_BYTES)
+	hash_bytes(packed, h->toc_packed, hash);
+	if (memcmp(hash, h->toc_hash, sizeof(hash)) == 0 && h->toc_bytes <= MAX_BYTES)
 		data = unpack_blob(packed, h->toc_packed, h->toc_bytes);
 done:
 	if (data != packed)
@@ -144,15 +143,7 @@ static void forget(struct index *index)
 	free(index->frames);
 	free(index->signatures);
 	table_free(&index->known);
-	index->staged = NULL;
-	index->packed = NULL;
-	index->room_staged = index->room_packed = 0;
-	index->blobs = NULL;
-	index->checkpoints = NULL;
-	index->frames = NULL;
-	index->signatures = NULL;
-	index->n_blobs = index->room_blobs = index->n_checkpoints = index->room_checkpoints = 0;
-	index->n_frames = index->room_frames = index->n_signatures = 0;
+	*index = (struct index){ .trace = index->trace, .path = index->path, .file = index->file, .header = index->header };
 }
 
 int index_load(struct index *index)

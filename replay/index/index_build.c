@@ -4,7 +4,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/err.h"
 #include "base/folder.h"
@@ -14,6 +13,7 @@
 #include "replay/index/index_file.h"
 #include "replay/index/pack.h"
 #include "replay/play/player.h"
+#include "replay/trace/hash.h"
 
 #define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
@@ -27,7 +27,6 @@ static int add_checkpoint(struct index *index, struct player *p)
 	struct index_checkpoint c = { .frame = p->exec->frame };
 	uint64_t most = trace_reader_offset(p->reader) + ALWAYS_BYTES;
 	struct bytes state = { .n = 0 };
-	XXH128_hash_t hash;
 	int rc;
 
 	index->added = 0;
@@ -36,9 +35,7 @@ static int add_checkpoint(struct index *index, struct player *p)
 		return 0;
 	rc = snapshot_save(p->exec, &blobs, &state);
 	if (rc == 0) {
-		hash = XXH3_128bits(state.data, state.n);
-		c.name[0] = hash.low64;
-		c.name[1] = hash.high64;
+		hash_bytes(state.data, state.n, c.name);
 		c.bytes = state.n;
 		rc = index_stage_blob(index, c.name, state.data, state.n);
 	}
@@ -143,7 +140,6 @@ static int write_toc(struct index *index)
 {
 	struct index_header *h = &index->header;
 	struct bytes toc = { .n = 0 };
-	XXH128_hash_t hash;
 	char *packed = NULL;
 	size_t n;
 	int rc = ERR_SYSTEM;
@@ -155,12 +151,10 @@ static int write_toc(struct index *index)
 		rc = index_out_of_memory(index);
 		goto done;
 	}
-	hash = XXH3_128bits(packed, n);
+	hash_bytes(packed, n, h->toc_hash);
 	h->toc_offset = index->end;
 	h->toc_packed = n;
 	h->toc_bytes = toc.n;
-	h->toc_hash[0] = hash.low64;
-	h->toc_hash[1] = hash.high64;
 	if (fwrite(packed, 1, n, index->file) == n && fseek(index->file, 0, SEEK_SET) == 0 &&
 	    fwrite(h, sizeof(*h), 1, index->file) == 1 && fflush(index->file) == 0 &&
 	    ftruncate(fileno(index->file), (off_t)(h->toc_offset + n)) == 0) /* blobs may have been staged and dropped there */

@@ -6,21 +6,13 @@
 #include "replay/index/index_file.h"
 #include "replay/play/player.h"
 
-/* Blobs of a state that is only compared: their names are in it. */
-static int name_only(void *user, const uint64_t name[2], const void *data, size_t n)
-{
-	(void)user, (void)name, (void)data, (void)n;
-	return 0;
-}
-
 /* Is the state of a replay the one that a checkpoint keeps? */
 static int compare_state(struct index *index, const struct index_checkpoint *c, struct player *p, const char *way)
 {
-	const struct snapshot_blobs nowhere = { .put = name_only };
 	struct bytes state = { .n = 0 };
 	uint8_t *kept = index_get_blob(index, c->name, c->bytes);
 	size_t at = 0;
-	int rc = kept ? snapshot_save(p->exec, &nowhere, &state) : ERR_INPUT;
+	int rc = kept ? snapshot_save(p->exec, &snapshot_no_blobs, &state) : ERR_INPUT;
 
 	if (rc == 1)
 		rc = err_report(ERR_FAILED, index->trace, "checkpoint at frame %llu, %s: cannot be saved there",

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include "base/err.h"
 #include "base/memory.h"
 #include "replay/index/pack.h"
+#include "replay/trace/hash.h"
 
 int index_out_of_memory(const struct index *index)
 {
@@ -124,7 +124,7 @@ uint8_t *index_get_blob(void *user, const uint64_t name[2], size_t n)
 	struct index *index = user;
 	const struct index_blob *blob = find_blob(&index->known, index->blobs, name);
 	char *packed = NULL, *data = NULL;
-	XXH128_hash_t hash;
+	uint64_t hash[2];
 
 	if (!blob || !index->file || blob->packed > index->end || !(packed = malloc(blob->packed + 1)) ||
 	    pread(fileno(index->file), packed, blob->packed, (off_t)blob->offset) != (ssize_t)blob->packed)
@@ -133,8 +133,8 @@ uint8_t *index_get_blob(void *user, const uint64_t name[2], size_t n)
 	if (!data)
 		goto fail;
 	packed = data == packed ? NULL : packed;
-	hash = XXH3_128bits(data, n);
-	if (hash.low64 != name[0] || hash.high64 != name[1])
+	hash_bytes(data, n, hash);
+	if (memcmp(hash, name, sizeof(hash)) != 0)
 		goto fail;
 	free(packed);
 	return (uint8_t *)data;

@@ -126,12 +126,13 @@ static int keep_nothing(void *user, const uint64_t name[2], const void *data, si
 	return 0;
 }
 
+const struct snapshot_blobs snapshot_no_blobs = { .put = keep_nothing };
+
 const char *snapshot_place(struct gls_exec *x, size_t at)
 {
 	static _Thread_local char place[96];
-	const struct snapshot_blobs nowhere = { .put = keep_nothing };
 	struct bytes out = { .n = 0 };
-	struct saver s = { .x = x, .blobs = &nowhere, .out = &out, .wanted = at, .place = "head" };
+	struct saver s = { .x = x, .blobs = &snapshot_no_blobs, .out = &out, .wanted = at, .place = "head" };
 
 	save(&s);
 	free(out.data);

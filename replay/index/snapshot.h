@@ -28,6 +28,9 @@ struct snapshot_blobs {
 	uint64_t *count; /* not NULL: blobs are neither named nor kept, their bytes are added to this */
 };
 
+/** Blobs are named and kept nowhere: a state that is only compared. */
+extern const struct snapshot_blobs snapshot_no_blobs;
+
 /**
  * Save the state as it is between two frames.
  * @return 0; 1 where there is something that cannot be saved just now (a Begin without End, a list that is being made);

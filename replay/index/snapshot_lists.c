@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "replay/trace/hash.h"
 
 #define MAX_VALUE_DEPTH 17
 
@@ -132,9 +133,7 @@ static void put_value(struct bytes *b, const struct trace_value *v)
 	case TRACE_BLOB:
 		bytes_put(b, v->blob, v->count);
 		break;
-	case TRACE_ARRAY:
-	case TRACE_STRUCT:
-	case TRACE_REPR:
+	case TRACE_ARRAY: case TRACE_STRUCT: case TRACE_REPR:
 		for (uint64_t i = 0; i < v->count; i++)
 			put_value(b, &v->items[i]);
 		break;
@@ -200,9 +199,7 @@ static void get_value(struct loader *l, struct arena *a, struct trace_value *v, 
 		bytes[v->count] = 0;
 		v->blob = bytes;
 		return;
-	case TRACE_ARRAY:
-	case TRACE_STRUCT:
-	case TRACE_REPR:
+	case TRACE_ARRAY: case TRACE_STRUCT: case TRACE_REPR:
 		if (depth == MAX_VALUE_DEPTH || v->count > (uint64_t)(l->in.end - l->in.p) / 16) {
 			l->in.failed = 1;
 			break;
@@ -304,7 +301,7 @@ static void put_list(struct saver *s, void *value)
 	if (own.failed && !s->err)
 		s->err = err_report(ERR_SYSTEM, s->x->path, "out of memory");
 	if (!s->blobs->count)
-		saver_name(own.data, own.n, list->name);
+		hash_bytes(own.data, own.n, list->name);
 	saver_named_blob(s, list->name, own.data, own.n);
 	if (!s->blobs->count && !s->err) {
 		list->bytes = own.n;

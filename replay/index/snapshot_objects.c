@@ -6,6 +6,7 @@
 #include "base/err.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/index/snapshot_lists.h"
+#include "replay/trace/hash.h"
 
 /* ---- textures ---- */
 
@@ -37,7 +38,7 @@ static void put_texture(struct saver *s, void *value)
 		bytes_put(s->out, &kept, sizeof(kept));
 		bytes_put_u64(s->out, level->texels != NULL);
 		if (level->texels && !t->hashed && !s->blobs->count)
-			saver_name(level->texels, level->bytes, level->hash);
+			hash_bytes(level->texels, level->bytes, level->hash);
 		if (level->texels)
 			saver_named_blob(s, level->hash, level->texels, level->bytes);
 	}

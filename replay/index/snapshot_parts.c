@@ -2,9 +2,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <xxhash.h>
 
 #include "base/err.h"
+#include "replay/trace/hash.h"
 
 #define MAX_OBJECTS (1u << 24)
 
@@ -15,14 +15,6 @@ void saver_section(struct saver *s, const char *what, uint64_t number)
 	if (s->out->n <= s->wanted && s->wanted != SIZE_MAX)
 		snprintf(s->place, sizeof(s->place), "%s %llu, byte %zu", what, (unsigned long long)number,
 		         s->wanted - s->out->n);
-}
-
-void saver_name(const void *data, size_t n, uint64_t name[2])
-{
-	XXH128_hash_t hash = XXH3_128bits(data, n);
-
-	name[0] = hash.low64;
-	name[1] = hash.high64;
 }
 
 void saver_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n)
@@ -43,7 +35,7 @@ void saver_blob(struct saver *s, const void *data, size_t n)
 	uint64_t name[2] = { 0 };
 
 	if (!s->blobs->count)
-		saver_name(data, n, name);
+		hash_bytes(data, n, name);
 	saver_named_blob(s, name, data, n);
 }
 

@@ -28,9 +28,8 @@ struct saver {
 /** Say what comes next, so that snapshot_place can name a byte. */
 void saver_section(struct saver *s, const char *what, uint64_t number);
 
-/** The name of a blob: XXH3-128. */
-void saver_name(const void *data, size_t n, uint64_t name[2]);
 void saver_blob(struct saver *s, const void *data, size_t n);
+/** @param name  hash_bytes */
 void saver_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n);
 
 /* ---- loading: nothing read is believed ---- */
