@@ -32,6 +32,12 @@ static inline double arg_d(const struct call *c, unsigned i)
 {
 	return gls_value_double(arg(c, i));
 }
+/** A number that GL clamps to [0,1]. */
+static inline float arg_clamped(const struct call *c, unsigned i)
+{
+	double v = arg_d(c, i);
+	return (float)(v < 0 ? 0 : v > 1 ? 1 : v);
+}
 static inline int64_t arg_i(const struct call *c, unsigned i)
 {
 	return gls_value_int(arg(c, i));

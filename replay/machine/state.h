@@ -309,6 +309,12 @@ struct gls_share {
 	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */
 };
 
+/** The texture unit that is selected. */
+static inline struct gls_unit *gls_active_unit(struct gls_state *st)
+{
+	return &st->a.texturing.units[st->a.texturing.active];
+}
+
 /** The stack that matrix commands change. */
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 

@@ -71,22 +71,13 @@ GLS_FAMILY(glTexImage, STATE)
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }
 
-/* Copy texels to a place in a level. */
-static void place(struct gls_level *l, const int64_t at[3], const int64_t size[3], const uint8_t *texels)
+/* Copy values of so many bytes, one a texel, to a place in a level's texels or stencil. */
+static void place(const struct gls_level *l, uint8_t *to, size_t bytes, const int64_t at[3], const int64_t size[3], const uint8_t *from)
 {
 	for (int64_t z = 0; z < size[2]; z++)
 		for (int64_t y = 0; y < size[1]; y++)
-			memcpy(l->texels + l->texel_bytes * (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
-			       texels + l->texel_bytes * (z * size[1] + y) * size[0], l->texel_bytes * (size_t)size[0]);
-}
-
-/* Stencil values, rows of the same sizes, to a place in a level. */
-static void place_stencil(struct gls_level *l, const int64_t at[3], const int64_t size[3], const uint8_t *stencil)
-{
-	for (int64_t z = 0; z < size[2]; z++)
-		for (int64_t y = 0; y < size[1]; y++)
-			memcpy(gls_level_stencil(l) + (((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
-			       stencil + (z * size[1] + y) * size[0], (size_t)size[0]);
+			memcpy(to + bytes * (size_t)(((at[2] + z) * l->height + at[1] + y) * l->width + at[0]),
+			       from + bytes * (size_t)((z * size[1] + y) * size[0]), bytes * (size_t)size[0]);
 }
 
 GLS_FAMILY(glTexSubImage, STATE)
@@ -117,10 +108,10 @@ GLS_FAMILY(glTexSubImage, STATE)
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
 	if (!texels || gls_unpack_pixels(x, st, &p, l->internal_format, texels) == -1)
 		return;
-	place(l, at, size, texels);
+	place(l, l->texels, l->texel_bytes, at, size, texels);
 	if (gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL) {
 		gls_unpack_stencil(&p, texels);
-		place_stencil(l, at, size, texels);
+		place(l, gls_level_stencil(l), 1, at, size, texels);
 	}
 	gls_texture_changed(t);
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
@@ -188,7 +179,7 @@ GLS_FAMILY(glCompressedTexSubImage, STATE)
 		return;
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
 	if (texels && !unpack_compressed(x, l->internal_format, size, pixels, n, texels))
-		place(l, at, size, texels);
+		place(l, l->texels, l->texel_bytes, at, size, texels);
 	gls_texture_changed(t);
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
 }

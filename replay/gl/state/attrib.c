@@ -97,9 +97,7 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
-	case GL_DEBUG_OUTPUT:
-	case GL_DEBUG_OUTPUT_SYNCHRONOUS:
-	case GL_TEXTURE_CUBE_MAP_SEAMLESS:
+	case GL_DEBUG_OUTPUT: case GL_DEBUG_OUTPUT_SYNCHRONOUS: case GL_TEXTURE_CUBE_MAP_SEAMLESS:
 	case GL_VERTEX_PROGRAM_POINT_SIZE:
 	case GL_FRAMEBUFFER_SRGB: /* the window has no sRGB buffer */
 		return 1;

@@ -6,11 +6,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-static float clamp01(double value)
-{
-	return (float)(value < 0 ? 0 : value > 1 ? 1 : value);
-}
-
 static int is_compare_func(uint32_t func)
 {
 	return func >= GL_NEVER && func <= GL_ALWAYS;
@@ -188,12 +183,7 @@ GLS_HANDLER(glDrawBuffer, STATE)
 
 	st->a.color.also_drawn = 0;
 	switch (buffer) {
-	case GL_FRONT:
-	case GL_FRONT_LEFT:
-	case GL_BACK:
-	case GL_BACK_LEFT:
-	case GL_LEFT:
-	case GL_FRONT_AND_BACK:
+	case GL_FRONT: case GL_FRONT_LEFT: case GL_BACK: case GL_BACK_LEFT: case GL_LEFT: case GL_FRONT_AND_BACK:
 	case GL_NONE:
 		st->a.color.draw_buffer = buffer;
 		break;
@@ -215,7 +205,7 @@ GLS_HANDLER(glDrawBuffer, STATE)
 GLS_HANDLER(glReadBuffer, STATE) { st->a.pixel.read_buffer = arg_u(c, 0); }
 
 GLS_HANDLER(glClearColor, STATE) { read_color(c, st->a.color.clear); }
-GLS_HANDLER(glClearDepth, STATE) { st->a.depth.clear = clamp01(arg_d(c, 0)); }
+GLS_HANDLER(glClearDepth, STATE) { st->a.depth.clear = arg_clamped(c, 0); }
 GLS_HANDLER(glClearStencil, STATE) { st->a.stencil.clear = arg_u(c, 0); }
 GLS_HANDLER(glClearIndex, STATE) {} /* colour index mode only */
 GLS_HANDLER(glClearAccum, STATE) { read_color(c, st->a.accum.clear); }

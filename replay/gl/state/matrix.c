@@ -164,15 +164,10 @@ GLS_HANDLER(glViewport, STATE)
 	}
 }
 
-static float clamp01(double value)
-{
-	return (float)(value < 0 ? 0 : value > 1 ? 1 : value);
-}
-
 GLS_HANDLER(glDepthRange, STATE)
 {
-	st->a.viewport.depth_range[0] = clamp01(arg_d(c, 0));
-	st->a.viewport.depth_range[1] = clamp01(arg_d(c, 1));
+	st->a.viewport.depth_range[0] = arg_clamped(c, 0);
+	st->a.viewport.depth_range[1] = arg_clamped(c, 1);
 }
 
 GLS_HANDLER(glClipPlane, STATE)

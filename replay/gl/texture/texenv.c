@@ -8,16 +8,11 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/state.h"
 
-static struct gls_unit *active_unit(struct gls_state *st)
-{
-	return &st->a.texturing.units[st->a.texturing.active];
-}
-
 /* ---- environments, sec. 3.8.13 ---- */
 
 GLS_FAMILY(glTexEnv, STATE)
 {
-	struct gls_unit *unit = active_unit(st);
+	struct gls_unit *unit = gls_active_unit(st);
 	struct scene_unit *e = &unit->value;
 	uint32_t target = arg_u(c, 0), pname = arg_u(c, 1), token;
 	float v[4] = { 0 };
@@ -78,7 +73,7 @@ GLS_FAMILY(glTexEnv, STATE)
 
 GLS_FAMILY(glTexGen, STATE)
 {
-	struct scene_unit *e = &active_unit(st)->value;
+	struct scene_unit *e = &gls_active_unit(st)->value;
 	uint32_t coord = arg_u(c, 0) - GL_S, mode;
 	float v[4] = { 0 }, inverse[16];
 

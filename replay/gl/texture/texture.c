@@ -116,11 +116,6 @@ void gls_texture_restore_parameters(struct gls_state *st,
 		}
 }
 
-static struct gls_unit *active_unit(struct gls_state *st)
-{
-	return &st->a.texturing.units[st->a.texturing.active];
-}
-
 /* The object that a call with a target argument changes, or NULL (error set). */
 static struct gls_texture *addressed(struct gls_exec *x, struct gls_state *st, uint32_t token)
 {
@@ -170,7 +165,7 @@ GLS_HANDLER(glBindTexture, STATE, BIND_TEXTURE)
 			return;
 		}
 	}
-	active_unit(st)->bound[target] = name;
+	gls_active_unit(st)->bound[target] = name;
 }
 
 GLS_HANDLER(glPrioritizeTextures, STATE) {} /* residence of textures; nothing is drawn differently */
