@@ -13,7 +13,6 @@
 #pragma once
 
 #include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 
 enum { OPTIONS_MAX_ROWS = 40 };

@@ -1,7 +1,6 @@
 /* relume diff: score traced frames against their references, or any two sets of images. */
 #include "diff/diff.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>

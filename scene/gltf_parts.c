@@ -1,7 +1,6 @@
 #include "scene/gltf_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "gl_tokens.h"

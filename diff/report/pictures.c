@@ -1,6 +1,5 @@
 #include "diff/report/pictures.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

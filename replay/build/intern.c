@@ -1,6 +1,5 @@
 #include "replay/build/intern.h"
 
-#include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>

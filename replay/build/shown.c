@@ -1,6 +1,5 @@
 /* Events of one surface in front of those of another. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "replay/build/frame.h"

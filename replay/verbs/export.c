@@ -1,6 +1,4 @@
 /* relume export: a frame as glTF 2.0. */
-#include <inttypes.h>
-#include <stdio.h>
 
 #include "base/err.h"
 #include "base/folder.h"

@@ -1,7 +1,6 @@
 /* relume index: make, describe or check the index of a trace. */
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include "base/hash.h"
