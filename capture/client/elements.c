@@ -117,22 +117,14 @@ static unsigned element_command(int slot, const struct array *a)
 static uint8_t *put_element(uint8_t *p, const struct array *a, const void *data)
 {
 	switch (a->type) {
-	case GL_BYTE:
-		return put_array_s8(p, data, a->size);
-	case GL_SHORT:
-		return put_array_s16(p, data, a->size);
-	case GL_INT:
-		return put_array_s32(p, data, a->size);
-	case GL_FLOAT:
-		return put_array_f32(p, data, a->size);
-	case GL_DOUBLE:
-		return put_array_f64(p, data, a->size);
-	case GL_UNSIGNED_SHORT:
-		return put_array_u16(p, data, a->size);
-	case GL_UNSIGNED_INT:
-		return put_array_u32(p, data, a->size);
-	default:
-		return put_array_u8(p, data, a->size);
+	case GL_BYTE: return put_array_s8(p, data, a->size);
+	case GL_SHORT: return put_array_s16(p, data, a->size);
+	case GL_INT: return put_array_s32(p, data, a->size);
+	case GL_FLOAT: return put_array_f32(p, data, a->size);
+	case GL_DOUBLE: return put_array_f64(p, data, a->size);
+	case GL_UNSIGNED_SHORT: return put_array_u16(p, data, a->size);
+	case GL_UNSIGNED_INT: return put_array_u32(p, data, a->size);
+	default: return put_array_u8(p, data, a->size);
 	}
 }
 

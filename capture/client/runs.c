@@ -80,30 +80,18 @@ static uint8_t *put_value(uint8_t *p, char kind, const uint8_t *at)
 
 	memcpy(&v, at, value_bytes(kind));
 	switch (kind) {
-	case 'f':
-		return put_float(p, v.f);
-	case 'd':
-		return put_double(p, v.d);
-	case 'b':
-		return put_sint(p, v.b);
-	case 's':
-		return put_sint(p, v.s);
-	case 'i':
-		return put_sint(p, v.i);
-	case 'B':
-		return put_uint(p, v.B);
-	case 'S':
-		return put_uint(p, v.S);
-	case 'I':
-		return put_uint(p, v.I);
-	case 't':
-		return put_bool8(p, v.B);
-	case 'p':
-		return put_enum_small(p, v.I, enums_PrimitiveType);
-	case 'y':
-		return put_symbol(p, v.i);
-	default:
-		return put_enum(p, v.I);
+	case 'f': return put_float(p, v.f);
+	case 'd': return put_double(p, v.d);
+	case 'b': return put_sint(p, v.b);
+	case 's': return put_sint(p, v.s);
+	case 'i': return put_sint(p, v.i);
+	case 'B': return put_uint(p, v.B);
+	case 'S': return put_uint(p, v.S);
+	case 'I': return put_uint(p, v.I);
+	case 't': return put_bool8(p, v.B);
+	case 'p': return put_enum_small(p, v.I, enums_PrimitiveType);
+	case 'y': return put_symbol(p, v.i);
+	default: return put_enum(p, v.I);
 	}
 }
 

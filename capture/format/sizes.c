@@ -83,19 +83,12 @@ static long packed_bytes(unsigned type)
 long type_bytes(unsigned type)
 {
 	switch (type) {
-	case GL_BYTE:
-	case GL_UNSIGNED_BYTE:
-		return 1;
-	case GL_SHORT: case GL_UNSIGNED_SHORT: case GL_HALF_FLOAT: case GL_2_BYTES:
-		return 2;
-	case GL_3_BYTES:
-		return 3;
-	case GL_INT: case GL_UNSIGNED_INT: case GL_FLOAT: case GL_FIXED: case GL_4_BYTES:
-		return 4;
-	case GL_DOUBLE:
-		return 8;
-	default:
-		return packed_bytes(type);
+	case GL_BYTE: case GL_UNSIGNED_BYTE: return 1;
+	case GL_SHORT: case GL_UNSIGNED_SHORT: case GL_HALF_FLOAT: case GL_2_BYTES: return 2;
+	case GL_3_BYTES: return 3;
+	case GL_INT: case GL_UNSIGNED_INT: case GL_FLOAT: case GL_FIXED: case GL_4_BYTES: return 4;
+	case GL_DOUBLE: return 8;
+	default: return packed_bytes(type);
 	}
 }
 

@@ -50,18 +50,12 @@ static unsigned whole_target(unsigned target)
 static unsigned binding_of(unsigned target)
 {
 	switch (target) {
-	case GL_TEXTURE_1D:
-		return GL_TEXTURE_BINDING_1D;
-	case GL_TEXTURE_2D:
-		return GL_TEXTURE_BINDING_2D;
-	case GL_TEXTURE_3D:
-		return GL_TEXTURE_BINDING_3D;
-	case GL_TEXTURE_CUBE_MAP:
-		return GL_TEXTURE_BINDING_CUBE_MAP;
-	case GL_TEXTURE_RECTANGLE:
-		return GL_TEXTURE_BINDING_RECTANGLE;
-	default:
-		return 0;
+	case GL_TEXTURE_1D: return GL_TEXTURE_BINDING_1D;
+	case GL_TEXTURE_2D: return GL_TEXTURE_BINDING_2D;
+	case GL_TEXTURE_3D: return GL_TEXTURE_BINDING_3D;
+	case GL_TEXTURE_CUBE_MAP: return GL_TEXTURE_BINDING_CUBE_MAP;
+	case GL_TEXTURE_RECTANGLE: return GL_TEXTURE_BINDING_RECTANGLE;
+	default: return 0;
 	}
 }
 

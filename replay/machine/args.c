@@ -11,23 +11,14 @@ const struct trace_value gls_no_value = { .type = TRACE_NONE };
 double gls_value_double(const struct trace_value *v)
 {
 	switch (v->type) {
-	case TRACE_FLOAT:
-		return v->f;
-	case TRACE_DOUBLE:
-		return v->d;
-	case TRACE_SINT:
-	case TRACE_ENUM:
-		return (double)v->i;
-	case TRACE_TRUE:
-		return 1;
-	case TRACE_UINT: case TRACE_BITMASK: case TRACE_OPAQUE:
-		return (double)v->u;
-	case TRACE_REPR:
-		return gls_value_double(&v->items[1]);
-	case TRACE_ARRAY:
-		return v->count ? gls_value_double(&v->items[0]) : 0;
-	default:
-		return 0;
+	case TRACE_FLOAT: return v->f;
+	case TRACE_DOUBLE: return v->d;
+	case TRACE_SINT: case TRACE_ENUM: return (double)v->i;
+	case TRACE_TRUE: return 1;
+	case TRACE_UINT: case TRACE_BITMASK: case TRACE_OPAQUE: return (double)v->u;
+	case TRACE_REPR: return gls_value_double(&v->items[1]);
+	case TRACE_ARRAY: return v->count ? gls_value_double(&v->items[0]) : 0;
+	default: return 0;
 	}
 }
 

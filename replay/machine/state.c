@@ -7,14 +7,10 @@
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
 {
 	switch (st->a.transform.matrix_mode) {
-	case GL_PROJECTION:
-		return &st->projection;
-	case GL_TEXTURE:
-		return &st->texture[st->a.texturing.active];
-	case GL_COLOR:
-		return &st->color_matrix;
-	default:
-		return &st->modelview;
+	case GL_PROJECTION: return &st->projection;
+	case GL_TEXTURE: return &st->texture[st->a.texturing.active];
+	case GL_COLOR: return &st->color_matrix;
+	default: return &st->modelview;
 	}
 }
 
@@ -26,18 +22,12 @@ int gls_is_face(uint32_t token)
 unsigned gls_face_colors(uint32_t parameter)
 {
 	switch (parameter) {
-	case GL_AMBIENT:
-		return 1;
-	case GL_DIFFUSE:
-		return 2;
-	case GL_AMBIENT_AND_DIFFUSE:
-		return 3;
-	case GL_SPECULAR:
-		return 4;
-	case GL_EMISSION:
-		return 8;
-	default:
-		return 0;
+	case GL_AMBIENT: return 1;
+	case GL_DIFFUSE: return 2;
+	case GL_AMBIENT_AND_DIFFUSE: return 3;
+	case GL_SPECULAR: return 4;
+	case GL_EMISSION: return 8;
+	default: return 0;
 	}
 }
 

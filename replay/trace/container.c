@@ -367,12 +367,9 @@ int container_next(struct container *c, const uint8_t **data, size_t *size)
 	if (c->ended)
 		return 0;
 	switch (c->kind) {
-	case CONTAINER_SNAPPY:
-		return next_snappy(c, data, size);
-	case CONTAINER_GZIP:
-		return next_gzip(c, data, size);
-	default:
-		return next_brotli(c, data, size);
+	case CONTAINER_SNAPPY: return next_snappy(c, data, size);
+	case CONTAINER_GZIP: return next_gzip(c, data, size);
+	default: return next_brotli(c, data, size);
 	}
 }
 

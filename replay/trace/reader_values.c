@@ -52,25 +52,12 @@ void reader_value(struct trace_reader *r, struct arena *a, struct trace_value *v
 	case TRACE_NULL:
 	case TRACE_FALSE:
 		break;
-	case TRACE_TRUE:
-		v->u = 1;
-		break;
-	case TRACE_SINT:
-		v->i = (int64_t)-reader_uint(r);
-		break;
-	case TRACE_UINT:
-	case TRACE_OPAQUE:
-		v->u = reader_uint(r);
-		break;
-	case TRACE_FLOAT:
-		reader_bytes(r, &v->f, 4);
-		break;
-	case TRACE_DOUBLE:
-		reader_bytes(r, &v->d, 8);
-		break;
-	case TRACE_STRING:
-		v->str = reader_string(r, a, &v->count);
-		break;
+	case TRACE_TRUE: v->u = 1; break;
+	case TRACE_SINT: v->i = (int64_t)-reader_uint(r); break;
+	case TRACE_UINT: case TRACE_OPAQUE: v->u = reader_uint(r); break;
+	case TRACE_FLOAT: reader_bytes(r, &v->f, 4); break;
+	case TRACE_DOUBLE: reader_bytes(r, &v->d, 8); break;
+	case TRACE_STRING: v->str = reader_string(r, a, &v->count); break;
 	case TRACE_BLOB:
 		v->count = reader_uint(r);
 		if (r->status == 0)

@@ -52,34 +52,15 @@ static void print_value(FILE *out, const struct trace_value *v)
 	const char *name;
 
 	switch (v->type) {
-	case TRACE_NONE:
-		fputc('?', out);
-		break;
-	case TRACE_NULL:
-		fputs("NULL", out);
-		break;
-	case TRACE_FALSE:
-	case TRACE_TRUE:
-		fputs(v->type == TRACE_TRUE ? "true" : "false", out);
-		break;
-	case TRACE_SINT:
-		fprintf(out, "%" PRId64, v->i);
-		break;
-	case TRACE_UINT:
-		fprintf(out, "%" PRIu64, v->u);
-		break;
-	case TRACE_FLOAT:
-		fprintf(out, "%.9g", (double)v->f);
-		break;
-	case TRACE_DOUBLE:
-		fprintf(out, "%.17g", v->d);
-		break;
-	case TRACE_STRING:
-		print_string(out, v->str, v->count);
-		break;
-	case TRACE_BLOB:
-		fprintf(out, "blob(%" PRIu64 ")", v->count);
-		break;
+	case TRACE_NONE: fputc('?', out); break;
+	case TRACE_NULL: fputs("NULL", out); break;
+	case TRACE_FALSE: case TRACE_TRUE: fputs(v->type == TRACE_TRUE ? "true" : "false", out); break;
+	case TRACE_SINT: fprintf(out, "%" PRId64, v->i); break;
+	case TRACE_UINT: fprintf(out, "%" PRIu64, v->u); break;
+	case TRACE_FLOAT: fprintf(out, "%.9g", (double)v->f); break;
+	case TRACE_DOUBLE: fprintf(out, "%.17g", v->d); break;
+	case TRACE_STRING: print_string(out, v->str, v->count); break;
+	case TRACE_BLOB: fprintf(out, "blob(%" PRIu64 ")", v->count); break;
 	case TRACE_ENUM:
 		name = trace_enum_name(v);
 		if (name)

@@ -208,18 +208,10 @@ static void put_op(struct maker *m, const struct gls_op *op, uint32_t nesting)
 	m->action[at] = (uint8_t)action;
 	m->dead[at] = 0;
 	switch (action) {
-	case DRAW:
-		put_draw(m, at);
-		break;
-	case BIND:
-		put_bind(m, at);
-		break;
-	case PUSH:
-		put_push(m, at);
-		break;
-	case POP:
-		put_pop(m, at);
-		break;
+	case DRAW: put_draw(m, at); break;
+	case BIND: put_bind(m, at); break;
+	case PUSH: put_push(m, at); break;
+	case POP: put_pop(m, at); break;
 	case KEEP:
 	case LEAVE:
 		read_all(m);

@@ -36,20 +36,13 @@ GLS_FAMILY(glRect, STATE)
 static float normalize(float value, double exact, enum gls_suffix_type type)
 {
 	switch (type) {
-	case GLS_SUFFIX_B:
-		return (float)((2 * exact + 1) / 255);
-	case GLS_SUFFIX_UB:
-		return value / 255.0f;
-	case GLS_SUFFIX_S:
-		return (float)((2 * exact + 1) / 65535);
-	case GLS_SUFFIX_US:
-		return (float)(exact / 65535);
-	case GLS_SUFFIX_I:
-		return norm_int(exact);
-	case GLS_SUFFIX_UI:
-		return (float)(exact / 4294967295.0);
-	default:
-		return value;
+	case GLS_SUFFIX_B: return (float)((2 * exact + 1) / 255);
+	case GLS_SUFFIX_UB: return value / 255.0f;
+	case GLS_SUFFIX_S: return (float)((2 * exact + 1) / 65535);
+	case GLS_SUFFIX_US: return (float)(exact / 65535);
+	case GLS_SUFFIX_I: return norm_int(exact);
+	case GLS_SUFFIX_UI: return (float)(exact / 4294967295.0);
+	default: return value;
 	}
 }
 

@@ -82,14 +82,10 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 		if (capabilities[i].cap == cap)
 			return word_at(&st->a, capabilities[i].offset);
 	switch (cap) {
-	case GL_VERTEX_PROGRAM_ARB:
-		return &st->arb_vertex_enabled;
-	case GL_FRAGMENT_PROGRAM_ARB:
-		return &st->arb_fragment_enabled;
-	case GL_RASTERIZER_DISCARD:
-		return &st->rasterizer_discard;
-	default:
-		return NULL;
+	case GL_VERTEX_PROGRAM_ARB: return &st->arb_vertex_enabled;
+	case GL_FRAGMENT_PROGRAM_ARB: return &st->arb_fragment_enabled;
+	case GL_RASTERIZER_DISCARD: return &st->rasterizer_discard;
+	default: return NULL;
 	}
 }
 
@@ -109,24 +105,15 @@ static int is_harmless_cap(uint32_t cap)
 static int client_array_of(const struct gls_state *st, uint32_t cap)
 {
 	switch (cap) {
-	case GL_VERTEX_ARRAY:
-		return GLS_ARRAY_VERTEX;
-	case GL_NORMAL_ARRAY:
-		return GLS_ATTR_NORMAL;
-	case GL_COLOR_ARRAY:
-		return GLS_ATTR_COLOR;
-	case GL_SECONDARY_COLOR_ARRAY:
-		return GLS_ATTR_SECONDARY;
-	case GL_FOG_COORD_ARRAY:
-		return GLS_ATTR_FOG_COORD;
-	case GL_TEXTURE_COORD_ARRAY:
-		return GLS_ATTR_TEXCOORD + (int)st->client.active_texture;
-	case GL_EDGE_FLAG_ARRAY:
-		return GLS_ARRAY_EDGE_FLAG;
-	case GL_INDEX_ARRAY:
-		return GLS_ARRAY_INDEX;
-	default:
-		return -1;
+	case GL_VERTEX_ARRAY: return GLS_ARRAY_VERTEX;
+	case GL_NORMAL_ARRAY: return GLS_ATTR_NORMAL;
+	case GL_COLOR_ARRAY: return GLS_ATTR_COLOR;
+	case GL_SECONDARY_COLOR_ARRAY: return GLS_ATTR_SECONDARY;
+	case GL_FOG_COORD_ARRAY: return GLS_ATTR_FOG_COORD;
+	case GL_TEXTURE_COORD_ARRAY: return GLS_ATTR_TEXCOORD + (int)st->client.active_texture;
+	case GL_EDGE_FLAG_ARRAY: return GLS_ARRAY_EDGE_FLAG;
+	case GL_INDEX_ARRAY: return GLS_ARRAY_INDEX;
+	default: return -1;
 	}
 }
 

@@ -40,17 +40,10 @@ static void note(struct gls_exec *x, uint64_t key, unsigned what, uint64_t bits)
 static int what_is(int64_t attribute)
 {
 	switch (attribute) {
-	case GLX_ALPHA_SIZE:
-	case EGL_ALPHA_SIZE:
-		return ALPHA;
-	case GLX_DEPTH_SIZE:
-	case EGL_DEPTH_SIZE:
-		return DEPTH;
-	case GLX_STENCIL_SIZE:
-	case EGL_STENCIL_SIZE:
-		return STENCIL;
-	default:
-		return -1;
+	case GLX_ALPHA_SIZE: case EGL_ALPHA_SIZE: return ALPHA;
+	case GLX_DEPTH_SIZE: case EGL_DEPTH_SIZE: return DEPTH;
+	case GLX_STENCIL_SIZE: case EGL_STENCIL_SIZE: return STENCIL;
+	default: return -1;
 	}
 }
 

@@ -28,18 +28,10 @@ GLS_FAMILY(glLight, STATE)
 		for (unsigned i = 0; i < n && gls_commands[x->command].suffix.type == GLS_SUFFIX_I; i++)
 			v[i] = norm_int(v[i]); /* table 2.9 */
 	switch (pname) {
-	case GL_AMBIENT:
-		memcpy(light->ambient, v, 16);
-		break;
-	case GL_DIFFUSE:
-		memcpy(light->diffuse, v, 16);
-		break;
-	case GL_SPECULAR:
-		memcpy(light->specular, v, 16);
-		break;
-	case GL_POSITION:
-		mat4_transform(light->position_eye, modelview, v);
-		break;
+	case GL_AMBIENT: memcpy(light->ambient, v, 16); break;
+	case GL_DIFFUSE: memcpy(light->diffuse, v, 16); break;
+	case GL_SPECULAR: memcpy(light->specular, v, 16); break;
+	case GL_POSITION: mat4_transform(light->position_eye, modelview, v); break;
 	case GL_SPOT_DIRECTION: /* the upper left 3x3 */
 		for (int r = 0; r < 3; r++)
 			light->spot_direction_eye[r] = modelview[r] * v[0] + modelview[4 + r] * v[1] + modelview[8 + r] * v[2];
@@ -68,15 +60,9 @@ GLS_FAMILY(glLightModel, STATE)
 
 	arg_floats(c, 1, v, 4);
 	switch (arg_u(c, 0)) {
-	case GL_LIGHT_MODEL_AMBIENT:
-		arg_color(x, c, 1, l->model_ambient);
-		break;
-	case GL_LIGHT_MODEL_LOCAL_VIEWER:
-		l->local_viewer = v[0] != 0;
-		break;
-	case GL_LIGHT_MODEL_TWO_SIDE:
-		l->two_side = v[0] != 0;
-		break;
+	case GL_LIGHT_MODEL_AMBIENT: arg_color(x, c, 1, l->model_ambient); break;
+	case GL_LIGHT_MODEL_LOCAL_VIEWER: l->local_viewer = v[0] != 0; break;
+	case GL_LIGHT_MODEL_TWO_SIDE: l->two_side = v[0] != 0; break;
 	case GL_LIGHT_MODEL_COLOR_CONTROL:
 		if (!gls_refuses(x, st, v[0] != GL_SINGLE_COLOR && v[0] != GL_SEPARATE_SPECULAR_COLOR, GL_INVALID_ENUM))
 			l->separate_specular = v[0] == GL_SEPARATE_SPECULAR_COLOR;
@@ -162,15 +148,9 @@ GLS_FAMILY(glFog, STATE)
 		if (!gls_refuses(x, st, !(v[0] >= 0), GL_INVALID_VALUE))
 			fog->density = v[0];
 		break;
-	case GL_FOG_START:
-		fog->start = v[0];
-		break;
-	case GL_FOG_END:
-		fog->end = v[0];
-		break;
-	case GL_FOG_INDEX:
-		fog->index = v[0];
-		break;
+	case GL_FOG_START: fog->start = v[0]; break;
+	case GL_FOG_END: fog->end = v[0]; break;
+	case GL_FOG_INDEX: fog->index = v[0]; break;
 	case GL_FOG_COLOR: /* clamped when it is used, and Mesa's shaders see it clamped */
 		arg_color(x, c, 1, fog->color);
 		break;

@@ -49,15 +49,9 @@ GLS_FAMILY(glTexEnv, STATE)
 		}
 		e->env_mode = token;
 		break;
-	case GL_TEXTURE_ENV_COLOR:
-		arg_color(x, c, 2, e->env_color);
-		break;
-	case GL_COMBINE_RGB:
-		e->combine_rgb = token;
-		break;
-	case GL_COMBINE_ALPHA:
-		e->combine_alpha = token;
-		break;
+	case GL_TEXTURE_ENV_COLOR: arg_color(x, c, 2, e->env_color); break;
+	case GL_COMBINE_RGB: e->combine_rgb = token; break;
+	case GL_COMBINE_ALPHA: e->combine_alpha = token; break;
 	case GL_RGB_SCALE:
 	case GL_ALPHA_SCALE:
 		if (gls_refuses(x, st, v[0] != 1 && v[0] != 2 && v[0] != 4, GL_INVALID_VALUE))

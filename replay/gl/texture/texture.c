@@ -357,16 +357,11 @@ GLS_FAMILY(glSamplerParameter, STATE) { set_parameter(x, st, find_sampler(x, st,
 static uint32_t uncompressed(uint32_t internal_format)
 {
 	switch (internal_format) {
-	case GL_COMPRESSED_RGB:
-		return GL_RGB;
-	case GL_COMPRESSED_RGBA:
-		return GL_RGBA;
-	case GL_COMPRESSED_SRGB:
-		return GL_SRGB;
-	case GL_COMPRESSED_SRGB_ALPHA:
-		return GL_SRGB_ALPHA;
-	default:
-		return internal_format;
+	case GL_COMPRESSED_RGB: return GL_RGB;
+	case GL_COMPRESSED_RGBA: return GL_RGBA;
+	case GL_COMPRESSED_SRGB: return GL_SRGB;
+	case GL_COMPRESSED_SRGB_ALPHA: return GL_SRGB_ALPHA;
+	default: return internal_format;
 	}
 }
 
