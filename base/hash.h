@@ -1,7 +1,6 @@
 /* Hashes of a file: what a trace is known by, and whether it is still the same. */
 #pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 #include <xxhash.h>
 
@@ -19,9 +18,6 @@ int hash_name(const char *path, uint64_t size, char out[33]);
  * @return 0 or ERR_INPUT (reported)
  */
 int hash_file(const char *path, uint64_t limit, XXH3_state_t *state);
-
-/** The XXH3-128 of bytes in memory. */
-void hash_bytes(const void *data, size_t n, uint64_t out[2]);
 
 /** The XXH3-128 of all of a file. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 int hash_whole(const char *path, uint64_t out[2]);

@@ -13,7 +13,6 @@
 #include "replay/index/index_file.h"
 #include "replay/index/pack.h"
 #include "replay/play/player.h"
-#include "replay/trace/hash.h"
 
 #define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */

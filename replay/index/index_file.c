@@ -8,7 +8,6 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "replay/index/pack.h"
-#include "replay/trace/hash.h"
 
 int index_out_of_memory(const struct index *index)
 {

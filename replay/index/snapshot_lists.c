@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "replay/trace/hash.h"
 
 #define MAX_VALUE_DEPTH 17
 

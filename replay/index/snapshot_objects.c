@@ -6,7 +6,6 @@
 #include "base/err.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/index/snapshot_lists.h"
-#include "replay/trace/hash.h"
 
 /* ---- textures ---- */
 

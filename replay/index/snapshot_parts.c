@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "replay/trace/hash.h"
 
 #define MAX_OBJECTS (1u << 24)
 

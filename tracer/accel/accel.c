@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
+#include "base/bytes.h"
 #include "base/err.h"
 #include "base/memory.h"
 #include "tracer/accel/builders.h"
@@ -248,14 +248,9 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 /* The same for two meshes of the same triangles with other vertices; 0 0: the tree is not to be fitted to other vertices. */
 static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
 {
-	XXH128_hash_t hash;
-
 	out[0] = out[1] = 0;
-	if (soup->n < REFIT_TRIANGLES || soup->n != mesh->primitive_count || !soup->bounded)
-		return;
-	hash = XXH3_128bits(mesh->index, 3 * (size_t)mesh->primitive_count * sizeof(*mesh->index));
-	out[0] = hash.low64;
-	out[1] = hash.high64;
+	if (soup->n >= REFIT_TRIANGLES && soup->n == mesh->primitive_count && soup->bounded)
+		hash_bytes(mesh->index, 3 * (size_t)mesh->primitive_count * sizeof(*mesh->index), out);
 }
 
 /*

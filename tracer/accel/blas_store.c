@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <xxhash.h>
 
+#include "base/bytes.h"
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/kept.h"
@@ -77,10 +77,8 @@ static size_t bytes_of(struct counts n)
 static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 {
 	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
-	const XXH128_hash_t hash = XXH3_128bits(all, sizeof(all));
 
-	out[0] = hash.low64;
-	out[1] = hash.high64;
+	hash_bytes(all, sizeof(all), out);
 }
 
 /* --- Reading ------------------------------------------------------------------------------------------------------- */
