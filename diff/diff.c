@@ -108,9 +108,7 @@ static const struct options_table table = {
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
 	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
-	.takes = "REF and TRACED, or --baseline DIR and TRACED",
-	.least = 1,
-	.most = 2,
+	.takes = "REF and TRACED, or --baseline DIR and TRACED", .least = 1, .most = 2,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */

@@ -71,9 +71,7 @@ const struct options_table farm_options = {
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 1 frames are missing or did not pass, 2 wrong usage, 3 the trace or the job cannot be read,\n"
 	         "5 Slurm or the system failed.\n",
-	.takes = "one TRACE, -f FRAMES and -o PATTERN",
-	.least = 1,
-	.most = 1,
+	.takes = "one TRACE, -f FRAMES and -o PATTERN", .least = 1, .most = 1,
 };
 
 /* Which frames, where to and which of them anew is said once, before the "--". */

@@ -163,9 +163,7 @@ static const struct options_table table = {
 	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
 	         "failed, or a frame was given up, 130 SIGINT, 143 SIGTERM.\n",
-	.takes = "one trace and -o PATTERN",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace and -o PATTERN", .least = 1, .most = 1,
 };
 
 /* --- The name of the settings -------------------------------------------------------------------------------------- */

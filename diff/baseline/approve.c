@@ -44,9 +44,7 @@ static const struct options_table table = {
 	        "BASELINE  a folder that holds a folder for each device\n",
 	OPTIONS_ROWS(rows),
 	.notes = "The day is taken from SOURCE_DATE_EPOCH where that is set.\n",
-	.takes = "TRACED and BASELINE",
-	.least = 2,
-	.most = 2,
+	.takes = "TRACED and BASELINE", .least = 2, .most = 2,
 };
 
 static const char *user_name(const char *by)

@@ -137,9 +137,7 @@ static const struct options_table table = {
 	        "\n"
 	        "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace", .least = 1, .most = 1,
 };
 
 int dump_main(int argc, char **argv)

@@ -26,9 +26,7 @@ static const struct options_table table = {
 	        "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
 	        "cameras and lights. What glTF has no words for is left out and named.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o FILE.glb",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace and -o FILE.glb", .least = 1, .most = 1,
 };
 
 static void report_losses(const char *where, const struct gltf_losses *l)

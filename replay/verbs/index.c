@@ -30,9 +30,7 @@ static const struct options_table table = {
 	        "anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
 	        "TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace", .least = 1, .most = 1,
 };
 
 static uint64_t file_bytes(const char *path)

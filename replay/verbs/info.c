@@ -62,9 +62,7 @@ static const struct options_table table = {
 	        "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
 	        "program itself made.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace", .least = 1, .most = 1,
 };
 
 static void print_counts(const char *title, const struct replay_count *counts, size_t n, size_t limit)

@@ -56,9 +56,7 @@ static const struct options_table table = {
 	        "Its visual has the bits of depth, stencil and alpha and the samples that the program's pixels had, where there is\n"
 	        "such a visual. The first frame of another recorder's trace is left out: glretrace does not show it reliably.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o PATTERN.png",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace and -o PATTERN.png", .least = 1, .most = 1,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */

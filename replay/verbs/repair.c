@@ -28,9 +28,7 @@ static const struct options_table table = {
 	        "changes what they say goes unnoticed, as recordings hold no checksums.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
-	.takes = "one trace and -o with the file to write",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace and -o with the file to write", .least = 1, .most = 1,
 };
 
 struct saved {

@@ -24,9 +24,7 @@ static const struct options_table table = {
 	        "\n"
 	        "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace", .least = 1, .most = 1,
 };
 
 int scene_main(int argc, char **argv)

@@ -199,9 +199,7 @@ static const struct options_table table = {
 	        "Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n",
-	.takes = "one trace, -f with the frames and -o with the file to write",
-	.least = 1,
-	.most = 1,
+	.takes = "one trace, -f with the frames and -o with the file to write", .least = 1, .most = 1,
 };
 
 int trim_main(int argc, char **argv)
