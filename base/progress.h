@@ -52,3 +52,5 @@ void progress_end(struct progress *p);
 
 /** Seconds of a monotonic clock; only differences have a meaning. */
 double progress_clock_s(void);
+/** Seconds of processor time that this process has taken, all threads together. */
+double progress_processor_s(void);

@@ -3,18 +3,9 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/progress.h"
 #include "replay/replay.h"
-
-static double cpu_clock_s(void)
-{
-	struct timespec t;
-
-	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* One line of the table: means of n runs. */
 static void print_row(const char *name, const struct device_spent *s, double n, int json, struct device_spent *sum)
@@ -77,11 +68,11 @@ int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum trac
 			device_set_profile(dev, &profile);
 		}
 		wall = progress_clock_s();
-		cpu = cpu_clock_s();
+		cpu = progress_processor_s();
 		err = tracer_render(tracer, scene, &options, &img);
 		if (i) {
 			whole.wall_s += progress_clock_s() - wall;
-			whole.cpu_s += cpu_clock_s() - cpu;
+			whole.cpu_s += progress_processor_s() - cpu;
 			whole.count++;
 		}
 		image_free(&img);

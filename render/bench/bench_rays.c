@@ -1,7 +1,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/err.h"
 #include "base/progress.h"
@@ -372,14 +371,6 @@ fail:
 	return err;
 }
 
-static double processor_s(void)
-{
-	struct timespec t;
-
-	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* How long the tree alone takes, and what it is like. */
 static int measure_tree(struct bench *b, enum accel_kind kind, struct bench_tree *out)
 {
@@ -388,11 +379,11 @@ static int measure_tree(struct bench *b, enum accel_kind kind, struct bench_tree
 	int err = soup_make(&b->state->mesh, (const float (*)[4])b->mesh.position, &soup);
 
 	out->build_s = progress_clock_s();
-	out->build_cpu_s = processor_s();
+	out->build_cpu_s = progress_processor_s();
 	if (!err)
 		err = builders_make_tree(&soup, kind, b->state->mesh.hash, NULL, &tree);
 	out->build_s = progress_clock_s() - out->build_s;
-	out->build_cpu_s = processor_s() - out->build_cpu_s;
+	out->build_cpu_s = progress_processor_s() - out->build_cpu_s;
 	out->cost = err ? 0 : bvh_cost(tree.nodes, tree.n_nodes);
 	out->n_items = tree.n_order;
 	tree_free(&tree);
