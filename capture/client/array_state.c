@@ -9,26 +9,21 @@
 #include "capture/gl/context.h"
 #include "real.h"
 
+/* NAMES(slot, GL_name_ARRAY, command, size token, type token, size where it is fixed, feature) */
+#define NAMES(slot, name, command, size, type, fixed, feature) \
+	[ARRAY_##slot] = { GL_##name##_ARRAY, size, type, GL_##name##_ARRAY_STRIDE, GL_##name##_ARRAY_BUFFER_BINDING, \
+	                   GL_##name##_ARRAY_POINTER, CMD_##command, fixed, feature }
+#define SIZED(slot, name, command, feature) NAMES(slot, name, command, GL_##name##_ARRAY_SIZE, GL_##name##_ARRAY_TYPE, 0, feature)
+#define UNSIZED(slot, name, command, fixed, feature) NAMES(slot, name, command, 0, GL_##name##_ARRAY_TYPE, fixed, feature)
 static const struct array_names names[] = {
-	[ARRAY_NORMAL] = { GL_NORMAL_ARRAY, 0, GL_NORMAL_ARRAY_TYPE, GL_NORMAL_ARRAY_STRIDE, GL_NORMAL_ARRAY_BUFFER_BINDING,
-	                  GL_NORMAL_ARRAY_POINTER, CMD_glNormalPointer, 3, 0 },
-	[ARRAY_COLOR] = { GL_COLOR_ARRAY, GL_COLOR_ARRAY_SIZE, GL_COLOR_ARRAY_TYPE, GL_COLOR_ARRAY_STRIDE,
-	                 GL_COLOR_ARRAY_BUFFER_BINDING, GL_COLOR_ARRAY_POINTER, CMD_glColorPointer, 0, 0 },
-	[ARRAY_INDEX] = { GL_INDEX_ARRAY, 0, GL_INDEX_ARRAY_TYPE, GL_INDEX_ARRAY_STRIDE, GL_INDEX_ARRAY_BUFFER_BINDING,
-	                 GL_INDEX_ARRAY_POINTER, CMD_glIndexPointer, 1, 0 },
-	[ARRAY_EDGE_FLAG] = { GL_EDGE_FLAG_ARRAY, 0, 0, GL_EDGE_FLAG_ARRAY_STRIDE, GL_EDGE_FLAG_ARRAY_BUFFER_BINDING,
-	                     GL_EDGE_FLAG_ARRAY_POINTER, CMD_glEdgeFlagPointer, 1, 0 },
-	[ARRAY_FOG_COORD] = { GL_FOG_COORD_ARRAY, 0, GL_FOG_COORD_ARRAY_TYPE, GL_FOG_COORD_ARRAY_STRIDE,
-	                     GL_FOG_COORD_ARRAY_BUFFER_BINDING, GL_FOG_COORD_ARRAY_POINTER, CMD_glFogCoordPointer, 1,
-	                     HAS_FOG_COORD },
-	[ARRAY_SECONDARY_COLOR] = { GL_SECONDARY_COLOR_ARRAY, GL_SECONDARY_COLOR_ARRAY_SIZE, GL_SECONDARY_COLOR_ARRAY_TYPE,
-	                           GL_SECONDARY_COLOR_ARRAY_STRIDE, GL_SECONDARY_COLOR_ARRAY_BUFFER_BINDING,
-	                           GL_SECONDARY_COLOR_ARRAY_POINTER, CMD_glSecondaryColorPointer, 0, HAS_SECONDARY_COLOR },
-	[ARRAY_TEXTURE] = { GL_TEXTURE_COORD_ARRAY, GL_TEXTURE_COORD_ARRAY_SIZE, GL_TEXTURE_COORD_ARRAY_TYPE,
-	                   GL_TEXTURE_COORD_ARRAY_STRIDE, GL_TEXTURE_COORD_ARRAY_BUFFER_BINDING,
-	                   GL_TEXTURE_COORD_ARRAY_POINTER, CMD_glTexCoordPointer, 0, 0 },
-	[ARRAY_VERTEX] = { GL_VERTEX_ARRAY, GL_VERTEX_ARRAY_SIZE, GL_VERTEX_ARRAY_TYPE, GL_VERTEX_ARRAY_STRIDE,
-	                  GL_VERTEX_ARRAY_BUFFER_BINDING, GL_VERTEX_ARRAY_POINTER, CMD_glVertexPointer, 0, 0 },
+	UNSIZED(NORMAL, NORMAL, glNormalPointer, 3, 0),
+	SIZED(COLOR, COLOR, glColorPointer, 0),
+	UNSIZED(INDEX, INDEX, glIndexPointer, 1, 0),
+	NAMES(EDGE_FLAG, EDGE_FLAG, glEdgeFlagPointer, 0, 0, 1, 0),
+	UNSIZED(FOG_COORD, FOG_COORD, glFogCoordPointer, 1, HAS_FOG_COORD),
+	SIZED(SECONDARY_COLOR, SECONDARY_COLOR, glSecondaryColorPointer, HAS_SECONDARY_COLOR),
+	SIZED(TEXTURE, TEXTURE_COORD, glTexCoordPointer, 0),
+	SIZED(VERTEX, VERTEX, glVertexPointer, 0),
 };
 
 /* Asked for only once used: most programs have no texture units beyond the first and no generic attributes. */

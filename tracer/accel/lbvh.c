@@ -148,9 +148,10 @@ static void move_items(void *arg, const void *task)
 		b->to[places[digit(b, b->from[i].code)]++] = b->from[i];
 }
 
-static void run_chunks(struct build *b, struct forks *forks, unsigned threads, forks_do *run)
+/* Run tasks 0 .. n - 1: chunks or parts. */
+static void run_all(struct build *b, uint32_t n, struct forks *forks, unsigned threads, forks_do *run)
 {
-	for (uint32_t i = 0; i < b->n_chunks; i++)
+	for (uint32_t i = 0; i < n; i++)
 		forks_add(forks, &i);
 	forks_run(forks, threads, run, b);
 }
@@ -158,15 +159,15 @@ static void run_chunks(struct build *b, struct forks *forks, unsigned threads, f
 /* Sort by code, equal codes by item: each pass keeps the order of the one before. */
 static void sort(struct build *b, struct forks *forks, unsigned threads)
 {
-	run_chunks(b, forks, threads, find_bounds);
+	run_all(b, b->n_chunks, forks, threads, find_bounds);
 	set_scale(b);
-	run_chunks(b, forks, threads, make_codes);
+	run_all(b, b->n_chunks, forks, threads, make_codes);
 	for (int pass = 0; pass < PASSES; pass++) {
 		struct place *swap = b->from;
 		uint32_t sum = 0;
 
 		b->shift = (uint32_t)pass * DIGIT_BITS;
-		run_chunks(b, forks, threads, count_digits);
+		run_all(b, b->n_chunks, forks, threads, count_digits);
 		for (uint32_t d = 0; d < DIGITS; d++)
 			for (uint32_t i = 0; i < b->n_chunks; i++) {
 				const uint32_t count = b->counts[(size_t)i * DIGITS + d];
@@ -174,7 +175,7 @@ static void sort(struct build *b, struct forks *forks, unsigned threads)
 				b->counts[(size_t)i * DIGITS + d] = sum;
 				sum += count;
 			}
-		run_chunks(b, forks, threads, move_items);
+		run_all(b, b->n_chunks, forks, threads, move_items);
 		b->from = b->to;
 		b->to = swap;
 	}
@@ -333,20 +334,13 @@ static void close_top(const struct build *b, uint32_t n_top)
 		}
 }
 
-static void run_parts(struct build *b, struct forks *forks, unsigned threads, forks_do *run)
-{
-	for (uint32_t i = 0; i < b->n_parts; i++)
-		forks_add(forks, &i);
-	forks_run(forks, threads, run, b);
-}
-
 /* Build over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their items */
 static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threads)
 {
 	uint32_t n_top = 0, child, count, n;
 
 	lay_out(b, b->out, &n_top, 0, b->n, 0, &child, &count);
-	run_parts(b, forks, threads, fill_part);
+	run_all(b, b->n_parts, forks, threads, fill_part);
 	n = n_top;
 	for (uint32_t p = 0; p < b->n_parts; p++) {
 		struct part *part = &b->parts[p];
@@ -356,7 +350,7 @@ static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threa
 			part->child += n - part->first;
 		n += part->used;
 	}
-	run_parts(b, forks, threads, move_part);
+	run_all(b, b->n_parts, forks, threads, move_part);
 	close_top(b, n_top);
 	return n;
 }
