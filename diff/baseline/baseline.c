@@ -28,19 +28,13 @@ static const cyaml_schema_value_t frame_schema = {
 	CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct baseline_frame, frame_fields)
 };
 
-#define TEXT(key, member) \
-	CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER, struct baseline_variant, member, 0, CYAML_UNLIMITED)
+/* Texts of struct baseline_variant, as the file has them. */
+#define TEXTS(ROW) ROW(device) ROW(trace) ROW(relume) ROW(settings) ROW(approved_by) ROW(approved_at) ROW(reason)
+#define FIELD(member) CYAML_FIELD_STRING_PTR(#member, CYAML_FLAG_POINTER, struct baseline_variant, member, 0, CYAML_UNLIMITED),
 
 static const cyaml_schema_field_t variant_fields[] = {
-	TEXT("format", format),
-	CYAML_FIELD_UINT("version", CYAML_FLAG_DEFAULT, struct baseline_variant, version),
-	TEXT("device", device),
-	TEXT("trace", trace),
-	TEXT("relume", relume),
-	TEXT("settings", settings),
-	TEXT("approved_by", approved_by),
-	TEXT("approved_at", approved_at),
-	TEXT("reason", reason),
+	FIELD(format) CYAML_FIELD_UINT("version", CYAML_FLAG_DEFAULT, struct baseline_variant, version),
+	TEXTS(FIELD)
 	CYAML_FIELD_SEQUENCE_COUNT("frames", CYAML_FLAG_POINTER, struct baseline_variant, frames, n_frames, &frame_schema, 0,
 	                           CYAML_UNLIMITED),
 	CYAML_FIELD_END
@@ -267,13 +261,8 @@ int baseline_write(const char *folder, const struct baseline_variant *v)
 	if (part_open(&file, path) != 0)
 		return ERR_SYSTEM;
 	fputs("format: relume-baseline\nversion: 1\n", file.stream);
-	write_text(file.stream, "device", v->device);
-	write_text(file.stream, "trace", v->trace);
-	write_text(file.stream, "relume", v->relume);
-	write_text(file.stream, "settings", v->settings);
-	write_text(file.stream, "approved_by", v->approved_by);
-	write_text(file.stream, "approved_at", v->approved_at);
-	write_text(file.stream, "reason", v->reason);
+#define WRITE(member) write_text(file.stream, #member, v->member);
+	TEXTS(WRITE)
 	fputs(v->n_frames ? "frames:\n" : "frames: []\n", file.stream);
 	for (uint32_t i = 0; i < v->n_frames; i++) {
 		const struct baseline_frame *f = &v->frames[i];

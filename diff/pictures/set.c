@@ -194,16 +194,23 @@ static int open_trace(struct set *set, const char *trace)
 	return err ? err : open_ref(set, path);
 }
 
-/** A file is a reference file by its first bytes, whatever its name. */
-static int is_ref(const char *path)
+/** The first bytes of a file. @return 0: it has not so many */
+static int read_head(const char *path, uint8_t head[8])
 {
-	char magic[8] = { 0 };
 	FILE *f = fopen(path, "rb");
-	size_t n = f ? fread(magic, 1, sizeof(magic), f) : 0;
+	size_t n = f ? fread(head, 1, 8, f) : 0;
 
 	if (f)
 		fclose(f);
-	return n == sizeof(magic) && memcmp(magic, REF_MAGIC, sizeof(magic)) == 0;
+	return n == 8;
+}
+
+/** A file is a reference file by its first bytes, whatever its name. */
+static int is_ref(const char *path)
+{
+	uint8_t head[8];
+
+	return read_head(path, head) && memcmp(head, REF_MAGIC, sizeof(head)) == 0;
 }
 
 int set_open(const char *where, struct set *out)
@@ -292,13 +299,9 @@ fail:
 /** 1 where an OpenEXR file is tiled, deep or of several parts (version field, bits 9, 11 and 12): what image.h does not read. */
 static int is_foreign_exr(const char *path)
 {
-	uint8_t head[8] = { 0 };
-	FILE *f = fopen(path, "rb");
-	size_t n = f ? fread(head, 1, sizeof(head), f) : 0;
+	uint8_t head[8];
 
-	if (f)
-		fclose(f);
-	return n == sizeof(head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
+	return read_head(path, head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
 }
 
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img)
