@@ -1,6 +1,6 @@
 /*
- * A lit figure in an arena whose walls and floor are textures alone, without OpenGL's lighting. The walls are a backdrop: the light
- * is meant for the figure, and its direction leads through a wall.
+ * A lit figure in an arena. Walls and floor are only textured, without OpenGL's lighting: the walls are a backdrop. The light is
+ * meant for the figure, and shines through a wall.
  *
  *   cc -o arena corpus/arena.c -lglut -lGLU -lGL -lm
  */

@@ -19,7 +19,7 @@ static void init(void)
 	program_perspective(40, 1, 50);
 }
 
-/** A cube from -1 to 1 whose corners have one normal each, along the diagonals. */
+/** A cube from -1 to 1. Each corner has one normal, along its diagonal. */
 static void draw_block(void)
 {
 	static const int faces[6][4] = { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 4, 5, 1 }, { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 } };

@@ -1,6 +1,6 @@
 /*
- * A closed hall whose lights lie outside of it: two directional lights that OpenGL lets through walls and ceiling, as it knows no
- * shadows. Programs of the time lit their rooms so. Traced to the letter, all of it lies in the ceiling's shadow.
+ * A closed hall, lit from outside by two directional lights. OpenGL knows no shadows, so their light passes walls and ceiling, and
+ * programs of the time lit rooms this way. Traced to the letter, the whole hall lies in the ceiling's shadow.
  *
  *   cc -o closed_hall corpus/closed_hall.c -lglut -lGLU -lGL -lm
  */

@@ -1,5 +1,5 @@
 /*
- * What the corpus programs share: options, an 800x600 double-buffered window by GLUT, and a frame loop whose time is the
+ * What the corpus programs share: options, an 800x600 double-buffered window by GLUT, and a frame loop. Its time is the
  * frame's number, so that every run draws the same pictures.
  *
  *   --frames N              exit after N frames (default: run until closed)

@@ -292,7 +292,7 @@ struct scene_picture {
 	uint32_t *depth;  /* in steps of the drawable's depth bits, of which at most 24 count */
 	uint8_t *stencil;
 	uint32_t unknown; /* pixels that show, or whose tests looked at, something from before the scene that it does not hold */
-	/* Of a drawable of several samples a pixel each sample's own, [SCENE_SAMPLES], whose means the colours are; else NULL. */
+	/* [SCENE_SAMPLES], a picture of each sample; `rgba` and `colors` are their means. NULL: one sample a pixel. */
 	struct scene_picture *samples;
 };
 
@@ -326,7 +326,7 @@ struct scene {
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
 	uint32_t untraced_draw; /* a draw that shows the lit picture of a framebuffer object, whose scene was left out; 0: none */
-	uint32_t shows_earlier; /* 1: a texture should hold what an earlier frame drew, and does not: nobody renders for this replay */
+	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: black, far and 0, or not known */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */

@@ -83,8 +83,8 @@ int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
 }
 
 /**
- * What goes before the channels of a part: nothing for the first one and for parts whose channels carry their layer
- * already; a part that is named as a layer gives it its name.
+ * What goes before the names of a part's channels: nothing for the first part and where the names hold the layer
+ * already, else the part's name.
  */
 std::string prefix_of(const OIIO::ImageSpec &spec, int part)
 {

@@ -117,7 +117,7 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
-/* Whose pictures come in which order: frames that did not pass first. */
+/* The frames whose pictures the page shows; those that did not pass come first. */
 struct pictures {
 	const struct output_run *run;
 	struct set *ref, *traced;

@@ -29,7 +29,7 @@ void apart_free(void *memory, size_t bytes)
 		munmap(memory, bytes);
 }
 
-/* Whether a process holds more than half of the machine's memory: some compilers of kernels take all of it. */
+/* Whether a process holds more than half of the machine's memory: some kernel compilers take all of it. */
 static int is_greedy(pid_t process)
 {
 	char path[64];

@@ -9,10 +9,10 @@
 #include "base/progress.h"
 #include "render/check/apart.h"
 
-/* Of pictures to compare: odd, so that tiles and work groups are cut. The twins take a second for all. */
+/* Size of the pictures to compare: odd, so that tiles and work groups are cut. The twins draw all of them in a second. */
 enum { WIDTH = 93, HEIGHT = 67, RINGS = 12 };
 
-/* Of the frame to measure. A device that needs longer than SLOW_S for it is not asked; it is told from a small picture. */
+/* Size of the frame to measure. A device that would need longer than SLOW_S for it only draws a small picture. */
 enum { FRAME_WIDTH = 480, FRAME_HEIGHT = 360, FRAME_RINGS = 64, FRAME_REPEATS = 3 };
 #define SLOW_S 10.0
 
@@ -28,7 +28,7 @@ static int draw(struct tracer *tracer, const struct check_world *world, struct i
 	return err;
 }
 
-/* --- What is right ------------------------------------------------------------------------------------------------- */
+/* --- Comparing ----------------------------------------------------------------------------------------------------- */
 
 int check_truth_make(struct check_truth *truth)
 {
@@ -129,7 +129,7 @@ int check_list(struct device_description **out, size_t *n)
 	return err;
 }
 
-/* What both processes see. */
+/* Shared by both processes. */
 struct drawing {
 	const struct check_truth *truth;
 	size_t device;
@@ -138,7 +138,7 @@ struct drawing {
 	struct check_result result;
 };
 
-/* Draw a scene twice: what the first one takes longer was spent on compiling. @return seconds of the second, 0: it failed */
+/* Draw a scene twice: the first time includes compiling. @return seconds of the second, 0: it failed */
 static double check_scene(struct tracer *tracer, struct check_world *world, struct drawing *d)
 {
 	struct image img = { .width = 0 }, again = { .width = 0 };
@@ -218,7 +218,7 @@ static void draw_apart(void *user)
 	free(world);
 }
 
-/* What the scenes say together: the first state that is not right, and all scenes that are not. */
+/* Sum the scenes up: the first state that is not right, and the names of all scenes that are not. */
 static void sum_up(struct check_result *r)
 {
 	size_t at = 0;

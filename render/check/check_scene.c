@@ -47,7 +47,7 @@ static void make_texture(struct check_world *w)
 	w->made.scene.n_textures = 1;
 }
 
-/* A material of a colour, with a highlight. */
+/* A material with this colour and a highlight. */
 static struct scene_material *add_paint(struct made *m, uint32_t *number, float red, float green, float blue)
 {
 	struct scene_material *paint;
@@ -134,7 +134,7 @@ static struct scene_stencil stencil_of(uint32_t func, uint32_t ref, uint32_t zfa
 		                       .zpass = zpass };
 }
 
-/* A window through which a ball is seen; a volume, counted where its faces are hidden; what darkens there. */
+/* A ball behind a window; a volume, counted in the stencil where its faces are hidden; a quad that darkens there. */
 static void add_stencils(struct made *m, uint32_t rings)
 {
 	uint32_t mask, seen, volume, dark;

@@ -70,7 +70,7 @@ void made_free(struct made *made)
 	made->scene.n_meshes = 0;
 }
 
-/* The place of one thing more. Where all are taken, the last one, and made->err says so. */
+/* The place for one more. If all are taken: the last one, with made->err set. */
 static uint32_t take_place(struct made *made, uint32_t *n)
 {
 	if (*n == MADE_MAX) {

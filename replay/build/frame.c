@@ -50,7 +50,7 @@ static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t co
 	return 0;
 }
 
-/* Buffers whose contents a draw of this material compares with or lets through; bits as in scene_clear. */
+/* The buffers that a draw of this material reads; bits as in scene_clear. */
 static uint32_t looks_at(const struct scene_material *m)
 {
 	return (m->color_mask ? 1u : 0) | (m->depth_test && m->depth_func != GL_ALWAYS ? 2u : 0) | (m->stencil_test ? 4u : 0);

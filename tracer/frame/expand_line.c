@@ -170,7 +170,7 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 	/* Not divided by the length: lines drawn back over themselves show the last bits, and one of no length lies flat. */
 	dx = cosf(angle);
 	dy = sinf(angle);
-	/* Start at the corner on whose diagonal Mesa cuts the quad: where w varies along the line, the two triangles differ. */
+	/* Cut the quad along the same diagonal as Mesa: where w varies along the line, the two ways to cut it differ. */
 	for (int k = 0; k < 4; k++) {
 		const struct expand_end *e = k >= 2 ? b : a;
 		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;

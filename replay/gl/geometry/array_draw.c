@@ -175,7 +175,7 @@ void gls_draw_arrays(struct gls_exec *x, struct gls_state *st, uint32_t mode, in
 
 GLS_HANDLER(glDrawArrays, ARRAY) { gls_draw_arrays(x, st, arg_u(c, 0), arg_i(c, 1), arg_i(c, 2)); }
 
-/* The mode of draw i: the same for all, or of an array whose places are so many bytes apart (IBM_multimode_draw_arrays). */
+/* The mode of draw i: one for all, or element i of an array with this stride in bytes (IBM_multimode_draw_arrays). */
 static uint32_t mode_of(const struct call *c, uint64_t i, int64_t stride)
 {
 	uint64_t n, place = i * ((uint64_t)stride / 4);

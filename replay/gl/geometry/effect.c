@@ -21,11 +21,11 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/machine.h"
 
-#define MAX_OPS (1u << 16) /* of a list, with those inlined */
+#define MAX_OPS (1u << 16) /* of a list, those of inlined lists included */
 #define MAX_NESTING 8      /* of lists inlined */
-#define MAX_LOOKED (4 * MAX_OPS) /* ops looked at, of lists that call lists that have none, or not many */
+#define MAX_LOOKED (4 * MAX_OPS) /* bounds the search where lists call many lists that hold little */
 #define MAX_PUSHES 32
-#define MAX_MADE 16        /* effects made of a list that changes all the time */
+#define MAX_MADE 16        /* effects made of one list; afterwards it changes too often */
 
 enum action {
 	KEEP,     /* reads or writes anything */
@@ -154,7 +154,7 @@ static void put_push(struct maker *m, uint32_t at)
 static void put_pop(struct maker *m, uint32_t at)
 {
 	if (m->depth == 0)
-		return; /* of a bracket that began before the list: the changes before it may be dead as well, but stay */
+		return; /* its push came before the list: earlier changes may be dead as well, but stay */
 	m->depth--;
 	if (m->depth < m->read) {
 		m->read = m->depth;
@@ -266,7 +266,7 @@ const struct gls_effect *gls_effect_of(const struct gls_exec *x, struct gls_stat
 		return NULL;
 	if (e->epoch != st->share->epoch + 1) {
 		if (!list->skipped++)
-			return NULL; /* of what runs once it is not worth making */
+			return NULL; /* a list that runs once is not worth it */
 		make(st, list);
 	}
 	return e->none || stack->depth + e->pushes >= stack->max || x->list_depth + e->nesting >= GLS_MAX_LIST_NESTING ? NULL : e;

@@ -240,7 +240,7 @@ static int evaluate(const struct gls_state *st, unsigned which, unsigned target,
 	return 1;
 }
 
-/* EvalCoord: a vertex whose enabled maps stand in for current values, which stay (sec. 5.1). */
+/* EvalCoord: enabled maps replace current values for this one vertex; the current values themselves stay (sec. 5.1). */
 static void eval_coord(struct gls_exec *x, struct gls_state *st, unsigned which, float u, float v)
 {
 	float at[2] = { u, v }, t[2] = { 0, 0 }, position[4] = { 0, 0, 0, 1 }, value[4];

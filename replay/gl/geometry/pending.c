@@ -63,7 +63,7 @@ void gls_before_material(struct gls_exec *x, struct gls_state *st)
 
 /* ---- vertices ---- */
 
-/* Attributes that were set since the last vertex: those whose value is another one now vary. */
+/* From now on, store an attribute per vertex if it changed since the last vertex. */
 static int take_touched(struct gls_geometry *g, const struct gls_state *st)
 {
 	for (uint32_t left = g->touched & ~g->varying; left; left &= left - 1) {

@@ -186,7 +186,7 @@ GLS_HANDLER(glHint, STATE)
 	gls_error(x, st, GL_INVALID_ENUM);
 }
 
-/* The program has seen its error: the next one is the first again. */
+/* The program has read the error, so the next one counts as the first again. */
 GLS_HANDLER(glGetError, NOW)
 {
 	st->error = 0;

@@ -147,7 +147,7 @@ static void read_color(const struct call *c, float out[4])
 
 GLS_HANDLER(glBlendColor, STATE) { read_color(c, st->a.color.blend_color); }
 
-/* ARB_color_buffer_float; colours that are read (CLAMP_READ_COLOR) go to the program alone. */
+/* ARB_color_buffer_float. CLAMP_READ_COLOR only affects what the program reads back, so we ignore it. */
 GLS_HANDLER(glClampColor, STATE)
 {
 	uint32_t clamp = arg_u(c, 1);

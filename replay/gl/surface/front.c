@@ -1,7 +1,7 @@
 /*
  * The front buffer of a double-buffered window (GL 2.1 sec. 4.2.1, 4.3.2; GLX 1.4 sec. 3.3.10). A frame that ends with a swap shows
  * the back buffer, which is then in the front buffer, as GL has it (Mesa's software rasterizers leave there what was there before,
- * 22.3.6). One that ends without a swap shows what is drawn to at its end, be it the front buffer.
+ * 22.3.6). One that ends without a swap shows the buffer that is drawn to at its end, also if it is the front buffer.
  *
  * Each has its own colours; both share depth and stencil. While nobody draws to the front buffer or reads it, it costs a reference to
  * what the last swap put there. Afterwards the two are apart: until the next swap both surfaces get every event, its colours where

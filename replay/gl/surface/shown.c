@@ -92,7 +92,7 @@ static int is_white(const struct scene *s, const struct scene_instance *in, cons
 	return mesh->color || (color[0] == 1 && color[1] == 1 && color[2] == 1);
 }
 
-/* A corner's place in the window, if that is the place of its texel. @return 0: it is not, or lies behind what depths there are */
+/* Where a corner lies in the window. @return 0: its texel lies elsewhere, or its depth is out of range */
 static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v, float out[2])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];

@@ -11,7 +11,7 @@ struct gls_level {
 	uint32_t border, internal_format, base_format;
 	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them where the format has it */
 	size_t bytes;    /* of both */
-	uint32_t missing; /* frame + 1 whose drawing belongs here and was not rendered; 0: nothing is missing */
+	uint32_t missing; /* number + 1 of the frame that drew to it and was not rendered; 0: nothing is missing */
 	uint32_t texel_bytes; /* gls_texel_bytes of the internal format */
 	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
 };

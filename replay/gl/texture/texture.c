@@ -13,7 +13,7 @@
 #include "replay/machine/machine.h"
 
 #define MAX_SIZE 16384
-#define MAX_BYTES ((int64_t)1 << 31) /* of an image: so many llvmpipe (Mesa 22.3) refuses */
+#define MAX_BYTES ((int64_t)1 << 31) /* llvmpipe (Mesa 22.3) refuses images of this size and more */
 
 int gls_texture_target_of(uint32_t token, unsigned *face)
 {

@@ -48,7 +48,7 @@ static inline uint32_t gls_texture_token(uint32_t target)
 /** The object bound to a target of a unit; made where there is none yet. NULL: out of memory (reported) */
 struct gls_texture *gls_texture_bound(struct gls_exec *x, struct gls_state *st, unsigned unit, unsigned target);
 
-/** Whose parameters a unit samples a texture by: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture itself. */
+/** Where a unit's sampling parameters come from: the sampler object bound to it (GL 3.3 sec. 3.8.2), else the texture itself. */
 const struct gls_texture *gls_texture_sampler(const struct gls_state *st, unsigned unit, const struct gls_texture *t);
 
 /** The parameters of what is bound to each unit and target, for PushAttrib; they come back to objects that are still there. */
