@@ -325,9 +325,10 @@ struct scene {
 	uint32_t n_draws;
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
+	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
 	uint32_t untraced_draw; /* a draw that shows the lit picture of a framebuffer object, whose scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
-	const struct scene_picture *start; /* what was there before the first event; NULL: black, far and 0, or not known */
+	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, or not known */
 
 	/* What became of each draw number: the call's name and number in the trace, for blame. [n_draws + 1], 0 unused */
 	struct scene_draw {

@@ -59,7 +59,7 @@ int score_picture_from_image(const struct image *img, const char *layer, struct 
 		for (int c = 0; c < 3; c++)
 			out->rgb[3 * i + (size_t)c] = display ? code_from_display(planes[c][i])
 			                                      : score_code_from_linear(planes[c][i]);
-	out->depth = image_channel(img, "gl.depth");
+	out->depth = image_attribute(img, "relume:unknown") ? NULL : image_channel(img, "gl.depth");
 	out->id = image_channel(img, "id");
 	out->layers = image_channel(img, "layers");
 	return 0;

@@ -138,7 +138,7 @@ int gate_silhouette(struct gate_frame *f)
 	gate_measure(f, GATE_R4, 1, (double)largest);
 	gate_note(f, GATE_R4, "%s; %" PRIu64 " px covered, %" PRIu64 " unmatched",
 	     use_depth ? "from depth and colour"
-	               : ref->depth ? "no gl.depth in the frame: from difference to the background colour"
+	               : ref->depth ? "no depth known of the frame: from difference to the background colour"
 	                            : "no depth reference: from difference to the background colour",
 	     both + unmatched, unmatched);
 fail:

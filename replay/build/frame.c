@@ -341,6 +341,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->samples_from_below = surface->samples_from_below;
 	if (!(f->cleared & 1))
 		s->needs_previous = 1;
+	s->keeps_depth = s->depth_bits && x->st && x->st->depth_used && !(f->cleared & 2);
 }
 
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)

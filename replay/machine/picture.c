@@ -31,23 +31,24 @@ struct gls_picture *gls_picture_reference(struct gls_picture *p)
 	return p;
 }
 
-/* Black, far and 0. @return 0: out of memory, with whatever was allocated */
+/*
+ * All 0, but for alpha that is not there, which is 1. So does Mesa's memory begin; GL does not say how.
+ * @return 0: out of memory, with whatever was allocated
+ */
 static int make_arrays(struct scene_picture *p, const struct gls_picture_form *form)
 {
 	size_t n = (size_t)form->width * form->height, room = n + !n;
-	uint32_t bits = form->depth_bits > 24 ? 24 : form->depth_bits, far = (1u << bits) - 1;
 
 	p->width = form->width;
 	p->height = form->height;
-	p->depth_bits = bits;
+	p->depth_bits = form->depth_bits > 24 ? 24 : form->depth_bits;
 	p->rgba = calloc(room, 4);
-	p->depth = malloc(room * sizeof(*p->depth));
+	p->depth = calloc(room, sizeof(*p->depth));
 	p->stencil = calloc(room, 1);
 	p->colors = form->floats ? calloc(room, 4 * sizeof(*p->colors)) : NULL;
 	if (!p->rgba || !p->depth || !p->stencil || (form->floats && !p->colors))
 		return 0;
 	for (size_t i = 0; i < n; i++) {
-		p->depth[i] = far;
 		p->rgba[4 * i + 3] = form->alpha_bits ? 0 : 255;
 		if (form->floats)
 			p->colors[4 * i + 3] = form->alpha_bits ? 0 : 1;

@@ -287,6 +287,7 @@ struct gls_state {
 	struct gls_share *share;
 	struct scene_surface surface;  /* what the program said through rtMaterialEXT */
 	uint32_t kd_tree;              /* 1: it has called rtBuildKdTreeEXT */
+	uint32_t depth_used;           /* 1: depth was cleared, or the depth test enabled: it is not what it began with */
 
 	/* list being compiled */
 	struct gls_list *list;

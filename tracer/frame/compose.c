@@ -136,6 +136,8 @@ static int describe_image(const struct job *job, struct image *img)
 		err = image_set_attribute(img, "relume:device", "%s", device_name(job->tr->dev));
 	if (!err)
 		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
+	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* gate R5 asks (diff/score/depth.c) */
+		err = image_set_attribute(img, "relume:unknown", "depth");
 	return err ? err : describe_camera(job, img);
 }
 

@@ -25,7 +25,7 @@ static void start_pixels(const struct job *job, const struct scene_picture *star
 		memcpy(p->direct, p->gl, sizeof(p->direct));
 		memcpy(p->mirrored, p->gl, sizeof(p->mirrored));
 		memcpy(p->beauty, p->gl, sizeof(p->beauty));
-		p->depth = !start ? far : depth_bits > 24 ? start->depth[i] << 8 | start->depth[i] >> 16 : start->depth[i];
+		p->depth = !start ? 0 : depth_bits > 24 ? start->depth[i] << 8 | start->depth[i] >> 16 : start->depth[i];
 		p->depth_exact = far ? (float)p->depth / (float)far : 1;
 		p->stencil = start ? start->stencil[i] : 0;
 	}

@@ -23,7 +23,7 @@ int segment_trace_camera(struct job *job, const struct segment *segment, struct 
 uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out);
 
 /**
- * What nobody cleared is black, far and nothing. Where the first segment begins with clears of the whole picture, as most frames do,
+ * What nobody cleared is 0, depth too. Where the first segment begins with clears of the whole picture, as most frames do,
  * theirs is done at once.
  * @param n_done  receives how many of its clears that are
  */

@@ -16,6 +16,8 @@ GLS_HANDLER(glClear, STATE)
 	}
 	if (mask & GL_ACCUM_BUFFER_BIT)
 		gls_accum_clear(x, st);
+	if (mask & GL_DEPTH_BUFFER_BIT)
+		st->depth_used = 1;
 	gls_draw_clear(x, st, (mask & GL_COLOR_BUFFER_BIT ? 1u : 0) | (mask & GL_DEPTH_BUFFER_BIT ? 2u : 0) |
 	                           (mask & GL_STENCIL_BUFFER_BIT ? 4u : 0));
 }

@@ -157,6 +157,7 @@ static void enable(struct gls_exec *x, struct gls_state *st, uint32_t cap, int o
 		*flag = on != 0;
 	if (cap == GL_COLOR_MATERIAL && on)
 		gls_color_changed(st);
+	st->depth_used |= st->a.depth.enabled;
 }
 
 GLS_HANDLER(glEnable, STATE) { enable(x, st, arg_u(c, 0), 1); }

@@ -20,7 +20,7 @@ struct gls_renderbuffer {
 	uint32_t internal_format, width, height;
 	uint32_t missing;            /* as of a texture's level */
 	uint32_t samples;            /* of a pixel; 0: one */
-	struct gls_picture *content; /* a reference; NULL: black, far and 0 */
+	struct gls_picture *content; /* a reference; NULL: all 0 */
 };
 
 /** Number of the colour that a GL token names, -1: none. */
