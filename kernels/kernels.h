@@ -13,12 +13,13 @@
 #define KERNEL_STRUCTS(X) \
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
-	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8)
+	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place)
 
-/* Types by one word each, for lists of arguments alone. Three structs stand in no buffer but are passed by value. */
+/* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
 KERNEL_STRUCTS(KERNEL_ELEMENT)
 KERNEL_ELEMENT(scene_clear)
+KERNEL_ELEMENT(scene_dome)
 KERNEL_ELEMENT(camera_rectangle)
 KERNEL_ELEMENT(compose_request)
 typedef uint32_t element_uint;
@@ -204,6 +205,28 @@ typedef float element_float;
 	IN(float, visibility) AND() VALUE(uint, over_gl) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
+/* Light from all around: kernels/frame/dome.h. */
+#define ARGUMENTS_dome_find(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, n) AND() OUT(dome_place, places)
+#define ARGUMENTS_dome_ray(IN, OUT, VALUE, GROUP, AND) \
+	IN(dome_place, places) AND() IN(uint, pixels) AND() \
+	IN(float, directions) AND()         /* [4] for each pixel of a block: about z, then how far to look */ \
+	VALUE(uint, width) AND() VALUE(uint, n) AND() OUT(ray, rays)
+#define ARGUMENTS_dome_sum(IN, OUT, VALUE, GROUP, AND) \
+	IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() \
+	VALUE(uint, is_first) AND()         /* 1: there are no sums yet */ \
+	VALUE(uint, n) AND() \
+	OUT(float, sums)                    /* [4] a fragment: light r g b, and how many rays; read as well */
+#define ARGUMENTS_dome_light(IN, OUT, VALUE, GROUP, AND) \
+	IN(dome_place, places) AND() IN(float, sums) AND() IN(uint, pixels) AND() \
+	IN(uint, first) AND() IN(uint, counts) AND() /* per pixel of the band: its fragments in the list */ \
+	VALUE(camera_rectangle, rectangle) AND() /* in which these hold, counted from the band's first row */ \
+	VALUE(uint, width) AND() \
+	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
+	VALUE(scene_dome, dome) AND() VALUE(uint, n) AND() \
+	OUT(shaded, shaded)                 /* read as well */
+
 /* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
@@ -253,7 +276,7 @@ typedef float element_float;
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(credit) X(ao_shade) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+	X(shade_hit) X(credit) X(ao_shade) X(dome_find) X(dome_ray) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -337,6 +360,10 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(shade_hit, shade_hit)         /* one path a work item: the radiance it found and its next rays */ \
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
+	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around */ \
+	X(dome_ray, dome_ray)           /* the same: a look around from there */ \
+	X(dome_sum, dome_sum)           /* the same: the light that came by it */ \
+	X(dome_light, dome_light)       /* the same: its and its neighbours' light on its colours */ \
 	X(clear, clear)                 /* one pixel a work item: a Clear */ \
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \

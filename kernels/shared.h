@@ -302,6 +302,14 @@ SHARED_SIZE(struct path, 28);
 #define TRANSPORT_DIFFUSE 2u /* as GL, and one bounce from surface to surface */
 #define TRANSPORT_PATH 3u    /* no ambient light; what surfaces send each other takes its place */
 
+/* Where a pixel's surface takes light from all around. */
+struct dome_place {
+	float from[3];   /* rays start here, eye space */
+	float strength;  /* share of its colour that is not fog's; 0: nothing there is lit so */
+	float normal[3]; /* on the side that is seen */
+};
+SHARED_SIZE(struct dome_place, 28);
+
 /* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
 struct camera_rectangle {
 	int32_t x0, y0, x1, y1;

@@ -11,6 +11,7 @@
 #include "base/mat4.h"
 #include "look/modelview.h"
 #include "look/rules.h"
+#include "look/solid.h"
 #include "look/spare.h"
 #include "look/world.h"
 
@@ -86,7 +87,7 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
 	if (r->shadows)
-		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
+		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->left_out)
@@ -97,6 +98,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 		s->light_unit = *r->lightmap + 1;
 	if (r->lit)
 		s->relit = *r->lit;
+	if (r->dome)
+		s->hidden = (s->hidden & ~SCENE_DOME_LIT) | (*r->dome ? SCENE_DOME_LIT : 0);
 }
 
 /* --- Lights -------------------------------------------------------------------------------------------------------- */
@@ -117,6 +120,7 @@ struct applying {
 	const struct scene *scene;
 	struct scene *out;
 	float eye_from_world[16]; /* where lights stand in the world */
+	int knows_world;
 	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights */
 };
 
@@ -279,6 +283,29 @@ static int is_kept(const struct rules *rules, const struct surface_rule *r)
 	return rules->replace && !*rules->replace && (r->left_out || r->solid);
 }
 
+static void set_sky(const struct applying *a)
+{
+	static const float white[3] = { 1, 1, 1 };
+	const struct sky_rule *r = a->rules->sky;
+	struct scene_dome *dome = &a->out->dome;
+	float up[4] = { 0, 0, 0, 0 }, turned[4], length;
+
+	if (!r)
+		return;
+	dome->reach = *r->reach;
+	memcpy(dome->light, r->light ? r->light : white, sizeof(dome->light));
+	memcpy(dome->ground, r->ground ? r->ground : dome->light, sizeof(dome->ground));
+	if (!r->up || (r->space && strcmp(r->space, "world") == 0 && !a->knows_world))
+		return;
+	memcpy(up, r->up, 3 * sizeof(*up));
+	memcpy(turned, up, sizeof(turned));
+	if (r->space && strcmp(r->space, "world") == 0)
+		mat4_transform(turned, a->eye_from_world, up);
+	length = sqrtf(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2]);
+	for (int k = 0; k < 3 && length > 0; k++)
+		dome->up_eye[k] = turned[k] / length;
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static void change_instance(const struct applying *a, uint32_t i)
 {
@@ -294,12 +321,16 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.hidden |= SCENE_FACETED;
 	else if (a->spare->bits)
 		m->surface.hidden |= a->spare->bits[i];
+	if (rules->sky && !m->lighting && solid_is(scene, in))
+		m->surface.hidden |= SCENE_DOME_LIT;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (!is_kept(rules, &rules->surfaces[k]) && matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
 			set_surface(&m->surface, &rules->surfaces[k]);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;
+	else
+		m->surface.hidden &= ~SCENE_DOME_LIT;
 	if (m->surface.relit) {
 		n = list_lights(a, in, m, out->lights + out->n_lights);
 		m->surface.light_first = out->n_lights;
@@ -354,12 +385,16 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	}
 	if (!err)
 		err = copy_scene(&a);
-	if (!err && in_world && !world_find(a.rules, scene, a.eye_from_world)) {
+	if (!err)
+		a.knows_world = world_find(a.rules, scene, a.eye_from_world);
+	if (!err && in_world && !a.knows_world) {
 		a.rules = &none; /* its lights stand nobody knows where */
 		a.lights_change = 0;
 	}
-	if (!err)
+	if (!err) {
 		size_lights(a.rules, out);
+		set_sky(&a);
+	}
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
 		change_instance(&a, i);
 	if (found)

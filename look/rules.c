@@ -1,5 +1,6 @@
 #include "look/rules.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,7 +43,8 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
 	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
-	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
+	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
+	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {
@@ -62,6 +64,11 @@ static const cyaml_schema_field_t light_fields[] = {
 	CYAML_FIELD_MAPPING_PTR("spot", OPTIONAL_POINTER, struct light_rule, spot, spot_fields), CYAML_FIELD_END
 };
 
+static const cyaml_schema_field_t sky_fields[] = {
+	REASON(struct sky_rule), NUMBER(struct sky_rule, reach), NUMBERS(struct sky_rule, up, 3), TEXT(struct sky_rule, space),
+	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), CYAML_FIELD_END
+};
+
 static const cyaml_schema_value_t surface_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct surface_rule,
                                                                          surface_fields) };
 static const cyaml_schema_value_t light_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct light_rule,
@@ -73,6 +80,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_MAPPING_PTR("sky", OPTIONAL_POINTER, struct rules, sky, sky_fields),
 	TRUTH(struct rules, spare), TRUTH(struct rules, replace),
 	CYAML_FIELD_END
 };
@@ -127,8 +135,16 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 	return err;
 }
 
+static int check_space(const char *path, const char *what, const char *space)
+{
+	if (!space || strcmp(space, "world") == 0 || strcmp(space, "eye") == 0)
+		return 0;
+	return err_report(ERR_INPUT, path, "%s: space is eye or world, not '%s'", what, space);
+}
+
 static int check_light(const char *path, const struct light_rule *r, uint32_t i)
 {
+	char what[32];
 	int err = check_number(path, "lights", i, "radius", r->radius, 0, 1e30f);
 
 	if (!err && r->light && *r->light >= SCENE_MAX_LIGHTS)
@@ -139,11 +155,27 @@ static int check_light(const char *path, const struct light_rule *r, uint32_t i)
 		err = err_report(ERR_INPUT, path, "lights, rule %u: object says where a position counts, and there is none", i + 1);
 	if (!err && r->spot)
 		err = check_number(path, "lights", i, "cutoff", r->spot->cutoff, 0, 90);
-	if (!err && r->space && strcmp(r->space, "world") != 0 && strcmp(r->space, "eye") != 0)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: space is eye or world, not '%s'", i + 1, r->space);
+	snprintf(what, sizeof(what), "lights, rule %u", i + 1);
+	if (!err)
+		err = check_space(path, what, r->space);
 	if (!err && r->on && strcmp(r->on, "unlit") != 0 && strcmp(r->on, "all") != 0)
 		err = err_report(ERR_INPUT, path, "lights, rule %u: on is unlit or all, not '%s'", i + 1, r->on);
 	return err ? err : check_hash(path, "lights", i, "object", r->object);
+}
+
+static int check_sky(const char *path, const struct sky_rule *r)
+{
+	int err = r->reach ? check_number(path, "sky", 0, "reach", r->reach, 1e-30f, 1e30f) :
+	                     err_report(ERR_INPUT, path, "sky: it needs a reach");
+
+	for (int c = 0; c < 3 && !err; c++) {
+		err = check_number(path, "sky", 0, "light", r->light ? r->light + c : NULL, 0, 1e30f);
+		if (!err)
+			err = check_number(path, "sky", 0, "ground", r->ground ? r->ground + c : NULL, 0, 1e30f);
+	}
+	if (!err && r->up && r->up[0] == 0 && r->up[1] == 0 && r->up[2] == 0)
+		err = err_report(ERR_INPUT, path, "sky: up is no direction");
+	return err ? err : check_space(path, "sky", r->space);
 }
 
 static int check_anchor(const char *path, const struct anchor *a, uint32_t i)
@@ -177,6 +209,8 @@ static int check_all(const char *path, struct look *look)
 		err = check_light(path, &rules->lights[i], i);
 	for (uint32_t i = 0; !err && i < rules->world_count; i++)
 		err = check_anchor(path, &rules->world[i], i);
+	if (!err && rules->sky)
+		err = check_sky(path, rules->sky);
 	return err;
 }
 

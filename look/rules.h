@@ -29,6 +29,7 @@
  *         mirrors: yes               # is seen in them and through glass
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         lit: yes                   # takes the lights below where OpenGL does not light it
+ *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it
  *         solid: yes                 # a mirror that is blended over its picture: the traced one is not
  *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
@@ -45,6 +46,13 @@
  *         attenuation: [1, 0, 0]
  *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 }
  *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
+ *
+ *     sky:                           # light from all around on solid things that OpenGL does not light and no light above does
+ *       reach: 20                    # how far off things dim it, in units of eye space; near ones dim it more
+ *       up: [0, 1, 0]                # whence `light` comes; from below comes `ground`. Without it all is `light`
+ *       space: world                 # of `up`; default eye
+ *       light: [1, 1, 1]
+ *       ground: [0.5, 0.5, 0.5]
  *
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
  *                                    # lit as OpenGL lights it (look/spare.h), and what covers the window as
@@ -84,7 +92,7 @@ struct surface_rule {
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
 	const uint32_t *lightmap;
-	const bool *shadows, *mirrors, *lit, *left_out, *solid;
+	const bool *shadows, *mirrors, *lit, *dome, *left_out, *solid;
 };
 
 struct spot {
@@ -100,6 +108,12 @@ struct light_rule {
 	struct spot *spot;
 };
 
+struct sky_rule {
+	struct rule_reason reason;
+	const float *reach, *up, *light, *ground;
+	const char *space;
+};
+
 struct anchor {
 	const char *mesh;
 	const float *at;
@@ -109,6 +123,7 @@ struct rules {
 	struct surface_rule *surfaces;
 	struct light_rule *lights;
 	struct anchor *world;
+	struct sky_rule *sky;
 	const bool *spare;
 	const bool *replace;
 	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */

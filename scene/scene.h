@@ -60,6 +60,7 @@ struct scene_face {
 #define SCENE_FACETED 32u            /* rays to lights start on its faces, whatever surface its normals mean */
 #define SCENE_LEFT_OUT 64u           /* all: a trick that OpenGL drew; traced light does the same */
 #define SCENE_SOLID 128u             /* its blending: that mixes in what stands for a mirror's picture */
+#define SCENE_DOME_LIT 256u          /* nothing: scene.dome lights it */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {
@@ -74,6 +75,13 @@ struct scene_surface {
 	   instead of GL's own; what GL does not light is then matte, of the colour it shows */
 	uint32_t relit, light_first, light_count;
 	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; 0: none */
+};
+
+/* Light from all around, for what OpenGL does not light. Set by rules, not by GL. */
+struct scene_dome {
+	float up_eye[3];           /* unit vector; all 0: no direction is up, and all are `light` */
+	float reach;               /* things dim it up to this distance, eye-space units, near ones more; 0: there is no dome */
+	float light[3], ground[3]; /* from straight up and from straight down; in between in proportion to the height */
 };
 
 /* One stage of the fixed-function stencil, per side (GL 2.1 sec. 4.1.5). */
@@ -321,6 +329,7 @@ struct scene {
 	uint32_t n_instances, n_materials, n_units, n_lights, n_currents, n_views, n_clears, n_stipples, n_meshes,
 		n_textures;
 	uint32_t n_primitives; /* in all instances */
+	struct scene_dome dome;
 	uint32_t kd_tree; /* 1: of what drew here, some program has called rtBuildKdTreeEXT before */
 	uint32_t n_draws;
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */

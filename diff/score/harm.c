@@ -5,7 +5,7 @@
  * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
  * of their light; those that touch form a patch. A pixel's neighbour is an edge where it is not dark, lies on the same surface (the
  * same draw, or normals within 37 degrees, and in its plane as far as depth goes) and shows more light of its own colour than
- * the dark one by a quarter. Where a film is blended over either, the colour is not known (albedo is the film's, as black as a drawn
+ * the dark one by a quarter, at once or, as a wide light's shadow ends, within PENUMBRA pixels of it. Where a film is blended over either, the colour is not known (albedo is the film's, as black as a drawn
  * shadow's), and the light itself is compared. Light is gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow
  * still has both. A patch is explained where its edges are as long as a quarter of a square's side of its area;
  * patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An honest room in the shade of its own walls took 1.1 % (rooms
@@ -33,6 +33,7 @@
 #define DARK_CODES 16    /* a step that one sees at once */
 #define DARK_SHARE 0.7f  /* of the light that is left */
 #define LEAST_PATCH 64u
+#define PENUMBRA 32 /* pixels */
 #define EDGE_PER_SIDE 0.25
 enum { MOST_LIGHTS = 16 };
 
@@ -128,17 +129,34 @@ static void normal_at(const struct harm *h, size_t i, float out[3])
 		out[k] = h->normal[k][i];
 }
 
-/* 1 where a dark pixel's neighbour is the lit side of a shadow's edge. */
-static int is_edge(const struct harm *h, size_t dark, size_t lit)
+/* 1 where two pixels beside each other show one surface. */
+static int is_same_surface(const struct harm *h, size_t i, size_t other)
 {
-	float apart[3], normal[3], other[3];
+	float apart[3], normal[3], normal_there[3];
 
-	if (h->dark[lit] || !is_lighter(h, lit, dark))
-		return 0;
-	subtract(h, lit, dark, apart);
-	normal_at(h, dark, normal);
-	normal_at(h, lit, other);
-	return (h->id[lit] == h->id[dark] || dot(normal, other) > 0.8f) && fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
+	subtract(h, other, i, apart);
+	normal_at(h, i, normal);
+	normal_at(h, other, normal_there);
+	return (h->id[i] == h->id[other] || dot(normal, normal_there) > 0.8f) && fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
+}
+
+/* 1 where a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface goes on and shows more light. */
+static int is_edge(const struct harm *h, uint32_t dark, int dx, int dy)
+{
+	uint32_t x = dark % h->width, y = dark / h->width, i = dark;
+
+	for (int step = 0; step < PENUMBRA; step++) {
+		const uint32_t next = (y + (uint32_t)dy) * h->width + x + (uint32_t)dx;
+
+		x += (uint32_t)dx;
+		y += (uint32_t)dy;
+		if (x >= h->width || y >= h->height || h->dark[next] || !is_same_surface(h, i, next))
+			return 0;
+		if (is_lighter(h, next, dark))
+			return 1;
+		i = next;
+	}
+	return 0;
 }
 
 /* The patch that a dark pixel belongs to, into h->patch; *edge: the length of its edges. @return its size */
@@ -152,9 +170,10 @@ static uint32_t collect_patch(const struct harm *h, uint32_t start, uint64_t *ed
 	for (uint32_t next = 0; next < n; next++) {
 		const uint32_t i = h->patch[next], x = i % h->width, y = i / h->width;
 		const uint32_t around[4] = { x ? i - 1 : i, x + 1 < h->width ? i + 1 : i, y ? i - h->width : i, y + 1 < h->height ? i + h->width : i };
+		static const int steps[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
 
 		for (int k = 0; k < 4; k++) {
-			*edge += around[k] != i && is_edge(h, i, around[k]);
+			*edge += (uint64_t)is_edge(h, i, steps[k][0], steps[k][1]);
 			if (h->dark[around[k]] == 1) {
 				h->dark[around[k]] = 2;
 				h->patch[n++] = around[k];

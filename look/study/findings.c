@@ -22,8 +22,7 @@ static double explained_share(const struct solved *s)
 	return s->signal > 0 ? 1 - s->residual * s->residual / (s->signal * s->signal) : 0;
 }
 
-/* 1 where the lights explain the lightmaps so well that walls may be lit anew. */
-static int relights(const struct solved *s)
+int findings_relights(const struct solved *s)
 {
 	return s->n && explained_share(s) > 0.9;
 }
@@ -31,7 +30,7 @@ static int relights(const struct solved *s)
 /* 1 where traced light makes the same shadow: of a light of OpenGL's, or of one that lights walls anew. */
 static int is_replaced(const struct trick_found *f, const struct solved *s)
 {
-	for (unsigned i = 0; i < s->n && relights(s) && f->light[3] != 0; i++) {
+	for (unsigned i = 0; i < s->n && findings_relights(s) && f->light[3] != 0; i++) {
 		double off = 0, far = 0;
 
 		for (int k = 0; k < 3; k++) {
@@ -91,14 +90,14 @@ static void write_walls(const struct lightmaps *maps, const struct solved *s, FI
 	if (maps->n_units)
 		fprintf(out, "  - role: lightmap in a second unit\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
 		        "    match: { units: 2, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n%s",
-		        fmax(0, share), maps->n_units, s->n, 100 * share, relights(s) ? "" : stays, relights(s) ? "    lit: yes\n" : "");
-	if (maps->n_units && relights(s))
+		        fmax(0, share), maps->n_units, s->n, 100 * share, findings_relights(s) ? "" : stays, findings_relights(s) ? "    lit: yes\n" : "");
+	if (maps->n_units && findings_relights(s))
 		fprintf(out, "    lightmap: %u\n", maps->unit);
 	if (maps->n_passes)
 		fprintf(out, "  - role: lightmap pass\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
 		        "    match: { multiplies: yes, units: 1, lit: no, stencil_tested: no }\n%s",
-		        fmax(0, share), maps->n_passes, s->n, 100 * share, relights(s) ? "" : stays, relights(s) ? "    left_out: yes\n" : "");
-	if (maps->n_passes && relights(s))
+		        fmax(0, share), maps->n_passes, s->n, 100 * share, findings_relights(s) ? "" : stays, findings_relights(s) ? "    left_out: yes\n" : "");
+	if (maps->n_passes && findings_relights(s))
 		fprintf(out, "  - role: wall below a lightmap pass\n    confidence: %.2f\n    why: \"its light comes by the pass\"\n"
 		        "    match: { units: 1, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n    lit: yes\n", share);
 }
@@ -128,10 +127,10 @@ void findings_write(const struct tricks *t, const struct lightmaps *maps, const 
 			write_shadow(&t->found[i], s, out);
 	}
 	write_walls(maps, s, out);
-	fprintf(out, lights || relights(s) ? "lights:\n" : "lights: []\n");
+	fprintf(out, lights || findings_relights(s) ? "lights:\n" : "lights: []\n");
 	for (unsigned i = 0; i < t->n; i++)
 		if (t->found[i].kind != TRICK_MIRROR)
 			write_light(&t->found[i], out);
-	if (relights(s))
+	if (findings_relights(s))
 		write_solved(s, out);
 }

@@ -7,4 +7,7 @@
 #include "look/study/solve.h"
 #include "look/study/tricks.h"
 
+/** 1 where the lights explain the lightmaps so well that walls may be lit anew. */
+int findings_relights(const struct solved *solved);
+
 void findings_write(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, FILE *out);

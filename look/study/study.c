@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "look/study/dome.h"
 #include "look/study/findings.h"
 #include "look/study/lightmaps.h"
 #include "look/study/mirrors.h"
@@ -18,6 +19,7 @@ struct study {
 	struct tricks tricks;
 	struct lightmaps lightmaps;
 	struct solved solved;
+	struct dome dome;
 };
 
 int study_create(struct study **out)
@@ -51,6 +53,8 @@ int study_add(struct study *study, const struct scene *scene)
 		err = mirrors_add(&study->tricks, scene, &study->motion);
 	if (!err)
 		err = volumes_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		dome_add(&study->dome, scene, &study->motion);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
 }
 
@@ -71,5 +75,7 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
 	findings_write(&study->tricks, &study->lightmaps, &study->solved, out);
+	if (!findings_relights(&study->solved))
+		dome_write(&study->dome, out);
 	world_write(m, out);
 }

@@ -5,6 +5,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain.h"
 #include "tracer/frame/compose.h"
+#include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
@@ -33,7 +34,7 @@ int plain_suits(const struct job *job)
 	if (device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
 	    job->scene->start || job->scene->needs_previous || !is_lit_simply(job))
 		return 0;
-	if (p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
+	if (dome_is_there(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
 	    segment_whole_clear(job, &clear) != segment->clear_count)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
@@ -116,7 +117,7 @@ int plain_band(struct job *job)
 	a = launch_of(job, r, n, n_slots, &request);
 	err = launch_plain(job->tr->dev, blocks, &a);
 	if (!err && n_slots)
-		err = secondary_ask_lights(job, space, n * n_slots);
+		err = secondary_ask(job, space, 1, n * n_slots);
 	if (!err && n_slots) {
 		a.request = shadow_request(request);
 		err = launch_plain_shadow(job->tr->dev, blocks, &a);

@@ -177,9 +177,9 @@ int secondary_reserve_rays(struct job *job, size_t n_rays)
 	return err;
 }
 
-int secondary_ask_lights(struct job *job, const struct accel_space *space, uint32_t n_rays)
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays)
 {
-	return ask(job, space, 1, n_rays, 0, 1);
+	return ask(job, space, to_lights, n_rays, 0, 1);
 }
 
 /* Rays to each light a pass. */

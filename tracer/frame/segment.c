@@ -5,6 +5,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "kernels/gl/pixel.h"
+#include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
 
 struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4])
@@ -200,7 +201,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 }
 
 /* The fragments of the list: GL's colours, then what rays from them find. */
-static int shade_list(struct job *job, uint32_t view, uint32_t n)
+static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r, uint32_t n)
 {
 	const struct accel_space *space = secondary_space(job, view, 0);
 	enum tracer_mode mode = job->options->mode;
@@ -217,7 +218,7 @@ static int shade_list(struct job *job, uint32_t view, uint32_t n)
 	}
 	if (!err && job->options->depth && (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE))
 		err = secondary_paths(job, space, secondary_space(job, view, 1), n);
-	return err;
+	return err || !dome_is_there(job) ? err : dome_light_list(job, space, segment_in_buffers(job, r), n);
 }
 
 int segment_reserve(struct job *job, uint32_t slots)
@@ -252,7 +253,7 @@ static int run_draws(struct job *job, const struct segment *segment)
 			break;
 		err = run_gather(job, r, slots, n_list);
 		if (!err)
-			err = shade_list(job, segment->view, n_list);
+			err = shade_list(job, segment->view, r, n_list);
 		for (uint32_t i = 0; i < (segment->multisample ? 1 : job->n_samples) && !err; i++) {
 			if (!segment->multisample)
 				segment_draw_to(job, i, i ? PIXEL_FOLLOWS : 0);

@@ -1,0 +1,7 @@
+/* What a frame's world is made of. */
+#pragma once
+
+#include "scene/scene.h"
+
+/** 1 for filled things in the window that have depth, and not all the same one, as skies may have. */
+int solid_is(const struct scene *scene, const struct scene_instance *instance);

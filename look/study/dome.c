@@ -1,0 +1,217 @@
+#include "look/study/dome.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "look/solid.h"
+#include "look/study/matrix.h"
+
+/* Surfaces are asked about at so many of their triangles. */
+enum { MOST_TRIANGLES = 64 };
+/* How far off things dim the light, in half the window's width where they stand. */
+#define REACH 0.6
+/* Upright within 60 degrees of the window's own up; one floor within 8 degrees. */
+#define UPRIGHT 0.5
+#define SAME_UP 0.99
+/* A floor has at least this share of what is seen. */
+#define LEAST_FLOOR 0.08
+
+static double dot(const double a[3], const double b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static int normalize(double v[3])
+{
+	const double length = sqrt(dot(v, v));
+
+	for (int k = 0; k < 3 && length > 0; k++)
+		v[k] /= length;
+	return length > 0;
+}
+
+/* A triangle in eye space. */
+struct face {
+	double corner[3][3], normal[3], area;
+};
+
+static int face_of(const struct scene_mesh *mesh, const double eye[16], uint32_t primitive, struct face *out)
+{
+	double a[3], b[3];
+
+	for (int c = 0; c < 3; c++) {
+		const float *at = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + (size_t)c];
+
+		matrix_point(out->corner[c], eye, (double[3]){ at[0], at[1], at[2] });
+	}
+	for (int k = 0; k < 3; k++) {
+		a[k] = out->corner[1][k] - out->corner[0][k];
+		b[k] = out->corner[2][k] - out->corner[0][k];
+	}
+	for (int k = 0; k < 3; k++)
+		out->normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+	out->area = 0.5 * sqrt(dot(out->normal, out->normal));
+	return normalize(out->normal);
+}
+
+/*
+ * The share of the window that a face covers about one of its points, in front of everything or not; 0 where it lies outside.
+ * size: receives half the window's width there
+ */
+static double seen_at(const struct scene_view *view, const struct face *face, double area, const double at[3], double *size)
+{
+	double projection[16], clip[4], row[2] = { 0, 0 }, away[3];
+
+	matrix_from_floats(projection, view->projection);
+	matrix_transform(clip, projection, (double[4]){ at[0], at[1], at[2], 1 });
+	if (!(clip[3] > 0) || fabs(clip[0]) > clip[3] || fabs(clip[1]) > clip[3] || fabs(clip[2]) > clip[3])
+		return 0;
+	for (int k = 0; k < 3; k++) {
+		row[0] += projection[4 * k] * projection[4 * k];
+		row[1] += projection[4 * k + 1] * projection[4 * k + 1];
+		away[k] = projection[4 * k + 3] != 0 ? projection[4 * k + 3] : projection[4 * k + 2];
+	}
+	*size = clip[3] / sqrt(row[0]);
+	normalize(away);
+	return area * (0.2 + fabs(dot(away, face->normal))) * sqrt(row[0] * row[1]) / (4 * clip[3] * clip[3]);
+}
+
+static void note_size(struct dome *d, double size, double weight)
+{
+	const double bin = 4 * log2(size) + DOME_SIZES / 2.0;
+
+	if (isfinite(bin))
+		d->sizes[bin < 0 ? 0 : bin >= DOME_SIZES ? DOME_SIZES - 1 : (int)bin] += weight;
+}
+
+static void note_up(struct dome *d, const double normal[3], double weight)
+{
+	unsigned i = 0;
+
+	d->all += weight;
+	while (i < d->n_ups && dot(d->ups[i].normal, normal) < SAME_UP)
+		i++;
+	if (i == DOME_UPS)
+		return;
+	if (i == d->n_ups) {
+		memcpy(d->ups[i].normal, normal, sizeof(d->ups[i].normal));
+		d->ups[i].weight = 0;
+		d->n_ups++;
+	}
+	d->ups[i].weight += weight;
+}
+
+/* The window's own up, in eye space: the camera may be in the projection. */
+static void window_up(const struct scene_view *view, double out[3])
+{
+	for (int k = 0; k < 3; k++)
+		out[k] = (double)view->projection[4 * k + 1];
+	normalize(out);
+}
+
+static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, double area, const double world_from_eye[16])
+{
+	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], weight = 0, side;
+
+	/* About the middle, and between it and each corner: floors often reach beyond the window. */
+	for (int i = 0; i < 4; i++) {
+		double at[3], size = 1, share;
+
+		for (int k = 0; k < 3; k++)
+			at[k] = (face->corner[0][k] + face->corner[1][k] + face->corner[2][k]) / 3;
+		for (int k = 0; k < 3 && i; k++)
+			at[k] = 0.5 * (at[k] + face->corner[i - 1][k]);
+		share = seen_at(view, face, 0.25 * area, at, &size);
+		share = share < 0.25 ? share : 0.25;
+		weight += share;
+		if (share > 0)
+			note_size(d, size, share);
+	}
+	d->unlit += weight;
+	window_up(view, up);
+	side = dot(face->normal, up);
+	for (int k = 0; k < 3; k++)
+		normal[k] = side < 0 ? -face->normal[k] : face->normal[k];
+	matrix_transform(turned, world_from_eye, normal);
+	if (weight > 0 && fabs(side) > UPRIGHT && normalize(turned))
+		note_up(d, turned, weight);
+	else
+		d->all += weight;
+}
+
+static void note_instance(struct dome *d, const struct scene *scene, const struct scene_instance *in, const double world_from_eye[16])
+{
+	const struct scene_mesh *mesh = scene->meshes[in->mesh];
+	const uint32_t stride = mesh->primitive_count / MOST_TRIANGLES + 1;
+	double eye[16];
+
+	matrix_from_floats(eye, in->modelview);
+	for (uint32_t p = 0; p < mesh->primitive_count; p += stride) {
+		struct face face;
+		double size;
+
+		if (!face_of(mesh, eye, p, &face))
+			continue;
+		if (scene->materials[in->material].lighting)
+			d->lit += seen_at(&scene->views[in->view], &face, face.area * stride, face.corner[0], &size);
+		else
+			note_face(d, &scene->views[in->view], &face, face.area * stride, world_from_eye);
+	}
+}
+
+void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion)
+{
+	double world_from_eye[16];
+
+	if (!matrix_invert(world_from_eye, motion_now(motion)->eye_from_world))
+		return;
+	d->frames++;
+	d->known += motion->n_frames == 1 || motion_now(motion)->witnessed;
+	for (uint32_t i = 0; i < scene->n_instances; i++)
+		if (solid_is(scene, &scene->instances[i])) {
+			window_up(&scene->views[scene->instances[i].view], d->up_eye);
+			note_instance(d, scene, &scene->instances[i], world_from_eye);
+		}
+}
+
+int dome_is_wanted(const struct dome *d)
+{
+	return d->unlit > d->lit;
+}
+
+/* The size that two thirds of what is seen have at most: half of it may be what the viewer holds. */
+static double middle_size(const struct dome *d)
+{
+	double sum = 0, whole = 0;
+	int i = 0;
+
+	for (int k = 0; k < DOME_SIZES; k++)
+		whole += d->sizes[k];
+	while (i < DOME_SIZES - 1 && (sum += d->sizes[i]) < 0.67 * whole)
+		i++;
+	return exp2((i + 0.5 - DOME_SIZES / 2.0) / 4);
+}
+
+void dome_write(const struct dome *d, FILE *out)
+{
+	const struct dome_up *best = d->n_ups ? &d->ups[0] : NULL;
+	int has_floor;
+
+	if (!dome_is_wanted(d))
+		return;
+	for (unsigned i = 1; i < d->n_ups; i++)
+		best = d->ups[i].weight > best->weight ? &d->ups[i] : best;
+	has_floor = best && best->weight > LEAST_FLOOR * d->all && 2 * d->known > d->frames;
+	fprintf(out, "sky:\n  role: sky light\n  confidence: %.2f\n", d->unlit / (d->unlit + d->lit));
+	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid, and nothing tells of another light; ", 100 * d->lit / (d->unlit + d->lit));
+	if (has_floor)
+		fprintf(out, "%.0f %% of the rest is level, which says what is up\"\n", 100 * best->weight / d->all);
+	else
+		fprintf(out, "up is where the window has it\"\n");
+	fprintf(out, "  reach: %.4g\n", REACH * middle_size(d));
+	if (has_floor)
+		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n  space: world\n", best->normal[0], best->normal[1], best->normal[2]);
+	else
+		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n", d->up_eye[0], d->up_eye[1], d->up_eye[2]);
+	fprintf(out, "  light: [1, 1, 1]\n  ground: [0.7, 0.7, 0.7]\n");
+}

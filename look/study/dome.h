@@ -1,0 +1,34 @@
+/*
+ * Light from all around, for a recording that has no other: how much of what is solid OpenGL lights, how large the world is as it is
+ * seen, and which way is up.
+ */
+#pragma once
+
+#include <stdio.h>
+
+#include "look/study/motion.h"
+#include "scene/scene.h"
+
+enum { DOME_SIZES = 160, DOME_UPS = 48 };
+
+/* All zero: nothing was seen. Weights are shares of the window. */
+struct dome {
+	double lit, unlit;
+	double sizes[DOME_SIZES]; /* of what is unlit, by half the window's width where it stands, eye units: four to an octave */
+	struct dome_up {
+		double normal[3], weight; /* in the world; floors' normals, and ceilings' turned */
+	} ups[DOME_UPS];
+	unsigned n_ups;
+	double all;          /* weight of all normals */
+	double up_eye[3];    /* the window's, of the last frame */
+	unsigned frames, known; /* of these, with a known camera */
+};
+
+/** Study one more frame, after motion_add. */
+void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion);
+
+/** Whether most of what is solid is lit by nothing. */
+int dome_is_wanted(const struct dome *d);
+
+/** The rule `sky`, where it is wanted. */
+void dome_write(const struct dome *d, FILE *out);
