@@ -32,51 +32,33 @@ void gate_count_colors(struct gate_frame *f)
 	s->fidelity = 1 - (double)s->failing_pixels / fmax(1, (double)(c->count[INTERIOR] + c->count[BLENDED] + c->count[BAND]));
 }
 
-/** The share of pixels of one kind that fail. */
-static double failing_share(const struct gate_frame *f, int kind)
+/* Enter the share of pixels of one kind that fail, or that pass where the bar is a lower bound. none: the note where there are none */
+static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, const char *none, const char *pixels)
 {
-	return 100 * (double)f->colors.failing[kind] / (double)f->colors.count[kind];
-}
+	const uint64_t n = f->colors.count[kind], failing = f->colors.failing[kind];
+	const double share = 100 * (double)failing / (double)n;
 
-int gate_interior(struct gate_frame *f)
-{
-	const struct gate_colors *c = &f->colors;
-
-	if (!c->count[INTERIOR]) {
-		gate_note(f, GATE_R1, "no pixel is interior");
+	if (!n) {
+		gate_note(f, id, "%s", none);
 		return 0;
 	}
-	gate_measure(f, GATE_R1, 0, failing_share(f, INTERIOR));
-	gate_note(f, GATE_R1, "%" PRIu64 " of %" PRIu64 " interior pixels", c->failing[INTERIOR], c->count[INTERIOR]);
+	gate_measure(f, id, 0, score_gates[id].figures[0].at_least ? 100 - share : share);
+	gate_note(f, id, "%" PRIu64 " of %" PRIu64 " %s", failing, n, pixels);
 	return 0;
 }
+
+int gate_interior(struct gate_frame *f) { return measure_kind(f, GATE_R1, INTERIOR, "no pixel is interior", "interior pixels"); }
 
 int gate_blended(struct gate_frame *f)
 {
-	const struct gate_colors *c = &f->colors;
-
-	if (!c->count[BLENDED]) {
-		gate_note(f, GATE_R1B, f->traced.layers ? "nothing is blended"
-		                                        : "the frame has no channel \"layers\"; blended pixels count in R1");
-		return 0;
-	}
-	gate_measure(f, GATE_R1B, 0, failing_share(f, BLENDED));
-	gate_note(f, GATE_R1B, "%" PRIu64 " of %" PRIu64 " blended pixels", c->failing[BLENDED], c->count[BLENDED]);
-	return 0;
+	return measure_kind(f, GATE_R1B, BLENDED, f->traced.layers ? "nothing is blended"
+	                    : "the frame has no channel \"layers\"; blended pixels count in R1", "blended pixels");
 }
 
 int gate_band(struct gate_frame *f)
 {
-	const struct gate_colors *c = &f->colors;
-
-	if (!c->count[BAND]) {
-		gate_note(f, GATE_R2, f->traced.id || f->traced.depth ? "there are no edges"
-		                                                      : "neither id nor depth: all pixels count in R1");
-		return 0;
-	}
-	gate_measure(f, GATE_R2, 0, 100 - failing_share(f, BAND));
-	gate_note(f, GATE_R2, "%" PRIu64 " of %" PRIu64 " band pixels fail", c->failing[BAND], c->count[BAND]);
-	return 0;
+	return measure_kind(f, GATE_R2, BAND, f->traced.id || f->traced.depth ? "there are no edges"
+	                    : "neither id nor depth: all pixels count in R1", "band pixels fail");
 }
 
 int gate_gross(struct gate_frame *f)
