@@ -260,43 +260,26 @@ $(SCRIPTS:%=show-%): show-%: all $$(NEEDS_$$*) $$(if $$(DEPS_$$*),$(BUILD)/deps.
 show-house: all
 	@$(PYTHON) -B tests/house.py $(BUILD) --count --json $(BUILD)/show/house.json
 
-# The traversal kernels against Embree's, with and without a bar. Embree is linked here and nowhere else.
+# Benches beside Embree, which is linked here and nowhere else: the traversal kernels (bench: without a bar), whole frames against the
+# rays in them and a rasteriser, hits ray by ray (the test of that name in tests/check runs fewer), the builders of acceleration structures.
 MODELS ?= ../shared/models
-$(BUILD)/tests/bench/embree: tests/bench/embree.c $(BUILD)/parts.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
+BENCHES := $(addprefix $(BUILD)/tests/bench/,embree frame_rays hits build)
+$(BENCHES:=.o): | $(GENERATED_H)
+$(addprefix $(BUILD)/tests/bench/,embree.o frame_rays.o): private ALL_CFLAGS += -O3 -march=native
+$(BUILD)/tests/bench/build: $(BUILD)/tests/bench/embree_build.o
+$(BENCHES): %: %.o $(BUILD)/parts.a
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
 
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
 
 show-rays: $(BUILD)/tests/bench/embree
-	@mkdir -p $(BUILD)/show
-	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/rays.json --command "make show-rays"
-
-# Whole frames against the rays in them, and against a rasteriser.
-$(BUILD)/tests/bench/frame_rays: tests/bench/frame_rays.c $(BUILD)/parts.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -O3 -march=native -MF $@.d -c -o $@.o $<
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
-
-# Hits ray by ray, against Embree's. The test of the same name in tests/check runs it with fewer rays.
-$(BUILD)/tests/bench/hits: tests/bench/hits.c $(BUILD)/parts.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -MF $@.d -c -o $@.o $<
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $@.o $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
-
 show-hits: $(BUILD)/tests/bench/hits
-	@mkdir -p $(BUILD)/show
-	@$< --models $(MODELS) --json $(BUILD)/show/hits.json --command "make show-hits"
-
-# The builders of acceleration structures against Embree's.
-$(BUILD)/tests/bench/build: $(BUILD)/tests/bench/build.o $(BUILD)/tests/bench/embree_build.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $^ -lembree3 $(LIBS_OIIO) $(LIBS)
-
 show-build: $(BUILD)/tests/bench/build
+show-rays show-build: BARS := --bars 1
+show-rays show-hits show-build:
 	@mkdir -p $(BUILD)/show
-	@$< --models $(MODELS) --bars 1 --json $(BUILD)/show/build.json --command "make show-build"
+	@$< --models $(MODELS) $(BARS) --json $(BUILD)/show/$(@:show-%=%).json --command "make $@"
 
 # Packages of PyPI in virtual environments of their own: metrics beside other implementations, and Intel's OpenCL.
 $(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
@@ -387,5 +370,5 @@ FORCE:
 .PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(addprefix $(BUILD)/tests/bench/,build.d embree_build.d frame_rays.d) \
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)
