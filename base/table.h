@@ -26,3 +26,12 @@ int table_set(struct table *t, uint64_t key, void *value);
 void *table_remove(struct table *t, uint64_t key);
 
 void table_free(struct table *t);
+
+/** Free a table and, by drop(value), all that it holds. */
+#define TABLE_DROP(t, drop) \
+	do { \
+		for (size_t i_ = 0; i_ < (t)->room; i_++) \
+			if ((t)->entries[i_].value) \
+				drop((t)->entries[i_].value); \
+		table_free(t); \
+	} while (0)

@@ -143,29 +143,14 @@ static void release_share(struct gls_share *share)
 {
 	if (--share->refs)
 		return;
-	for (size_t i = 0; i < share->lists.room; i++)
-		if (share->lists.entries[i].value)
-			gls_list_free(share->lists.entries[i].value);
-	for (size_t i = 0; i < share->textures.room; i++)
-		gls_texture_free(share->textures.entries[i].value);
-	for (size_t i = 0; i < share->buffers.room; i++) {
-		struct gls_buffer *b = share->buffers.entries[i].value;
-		if (b)
-			free(b->data);
-		free(b);
-	}
+	TABLE_DROP(&share->lists, gls_list_free);
+	TABLE_DROP(&share->textures, gls_texture_free);
+	TABLE_DROP(&share->buffers, gls_buffer_free);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
 		gls_texture_free(share->defaults[i]);
-	table_free(&share->lists);
-	table_free(&share->textures);
-	table_free(&share->buffers);
-	for (size_t i = 0; i < share->framebuffers.room; i++)
-		gls_framebuffer_free(share->framebuffers.entries[i].value);
-	for (size_t i = 0; i < share->renderbuffers.room; i++)
-		gls_renderbuffer_free(share->renderbuffers.entries[i].value);
+	TABLE_DROP(&share->framebuffers, gls_framebuffer_free);
+	TABLE_DROP(&share->renderbuffers, gls_renderbuffer_free);
 	table_free(&share->programs);
-	table_free(&share->framebuffers);
-	table_free(&share->renderbuffers);
 	free(share);
 }
 
@@ -199,9 +184,7 @@ void gls_state_free(struct gls_state *st)
 	gls_maps_free(st->maps);
 	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
 		free(st->client.arrays[i].client);
-	for (size_t i = 0; i < st->vertex_arrays.room; i++)
-		gls_vertex_array_free(st->vertex_arrays.entries[i].value);
-	table_free(&st->vertex_arrays);
+	TABLE_DROP(&st->vertex_arrays, gls_vertex_array_free);
 	if (st->list)
 		gls_list_free(st->list);
 	free(st->attrib_stack);

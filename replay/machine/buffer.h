@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "replay/machine/state.h"
 
@@ -18,4 +19,10 @@ struct gls_buffer {
 static inline struct gls_buffer *gls_buffer_find(struct gls_state *st, uint32_t name)
 {
 	return name ? table_find(&st->share->buffers, name) : NULL;
+}
+
+static inline void gls_buffer_free(struct gls_buffer *b)
+{
+	free(b->data);
+	free(b);
 }

@@ -92,8 +92,7 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 		if (!b)
 			continue;
 		unmap_buffer(x, b);
-		free(b->data);
-		free(b);
+		gls_buffer_free(b);
 		for (size_t k = 0; k < N_BINDINGS; k++)
 			if (*binding_at(st, k) == name)
 				*binding_at(st, k) = 0;
@@ -201,10 +200,7 @@ GLS_HANDLER(glMapBufferRange, CLIENT)
 	map_buffer(x, bound_buffer(x, st, arg_u(c, 0)), c, (uint64_t)arg_i(c, 1), (uint64_t)arg_i(c, 2));
 }
 
-GLS_HANDLER(glUnmapBuffer, CLIENT)
-{
-	unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0)));
-}
+GLS_HANDLER(glUnmapBuffer, CLIENT) { unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0))); }
 
 /* What the program wrote into a mapped buffer, as recorders tell it. */
 GLS_HANDLER(memcpy, WINDOW)

@@ -188,10 +188,7 @@ GLS_HANDLER(glHint, STATE)
 }
 
 /* The program has read the error, so the next one counts as the first again. */
-GLS_HANDLER(glGetError, NOW)
-{
-	st->error = 0;
-}
+GLS_HANDLER(glGetError, NOW) { st->error = 0; }
 
 GLS_HANDLER(glRenderMode, OBJECT)
 {

@@ -64,15 +64,9 @@ GLS_HANDLER(glPopMatrix, MATRIX, POP_MATRIX)
 	stack->depth--;
 }
 
-GLS_HANDLER(glLoadIdentity, MATRIX, TRANSFORM)
-{
-	memcpy(change_matrix(st), mat4_identity, 64);
-}
+GLS_HANDLER(glLoadIdentity, MATRIX, TRANSFORM) { memcpy(change_matrix(st), mat4_identity, 64); }
 
-GLS_FAMILY(glLoadMatrix, MATRIX, TRANSFORM)
-{
-	read_matrix(c, 0, change_matrix(st));
-}
+GLS_FAMILY(glLoadMatrix, MATRIX, TRANSFORM) { read_matrix(c, 0, change_matrix(st)); }
 
 GLS_FAMILY(glMultMatrix, MATRIX, TRANSFORM)
 {

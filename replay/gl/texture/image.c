@@ -213,8 +213,6 @@ void gls_image_cache_trim(struct gls_exec *x)
 
 void gls_image_cache_free(struct gls_exec *x)
 {
-	for (size_t i = 0; i < x->caches.images.room; i++)
-		gls_texture_image_release(x->caches.images.entries[i].value);
-	table_free(&x->caches.images);
+	TABLE_DROP(&x->caches.images, gls_texture_image_release);
 }
 
