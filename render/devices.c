@@ -46,8 +46,7 @@ static const struct options_table table = {
 	        "a minute or two, as every kernel is compiled. Each family has a process of its own, so that a driver that crashes or\n"
 	        "hangs stops nothing. The table: compile is what compiling took of all kernels, frame a picture of 480 x 360 once all\n"
 	        "is compiled.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Exit codes of --check: 0 all families are right on all devices, 1 one is not, 5 on some device none is: there\n"
 	         "'relume render' takes no --device but 'reference'.\n",
 	.takes = "no arguments",

@@ -31,11 +31,8 @@ static const struct options_table table = {
 	        "\n"
 	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
 	        "light, where lights are. Each rule has a confidence and a reason. Whoever edits the file has the last word.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
-	.takes = "one trace and -o FILE",
-	.least = 1,
-	.most = 1,
+	OPTIONS_ROWS(rows),
+	.takes = "one trace and -o FILE", .least = 1, .most = 1,
 };
 
 /* Play the frames of a list, of too many every so often one, into a study. */

@@ -157,8 +157,7 @@ static const struct options_table table = {
 	.head = "usage: relume render TRACE [-f FRAMES] -o PATTERN [OPTIONS]\n"
 	        "\n"
 	        "Ray trace frames of a recording to OpenEXR.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
+	OPTIONS_ROWS(rows),
 	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
 	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"

@@ -78,10 +78,8 @@ static const struct options_table table = {
 	        "but the first. Without: trace a scene of about 250,000 triangles and print millions of rays a second, the median\n"
 	        "of several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to one point light,\n"
 	        "and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n",
-	.rows = rows,
-	.n_rows = sizeof(rows) / sizeof(rows[0]),
-	.takes = "one recording or none",
-	.most = 1,
+	OPTIONS_ROWS(rows),
+	.takes = "one recording or none", .most = 1,
 };
 
 static int parse(int argc, char **argv, struct options *o)

@@ -38,10 +38,7 @@ static int add_vertex(struct growing *g, float x, float y, float z)
 
 	if (MEMORY_GROW(m->position, g->vertex_room, m->n_vertices + (size_t)1))
 		return ERR_SYSTEM;
-	m->position[m->n_vertices][0] = x;
-	m->position[m->n_vertices][1] = y;
-	m->position[m->n_vertices][2] = z;
-	m->position[m->n_vertices++][3] = 1;
+	memcpy(m->position[m->n_vertices++], (float[4]){ x, y, z, 1 }, sizeof(*m->position));
 	return 0;
 }
 
@@ -51,9 +48,7 @@ static int add_triangle(struct growing *g, uint32_t a, uint32_t b, uint32_t c)
 
 	if (MEMORY_GROW(m->index, g->triangle_room, m->n_triangles + (size_t)1))
 		return ERR_SYSTEM;
-	m->index[m->n_triangles][0] = a;
-	m->index[m->n_triangles][1] = b;
-	m->index[m->n_triangles++][2] = c;
+	memcpy(m->index[m->n_triangles++], (uint32_t[3]){ a, b, c }, sizeof(*m->index));
 	return 0;
 }
 

@@ -65,11 +65,6 @@ static struct pool pool_of(struct accel *a, int part)
 	return pools[part];
 }
 
-static int out_of_memory(void)
-{
-	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-}
-
 int accel_create(struct accel **out)
 {
 	struct accel *accel = calloc(1, sizeof(*accel));
@@ -78,7 +73,7 @@ int accel_create(struct accel **out)
 		accel->cache = calloc(1, sizeof(*accel->cache));
 	if (!accel || !accel->cache) {
 		free(accel);
-		return out_of_memory();
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	}
 	accel->wide = ACCEL_ROWS;
 	*out = accel;
@@ -284,7 +279,7 @@ static int refit(const struct accel *accel, const struct placed_blas *moved, con
 	int err;
 
 	if (!old.order)
-		return out_of_memory();
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	for (uint32_t i = 0; i < old.n_order; i++)
 		old.order[i] = triangles[i].primitive; /* none was left out */
 	err = tree_refit(&old, soup, REFIT_COST * moved->blas.built_cost, out);
@@ -442,7 +437,7 @@ int accel_build_frame(struct accel *accel, const struct scene *scene, const stru
 	int err = 0;
 
 	if (!boxes)
-		return out_of_memory();
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	accel->cache->frame++;
 	err = drop_unused(accel);
 	for (uint32_t i = 0; i < n && !err; i++) {

@@ -12,11 +12,6 @@
 /* Most instances in a leaf. */
 #define LEAF_INSTANCES 1
 
-static int out_of_memory(void)
-{
-	return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
-}
-
 /* Eye-space box of an instance. obj: the box of its BLAS; pad: how much to widen that. */
 static void eye_box(const struct instance *instance, const struct bvh_box *obj, float pad, struct bvh_box *out)
 {
@@ -138,7 +133,7 @@ static int list_spaces(struct accel *accel, const struct scene *scene, const str
 	accel->n_spaces = 0;
 	accel->spaces = calloc(2 * (size_t)scene->n_views + 1, sizeof(*accel->spaces));
 	if (!accel->spaces)
-		return out_of_memory();
+		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	for (uint32_t i = 0; i < scene->n_views; i++) {
 		size_t k = 0;
 
@@ -173,7 +168,7 @@ int tlas_build(struct accel *accel, const struct scene *scene, const struct inst
 {
 	struct top top = { .boxes = malloc((n + 1) * sizeof(*top.boxes)), .items = malloc((n + 1) * sizeof(*top.items)),
 		           .order = malloc((n + 1) * sizeof(*top.order)) };
-	int err = top.boxes && top.items && top.order ? 0 : out_of_memory();
+	int err = top.boxes && top.items && top.order ? 0 : err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 
 	if (!err)
 		err = make_room(accel, n);

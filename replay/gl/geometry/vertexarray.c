@@ -10,7 +10,6 @@
 
 #include "gl_tokens.h"
 #include "base/table.h"
-#include "capture/format/call.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"

@@ -8,7 +8,6 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/screen.h"
-#include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
