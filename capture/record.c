@@ -338,6 +338,25 @@ static int run_program(const struct options *o, const char *recorder, const char
 	return error ? -1 : status;
 }
 
+/* Why a recording has no frame, and what gives it some. */
+static void explain_no_frame(const struct stats_process *p)
+{
+	static const char *const names[] = FRAME_TRIGGER_NAMES;
+	static const enum frame_trigger order[] = { FRAME_FLUSH, FRAME_FINISH, FRAME_READPIXELS, FRAME_CLEAR };
+
+	if (p->ends[FRAME_SWAP]) {
+		err_warn(p->path, "none of the program's %" PRIu64 " frames was one to be recorded", p->ends[FRAME_SWAP]);
+		return;
+	}
+	for (size_t i = 0; i < sizeof(order) / sizeof(order[0]); i++)
+		if (p->ends[order[i]]) {
+			err_warn(p->path, "the program swapped no buffers, so there is no frame; record it with --frame-end %s, which ends %"
+			         PRIu64, names[order[i]], p->ends[order[i]]);
+			return;
+		}
+	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
+}
+
 /* One line for each process that drew, then the commands that were not recorded. */
 static void print_summary(const struct recorder_stats *stats)
 {
@@ -353,6 +372,8 @@ static void print_summary(const struct recorder_stats *stats)
 		fprintf(stderr,
 		        "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, %" PRIu64 " calls not recorded\n",
 		        p->path, p->frames, p->calls, p->bytes, i == 0 ? unknown : 0);
+		if (p->frames == 0)
+			explain_no_frame(p);
 	}
 	for (uint32_t i = 0; i < n_unknown; i++)
 		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);

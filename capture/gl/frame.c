@@ -131,9 +131,13 @@ void frame_may_end(enum frame_trigger trigger, int truth)
 		wanted |= wish.trigger == FRAME_SWAP && self.target.system == DRAWABLE_OSMESA;
 		writer_flush_sometimes();
 	}
-	if (wanted && truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive &&
-	    context_current() && writer_active())
-		frame_end_current();
+	if (truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive && context_current() &&
+	    writer_active()) {
+		if (writer_frames() == 0)
+			writer_note_end(trigger);
+		if (wanted)
+			frame_end_current();
+	}
 	errno = saved;
 }
 
@@ -195,6 +199,7 @@ void frame_ended(void)
 	if (!writer_active())
 		return;
 	next = ++program_frames;
+	writer_note_end(FRAME_SWAP);
 	frames = skip_active() ? 0 : writer_frame_ended();
 	if (frames)
 		frame_recorded(frames);

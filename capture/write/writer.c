@@ -308,6 +308,12 @@ void writer_end(void)
 	end(p);
 }
 
+void writer_note_end(unsigned trigger)
+{
+	if (recording.process)
+		recording.process->ends[trigger]++;
+}
+
 void writer_note_quit(void)
 {
 	if (recording.process)

@@ -67,6 +67,9 @@ uint64_t writer_bytes(void);
 /** Write everything and end the recording; calls pass through from here on. */
 void writer_end(void);
 
+/** A call that ends a frame where the user says so. */
+void writer_note_end(unsigned trigger);
+
 /** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);
 
