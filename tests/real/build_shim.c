@@ -3,9 +3,11 @@
  * at the end of the process:
  *
  *     source|binary SECONDS KERNELS
+ *     launch SECONDS KERNEL
  *
  * Seconds of processor time of the whole process, in building, in making kernels, and in the first launch of each, as some compile
- * there; kernels with ';' between them. Run one frame at a time: what other threads do meanwhile counts, too.
+ * there; kernels with ';' between them. PoCL compiles a kernel in a thread of its own, once the launch is queued: with BUILD_FINISH a first
+ * launch counts until it has ended, with what it runs, and has a line of its own. Run one frame at a time: what other threads do meanwhile counts, too.
  */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -26,6 +28,10 @@ static struct program {
 	char kernels[2048];
 } programs[MOST];
 static cl_kernel launched[MOST_KERNELS];
+static struct {
+	double seconds;
+	char kernel[64];
+} launches[MOST_KERNELS]; /* the first of each, with BUILD_FINISH */
 static int n_programs, n_launched;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
@@ -96,10 +102,9 @@ cl_kernel clCreateKernel(cl_program program, const char *name, cl_int *code)
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t *offset,
                               const size_t *global, const size_t *local, cl_uint n, const cl_event *wait, cl_event *event)
 {
-	const double begin = clock_s();
-	const cl_int code = REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
-	const double seconds = clock_s() - begin;
 	cl_program program = NULL;
+	double begin, seconds;
+	cl_int code;
 	int i = 0;
 
 	pthread_mutex_lock(&lock);
@@ -110,6 +115,17 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
 	else
 		i = MOST_KERNELS;
 	pthread_mutex_unlock(&lock);
+	if (i < MOST_KERNELS && getenv("BUILD_FINISH"))
+		clFinish(queue); /* what came before is not counted */
+	begin = clock_s();
+	code = REAL(clEnqueueNDRangeKernel)(queue, kernel, dimensions, offset, global, local, n, wait, event);
+	if (i < MOST_KERNELS && getenv("BUILD_FINISH")) {
+		clFinish(queue);
+		launches[i].seconds = clock_s() - begin;
+		clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof(launches[i].kernel), launches[i].kernel, NULL);
+		return code;
+	}
+	seconds = clock_s() - begin;
 	if (i < MOST_KERNELS && clGetKernelInfo(kernel, CL_KERNEL_PROGRAM, sizeof(program), &program, NULL) == CL_SUCCESS)
 		spend(program, 0, seconds);
 	return code;
@@ -122,6 +138,8 @@ __attribute__((destructor)) static void tell(void)
 
 	for (int i = 0; log && i < n_programs; i++)
 		fprintf(log, "%s %.3f %s\n", programs[i].is_binary ? "binary" : "source", programs[i].seconds, programs[i].kernels);
+	for (int i = 0; log && i < n_launched && getenv("BUILD_FINISH"); i++)
+		fprintf(log, "launch %.3f %s\n", launches[i].seconds, launches[i].kernel);
 	if (log)
 		fclose(log);
 }
