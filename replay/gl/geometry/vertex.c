@@ -46,8 +46,12 @@ static float normalize(float value, double exact, enum gls_suffix_type type)
 	}
 }
 
-/* Read the components that the command's suffix tells, from argument `first` on. The others are those of (0, 0, 0, 1). */
-static void read_components(const struct gls_exec *x, const struct call *c, unsigned first, int normalized, float out[4])
+/*
+ * Read the components that the command's suffix tells, from argument `first` on. The others are those of (0, 0, 0, 1). Inlined, as it
+ * runs for every vertex, and most families need a part of it only.
+ */
+static inline __attribute__((always_inline)) void
+read_components(const struct gls_exec *x, const struct call *c, unsigned first, int normalized, float out[4])
 {
 	const struct gls_suffix suffix = gls_commands[x->command].suffix;
 	const struct trace_value *items = NULL;
