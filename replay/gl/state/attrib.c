@@ -43,9 +43,6 @@ static uint32_t *word_at(struct gls_attribs *a, size_t offset)
 /* The bit of a word that a capability switches. NULL: it is no bit. */
 static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
-	static const uint32_t targets[N_GLS_TEXTURE_TARGETS] = {
-		GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
-	};
 	struct gls_attribs *a = &st->a;
 	struct gls_unit *unit = &a->texturing.units[a->texturing.active];
 	const struct { uint32_t first, last, *word; } ranges[] = {
@@ -60,21 +57,21 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 			*bit = 1u << (cap - ranges[i].first);
 			return ranges[i].word;
 		}
-	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
-		if (cap == targets[i]) {
-			*bit = 1u << i;
-			return &unit->enabled;
-		}
 	return NULL;
 }
 
-/* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. */
+/* The flag that a capability switches; *bit is 0 for a whole word. NULL: no capability. The commonest ones are found first. */
 static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 {
-	uint32_t *word = bit_of(st, cap, bit);
+	static const uint32_t targets[N_GLS_TEXTURE_TARGETS] = {
+		GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, /* as enum gls_texture_target */
+	};
 
-	if (word)
-		return word;
+	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++)
+		if (cap == targets[i]) {
+			*bit = 1u << i;
+			return &st->a.texturing.units[st->a.texturing.active].enabled;
+		}
 	*bit = 0;
 	if (cap >= GL_LIGHT0 && cap < GL_LIGHT0 + GLS_MAX_LIGHTS)
 		return &st->a.lighting.lights[cap - GL_LIGHT0].enabled;
@@ -85,7 +82,7 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	case GL_VERTEX_PROGRAM_ARB: return &st->arb_vertex_enabled;
 	case GL_FRAGMENT_PROGRAM_ARB: return &st->arb_fragment_enabled;
 	case GL_RASTERIZER_DISCARD: return &st->rasterizer_discard;
-	default: return NULL;
+	default: return bit_of(st, cap, bit);
 	}
 }
 

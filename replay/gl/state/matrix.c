@@ -104,11 +104,12 @@ GLS_FAMILY(glTranslate, MATRIX, TRANSFORM)
 
 GLS_FAMILY(glScale, MATRIX, TRANSFORM)
 {
+	const float s[3] = { arg_f(c, 0), arg_f(c, 1), arg_f(c, 2) };
 	float *m = change_matrix(st);
 
 	for (unsigned column = 0; column < 3; column++)
 		for (unsigned r = 0; r < 4; r++)
-			m[4 * column + r] *= arg_f(c, column);
+			m[4 * column + r] *= s[column];
 }
 
 GLS_FAMILY(glRotate, MATRIX, TRANSFORM)
