@@ -222,7 +222,7 @@ demo:
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
-SHOWS := show-house show-rays show-hits show-build show-host show-metrics show-batch-faults show-device-faults
+SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity relit replay rooms sanitize seek \
 	sweep sweep-record thesis
 ON_SCREEN := crashes frames replay
@@ -273,13 +273,17 @@ $(BENCHES): %: %.o $(BUILD)/parts.a
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
 
-show-rays: $(BUILD)/tests/bench/embree
+show-rays show-rays-avx2: $(BUILD)/tests/bench/embree
 show-hits: $(BUILD)/tests/bench/hits
 show-build: $(BUILD)/tests/bench/build
+# As on a processor without AVX-512: PoCL compiles for such a one, and Embree is held to AVX2.
+show-rays-avx2: $(BUILD)/tests/real/avx2_shim.so
+show-rays-avx2: NARROW = LD_PRELOAD=$(abspath $(BUILD)/tests/real/avx2_shim.so) POCL_CACHE_DIR=$(abspath $(BUILD)/tests/pocl-cache-avx2)
+show-rays-avx2: BARS := --bars 1 --isa avx2
 show-rays show-build: BARS := --bars 1
-show-rays show-hits show-build:
+show-rays show-rays-avx2 show-hits show-build:
 	@mkdir -p $(BUILD)/show
-	@$< --models $(MODELS) $(BARS) --json $(BUILD)/show/$(@:show-%=%).json --command "make $@"
+	@$(NARROW) $< --models $(MODELS) $(BARS) --json $(BUILD)/show/$(@:show-%=%).json --command "make $@"
 
 # Packages of PyPI in virtual environments of their own: metrics beside other implementations, and Intel's OpenCL.
 $(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
