@@ -366,6 +366,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(dome_light, dome_light)       /* the same: its and its neighbours' light on its colours */ \
 	X(clear, clear)                 /* one pixel a work item: a Clear */ \
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
+	X(resolve_packet, resolve)      /* the same, all colours of a pixel at once (CPUs) */ \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \

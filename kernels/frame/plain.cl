@@ -98,7 +98,7 @@ static inline void put_surface(const struct plain_arguments *a, struct plain_row
 	for (uint lanes = a->request.float_plane[COMPOSE_ID] != SCENE_NONE ? pack_bits(show) : 0; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 
-		LANE(to->id, float, lane) = (float)plain_draw(&a->tables, row->list.instance[lane], row->list.primitive[lane]);
+		LANE(to->id, float, lane) = (float)stage_draw(&a->tables, row->list.instance[lane], row->list.primitive[lane]);
 	}
 }
 
@@ -191,7 +191,7 @@ static inline void put_one(const struct plain_arguments *a, struct plain_row *ro
 	LANE(to->gl[3], float, lane) = s->gl[3];
 	LANE(to->drawn, float, lane) = 1;
 	LANE(to->depth, float, lane) = s->depth;
-	LANE(to->id, float, lane) = (float)plain_draw(&a->tables, f.instance, f.primitive);
+	LANE(to->id, float, lane) = (float)stage_draw(&a->tables, f.instance, f.primitive);
 }
 
 static inline void shade_one(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lane,

@@ -52,11 +52,3 @@ static inline struct shadow_ray_arguments plain_rays(const struct plain_argument
 
 	return s;
 }
-
-/* The number of a fragment's draw. */
-static inline uint32_t plain_draw(const struct tables *t, uint32_t instance, uint32_t primitive)
-{
-	GLOBAL const struct geometry *g = &t->geometries[instance];
-
-	return g->draw + (g->primitive_draw != SCENE_NONE ? t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] : 0u);
-}

@@ -5,6 +5,7 @@
 #include "kernels/frame/compose_packet.cl"
 #include "kernels/frame/plain.cl"
 #include "kernels/frame/resolve.cl"
+#include "kernels/frame/resolve_packet.cl"
 #include "kernels/frame/shade_packet.cl"
 #include "kernels/frame/shadow.cl"
 #include "kernels/frame/shadow_packet.cl"

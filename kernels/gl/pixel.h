@@ -231,28 +231,29 @@ static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL str
 	return 1;
 }
 
-/* One fragment through all operations. `draw`: its draw number. */
-static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
-                              GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
-                              uint32_t bits)
+/* Whether a fragment changes the colours of a pixel: all tests, and what they change of depth and stencil. */
+static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s, GLOBAL struct frame_pixel *pixel,
+                                uint32_t bits)
 {
-	struct vec4 gl, old_gl;
-	uint32_t mask = m->color_mask;
-	float alpha, opacity;
-
 	if (s->flags & SHADED_STENCIL && bits & PIXEL_FOLLOWS)
-		return;
+		return 0;
 	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: nothing but the mask counts (sec. 4.3.1) */
 		uint32_t write = m->stencil_front.write_mask & pixel_bits_mask(pixel_stencil_bits(bits));
 
 		pixel->stencil = (pixel->stencil & ~write) | ((uint32_t)s->depth & write);
-		return;
+		return 0;
 	}
-	if (!(s->flags & SHADED_THERE) || !pixel_passes(m, s, pixel, bits) || !(mask & 15u))
-		return;
-	old_gl = v4_load(pixel->gl);
-	alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f;
-	opacity = m->alpha_to_one ? 1.0f : s->gl[3];
+	return s->flags & SHADED_THERE && pixel_passes(m, s, pixel, bits) && m->color_mask & 15u;
+}
+
+/* The colours of a fragment that reaches them. */
+static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s, GLOBAL struct frame_pixel *pixel,
+                                uint32_t bits)
+{
+	struct vec4 gl, old_gl = v4_load(pixel->gl);
+	uint32_t mask = m->color_mask;
+	float alpha = pixel_alpha_bits(bits) ? old_gl.w : 1.0f, opacity = m->alpha_to_one ? 1.0f : s->gl[3];
+
 	gl = pixel_source(m, v4(s->gl[0], s->gl[1], s->gl[2], opacity), v4(old_gl.x, old_gl.y, old_gl.z, alpha));
 	pixel_store(pixel->gl, v3(gl.x, gl.y, gl.z), mask);
 	pixel_part(m, s->shadowed, opacity, alpha, pixel->shadowed, 0);
@@ -266,10 +267,16 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 	}
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
+}
+
+/* What else a pixel keeps of a fragment that reaches its colours. `draw`: its draw number */
+static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s, GLOBAL const struct fragment *f,
+                              uint32_t draw, GLOBAL struct frame_pixel *pixel)
+{
 	pixel->id = draw;
 	if (m->blend && !m->logic_op)
 		pixel->layers++;
-	else if ((mask & 7u) == 7u && !m->logic_op) {
+	else if ((m->color_mask & 7u) == 7u && !m->logic_op) {
 		pixel->layers = 0u;
 		pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
 	}
@@ -278,6 +285,17 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 		pixel->surface = *f;
 		v3_store(pixel->albedo, v3_load(s->albedo));
 	}
+}
+
+/* One fragment through all operations. */
+static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
+                              GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
+                              uint32_t bits)
+{
+	if (!pixel_reaches(m, s, pixel, bits))
+		return;
+	pixel_colors(m, s, pixel, bits);
+	pixel_mark(m, s, f, draw, pixel);
 }
 
 /* --- Samples into pixels ------------------------------------------------------------------------------------------ */

@@ -321,6 +321,19 @@ static inline void merge_samples_item(const struct merge_samples_arguments *a, u
 	pixel_merge(&a->first[item], &a->second[item], &a->third[item], &a->fourth[item], &a->frame[item]);
 }
 
+static inline GLOBAL const struct scene_material *stage_material(const struct tables *t, uint32_t instance)
+{
+	return &t->materials[t->geometries[instance].material];
+}
+
+/* The number of a fragment's draw. */
+static inline uint32_t stage_draw(const struct tables *t, uint32_t instance, uint32_t primitive)
+{
+	GLOBAL const struct geometry *g = &t->geometries[instance];
+
+	return g->draw + (g->primitive_draw != SCENE_NONE ? t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] : 0u);
+}
+
 /* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
 static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
 {
@@ -328,11 +341,8 @@ static inline void resolve_item(const struct resolve_arguments *a, uint32_t item
 	const uint32_t pixel = stage_pixel(a->rectangle, a->width, item);
 
 	for (uint32_t i = a->first[pixel]; i < a->first[pixel] + a->counts[pixel]; i++) {
-		GLOBAL const struct geometry *g = &t->geometries[a->fragments[i].instance];
-		uint32_t draw = g->draw;
+		GLOBAL const struct fragment *f = &a->fragments[i];
 
-		if (g->primitive_draw != SCENE_NONE)
-			draw += t->indices[g->primitive_draw + FRAGMENT_PRIMITIVE(a->fragments[i])];
-		pixel_draw(&t->materials[g->material], &a->shaded[i], &a->fragments[i], draw, &a->frame[pixel], a->bits);
+		pixel_draw(stage_material(t, f->instance), &a->shaded[i], f, stage_draw(t, f->instance, f->primitive), &a->frame[pixel], a->bits);
 	}
 }

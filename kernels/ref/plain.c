@@ -37,7 +37,7 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 		if (s->n_slots)
 			shade_item(s, item, 0, &kept);
 		pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
-		           plain_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
+		           stage_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
 	}
 	compose_pixel(a, x, y, &pixel);
 }

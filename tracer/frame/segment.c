@@ -193,11 +193,12 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	uint32_t n = rectangle_area(r);
+	const uint32_t n = rectangle_area(r);
+	const struct resolve_launch *a =
+		LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first, .counts = b->counts,
+		       .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits, .n = n, .frame = *job->frame);
 
-	return launch_resolve(tr->dev, n, LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded,
-	                                         .first = b->first, .counts = b->counts, .rectangle = segment_in_buffers(job, r), .width = job->width,
-	                                         .bits = job->bits, .n = n, .frame = *job->frame));
+	return device_family(tr->dev) == FAMILY_PACKETS ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
 
 /* The fragments of the list: GL's colours, then what rays from them find. */

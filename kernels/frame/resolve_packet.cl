@@ -1,0 +1,127 @@
+/*
+ * resolve_packet: resolve with all colours of a pixel as one vector, for CPUs. Tests, and what else a pixel keeps, go as in
+ * kernels/gl/pixel.h; logic operations and frame buffers of floats do altogether.
+ *
+ * Lanes stand as struct shaded and struct frame_pixel begin: GL's colour and alpha, then red, green and blue of the four further parts.
+ */
+#include "kernels/frame/pack_texture.h"
+#include "kernels/gl/stages.h"
+
+#define LANE_ALPHA 3
+#define LANE_DIRECT 7 /* the first of the parts that rules may leave out or make solid */
+#define LANE_BEAUTY 13
+#define LANE_CHANNELS (packu)(0, 1, 2, 3, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2)
+
+/* With the alignment of its elements. */
+typedef float16 loose_floats __attribute__((aligned(4)));
+
+/* As blend_round. */
+WIDE_VECTORS static inline packu codes_of(packf x)
+{
+	return as_uint16(convert_int16(pack_round(pack_clamp01(x) * 255.0f)));
+}
+
+/* As blend_factor. */
+WIDE_VECTORS static inline packu factor_of(__global const struct scene_material *m, uint factor, packu s, packu d)
+{
+	const packu own = codes_of((packf)(vload4(0, m->blend_color), vload4(0, m->blend_color), vload4(0, m->blend_color),
+	                                        vload4(0, m->blend_color)));
+
+	switch (factor) {
+	case GL_ZERO: return 0;
+	case GL_SRC_COLOR: return s;
+	case GL_ONE_MINUS_SRC_COLOR: return 255 - s;
+	case GL_DST_COLOR: return d;
+	case GL_ONE_MINUS_DST_COLOR: return 255 - d;
+	case GL_SRC_ALPHA: return s.s3;
+	case GL_ONE_MINUS_SRC_ALPHA: return 255 - s.s3;
+	case GL_DST_ALPHA: return d.s3;
+	case GL_ONE_MINUS_DST_ALPHA: return 255 - d.s3;
+	case GL_CONSTANT_COLOR: return own.s0123012012012012;
+	case GL_ONE_MINUS_CONSTANT_COLOR: return 255 - own.s0123012012012012;
+	case GL_CONSTANT_ALPHA: return own.s3;
+	case GL_ONE_MINUS_CONSTANT_ALPHA: return 255 - own.s3;
+	case GL_SRC_ALPHA_SATURATE: return select((packu)(min(s.s3, 255 - d.s3)), (packu)(255), LANE_CHANNELS == LANE_ALPHA);
+	default: return 255;
+	}
+}
+
+/* As blend_multiply. */
+WIDE_VECTORS static inline packu multiply(packu a, packu b)
+{
+	const packu ab = a * b;
+
+	return (ab + (ab >> 8) + 128) >> 8;
+}
+
+/* As blend_equation. */
+WIDE_VECTORS static inline packu equate(uint equation, packu s, packu fs, packu d, packu fd)
+{
+	const packu a = multiply(s, fs), b = multiply(d, fd);
+
+	switch (equation) {
+	case GL_FUNC_SUBTRACT: return max(a, b) - b;
+	case GL_FUNC_REVERSE_SUBTRACT: return max(a, b) - a;
+	case GL_MIN: return min(s, d);
+	case GL_MAX: return max(s, d);
+	default: return min(a + b, (packu)(255));
+	}
+}
+
+/* As blend_colors. */
+WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
+{
+	const packu s = codes_of(source), d = codes_of(destination);
+	packu out = equate(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d, factor_of(m, m->blend_dst_rgb, s, d));
+
+	if (m->blend_equation_alpha != m->blend_equation_rgb || m->blend_src_alpha != m->blend_src_rgb || m->blend_dst_alpha != m->blend_dst_rgb)
+		out.s3 = equate(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d, factor_of(m, m->blend_dst_alpha, s, d)).s3;
+	return convert_float16(as_int16(out)) / 255.0f;
+}
+
+/* As pixel_colors. */
+WIDE_VECTORS static inline void draw_colors(__global const struct scene_material *m, __global const struct shaded *shaded,
+                                            __global struct frame_pixel *pixel, uint bits)
+{
+	const packf before = *(__global const loose_floats *)pixel->gl;
+	packf source = *(__global const loose_floats *)shaded->gl, destination = before, color;
+	packi written = ((packu)(m->color_mask) >> LANE_CHANNELS & 1) != 0;
+
+	if (m->alpha_to_one)
+		source.s3 = 1.0f;
+	if (!pixel_alpha_bits(bits))
+		destination.s3 = 1.0f;
+	color = m->blend ? blend(m, source, destination) : source;
+	if (m->surface.hidden & SCENE_SOLID)
+		color = select(color, source, PACK_LANES >= LANE_DIRECT);
+	if (m->surface.transmit > 0.0f)
+		color = select(color, source, PACK_LANES >= LANE_BEAUTY);
+	if (m->surface.hidden & SCENE_LEFT_OUT)
+		written &= PACK_LANES < LANE_DIRECT;
+	*(__global loose_floats *)pixel->gl = select(before, color, written);
+}
+
+static inline void draw(const struct tables *t, __global const struct fragment *f, __global struct shaded *s,
+                        __global struct frame_pixel *pixel, uint bits)
+{
+	__global const struct scene_material *m = stage_material(t, f->instance);
+
+	if (!pixel_reaches(m, s, pixel, bits))
+		return;
+	if (m->logic_op || m->floats)
+		pixel_colors(m, s, pixel, bits);
+	else
+		draw_colors(m, s, pixel, bits);
+	pixel_mark(m, s, f, stage_draw(t, f->instance, f->primitive), pixel);
+}
+
+KERNEL_OF(float16) void resolve_packet(KERNEL_ARGUMENTS(resolve))
+{
+	const struct resolve_arguments a = KERNEL_STRUCT(resolve);
+	const uint item = (uint)get_global_id(0);
+
+	if (item >= n)
+		return;
+	for (uint pixel = stage_pixel(rectangle, width, item), i = first[pixel]; i < first[pixel] + counts[pixel]; i++)
+		draw(&a.tables, &fragments[i], &shaded[i], &frame[pixel], bits);
+}
