@@ -121,7 +121,8 @@ static inline void pack_load(const struct tables *t, uint width, uint height, co
 
 		p->uniform &= list->primitive[lane] == list->primitive[first] && list->instance[lane] == list->instance[first];
 	}
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+	pixel = vload16(0, list->pixel);
+	for (uint lane = 0; lane < (p->uniform ? 1 : PACK_SIZE); lane++) {
 		const uint from = lanes >> lane & 1 ? lane : first, primitive = list->primitive[from];
 		__global const struct geometry *g = &t->geometries[list->instance[from]];
 		__global const uint *index = t->indices + g->index + 3 * (primitive & ~FRAGMENT_PERSPECTIVE);
@@ -130,9 +131,14 @@ static inline void pack_load(const struct tables *t, uint width, uint height, co
 			LANE(p->number[k], uint, lane) = index[k];
 			LANE(p->vertex[k], uint, lane) = g->vertex_first + index[k];
 		}
-		LANE(pixel, uint, lane) = list->pixel[from];
 		LANE(p->cut, int, lane) = primitive & FRAGMENT_PERSPECTIVE ? -1 : 0;
 	}
+	for (uint k = 0; k < 3 && p->uniform; k++) {
+		p->number[k] = p->number[k].s0;
+		p->vertex[k] = p->vertex[k].s0;
+	}
+	if (p->uniform)
+		p->cut = p->cut.s0;
 	p->b1 = vload16(0, list->b1);
 	p->b2 = vload16(0, list->b2);
 	p->depth = vload16(0, list->depth);

@@ -22,12 +22,33 @@ struct plain_kept {
 	struct shadow_kept ray;
 };
 
+/* The fragments of a row that lies in the rectangle, from records to rows. @return a bit for each pixel that has one */
+WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at, struct pack_list *list)
+{
+	__global const float *words = (__global const float *)(a->sparse + at->y * a->width + at->x);
+	const packu place = as_uint16(PACK_LANES) * 6;
+	packf first[4], last[4];
+
+	pack_gather_from(words, place, first);
+	pack_gather_from(words, place + 2, last);
+	vstore16(as_uint16(first[1]), 0, list->instance);
+	vstore16(as_uint16(first[2]), 0, list->primitive);
+	vstore16(first[3], 0, list->b1);
+	vstore16(last[2], 0, list->b2);
+	vstore16(last[3], 0, list->depth);
+	return pack_bits(as_uint16(first[0]) != SCENE_NONE);
+}
+
 /* The fragments of a row. @return a bit for each pixel that has one */
 static inline uint load_row(const struct plain_arguments *a, struct plain_row *row)
 {
+	const struct camera_rectangle r = a->rectangle;
 	uint lanes = 0;
 
 	row->dimmed = 0;
+	vstore16(a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES), 0, row->list.pixel);
+	if ((int)row->y >= r.y0 && (int)row->y < r.y1 && (int)row->x >= r.x0 && (int)(row->x + PACK_SIZE) <= r.x1)
+		return load_whole_row(a, row, &row->list);
 	for (uint lane = 0; lane < PACK_SIZE; lane++) {
 		const struct fragment f = plain_fragment(a, row->x + lane, row->y);
 		const uint there = f.order != SCENE_NONE;
@@ -37,7 +58,6 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 		row->list.b1[lane] = f.b1;
 		row->list.b2[lane] = f.b2;
 		row->list.depth[lane] = f.depth;
-		row->list.pixel[lane] = a->first_pixel + row->y * a->width + row->x + lane;
 		lanes |= there << lane;
 	}
 	return lanes;
