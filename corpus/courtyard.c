@@ -115,7 +115,7 @@ static void draw_viewer(void)
 {
 	glLoadIdentity();
 	glBindTexture(GL_TEXTURE_2D, textures[1]);
-	draw_box(0.35f, -0.3f, -0.9f, 0.12f, 0.12f, 0.7f, 1);
+	draw_box(0.35f, -0.3f, -0.9f, 0.12f, 0.12f, 0.7f, 2);
 	glDisable(GL_TEXTURE_2D);
 	glMatrixMode(GL_PROJECTION);
 	glPushMatrix();
@@ -143,7 +143,7 @@ static void draw(void)
 	glRotatef(12, 1, 0, 0);
 	glRotatef(program_moved(program.animate_camera, 5), 0, 1, 0);
 	glBindTexture(GL_TEXTURE_2D, textures[2]);
-	draw_box(0, 0, 0, 60, 60, 60, 1);
+	draw_box(0, 0, 0, 60, 60, 60, 1.5f);
 	glTranslatef(program_moved(program.animate_camera, 0.3f), -2, -3.5f);
 	draw_world();
 	draw_sparks();

@@ -43,6 +43,11 @@ static int is_environment_mapped(const struct scene *s, const struct scene_mater
 	return 0;
 }
 
+static int is_parallel(const struct scene_view *view)
+{
+	return view->projection[3] == 0 && view->projection[7] == 0 && view->projection[11] == 0;
+}
+
 static int differs(const bool *wanted, int is)
 {
 	return wanted && *wanted != (is != 0);
@@ -65,7 +70,7 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 	if (r->modelview && modelview_named(r->modelview) != modelview_kind_of(in->modelview))
 		return 0;
 	if ((r->units && *r->units != m->unit_count) || differs(r->stencil_tested, (int)m->stencil_test) ||
-	    differs(r->multiplies, look_multiplies(m)) || differs(r->environment_mapped, is_environment_mapped(s, m)))
+	    differs(r->multiplies, look_multiplies(m)) || differs(r->environment_mapped, is_environment_mapped(s, m)) || differs(r->parallel, is_parallel(&s->views[in->view])))
 		return 0;
 	return !differs(r->program, (int)m->program) && !differs(r->lit, (int)m->lighting) &&
 	       !differs(r->textured, m->unit_count > 0) && !differs(r->blended, (int)m->blend) &&

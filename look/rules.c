@@ -26,7 +26,7 @@ static const cyaml_schema_field_t match_fields[] = {
 	COUNT(struct match, list), TRUTH(struct match, program), TRUTH(struct match, lit), TRUTH(struct match, textured),
 	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested),
 	TRUTH(struct match, stencil_tested), TRUTH(struct match, environment_mapped), TRUTH(struct match, multiplies),
-	COUNT(struct match, units), TEXT(struct match, modelview),
+	COUNT(struct match, units), TRUTH(struct match, parallel), TEXT(struct match, modelview),
 	CYAML_FIELD_END
 };
 

@@ -18,6 +18,7 @@
  *           environment_mapped: no   # a texture's coordinates are made from what the surface mirrors
  *           units: 2                 # texture units
  *           multiplies: no           # is blended so that it multiplies what is there
+ *           parallel: no             # projection
  *           modelview: plain         # mirrored, or singular as of shadows on a plane
  *         reflect: 0.2               # [0,1]
  *         transmit: 0.8              # [0,1], with reflect at most 1
@@ -76,7 +77,7 @@
 struct match {
 	const char *texture, *mesh, *draws, *call;
 	const uint32_t *list;
-	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped, *multiplies;
+	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped, *multiplies, *parallel;
 	const uint32_t *units;
 	const char *modelview;
 };

@@ -114,19 +114,23 @@ static void write_solved(const struct solved *s, FILE *out)
 		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1], s->lights[i].color[2]);
 }
 
-void findings_write(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, FILE *out)
+void findings_write_surfaces(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, FILE *out)
 {
-	unsigned lights = 0;
-
-	fprintf(out, t->n || maps->n ? "surfaces:\n" : "surfaces: []\n");
 	for (unsigned i = 0; i < t->n; i++) {
-		lights += t->found[i].kind != TRICK_MIRROR;
 		if (t->found[i].kind == TRICK_MIRROR)
 			write_mirror(&t->found[i], out);
 		else
 			write_shadow(&t->found[i], s, out);
 	}
 	write_walls(maps, s, out);
+}
+
+void findings_write_lights(const struct tricks *t, const struct solved *s, FILE *out)
+{
+	unsigned lights = 0;
+
+	for (unsigned i = 0; i < t->n; i++)
+		lights += t->found[i].kind != TRICK_MIRROR;
 	fprintf(out, lights || findings_relights(s) ? "lights:\n" : "lights: []\n");
 	for (unsigned i = 0; i < t->n; i++)
 		if (t->found[i].kind != TRICK_MIRROR)

@@ -1,4 +1,4 @@
-/* What a study found, as rules: the lists `surfaces` and `lights` (look/rules.h). */
+/* What a study found, of lights, as rules (look/rules.h). */
 #pragma once
 
 #include <stdio.h>
@@ -10,4 +10,8 @@
 /** 1 where the lights explain the lightmaps so well that walls may be lit anew. */
 int findings_relights(const struct solved *solved);
 
-void findings_write(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, FILE *out);
+/** Entries of the list `surfaces`. */
+void findings_write_surfaces(const struct tricks *tricks, const struct lightmaps *maps, const struct solved *solved, FILE *out);
+
+/** The list `lights`. */
+void findings_write_lights(const struct tricks *tricks, const struct solved *solved, FILE *out);

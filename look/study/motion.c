@@ -158,18 +158,30 @@ static void choose_camera(const struct motion *m, struct vote *votes, size_t n, 
 	camera->witnessed = 1;
 }
 
-/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. */
+static int is_parallel(const struct scene *s, uint32_t i)
+{
+	const float *projection = s->views[s->instances[i].view].projection;
+
+	return projection[3] == 0 && projection[7] == 0 && projection[11] == 0;
+}
+
+/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. What is drawn in
+ * parallel projection over a world in perspective is a HUD, and has no say. */
 static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes)
 {
 	size_t n = 0;
 	double mean = 0;
+	int in_perspective = 0;
+
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		in_perspective |= m->of_instance[i] != SCENE_NONE && m->things[m->of_instance[i]].votes && !is_parallel(s, i);
 
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct motion_thing *t = m->of_instance[i] == SCENE_NONE ? NULL : &m->things[m->of_instance[i]];
 		struct vote *v = &votes[n];
 		double inverse[16];
 
-		if (!t || !t->frames || !t->votes)
+		if (!t || !t->frames || !t->votes || (in_perspective && is_parallel(s, i)))
 			continue;
 		matrix_from_floats(v->eye, s->instances[i].modelview);
 		if (!matrix_invert(inverse, t->world))

@@ -8,6 +8,7 @@
 #include "look/study/lightmaps.h"
 #include "look/study/mirrors.h"
 #include "look/study/motion.h"
+#include "look/study/roles.h"
 #include "look/study/shadows.h"
 #include "look/study/solve.h"
 #include "look/study/tricks.h"
@@ -20,6 +21,7 @@ struct study {
 	struct lightmaps lightmaps;
 	struct solved solved;
 	struct dome dome;
+	struct roles roles;
 };
 
 int study_create(struct study **out)
@@ -34,6 +36,7 @@ void study_destroy(struct study **study)
 		return;
 	motion_free(&(*study)->motion);
 	lightmaps_free(&(*study)->lightmaps);
+	roles_free(&(*study)->roles);
 	free(*study);
 	*study = NULL;
 }
@@ -53,6 +56,8 @@ int study_add(struct study *study, const struct scene *scene)
 		err = mirrors_add(&study->tricks, scene, &study->motion);
 	if (!err)
 		err = volumes_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		err = roles_add(&study->roles, scene, &study->motion);
 	if (!err)
 		dome_add(&study->dome, scene, &study->motion);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
@@ -74,7 +79,10 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	findings_write(&study->tricks, &study->lightmaps, &study->solved, out);
+	fprintf(out, study->tricks.n || study->lightmaps.n || roles_count(&study->roles, m) ? "surfaces:\n" : "surfaces: []\n");
+	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
+	roles_write(&study->roles, m, out);
+	findings_write_lights(&study->tricks, &study->solved, out);
 	if (!findings_relights(&study->solved))
 		dome_write(&study->dome, out);
 	world_write(m, out);

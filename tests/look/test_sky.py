@@ -39,6 +39,18 @@ for name, options in (("reference", ("--device", "reference")), ("binary", ("--k
     far = sum(abs(a - b) > 0.02 for c in "RGB" for x, y in zip(after[c], other[c]) for a, b in zip(x, y))
     check(far <= 30, f"{name}: {far} numbers differ by more than 0.02")
 
+# What draws are, by six frames together: each role once, and none of the world's.
+longer = SCRATCH / "longer.trace"
+record(longer, corpus("courtyard"), "--frames", 6, "--animate", "camera", "--size", "400x300")
+must(relume("look", longer, "-o", rules))
+text = rules.read_text()
+for role in ("sky", "particle", "HUD"):
+    check(text.count(f"- role: {role}\n") == 1, f"one rule for the {role}: {text}")
+render(longer, SCRATCH / "longer", "-f", 4, "--look", rules)
+known = Image(SCRATCH / "longer" / "longer.0004.exr", SHOWN).planes
+check(mean(known, "shadow.G", 100, 5, 300, 40) == 1, "the sky keeps its light")
+check(mean(known, "shadow.R", 14, 277, 130, 286) == 1, "so does the HUD")
+
 # Rules: no dome for what is wood, a key out of range.
 edited = SCRATCH / "edited.yaml"
 edited.write_text("surfaces:\n  - dome: no\n" + text[text.index("sky:"):])

@@ -1,0 +1,251 @@
+#include "look/study/roles.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "look/study/matrix.h"
+
+/* Matrices agree up to this share of the world's numbers in them. */
+#define SAME 1e-4
+/* Faces look at the viewer within five degrees. */
+#define FACING 0.996
+/* A texture is one of particles where this share of its draws face the viewer. */
+#define FACING_SHARE 0.95
+
+static int is_same(const double a[16], const double b[16])
+{
+	for (int i = 0; i < 16; i++)
+		if (!(fabs(a[i] - b[i]) <= SAME * (1 + fabs(a[i]))))
+			return 0;
+	return 1;
+}
+
+/* A camera's turn alone, the other way round. */
+static void turn_back(const double camera[16], double out[16])
+{
+	memset(out, 0, 16 * sizeof(*out));
+	for (int c = 0; c < 3; c++)
+		for (int r = 0; r < 3; r++)
+			out[4 * c + r] = camera[4 * r + c];
+	out[15] = 1;
+}
+
+/* --- Sky ---------------------------------------------------------------------------------------------------------------- */
+
+/* walked: the viewer is elsewhere than the frame before */
+static void note_thing(struct roles *r, const struct motion *m, uint32_t i, const double eye[16], const double back[16], int walked)
+{
+	struct role_thing *t = &r->things[i];
+	double turned[16];
+
+	matrix_mul(turned, back, eye);
+	if (walked && m->things[i].frames > 1) {
+		t->came_along += (uint32_t)is_same(t->turned, turned);
+		t->stayed += (uint32_t)!is_same(t->turned, turned);
+	}
+	memcpy(t->turned, turned, sizeof(turned));
+}
+
+static int is_sky(const struct roles *r, const struct motion *m, size_t i)
+{
+	return r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again;
+}
+
+static int is_held(const struct roles *r, const struct motion *m, size_t i)
+{
+	(void)r;
+	return m->things[i].carried >= 2 && !m->things[i].still;
+}
+
+/* --- Particles ---------------------------------------------------------------------------------------------------------- */
+
+/* 1 where every face looks at the viewer, or straight back along the view. */
+static int faces_viewer(const struct scene_mesh *mesh, const double eye[16])
+{
+	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+		double at[3][3], n[3] = { 0, 0, 0 }, length = 0, far = 0, along = 0;
+
+		for (int c = 0; c < 3; c++) {
+			const float *v = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)p + (size_t)c];
+
+			matrix_point(at[c], eye, (double[3]){ v[0], v[1], v[2] });
+		}
+		for (int k = 0; k < 3; k++) {
+			const int a = (k + 1) % 3, b = (k + 2) % 3;
+
+			n[k] = (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
+			length += n[k] * n[k];
+			far += at[0][k] * at[0][k];
+			along += n[k] * at[0][k];
+		}
+		if (length > 0 && fabs(n[2]) < FACING * sqrt(length) && fabs(along) < FACING * sqrt(length * far))
+			return 0;
+	}
+	return 1;
+}
+
+static void note_texture(struct roles *r, const struct scene *s, const struct scene_instance *in, const double eye[16], uint64_t frame)
+{
+	const struct scene_material *m = &s->materials[in->material];
+	const uint64_t *hash = m->unit_count ? s->textures[s->units[m->unit_first].texture]->hash : NULL;
+	unsigned i = 0;
+
+	if (!hash || !m->blend || s->views[in->view].projection[11] == 0)
+		return;
+	while (i < r->n_textures && memcmp(r->textures[i].hash, hash, sizeof(r->textures[i].hash)) != 0)
+		i++;
+	if (i == ROLES_MOST)
+		return;
+	if (i == r->n_textures) {
+		r->textures[i] = (struct role_texture){ .hash = { hash[0], hash[1] } };
+		r->n_textures++;
+	}
+	if (faces_viewer(s->meshes[in->mesh], eye))
+		r->textures[i].facing++;
+	else
+		r->textures[i].others++;
+	r->textures[i].frames += r->textures[i].last != frame;
+	r->textures[i].last = frame;
+}
+
+static int is_particle(const struct roles *r, const struct role_texture *t)
+{
+	return r->turns && t->frames >= 2 && t->facing >= FACING_SHARE * (t->facing + t->others);
+}
+
+/* --- HUD ---------------------------------------------------------------------------------------------------------------- */
+
+/* Draws in parallel projection that leave or ask for depth, where the same frame shows a world in perspective. */
+static void note_hud(struct roles *r, const struct scene *s)
+{
+	unsigned parallel = 0, deep = 0;
+
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_material *m = &s->materials[s->instances[i].material];
+		const struct scene_view *view = &s->views[s->instances[i].view];
+		const int is_flat = view->projection[3] == 0 && view->projection[7] == 0 && view->projection[11] == 0;
+
+		if (view->target || s->instances[i].rectangle)
+			continue;
+		parallel += (unsigned)is_flat;
+		deep += !is_flat && m->depth_test && m->depth_write;
+	}
+	if (!deep || !parallel)
+		return;
+	r->hud_draws += parallel;
+	r->hud_frames++;
+}
+
+/* --- All together --------------------------------------------------------------------------------------------------------- */
+
+int roles_add(struct roles *r, const struct scene *scene, const struct motion *motion)
+{
+	const struct motion_camera *now = motion_now(motion);
+	double back[16];
+	int walked = 0;
+
+	if (MEMORY_GROW(r->things, r->room_things, motion->n_things + 1))
+		return ERR_SYSTEM;
+	if (motion->n_things > r->n_things)
+		memset(r->things + r->n_things, 0, (motion->n_things - r->n_things) * sizeof(*r->things));
+	r->n_things = motion->n_things;
+	turn_back(now->eye_from_world, back);
+	if (r->knows_camera && now->moved) {
+		double from[16], inverse[16], here[3], there[3], off = 0;
+
+		for (int c = 0; c < 3; c++)
+			off += fabs(now->eye_from_world[5 * c] - r->camera[5 * c]);
+		r->turns += off > 1e-4;
+		walked = matrix_invert(inverse, r->camera) && matrix_invert(from, now->eye_from_world);
+		matrix_point(there, inverse, (double[3]){ 0, 0, 0 });
+		matrix_point(here, from, (double[3]){ 0, 0, 0 });
+		off = 0;
+		for (int k = 0; k < 3; k++)
+			off += fabs(here[k] - there[k]);
+		walked = walked && off > 10 * SAME * (1 + fabs(here[0]) + fabs(here[1]) + fabs(here[2]));
+	}
+	for (uint32_t i = 0; i < scene->n_instances; i++) {
+		double eye[16];
+
+		if (motion->of_instance[i] == SCENE_NONE)
+			continue;
+		matrix_from_floats(eye, scene->instances[i].modelview);
+		note_thing(r, motion, motion->of_instance[i], eye, back, walked);
+		note_texture(r, scene, &scene->instances[i], eye, motion->n_frames);
+	}
+	note_hud(r, scene);
+	memcpy(r->camera, now->eye_from_world, sizeof(r->camera));
+	r->knows_camera = 1;
+	return 0;
+}
+
+void roles_free(struct roles *r)
+{
+	free(r->things);
+	*r = (struct roles){ .things = NULL };
+}
+
+typedef int role_test(const struct roles *r, const struct motion *m, size_t i);
+
+/* The first of each mesh of which all things have a role. next: the place to look from. @return SCENE_NONE: there is none */
+static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_test *has, size_t next)
+{
+	for (size_t i = next; i < r->n_things; i++) {
+		int all = has(r, m, i);
+
+		for (size_t k = 0; k < r->n_things && all; k++)
+			if (k != i && memcmp(m->things[k].mesh, m->things[i].mesh, sizeof(m->things[i].mesh)) == 0)
+				all = k > i ? has(r, m, k) : 0; /* an earlier one has told already, or it has not the role */
+		if (all)
+			return (uint32_t)i;
+	}
+	return SCENE_NONE;
+}
+
+static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *why, FILE *out)
+{
+	unsigned n = 0;
+
+	for (uint32_t i = next_mesh(r, m, has, 0); i != SCENE_NONE && n < ROLES_MOST; i = next_mesh(r, m, has, i + 1), n++)
+		if (out)
+			fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
+			        "    shadows: no\n    dome: no\n", role, 1 - 1.0 / (1 + m->things[i].again), m->things[i].again, why, m->things[i].mesh[1],
+			        m->things[i].mesh[0]);
+	return n;
+}
+
+/* out: NULL: they are only counted */
+static unsigned write_all(const struct roles *r, const struct motion *m, FILE *out)
+{
+	unsigned n = write_meshes(r, m, is_sky, "sky", "it turned with the world and came along with the viewer", out) +
+	             write_meshes(r, m, is_held, "view model", "it was where it was before the viewer, who moved", out);
+
+	for (unsigned i = 0; i < r->n_textures; i++) {
+		const struct role_texture *t = &r->textures[i];
+
+		if (!is_particle(r, t))
+			continue;
+		n++;
+		if (out)
+			fprintf(out, "  - role: particle\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames face the viewer, who turns\"\n"
+			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", blended: yes }\n    shadows: no\n    dome: no\n",
+			        (double)t->facing / (t->facing + t->others), t->facing, t->facing + t->others, t->frames, t->hash[1], t->hash[0]);
+	}
+	if (r->hud_frames && out)
+		fprintf(out, "  - role: HUD\n    confidence: %.2f\n    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
+		        "    match: { parallel: yes }\n    shadows: no\n    mirrors: no\n    dome: no\n", 1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
+	return n + (r->hud_frames > 0);
+}
+
+unsigned roles_count(const struct roles *r, const struct motion *motion)
+{
+	return write_all(r, motion, NULL);
+}
+
+void roles_write(const struct roles *r, const struct motion *motion, FILE *out)
+{
+	write_all(r, motion, out);
+}
