@@ -49,15 +49,34 @@ static void note_thing(struct roles *r, const struct motion *m, uint32_t i, cons
 	memcpy(t->turned, turned, sizeof(turned));
 }
 
-static int is_sky(const struct roles *r, const struct motion *m, size_t i)
+/* How far off a thing's middle is, in its own sizes. */
+static double distance_in_sizes(const struct motion_thing *t)
 {
-	return r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again;
+	double at[3];
+
+	matrix_point(at, t->eye, t->middle);
+	return sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) / (t->size * matrix_scale(t->eye));
 }
 
+/* What turns about a point looks like a sky; a sky, or a side of its box, is about the viewer. */
+static int is_sky(const struct roles *r, const struct motion *m, size_t i)
+{
+	return r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again &&
+	       distance_in_sizes(&m->things[i]) < 0.5;
+}
+
+/* What stands while all else turns looks held; what is held is near, and small beside the world. */
 static int is_held(const struct roles *r, const struct motion *m, size_t i)
 {
+	const struct motion_thing *t = &m->things[i];
+	double largest = 0;
+
 	(void)r;
-	return m->things[i].carried >= 2 && !m->things[i].still;
+	if (t->carried < 2 || t->still || !(distance_in_sizes(t) < 2))
+		return 0;
+	for (size_t k = 0; k < m->n_things; k++)
+		largest = fmax(largest, m->things[k].size * matrix_scale(m->things[k].eye));
+	return t->size * matrix_scale(t->eye) < 0.25 * largest;
 }
 
 /* --- Particles ---------------------------------------------------------------------------------------------------------- */
@@ -205,23 +224,23 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 	return SCENE_NONE;
 }
 
-static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *why, FILE *out)
+static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *which, const char *why, FILE *out)
 {
 	unsigned n = 0;
 
 	for (uint32_t i = next_mesh(r, m, has, 0); i != SCENE_NONE && n < ROLES_MOST; i = next_mesh(r, m, has, i + 1), n++)
 		if (out)
-			fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
+			fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n"
 			        "    shadows: no\n    dome: no\n", role, 1 - 1.0 / (1 + m->things[i].again), m->things[i].again, why, m->things[i].mesh[1],
-			        m->things[i].mesh[0]);
+			        m->things[i].mesh[0], which);
 	return n;
 }
 
 /* out: NULL: they are only counted */
 static unsigned write_all(const struct roles *r, const struct motion *m, FILE *out)
 {
-	unsigned n = write_meshes(r, m, is_sky, "sky", "it turned with the world and came along with the viewer", out) +
-	             write_meshes(r, m, is_held, "view model", "it was where it was before the viewer, who moved", out);
+	unsigned n = write_meshes(r, m, is_sky, "sky", ", lit: no", "it turned with the world and came along with the viewer", out) +
+	             write_meshes(r, m, is_held, "view model", "", "it was where it was before the viewer, who moved", out);
 
 	for (unsigned i = 0; i < r->n_textures; i++) {
 		const struct role_texture *t = &r->textures[i];
