@@ -404,9 +404,9 @@ class Suite:
             at += size
 
     def score(self, reference, file, more=(), baseline=True):
-        """One frame as --json has it, and the exit code."""
+        """One frame as --json has it, and the exit code. Gate V knows frames of a changed trace where the trace names the reference."""
         options = ("--baseline", self.base) if baseline else ()
-        done = self.run(self.relume, "diff", reference, file.parent / "s.####.exr", "-f", FRAME, "--json", "-", *options, *more,
+        done = self.run(self.relume, "diff", reference.with_suffix(".ref"), file.parent / "s.####.exr", "-f", FRAME, "--json", "-", *options, *more,
                         check=False)
         frame, = json.loads(done.stdout)["frames"]
         return done.returncode, frame
