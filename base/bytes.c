@@ -2,15 +2,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
-
-void hash_bytes(const void *data, size_t n, uint64_t out[2])
-{
-	XXH128_hash_t hash = XXH3_128bits(data, n);
-
-	out[0] = hash.low64;
-	out[1] = hash.high64;
-}
 
 void bytes_put(struct bytes *b, const void *data, size_t n)
 {

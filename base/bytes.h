@@ -8,9 +8,6 @@
 #include <stdint.h>
 #include <string.h>
 
-/** The XXH3-128 of bytes: their name where they are kept once each. */
-void hash_bytes(const void *data, size_t n, uint64_t out[2]);
-
 /* Bytes that grow. All zero: none. */
 struct bytes {
 	uint8_t *data; /* free with free() */

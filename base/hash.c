@@ -10,6 +10,14 @@
 
 #define NAMED_BYTES ((uint64_t)1 << 20)
 
+void hash_bytes(const void *data, size_t n, uint64_t out[2])
+{
+	XXH128_hash_t hash = XXH3_128bits(data, n);
+
+	out[0] = hash.low64;
+	out[1] = hash.high64;
+}
+
 int hash_file(const char *path, uint64_t limit, XXH3_state_t *state)
 {
 	static _Thread_local char piece[1 << 16];

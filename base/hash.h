@@ -1,8 +1,12 @@
-/* Hashes of a file: what a trace is known by, and whether it is still the same. */
+/* Hashes of bytes and of files: what they are known by, and whether they are still the same. */
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 #include <xxhash.h>
+
+/** The XXH3-128 of bytes: their name where they are kept once each. */
+void hash_bytes(const void *data, size_t n, uint64_t out[2]);
 
 /**
  * Name of a trace: XXH3-128 over its first MiB and its size.

@@ -7,6 +7,7 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/part.h"
 #include "base/progress.h"

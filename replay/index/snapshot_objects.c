@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/index/snapshot_lists.h"
 

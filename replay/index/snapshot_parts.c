@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 
 #define MAX_OBJECTS (1u << 24)
 

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bytes.h"
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "tracer/accel/builders.h"
 #include "tracer/accel/bvh.h"
@@ -261,7 +261,8 @@ static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind
 	for (size_t i = 0; i < cache->n; i++) {
 		struct placed_blas *b = &cache->entries[i];
 
-		if (b->kind == kind && b->blas.topology[0] == topology[0] && b->blas.topology[1] == topology[1] && b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
+		if (b->kind == kind && b->blas.topology[0] == topology[0] && b->blas.topology[1] == topology[1] &&
+		    b->last_use < cache->frame && b->fitted != cache->frame && (!best || b->last_use > best->last_use))
 			best = b;
 	}
 	if (best)

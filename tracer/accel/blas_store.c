@@ -14,6 +14,7 @@
 #include "base/bytes.h"
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/hash.h"
 #include "base/kept.h"
 #include "base/memory.h"
 #include "base/part.h"
