@@ -102,18 +102,27 @@ START_TEST(test_into_list)
 }
 END_TEST
 
+/* A frame of one triangle from the enabled arrays, an element each. */
+static struct scene *triangle_of_elements(struct gl *gl)
+{
+	struct scene *s;
+
+	gl_call(gl, "glBegin", "e", GL_TRIANGLES);
+	for (int i = 0; i < 3; i++)
+		gl_call(gl, "glArrayElement", "i", i);
+	gl_call(gl, "glEnd", "");
+	s = gl_swap(gl);
+	ck_assert_uint_eq(s->n_primitives, 1);
+	return s;
+}
+
 START_TEST(test_array_element)
 {
 	struct gl gl = gl_open();
 	struct scene *s;
 
 	client_arrays(&gl);
-	gl_call(&gl, "glBegin", "e", GL_TRIANGLES);
-	for (int i = 0; i < 3; i++)
-		gl_call(&gl, "glArrayElement", "i", i);
-	gl_call(&gl, "glEnd", "");
-	s = gl_swap(&gl);
-	ck_assert_uint_eq(s->n_primitives, 1);
+	s = triangle_of_elements(&gl);
 	ck_assert_floats(8, s->meshes[0]->color, 1, 0, 0, 1, 0, 1, 0, 1);
 	scene_release(&s);
 	gl_close(&gl);
@@ -131,12 +140,7 @@ START_TEST(test_array_element_bgra)
 	gl_call(&gl, "glBufferData", "eibe", GL_ARRAY_BUFFER, 8, (size_t)8, colors, GL_STATIC_DRAW);
 	gl_call(&gl, "glSecondaryColorPointer", "ieip", (int)GL_BGRA, GL_UNSIGNED_BYTE, 0, (uint64_t)0);
 	gl_call(&gl, "glEnableClientState", "e", GL_SECONDARY_COLOR_ARRAY);
-	gl_call(&gl, "glBegin", "e", GL_TRIANGLES);
-	for (int i = 0; i < 3; i++)
-		gl_call(&gl, "glArrayElement", "i", i);
-	gl_call(&gl, "glEnd", "");
-	s = gl_swap(&gl);
-	ck_assert_uint_eq(s->n_primitives, 1);
+	s = triangle_of_elements(&gl);
 	ck_assert_floats(12, s->meshes[0]->secondary, 0, 0, 1, 1, 0, 1, 0, 1, 0, 0, 0, 1);
 	scene_release(&s);
 	gl_close(&gl);
