@@ -131,8 +131,8 @@ void frame_may_end(enum frame_trigger trigger, int truth)
 		wanted |= wish.trigger == FRAME_SWAP && self.target.system == DRAWABLE_OSMESA;
 		writer_flush_sometimes();
 	}
-	if (truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive && context_current() &&
-	    writer_active()) {
+	if (truth && (trigger == FRAME_CLEAR ? self.primitives : self.drawn) && !self.in_primitive &&
+	    (wanted || writer_frames() == 0) && context_current() && writer_active()) {
 		if (writer_frames() == 0)
 			writer_note_end(trigger);
 		if (wanted)
