@@ -43,7 +43,7 @@ static int is_environment_mapped(const struct scene *s, const struct scene_mater
 	return 0;
 }
 
-static int is_parallel(const struct scene_view *view)
+int look_is_parallel(const struct scene_view *view)
 {
 	return view->projection[3] == 0 && view->projection[7] == 0 && view->projection[11] == 0;
 }
@@ -70,7 +70,8 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 	if (r->modelview && modelview_named(r->modelview) != modelview_kind_of(in->modelview))
 		return 0;
 	if ((r->units && *r->units != m->unit_count) || differs(r->stencil_tested, (int)m->stencil_test) ||
-	    differs(r->multiplies, look_multiplies(m)) || differs(r->environment_mapped, is_environment_mapped(s, m)) || differs(r->parallel, is_parallel(&s->views[in->view])))
+	    differs(r->multiplies, look_multiplies(m)) || differs(r->environment_mapped, is_environment_mapped(s, m)) ||
+	    differs(r->parallel, look_is_parallel(&s->views[in->view])))
 		return 0;
 	return !differs(r->program, (int)m->program) && !differs(r->lit, (int)m->lighting) &&
 	       !differs(r->textured, m->unit_count > 0) && !differs(r->blended, (int)m->blend) &&
@@ -92,7 +93,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r)
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
 	if (r->shadows)
-		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
+		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) |
+		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->left_out)

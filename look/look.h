@@ -21,5 +21,8 @@ int look_spares(const struct look *look);
 
 void look_release(struct scene *changed);
 
+/** 1 where a view shows its space in parallel projection. */
+int look_is_parallel(const struct scene_view *view);
+
 /** 1 where a draw multiplies what is there by its own colour. */
 int look_multiplies(const struct scene_material *m);

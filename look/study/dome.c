@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "look/solid.h"
+#include "look/study/face.h"
 #include "look/study/matrix.h"
 
 /* Surfaces are asked about at so many of their triangles. */
@@ -15,44 +16,6 @@ enum { MOST_TRIANGLES = 64 };
 #define SAME_UP 0.99
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
-
-static double dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static int normalize(double v[3])
-{
-	const double length = sqrt(dot(v, v));
-
-	for (int k = 0; k < 3 && length > 0; k++)
-		v[k] /= length;
-	return length > 0;
-}
-
-/* A triangle in eye space. */
-struct face {
-	double corner[3][3], normal[3], area;
-};
-
-static int face_of(const struct scene_mesh *mesh, const double eye[16], uint32_t primitive, struct face *out)
-{
-	double a[3], b[3];
-
-	for (int c = 0; c < 3; c++) {
-		const float *at = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + (size_t)c];
-
-		matrix_point(out->corner[c], eye, (double[3]){ at[0], at[1], at[2] });
-	}
-	for (int k = 0; k < 3; k++) {
-		a[k] = out->corner[1][k] - out->corner[0][k];
-		b[k] = out->corner[2][k] - out->corner[0][k];
-	}
-	for (int k = 0; k < 3; k++)
-		out->normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-	out->area = 0.5 * sqrt(dot(out->normal, out->normal));
-	return normalize(out->normal);
-}
 
 /*
  * The share of the window that a face covers about one of its points, in front of everything or not; 0 where it lies outside.
@@ -72,8 +35,8 @@ static double seen_at(const struct scene_view *view, const struct face *face, do
 		away[k] = projection[4 * k + 3] != 0 ? projection[4 * k + 3] : projection[4 * k + 2];
 	}
 	*size = clip[3] / sqrt(row[0]);
-	normalize(away);
-	return area * (0.2 + fabs(dot(away, face->normal))) * sqrt(row[0] * row[1]) / (4 * clip[3] * clip[3]);
+	matrix_normalize3(away);
+	return area * (0.2 + fabs(matrix_dot3(away, face->normal))) * sqrt(row[0] * row[1]) / (4 * clip[3] * clip[3]);
 }
 
 static void note_size(struct dome *d, double size, double weight)
@@ -89,7 +52,7 @@ static void note_up(struct dome *d, const double normal[3], double weight)
 	unsigned i = 0;
 
 	d->all += weight;
-	while (i < d->n_ups && dot(d->ups[i].normal, normal) < SAME_UP)
+	while (i < d->n_ups && matrix_dot3(d->ups[i].normal, normal) < SAME_UP)
 		i++;
 	if (i == DOME_UPS)
 		return;
@@ -106,7 +69,7 @@ static void window_up(const struct scene_view *view, double out[3])
 {
 	for (int k = 0; k < 3; k++)
 		out[k] = (double)view->projection[4 * k + 1];
-	normalize(out);
+	matrix_normalize3(out);
 }
 
 static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, double area, const double world_from_eye[16])
@@ -129,11 +92,11 @@ static void note_face(struct dome *d, const struct scene_view *view, const struc
 	}
 	d->unlit += weight;
 	window_up(view, up);
-	side = dot(face->normal, up);
+	side = matrix_dot3(face->normal, up);
 	for (int k = 0; k < 3; k++)
 		normal[k] = side < 0 ? -face->normal[k] : face->normal[k];
 	matrix_transform(turned, world_from_eye, normal);
-	if (weight > 0 && fabs(side) > UPRIGHT && normalize(turned))
+	if (weight > 0 && fabs(side) > UPRIGHT && matrix_normalize3(turned))
 		note_up(d, turned, weight);
 	else
 		d->all += weight;

@@ -81,6 +81,20 @@ void matrix_point(double out[3], const double m[16], const double p[3])
 		out[k] = q[k] / q[3];
 }
 
+double matrix_dot3(const double a[3], const double b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+int matrix_normalize3(double v[3])
+{
+	const double length = sqrt(matrix_dot3(v, v));
+
+	for (int k = 0; k < 3 && length > 0; k++)
+		v[k] /= length;
+	return length > 0;
+}
+
 double matrix_determinant3(const double m[16])
 {
 	return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);

@@ -15,6 +15,9 @@ int matrix_invert(double out[16], const double m[16]);
 void matrix_transform(double out[4], const double m[16], const double p[4]);
 /** The place of a point, divided by w. */
 void matrix_point(double out[3], const double m[16], const double p[3]);
+double matrix_dot3(const double a[3], const double b[3]);
+/** @return 1; 0: v is 0, and stays so */
+int matrix_normalize3(double v[3]);
 /** Of the upper left 3 x 3. */
 double matrix_determinant3(const double m[16]);
 

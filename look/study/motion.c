@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "base/memory.h"
+#include "look/look.h"
 #include "look/study/matrix.h"
 
 /* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are better by far. */
@@ -160,9 +161,7 @@ static void choose_camera(const struct motion *m, struct vote *votes, size_t n, 
 
 static int is_parallel(const struct scene *s, uint32_t i)
 {
-	const float *projection = s->views[s->instances[i].view].projection;
-
-	return projection[3] == 0 && projection[7] == 0 && projection[11] == 0;
+	return look_is_parallel(&s->views[s->instances[i].view]);
 }
 
 /* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no world. What is drawn in

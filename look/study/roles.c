@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "look/look.h"
+#include "look/study/face.h"
 #include "look/study/matrix.h"
 
 /* Matrices agree up to this share of the world's numbers in them. */
@@ -85,22 +87,10 @@ static int is_held(const struct roles *r, const struct motion *m, size_t i)
 static int faces_viewer(const struct scene_mesh *mesh, const double eye[16])
 {
 	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
-		double at[3][3], n[3] = { 0, 0, 0 }, length = 0, far = 0, along = 0;
+		struct face face;
 
-		for (int c = 0; c < 3; c++) {
-			const float *v = mesh->position + 4 * (size_t)mesh->index[3 * (size_t)p + (size_t)c];
-
-			matrix_point(at[c], eye, (double[3]){ v[0], v[1], v[2] });
-		}
-		for (int k = 0; k < 3; k++) {
-			const int a = (k + 1) % 3, b = (k + 2) % 3;
-
-			n[k] = (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
-			length += n[k] * n[k];
-			far += at[0][k] * at[0][k];
-			along += n[k] * at[0][k];
-		}
-		if (length > 0 && fabs(n[2]) < FACING * sqrt(length) && fabs(along) < FACING * sqrt(length * far))
+		if (face_of(mesh, eye, p, &face) && fabs(face.normal[2]) < FACING &&
+		    fabs(matrix_dot3(face.normal, face.corner[0])) < FACING * sqrt(matrix_dot3(face.corner[0], face.corner[0])))
 			return 0;
 	}
 	return 1;
@@ -137,7 +127,7 @@ static int is_particle(const struct roles *r, const struct role_texture *t)
 
 /* --- HUD ---------------------------------------------------------------------------------------------------------------- */
 
-/* Draws in parallel projection that leave or ask for depth, where the same frame shows a world in perspective. */
+/* Draws in parallel projection, where the same frame shows a world in perspective that leaves and asks for depth. */
 static void note_hud(struct roles *r, const struct scene *s)
 {
 	unsigned parallel = 0, deep = 0;
@@ -145,7 +135,7 @@ static void note_hud(struct roles *r, const struct scene *s)
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_material *m = &s->materials[s->instances[i].material];
 		const struct scene_view *view = &s->views[s->instances[i].view];
-		const int is_flat = view->projection[3] == 0 && view->projection[7] == 0 && view->projection[11] == 0;
+		const int is_flat = look_is_parallel(view);
 
 		if (view->target || s->instances[i].rectangle)
 			continue;
@@ -209,7 +199,7 @@ void roles_free(struct roles *r)
 
 typedef int role_test(const struct roles *r, const struct motion *m, size_t i);
 
-/* The first of each mesh of which all things have a role. next: the place to look from. @return SCENE_NONE: there is none */
+/* The next mesh that has a role in all its things, by the first of them. next: the place to look from. @return SCENE_NONE: there is none */
 static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_test *has, size_t next)
 {
 	for (size_t i = next; i < r->n_things; i++) {
@@ -224,7 +214,8 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 	return SCENE_NONE;
 }
 
-static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *which, const char *why, FILE *out)
+static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *which,
+                             const char *why, FILE *out)
 {
 	unsigned n = 0;
 
@@ -254,8 +245,10 @@ static unsigned write_all(const struct roles *r, const struct motion *m, FILE *o
 			        (double)t->facing / (t->facing + t->others), t->facing, t->facing + t->others, t->frames, t->hash[1], t->hash[0]);
 	}
 	if (r->hud_frames && out)
-		fprintf(out, "  - role: HUD\n    confidence: %.2f\n    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
-		        "    match: { parallel: yes }\n    shadows: no\n    mirrors: no\n    dome: no\n", 1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
+		fprintf(out, "  - role: HUD\n    confidence: %.2f\n"
+		        "    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
+		        "    match: { parallel: yes }\n    shadows: no\n    mirrors: no\n    dome: no\n",
+		        1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
 	return n + (r->hud_frames > 0);
 }
 

@@ -15,11 +15,6 @@ struct line {
 	double at[3], along[3], length; /* HUGE_VAL: to infinity */
 };
 
-static double dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static int counts(uint32_t op)
 {
 	return op == GL_INCR || op == GL_DECR || op == GL_INCR_WRAP || op == GL_DECR_WRAP;
@@ -48,7 +43,7 @@ static int line_through(const double eye[16], const float *a, const float *b, st
 		line->at[k] = p[3] != 0 ? p[k] / p[3] : q[k] / q[3];
 		line->along[k] = p[3] == 0 ? p[k] : q[3] == 0 ? q[k] : q[k] / q[3] - line->at[k];
 	}
-	length = sqrt(dot(line->along, line->along));
+	length = sqrt(matrix_dot3(line->along, line->along));
 	line->length = p[3] == 0 || q[3] == 0 ? HUGE_VAL : length;
 	for (int k = 0; k < 3; k++)
 		line->along[k] /= length > 0 ? length : 1;
@@ -89,19 +84,19 @@ static double passes_by(const struct line *l, const double to[4])
 
 	for (int k = 0; k < 3; k++)
 		way[k] = to[3] == 0 ? to[k] : to[k] - l->at[k];
-	along = dot(way, l->along);
-	square = dot(way, way);
+	along = matrix_dot3(way, l->along);
+	square = matrix_dot3(way, way);
 	return square > 0 ? sqrt(fmax(0, square - along * along) / square) : 0;
 }
 
 /* Where two lines come nearest to each other, or their direction where they are parallel. */
 static void meet(const struct line *a, const struct line *b, double out[4])
 {
-	double ab = dot(a->along, b->along), below = 1 - ab * ab, way[3], s;
+	double ab = matrix_dot3(a->along, b->along), below = 1 - ab * ab, way[3], s;
 
 	for (int k = 0; k < 3; k++)
 		way[k] = b->at[k] - a->at[k];
-	s = below > 1e-10 ? (dot(way, a->along) - dot(way, b->along) * ab) / below : 0;
+	s = below > 1e-10 ? (matrix_dot3(way, a->along) - matrix_dot3(way, b->along) * ab) / below : 0;
 	for (int k = 0; k < 3; k++)
 		out[k] = below > 1e-10 ? a->at[k] + s * a->along[k] : a->along[k];
 	out[3] = below > 1e-10;
@@ -172,7 +167,7 @@ static void face_light(const struct line *lines, size_t n, double light[4])
 	double sum = 0;
 
 	for (size_t i = 0; i < n; i++)
-		sum += dot(lines[i].along, light);
+		sum += matrix_dot3(lines[i].along, light);
 	for (int k = 0; k < 3 && sum > 0 && light[3] == 0; k++)
 		light[k] = -light[k];
 }
