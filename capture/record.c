@@ -74,7 +74,8 @@ static const char *const ref_kinds[] = { "color", "depth", "color,depth", "depth
 #define AT(member) .at = offsetof(struct options, member)
 
 static const struct options_row rows[] = {
-	{ "output", 'o', "NAME.trace", "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)", options_text, AT(output) },
+	{ "output", 'o', "NAME.trace", "the trace to write, replacing an older one (default: PROGRAM.trace in the current directory)",
+	  options_text, AT(output) },
 	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
 	  options_text, AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },

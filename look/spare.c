@@ -60,7 +60,8 @@ static void add_lamps(struct sparing *a, uint32_t instance)
 		const float *position = s->lights[m->light_first + i].position_eye;
 		uint32_t k = 0;
 
-		while (k < a->out->n_lamps && (a->out->lamps[k].space != space || memcmp(a->out->lamps[k].position, position, sizeof(a->out->lamps[k].position)) != 0))
+		while (k < a->out->n_lamps && (a->out->lamps[k].space != space ||
+		                               memcmp(a->out->lamps[k].position, position, sizeof(a->out->lamps[k].position)) != 0))
 			k++;
 		if (k < a->out->n_lamps || k == SPARE_MOST_LAMPS)
 			continue;

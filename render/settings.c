@@ -135,14 +135,16 @@ static const struct options_row rows[] = {
 	{ "device", 0, "LIST", "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
 	  "with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)", options_text, AT(device), .kind = RUN },
 	{ "kernels", 0, "FAMILY", "traversal kernels: packets, binary or compressed; the pictures are the same (default: the fastest that "
-	  "'relume devices --check' found right; where it has not been run, packets on a CPU, compressed on a GPU)", options_word, AT(family), .words = device_family_names, .kind = RUN },
+	  "'relume devices --check' found right; where it has not been run, packets on a CPU, compressed on a GPU)",
+	  options_word, AT(family), .words = device_family_names, .kind = RUN },
 	{ "threads", 0, "N", "compute threads of a CPU device (default: all cores)", options_number, AT(threads), .most = 1024, .kind = RUN },
 	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)",
 	  options_number, AT(jobs), .most = 64, .kind = RUN },
 	{ "limit-memory", 0, "M", "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
 	  "more ends the run", options_bytes, AT(memory_bytes), .kind = RUN },
 	{ "cache", 0, "DIR", "where trees of large meshes, compiled kernels and what 'relume devices --check' found are kept for other "
-	  "runs; processes and machines may share it (default: relume/trees, kernels and devices in $XDG_CACHE_HOME, or in ~/.cache; PoCL keeps kernels itself)",
+	  "runs; processes and machines may share it (default: relume/trees, kernels and devices in $XDG_CACHE_HOME, or in ~/.cache; "
+	  "PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN },
 	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes, AT(cache_bytes), .kind = RUN },
 	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },

@@ -335,7 +335,7 @@ struct scene {
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */
-	uint32_t untraced_draw; /* a draw that shows the lit picture of a framebuffer object, whose scene was left out; 0: none */
+	uint32_t untraced_draw; /* a draw that shows a framebuffer object's lit picture, of which the scene was left out; 0: none */
 	uint32_t shows_earlier; /* 1: a texture lacks what an earlier frame drew to it, as nothing renders during this replay */
 	const struct scene_picture *start; /* what was there before the first event; NULL: all 0, or not known */
 

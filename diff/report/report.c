@@ -117,7 +117,7 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
-/* The frames whose pictures the page shows; those that did not pass come first. */
+/* The frames with pictures on the page: those that did not pass come first. */
 struct pictures {
 	const struct output_run *run;
 	struct set *ref, *traced;

@@ -5,11 +5,11 @@
  * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
  * of their light; those that touch form a patch. A pixel's neighbour is an edge where it is not dark, lies on the same surface (the
  * same draw, or normals within 37 degrees, and in its plane as far as depth goes) and shows more light of its own colour than
- * the dark one by a quarter, at once or, as a wide light's shadow ends, within PENUMBRA pixels of it. Where a film is blended over either, the colour is not known (albedo is the film's, as black as a drawn
- * shadow's), and the light itself is compared. Light is gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow
- * still has both. A patch is explained where its edges are as long as a quarter of a square's side of its area;
- * patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame. An honest room in the shade of its own walls took 1.1 % (rooms
- * lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
+ * the dark one by a quarter, at once or, as a wide light's shadow ends, within PENUMBRA pixels of it. Where a film is blended over
+ * either, the colour is not known (albedo is the film's, as black as a drawn shadow's), and the light itself is compared. Light is
+ * gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow still has both. A patch is explained where its
+ * edges are as long as a quarter of a square's side of its area; patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame.
+ * An honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
  *
  * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face (the shadow
  * terminator: the normal faces a light, the pixels' own plane turns away), dark ones of crossed cards that shade each other (attribute

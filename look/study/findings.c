@@ -104,11 +104,12 @@ static void write_walls(const struct lightmaps *maps, const struct solved *s, FI
 
 static void write_solved(const struct solved *s, FILE *out)
 {
-	fprintf(out, "  - role: ambient light of lightmaps\n    confidence: %.2f\n    why: \"what no light explains is as bright as this everywhere\"\n"
-	        "    on: unlit\n    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n",
+	fprintf(out, "  - role: ambient light of lightmaps\n    confidence: %.2f\n"
+	        "    why: \"what no light explains is as bright as this everywhere\"\n    on: unlit\n    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n",
 	        explained_share(s), s->ambient[0], s->ambient[1], s->ambient[2]);
 	for (unsigned i = 0; i < s->n; i++)
-		fprintf(out, "  - role: light of lightmaps\n    confidence: %.2f\n    why: \"without it %.0f %% of what is explained is not; %zu texels, rest %.2g\"\n"
+		fprintf(out, "  - role: light of lightmaps\n    confidence: %.2f\n"
+		        "    why: \"without it %.0f %% of what is explained is not; %zu texels, rest %.2g\"\n"
 		        "    on: unlit\n    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.5g, %.5g, %.5g]\n    specular: [0, 0, 0]\n"
 		        "    attenuation: [0, 0, 1]\n", s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
 		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1], s->lights[i].color[2]);

@@ -16,7 +16,7 @@ int lightmaps_is_pass(const struct scene_material *m)
 	return look_multiplies(m) && !m->depth_write && m->depth_test && m->unit_count == 1 && !m->lighting;
 }
 
-/* The unit whose texture is light; NULL: none. */
+/* The unit with light as its texture; NULL: none. */
 static const struct scene_unit *light_unit(const struct scene *s, const struct scene_material *m)
 {
 	const struct scene_unit *unit = m->unit_count ? &s->units[m->unit_first + m->unit_count - 1] : NULL;
@@ -48,7 +48,7 @@ static double area(const struct corner *a, const struct corner *b, double s, dou
 	return (b->s - a->s) * (t - a->t) - (b->t - a->t) * (s - a->s);
 }
 
-/* The texels whose middles lie in a triangle. */
+/* The texels with their middle in a triangle. */
 static int put_texels(struct lightmaps *l, const struct scene_texture *texture, const struct corner c[3], const double normal[3], unsigned wall)
 {
 	double whole = area(&c[0], &c[1], c[2].s, c[2].t);
@@ -77,7 +77,8 @@ static int put_texels(struct lightmaps *l, const struct scene_texture *texture, 
 }
 
 /* A wall with its light. */
-static int put_wall(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct scene_unit *unit, const double world[16])
+static int put_wall(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct scene_unit *unit,
+                    const double world[16])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_texture *texture = s->textures[unit->texture];

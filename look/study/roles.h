@@ -3,7 +3,7 @@
  *
  *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays
  *   view model  the viewer holds it: its modelview stays while the camera moves
- *   particle    a blended texture whose faces all face the viewer, in frames between which the viewer turns
+ *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns
  *   HUD         in parallel projection over a world in perspective
  *
  * A role is given to all that has its mesh or its texture, and so only where all of that shows it.

@@ -78,8 +78,9 @@ uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out)
 	const struct segment *segment = job->prepared.segments;
 	uint32_t n = 0;
 
-	/* Depth that nothing cleared is 0, as Mesa's is; GL does not say (GL 2.1 sec. 4.2.3) */
-	*out = (struct scene_clear){ .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height }, .color_mask = 15, .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
+	/* Depth that nothing cleared is 0, as Mesa's is; GL does not say (GL 2.1 sec. 4.2.3). */
+	*out = (struct scene_clear){ .buffers = 7, .scissor = { 0, 0, (int32_t)job->width, (int32_t)job->height }, .color_mask = 15,
+		                     .stencil_mask = 0xffffffffu, .floats = job->scene->floats };
 	for (; job->prepared.n_segments && n < segment->clear_count; n++) {
 		const struct scene_clear *next = &job->scene->clears[segment->clear_first + n];
 

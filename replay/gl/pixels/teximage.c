@@ -43,7 +43,8 @@ static struct gls_level_form form_of(const struct call *c, unsigned n_dims)
 }
 
 /* The pixels of a TexImage or TexSubImage. format: the argument's number; type and data follow */
-static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned format, unsigned n_dims, const int64_t size[3])
+static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned format,
+                                   unsigned n_dims, const int64_t size[3])
 {
 	struct gls_pixels p = { .format = arg_u(c, format), .type = arg_u(c, format + 1), .width = (uint32_t)size[0],
 		.height = (uint32_t)size[1], .depth = n_dims > 2 ? (uint32_t)size[2] : 0, .store = gls_client_store(x, st) };
