@@ -25,6 +25,7 @@ void gate_count_colors(struct gate_frame *f)
 
 		c->count[kind]++;
 		c->failing[kind] += maps->failing[i];
+		c->beyond += maps->difference[i] > score_allowed(f->options, &f->traced, i);
 		c->gross += maps->residual[i] > GROSS_CODES;
 		s->worst = maps->difference[i] > s->worst ? maps->difference[i] : s->worst;
 	}
@@ -68,12 +69,28 @@ int gate_gross(struct gate_frame *f)
 	return 0;
 }
 
+/* 1 where somebody has set a bar of their own. */
+static int has_own_bar(const struct score_options *options, enum score_gate_id id)
+{
+	for (size_t i = 0; i < options->n_bars; i++)
+		if (options->bars[i].gate == id && !isnan(options->bars[i].bar))
+			return 1;
+	return 0;
+}
+
+/* FLIP sees a drift of 1/255 over all of a picture, which rasterizers differ by: alone it decides nothing. */
 int gate_perceptual(struct gate_frame *f)
 {
+	struct score_gate *g = &f->score->gates[GATE_P];
 	double flip;
 	int err = flip_compare(f->ref->rgb, f->traced.rgb, f->ref->width, f->ref->height, NULL, &flip);
 
-	if (!err)
-		gate_measure(f, GATE_P, 0, flip);
-	return err;
+	if (err)
+		return err;
+	gate_measure(f, GATE_P, 0, flip);
+	if (g->state == SCORE_FAILED && !g->better_than_expected && !f->colors.beyond && !has_own_bar(f->options, GATE_P)) {
+		g->state = SCORE_PASSED;
+		gate_note(f, GATE_P, "over its bar, but no pixel is off by more than R1 allows");
+	}
+	return 0;
 }

@@ -72,6 +72,11 @@ float score_layers_at(const struct score_picture *traced, size_t i)
 	return traced->layers && traced->layers[i] > 0 ? traced->layers[i] : 0;
 }
 
+double score_allowed(const struct score_options *options, const struct score_picture *traced, size_t i)
+{
+	return (options->codes > 0 ? options->codes : SCORE_CODES) + BAR_PER_LAYER * (double)score_layers_at(traced, i);
+}
+
 int score_make_maps(const struct score_picture *ref, const struct score_picture *traced,
                     const struct score_options *options, struct score_maps *out)
 {
@@ -111,8 +116,7 @@ int score_make_maps(const struct score_picture *ref, const struct score_picture 
 			}
 			out->difference[i] = (uint8_t)plain;
 			out->residual[i] = (uint8_t)residual;
-			out->failing[i] = out->band[i] ? residual > codes
-				: plain > codes + BAR_PER_LAYER * (double)score_layers_at(traced, i);
+			out->failing[i] = out->band[i] ? residual > codes : plain > score_allowed(options, traced, i);
 		}
 	}
 	return 0;

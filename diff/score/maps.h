@@ -24,5 +24,8 @@ void score_maps_free(struct score_maps *maps);
 /** 1 where the depths are all steps of a 16-bit depth buffer. */
 int score_depth_is_16_bit(const float *depth, size_t n);
 
+/** By how many codes R1 and R1b let a pixel be off. */
+double score_allowed(const struct score_options *options, const struct score_picture *traced, size_t i);
+
 /** Number of blended layers at a pixel; 0 without the channel. */
 float score_layers_at(const struct score_picture *traced, size_t i);

@@ -623,10 +623,20 @@ END_TEST
 
 START_TEST(drift_that_no_pixel_shows)
 {
-	shift_codes(0, HEIGHT, 1); /* 1/255 everywhere: within R1, but not within P */
+	struct score_bar bar = { GATE_P, 0, 0.01, NAN, NAN };
+
+	shift_codes(0, HEIGHT, 2); /* no pixel is further off than R1 allows: FLIP is told, and does not decide */
+	expect_all_passed();
+	ck_assert_double_gt(score.gates[GATE_P].value[0], 0.02);
+	ck_assert_str_eq(score.gates[GATE_P].note, "over its bar, but no pixel is off by more than R1 allows");
+	options.bars = &bar; /* somebody wants it to */
+	options.n_bars = 1;
+	expect_failed(GATE_P);
+	options.n_bars = 0;
+	for (int i = 0; i < 3; i++) /* one pixel beyond R1, which has 0.1 % to spare */
+		image_channel(&traced, (const char *[]){ "gl.R", "gl.G", "gl.B" }[i])[777] = 0.5f;
 	expect_failed(GATE_P);
 	ck_assert_int_eq(state(GATE_R1), SCORE_PASSED);
-	ck_assert_double_gt(score.gates[GATE_P].value[0], 0.02);
 }
 END_TEST
 
