@@ -27,7 +27,7 @@ struct options {
 	const char *output, *ref, *ref_every, *max_frames, *quit_after, *frame_end;
 	uint64_t max_bytes;
 	const char *first_frame, *last_frame, *start_key;
-	int no_children, paused;
+	int no_children, paused, ref_exact;
 	char **program;
 };
 
@@ -79,6 +79,8 @@ static const struct options_row rows[] = {
 	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
 	  options_text, AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
+	{ "ref-exact", 0, NULL, "with Mesa's llvmpipe: switch its quick rasterizer off, whose colours are off by up to 2/255 in windows without "
+	  "depth (LP_PERF=no_rast_linear); the program shows the exact ones, too", options_flag, AT(ref_exact) },
 	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace begins with all "
 	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },
@@ -139,6 +141,8 @@ static int parse(int argc, char **argv, struct options *o)
 		return err_report(ERR_USAGE, NULL, "no program to record; 'relume record --help' shows how");
 	if (o->output && (!*o->output || o->output[strlen(o->output) - 1] == '/'))
 		return err_report(ERR_USAGE, NULL, "'%s' is no name for a trace", o->output);
+	if (o->ref_exact && !o->ref)
+		return err_report(ERR_USAGE, NULL, "--ref-exact is about what --ref keeps; say --ref color as well");
 	o->paused |= o->start_key != NULL;
 	o->program = line.words;
 	return set_trace(o, o->output);
@@ -238,6 +242,8 @@ static void set_environment(const struct options *o, const char *recorder, const
 	setenv("RELUME_STATS", stats_path, 1);
 	set_or_unset("RELUME_REF", o->ref);
 	set_or_unset("RELUME_REF_EVERY", o->ref_every);
+	if (o->ref_exact)
+		setenv("LP_PERF", "no_rast_linear", 0);
 	set_or_unset("RELUME_MAX_FRAMES", o->max_frames);
 	set_or_unset("RELUME_QUIT_AFTER", o->quit_after);
 	set_or_unset("RELUME_FRAME_END", o->frame_end);
