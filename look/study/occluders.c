@@ -121,16 +121,17 @@ static int enters(const struct occluder_node *n, const double from[3], const dou
 {
 	double begin = 0, end = 1;
 
-	for (int k = 0; k < 3; k++) {
+	for (int k = 0; k < 3; k++) { /* fmin and fmax are calls */
 		double a = (n->low[k] - from[k]) * inverse[k], b = (n->high[k] - from[k]) * inverse[k];
+		double near = (a < b ? a : b) - 1e-9, far = (a < b ? b : a) + 1e-9;
 
-		begin = fmax(begin, fmin(a, b) - 1e-9);
-		end = fmin(end, fmax(a, b) + 1e-9);
+		begin = near > begin ? near : begin;
+		end = far < end ? far : end;
 	}
 	return begin <= end;
 }
 
-int occluders_sees(const struct occluders *o, const double from[3], const double to[3])
+int occluders_sees(const struct occluders *o, const double from[3], const double to[3], uint32_t *blocker)
 {
 	double d[3], inverse[3];
 	uint32_t stack[DEEPEST], n = 1;
@@ -139,6 +140,8 @@ int occluders_sees(const struct occluders *o, const double from[3], const double
 		d[k] = to[k] - from[k];
 		inverse[k] = 1 / (fabs(d[k]) > 1e-12 ? d[k] : 1e-12);
 	}
+	if (*blocker < o->n && crosses(o->corners[*blocker], from, d))
+		return 0;
 	stack[0] = 0;
 	while (n && o->n) {
 		const struct occluder_node *node = &o->nodes[stack[--n]];
@@ -146,8 +149,10 @@ int occluders_sees(const struct occluders *o, const double from[3], const double
 		if (!enters(node, from, inverse))
 			continue;
 		for (uint32_t i = node->first; i < node->first + node->count; i++)
-			if (crosses(o->corners[i], from, d))
+			if (crosses(o->corners[i], from, d)) {
+				*blocker = i;
 				return 0;
+			}
 		if (!node->count && n + 2 <= DEEPEST) {
 			stack[n++] = node->right;
 			stack[n++] = (uint32_t)(node - o->nodes) + 1;

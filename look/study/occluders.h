@@ -19,5 +19,8 @@ int occluders_put(struct occluders *o, const double corners[9]);
 int occluders_build(struct occluders *o);
 void occluders_free(struct occluders *o);
 
-/** 1 where nothing stands between two places, but for a thousandth of the way at either end. */
-int occluders_sees(const struct occluders *o, const double from[3], const double to[3]);
+/**
+ * 1 where nothing stands between two places, but for a thousandth of the way at either end.
+ * @param blocker  the triangle that is tried first; receives the one that stood there. Any number will do at first
+ */
+int occluders_sees(const struct occluders *o, const double from[3], const double to[3], uint32_t *blocker);

@@ -6,14 +6,24 @@
 
 #include "base/err.h"
 
-enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, ROUNDS = 4 };
+enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, FOLLOWED = 3, ROUNDS = 4 };
 #define CUT_OFF (254.5 / 255)
+/* A light is one more where it explains this share of what the others leave. */
+#define EXPLAINS_LEAST 0.02
+/* And what it adds is spread over this many texels: less stands for the errors of a few. Lights of generated levels have 98 to
+ * 270, what was invented 1 to 9. */
+#define SPREAD_LEAST 24
+/* A step that explains no more than this share in addition is none: places would creep. */
+#define CREEP 1e-7
+/* A light has settled where it moves by no more than this share of the world. */
+#define SETTLED 1e-5
 
 struct sample {
 	double at[3], normal[3], light[3];
 	double rest[3]; /* what the lights so far leave */
 	double gain[SOLVE_MOST_LIGHTS]; /* light of each at unit strength */
 	unsigned wall;
+	uint32_t blocker; /* what stood before a light the last time */
 };
 
 struct solving {
@@ -24,7 +34,7 @@ struct solving {
 };
 
 /* Light of unit strength from a place, if nothing stands between. */
-static double gain_of(const struct solving *s, const struct sample *x, const double at[3], int looks)
+static double gain_of(const struct solving *s, struct sample *x, const double at[3], int looks)
 {
 	double square = 0, along = 0, from[3];
 
@@ -36,7 +46,7 @@ static double gain_of(const struct solving *s, const struct sample *x, const dou
 		return 0;
 	for (int k = 0; k < 3; k++) /* off the wall */
 		from[k] = x->at[k] + 1e-3 * sqrt(square) * x->normal[k];
-	return looks && !occluders_sees(s->walls, from, at) ? 0 : along / (square * sqrt(square));
+	return looks && !occluders_sees(s->walls, from, at, &x->blocker) ? 0 : along / (square * sqrt(square));
 }
 
 /* How much of the rest a light at a place explains at its best strength: the drop of the sum of squares. seen: of every sample, or NULL */
@@ -45,7 +55,7 @@ static double explained(const struct solving *s, const double at[3], const unsig
 	double product[3] = { 0, 0, 0 }, square[3] = { 0, 0, 0 }, sum = 0;
 
 	for (size_t i = 0; i < s->n; i += s->step) {
-		const struct sample *x = &s->samples[i];
+		struct sample *x = &s->samples[i];
 		double gain = seen && !seen[i] ? 0 : gain_of(s, x, at, !seen);
 
 		if (sees)
@@ -62,33 +72,38 @@ static double explained(const struct solving *s, const double at[3], const unsig
 	return sum;
 }
 
-/* Walk to a better place, in steps that shrink, and look around anew whenever the place has settled. */
-static double search(const struct solving *s, double at[3], double step, unsigned char *sees)
+/* Walk to a better place, in steps that shrink; what sees it is taken to stay. @return what is explained there */
+static double walk(const struct solving *s, double at[3], double step, const unsigned char *sees)
 {
-	double best = explained(s, at, NULL, sees);
+	double best = explained(s, at, sees, NULL);
 
-	for (int round = 0; round < 4; round++, step *= 0.5) {
-		double reach = step;
+	for (double reach = step; reach > 1e-4 * step;) {
+		int better = 0;
 
-		while (reach > 1e-4 * step) {
-			int better = 0;
+		for (int k = 0; k < 6; k++) {
+			double to[3] = { at[0], at[1], at[2] }, value;
 
-			for (int k = 0; k < 6; k++) {
-				double to[3] = { at[0], at[1], at[2] }, value;
-
-				to[k / 2] += k % 2 ? reach : -reach;
-				value = explained(s, to, sees, NULL);
-				if (value <= best * (1 + 1e-12))
-					continue;
-				best = value;
-				memcpy(at, to, sizeof(to));
-				better = 1;
-			}
-			reach *= better ? 1 : 0.5;
+			to[k / 2] += k % 2 ? reach : -reach;
+			value = explained(s, to, sees, NULL);
+			if (value <= best * (1 + CREEP))
+				continue;
+			best = value;
+			memcpy(at, to, sizeof(to));
+			better = 1;
 		}
-		best = explained(s, at, NULL, sees);
+		reach *= better ? 1 : 0.5;
 	}
 	return best;
+}
+
+/* Walk, look around anew, and walk again. */
+static double search(const struct solving *s, double at[3], double step, unsigned char *sees)
+{
+	for (int round = 0; round < ROUNDS; round++, step *= 0.5) {
+		explained(s, at, NULL, sees);
+		walk(s, at, step, sees);
+	}
+	return explained(s, at, NULL, sees);
 }
 
 /* --- Strengths ---------------------------------------------------------------------------------------------------------- */
@@ -158,6 +173,21 @@ static double squares_left(const struct solving *s)
 	return sum;
 }
 
+/* Over how many samples a light is spread: n where it is the same on n and none elsewhere. */
+static double spread_of(const struct solving *s, unsigned which)
+{
+	double sum = 0, squares = 0;
+
+	for (size_t i = 0; i < s->n; i++) {
+		const struct sample *x = &s->samples[i];
+		double gain = x->light[0] < CUT_OFF && x->light[1] < CUT_OFF && x->light[2] < CUT_OFF ? x->gain[which] * x->gain[which] : 0;
+
+		sum += gain;
+		squares += gain * gain;
+	}
+	return squares > 0 ? sum * sum / squares : 0;
+}
+
 /* --- Places ------------------------------------------------------------------------------------------------------------- */
 
 /* Walls with the most rest: a light stands before them. Fills places to begin at. @return how many */
@@ -196,46 +226,84 @@ static unsigned find_seeds(const struct solving *s, double scale, double seeds[]
 	return n;
 }
 
-/* One more light where it explains most. @return 1; 0: none explains enough */
-static int add_light(struct solving *s, double scale, unsigned char *sees)
+/* A place that was searched for, and what a light there explains. */
+struct found {
+	double at[3], value;
+};
+
+static int compare_found(const void *a, const void *b)
 {
-	double seeds[SEEDS * 8][3], best = 0, before = squares_left(s), at[3] = { 0, 0, 0 };
-	unsigned n = find_seeds(s, scale, seeds, SEEDS * 8);
-	double value[SEEDS * 8];
+	double x = ((const struct found *)a)->value, y = ((const struct found *)b)->value;
+
+	return x > y ? -1 : x < y;
+}
+
+/* Follow the most promising seeds. @return how many; the best is first */
+static unsigned follow_seeds(const struct solving *s, double scale, unsigned char *sees, struct found found[FOLLOWED])
+{
+	double seeds[SEEDS * 8][3], value[SEEDS * 8];
+	unsigned n = find_seeds(s, scale, seeds, SEEDS * 8), rank = 0;
 
 	for (unsigned i = 0; i < n; i++)
 		value[i] = explained(s, seeds[i], NULL, NULL);
-	for (unsigned rank = 0; rank < 3 && n; rank++) { /* the most promising ones are followed */
-		double place[3], found;
+	for (; rank < FOLLOWED && rank < n; rank++) {
 		unsigned first = 0;
 
 		for (unsigned i = 0; i < n; i++)
 			first = value[i] > value[first] ? i : first;
-		memcpy(place, seeds[first], sizeof(place));
+		memcpy(found[rank].at, seeds[first], sizeof(found[rank].at));
 		value[first] = -1;
-		found = search(s, place, 0.05 * scale, sees);
-		if (found > best) {
-			best = found;
-			memcpy(at, place, sizeof(at));
-		}
+		found[rank].value = search(s, found[rank].at, 0.05 * scale, sees);
 	}
-	if (!(best * (double)s->step > 0.02 * before))
-		return 0;
-	memcpy(s->out->lights[s->out->n].at, at, sizeof(at));
-	light_samples(s, s->out->n++);
-	return 1;
+	qsort(found, rank, sizeof(*found), compare_found);
+	return rank;
 }
 
-/* Each light moves to where it explains best what the others leave. */
+/*
+ * One more light where it explains most. A search looks at few samples; all of them together decide. A light that explains a few
+ * texels only, which no light explains, is none. @return 1; 0: none explains enough
+ */
+static int add_light(struct solving *s, double scale, unsigned char *sees)
+{
+	struct found found[FOLLOWED];
+	const double before = squares_left(s), least = EXPLAINS_LEAST * before;
+	unsigned n = follow_seeds(s, scale, sees, found);
+
+	for (unsigned i = 0; i < n && s->out->n < SOLVE_MOST_LIGHTS; i++) {
+		if (!(found[i].value * (double)s->step > least))
+			break;
+		memcpy(s->out->lights[s->out->n].at, found[i].at, sizeof(found[i].at));
+		light_samples(s, s->out->n++);
+		fit_strengths(s);
+		leave_rest(s, SOLVE_MOST_LIGHTS);
+		if (before - squares_left(s) > least && spread_of(s, s->out->n - 1) > SPREAD_LEAST)
+			return 1;
+		s->out->n--;
+		fit_strengths(s);
+		leave_rest(s, SOLVE_MOST_LIGHTS);
+	}
+	return 0;
+}
+
+/* Each light moves to where it explains best what the others leave, until all have settled. */
 static void polish(struct solving *s, double scale, unsigned char *sees)
 {
-	for (int round = 0; round < ROUNDS; round++)
+	int moves = 1;
+
+	for (int round = 0; round < ROUNDS && moves; round++) {
+		moves = 0;
 		for (unsigned j = 0; j < s->out->n; j++) {
+			double *at = s->out->lights[j].at, old[3] = { at[0], at[1], at[2] };
+
 			leave_rest(s, j);
-			search(s, s->out->lights[j].at, 0.01 * scale, sees);
+			for (size_t i = 0; i < s->n; i++)
+				sees[i] = s->samples[i].gain[j] > 0;
+			walk(s, at, 0.01 * scale, sees);
+			moves |= fabs(at[0] - old[0]) + fabs(at[1] - old[1]) + fabs(at[2] - old[2]) > SETTLED * scale;
 			light_samples(s, j);
 			fit_strengths(s);
 		}
+	}
 }
 
 /* Lights that explain next to nothing go. */
@@ -309,7 +377,6 @@ int solve_lights(struct lightmaps *maps, struct solved *out)
 	leave_rest(&s, SOLVE_MOST_LIGHTS);
 	out->signal = sqrt(squares_left(&s) / (3.0 * (double)s.n + 1));
 	while (s.n && out->n < SOLVE_MOST_LIGHTS && sqrt(squares_left(&s) / (3.0 * (double)s.n)) > 1.0 / 255 && add_light(&s, scale, sees)) {
-		fit_strengths(&s);
 		polish(&s, scale, sees);
 		leave_rest(&s, SOLVE_MOST_LIGHTS);
 	}

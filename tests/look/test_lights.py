@@ -4,6 +4,7 @@
 plain C. Walls then take these lights, and their albedo is that of their texture alone."""
 import json
 import pathlib
+import resource
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
@@ -15,7 +16,10 @@ from look import compare_lights  # noqa: E402
 for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "lightmap pass")):
     trace, truth, rules = (SCRATCH / f"{lighting}.{end}" for end in ("trace", "json", "look.yaml"))
     record(trace, corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", lighting, "--truth", truth, options=())
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     must(relume("look", trace, "-o", rules))
+    took = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    check(took < 10, f"{lighting}: the study took {took:.1f} s of processor time")
     text = rules.read_text()
     check(f"role: {role}" in text, f"{lighting}: the lightmap's role is told")
     found = compare_lights(json.loads(truth.read_text()), text)
