@@ -61,19 +61,23 @@ def run(*args):
     return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
 
 
+def must(done):
+    """A command that ended well, or the end of it all: with its name and its end, as one that was killed says nothing itself."""
+    if done.returncode:
+        end = f"signal {-done.returncode}" if done.returncode < 0 else f"code {done.returncode}"
+        print(f"{' '.join(done.args)}: ended with {end}: {done.stderr.strip() or 'no message'}", file=sys.stderr, flush=True)
+        sys.exit(1)
+
+
 def study(build, work, program, *options):
     """Record a program and study it: the rules, and processor seconds of the study."""
     trace, rules = work / "x.trace", work / "x.look.yaml"
     for old in work.glob("x.*"):
         old.unlink()
-    done = run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options)
-    if done.returncode:
-        sys.exit(done.stderr)
+    must(run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = run(build / "relume", "look", trace, "-o", rules)
+    must(run(build / "relume", "look", trace, "-o", rules))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode:
-        sys.exit(done.stderr)
     return rules.read_text(), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
@@ -96,6 +100,9 @@ def main(build):
                                    "--lighting", lighting, "--truth", truth)
                 scores.append(compare_lights(json.loads(truth.read_text()), text))
                 seconds += took
+                score = scores[-1]
+                print(f"{lighting}, seed {seed}: {score['found']} found, {score['missed']} missed, {score['invented']} invented; off by {score['off']:.5f} of "
+                      f"the size, {score['strength_off']:.4f} of the strength, {score['ambient_off']:.4f} of the ambient; {took:.2f} s", flush=True)
             total = {key: sum(s[key] for s in scores) for key in ("found", "missed", "invented")}
             row(f"{lighting}: lights of {LEVELS} levels found, missed, invented", ", ".join(str(n) for n in total.values()), "none missed or invented",
                 not total["missed"] and not total["invented"])
