@@ -13,9 +13,9 @@
 
 #define PACK_SIZE 16u
 
-/* Fragments as they stand in the list. */
+/* Fragments as they stand in the list. item: where they stand */
 struct pack_list {
-	uint instance[PACK_SIZE], primitive[PACK_SIZE], pixel[PACK_SIZE];
+	uint item[PACK_SIZE], instance[PACK_SIZE], primitive[PACK_SIZE], pixel[PACK_SIZE];
 	float b1[PACK_SIZE], b2[PACK_SIZE], depth[PACK_SIZE];
 };
 
@@ -57,19 +57,23 @@ struct pack_kept {
 
 #define LANE(vector, type, lane) (((type *)&(vector))[lane])
 
-/* Which sixteen fragments of n, from `first` on. Lanes beyond them repeat the last. */
+/* A fragment of the list, to a lane. */
+static inline void pack_take(__global const struct fragment *fragments, __global const uint *pixels, uint item, uint lane, struct pack_list *list)
+{
+	list->item[lane] = item;
+	list->instance[lane] = fragments[item].instance;
+	list->primitive[lane] = fragments[item].primitive;
+	list->b1[lane] = fragments[item].b1;
+	list->b2[lane] = fragments[item].b2;
+	list->depth[lane] = fragments[item].depth;
+	list->pixel[lane] = pixels[item];
+}
+
+/* Sixteen fragments of n, from `first` on. Lanes beyond them repeat the last. */
 static inline void pack_list(__global const struct fragment *fragments, __global const uint *pixels, uint first, uint n, struct pack_list *list)
 {
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const uint i = min(first + lane, n - 1);
-
-		list->instance[lane] = fragments[i].instance;
-		list->primitive[lane] = fragments[i].primitive;
-		list->b1[lane] = fragments[i].b1;
-		list->b2[lane] = fragments[i].b2;
-		list->depth[lane] = fragments[i].depth;
-		list->pixel[lane] = pixels[i];
-	}
+	for (uint lane = 0; lane < PACK_SIZE; lane++)
+		pack_take(fragments, pixels, min(first + lane, n - 1), lane, list);
 }
 
 /* --- Which ones ---------------------------------------------------------------------------------------------------- */
@@ -91,6 +95,12 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 	return plain;
 }
 
+/* Whether a pack can take fragments of a geometry with others of its material. */
+static inline int pack_knows_geometry(__global const struct geometry *g)
+{
+	return !g->flags && !(g->attributes & SCENE_HAS_FACE);
+}
+
 /* Those of some lanes that a pack can take with the first of them. material: receives that one's */
 static inline uint pack_same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
 {
@@ -101,7 +111,7 @@ static inline uint pack_same_kind(const struct tables *t, const struct pack_list
 		const uint lane = popcount((left & -left) - 1);
 		__global const struct geometry *g = &t->geometries[list->instance[lane]];
 
-		if (g->material == *material && !g->flags && !(g->attributes & SCENE_HAS_FACE))
+		if (g->material == *material && pack_knows_geometry(g))
 			same |= left & -left;
 	}
 	return same;
@@ -412,9 +422,9 @@ static inline const struct lit *pack_relight(const struct shade_arguments *a, co
 	return l->lit;
 }
 
-/* Colours by the lights' visibility. first: of the lanes in the list */
-static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint first,
-                                      uint lanes, struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
+/* Colours by the lights' visibility. */
+static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                      struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
 {
 	const int flat = p->material->shade_model == GL_FLAT;
 	packf v[3][8];
@@ -427,7 +437,7 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 		struct vec3 seen[SCENE_MAX_LIGHTS];
 		const struct lit *lit;
 
-		stage_seen(a->visibility, a->n_slots, a->n, first + lane, seen);
+		stage_seen(a->visibility, a->n_slots, a->n, list->item[lane], seen);
 		lit = pack_relight(a, list, lane, seen, kept);
 		for (uint k = flat ? 2 : 0; k < 3; k++) {
 			LANE(v[k][0], float, lane) = lit[k].color.x;
@@ -633,10 +643,10 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 }
 
 /*
- * shade_item for fragments first .. of the list, in lanes: those that pack_same_kind finds, of a plain material.
+ * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
  * @return the lanes that it has done: none of slivers
  */
-static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint first, uint lanes, struct pack_kept *kept)
+static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept)
 {
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
@@ -653,7 +663,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 		return 0;
 	pack_texture(a, list, &p, lanes, kept, &texturing);
 	if (a->n_slots) {
-		pack_between_relit(a, list, &p, first, lanes, kept, &from_vertices, &secondary);
+		pack_between_relit(a, list, &p, lanes, kept, &from_vertices, &secondary);
 	} else {
 		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
 	}
@@ -665,7 +675,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
-		pack_store_relit(&a->shaded[first + lane], lane, &color, &direct);
+		pack_store_relit(&a->shaded[list->item[lane]], lane, &color, &direct);
 	}
 	if (a->n_slots)
 		return lanes;
@@ -673,8 +683,8 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
 	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
-		__global struct shaded *out = &a->shaded[first + lane];
-		__global struct fragment *f = &a->fragments[first + lane];
+		__global struct shaded *out = &a->shaded[list->item[lane]];
+		__global struct fragment *f = &a->fragments[list->item[lane]];
 
 		f->b1 = LANE(p.b1, float, lane);
 		f->b2 = LANE(p.b2, float, lane);

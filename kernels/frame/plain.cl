@@ -46,6 +46,7 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 	uint lanes = 0;
 
 	row->dimmed = 0;
+	vstore16(row->base + as_uint16(PACK_LANES), 0, row->list.item);
 	vstore16(a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES), 0, row->list.pixel);
 	if ((int)row->y >= r.y0 && (int)row->y < r.y1 && (int)row->x >= r.x0 && (int)(row->x + PACK_SIZE) <= r.x1)
 		return load_whole_row(a, row, &row->list);
@@ -174,7 +175,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	}
 	shadowed = color;
 	if (lanes & row->dimmed) {
-		pack_between_relit(s, &row->list, &p, row->base, lanes & row->dimmed, kept, &lit, &secondary);
+		pack_between_relit(s, &row->list, &p, lanes & row->dimmed, kept, &lit, &secondary);
 		lit = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
 		for (int i = 0; i < 3; i++)
 			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));

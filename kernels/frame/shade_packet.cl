@@ -1,6 +1,7 @@
 /*
- * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: sixteen at a time in vectors, material by
- * material (kernels/frame/pack.h). What that does not know is shaded one by one. Neighbours mostly lie in the same triangle: it is set up
+ * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: material by material, sixteen at a time in
+ * vectors (kernels/frame/pack.h). Pixels stand one after the other in the list, each with all that covers it, so neighbours in a pack are
+ * mostly neighbours on the same surface. What packs do not know is shaded one by one: a triangle that several fragments lie in is set up
  * once. kernels/README.md has the figures.
  */
 #include "kernels/frame/pack.h"
@@ -11,37 +12,66 @@ struct shade_kept {
 	struct pack_kept pack;
 };
 
-/* A bit for each of sixteen fragments that is to be shaded. */
-static inline uint to_shade(const struct shade_arguments *a, uint first)
-{
-	uint lanes = 0;
+/* The fragments of a work item: a bit for each that is left, and for each that packs know. SHADE_PACKET is 64. */
+struct shade_left {
+	uint first;
+	ulong all, packed;
+	uint material[SHADE_PACKET];
+};
 
-	for (uint i = first; i < min(first + PACK_SIZE, a->n); i++)
-		if (!a->n_slots || (a->shaded[i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, i)))
-			lanes |= 1u << (i - first);
-	return lanes;
+/* Which ones are to be shaded. */
+static inline void find_left(const struct shade_arguments *a, uint first, struct shade_left *left)
+{
+	uint last = SCENE_NONE;
+	int known = 0;
+
+	left->first = first;
+	left->all = left->packed = 0;
+	for (uint i = 0; i < min(SHADE_PACKET, a->n - first); i++) {
+		__global const struct geometry *g = &a->tables.geometries[a->fragments[first + i].instance];
+
+		if (a->n_slots && !(a->shaded[first + i].flags & SHADED_THERE && stage_dimmed(a->visibility, a->n_slots, a->n, first + i)))
+			continue;
+		if (g->material != last)
+			known = pack_is_plain(a, &a->tables.materials[g->material]);
+		last = left->material[i] = g->material;
+		left->all |= (ulong)1 << i;
+		if (known && pack_knows_geometry(g))
+			left->packed |= (ulong)1 << i;
+	}
 }
 
-static inline void shade_sixteen(const struct shade_arguments *a, uint first, struct shade_kept *kept)
+static inline void shade_alone(const struct shade_arguments *a, uint i, struct shade_kept *kept)
 {
+	shade_item(a, i, 1, &kept->one[a->fragments[i].primitive % SHADE_TRIANGLES]);
+}
+
+/* The first that is left, and with it those of its material that it shares a pack with. */
+static inline void shade_next(const struct shade_arguments *a, struct shade_left *left, struct shade_kept *kept)
+{
+	const uint next = popcount((left->all & -left->all) - 1);
 	struct pack_list list;
-	uint material, lanes = to_shade(a, first);
+	uint n = 0, done;
 
-	pack_list(a->fragments, a->pixels, first, a->n, &list);
-	while (lanes) {
-		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &list, lanes, &material);
-		uint done = 0;
-
-		if (same & bit && pack_is_plain(a, &a->tables.materials[material]))
-			done = pack_shade(a, &list, first, same, &kept->pack);
-		if (!(done & bit)) {
-			const uint i = first + popcount(bit - 1);
-
-			shade_item(a, i, 1, &kept->one[a->fragments[i].primitive % SHADE_TRIANGLES]);
-			done |= bit;
-		}
-		lanes &= ~done;
+	if (!(left->packed >> next & 1)) {
+		shade_alone(a, left->first + next, kept);
+		left->all &= left->all - 1;
+		return;
 	}
+	for (ulong rest = left->all & left->packed; rest && n < PACK_SIZE; rest &= rest - 1) {
+		const uint i = popcount((rest & -rest) - 1);
+
+		if (left->material[i] != left->material[next])
+			continue;
+		pack_take(a->fragments, a->pixels, left->first + i, n++, &list);
+		left->all &= ~((ulong)1 << i);
+	}
+	for (uint lane = n; lane < PACK_SIZE; lane++)
+		pack_take(a->fragments, a->pixels, list.item[n - 1], lane, &list);
+	done = pack_shade(a, &list, (1u << n) - 1, &kept->pack);
+	for (uint lane = 0; lane < n; lane++)
+		if (!(done >> lane & 1))
+			shade_alone(a, list.item[lane], kept);
 }
 
 KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
@@ -49,11 +79,15 @@ KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
 	struct shade_kept kept;
+	struct shade_left left;
 
+	if (first >= n)
+		return;
 	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
 		kept.one[i].instance = kept.pack.lit[i].instance = SCENE_NONE;
 	for (uint32_t i = 0u; i < PACK_CUTS; i++)
 		kept.pack.cuts[i].instance = SCENE_NONE;
-	for (uint32_t i = first; i < first + SHADE_PACKET && i < n; i += PACK_SIZE)
-		shade_sixteen(&a, i, &kept);
+	find_left(&a, first, &left);
+	while (left.all)
+		shade_next(&a, &left, &kept);
 }

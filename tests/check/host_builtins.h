@@ -199,6 +199,11 @@ HOST_OVER uint popcount(uint x)
 	return (uint)__builtin_popcount(x);
 }
 
+HOST_OVER ulong popcount(ulong x)
+{
+	return (ulong)__builtin_popcountl(x);
+}
+
 HOST_OVER int clz(int x)
 {
 	return x ? __builtin_clz((uint)x) : 32;
