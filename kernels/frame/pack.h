@@ -7,7 +7,8 @@
  */
 #pragma once
 
-#include "kernels/frame/pack_texture.h"
+#include "kernels/frame/pack_combine.h"
+#include "kernels/frame/pack_sample.h"
 #include "kernels/gl/stages.h"
 #include "kernels/rays/gather.h"
 
@@ -78,20 +79,16 @@ static inline void pack_list(__global const struct fragment *fragments, __global
 
 /* --- Which ones ---------------------------------------------------------------------------------------------------- */
 
-static inline int pack_knows_unit(const struct tables *t, __global const struct scene_unit *unit)
-{
-	return unit->env_mode != GL_COMBINE && unit->env_mode != GL_COMBINE4_NV && pack_knows_texture(t, unit);
-}
-
 /* Whether pack_shade knows all that a material asks for. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !(m->polygon_offset & 4u) && !m->unclamped &&
-	            !m->surface.relit && (!m->fog || m->fog_mode == GL_LINEAR) &&
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !m->surface.relit &&
+	            (!m->fog || m->fog_mode == GL_LINEAR) &&
 	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
 
 	for (uint i = 0; i < m->unit_count && plain; i++)
-		plain = pack_knows_unit(&a->tables, &a->tables.units[m->unit_first + i]);
+		plain = pack_knows_texture(&a->tables, &a->tables.units[m->unit_first + i]) &&
+		        pack_knows_combine(m, a->tables.units + m->unit_first, i);
 	return plain;
 }
 
@@ -298,8 +295,19 @@ static inline int pack_part(const struct shade_arguments *a, const struct clip_p
 
 /* --- Where they are ------------------------------------------------------------------------------------------------ */
 
-/* Depth, and the weights of the vertices on the screen, as setup_unsnap finds them. */
-WIDE_VECTORS static inline void pack_unsnap(struct pack *p)
+/* As setup_offset. */
+WIDE_VECTORS static inline packf pack_offset(const struct pack *p, uint bits)
+{
+	const struct pack_edges *e = &p->edges;
+	const packf first = select(p->z[0], p->z[1], e->turned), dz01 = first - select(p->z[1], p->z[0], e->turned), dz20 = p->z[2] - first;
+	const packf slope = fmax(fabs((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
+	                         fabs((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
+
+	return p->material->polygon_offset_units * setup_step(bits) + slope * p->material->polygon_offset_factor;
+}
+
+/* Depth, and the weights of the vertices on the screen, as setup_unsnap finds them. bits: of the depth buffer */
+WIDE_VECTORS static inline void pack_unsnap(struct pack *p, uint bits)
 {
 	__global const struct view *view = p->view;
 	const float middle = 0.5f - clip_origin(view);
@@ -308,7 +316,7 @@ WIDE_VECTORS static inline void pack_unsnap(struct pack *p)
 	packf px[3], py[3], at;
 
 	at = pack_plane_at(&depth, x + (float)view->sample[0] * 0.00390625f, y + (float)-view->sample[1] * 0.00390625f);
-	p->depth = pack_clamp01(at);
+	p->depth = pack_clamp01(p->material->polygon_offset & 4u ? at + pack_offset(p, bits) : at);
 	for (int k = 0; k < 3; k++) {
 		px[k] = p->px[k] - x;
 		py[k] = p->py[k] - y;
@@ -343,10 +351,6 @@ WIDE_VECTORS static inline packf pack_mix(const struct pack *p, packf a, packf b
 }
 
 /* --- Colours ------------------------------------------------------------------------------------------------------- */
-
-struct pack_color {
-	packf c[4];
-};
 
 /* All ones where the back's colours count. */
 WIDE_VECTORS static inline packi pack_side(const struct pack *p)
@@ -455,30 +459,6 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 	}
 }
 
-/* As combine_plain. */
-WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format, const struct pack_color *p, const packf *s,
-                                                          __global const float *e)
-{
-	struct pack_color out = *p;
-
-	if (mode == GL_DECAL) {
-		const packf a = format == GL_RGBA ? s[3] : (packf)(1);
-
-		for (int i = 0; i < 3 && (format == GL_RGB || format == GL_RGBA || format == GL_RED || format == GL_RG); i++)
-			out.c[i] = p->c[i] * (1.0f - a) + s[i] * a;
-		return out;
-	}
-	for (int i = 0; i < 3 && combine_has_color(format); i++)
-		out.c[i] = mode == GL_REPLACE ? s[i] : mode == GL_BLEND ? p->c[i] * (1.0f - s[i]) + e[i] * s[i] :
-		           mode == GL_ADD ? p->c[i] + s[i] : p->c[i] * s[i];
-	if (combine_has_alpha(format))
-		out.c[3] = mode == GL_REPLACE ? s[3] : mode == GL_BLEND && format == GL_INTENSITY ? p->c[3] * (1.0f - s[3]) + e[3] * s[3] :
-		           mode == GL_ADD && format == GL_INTENSITY ? p->c[3] + s[3] : p->c[3] * s[3];
-	for (int i = 0; i < 4 && mode == GL_ADD; i++)
-		out.c[i] = pack_clamp01(out.c[i]);
-	return out;
-}
-
 /* Textures at the fragments, and fog. */
 struct pack_texturing {
 	packf sample[SCENE_MAX_UNITS][4]; /* in the order of the material's units */
@@ -509,7 +489,8 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 
 			pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p, texcoord);
 		}
-		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, out->sample[i]);
+		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
+		            out->sample[i]);
 	}
 	out->fog = 1.0f;
 	if (m->fog) {
@@ -532,7 +513,9 @@ WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t,
 	for (uint i = 0; i < m->unit_count; i++) {
 		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
 
-		color = pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
+		color = unit->env_mode == GL_COMBINE ?
+		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
+		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
 	}
 	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
 		color.c[i] += secondary->c[i];
@@ -637,7 +620,7 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 	pack_edges_of(p->px, p->py, &p->edges);
 	lanes &= pack_bits(fabs(p->edges.area) > 1.0e-6f);
 	if (first_time)
-		pack_unsnap(p);
+		pack_unsnap(p, a->bits);
 	pack_weigh(p);
 	return lanes;
 }

@@ -113,12 +113,6 @@ static inline int pack_wants_surface(const struct compose_request *r)
 	                      r->float_plane[COMPOSE_Z]) != SCENE_NONE;
 }
 
-/* All lanes of a mask. */
-static inline packi pack_mask(uint lanes)
-{
-	return ((packi)((int)lanes) >> PACK_LANES & 1) != 0;
-}
-
 /* Some lanes of a number. */
 WIDE_VECTORS static inline void pack_put(packf *number, packf value, packi mask)
 {

@@ -38,6 +38,12 @@ WIDE_VECTORS static inline packi pack_int(packf x)
 	return convert_int16(select((packf)(-1.0e9f), select((packf)(1.0e9f), x, x < 1.0e9f), x > -1.0e9f));
 }
 
+/* All lanes of a mask. */
+static inline packi pack_mask(uint lanes)
+{
+	return ((packi)((int)lanes) >> PACK_LANES & 1) != 0;
+}
+
 /* --- Planes -------------------------------------------------------------------------------------------------------- */
 
 /* As struct clip_edges; area: clip_place_area */
@@ -90,8 +96,8 @@ static inline int pack_knows_texture(const struct tables *t, __global const stru
 	                                                     unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
 
 	return image->target == GL_TEXTURE_2D && image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
-	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !(unit->max_anisotropy > 1.0f) &&
-	       !unit->swizzle && (nearest || linear);
+	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !unit->swizzle &&
+	       (nearest || linear || (unit->max_anisotropy > 1.0f && unit->min_filter != GL_NEAREST));
 }
 
 /* A unit's texture where it is looked at: of each lane a level, and what of it. */
@@ -206,9 +212,14 @@ WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, pack
 	*t = pack_plane_at(&c->t, x, y) * w * q;
 }
 
-/* The level of detail, as texture_slope and texture_lod find it for a quad of pixels. */
-WIDE_VECTORS static inline packf pack_lod(__global const struct texture_image *image, __global const struct scene_unit *unit,
-                                          const struct pack_coords *coords, packi x, packi row, float middle)
+/* As struct texture_slope, of two coordinates. */
+struct pack_slope {
+	packf right_s, right_t, down_s, down_t;
+};
+
+/* As texture_slope for a quad of pixels. */
+WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_image *image, const struct pack_coords *coords, packi x, packi row,
+                                              float middle, struct pack_slope *slope)
 {
 	const packf left = convert_float16(x & ~1), top = convert_float16(row & ~1);
 	packf s, t, right_s, right_t, down_s, down_t;
@@ -216,12 +227,22 @@ WIDE_VECTORS static inline packf pack_lod(__global const struct texture_image *i
 	pack_coords_at(coords, left + middle, top + middle, &s, &t);
 	pack_coords_at(coords, left + 1.0f + middle, top + middle, &right_s, &right_t);
 	pack_coords_at(coords, left + middle, top + 1.0f + middle, &down_s, &down_t);
-	right_s = (right_s - s) * (float)image->width;
-	right_t = (right_t - t) * (float)image->height;
-	down_s = (down_s - s) * (float)image->width;
-	down_t = (down_t - t) * (float)image->height;
-	return fmin(fmax(pack_half_log2(fmax(right_s * right_s + right_t * right_t, down_s * down_s + down_t * down_t)) + unit->lod_bias,
-	                 (packf)(unit->min_lod)), (packf)(unit->max_lod));
+	slope->right_s = (right_s - s) * (float)image->width;
+	slope->right_t = (right_t - t) * (float)image->height;
+	slope->down_s = (down_s - s) * (float)image->width;
+	slope->down_t = (down_t - t) * (float)image->height;
+}
+
+/* As texture_lod. */
+WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit, const struct pack_slope *slope, int anisotropic)
+{
+	const packf right = slope->right_s * slope->right_s + slope->right_t * slope->right_t;
+	const packf down = slope->down_s * slope->down_s + slope->down_t * slope->down_t;
+	packf rho2 = fmax(right, down);
+
+	if (anisotropic)
+		rho2 = fmax(fmin(right, down), rho2 / (unit->max_anisotropy * unit->max_anisotropy));
+	return fmin(fmax(pack_half_log2(rho2) + unit->lod_bias, (packf)(unit->min_lod)), (packf)(unit->max_lod));
 }
 
 /* Linear filtering: one or two levels a lane. */
@@ -249,45 +270,4 @@ WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global co
 		return texel;
 	l = pack_level(image, fine - both);
 	return select(texel, pack_mix_8(texel, pack_level_8(t, unit, &l, s, r), convert_uint16(select((packf)(0), part, both) * 256.0f)), both);
-}
-
-/*
- * A unit's texture in each lane's pixel.
- * @param w_inv     1 / w of the corners
- * @param texcoord  theirs, [3][4]
- * @param row       from the top. middle: as in struct point_quad
- * @param out       [4]
- */
-WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __global const struct scene_unit *unit, const struct pack_edges *edges,
-                                            const packf *w_inv, packf (*texcoord)[4], packi x, packi row, float middle, packf *out)
-{
-	__global const struct texture_image *image = &tables->textures[unit->texture];
-	const packf px = convert_float16(x) + middle, py = convert_float16(row) + middle;
-	struct pack_coords coords;
-	packf over_w[3], s, t, lod = 0.0f;
-	packu texel;
-
-	coords.w_inv = pack_plane_through(edges, w_inv);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][0] * w_inv[k];
-	coords.s = pack_plane_through(edges, over_w);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][1] * w_inv[k];
-	coords.t = pack_plane_through(edges, over_w);
-	for (int k = 0; k < 3; k++)
-		over_w[k] = texcoord[k][3] * w_inv[k];
-	coords.q = pack_plane_through(edges, over_w);
-	pack_coords_at(&coords, px, py, &s, &t);
-	if (unit->min_filter == GL_NEAREST) {
-		const packu at = as_uint16(pack_wrap_nearest(unit->wrap_t, t, (int)image->height) * (int)image->width +
-		                           pack_wrap_nearest(unit->wrap_s, s, (int)image->width));
-
-		texel = pack_texels(tables->texels + image->level_first[0], at);
-	} else {
-		if (unit->min_filter != unit->mag_filter)
-			lod = pack_lod(image, unit, &coords, x, row, middle);
-		texel = pack_filter(tables, image, unit, lod, s, t);
-	}
-	for (int i = 0; i < 4; i++)
-		out[i] = convert_float16(texel >> (packu)(8 * i) & 255) * (1.0f / 255.0f);
 }

@@ -7,16 +7,22 @@
 #include "kernels/gl/fragment.h"
 #include "kernels/gl/pixel.h"
 
-/* Polygon offset (sec. 3.5.5) as llvmpipe has it, in its order of operations. The least step r is two steps of the depth buffer. */
+/* The least step r of polygon offset (sec. 3.5.5) as llvmpipe has it: two steps of the depth buffer. */
+static inline float setup_step(uint32_t bits)
+{
+	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
+
+	return depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
+}
+
+/* Polygon offset in llvmpipe's order of operations. */
 static inline float setup_offset(GLOBAL const struct scene_material *m, const struct clip_edges *e, const float *z, uint32_t bits)
 {
 	const float first = clip_first(e, z), dz01 = first - clip_second(e, z), dz20 = z[2] - first;
-	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
-	float step = depth_bits > 24u ? 2.0f / 4294967296.0f : 2.0f / (float)pixel_bits_mask(depth_bits);
 	const float slope = M_MAX(M_ABS((dz20 * e->dy01 - e->dy20 * dz01) * e->one_over_area),
 	                          M_ABS((e->dx20 * dz01 - dz20 * e->dx01) * e->one_over_area));
 
-	return m->polygon_offset_units * step + slope * m->polygon_offset_factor;
+	return m->polygon_offset_units * setup_step(bits) + slope * m->polygon_offset_factor;
 }
 
 /*

@@ -8,6 +8,7 @@
 #include "kernels/gl/tables.h"
 
 #define TEXTURE_OUTSIDE (-0x7fffffff) /* a texel position that is the border colour */
+#define TEXTURE_FAR 4194304.0f        /* texels from here on are not told apart by footprints: steps of 1 would stand still */
 
 static inline uint32_t texture_level_size(uint32_t size, uint32_t level)
 {
@@ -421,7 +422,7 @@ static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const s
 	a *= 1023.0f / f;
 	b *= 1023.0f / f;
 	e *= 1023.0f / f;
-	if (!(box_u < 64.0f && box_v < 64.0f))
+	if (!(box_u < 64.0f && box_v < 64.0f && M_ABS(u) < TEXTURE_FAR && M_ABS(v) < TEXTURE_FAR))
 		return texture_level(t, image, unit, level, 1, c, 0);
 	for (float y = M_FLOOR(v - box_v); y <= M_CEIL(v + box_v); y += 1.0f) {
 		int row = texture_place(unit->wrap_t, texture_int(y), (int)height, image->border);

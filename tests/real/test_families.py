@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # limit: 400 s
 """The same files, byte by byte, from every family of traversal kernels and their C twins: surfaces seen through each other, lines, points,
-bitmaps, mirrors, shadows, several samples a pixel."""
+bitmaps, mirrors, shadows, several samples a pixel, textures of all kinds that packs know."""
 from helpers import BUILD, SCRATCH, check, corpus, finish, record, relume, render
 
 FAMILIES = ("packets", "binary", "compressed")
@@ -11,6 +11,7 @@ PROGRAMS = {
     "shapes": (BUILD / "tests/real/shapes",),
     "pixels": (BUILD / "tests/real/pixels",),
     "samples": (BUILD / "tests/real/samples",),
+    "surfaces": (BUILD / "tests/real/surfaces",),
 }
 
 for name, program in PROGRAMS.items():
