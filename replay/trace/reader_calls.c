@@ -73,12 +73,20 @@ static void read_details(struct trace_reader *r, struct reader_call *p)
 	}
 }
 
+/* Arguments from the `first` on are not recorded so far. */
+static inline void forget_args(struct reader_call *p, uint32_t first)
+{
+	for (; first < p->call.n_args; first++)
+		p->args[first].type = TRACE_NONE;
+}
+
 /*
  * Details at p as long as they are quick ones.
+ * @param known  arguments that hold something already; those after them do when this returns
  * @param whole  receives 1: these were all; 0: read_details goes on
  * @return behind them
  */
-static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending, int *whole)
+static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t *p, struct reader_call *pending, uint32_t known, int *whole)
 {
 	const uint8_t *next, *const end = r->end;
 	const uint32_t n_args = pending->call.n_args < 0x80 ? pending->call.n_args : 0x80;
@@ -87,6 +95,8 @@ static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t
 	*whole = 0;
 	while (end - p >= READER_QUICK_BYTES + 2) {
 		if (*p == TRACE_DETAIL_ARGUMENT && p[1] < n_args) {
+			for (; known < p[1]; known++)
+				pending->args[known].type = TRACE_NONE;
 			v = &pending->args[p[1]];
 			next = p + 2;
 		} else if (*p == TRACE_DETAIL_RESULT) {
@@ -97,22 +107,27 @@ static inline const uint8_t *quick_details(struct trace_reader *r, const uint8_t
 			p += *whole;
 			break;
 		}
-		next = *next == TRACE_ARRAY ? reader_quick_array(r, next, &pending->arena, v) : reader_quick_scalar(r, next, v);
+		if (*next == TRACE_FLOAT)
+			next = reader_quick_float(next + 1, v);
+		else if (*next == TRACE_ARRAY)
+			next = reader_quick_array(r, next, &pending->arena, v);
+		else
+			next = reader_quick_scalar(r, next, v);
 		if (!next)
 			break;
+		known += v == &pending->args[known];
 		p = next;
 	}
+	forget_args(pending, known);
 	return p;
 }
 
 /* ---- events ---- */
 
-static struct reader_call *new_pending(struct trace_reader *r)
+static struct reader_call *another_pending(struct trace_reader *r)
 {
 	struct reader_call **grown, *p;
 
-	if (r->entered && !r->entered->in_use)
-		return r->entered;
 	for (size_t i = 0; i < r->n_pending; i++)
 		if (!r->pending[i]->in_use)
 			return r->entered = r->pending[i];
@@ -132,6 +147,11 @@ static struct reader_call *new_pending(struct trace_reader *r)
 	return r->entered = p;
 }
 
+static inline struct reader_call *new_pending(struct trace_reader *r)
+{
+	return r->entered && !r->entered->in_use ? r->entered : another_pending(r);
+}
+
 void reader_release_call(struct reader_call *p)
 {
 	if (p->arena.current)
@@ -139,13 +159,10 @@ void reader_release_call(struct reader_call *p)
 	p->in_use = 0;
 }
 
-static void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
+/* A call whose arguments hold nothing yet that can be looked at. */
+static inline void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
 {
-	const uint32_t n = sig->n_args;
-
-	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = n, .args = p->args, .ret.type = TRACE_NONE };
-	for (uint32_t i = 0; i < n; i++)
-		p->args[i].type = TRACE_NONE;
+	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = sig->n_args, .args = p->args, .ret.type = TRACE_NONE };
 }
 
 /* The details of an ENTER event, from r->p on, and its end. */
@@ -173,6 +190,7 @@ static void read_enter(struct trace_reader *r)
 	if (!sig)
 		return;
 	begin_call(p, thread, sig);
+	forget_args(p, 0);
 	end_enter(r, p);
 }
 
@@ -220,7 +238,7 @@ static struct reader_call *quick_call(struct trace_reader *r)
 	if (!entered)
 		return NULL;
 	begin_call(entered, thread, sig);
-	p = quick_details(r, p, entered, &whole);
+	p = quick_details(r, p, entered, 0, &whole);
 	if (whole) {
 		entered->call.number = r->next_number++;
 		entered->in_use = 1;
@@ -234,7 +252,7 @@ static struct reader_call *quick_call(struct trace_reader *r)
 	r->p = p;
 	if (r->end - p < READER_QUICK_BYTES || *p != TRACE_LEAVE || !(p = reader_quick_uint(p + 1, &number)) || number != entered->call.number)
 		return NULL;
-	p = quick_details(r, p, entered, &whole);
+	p = quick_details(r, p, entered, entered->call.n_args, &whole);
 	r->p = p;
 	if (!whole)
 		read_details(r, entered);

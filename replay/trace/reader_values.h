@@ -17,6 +17,14 @@ void reader_value(struct trace_reader *r, struct arena *a, struct trace_value *v
  */
 #define READER_QUICK_BYTES 32 /* more than any value without items takes: tag, two numbers and a tag between them */
 
+/** A float at p, behind its tag. @return behind it */
+static inline const uint8_t *reader_quick_float(const uint8_t *p, struct trace_value *v)
+{
+	*v = (struct trace_value){ .type = TRACE_FLOAT };
+	memcpy(&v->f, p, sizeof(v->f));
+	return p + sizeof(v->f);
+}
+
 /** A quick value at p, of which READER_QUICK_BYTES can be read. @return behind it; NULL: not a quick one, v is untouched */
 static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, const uint8_t *p, struct trace_value *v)
 {
@@ -32,9 +40,7 @@ static inline const uint8_t *reader_quick_scalar(const struct trace_reader *r, c
 		bits = 1;
 		break;
 	case TRACE_FLOAT:
-		*v = (struct trace_value){ .type = TRACE_FLOAT };
-		memcpy(&v->f, p, 4);
-		return p + 4;
+		return reader_quick_float(p, v);
 	case TRACE_DOUBLE:
 		*v = (struct trace_value){ .type = TRACE_DOUBLE };
 		memcpy(&v->d, p, 8);
