@@ -103,11 +103,15 @@ static void add_vertex(struct gls_exec *x, const struct gls_state *st, const flo
 	g->n_vertices = at + 1;
 }
 
+int gls_takes_vertices(const struct gls_exec *x, const struct gls_state *st)
+{
+	return st->begin_mode && x->want;
+}
+
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4])
 {
-	if (!st->begin_mode || !x->want)
-		return; /* outside Begin/End the result is undefined (sec. 2.6.3); Mesa draws nothing */
-	add_vertex(x, st, position);
+	if (gls_takes_vertices(x, st))
+		add_vertex(x, st, position);
 }
 
 /* ---- Begin and End ---- */

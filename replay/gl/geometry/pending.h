@@ -15,7 +15,9 @@ void gls_flush(struct gls_exec *x);
 
 /** Set a current attribute. */
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4]);
-/** A vertex of the open Begin; ignored outside of one. */
+/** 0: nothing draws a vertex that comes now: no Begin is open (undefined, sec. 2.6.3; Mesa draws nothing), or no frame is wanted. */
+int gls_takes_vertices(const struct gls_exec *x, const struct gls_state *st);
+/** A vertex of the open Begin; ignored where gls_takes_vertices says so. */
 void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4]);
 
 /** mode: a GL token. Errors as glBegin has them. */

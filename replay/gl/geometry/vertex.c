@@ -101,6 +101,8 @@ GLS_FAMILY(glVertex, VERTEX)
 {
 	float value[4];
 
+	if (!gls_takes_vertices(x, st))
+		return;
 	read_components(x, c, 0, 0, value);
 	gls_vertex(x, st, value);
 }
@@ -110,7 +112,7 @@ GLS_FAMILY(glVertexAttrib, VERTEX)
 {
 	float value[4];
 
-	if (arg_u(c, 0) != 0)
+	if (arg_u(c, 0) != 0 || !gls_takes_vertices(x, st))
 		return;
 	read_components(x, c, 1, gls_commands[x->command].suffix.normalized, value);
 	gls_vertex(x, st, value);
