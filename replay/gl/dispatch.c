@@ -45,16 +45,6 @@ static void dispatch(struct gls_exec *x, const struct call *c, uint32_t command,
 	gls_handlers[command](x, st, c);
 }
 
-/* Run a command from a list, or as part of another one. */
-static void dispatch_nested(struct gls_exec *x, const struct call *c, uint32_t command, const struct gls_pixel_store *unpack)
-{
-	const uint32_t outer = x->command;
-
-	if (gls_commands[command].kind)
-		dispatch(x, c, command, unpack);
-	x->command = outer;
-}
-
 static int is_kept_in_lists(uint32_t kind)
 {
 	return kind == GLS_KIND_VERTEX || kind == GLS_KIND_INSIDE || kind == GLS_KIND_STATE || kind == GLS_KIND_MATRIX;
@@ -131,7 +121,7 @@ int gls_exec_create(struct gls_exec **out, const char *path)
 	if (!x)
 		return err_report(ERR_SYSTEM, path, "out of memory");
 	x->path = path;
-	x->dispatch = dispatch_nested;
+	x->dispatch = dispatch;
 	x->counts.calls = calloc(n_gls_commands, sizeof(*x->counts.calls));
 	x->counts.unsupported = calloc(n_gls_commands, sizeof(*x->counts.unsupported));
 	x->counts.errors = calloc(n_gls_commands, sizeof(*x->counts.errors));

@@ -243,6 +243,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 	op->command = (uint16_t)cursor_u64(&l->in);
 	op->n = (uint32_t)cursor_u64(&l->in);
 	if (op->command >= n_gls_commands || op->form > GLS_OP_MESH || op->n > (uint64_t)(l->in.end - l->in.p) / 4 ||
+	    (op->form != GLS_OP_MESH && !gls_commands[op->command].kind) || /* nothing runs it */
 	    (op->form != GLS_OP_MESH && op->form != GLS_OP_CALL && op->n > 16)) /* what unpack_call has room for */
 		l->in.failed = 1;
 	if (op->form == GLS_OP_CALL) {

@@ -99,7 +99,7 @@ struct gls_exec {
 	int unswapped;                /* 1: it ended without a swap */
 	uint64_t serial;              /* of the last scene begun */
 
-	gls_dispatcher *dispatch;     /* how handlers reach gl/dispatch.c, which stands above them */
+	gls_dispatcher *dispatch;     /* how handlers reach gl/dispatch.c, which stands above them; `command` is then what was run */
 	struct gls_exec *assembler;   /* the machine in which lists are assembled (list_assemble.h); NULL: none yet */
 
 	struct gls_pending pending;

@@ -123,6 +123,7 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 	struct trace_value args[GLS_MAX_PACKED + 1];
 	const struct gls_effect *effect;
 	const struct gls_op *ops;
+	const uint32_t command = x->command;
 	uint32_t n;
 	struct call c;
 
@@ -148,6 +149,7 @@ static void call_list(struct gls_exec *x, struct gls_state *st, uint32_t name)
 			gls_op_unpack(op, args, &c);
 		}
 		x->dispatch(x, &c, op->command, op->unpack);
+		x->command = command; /* draws are those of the command that called the list */
 	}
 	if (--x->list_depth == 0)
 		x->drawn_list = 0;
