@@ -22,20 +22,11 @@ double gls_value_double(const struct trace_value *v)
 	}
 }
 
-int64_t gls_value_int(const struct trace_value *v)
+int64_t gls_value_truncated(const struct trace_value *v)
 {
-	double d;
+	const double d = gls_value_double(v);
 
-	switch (v->type) {
-	case TRACE_SINT:
-	case TRACE_ENUM:
-		return v->i;
-	case TRACE_UINT: case TRACE_BITMASK: case TRACE_OPAQUE:
-		return (int64_t)v->u;
-	default:
-		d = gls_value_double(v);
-		return d >= -9e18 && d <= 9e18 ? (int64_t)d : 0;
-	}
+	return d >= -9e18 && d <= 9e18 ? (int64_t)d : 0;
 }
 
 /* The elements of an array argument, or one number; none where it is neither. */

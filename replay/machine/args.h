@@ -10,7 +10,13 @@ struct gls_exec;
 
 /** Any number (numbers, enums, booleans, masks, pointers) as the type wanted; 0 if the value is none. */
 double gls_value_double(const struct trace_value *v);
-int64_t gls_value_int(const struct trace_value *v);
+int64_t gls_value_truncated(const struct trace_value *v);
+static inline int64_t gls_value_int(const struct trace_value *v)
+{
+	const uint32_t whole = 1u << TRACE_SINT | 1u << TRACE_UINT | 1u << TRACE_ENUM | 1u << TRACE_BITMASK | 1u << TRACE_OPAQUE;
+
+	return whole >> ((uint32_t)v->type & 31) & 1 ? v->i : gls_value_truncated(v);
+}
 
 extern const struct trace_value gls_no_value; /* stands for a missing argument */
 

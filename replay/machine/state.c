@@ -22,11 +22,11 @@ int gls_is_face(uint32_t token)
 unsigned gls_face_colors(uint32_t parameter)
 {
 	switch (parameter) {
-	case GL_AMBIENT: return 1;
-	case GL_DIFFUSE: return 2;
-	case GL_AMBIENT_AND_DIFFUSE: return 3;
-	case GL_SPECULAR: return 4;
-	case GL_EMISSION: return 8;
+	case GL_AMBIENT: return GLS_AMBIENT;
+	case GL_DIFFUSE: return GLS_DIFFUSE;
+	case GL_AMBIENT_AND_DIFFUSE: return GLS_AMBIENT | GLS_DIFFUSE;
+	case GL_SPECULAR: return GLS_SPECULAR;
+	case GL_EMISSION: return GLS_EMISSION;
 	default: return 0;
 	}
 }
@@ -38,9 +38,12 @@ unsigned gls_tracked_colors(const struct gls_lighting *l, unsigned side)
 
 void gls_set_face_colors(struct scene_face *face, unsigned colors, const float value[4])
 {
-	float *const places[4] = { face->ambient, face->diffuse, face->specular, face->emission };
-
-	for (unsigned i = 0; i < 4; i++)
-		if (colors >> i & 1)
-			memcpy(places[i], value, 16);
+	if (colors & GLS_AMBIENT)
+		memcpy(face->ambient, value, sizeof(face->ambient));
+	if (colors & GLS_DIFFUSE)
+		memcpy(face->diffuse, value, sizeof(face->diffuse));
+	if (colors & GLS_SPECULAR)
+		memcpy(face->specular, value, sizeof(face->specular));
+	if (colors & GLS_EMISSION)
+		memcpy(face->emission, value, sizeof(face->emission));
 }

@@ -321,7 +321,8 @@ struct gls_matrix_stack *gls_current_stack(struct gls_state *st);
 
 /** 1 for FRONT, BACK and FRONT_AND_BACK. */
 int gls_is_face(uint32_t token);
-/** Colours of a face that a material parameter names: bit 0 ambient, 1 diffuse, 2 specular, 3 emission. @return 0: none */
+enum { GLS_AMBIENT = 1, GLS_DIFFUSE = 2, GLS_SPECULAR = 4, GLS_EMISSION = 8 };
+/** Colours of a face that a material parameter names. @return 0: none */
 unsigned gls_face_colors(uint32_t parameter);
 /** Those that follow the current colour where COLOR_MATERIAL is enabled (GL 2.1 sec. 2.14.3). @param side  0 front, 1 back */
 unsigned gls_tracked_colors(const struct gls_lighting *l, unsigned side);
