@@ -130,7 +130,7 @@ static void forget_drawn(struct gls_exec *x, struct gls_surface *d)
 	f->room.draws = old->room.draws;
 	old->out->draws = NULL;
 	f->next_draw = old->next_draw;
-	f->cleared = old->cleared;
+	f->known = old->known;
 	f->colored = old->colored;
 	d->frame = f;
 	free_frame(old);
@@ -191,7 +191,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		goto fail;
 	s->n_instances++;
 	s->kd_tree |= st->kd_tree;
-	s->needs_previous |= looks_at(&s->materials[f->material]) & ~f->cleared ? 1u : 0;
+	f->looked |= gls_known_lacks(&f->known, looks_at(&s->materials[f->material]), s->views[f->view].scissor);
 	f->colored |= target->colored != 0;
 	return 1;
 fail:
@@ -212,7 +212,6 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	struct gls_frame *f;
 	struct scene_clear clear;
 	struct scene *s;
-	int whole;
 
 	memset(&clear, 0, sizeof(clear));
 	clear.buffers = buffers;
@@ -245,11 +244,8 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	}
 	s->clears[s->n_clears++] = clear;
 	f->colored |= clear.buffers & 1 && clear.color_mask;
-	whole = covers(d, &clear);
-	if (whole && (clear.color_mask & 7) == 7)
-		f->cleared |= clear.buffers & 1;
-	if (whole)
-		f->cleared |= clear.buffers & ((clear.stencil_mask & 255) == 255 ? 6u : 2u);
+	gls_known_clear(&f->known, clear.buffers & (((clear.color_mask & 7) == 7 ? 1u : 0) | ((clear.stencil_mask & 255) == 255 ? 6u : 2u)),
+	                (const uint32_t[2]){ d->width, d->height }, clear.scissor);
 }
 
 /* ---- a frame's beginning and end ---- */
@@ -339,9 +335,8 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	s->samples = surface->samples;
 	s->floats = surface->floats;
 	s->samples_from_below = surface->samples_from_below;
-	if (!(f->cleared & 1))
-		s->needs_previous = 1;
-	s->keeps_depth = s->depth_bits && x->st && x->st->depth_used && !(f->cleared & 2);
+	s->needs_previous = f->looked || !(f->known.whole & 1);
+	s->keeps_depth = s->depth_bits && x->st && x->st->depth_used && !(f->known.whole & 2);
 }
 
 struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)
@@ -352,10 +347,16 @@ struct scene *gls_frame_scene(struct gls_exec *x, struct gls_surface *surface)
 	return surface->frame->out;
 }
 
+uint32_t gls_frame_looked(const struct gls_surface *surface)
+{
+	return surface->frame->looked;
+}
+
 void gls_frame_all_known(struct gls_surface *surface)
 {
 	surface->frame->out->needs_previous = 0;
-	surface->frame->cleared |= 1;
+	surface->frame->looked = 0;
+	surface->frame->known.whole |= 1;
 }
 
 void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface)
@@ -370,10 +371,30 @@ uint64_t gls_frame_events(const struct gls_surface *surface)
 	return f ? (uint64_t)f->out->n_instances + f->out->n_clears : 0;
 }
 
-struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events)
+const struct gls_picture *gls_frame_snapshot(const struct gls_surface *surface, const struct gls_area *area)
 {
-	*events = &surface->frame->snapshot_events;
-	return &surface->frame->snapshot;
+	const struct gls_frame *f = surface->frame;
+
+	return f->snapshot && f->snapshot_events == gls_frame_events(surface) && (!f->snapshot_in_part || gls_frame_knows(surface, area)) ?
+	       f->snapshot : NULL;
+}
+
+void gls_frame_keep_snapshot(struct gls_surface *surface, struct gls_picture *p, int in_part)
+{
+	struct gls_frame *f = surface->frame;
+
+	gls_picture_release(f->snapshot);
+	f->snapshot = p;
+	f->snapshot_events = gls_frame_events(surface);
+	f->snapshot_in_part = in_part;
+}
+
+/* Tests of draws may have looked anywhere; colours count only where they are read. */
+int gls_frame_knows(const struct gls_surface *surface, const struct gls_area *area)
+{
+	const struct gls_frame *f = surface->frame;
+
+	return area && !(f->looked & 6) && !gls_known_lacks(&f->known, area->buffers, area->rect);
 }
 
 struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface)

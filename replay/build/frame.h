@@ -19,6 +19,7 @@ struct gls_surface {
 	struct scene *before;        /* or a reference to the scene that shows it; at most one of the two is there */
 	int deferred;                /* 1: some events belong to earlier frames that nobody wanted */
 	int is_front;                /* 1: a front buffer beside a back buffer */
+	uint32_t lacks;              /* as gls_picture's, of `before` */
 	int skipped;                 /* 1: neither is there, because skipped frames drew to it */
 };
 
@@ -26,6 +27,12 @@ struct gls_surface {
 struct gls_target {
 	struct gls_surface *surface;
 	int colored; /* 0: colours go to another surface, which shares this one's depth and stencil */
+};
+
+/* What is read of a surface. */
+struct gls_area {
+	int32_t rect[4];  /* x, y, width, height */
+	uint32_t buffers; /* bits as in scene_clear */
 };
 
 /* What is drawn. */
@@ -73,13 +80,19 @@ struct scene *gls_frame_take(struct gls_exec *x, struct gls_surface *surface);
 int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gls_frame *drawn, const float *depth);
 /** Forget all events. */
 void gls_frame_drop(struct gls_surface *surface);
+/** Buffers, bits as in scene_clear, that some draw looked at where clears had not set them. The surface must have a frame. */
+uint32_t gls_frame_looked(const struct gls_surface *surface);
 /** Nothing from before the events shows any more. */
 void gls_frame_all_known(struct gls_surface *surface);
 /** Give the scene another serial number: what was rendered of it is not looked for. */
 void gls_frame_renew(struct gls_exec *x, struct gls_surface *surface);
 /** How many events there are. */
 uint64_t gls_frame_events(const struct gls_surface *surface);
-/** Where the picture of the first *events events is kept; the surface must have a frame. */
-struct gls_picture **gls_frame_snapshot(struct gls_surface *surface, uint64_t **events);
+/** 1 where its events alone tell the pixels of an area (NULL: of everything). The surface must have a frame. */
+int gls_frame_knows(const struct gls_surface *surface, const struct gls_area *area);
+/** The picture of all events that was kept and holds in an area (NULL: everywhere), or NULL. Borrowed. The surface must have a frame. */
+const struct gls_picture *gls_frame_snapshot(const struct gls_surface *surface, const struct gls_area *area);
+/** Keep one. @param p  a reference, taken; NULL: none  @param in_part  1: it holds only in areas that gls_frame_knows */
+void gls_frame_keep_snapshot(struct gls_surface *surface, struct gls_picture *p, int in_part);
 /** One more reference. */
 struct scene *gls_scene_reference(struct scene *scene);

@@ -11,6 +11,7 @@
 #include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
+#include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
@@ -110,7 +111,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 		return 0;
 	missing = x->feedback.missing ? gls_texture_missing(t) : 0;
 	if (missing && x->feedback.supply)
-		x->feedback.rewind = 1;
+		gls_rewind(x, "a texture has what they drew");
 	f->out->shows_earlier |= missing && missing <= x->frame;
 	*out = unit->value;
 	out->texture = gls_frame_texture(x, f, image);

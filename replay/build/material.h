@@ -8,6 +8,7 @@
 
 #include "base/table.h"
 #include "replay/build/frame.h"
+#include "replay/build/known.h"
 
 /* The events of a surface so far; for frame.c and material.c. */
 struct gls_frame {
@@ -18,10 +19,12 @@ struct gls_frame {
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;
 	uint32_t colored; /* 1: some event may change colours */
-	uint32_t cleared; /* buffers wholly cleared so far, bits as in scene_clear */
+	uint32_t looked;  /* buffers that some draw looked at where they were not known, bits as in scene_clear */
+	struct gls_known known; /* by clears so far */
 	uint64_t serial;  /* of the scene: what meshes and images remember their slots by */
 	struct gls_picture *snapshot; /* a reference: what the first snapshot_events events make, or NULL */
 	uint64_t snapshot_events;
+	int snapshot_in_part;         /* 1: it holds only where it is known */
 };
 
 /** Projection, viewport and scissor. */

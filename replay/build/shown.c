@@ -41,7 +41,8 @@ int gls_frame_precede(struct gls_exec *x, struct gls_surface *surface, struct gl
 		return 0;
 	}
 	drawn->last = NULL;
-	drawn->cleared = 1 | old->cleared;
+	drawn->known = old->known;
+	drawn->known.whole |= 1;
 	drawn->colored = 1;
 	surface->frame = drawn;
 	gls_frame_drop(&(struct gls_surface){ .frame = old });

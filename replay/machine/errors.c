@@ -23,6 +23,18 @@ void gls_unsupported(struct gls_exec *x, const char *why)
 	x->counts.why[x->command] = why;
 }
 
+void gls_rewind(struct gls_exec *x, const char *why)
+{
+	struct gls_feedback *f = &x->feedback;
+
+	if (!f->rewind) {
+		f->rewind_why = why;
+		f->rewind_command = x->command;
+		f->rewind_call = x->call ? x->call->number : 0;
+	}
+	f->rewind = 1;
+}
+
 void gls_out_of_memory(struct gls_exec *x, size_t bytes)
 {
 	if (!x->failed)

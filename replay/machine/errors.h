@@ -23,6 +23,9 @@ static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wr
 /** Count the current call as not done. why: the part that is missing, a static string. */
 void gls_unsupported(struct gls_exec *x, const char *why);
 
+/** The frame needs pixels of skipped frames: the replay starts again (gls_feedback). why: what shows them, a static string. */
+void gls_rewind(struct gls_exec *x, const char *why);
+
 /** Scratch memory of n bytes, valid until the next call of this; NULL: out of memory (reported). */
 void *gls_scratch(struct gls_exec *x, size_t n);
 /** An object of n bytes, all zero, under its name in a table, which owns it. @return NULL: out of memory (reported) */

@@ -63,6 +63,9 @@ struct gls_feedback {
 	int missing;       /* 1: some texture lacks pixels that were drawn in skipped frames */
 	int shows_through; /* 1: some frame showed what was there before it */
 	int rewind;        /* 1: a frame needs pixels of skipped frames: the replay must build all frames from the start */
+	const char *rewind_why; /* what it needs them for; a static string */
+	uint32_t rewind_command; /* the call that found out */
+	uint64_t rewind_call;    /* its number */
 };
 
 struct gls_exec;

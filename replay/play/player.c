@@ -1,14 +1,18 @@
 #include "replay/play/player.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/progress.h"
 #include "replay/build/mesh.h"
 #include "replay/gl/dispatch.h"
 #include "replay/machine/commands.h"
 #include "replay/gl/surface/frames.h"
 #include "replay/gl/texture/image.h"
+
+#define TELL_S 10 /* between lines that tell how far a replay from the start has come */
 
 int player_open(struct player *p, const char *path)
 {
@@ -78,6 +82,15 @@ int player_try_frame(struct player *p, int want, struct scene **scene)
 	return 1;
 }
 
+/* Why a frame takes so long, and what it waits for. */
+static void tell_rewind(const struct player *p, uint64_t frame)
+{
+	const struct gls_feedback *f = &p->exec->feedback;
+
+	err_warn(p->path, "frame %" PRIu64 " needs the pixels of frames before it (%s, found at call %" PRIu64 ", %s); playing them from frame 0",
+	         frame, f->rewind_why, f->rewind_call, gls_commands[f->rewind_command].name);
+}
+
 /* Start again, and build every frame. */
 static int rewind_and_build(struct player *p)
 {
@@ -101,15 +114,23 @@ static int rewind_and_build(struct player *p)
 int player_next_frame(struct player *p, int want, struct scene **scene)
 {
 	uint64_t frame = p->exec->frame;
+	double told = progress_clock_s();
 	int rc;
 
 	*scene = NULL;
 	rc = player_try_frame(p, want, scene);
 	/* A second time where only the first replay finds out that the program looks at front buffers. */
 	for (int i = 0; i < 2 && rc == 1 && p->exec->feedback.rewind; i++) {
+		if (i == 0)
+			tell_rewind(p, frame);
 		rc = rewind_and_build(p);
-		while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame)
+		while (rc == 1 && !p->exec->feedback.rewind && p->exec->frame <= frame) {
 			rc = player_try_frame(p, want && p->exec->frame == frame, scene);
+			if (progress_clock_s() - told > TELL_S) {
+				err_warn(p->path, "played %" PRIu64 " of the %" PRIu64 " frames before frame %" PRIu64, p->exec->frame, frame, frame);
+				told = progress_clock_s();
+			}
+		}
 	}
 	return rc;
 }

@@ -255,6 +255,124 @@ START_TEST(test_clear_drops_what_it_covers)
 }
 END_TEST
 
+/* A scissor, a clear of it, and a draw in it. */
+static void view(struct gl *gl, int x, int width)
+{
+	gl_call(gl, "glEnable", "e", GL_SCISSOR_TEST);
+	gl_call(gl, "glScissor", "iiii", x, 0, width, 64);
+	gl_call(gl, "glClear", "m", ALL);
+	triangle(gl);
+}
+
+/* Clears of parts that together reach everything: what skipped frames left is not asked for. One column less, and it is. */
+START_TEST(test_clears_of_parts)
+{
+	for (int gap = 0; gap < 2; gap++) {
+		struct painter p = { { 9, 9, 9, 9 }, 1, 0, 0, 0 };
+		struct gl gl = open_deep(&p);
+
+		gls_frame_skip(gl.x);
+		gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+		view(&gl, 0, 32);
+		view(&gl, 32 + gap, 32 - gap);
+		gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+		if (!gap) {
+			struct scene *s = gls_frame_finish(gl.x);
+
+			ck_assert_uint_eq(s->needs_previous, 0);
+			ck_assert_uint_eq(p.asked, 0);
+			scene_release(&s);
+		} else {
+			ck_assert_ptr_null(gls_frame_finish(gl.x));
+		}
+		ck_assert_int_eq(gl.x->feedback.rewind, gap);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+/* A part that was cleared is read: the rest may be anything. What is read beside it may not, and neither may depth that tests looked at. */
+START_TEST(test_parts_are_read)
+{
+	static const struct { int width, depth_test, rewinds; } cases[] = { { 16, 0, 0 }, { 32, 0, 0 }, { 33, 0, 1 }, { 16, 1, 1 } };
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+		struct painter p = { { 10, 20, 30, 255 }, 1, 0, 0, 0 };
+		struct gl gl = open_deep(&p);
+
+		gls_frame_skip(gl.x);
+		view(&gl, 0, 32);
+		gl_call(&gl, "glDisable", "e", GL_SCISSOR_TEST);
+		if (cases[i].depth_test)
+			gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+		triangle(&gl);
+		gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, cases[i].width, 8, 0);
+		ck_assert_msg(gl.x->feedback.rewind == cases[i].rewinds, "case %zu", i);
+		if (!cases[i].rewinds) { /* the picture is no answer to who looks at all of it */
+			gl_call(&gl, "glCopyTexImage2D", "eieiiiii", GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 64, 64, 0);
+			ck_assert_int_eq(gl.x->feedback.rewind, 1);
+		}
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+/* A skipped frame copied to part of a texture: who copies to all of that part makes the texture whole again, and nobody else. */
+START_TEST(test_part_of_texture)
+{
+	static const struct { int x, width, rewinds; } cases[] = { { 0, 16, 0 }, { 0, 32, 0 }, { 0, 15, 1 }, { 1, 16, 1 } };
+
+	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+		struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
+		struct gl gl = open_with(&p);
+		uint8_t texels[64 * 64 * 3] = { 0 };
+
+		gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 64, 64, 0, GL_RGB, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+		gl.x->want = 0;
+		gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 8, 0, 0, 0, 8, 8);
+		gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, 0, 0, 0, 0, 8, 8);
+		gls_frame_skip(gl.x);
+		gl.x->want = 1;
+		gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+		gl_call(&gl, "glCopyTexSubImage2D", "eiiiiiii", GL_TEXTURE_2D, 0, cases[i].x, 0, 0, 0, cases[i].width, 8);
+		textured_triangle(&gl);
+		ck_assert_msg(gl.x->feedback.rewind == cases[i].rewinds, "case %zu", i);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
+/* Depth that skipped frames left, kept by a frame that does not look at it, is still not known to the next one. */
+START_TEST(test_skipped_depth)
+{
+	for (int cleared = 0; cleared < 2; cleared++) {
+		struct painter p = { { 9, 9, 9, 9 }, 0, 0, 0, 0 };
+		struct gl gl = open_deep(&p);
+		struct scene *s;
+
+		gl.x->want = 0;
+		gl_call(&gl, "glClear", "m", ALL);
+		gls_frame_skip(gl.x);
+		gl.x->want = 1;
+		gl_call(&gl, "glClear", "m", cleared ? ALL : GL_COLOR_BUFFER_BIT);
+		triangle(&gl);
+		s = gl_swap(&gl);
+		scene_release(&s);
+		gl_call(&gl, "glEnable", "e", GL_DEPTH_TEST);
+		gl_call(&gl, "glClear", "m", GL_COLOR_BUFFER_BIT);
+		p.unknown = 1;
+		triangle(&gl);
+		gl_call(&gl, "glXSwapBuffers", "pu", (uint64_t)1, 7u);
+		s = gls_frame_finish(gl.x);
+		ck_assert_int_eq(gl.x->feedback.rewind, !cleared);
+		ck_assert_int_eq(s != NULL, cleared);
+		if (s)
+			scene_release(&s);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
 /* Clears that leave something of what was drawn leave all of it in the scene. */
 START_TEST(test_clear_that_leaves_something)
 {
@@ -368,4 +486,4 @@ END_TEST
 
 GL_TESTS("feedback", test_clear_drops_what_it_covers, test_clear_that_leaves_something, test_clear_keeps_stencil,
          test_clear_after_reading, test_rasterizer_discard, test_copy_tex_image, test_copy_tex_sub_image, test_previous_frame, test_skipped_frames, test_drawables,
-         test_no_supplier)
+         test_no_supplier, test_clears_of_parts, test_parts_are_read, test_part_of_texture, test_skipped_depth)

@@ -80,7 +80,7 @@ static struct scene *terminate(struct gl *gl)
 static const struct scene_picture *read_buffer(struct gl *gl, uint32_t buffer)
 {
 	gl_call(gl, "glReadBuffer", "e", buffer);
-	return gls_read_screen(gl->x, gl_state(gl));
+	return gls_read_screen(gl->x, gl_state(gl), NULL);
 }
 
 /* A swap shows the back buffer; what comes after in the back buffer is not at the front. */

@@ -132,12 +132,12 @@ GLS_HANDLER(glAccum, STATE)
 	}
 	if (!(d = open_buffer(x, st, &area)) || area.x0 >= area.x1 || area.y0 >= area.y1)
 		return;
-	if ((op == GL_ACCUM || op == GL_LOAD) && !(p = gls_read_screen(x, st)))
+	if ((op == GL_ACCUM || op == GL_LOAD) && !(p = gls_read_screen(x, st, NULL)))
 		return;
 	if (op == GL_LOAD && is_whole(d, &area))
 		d->accum_missing = 0;
 	if (op == GL_RETURN && d->accum_missing && x->feedback.supply)
-		x->feedback.rewind = 1;
+		gls_rewind(x, "the accumulation buffer has what they put there");
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)

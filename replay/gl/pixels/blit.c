@@ -71,7 +71,7 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	if (arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1))
 		gls_unsupported(x, "linear filtering: the nearest pixel is taken");
 	drawn = gls_shown_by_blit(x, st);
-	p = gls_read_screen(x, st);
+	p = gls_read_screen(x, st, NULL);
 	if (p && mask & GL_COLOR_BUFFER_BIT)
 		blit_one(x, st, &b, gls_color_pixels(x, st), p);
 	gls_shown_end(x, st, drawn);

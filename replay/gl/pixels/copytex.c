@@ -49,22 +49,62 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 		}
 }
 
+/* Make a part hold the place of a copy, beside what it holds already. */
+static void unite(uint32_t part[4], const struct copy *c, int is_first)
+{
+	for (int k = 0; k < 2; k++) {
+		int64_t from = c->to[k], to = from + c->size[k];
+
+		if (!is_first) {
+			from = part[k] < from ? part[k] : from;
+			to = (int64_t)part[k] + part[k + 2] > to ? (int64_t)part[k] + part[k + 2] : to;
+		}
+		part[k] = (uint32_t)from;
+		part[k + 2] = (uint32_t)(to - from);
+	}
+}
+
+/* What a copy would have written, in a level of one layer. */
+static void lose_part(struct gls_level *l, const struct copy *c, uint32_t missing)
+{
+	int is_first = !l->missing;
+
+	if (l->depth != 1 || (!is_first && !l->missing_part[2])) {
+		gls_level_lose(l, missing);
+		return;
+	}
+	unite(l->missing_part, c, is_first);
+	l->missing = missing;
+}
+
+/* 1 where a copy writes all that is missing. */
+static int fills_missing(const struct gls_level *l, const struct copy *c)
+{
+	uint32_t all[4] = { 0, 0, l->width, l->height };
+	const uint32_t *part = l->missing_part[2] ? l->missing_part : all;
+
+	return l->depth == 1 && c->to[0] <= part[0] && c->to[1] <= part[1] && c->to[0] + c->size[0] >= (int64_t)part[0] + part[2] &&
+	       c->to[1] + c->size[1] >= (int64_t)part[1] + part[3];
+}
+
 /* Copy to a level. Where no pixels are to be had, the level is missing from now on. */
 static void copy_screen(struct gls_exec *x, struct gls_state *st, struct gls_texture *t, unsigned face, int64_t level,
                         const struct copy *c)
 {
-	const struct scene_picture *p = gls_read_screen(x, st);
 	struct gls_level *l = &t->levels[face][level];
+	const struct gls_area area = { { (int32_t)c->from[0], (int32_t)c->from[1], (int32_t)c->size[0], (int32_t)c->size[1] },
+		                       l->base_format == GL_DEPTH_COMPONENT ? gls_level_stencil(l) ? 6u : 2u : 1u };
+	const struct scene_picture *p = gls_read_screen(x, st, &area);
 
 	if (p) {
 		copy_pixels(st, p, c, l);
 	} else if (!x->want || !x->feedback.supply) {
-		l->missing = (uint32_t)x->frame + 1;
+		lose_part(l, c, (uint32_t)x->frame + 1);
 		x->feedback.missing = 1;
 	}
 	gls_texture_changed(t);
-	if (p && c->to[0] == 0 && c->to[1] == 0 && c->size[0] == l->width && c->size[1] == l->height && l->depth == 1)
-		l->missing = 0;
+	if (p && fills_missing(l, c))
+		gls_level_lose(l, 0);
 	gls_texture_level_changed(x, t, face, level);
 }
 

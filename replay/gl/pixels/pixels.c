@@ -158,7 +158,9 @@ GLS_HANDLER(glCopyPixels, STATE)
 	if (kind == SCENE_COLOR_PIXELS)
 		kind = gls_color_pixels(x, st);
 	bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
-	p = gls_read_screen(x, st);
+	p = gls_read_screen(x, st, &(struct gls_area){ { (int32_t)x0, (int32_t)y0, (int32_t)width, (int32_t)height },
+	                                               arg_u(c, 4) == GL_DEPTH_STENCIL ? 6u : kind == SCENE_DEPTH_PIXELS ? 2u :
+	                                               kind == SCENE_STENCIL_PIXELS ? 4u : 1u });
 	texels = p ? gls_scratch(x, (size_t)width * height * (bytes + 1)) : NULL;
 	if (!texels)
 		return;

@@ -285,7 +285,8 @@ static void copy_image(struct gls_exec *x, struct gls_state *st, const struct ca
 			if (gls_level_stencil(b))
 				memmove(gls_level_stencil(b) + k, gls_level_stencil(a) + i, (size_t)width);
 		}
-		b->missing = b->missing ? b->missing : a->missing;
+		if (a->missing)
+			gls_level_lose(b, a->missing);
 		gls_texture_changed(to);
 	}
 }

@@ -55,7 +55,7 @@ static void set_missing(struct gls_exec *x, const struct target *t, uint32_t mis
 	if (t->renderbuffer)
 		t->renderbuffer->missing = missing;
 	else if (t->level)
-		t->level->missing = missing;
+		gls_level_lose(t->level, missing);
 	if (missing)
 		x->feedback.missing = 1;
 }

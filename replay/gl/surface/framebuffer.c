@@ -56,7 +56,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 
 	if (loads && !(s->picture = gls_attachments_load(x, share, fb->attached, color, s)))
 		s->skipped = 1;
-	p = gls_surface_read(x, s);
+	p = gls_surface_read(x, s, NULL);
 	for (left &= left - 1; left && p; left &= left - 1) {
 		struct gls_picture *next;
 
@@ -67,7 +67,7 @@ static void update_colors(struct gls_exec *x, const struct gls_share *share, str
 		if (!(next = gls_attachments_load(x, share, fb->attached, color, s)))
 			s->skipped = 1;
 		if ((shows = gls_surface_restart(x, s, next)))
-			p = gls_surface_read(x, s);
+			p = gls_surface_read(x, s, NULL);
 	}
 	gls_attachments_store(x, share, fb->attached, p ? others | (color >= 0 ? 1u << color : 0) : others | drawn_colors(fb), p);
 }
@@ -200,7 +200,7 @@ const struct scene_picture *gls_framebuffer_read(struct gls_exec *x, struct gls_
 		return NULL;
 	fb->read = gls_attachments_load(x, st->share, fb->attached, gls_attachment_color(buffer), &fb->surface);
 	if (!fb->read && !x->failed && x->feedback.supply)
-		x->feedback.rewind = 1;
+		gls_rewind(x, "a framebuffer object has what they drew");
 	return fb->read ? &fb->read->picture : NULL;
 }
 

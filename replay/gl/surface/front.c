@@ -69,7 +69,7 @@ static void merge(struct scene_picture *to, const struct scene_picture *colors, 
 /* The front buffer's colours, with depth and stencil as the back buffer's events leave them. */
 static struct gls_picture *start_of(struct gls_exec *x, struct gls_surface *front, struct gls_surface *back)
 {
-	const struct scene_picture *colors = gls_surface_read(x, front), *rest = colors ? gls_surface_read(x, back) : NULL;
+	const struct scene_picture *colors = gls_surface_read(x, front, NULL), *rest = colors ? gls_surface_read(x, back, NULL) : NULL;
 	struct gls_picture *p;
 
 	if (!rest)

@@ -63,14 +63,14 @@ unsigned gls_targets_of(struct gls_exec *x, struct gls_state *st, struct gls_tar
 	return 2;
 }
 
-const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st)
+const struct scene_picture *gls_read_screen(struct gls_exec *x, struct gls_state *st, const struct gls_area *area)
 {
 	struct gls_drawable *d;
 
 	if (st->read_framebuffer)
 		return gls_framebuffer_read(x, st);
 	d = gls_window_of(x, st, st->read_drawable);
-	return d ? gls_surface_read(x, gls_front_is_read(st) && x->want ? gls_front_part(x, d) : &d->surface) : NULL;
+	return d ? gls_surface_read(x, gls_front_is_read(st) && x->want ? gls_front_part(x, d) : &d->surface, area) : NULL;
 }
 
 uint32_t gls_color_pixels(struct gls_exec *x, struct gls_state *st)

@@ -13,6 +13,12 @@
 #include "replay/machine/picture.h"
 #include "scene/release.h"
 
+/* Buffers that a scene need not have set everywhere: what it does not show may be from before it. */
+static uint32_t kept_by(const struct scene *s)
+{
+	return (s->keeps_depth ? 2u : 0) | (s->stencil_bits ? 4u : 0);
+}
+
 /* What a scene shows. NULL: it cannot be had */
 static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 {
@@ -27,6 +33,8 @@ static struct gls_picture *render(struct gls_exec *x, const struct scene *s)
 		gls_picture_release(p);
 		return NULL;
 	}
+	if (s->start)
+		p->lacks = ((const struct gls_picture *)s->start)->lacks & kept_by(s);
 	return p;
 }
 
@@ -35,6 +43,7 @@ static void forget(struct gls_surface *surface)
 	gls_picture_release(surface->picture);
 	surface->picture = NULL;
 	scene_release(&surface->before);
+	surface->lacks = 0;
 }
 
 void gls_surface_free(struct gls_surface *surface)
@@ -47,6 +56,7 @@ void gls_surface_share(struct gls_surface *to, const struct gls_surface *from)
 {
 	to->picture = gls_picture_reference(from->picture);
 	to->before = from->before ? gls_scene_reference(from->before) : NULL;
+	to->lacks = from->lacks;
 	to->skipped = from->skipped;
 	to->deferred = from->deferred;
 }
@@ -77,15 +87,20 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 {
 	*snapshot = NULL;
 	check_size(surface, s);
+	if (s->start && ((const struct gls_picture *)s->start)->lacks & gls_frame_looked(surface)) {
+		gls_rewind(x, "depth or stencil that they left is looked at");
+		return 0;
+	}
 	if (!s->needs_previous || s->start || (!surface->picture && !surface->before && !surface->skipped))
 		return 1;
 	if (!surface->picture) {
-		/* Perhaps nothing shows through: a sky covers it all. */
-		int try = s->n_instances && !(x->feedback.shows_through && surface->before);
+		/* Perhaps nothing shows through: a sky covers it all. Depth that it leaves goes on, though, where it is there. */
+		int try = s->n_instances && !(surface->before && (x->feedback.shows_through || s->keeps_depth));
 
 		if (try && !(*snapshot = render(x, s)))
 			return 0;
 		if (*snapshot && !(*snapshot)->picture.unknown) {
+			(*snapshot)->lacks = surface->skipped ? kept_by(s) : 0;
 			gls_frame_all_known(surface);
 			return 1;
 		}
@@ -93,7 +108,7 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		gls_picture_release(*snapshot);
 		*snapshot = NULL;
 		if (surface->skipped) {
-			x->feedback.rewind = 1;
+			gls_rewind(x, "what they drew is not cleared, and shows");
 			x->feedback.fronts |= surface->is_front;
 			return 0;
 		}
@@ -101,16 +116,22 @@ static int find_start(struct gls_exec *x, struct gls_surface *surface, struct sc
 		scene_release(&surface->before);
 		if (!surface->picture)
 			return 0;
+		surface->picture->lacks |= surface->lacks;
 	}
 	s->start = &gls_picture_reference(surface->picture)->picture;
+	if (surface->picture->lacks & gls_frame_looked(surface)) {
+		gls_rewind(x, "depth or stencil that they left is looked at");
+		return 0;
+	}
 	return 1;
 }
 
-const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface)
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface, const struct gls_area *area)
 {
-	struct gls_picture **kept, *snapshot;
-	uint64_t *events;
+	const struct gls_picture *kept;
+	struct gls_picture *snapshot = NULL;
 	struct scene *s;
+	int in_part;
 
 	if (!x->want || !surface)
 		return NULL;
@@ -121,33 +142,29 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	s = gls_frame_scene(x, surface);
 	if (!s)
 		return NULL;
-	kept = gls_frame_snapshot(surface, &events);
-	if (*kept && *events == gls_frame_events(surface) && has_size(&(*kept)->picture, s))
-		return &(*kept)->picture;
-	if (!find_start(x, surface, s, &snapshot))
+	kept = gls_frame_snapshot(surface, area);
+	if (kept && has_size(&kept->picture, s))
+		return &kept->picture;
+	/* What was there before need not be made where it is not looked at. */
+	in_part = s->needs_previous && !s->start && !surface->picture && (surface->before || surface->skipped) && gls_frame_knows(surface, area);
+	if (!in_part && !find_start(x, surface, s, &snapshot))
 		return NULL;
 	if (!snapshot)
 		snapshot = s->start && !gls_frame_events(surface) ? gls_picture_reference((struct gls_picture *)(uintptr_t)s->start) :
 		                                                    render(x, s);
-	gls_picture_release(*kept);
-	*kept = snapshot;
-	*events = gls_frame_events(surface);
+	gls_frame_keep_snapshot(surface, snapshot, in_part);
 	return snapshot ? &snapshot->picture : NULL;
 }
 
 int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture)
 {
 	struct scene *s = gls_frame_scene(x, surface);
-	struct gls_picture **kept;
-	uint64_t *events;
 
 	if (!s || !s->needs_previous) {
 		gls_picture_release(picture);
 		return 0;
 	}
-	kept = gls_frame_snapshot(surface, &events);
-	gls_picture_release(*kept);
-	*kept = NULL;
+	gls_frame_keep_snapshot(surface, NULL, 0);
 	if (s->start)
 		gls_picture_release((struct gls_picture *)(uintptr_t)s->start);
 	s->start = NULL;
@@ -161,11 +178,14 @@ struct scene *gls_surface_end(struct gls_exec *x, struct gls_surface *surface)
 {
 	struct gls_picture *snapshot = NULL;
 	struct scene *s = gls_frame_scene(x, surface);
+	uint32_t lacks;
 
 	if (!s || (x->feedback.supply && !find_start(x, surface, s, &snapshot)))
 		return NULL;
 	s = gls_frame_take(x, surface);
+	lacks = (surface->skipped ? 6u : surface->lacks) & kept_by(s);
 	forget(surface);
+	surface->lacks = lacks;
 	surface->skipped = surface->deferred = 0;
 	if (snapshot)
 		surface->picture = snapshot;

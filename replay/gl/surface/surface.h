@@ -9,9 +9,10 @@
 
 /**
  * The pixels of a surface as all events so far leave them.
+ * @param area  what is looked at: other pixels need not be right; NULL: all
  * @return borrowed, valid until the surface's next event; NULL: not to be had (counted, or x->feedback.rewind is set)
  */
-const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface);
+const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface, const struct gls_area *area);
 
 /** Let the same events begin from another picture (takes the reference). @return 1; 0: what was there before does not show */
 int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture);

@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #define GLS_MAX_LEVELS 15 /* 16384 texels at most */
 
@@ -12,6 +13,7 @@ struct gls_level {
 	uint8_t *texels; /* owned, as in scene_texture, with border; a byte of stencil each comes after all of them where the format has it */
 	size_t bytes;    /* of both */
 	uint32_t missing; /* number + 1 of the frame that drew to it and was not rendered; 0: nothing is missing */
+	uint32_t missing_part[4]; /* x, y, width, height of what misses pixels; width 0: all of it */
 	uint32_t texel_bytes; /* gls_texel_bytes of the internal format */
 	uint64_t hash[2]; /* XXH3-128 of the texels, where the texture is hashed */
 };
@@ -19,6 +21,13 @@ struct gls_level {
 static inline size_t gls_level_count(const struct gls_level *l)
 {
 	return (size_t)l->width * l->height * l->depth;
+}
+
+/* All of a level misses pixels (missing, as above), or none does (0). */
+static inline void gls_level_lose(struct gls_level *l, uint32_t missing)
+{
+	l->missing = missing;
+	memset(l->missing_part, 0, sizeof(l->missing_part));
 }
 
 /* Stencil values of a level, NULL where it has none. */
