@@ -1,14 +1,12 @@
 /*
- * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what shade_item does, lane by lane, in the same
- * order of operations and to the same bits. OpenCL C only.
+ * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what they are, and where in their triangles they
+ * lie, in the order of operations of setup.h and to the same bits. OpenCL C only.
  *
- * pack_is_plain says which materials and fragments it knows; shade_item does the others. Triangles that leave the view volume are cut
- * one at a time, and the cut ones kept.
+ * Triangles that leave the view volume are cut one at a time, and the cut ones kept.
  */
 #pragma once
 
-#include "kernels/frame/pack_combine.h"
-#include "kernels/frame/pack_sample.h"
+#include "kernels/frame/pack_texture.h"
 #include "kernels/gl/stages.h"
 #include "kernels/rays/gather.h"
 
@@ -30,6 +28,7 @@ struct pack {
 	packu number[3];          /* of the vertices in the mesh */
 	packu vertex[3];          /* and in the frame */
 	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of the part of it that covers the pixel; places from clip_origin */
+	uint part[PACK_SIZE];               /* pack_part, of those that are cut */
 	packf corner1[3], corner2[3];       /* of parts: the corners' weights of vertices 1 and 2 */
 	packf vertex_w_inv[3];
 	struct pack_edges edges;
@@ -78,19 +77,6 @@ static inline void pack_list(__global const struct fragment *fragments, __global
 }
 
 /* --- Which ones ---------------------------------------------------------------------------------------------------- */
-
-/* Whether pack_shade knows all that a material asks for. */
-static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
-{
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !m->surface.relit &&
-	            (!m->fog || m->fog_mode == GL_LINEAR) &&
-	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
-
-	for (uint i = 0; i < m->unit_count && plain; i++)
-		plain = pack_knows_texture(&a->tables, &a->tables.units[m->unit_first + i]) &&
-		        pack_knows_combine(m, a->tables.units + m->unit_first, i);
-	return plain;
-}
 
 /* Whether a pack can take fragments of a geometry with others of its material. */
 static inline int pack_knows_geometry(__global const struct geometry *g)
@@ -252,37 +238,29 @@ static inline const struct clip_polygon *pack_polygon(const struct shade_argumen
 	return &cut->polygon;
 }
 
-/*
- * The corners of a lane's part, in place of those of its triangle.
- * @param texcoord  its texture coordinates of one unit for the three vertices; NULL: none are wanted. Receives those of the corners
- * @return 0: no part covers the pixel
- */
-static inline int pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, uint lane, struct pack *p,
-                            packf (*texcoord)[4])
+/* The part of a polygon that covers a lane's pixel, by its second corner; polygon->n: none does. */
+static inline uint pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon, uint lane, const struct pack *p)
 {
-	const struct clip_spot at = clip_spot(p->view, LANE(p->x, int, lane), (int)a->height - 1 - LANE(p->row, int, lane));
-	struct vec4 pool[3 + CLIP_MAX_CUTS];
+	const struct clip_spot at = clip_spot(p->view, LANE(p->x, const int, lane), (int)a->height - 1 - LANE(p->row, const int, lane));
 	uint part = 2;
 
 	while (part < polygon->n && !clip_covers(polygon->corner[part - 1].window, polygon->corner[part].window, polygon->corner[0].window, at))
 		part++;
-	if (part >= polygon->n)
-		return 0;
-	for (uint k = 0; k < 3 && texcoord; k++)
-		pool[k] = v4(LANE(texcoord[k][0], float, lane), LANE(texcoord[k][1], float, lane), LANE(texcoord[k][2], float, lane),
-		             LANE(texcoord[k][3], float, lane));
-	for (uint k = 0; k < polygon->cuts.n && texcoord; k++)
-		pool[3 + k] = v4_mix(pool[polygon->cuts.from[k]], pool[polygon->cuts.to[k]], polygon->cuts.t[k]);
-	for (uint k = 0; k < 3; k++) {
-		const struct clip_corner *c = &polygon->corner[k == 2 ? 0 : part - 1 + k];
+	return part;
+}
 
-		if (texcoord) {
-			LANE(texcoord[k][0], float, lane) = pool[c->number].x;
-			LANE(texcoord[k][1], float, lane) = pool[c->number].y;
-			LANE(texcoord[k][2], float, lane) = pool[c->number].z;
-			LANE(texcoord[k][3], float, lane) = pool[c->number].w;
-			continue;
-		}
+/* Corner k of a part. */
+static inline const struct clip_corner *pack_corner(const struct clip_polygon *polygon, uint part, uint k)
+{
+	return &polygon->corner[k == 2 ? 0 : part - 1 + k];
+}
+
+/* The corners of a lane's part, in place of those of its triangle. */
+static inline void pack_place_part(const struct clip_polygon *polygon, uint lane, struct pack *p)
+{
+	for (uint k = 0; k < 3; k++) {
+		const struct clip_corner *c = pack_corner(polygon, p->part[lane], k);
+
 		LANE(p->px[k], float, lane) = c->place[0] - clip_origin(p->view);
 		LANE(p->py[k], float, lane) = c->place[1] - clip_origin(p->view);
 		LANE(p->z[k], float, lane) = c->window.z;
@@ -290,7 +268,26 @@ static inline int pack_part(const struct shade_arguments *a, const struct clip_p
 		LANE(p->corner1[k], float, lane) = c->b1;
 		LANE(p->corner2[k], float, lane) = c->b2;
 	}
-	return 1;
+}
+
+/* A lane's texture coordinates of one unit: those of its triangle's vertices become those of its part's corners. */
+static inline void pack_cut_texcoord(const struct clip_polygon *polygon, uint lane, const struct pack *p, packf (*texcoord)[4])
+{
+	struct vec4 pool[3 + CLIP_MAX_CUTS];
+
+	for (uint k = 0; k < 3; k++)
+		pool[k] = v4(LANE(texcoord[k][0], float, lane), LANE(texcoord[k][1], float, lane), LANE(texcoord[k][2], float, lane),
+		             LANE(texcoord[k][3], float, lane));
+	for (uint k = 0; k < polygon->cuts.n; k++)
+		pool[3 + k] = v4_mix(pool[polygon->cuts.from[k]], pool[polygon->cuts.to[k]], polygon->cuts.t[k]);
+	for (uint k = 0; k < 3; k++) {
+		const struct vec4 c = pool[pack_corner(polygon, p->part[lane], k)->number];
+
+		LANE(texcoord[k][0], float, lane) = c.x;
+		LANE(texcoord[k][1], float, lane) = c.y;
+		LANE(texcoord[k][2], float, lane) = c.z;
+		LANE(texcoord[k][3], float, lane) = c.w;
+	}
 }
 
 /* --- Where they are ------------------------------------------------------------------------------------------------ */
@@ -350,247 +347,10 @@ WIDE_VECTORS static inline packf pack_mix(const struct pack *p, packf a, packf b
 	return a + ((b - a) * p->weight[1] + (c - a) * p->weight[2]);
 }
 
-/* --- Colours ------------------------------------------------------------------------------------------------------- */
-
 /* All ones where the back's colours count. */
 WIDE_VECTORS static inline packi pack_side(const struct pack *p)
 {
 	return p->material->lighting && p->material->two_side ? ~p->front : (packi)(0);
-}
-
-/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or PACK_SECONDARY */
-WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t, const struct pack *p, uint four)
-{
-	const packu row = four + as_uint16(pack_side(p) & 1);
-	packf v[3][4];
-	struct pack_color out;
-
-	pack_vertex(t, p, 2, row, v[2]);
-	for (int i = 0; i < 4; i++)
-		out.c[i] = v[2][i];
-	if (p->material->shade_model == GL_FLAT)
-		return out;
-	pack_vertex(t, p, 0, row, v[0]);
-	pack_vertex(t, p, 1, row, v[1]);
-	for (int i = 0; i < 4; i++)
-		out.c[i] = pack_mix(p, v[0][i], v[1][i], v[2][i]);
-	return out;
-}
-
-/* As point_lit_from_vertices; secondary colours only where they are looked at. */
-WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p, struct pack_color *color,
-                                                       struct pack_color *secondary)
-{
-	*color = *secondary = pack_between(t, p, PACK_COLOR);
-	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
-		*secondary = pack_between(t, p, PACK_SECONDARY);
-}
-
-/* A bit for each light that lights a vertex. */
-WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struct pack *p)
-{
-	const packi back = pack_side(p);
-	packf v[4];
-	packu lights;
-
-	pack_vertex(t, p, 2, (packu)(PACK_LIT), v);
-	lights = as_uint16(select(v[0], v[1], back));
-	for (int k = 0; k < 2 && p->material->shade_model != GL_FLAT; k++) {
-		pack_vertex(t, p, k, (packu)(PACK_LIT), v);
-		lights |= as_uint16(select(v[0], v[1], back));
-	}
-	return lights;
-}
-
-/* The vertices' lights seen as they are: one lane's triangle lit again, as setup_keep_lit does it. */
-static inline const struct lit *pack_relight(const struct shade_arguments *a, const struct pack_list *list, uint lane, const struct vec3 *seen,
-                                             struct pack_kept *kept)
-{
-	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
-	int same = l->instance == list->instance[lane] && l->primitive == list->primitive[lane];
-
-	if (!same) {
-		struct fragment f;
-		float w_inv[3];
-
-		f.instance = l->instance = list->instance[lane];
-		f.primitive = l->primitive = list->primitive[lane];
-		l->p = point_of_triangle(&a->tables, a->windows, &f, w_inv);
-	}
-	for (uint i = 0; i < SCENE_MAX_LIGHTS; i++) {
-		same = same && seen[i].x == l->seen[i].x && seen[i].y == l->seen[i].y && seen[i].z == l->seen[i].z;
-		l->seen[i] = seen[i];
-	}
-	if (!same)
-		point_light_corners(&a->tables, &l->p, seen, l->lit);
-	return l->lit;
-}
-
-/* Colours by the lights' visibility. */
-static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
-                                      struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
-{
-	const int flat = p->material->shade_model == GL_FLAT;
-	packf v[3][8];
-
-	for (uint k = 0; k < 3; k++)
-		for (uint i = 0; i < 8; i++)
-			v[k][i] = 0.0f;
-	for (; lanes; lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1);
-		struct vec3 seen[SCENE_MAX_LIGHTS];
-		const struct lit *lit;
-
-		stage_seen(a->visibility, a->n_slots, a->n, list->item[lane], seen);
-		lit = pack_relight(a, list, lane, seen, kept);
-		for (uint k = flat ? 2 : 0; k < 3; k++) {
-			LANE(v[k][0], float, lane) = lit[k].color.x;
-			LANE(v[k][1], float, lane) = lit[k].color.y;
-			LANE(v[k][2], float, lane) = lit[k].color.z;
-			LANE(v[k][3], float, lane) = lit[k].color.w;
-			LANE(v[k][4], float, lane) = lit[k].secondary.x;
-			LANE(v[k][5], float, lane) = lit[k].secondary.y;
-			LANE(v[k][6], float, lane) = lit[k].secondary.z;
-		}
-	}
-	for (uint i = 0; i < 4; i++) {
-		color->c[i] = flat ? v[2][i] : pack_mix(p, v[0][i], v[1][i], v[2][i]);
-		secondary->c[i] = flat ? v[2][4 + i] : pack_mix(p, v[0][4 + i], v[1][4 + i], v[2][4 + i]);
-	}
-}
-
-/* Textures at the fragments, and fog. */
-struct pack_texturing {
-	packf sample[SCENE_MAX_UNITS][4]; /* in the order of the material's units */
-	packf fog;
-};
-
-WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
-                                             struct pack_kept *kept, struct pack_texturing *out)
-{
-	const struct tables *t = &a->tables;
-	__global const struct scene_material *m = p->material;
-	const float middle = 0.5f - clip_origin(p->view);
-	const uint cut = lanes & pack_bits(p->cut);
-	packu first;
-
-	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
-		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
-
-		LANE(first, uint, lane) = t->geometries[list->instance[from]].texcoord_first;
-	}
-	for (uint i = 0; i < m->unit_count; i++) {
-		packf texcoord[3][4];
-
-		for (int k = 0; k < 3; k++)
-			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord[k]);
-		for (uint left = cut; left; left &= left - 1) {
-			const uint lane = popcount((left & -left) - 1);
-
-			pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p, texcoord);
-		}
-		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
-		            out->sample[i]);
-	}
-	out->fog = 1.0f;
-	if (m->fog) {
-		packf v[3][4], c;
-
-		for (int k = 0; k < 3; k++)
-			pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
-		c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
-		out->fog = pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
-	}
-}
-
-/* As point_finish_in_fog. */
-WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
-                                                         const struct pack_color *lit, const struct pack_color *secondary, packf fog)
-{
-	__global const struct scene_material *m = p->material;
-	struct pack_color color = *lit;
-
-	for (uint i = 0; i < m->unit_count; i++) {
-		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
-
-		color = unit->env_mode == GL_COMBINE ?
-		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
-		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
-	}
-	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
-		color.c[i] += secondary->c[i];
-	for (int i = 0; i < 4; i++)
-		color.c[i] = pack_clamp01(color.c[i]);
-	for (int i = 0; i < 3 && m->fog; i++)
-		color.c[i] = pack_clamp01(color.c[i] * fog + m->fog_color[i] * (1.0f - fog));
-	return color;
-}
-
-/* The colour that point_albedo_of starts from. from_vertices: as they are lit */
-static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                            const struct pack_color *from_vertices)
-{
-	__global const struct scene_material *m = p->material;
-	const uint mode = m->color_material_mode;
-	const packi back = pack_side(p);
-	struct pack_color out = *from_vertices;
-	packf v[3][4];
-
-	if (!m->lighting)
-		return out;
-	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
-		out.c[i] = pack_clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
-	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
-		return out;
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
-		__global const struct geometry *g = &t->geometries[list->instance[from]];
-
-		for (uint k = 0; k < 3; k++) {
-			const struct vec4 c = tables_color(t, g, LANE(p->number[k], uint, lane));
-
-			LANE(v[k][0], float, lane) = c.x;
-			LANE(v[k][1], float, lane) = c.y;
-			LANE(v[k][2], float, lane) = c.z;
-			LANE(v[k][3], float, lane) = c.w;
-		}
-	}
-	for (int i = 0; i < 4; i++)
-		out.c[i] = pack_clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
-	return out;
-}
-
-/* As point_albedo_of. */
-static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
-                                            const struct pack_texturing *texturing, const struct pack_color *from_vertices)
-{
-	const struct pack_color matte = pack_matte(t, list, p, lanes, from_vertices);
-	struct pack_color none;
-
-	for (int i = 0; i < 4; i++)
-		none.c[i] = 0.0f;
-	return pack_finish(t, p, texturing, &matte, &none, (packf)(1));
-}
-
-/* As pixel_nudge. */
-WIDE_VECTORS static inline packf pack_nudge(packf x)
-{
-	const packf codes = pack_clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
-	const packf moved = (code + select((packf)(-0.46f), (packf)(0.46f), rest > 0.0f)) / 255.0f;
-
-	return select(x, moved, fabs(rest) > 0.46f);
-}
-
-/* --- Shading ------------------------------------------------------------------------------------------------------- */
-
-static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color, const struct pack_color *direct)
-{
-	for (uint i = 0; i < 3; i++) {
-		const float c = LANE(direct->c[i], const float, lane);
-
-		out->shadowed[i] = LANE(color->c[i], const float, lane);
-		out->direct[i] = out->mirrored[i] = out->beauty[i] = c;
-	}
 }
 
 /* The lanes' triangles and the weights of their vertices, for fragments that have been shaded. */
@@ -614,7 +374,12 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
-		if (!pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p, 0))
+		const struct clip_polygon *polygon = pack_polygon(a, list, p, lane, kept);
+
+		p->part[lane] = pack_part(a, polygon, lane, p);
+		if (p->part[lane] < polygon->n)
+			pack_place_part(polygon, lane, p);
+		else
 			lanes &= ~(1u << lane);
 	}
 	pack_edges_of(p->px, p->py, &p->edges);
@@ -622,62 +387,5 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 	if (first_time)
 		pack_unsnap(p, a->bits);
 	pack_weigh(p);
-	return lanes;
-}
-
-/*
- * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
- * @return the lanes that it has done: none of slivers
- */
-static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept)
-{
-	const struct tables *t = &a->tables;
-	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
-	__global const struct scene_material *m = &t->materials[g->material];
-	struct pack_color from_vertices, secondary, color, direct, albedo;
-	struct pack_texturing texturing;
-	struct pack p;
-	packu lights;
-
-	p.material = m;
-	p.view = &a->views[g->view];
-	lanes = pack_place(a, list, lanes, a->n_slots == 0, kept, &p);
-	if (!lanes)
-		return 0;
-	pack_texture(a, list, &p, lanes, kept, &texturing);
-	if (a->n_slots) {
-		pack_between_relit(a, list, &p, lanes, kept, &from_vertices, &secondary);
-	} else {
-		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
-	}
-	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary, texturing.fog);
-	for (int i = 0; i < 3; i++) {
-		color.c[i] = pack_nudge(color.c[i]);
-		direct.c[i] = color.c[i] + m->surface.emission[i];
-	}
-	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-
-		pack_store_relit(&a->shaded[list->item[lane]], lane, &color, &direct);
-	}
-	if (a->n_slots)
-		return lanes;
-	albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
-	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
-	for (uint left = lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-		__global struct shaded *out = &a->shaded[list->item[lane]];
-		__global struct fragment *f = &a->fragments[list->item[lane]];
-
-		f->b1 = LANE(p.b1, float, lane);
-		f->b2 = LANE(p.b2, float, lane);
-		f->depth = out->depth = LANE(p.depth, float, lane);
-		pack_store_relit(out, lane, &color, &direct);
-		for (int i = 0; i < 4; i++)
-			out->gl[i] = LANE(color.c[i], float, lane);
-		for (int i = 0; i < 3; i++)
-			out->albedo[i] = LANE(albedo.c[i], float, lane);
-		out->flags = LANE(lights, uint, lane);
-	}
 	return lanes;
 }

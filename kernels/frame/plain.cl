@@ -1,10 +1,10 @@
 /*
  * plain, plain_shadow: see kernels/frame/plain.h. A row of sixteen pixels at once, its fragments material by material
- * (kernels/frame/pack.h); those that packs do not know one by one.
+ * (kernels/frame/pack_shade.h); those that packs do not know one by one.
  */
-#include "kernels/frame/pack.h"
 #include "kernels/frame/pack_compose.h"
 #include "kernels/frame/pack_ray.h"
+#include "kernels/frame/pack_shade.h"
 #include "kernels/frame/plain.h"
 
 /* A row of sixteen pixels on its way. */

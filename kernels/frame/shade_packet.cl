@@ -1,10 +1,10 @@
 /*
  * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: material by material, sixteen at a time in
- * vectors (kernels/frame/pack.h). Pixels stand one after the other in the list, each with all that covers it, so neighbours in a pack are
+ * vectors (kernels/frame/pack_shade.h). Pixels stand one after the other in the list, each with all that covers it, so neighbours in a pack are
  * mostly neighbours on the same surface. What packs do not know is shaded one by one: a triangle that several fragments lie in is set up
  * once. kernels/README.md has the figures.
  */
-#include "kernels/frame/pack.h"
+#include "kernels/frame/pack_shade.h"
 
 /* What the fragments of a launch leave for the next ones. */
 struct shade_kept {

@@ -1,0 +1,316 @@
+/*
+ * Colours of sixteen fragments of one material at once: what shade_item does for one, in the same order of operations and to the same
+ * bits. OpenCL C only. pack_is_plain says which materials it knows; shade_item does the others.
+ */
+#pragma once
+
+#include "kernels/frame/pack.h"
+#include "kernels/frame/pack_combine.h"
+#include "kernels/frame/pack_sample.h"
+
+/* Whether pack_shade knows all that a material asks for. */
+static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
+{
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !m->surface.relit &&
+	            (!m->fog || m->fog_mode == GL_LINEAR) &&
+	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
+
+	for (uint i = 0; i < m->unit_count && plain; i++)
+		plain = pack_knows_texture(&a->tables, &a->tables.units[m->unit_first + i]) &&
+		        pack_knows_combine(m, a->tables.units + m->unit_first, i);
+	return plain;
+}
+
+/* --- Colours ------------------------------------------------------------------------------------------------------- */
+
+/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or PACK_SECONDARY */
+WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t, const struct pack *p, uint four)
+{
+	const packu row = four + as_uint16(pack_side(p) & 1);
+	packf v[3][4];
+	struct pack_color out;
+
+	pack_vertex(t, p, 2, row, v[2]);
+	for (int i = 0; i < 4; i++)
+		out.c[i] = v[2][i];
+	if (p->material->shade_model == GL_FLAT)
+		return out;
+	pack_vertex(t, p, 0, row, v[0]);
+	pack_vertex(t, p, 1, row, v[1]);
+	for (int i = 0; i < 4; i++)
+		out.c[i] = pack_mix(p, v[0][i], v[1][i], v[2][i]);
+	return out;
+}
+
+/* As point_lit_from_vertices; secondary colours only where they are looked at. */
+WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p, struct pack_color *color,
+                                                       struct pack_color *secondary)
+{
+	*color = *secondary = pack_between(t, p, PACK_COLOR);
+	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
+		*secondary = pack_between(t, p, PACK_SECONDARY);
+}
+
+/* A bit for each light that lights a vertex. */
+WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struct pack *p)
+{
+	const packi back = pack_side(p);
+	packf v[4];
+	packu lights;
+
+	pack_vertex(t, p, 2, (packu)(PACK_LIT), v);
+	lights = as_uint16(select(v[0], v[1], back));
+	for (int k = 0; k < 2 && p->material->shade_model != GL_FLAT; k++) {
+		pack_vertex(t, p, k, (packu)(PACK_LIT), v);
+		lights |= as_uint16(select(v[0], v[1], back));
+	}
+	return lights;
+}
+
+/* The vertices' lights seen as they are: one lane's triangle lit again, as setup_keep_lit does it. */
+static inline const struct lit *pack_relight(const struct shade_arguments *a, const struct pack_list *list, uint lane, const struct vec3 *seen,
+                                             struct pack_kept *kept)
+{
+	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
+	int same = l->instance == list->instance[lane] && l->primitive == list->primitive[lane];
+
+	if (!same) {
+		struct fragment f;
+		float w_inv[3];
+
+		f.instance = l->instance = list->instance[lane];
+		f.primitive = l->primitive = list->primitive[lane];
+		l->p = point_of_triangle(&a->tables, a->windows, &f, w_inv);
+	}
+	for (uint i = 0; i < SCENE_MAX_LIGHTS; i++) {
+		same = same && seen[i].x == l->seen[i].x && seen[i].y == l->seen[i].y && seen[i].z == l->seen[i].z;
+		l->seen[i] = seen[i];
+	}
+	if (!same)
+		point_light_corners(&a->tables, &l->p, seen, l->lit);
+	return l->lit;
+}
+
+/* Colours by the lights' visibility. */
+static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                      struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
+{
+	const int flat = p->material->shade_model == GL_FLAT;
+	packf v[3][8];
+
+	for (uint k = 0; k < 3; k++)
+		for (uint i = 0; i < 8; i++)
+			v[k][i] = 0.0f;
+	for (; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1);
+		struct vec3 seen[SCENE_MAX_LIGHTS];
+		const struct lit *lit;
+
+		stage_seen(a->visibility, a->n_slots, a->n, list->item[lane], seen);
+		lit = pack_relight(a, list, lane, seen, kept);
+		for (uint k = flat ? 2 : 0; k < 3; k++) {
+			LANE(v[k][0], float, lane) = lit[k].color.x;
+			LANE(v[k][1], float, lane) = lit[k].color.y;
+			LANE(v[k][2], float, lane) = lit[k].color.z;
+			LANE(v[k][3], float, lane) = lit[k].color.w;
+			LANE(v[k][4], float, lane) = lit[k].secondary.x;
+			LANE(v[k][5], float, lane) = lit[k].secondary.y;
+			LANE(v[k][6], float, lane) = lit[k].secondary.z;
+		}
+	}
+	for (uint i = 0; i < 4; i++) {
+		color->c[i] = flat ? v[2][i] : pack_mix(p, v[0][i], v[1][i], v[2][i]);
+		secondary->c[i] = flat ? v[2][4 + i] : pack_mix(p, v[0][4 + i], v[1][4 + i], v[2][4 + i]);
+	}
+}
+
+/* Textures at the fragments, and fog. */
+struct pack_texturing {
+	packf sample[SCENE_MAX_UNITS][4]; /* in the order of the material's units */
+	packf fog;
+};
+
+WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
+                                             struct pack_kept *kept, struct pack_texturing *out)
+{
+	const struct tables *t = &a->tables;
+	__global const struct scene_material *m = p->material;
+	const float middle = 0.5f - clip_origin(p->view);
+	const uint cut = lanes & pack_bits(p->cut);
+	packu first;
+
+	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
+
+		LANE(first, uint, lane) = t->geometries[list->instance[from]].texcoord_first;
+	}
+	for (uint i = 0; i < m->unit_count; i++) {
+		packf texcoord[3][4];
+
+		for (int k = 0; k < 3; k++)
+			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord[k]);
+		for (uint left = cut; left; left &= left - 1) {
+			const uint lane = popcount((left & -left) - 1);
+
+			pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, p, texcoord);
+		}
+		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
+		            out->sample[i]);
+	}
+	out->fog = 1.0f;
+	if (m->fog) {
+		packf v[3][4], c;
+
+		for (int k = 0; k < 3; k++)
+			pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
+		c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
+		out->fog = pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+	}
+}
+
+/* As point_finish_in_fog. */
+WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
+                                                         const struct pack_color *lit, const struct pack_color *secondary, packf fog)
+{
+	__global const struct scene_material *m = p->material;
+	struct pack_color color = *lit;
+
+	for (uint i = 0; i < m->unit_count; i++) {
+		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
+
+		color = unit->env_mode == GL_COMBINE ?
+		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
+		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
+	}
+	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
+		color.c[i] += secondary->c[i];
+	for (int i = 0; i < 4; i++)
+		color.c[i] = pack_clamp01(color.c[i]);
+	for (int i = 0; i < 3 && m->fog; i++)
+		color.c[i] = pack_clamp01(color.c[i] * fog + m->fog_color[i] * (1.0f - fog));
+	return color;
+}
+
+/* The colour that point_albedo_of starts from. from_vertices: as they are lit */
+static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                            const struct pack_color *from_vertices)
+{
+	__global const struct scene_material *m = p->material;
+	const uint mode = m->color_material_mode;
+	const packi back = pack_side(p);
+	struct pack_color out = *from_vertices;
+	packf v[3][4];
+
+	if (!m->lighting)
+		return out;
+	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
+		out.c[i] = pack_clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
+	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
+		return out;
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
+		__global const struct geometry *g = &t->geometries[list->instance[from]];
+
+		for (uint k = 0; k < 3; k++) {
+			const struct vec4 c = tables_color(t, g, LANE(p->number[k], uint, lane));
+
+			LANE(v[k][0], float, lane) = c.x;
+			LANE(v[k][1], float, lane) = c.y;
+			LANE(v[k][2], float, lane) = c.z;
+			LANE(v[k][3], float, lane) = c.w;
+		}
+	}
+	for (int i = 0; i < 4; i++)
+		out.c[i] = pack_clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
+	return out;
+}
+
+/* As point_albedo_of. */
+static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                            const struct pack_texturing *texturing, const struct pack_color *from_vertices)
+{
+	const struct pack_color matte = pack_matte(t, list, p, lanes, from_vertices);
+	struct pack_color none;
+
+	for (int i = 0; i < 4; i++)
+		none.c[i] = 0.0f;
+	return pack_finish(t, p, texturing, &matte, &none, (packf)(1));
+}
+
+/* As pixel_nudge. */
+WIDE_VECTORS static inline packf pack_nudge(packf x)
+{
+	const packf codes = pack_clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
+	const packf moved = (code + select((packf)(-0.46f), (packf)(0.46f), rest > 0.0f)) / 255.0f;
+
+	return select(x, moved, fabs(rest) > 0.46f);
+}
+
+/* --- Shading ------------------------------------------------------------------------------------------------------- */
+
+static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color, const struct pack_color *direct)
+{
+	for (uint i = 0; i < 3; i++) {
+		const float c = LANE(direct->c[i], const float, lane);
+
+		out->shadowed[i] = LANE(color->c[i], const float, lane);
+		out->direct[i] = out->mirrored[i] = out->beauty[i] = c;
+	}
+}
+
+/*
+ * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
+ * @return the lanes that it has done: none of slivers
+ */
+static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept)
+{
+	const struct tables *t = &a->tables;
+	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
+	__global const struct scene_material *m = &t->materials[g->material];
+	struct pack_color from_vertices, secondary, color, direct, albedo;
+	struct pack_texturing texturing;
+	struct pack p;
+	packu lights;
+
+	p.material = m;
+	p.view = &a->views[g->view];
+	lanes = pack_place(a, list, lanes, a->n_slots == 0, kept, &p);
+	if (!lanes)
+		return 0;
+	pack_texture(a, list, &p, lanes, kept, &texturing);
+	if (a->n_slots) {
+		pack_between_relit(a, list, &p, lanes, kept, &from_vertices, &secondary);
+	} else {
+		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
+	}
+	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary, texturing.fog);
+	for (int i = 0; i < 3; i++) {
+		color.c[i] = pack_nudge(color.c[i]);
+		direct.c[i] = color.c[i] + m->surface.emission[i];
+	}
+	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		pack_store_relit(&a->shaded[list->item[lane]], lane, &color, &direct);
+	}
+	if (a->n_slots)
+		return lanes;
+	albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
+	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		__global struct shaded *out = &a->shaded[list->item[lane]];
+		__global struct fragment *f = &a->fragments[list->item[lane]];
+
+		f->b1 = LANE(p.b1, float, lane);
+		f->b2 = LANE(p.b2, float, lane);
+		f->depth = out->depth = LANE(p.depth, float, lane);
+		pack_store_relit(out, lane, &color, &direct);
+		for (int i = 0; i < 4; i++)
+			out->gl[i] = LANE(color.c[i], float, lane);
+		for (int i = 0; i < 3; i++)
+			out->albedo[i] = LANE(albedo.c[i], float, lane);
+		out->flags = LANE(lights, uint, lane);
+	}
+	return lanes;
+}
