@@ -1,6 +1,7 @@
 /*
  * A lit figure in an arena. Walls and floor are only textured, without OpenGL's lighting: the walls are a backdrop. The light is
- * meant for the figure, and shines through a wall.
+ * meant for the figure, and shines through a wall. With --by ball, a lantern that OpenGL does not light hangs beside the figure, and a
+ * lit ball hops below it every third frame: what is lit then reaches as far as the lantern.
  *
  *   cc -o arena corpus/arena.c -lglut -lGLU -lGL -lm
  */
@@ -87,6 +88,24 @@ static void draw_figure(void)
 	glutSolidSphere(0.75, 48, 32);
 }
 
+static void draw_lantern_and_ball(void)
+{
+	glPushMatrix();
+	glTranslatef(8.7f, 2.5f, -2.3f);
+	glDisable(GL_LIGHTING);
+	glColor3f(0.9f, 0.8f, 0.3f);
+	glutSolidCube(0.8);
+	glEnable(GL_LIGHTING);
+	glPopMatrix();
+	if (program_frame % 3 != 2)
+		return;
+	glPushMatrix();
+	glTranslatef(9, 0.5f, -3);
+	program_color(0.3f, 0.4f, 0.8f);
+	glutSolidSphere(0.5, 32, 16);
+	glPopMatrix();
+}
+
 static void draw(void)
 {
 	float walk = program_moved(program.animate_camera, 0.1f);
@@ -96,6 +115,8 @@ static void draw(void)
 	gluLookAt(1, 3.2, 0, 6, 1.6, -4, 0, 1, 0);
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ 0.8f, 0.35f, 0.5f, 0 });
 	draw_arena();
+	if (program.by)
+		draw_lantern_and_ball();
 	glTranslatef(6, 0, -4 + walk);
 	draw_figure();
 }

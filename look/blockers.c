@@ -33,8 +33,9 @@ const float *blockers_normal(const struct scene *scene, const struct scene_insta
 	return mesh->normal ? mesh->normal + 3 * (size_t)mesh->index[3 * (size_t)primitive + corner] : scene->currents[in->current].normal;
 }
 
-static int can_block(const struct scene *s, const struct scene_instance *in)
+int blockers_can(const struct scene *s, uint32_t instance)
 {
+	const struct scene_instance *in = &s->instances[instance];
 	const struct scene_material *m = &s->materials[in->material];
 
 	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
@@ -74,7 +75,7 @@ static int make_boxes(struct blockers *b)
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct scene_instance *in = &s->instances[i];
 
-		b->blocks[i] = (uint8_t)(can_block(s, in) && mat4_invert(b->eye_inverse[i], in->modelview));
+		b->blocks[i] = (uint8_t)(blockers_can(s, i) && mat4_invert(b->eye_inverse[i], in->modelview));
 		if (!b->blocks[i] || b->first[in->mesh] != SCENE_NONE)
 			continue;
 		b->first[in->mesh] = (uint32_t)n;

@@ -84,14 +84,20 @@ static void set_number(float *to, const float *from, int n)
 		memcpy(to, from, (size_t)n * sizeof(*to));
 }
 
-static void set_surface(struct scene_surface *s, const struct surface_rule *r)
+/* spares: 1 unless rules say `spare: no` */
+static void set_surface(struct scene_surface *s, const struct surface_rule *r, int spares)
 {
+	const uint32_t spared = SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN;
+	uint32_t passes;
+
 	set_number(&s->reflect, r->reflect, 1);
 	set_number(&s->transmit, r->transmit, 1);
 	set_number(&s->ior, r->ior, 1);
 	set_number(&s->roughness, r->roughness, 1);
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
+	if (r->passes && spares && spare_named(r->passes, &passes))
+		s->hidden = (s->hidden & ~spared) | passes;
 	if (r->shadows)
 		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) |
 		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
@@ -332,7 +338,7 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.hidden |= SCENE_DOME_LIT;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (!is_kept(rules, &rules->surfaces[k]) && matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
-			set_surface(&m->surface, &rules->surfaces[k]);
+			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;

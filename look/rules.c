@@ -7,6 +7,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "look/modelview.h"
+#include "look/spare.h"
 #include "scene/scene.h"
 
 /* --- The file ------------------------------------------------------------------------------------------------------ */
@@ -43,6 +44,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
 	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
+	TEXT(struct surface_rule, passes),
 	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
 	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
 };
@@ -128,6 +130,8 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 	if (!err && r->match && r->match->modelview && modelview_named(r->match->modelview) == N_MODELVIEW_KINDS)
 		err = err_report(ERR_INPUT, path, "surfaces, rule %u: modelview is plain, mirrored or singular, not '%s'", i + 1,
 		                 r->match->modelview);
+	if (!err && r->passes && !spare_named(r->passes, &(uint32_t){ 0 }))
+		err = err_report(ERR_INPUT, path, "surfaces, rule %u: passes is none, from behind, suns, suns and from behind, or all, not '%s'", i + 1, r->passes);
 	if (!err && r->match)
 		err = check_hash(path, list, i, "mesh", r->match->mesh);
 	if (!err && r->match)

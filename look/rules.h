@@ -27,6 +27,8 @@
  *         roughness: 0.05            # of mirrors
  *         emission: [0, 0, 0]        # beside what OpenGL shows
  *         shadows: yes               # casts them
+ *         passes: none               # light that it lets through all the same, in place of what each frame decides (look/spare.h):
+ *                                    # none, from behind (of its lit side), suns (light at infinity), suns and from behind, all
  *         mirrors: yes               # is seen in them and through glass
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         lit: yes                   # takes the lights below where OpenGL does not light it
@@ -94,6 +96,7 @@ struct surface_rule {
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
 	const uint32_t *lightmap;
 	const bool *shadows, *mirrors, *lit, *dome, *left_out, *solid;
+	const char *passes;
 };
 
 struct spot {

@@ -418,6 +418,34 @@ int spare_find(const struct scene *scene, struct spare *out)
 	return err;
 }
 
+static const struct {
+	const char *name;
+	uint32_t bits;
+} names[] = {
+	{ "none", 0 }, { "from behind", SCENE_ONE_SIDED }, { "suns", SCENE_STOPS_NO_SUN }, { "suns and from behind", SCENE_STOPS_NO_SUN | SCENE_ONE_SIDED },
+	{ "all", SCENE_HIDDEN_FROM_LIGHTS },
+};
+
+enum { N_NAMES = sizeof(names) / sizeof(names[0]) };
+
+const char *spare_name(uint32_t bits)
+{
+	for (int i = 0; i < N_NAMES - 1; i++)
+		if (names[i].bits == bits)
+			return names[i].name;
+	return names[N_NAMES - 1].name;
+}
+
+int spare_named(const char *name, uint32_t *bits)
+{
+	for (int i = 0; i < N_NAMES; i++)
+		if (strcmp(name, names[i].name) == 0) {
+			*bits = names[i].bits;
+			return 1;
+		}
+	return 0;
+}
+
 void spare_free(struct spare *spare)
 {
 	free(spare->bits);

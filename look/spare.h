@@ -34,6 +34,12 @@ struct spare {
 	int kept; /* 1: rules keep all this from being spared (look_apply) */
 };
 
+/** Which light a surface lets through, in words of rules.h (`passes`): of bits other than SCENE_CARD. */
+const char *spare_name(uint32_t bits);
+
+/** @return 1; 0: there is no such word */
+int spare_named(const char *name, uint32_t *bits);
+
 /** @param out  filled; free with spare_free @return 0 or ERR_SYSTEM (reported) */
 int spare_find(const struct scene *scene, struct spare *out);
 void spare_free(struct spare *spare);

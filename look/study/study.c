@@ -11,6 +11,7 @@
 #include "look/study/roles.h"
 #include "look/study/shadows.h"
 #include "look/study/solve.h"
+#include "look/study/spared.h"
 #include "look/study/tricks.h"
 #include "look/study/volumes.h"
 #include "look/study/world.h"
@@ -22,6 +23,7 @@ struct study {
 	struct solved solved;
 	struct dome dome;
 	struct roles roles;
+	struct spared spared;
 };
 
 int study_create(struct study **out)
@@ -37,6 +39,7 @@ void study_destroy(struct study **study)
 	motion_free(&(*study)->motion);
 	lightmaps_free(&(*study)->lightmaps);
 	roles_free(&(*study)->roles);
+	spared_free(&(*study)->spared);
 	free(*study);
 	*study = NULL;
 }
@@ -59,6 +62,8 @@ int study_add(struct study *study, const struct scene *scene)
 	if (!err)
 		err = roles_add(&study->roles, scene, &study->motion);
 	if (!err)
+		err = spared_add(&study->spared, scene);
+	if (!err)
 		dome_add(&study->dome, scene, &study->motion);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
 }
@@ -79,7 +84,8 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || roles_count(&study->roles, m) ? "surfaces:\n" : "surfaces: []\n");
+	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) ? "surfaces:\n" : "surfaces: []\n");
+	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
 	roles_write(&study->roles, m, out);
 	findings_write_lights(&study->tricks, &study->solved, out);
