@@ -5,6 +5,7 @@
 #include "kernels/rays/compressed.h"
 #include "kernels/camera/coverage.h"
 #include "kernels/kernels.h"
+#include "kernels/rays/walk.h"
 
 /* A pixel on its way. */
 struct pixel {
@@ -101,18 +102,13 @@ static inline void try_triangle(struct pixel *p, uint index, __global const stru
 		keep_nearest(p, &f);
 }
 
-static inline float invert(float d)
-{
-	return 1.0f / (fabs(d) > 1e-20f ? d : copysign(1e-20f, d));
-}
-
 static inline struct vec3 invert_all(struct vec3 d)
 {
 	return v3(invert(d.x), invert(d.y), invert(d.z));
 }
 
 /* Whether the ray meets a box, widened by pad, and where. */
-static inline int meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad, float t_max, float *enter)
+static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad, float t_max, float *enter)
 {
 	const float x0 = (lo.x - pad - o.x) * inverse.x, x1 = (hi.x + pad - o.x) * inverse.x;
 	const float y0 = (lo.y - pad - o.y) * inverse.y, y1 = (hi.y + pad - o.y) * inverse.y;
@@ -127,10 +123,10 @@ static inline int meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struc
 static inline int meets_side(__global const struct node2 *node, uint side, struct vec3 o, struct vec3 inverse, float pad, float t_max,
                       float *enter)
 {
-	return meets_box(v3_load(node->lo[side]), v3_load(node->hi[side]), o, inverse, pad, t_max, enter);
+	return pixel_meets_box(v3_load(node->lo[side]), v3_load(node->hi[side]), o, inverse, pad, t_max, enter);
 }
 
-static inline void walk_binary(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse)
+static inline void pixel_walk_binary(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse)
 {
 	__global const struct instance *instance = &p->instances[index];
 	__global const struct node2 *nodes = p->nodes + instance->node2_first;
@@ -176,7 +172,7 @@ static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
  * Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: o is where the view looks in the
  * window, a point.
  */
-static inline void walk_compressed(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse, int is_screen)
+static inline void pixel_walk_compressed(struct pixel *p, uint index, struct vec3 o, struct vec3 inverse, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
 	const uint octant = (inverse.x < 0 ? 0u : 1u) | (inverse.y < 0 ? 0u : 2u) | (inverse.z < 0 ? 0u : 4u);
@@ -195,7 +191,7 @@ static inline void walk_compressed(struct pixel *p, uint index, struct vec3 o, s
 			if (!node8c_box(node, slot, lo, hi))
 				continue;
 			if (is_screen ? !is_below((float2)(lo[0], lo[1]), (float2)(hi[0], hi[1]), (float2)(o.x, o.y), instance->pad) :
-			                !meets_box(v3(lo[0], lo[1], lo[2]), v3(hi[0], hi[1], hi[2]), o, inverse, instance->pad, p->t_max, &enter))
+			                !pixel_meets_box(v3(lo[0], lo[1], lo[2]), v3(hi[0], hi[1], hi[2]), o, inverse, instance->pad, p->t_max, &enter))
 				continue;
 			count = node8c_child(node, slot, &first);
 			group.y |= count ? 0u : 1u << i;
@@ -224,9 +220,9 @@ INLINED void walk_blas(struct pixel *p, uint index, int is_compressed)
 	const struct vec3 inverse = invert_all(v3(v3_dot(r0, p->d), v3_dot(r1, p->d), v3_dot(r2, p->d)));
 
 	if (is_compressed)
-		walk_compressed(p, index, o, inverse, 0);
+		pixel_walk_compressed(p, index, o, inverse, 0);
 	else
-		walk_binary(p, index, o, inverse);
+		pixel_walk_binary(p, index, o, inverse);
 }
 
 INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct node2 *top,
@@ -284,7 +280,7 @@ INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 	const float2 at = pixel_spot(p);
 
 	if (is_compressed)
-		walk_compressed(p, index, v3(at.x, at.y, 0), v3(1, 1, 1), 1);
+		pixel_walk_compressed(p, index, v3(at.x, at.y, 0), v3(1, 1, 1), 1);
 	else
 		walk_screen_binary(p, index, at);
 }

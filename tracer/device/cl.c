@@ -39,6 +39,7 @@ struct cl_device {
 	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
 	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
 	int cpu;
+	enum device_family family;
 	char lack[160]; /* what the last ERR_MEMORY was about */
 };
 
@@ -274,11 +275,17 @@ int cl_share(struct cl_device *dev, struct cl_device **out)
 	pthread_mutex_unlock(&dev->common->lock);
 	other->common = dev->common;
 	other->cpu = dev->cpu;
+	other->family = dev->family;
 	err = open_queue(other);
 	if (err)
 		cl_close(&other);
 	*out = other;
 	return err;
+}
+
+void cl_choose_family(struct cl_device *dev, enum device_family family)
+{
+	dev->family = family;
 }
 
 void cl_close(struct cl_device **dev)
@@ -438,7 +445,7 @@ unsigned cl_programs_found(struct cl_device *dev)
 static int make_kernel(struct cl_device *dev, enum kernel kernel)
 {
 	const char *name = kernel_entries[kernel].name;
-	const size_t file = cl_program_of(dev->common->root, &dev->common->keeping, name);
+	const size_t file = cl_program_of(dev->common->root, &dev->common->keeping, dev->family, name);
 	cl_int code;
 	int err;
 

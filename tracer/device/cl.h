@@ -24,6 +24,9 @@ void cl_close(struct cl_device **dev);
 /** The same device with a queue of its own, for another thread; programs are compiled once for all. As cl_open. */
 int cl_share(struct cl_device *dev, struct cl_device **out);
 
+/** The kernels that will run most: it decides which of them are compiled together. */
+void cl_choose_family(struct cl_device *dev, enum device_family family);
+
 /* As device_keep_programs and device_programs_found. */
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
 unsigned cl_programs_found(struct cl_device *dev);

@@ -212,15 +212,23 @@ static int build_program(cl_context context, cl_device_id device, const struct k
 	return ERR_SYSTEM;
 }
 
-size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, const char *kernel)
+size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel)
 {
-	const int gathered = !keeping->folder[0] && is_pocl(device);
+	static const char *const gathered[N_DEVICE_FAMILIES] = {
+		[FAMILY_PACKETS] = "kernels/frame/whole_packet.cl", [FAMILY_BINARY] = "kernels/frame/whole_single.cl",
+		[FAMILY_COMPRESSED] = "kernels/frame/whole_single.cl",
+	};
+	const char *whole = !keeping->folder[0] && is_pocl(device) ? gathered[family] : NULL;
 	size_t file = n_kernel_files;
 
-	for (size_t i = 0; i < n_kernel_places; i++)
-		if (strcmp(kernel_places[i].kernel, kernel) == 0 &&
-		    (file == n_kernel_files || kernel_files[kernel_places[i].file].gathers == gathered))
+	for (size_t i = 0; i < n_kernel_places; i++) {
+		const struct kernel_file *next = &kernel_files[kernel_places[i].file];
+
+		if (strcmp(kernel_places[i].kernel, kernel) != 0)
+			continue;
+		if (next->gathers ? whole && strcmp(next->name, whole) == 0 : file == n_kernel_files)
 			file = kernel_places[i].file;
+	}
 	return file;
 }
 

@@ -103,7 +103,7 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 		err = cl_open(number, threads, &dev->cl);
 	if (!err) {
 		dev->description = list[number];
-		dev->family = device_type_family(list[number].type);
+		device_choose_family(dev, device_type_family(list[number].type));
 		snprintf(dev->name, sizeof(dev->name), "%s (%s %s)", list[number].name, list[number].platform,
 		         list[number].driver);
 	}
@@ -251,6 +251,8 @@ enum device_family device_family(const struct device *dev)
 void device_choose_family(struct device *dev, enum device_family family)
 {
 	dev->family = family;
+	if (dev->cl)
+		cl_choose_family(dev->cl, family);
 }
 
 const char *const device_family_names[N_DEVICE_FAMILIES + 1] = {
