@@ -41,6 +41,27 @@ static int is_deep(const struct scene *s, const struct scene_instance *in)
 	       s->views[in->view].target == 0;
 }
 
+/* A mesh by its points: how its quads are cut, and so its own hash, may change as the viewer moves. */
+static XXH128_hash_t hash_points(const struct scene_mesh *mesh)
+{
+	const uint32_t head[3] = { mesh->kind, mesh->vertex_count, mesh->primitive_count };
+	XXH3_state_t hash;
+
+	XXH3_128bits_reset(&hash);
+	XXH3_128bits_update(&hash, head, sizeof(head));
+	XXH3_128bits_update(&hash, mesh->position, (size_t)mesh->vertex_count * 4 * sizeof(*mesh->position));
+	if (mesh->texcoord[0])
+		XXH3_128bits_update(&hash, mesh->texcoord[0], (size_t)mesh->vertex_count * 4 * sizeof(*mesh->texcoord[0]));
+	return XXH3_128bits_digest(&hash);
+}
+
+/* A hash that a thing's mesh has in some frame. */
+static void note_hash(struct motion_thing *t, const uint64_t hash[2])
+{
+	if (memcmp(t->mesh, hash, sizeof(t->mesh)) != 0)
+		memcpy(t->turned, hash, sizeof(t->turned));
+}
+
 /*
  * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A mirrored copy is
  * another one.
@@ -50,7 +71,8 @@ static uint32_t find_thing(struct motion *m, struct table *counts, const struct 
                            const double eye[16])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	uint64_t parts[4] = { mesh->hash[0], mesh->hash[1], matrix_determinant3(eye) < 0, 0 }, key = XXH3_64bits(parts, sizeof(parts));
+	const XXH128_hash_t points = hash_points(mesh);
+	uint64_t parts[4] = { points.low64, points.high64, matrix_determinant3(eye) < 0, 0 }, key = XXH3_64bits(parts, sizeof(parts));
 	uintptr_t before = (uintptr_t)table_find(counts, key), found;
 
 	if (table_set(counts, key, (void *)(before + 1)))
@@ -58,8 +80,10 @@ static uint32_t find_thing(struct motion *m, struct table *counts, const struct 
 	parts[3] = before;
 	key = XXH3_64bits(parts, sizeof(parts));
 	found = (uintptr_t)table_find(&m->by_key, key);
-	if (found)
+	if (found) {
+		note_hash(&m->things[found - 1], mesh->hash);
 		return (uint32_t)(found - 1);
+	}
 	if (m->n_things >= MOTION_MAX_THINGS || MEMORY_GROW(m->things, m->room_things, m->n_things + 1) ||
 	    table_set(&m->by_key, key, (void *)(m->n_things + 1)))
 		return SCENE_NONE;

@@ -16,7 +16,8 @@ enum { MOTION_MAX_FRAMES = 128, MOTION_MAX_THINGS = 65536 };
 
 /* A mesh at its place in the frame's order, followed over the frames. */
 struct motion_thing {
-	uint64_t mesh[2];      /* its hash */
+	uint64_t mesh[2];      /* its hash; */
+	uint64_t turned[2];    /* the same with its quads cut the other way, as they are on the other side of some plane; 0: never seen */
 	double world[16];      /* from the mesh into the world, where it was last seen */
 	double eye[16];        /* its last modelview */
 	double middle[3], size; /* of its box, object space; length of the diagonal */

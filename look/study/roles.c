@@ -219,11 +219,18 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 {
 	unsigned n = 0;
 
-	for (uint32_t i = next_mesh(r, m, has, 0); i != SCENE_NONE && n < ROLES_MOST; i = next_mesh(r, m, has, i + 1), n++)
-		if (out)
-			fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n"
-			        "    shadows: no\n    dome: no\n", role, 1 - 1.0 / (1 + m->things[i].again), m->things[i].again, why, m->things[i].mesh[1],
-			        m->things[i].mesh[0], which);
+	for (uint32_t i = next_mesh(r, m, has, 0); i != SCENE_NONE && n < ROLES_MOST; i = next_mesh(r, m, has, i + 1))
+		for (int turned = 0; turned < 2; turned++) {
+			const struct motion_thing *t = &m->things[i];
+			const uint64_t *hash = turned ? t->turned : t->mesh;
+
+			if (!(hash[0] | hash[1]))
+				continue;
+			n++;
+			if (out)
+				fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n"
+				        "    shadows: no\n    dome: no\n", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], which);
+		}
 	return n;
 }
 

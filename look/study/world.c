@@ -45,12 +45,12 @@ void world_report(const struct motion *m, FILE *out)
 	        carried, once, count_deforming(m));
 }
 
-static void write_anchor(const struct motion_thing *t, int *begun, FILE *out)
+static void write_anchor(const struct motion_thing *t, const uint64_t hash[2], int *begun, FILE *out)
 {
 	if (!*begun)
 		fprintf(out, "world:\n");
 	*begun = 1;
-	fprintf(out, "  - mesh: \"%016" PRIx64 "%016" PRIx64 "\"\n    at: [", t->mesh[1], t->mesh[0]);
+	fprintf(out, "  - mesh: \"%016" PRIx64 "%016" PRIx64 "\"\n    at: [", hash[1], hash[0]);
 	for (int i = 0; i < 16; i++)
 		fprintf(out, "%s%.9g", i ? ", " : "", t->world[i]);
 	fprintf(out, "]\n");
@@ -75,7 +75,9 @@ void world_write(const struct motion *m, FILE *out)
 				continue;
 			for (size_t f = 0; f < m->n_frames; f++)
 				have[f] += t->seen[f / 64] >> f % 64 & 1;
-			write_anchor(t, &begun, out);
+			write_anchor(t, t->mesh, &begun, out);
+			if (t->turned[0] | t->turned[1])
+				write_anchor(t, t->turned, &begun, out);
 			n++;
 		}
 }

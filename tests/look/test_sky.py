@@ -44,7 +44,7 @@ longer = SCRATCH / "longer.trace"
 record(longer, corpus("courtyard"), "--frames", 6, "--animate", "camera", "--size", "400x300")
 must(relume("look", longer, "-o", rules))
 text = rules.read_text()
-for role in ("sky", "particle", "HUD"):
+for role in ("sky", "view model", "particle", "HUD"):
     check(text.count(f"- role: {role}\n") == 1, f"one rule for the {role}: {text}")
 render(longer, SCRATCH / "longer", "-f", 4, "--look", rules)
 known = Image(SCRATCH / "longer" / "longer.0004.exr", SHOWN).planes
