@@ -240,6 +240,7 @@ DEPS_crashes := extremetuxracer foobillardplus
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
 DEPS_export := blender python3-numpy
 DEPS_faults := openimageio-tools
+DEPS_look := python3-yaml
 DEPS_metrics := python3-venv openimageio-tools
 DEPS_oclgrind := oclgrind valgrind
 DEPS_page := chromium

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """tests/show/look.py BUILD (as `make show-look`): what `relume look` finds in levels of corpus/rooms with lightmaps whose lights are known,
-and in corpus/tricks: how many lights, how far off, and what it costs."""
+and in corpus/tricks: how many lights, how far off, and what it costs; and what roles it gives beside labels written by hand (roles.py)."""
 import json
 import math
 import pathlib
@@ -9,6 +9,8 @@ import resource
 import subprocess
 import sys
 import tempfile
+
+import roles
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LEVELS = 20
@@ -115,6 +117,7 @@ def main(build):
             found = numbers(study(build, work, "tricks", kind, "--frames", 3)[0], key) or [1e9] * 4
             off = distance(found, true) / distance(true, (0, 0, 0, 0))
             row(f"tricks {kind}: {'plane' if key == 'plane' else 'light'} off by", f"{off:.2g}", TRICK, off <= TRICK)
+        roles.score(build, work, row)
     (build / "show").mkdir(parents=True, exist_ok=True)
     (build / "show/look.json").write_text(json.dumps({"name": "look", "command": "make show-look", "rows": rows}, indent=1))
     return 1 if bad else 0

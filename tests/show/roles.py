@@ -1,0 +1,123 @@
+"""Roles that `relume look` gives to draws, beside labels written by hand (tests/look/labels.yaml): precision and recall per role."""
+import collections
+import json
+import pathlib
+import subprocess
+
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SHARED = ROOT.parent / "shared/traces"
+PRECISION, RECALL = 0.98, 0.9
+# What a rule's role is called in the labels; other roles say nothing about what a draw is.
+ROLES = {**{role: role for role in ("sky", "HUD", "particle", "view model", "planar shadow", "stencil mirror", "mirror", "decal", "blob shadow",
+                                    "lightmap in a second unit", "lightmap pass")},
+         "shadow volume (z-pass)": "shadow volume", "shadow volume (z-fail)": "shadow volume"}
+DST_COLOR, SRC_COLOR, ZERO = 0x0306, 0x0300, 0
+MAPPED = (0x2402, 0x8512) # GL_SPHERE_MAP, GL_REFLECTION_MAP
+
+
+def fullness(rows):
+    """The volume that vectors span over what they could, by Gauss."""
+    rows, volume, most = [list(r) for r in rows], 1.0, 1.0
+    for r in rows:
+        most *= sum(x * x for x in r) ** 0.5
+    for i in range(len(rows)):
+        pivot = max(range(i, len(rows)), key=lambda k: abs(rows[k][i]))
+        if not rows[pivot][i]:
+            return 0.0
+        if pivot != i:
+            rows[i], rows[pivot], volume = rows[pivot], rows[i], -volume
+        volume *= rows[i][i]
+        for k in range(i + 1, len(rows)):
+            share = rows[k][i] / rows[i][i]
+            rows[k] = [a - share * b for a, b in zip(rows[k], rows[i])]
+    return volume / most if most else 0.0
+
+
+def modelview_kind(m):
+    columns = [m[4 * c:4 * c + 4] for c in range(4)]
+    three = fullness([c[:3] for c in columns[:3]])
+    if all(c[3] == 0 for c in columns[:3]):
+        singular = abs(three) < 1e-4
+    else:
+        far = sum(x * x for x in columns[3][:3]) ** 0.5 or 1
+        scaled = [[(x * far if r == 3 else x) / (far if c == 3 else 1) for r, x in enumerate(column)] for c, column in enumerate(columns)]
+        singular = abs(fullness(scaled)) < 1e-5
+    return "singular" if singular else "mirrored" if three < 0 else "plain"
+
+
+def state(scene, instance):
+    """What rules match, of an instance of `relume scene --json`."""
+    m, view = scene["materials"][instance["material"]], scene["views"][instance["view"]]
+    units = scene["units"][m["unit_first"]:m["unit_first"] + m["unit_count"]]
+    p = view["projection"]
+    return {"mesh": scene["meshes"][instance["mesh"]]["hash"], "texture": [scene["textures"][u["texture"]]["hash"] for u in units],
+            "lit": bool(m["lighting"]), "textured": bool(units), "units": len(units), "blended": bool(m["blend"]), "alpha_tested": bool(m["alpha_test"]),
+            "depth_tested": bool(m["depth_test"]), "stencil_tested": bool(m["stencil_test"]), "parallel": p[3] == 0 and p[7] == 0 and p[11] == 0,
+            "environment_mapped": any(mode in MAPPED for u in units for mode in u["gen_mode"][:3]),
+            "multiplies": bool(m["blend"]) and (m["blend_src_rgb"], m["blend_dst_rgb"]) in ((DST_COLOR, ZERO), (ZERO, SRC_COLOR)),
+            "modelview": modelview_kind(instance["modelview"])}
+
+
+def matches(wanted, has):
+    for key, value in wanted.items():
+        if key == "mesh" and not has["mesh"].startswith(str(value)):
+            return False
+        if key == "texture" and not any(t.startswith(str(value)) for t in has["texture"]):
+            return False
+        if key not in ("mesh", "texture") and has[key] != value:
+            return False
+    return True
+
+
+def numbers(text):
+    return {n for part in text.split(",") for first, _, last in [part.partition("-")] for n in range(int(first), int(last or first) + 1)}
+
+
+def run(*args):
+    return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout
+
+
+def compare(entry, build, work):
+    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is plain world."""
+    trace = SHARED / f"{entry['trace']}.trace" if "trace" in entry else work / "labelled.trace"
+    if "record" in entry:
+        program, *options = entry["record"]
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options)
+    rules = work / "labelled.look.yaml"
+    run(build / "relume", "look", trace, "-o", rules)
+    rules = yaml.safe_load(rules.read_text())["surfaces"]
+    scene = json.loads(run(build / "relume", "scene", trace, "-f", entry["frame"], "--json"))
+    for instance in scene["instances"]:
+        has, found, label = state(scene, instance), None, None
+        for rule in rules:
+            if rule.get("role") in ROLES and matches(rule.get("match", {}), has):
+                found = ROLES[rule["role"]]
+        for l in entry["labels"]:
+            if instance["draw"] in numbers(l["draws"]) if "draws" in l else matches(l["where"], has):
+                label = l["role"]
+        yield found, label
+
+
+def score(build, work, row):
+    """Print a row for the precision and for the recall of each role; row(what, figure, bar, passed)."""
+    counts = collections.defaultdict(lambda: [0, 0, 0]) # right, found, labelled
+    for entry in yaml.safe_load((ROOT / "tests/look/labels.yaml").read_text()):
+        name = entry.get("trace") or " ".join(str(x) for x in entry["record"][:2])
+        if "trace" in entry and not (SHARED / f"{name}.trace").exists():
+            print(f"{name}: not there, not compared", flush=True)
+            continue
+        seen = collections.Counter(compare(entry, build, work))
+        print(f"{name}: " + ("; ".join(f"{n} draws are {label or 'world'}, found {found or 'world'}" for (found, label), n in sorted(seen.items(), key=str)
+                                       if found or label) or "no roles, none found"), flush=True)
+        for (found, label), n in seen.items():
+            counts[label][2] += n
+            counts[found][1] += n
+            counts[label][0] += n if found == label else 0
+    for role, (right, found, labelled) in sorted(counts.items(), key=str):
+        if role is None:
+            continue
+        row(f"{role}: precision, of {found} draws", f"{right / found:.3f}" if found else "none found", PRECISION, right >= PRECISION * found if found else None)
+        if labelled:
+            row(f"{role}: recall, of {labelled} draws", f"{right / labelled:.3f}", RECALL, right >= RECALL * labelled)
