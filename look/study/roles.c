@@ -137,7 +137,7 @@ static void note_hud(struct roles *r, const struct scene *s)
 		const struct scene_view *view = &s->views[s->instances[i].view];
 		const int is_flat = look_is_parallel(view);
 
-		if (view->target || s->instances[i].rectangle)
+		if (view->target || s->instances[i].rectangle || m->stencil_test)
 			continue;
 		parallel += (unsigned)is_flat;
 		deep += !is_flat && m->depth_test && m->depth_write;
@@ -254,7 +254,7 @@ static unsigned write_all(const struct roles *r, const struct motion *m, FILE *o
 	if (r->hud_frames && out)
 		fprintf(out, "  - role: HUD\n    confidence: %.2f\n"
 		        "    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
-		        "    match: { parallel: yes }\n    shadows: no\n    mirrors: no\n    dome: no\n",
+		        "    match: { parallel: yes, stencil_tested: no }\n    shadows: no\n    mirrors: no\n    dome: no\n",
 		        1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
 	return n + (r->hud_frames > 0);
 }

@@ -4,7 +4,7 @@
  *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays
  *   view model  the viewer holds it: its modelview stays while the camera moves
  *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns
- *   HUD         in parallel projection over a world in perspective
+ *   HUD         in parallel projection over a world in perspective, and not cut out by the stencil buffer
  *
  * A role is given to all that has its mesh or its texture, and so only where all of that shows it.
  */
