@@ -38,11 +38,15 @@ static int read_reflection(const double m[16], double plane[4])
 	return 1;
 }
 
-/* 1 where all of a mesh lies in a plane of eye space. */
+/* Of a mirror's points so many lie in its plane; the others are its edge. */
+#define IN_PLANE 0.9
+
+/* 1 where a mesh lies in a plane of eye space. */
 static int lies_in(const struct scene *s, const struct scene_instance *in, const double plane[4])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	double eye[16];
+	uint32_t in_plane = 0;
 
 	matrix_from_floats(eye, in->modelview);
 	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
@@ -50,10 +54,9 @@ static int lies_in(const struct scene *s, const struct scene_instance *in, const
 
 		matrix_point(at, eye, (double[3]){ (double)mesh->position[4 * v], (double)mesh->position[4 * v + 1], (double)mesh->position[4 * v + 2] });
 		far = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
-		if (!(fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3]) <= 1e-3 * (1 + far)))
-			return 0;
+		in_plane += fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3]) <= 1e-3 * (1 + far);
 	}
-	return mesh->vertex_count > 0;
+	return in_plane > 0 && in_plane >= IN_PLANE * mesh->vertex_count;
 }
 
 /* The share of what lies behind that a draw lets through. */
