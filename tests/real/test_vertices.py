@@ -3,5 +3,5 @@
 was rasterized."""
 from helpers import check_same_pictures, finish
 
-check_same_pictures("vertices", ("no numbers", "divided", "planes", "octagon", "provoking"))
+check_same_pictures("vertices", ("no numbers", "divided", "planes", "octagon", "provoking", "packed"))
 finish()

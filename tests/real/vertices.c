@@ -199,9 +199,68 @@ static void provoking(void)
 	glShadeModel(GL_SMOOTH);
 }
 
+/* Components of 10, 10, 10 and 2 bits. */
+static unsigned pack(int x, int y, int z, int w)
+{
+	return (unsigned)(x & 1023) | (unsigned)(y & 1023) << 10 | (unsigned)(z & 1023) << 20 | (unsigned)(w & 3) << 30;
+}
+
+/* Positions, colours, normals and texture coordinates that come packed, one by one, positions and colours as arrays, too (ARB_vertex_type_2_10_10_10_rev). */
+static void packed(void)
+{
+	static const int corners[4][2] = { { 4, 4 }, { 28, 4 }, { 28, 20 }, { 4, 20 } };
+	static const float beside[4] = { 0, 0.3f, 1, 0 }, white[4] = { 1, 1, 1, 1 };
+	static const unsigned char texels[2][2][4] = { { { 255, 0, 0, 255 }, { 0, 255, 0, 255 } }, { { 0, 0, 255, 255 }, { 255, 255, 0, 255 } } };
+	unsigned positions[4], colors[4], normals[4];
+
+	for (int i = 0; i < 4; i++) {
+		positions[i] = pack(corners[i][0], corners[i][1] + 24, -3, 1);
+		colors[i] = pack(200 * i, 900 - 200 * i, 1023, 3);
+		normals[i] = pack(-200 + 100 * i, 100, 511 - 250 * i, 0);
+	}
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++) {
+		glColorP4ui(GL_UNSIGNED_INT_2_10_10_10_REV, pack(300 * i, 500, 1000 - 300 * i, 3));
+		glVertexP3ui(GL_INT_2_10_10_10_REV, pack(corners[i][0], corners[i][1], i - 2, 0));
+	}
+	glEnd();
+	glEnableClientState(GL_VERTEX_ARRAY);
+	glEnableClientState(GL_COLOR_ARRAY);
+	glVertexPointer(4, GL_INT_2_10_10_10_REV, 0, positions);
+	glColorPointer(4, GL_UNSIGNED_INT_2_10_10_10_REV, 0, colors);
+	glDrawArrays(GL_QUADS, 0, 4);
+	glDisableClientState(GL_COLOR_ARRAY);
+	glDisableClientState(GL_VERTEX_ARRAY);
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	glLightfv(GL_LIGHT0, GL_POSITION, beside);
+	glLightfv(GL_LIGHT0, GL_DIFFUSE, white);
+	glTranslatef(32, 0, 0);
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++) {
+		glNormalP3ui(GL_INT_2_10_10_10_REV, normals[i]);
+		glVertexP4ui(GL_INT_2_10_10_10_REV, positions[i]);
+	}
+	glEnd();
+	glDisable(GL_LIGHT0);
+	glDisable(GL_LIGHTING);
+	glColor3f(1, 1, 1);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+	glEnable(GL_TEXTURE_2D);
+	glBegin(GL_QUADS);
+	for (int i = 0; i < 4; i++) {
+		glTexCoordP2uiv(GL_UNSIGNED_INT_2_10_10_10_REV, (unsigned[1]){ pack(i == 1 || i == 2 ? 3 : 0, i > 1 ? 2 : 0, 0, 0) });
+		glVertexP2ui(GL_UNSIGNED_INT_2_10_10_10_REV, pack(corners[i][0], corners[i][1], 0, 0));
+	}
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+}
+
 int main(void)
 {
-	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon, provoking };
+	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon, provoking, packed };
 
 	open_window();
 	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {

@@ -8,6 +8,7 @@
 #include "base/half.h"
 #include "base/norm.h"
 #include "capture/format/sizes.h"
+#include "replay/gl/geometry/packed.h"
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 
@@ -26,7 +27,7 @@ static int gls_source_open(struct gls_state *st, const struct gls_array *array, 
 	struct gls_buffer *b = gls_buffer_find(st, array->buffer);
 
 	*s = (struct gls_source){ .array = array };
-	s->element = components(array) * gls_type_bytes(array->type);
+	s->element = gls_is_packed(array->type) ? sizeof(uint32_t) : components(array) * gls_type_bytes(array->type);
 	s->stride = array->stride ? (size_t)array->stride : s->element;
 	if (!array->buffer) {
 		s->bytes = array->client;
@@ -92,6 +93,7 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 	unsigned n = components(array);
 	size_t size = gls_type_bytes(array->type);
 	const uint8_t *p;
+	uint32_t packed;
 
 	out[0] = out[1] = out[2] = 0;
 	out[3] = 1;
@@ -102,7 +104,13 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 		memcpy(out, p, n * sizeof(float));
 		return;
 	}
-	for (unsigned k = 0; k < n; k++)
+	if (gls_is_packed(array->type)) {
+		memcpy(&packed, p, sizeof(packed));
+		gls_unpack_packed(packed, array->type, array->normalized, out);
+		for (unsigned k = n; k < 4; k++)
+			out[k] = k == 3;
+	}
+	for (unsigned k = 0; k < n && !gls_is_packed(array->type); k++)
 		out[k] = read_component(p + k * size, array->type, array->normalized);
 	if (array->size == GL_BGRA) {
 		float blue = out[0];
