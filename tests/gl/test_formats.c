@@ -34,7 +34,7 @@ static void check_texel(uint32_t internal, uint32_t format, uint32_t type, size_
 	ck_assert_uint_eq(s->n_textures, 1);
 	ck_assert_uint_eq(s->textures[0]->base_format, base);
 	ck_assert_mem_eq(s->textures[0]->texels, wanted, 4);
-	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	ck_assert_uint_eq(gl_unsupported(&gl), internal == GL_COMPRESSED_RGB); /* not all of the compression is done */
 	scene_release(&s);
 	gl_close(&gl);
 }

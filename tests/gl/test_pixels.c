@@ -196,4 +196,37 @@ START_TEST(test_no_numbers)
 }
 END_TEST
 
-GL_TESTS("pixels", test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)
+/* What is read into a buffer object is data of later calls; what is read into the program's memory is not our affair. */
+START_TEST(test_read_into_buffer)
+{
+	struct gl gl = gl_open();
+	uint8_t bytes[64] = { 0 };
+
+	gl_call(&gl, "glReadPixels", "iiiieep", 0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0x1000);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0x1000);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glBindBuffer", "eu", GL_PIXEL_PACK_BUFFER, 5u);
+	gl_call(&gl, "glBufferData", "eibe", GL_PIXEL_PACK_BUFFER, 64, sizeof(bytes), bytes, GL_STREAM_READ);
+	gl_call(&gl, "glReadPixels", "iiiieep", 0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	gl_call(&gl, "glGetTexImage", "eieep", GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, (uint64_t)0);
+	ck_assert_uint_eq(gl_unsupported(&gl), 2);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A plain image that the driver compresses is not the same afterwards: counted. */
+START_TEST(test_compression)
+{
+	struct gl gl = gl_open();
+	uint8_t texels[64] = { 0 };
+
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texels), texels);
+	ck_assert_uint_eq(gl_unsupported(&gl), 0);
+	gl_call(&gl, "glTexImage2D", "eieiiieeb", GL_TEXTURE_2D, 0, GL_COMPRESSED_RGB_S3TC_DXT1_EXT, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+	        sizeof(texels), texels);
+	ck_assert_uint_eq(gl_unsupported(&gl), 1);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("pixels", test_read_into_buffer, test_compression, test_no_numbers, test_pixel_buffer, test_raster_pos, test_bitmap, test_draw_pixels, test_state_of_rectangles)

@@ -53,6 +53,15 @@ static struct gls_pixels pixels_of(const struct gls_exec *x, struct gls_state *s
 	return p;
 }
 
+/* Mesa compresses plain images for such formats. We keep as many bits of each texel (texformat.h): near, and not the same. */
+static void tell_compression(struct gls_exec *x, const struct gls_level *l)
+{
+	const struct gls_format *format = gls_format_find(l->internal_format);
+
+	if (format && format->s3tc)
+		gls_unsupported(x, "the compression of plain images: texels are cut to its bits one by one");
+}
+
 GLS_FAMILY(glTexImage, STATE)
 {
 	const unsigned n_dims = gls_commands[x->command].suffix.n;
@@ -67,6 +76,8 @@ GLS_FAMILY(glTexImage, STATE)
 	p = pixels_of(x, st, c, 4 + n_dims, n_dims, (const int64_t[3]){ l->width, l->height, l->depth });
 	if (p.data && gls_unpack_pixels(x, st, &p, l->internal_format, l->texels) == -2)
 		gls_unsupported(x, "pixels beyond what the recording holds");
+	if (p.data)
+		tell_compression(x, l);
 	if (p.data && gls_level_stencil(l) && p.format == GL_DEPTH_STENCIL)
 		gls_unpack_stencil(&p, gls_level_stencil(l));
 	gls_texture_level_changed(x, t, face, arg_i(c, 1));
@@ -106,6 +117,7 @@ GLS_FAMILY(glTexSubImage, STATE)
 	p = pixels_of(x, st, c, 2 + 2 * n_dims, n_dims, size);
 	if (!p.data || !size[0] || !size[1] || !size[2])
 		return;
+	tell_compression(x, l);
 	texels = gls_scratch(x, (size_t)(size[0] * size[1] * size[2]) * l->texel_bytes);
 	if (!texels || gls_unpack_pixels(x, st, &p, l->internal_format, texels) == -1)
 		return;
