@@ -364,6 +364,25 @@ static void explain_no_frame(const struct stats_process *p)
 	err_warn(p->path, p->calls ? "the program swapped no buffers, so there is no frame" : "the program drew nothing");
 }
 
+/* What a renderer will have to do with a recording. */
+static void explain_needs(const struct stats_process *p)
+{
+	if (p->programs)
+		err_warn(p->path, "the program uses shaders or programs; what they draw is rendered as fixed function ('relume info' counts it)");
+	if (p->windows > 1)
+		err_warn(p->path, "its frames are of several windows, in the order of their swaps");
+}
+
+/* The bytes of the reference frames beside a trace; 0: there are none. */
+static uint64_t reference_bytes(const char *trace)
+{
+	char path[PATH_MAX];
+	struct stat st;
+
+	name_beside(path, sizeof(path), trace, ".ref");
+	return stat(path, &st) == 0 ? (uint64_t)st.st_size : 0;
+}
+
 /* One line for each process that drew, then the commands that were not recorded. */
 static void print_summary(const struct recorder_stats *stats)
 {
@@ -375,12 +394,15 @@ static void print_summary(const struct recorder_stats *stats)
 		unknown += stats->unknown[i].calls;
 	for (uint32_t i = 0; i < n; i++) {
 		const struct stats_process *p = &stats->processes[i];
+		const uint64_t references = reference_bytes(p->path);
 
-		fprintf(stderr,
-		        "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, %" PRIu64 " calls not recorded\n",
-		        p->path, p->frames, p->calls, p->bytes, i == 0 ? unknown : 0);
+		fprintf(stderr, "relume: %s: %" PRIu64 " frames, %" PRIu64 " calls, %" PRIu64 " bytes, ", p->path, p->frames, p->calls, p->bytes);
+		if (references)
+			fprintf(stderr, "%" PRIu64 " bytes of reference frames, ", references);
+		fprintf(stderr, "%" PRIu64 " calls not recorded\n", i == 0 ? unknown : 0);
 		if (p->frames == 0)
 			explain_no_frame(p);
+		explain_needs(p);
 	}
 	for (uint32_t i = 0; i < n_unknown; i++)
 		fprintf(stderr, "relume: not recorded: %s, %" PRIu64 " calls\n", stats->unknown[i].name, stats->unknown[i].calls);

@@ -18,6 +18,8 @@ struct stats_process {
 	char path[STATS_PATH_BYTES]; /* its trace */
 	_Atomic uint64_t frames, calls, bytes; /* whole frames, calls written, bytes in the file */
 	_Atomic int32_t failed; /* errno of what ended the recording early; 0: nothing did */
+	_Atomic int32_t programs; /* 1: it made shaders or programs current */
+	_Atomic int32_t windows;  /* 1: its frames are of one window; 2: of several */
 	_Atomic int32_t quit;   /* 1: it ended the program after the frames asked for */
 	_Atomic uint64_t ends[N_FRAME_TRIGGERS]; /* frames so far, recorded or not (swap); calls that would have ended the first one */
 };

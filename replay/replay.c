@@ -13,6 +13,7 @@
 #include "replay/gl/surface/drawable.h"
 #include "replay/index/index_build.h"
 #include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
 #include "replay/play/player.h"
 #include "scene/release.h"
 
@@ -226,6 +227,8 @@ static int more_often(const void *a, const void *b)
 {
 	const struct replay_count *l = a, *r = b;
 
+	if (replay_is_rendered(l) != replay_is_rendered(r))
+		return replay_is_rendered(l) ? 1 : -1;
 	if (l->count != r->count)
 		return l->count < r->count ? 1 : -1;
 	return strcmp(l->name, r->name);
@@ -256,6 +259,21 @@ static const char *what_is_missing(const struct gls_exec *x, unsigned command)
 size_t replay_unsupported(struct replay *rp, const struct replay_count **out)
 {
 	return collect(rp, rp->player.exec->counts.unsupported, what_is_missing, &rp->player.exec->counts.unknown, out);
+}
+
+struct replay_needs replay_needs(const struct replay *rp)
+{
+	const struct gls_exec *x = rp->player.exec;
+	struct replay_needs n = { .programs = x->counts.programs, .several_windows = x->counts.several_windows };
+
+	for (size_t i = 0; i < x->n_contexts; i++)
+		n.single_buffered |= x->contexts[i]->state.ever_current && !x->contexts[i]->state.double_buffered;
+	return n;
+}
+
+int replay_is_rendered(const struct replay_count *count)
+{
+	return count->why == gls_needs_renderer;
 }
 
 size_t replay_calls(struct replay *rp, const struct replay_count **out)

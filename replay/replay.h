@@ -103,6 +103,17 @@ struct replay_count {
  */
 size_t replay_unsupported(struct replay *rp, const struct replay_count **out);
 
+/** What the frames so far ask of a renderer. */
+struct replay_needs {
+	uint64_t programs;   /* draws by shaders or programs */
+	int several_windows; /* 1: frames end in more than one */
+	int single_buffered; /* 1: some context has no back buffer */
+};
+struct replay_needs replay_needs(const struct replay *rp);
+
+/** 1 where an entry of replay_unsupported is there only because nobody renders: 'relume render' does it. These come last. */
+int replay_is_rendered(const struct replay_count *count);
+
 /** All calls met so far by name, most frequent first; as above. */
 size_t replay_calls(struct replay *rp, const struct replay_count **out);
 

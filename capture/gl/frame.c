@@ -55,6 +55,7 @@ static void frame_end(uintptr_t drawable, int width, int height)
 	marker_write(text);
 	if (drawable == self.target.id && context_current() && reference_wanted(writer_frames()))
 		reference_read(writer_frames(), width, height, self.unswapped);
+	writer_note_window(drawable);
 	writer_frame_ends();
 }
 

@@ -127,6 +127,18 @@ static void write_waiting(void)
 	flush();
 }
 
+/* 1 for commands that make shaders or programs current. */
+static int uses_program(const struct command *command)
+{
+	static const char *const names[] = { "glUseProgram", "glUseProgramObjectARB", "glBindProgramARB", "glBindProgramNV",
+		                             "glBindFragmentShaderATI", "glBindVertexShaderEXT" };
+
+	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
+		if (strcmp(command->name, names[i]) == 0)
+			return 1;
+	return 0;
+}
+
 /* `id` is the signature's in this trace. */
 static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known, unsigned flags)
 {
@@ -142,8 +154,10 @@ static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known
 	*p++ = TRACE_ENTER;
 	p = put_varint(p, self.number - 1);
 	p = put_varint(p, id);
-	if (!*known)
+	if (!*known) {
 		p = put_call_signature(p, command);
+		recording.process->programs |= uses_program(command);
+	}
 	*known = 1;
 	if (flags) {
 		*p++ = TRACE_DETAIL_FLAGS;
@@ -312,6 +326,16 @@ void writer_note_end(unsigned trigger)
 {
 	if (recording.process)
 		recording.process->ends[trigger]++;
+}
+
+void writer_note_window(uintptr_t drawable)
+{
+	static _Atomic uintptr_t first;
+	uintptr_t none = 0;
+	int is_first = atomic_compare_exchange_strong(&first, &none, drawable) || none == drawable;
+
+	if (recording.process && (!is_first || !recording.process->windows))
+		recording.process->windows = is_first ? 1 : 2;
 }
 
 void writer_note_quit(void)

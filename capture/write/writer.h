@@ -69,6 +69,8 @@ void writer_end(void);
 
 /** A call that ends a frame where the user says so. */
 void writer_note_end(unsigned trigger);
+/** The same of a frame's window. */
+void writer_note_window(uintptr_t drawable);
 
 /** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);

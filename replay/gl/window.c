@@ -65,6 +65,8 @@ static void swap(struct gls_exec *x, uint64_t drawable)
 	x->unswapped = 0;
 	x->swapped = table_find(&x->drawables, drawable) || !x->st ? drawable : x->st->drawable;
 	x->frame_ended = 1;
+	x->counts.several_windows |= x->counts.window && x->counts.window != x->swapped;
+	x->counts.window = x->counts.window ? x->counts.window : x->swapped;
 }
 
 GLS_HANDLER(glXCreateContext, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "GLX"); }

@@ -10,6 +10,8 @@
 #define REPEATED (1u << 16)
 #define REPEATED_A_CALL 128
 
+const char gls_needs_renderer[] = "needs pixels that were drawn: only a renderer has them";
+
 void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error)
 {
 	gls_set_error(st, error);
@@ -20,7 +22,8 @@ void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error)
 void gls_unsupported(struct gls_exec *x, const char *why)
 {
 	x->counts.unsupported[x->command]++;
-	x->counts.why[x->command] = why;
+	if (why != gls_needs_renderer || !x->counts.why[x->command])
+		x->counts.why[x->command] = why;
 }
 
 void gls_rewind(struct gls_exec *x, const char *why)

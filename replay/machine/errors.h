@@ -23,6 +23,9 @@ static inline bool gls_refuses(struct gls_exec *x, struct gls_state *st, bool wr
 /** Count the current call as not done. why: the part that is missing, a static string. */
 void gls_unsupported(struct gls_exec *x, const char *why);
 
+/** What gls_unsupported says of calls that need pixels where nothing renders. */
+extern const char gls_needs_renderer[];
+
 /** The frame needs pixels of skipped frames: the replay starts again (gls_feedback). why: what shows them, a static string. */
 void gls_rewind(struct gls_exec *x, const char *why);
 

@@ -26,6 +26,9 @@ struct gls_counts {
 	const char **why;                       /* [n_gls_commands] the part that is not done; NULL: all of it */
 	uint32_t *error_code;                   /* [n_gls_commands] the last one */
 	struct table unknown;                   /* name -> count, of calls in no table */
+	uint64_t programs;                      /* draws that use one */
+	uint64_t window;                        /* of the first frame */
+	int several_windows;                    /* 1: another frame ended in another one */
 };
 
 /* Vertices of gls_exec.st that are not drawn yet (gl/geometry/pending.h). */

@@ -65,6 +65,17 @@ static const struct options_table table = {
 	.takes = "one trace", .least = 1, .most = 1,
 };
 
+/* What becomes of a recording when it is rendered, one line each. */
+static void print_needs(const struct replay_needs *needs)
+{
+	if (needs->programs)
+		printf("shaders     %" PRIu64 " draws use shaders or programs: rendered as fixed function\n", needs->programs);
+	if (needs->several_windows)
+		puts("windows     several: frames are in the order of their swaps");
+	if (needs->single_buffered)
+		puts("buffers     one: frames end where the program flushes");
+}
+
 static void print_counts(const char *title, const struct replay_count *counts, size_t n, size_t limit)
 {
 	if (!n)
@@ -77,11 +88,22 @@ static void print_counts(const char *title, const struct replay_count *counts, s
 		printf("              and %zu more (--all lists them)\n", n - limit);
 }
 
+/* How many entries at the end are not done by replays alone. */
+static size_t count_rendered(const struct replay_count *counts, size_t n)
+{
+	size_t rendered = 0;
+
+	while (rendered < n && replay_is_rendered(&counts[n - rendered - 1]))
+		rendered++;
+	return rendered;
+}
+
 static void print_text(struct replay *rp, const char *path, size_t limit, const struct frame_ranges *earlier)
 {
 	const struct replay_count *counts;
 	const struct replay_context *contexts;
-	size_t n;
+	struct replay_needs needs;
+	size_t n, n_rendered;
 
 	printf("trace       %s\n", path);
 	printf("hash        %s\n", replay_trace_hash(rp));
@@ -95,12 +117,16 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 		       contexts[i].width, contexts[i].height, contexts[i].calls, contexts[i].shares ? ", shares objects" : "");
 	if (earlier->n)
 		print_ranges(earlier);
+	needs = replay_needs(rp);
+	print_needs(&needs);
 	n = replay_calls(rp, &counts);
 	print_counts("calls by name", counts, n, limit);
 	n = replay_unsupported(rp, &counts);
-	if (!n)
+	n_rendered = count_rendered(counts, n);
+	if (n == n_rendered)
 		puts("\nevery call is executed");
-	print_counts("not done yet", counts, n, (size_t)-1);
+	print_counts("not done yet", counts, n - n_rendered, (size_t)-1);
+	print_counts("done by 'relume render' alone", counts + (n - n_rendered), n_rendered, (size_t)-1);
 	n = replay_gl_errors(rp, &counts);
 	print_counts("GL errors that the program made", counts, n, (size_t)-1);
 }
@@ -124,6 +150,7 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 	struct json j = { .out = stdout };
 	const struct replay_count *counts;
 	const struct replay_context *contexts;
+	struct replay_needs needs;
 	size_t n;
 
 	json_begin(&j, '{');
@@ -153,6 +180,12 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 		json_end(&j, '}');
 	}
 	json_end(&j, ']');
+	needs = replay_needs(rp);
+	json_key_begin(&j, "needs", '{');
+	json_key_uint(&j, "program_draws", needs.programs);
+	json_key_uint(&j, "several_windows", (uint64_t)needs.several_windows);
+	json_key_uint(&j, "single_buffered", (uint64_t)needs.single_buffered);
+	json_end(&j, '}');
 	n = replay_calls(rp, &counts);
 	json_counts(&j, "calls_by_name", counts, n, NULL);
 	n = replay_unsupported(rp, &counts);

@@ -38,6 +38,7 @@ struct frame_ends {
 	struct frame_end *ends;
 	size_t n, capacity;
 	int skipped_first; /* frame 0 was asked for, too */
+	int single_buffered; /* some context has no back buffer */
 	char visual[64];   /* bits of a pixel, as visual.c takes them */
 };
 
@@ -122,8 +123,10 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 		                 : "the trace has none of the frames asked for");
 	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
 		err_warn(o->trace, "the trace has %" PRIu64 " frames", replay_frame(rp));
-	if (!err)
+	if (!err) {
 		find_visual(rp, ends);
+		ends->single_buffered = replay_needs(rp).single_buffered;
+	}
 	replay_close(&rp);
 	return err;
 }
@@ -358,6 +361,9 @@ int raster_main(int argc, char **argv)
 		err = find_frame_ends(&o, &ends);
 	if (!err && ends.skipped_first)
 		err_warn(o.trace, "frame 0 is left out: the first frame of a replay is not reliable");
+	if (!err && ends.single_buffered)
+		err_warn(o.trace, "the program draws to a window with one buffer, of which glretrace may give black pictures; "
+		         "'relume record --ref color' keeps what it showed");
 	if (!err)
 		err = raster(&o, &ends);
 	free(ends.ends);

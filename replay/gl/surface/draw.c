@@ -37,8 +37,10 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	}
 	st->dirty = 0;
 	gls_shown_end(x, st, drawn);
-	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled))
+	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled)) {
+		x->counts.programs++;
 		gls_unsupported(x, "programs: drawn as fixed function");
+	}
 }
 
 void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4], uint32_t command,

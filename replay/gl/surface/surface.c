@@ -136,7 +136,7 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	if (!x->want || !surface)
 		return NULL;
 	if (!x->feedback.supply) {
-		gls_unsupported(x, "needs pixels that were drawn: only a renderer has them");
+		gls_unsupported(x, gls_needs_renderer);
 		return NULL;
 	}
 	s = gls_frame_scene(x, surface);

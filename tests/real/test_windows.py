@@ -1,0 +1,31 @@
+#!/usr/bin/python3
+"""
+Two windows in one recording, by one context: each frame is its window's, and so is its reference (tests/real/windows.c).
+What a recording needs is told at its end and by `info`: several windows, programs, the size of references.
+"""
+from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, must, record, relume, render
+
+FRAMES = 10
+PROGRAM = BUILD / "tests/real/windows"
+
+trace = SCRATCH / "windows.trace"
+said = record(trace, PROGRAM).stderr
+files = render(trace, SCRATCH / "frames", *AS_SHOWN)
+check(len(files) == FRAMES, f"{len(files)} frames of {FRAMES}")
+_, score = diff(trace, SCRATCH / "frames")
+failing = [f["failing_pixels"] for f in score["frames"]]
+check(failing == [0] * FRAMES, f"failing pixels: {failing}")
+sizes = [(f["width"], f["height"]) for f in score["frames"]]
+check(sizes == [(48, 48), (80, 80)] * 5, f"sizes: {sizes}")
+check("its frames are of several windows" in said, f"record says: {said}")
+check("shaders" not in said, f"record says: {said}")
+size = trace.with_suffix(".ref").stat().st_size
+check(f"bytes, {size} bytes of reference frames, 0 calls not recorded" in said, f"references of {size} bytes: {said}")
+info = must(relume("info", trace)).stdout
+check("windows     several" in info, f"info says: {info}")
+
+trace = SCRATCH / "shaders.trace"
+said = record(trace, PROGRAM, "shaders", options=()).stderr
+check("the program uses shaders or programs" in said, f"record says: {said}")
+check("reference" not in said, f"record without references says: {said}")
+finish()
