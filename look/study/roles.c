@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "look/look.h"
 #include "look/study/face.h"
+#include "look/look.h"
 #include "look/study/matrix.h"
 
 /* Matrices agree up to this share of the world's numbers in them. */
@@ -63,7 +64,7 @@ static double distance_in_sizes(const struct motion_thing *t)
 /* What turns about a point looks like a sky; a sky, or a side of its box, is about the viewer. */
 static int is_sky(const struct roles *r, const struct motion *m, size_t i)
 {
-	return r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again &&
+	return !r->things[i].is_flat && r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again &&
 	       distance_in_sizes(&m->things[i]) < 0.5;
 }
 
@@ -73,8 +74,7 @@ static int is_held(const struct roles *r, const struct motion *m, size_t i)
 	const struct motion_thing *t = &m->things[i];
 	double largest = 0;
 
-	(void)r;
-	if (t->carried < 2 || t->still || !(distance_in_sizes(t) < 2))
+	if (r->things[i].is_flat || t->carried < 2 || t->still || !(distance_in_sizes(t) < 2))
 		return 0;
 	for (size_t k = 0; k < m->n_things; k++)
 		largest = fmax(largest, m->things[k].size * matrix_scale(m->things[k].eye));
@@ -183,6 +183,7 @@ int roles_add(struct roles *r, const struct scene *scene, const struct motion *m
 			continue;
 		matrix_from_floats(eye, scene->instances[i].modelview);
 		note_thing(r, motion, motion->of_instance[i], eye, back, walked);
+		r->things[motion->of_instance[i]].is_flat |= (uint32_t)look_is_parallel(&scene->views[scene->instances[i].view]);
 		note_texture(r, scene, &scene->instances[i], eye, motion->n_frames);
 	}
 	note_hud(r, scene);

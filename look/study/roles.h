@@ -21,6 +21,7 @@ enum { ROLES_MOST = 64 }; /* meshes or textures of a role */
 struct role_thing {
 	double turned[16];           /* its modelview with the camera's turn taken back */
 	uint32_t came_along, stayed; /* frames in which the viewer walked, and it did either */
+	uint32_t is_flat;            /* 1: it was drawn in parallel projection, as letters are: it is neither sky nor held */
 };
 
 struct role_texture {

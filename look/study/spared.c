@@ -168,6 +168,8 @@ static unsigned write_all(const struct spared *s, FILE *out)
 	for (uint32_t lit = 0; lit < 2 && out; lit++) {
 		const struct rule r = rule_of_kind(s, lit);
 
+		if (!r.frames)
+			continue;
 		write_rule(&r, lit ? "cases that are lit" : "cases that are not lit", out);
 		fprintf(out, "    match: { lit: %s }\n    passes: %s\n", lit ? "yes" : "no", spare_name(r.decided));
 	}
