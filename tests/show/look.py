@@ -12,9 +12,12 @@ import tempfile
 
 import roles
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
+from exr import Image  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LEVELS = 20
-PLACE, STRENGTH, TRICK = 0.02, 0.1, 0.001
+PLACE, STRENGTH, TRICK, FLIP, ALBEDO = 0.02, 0.1, 0.001, 0.05, 0.01
 
 
 def numbers(text, key):
@@ -83,8 +86,26 @@ def study(build, work, program, *options):
     return rules.read_text(), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+def true_rules(truth, text):
+    """The rules that were found, with the level's own lights in place of those found."""
+    lights = [(truth["ambient"], (0, 0, 0), (0, 1, 0, 0))]
+    lights += [(0, light["color"], (*into_world(truth, light["position"]), 1)) for light in truth["lights"]]
+    listed = "".join(f"  - on: unlit\n    space: world\n    position: {list(at)}\n    ambient: {[ambient] * 3}\n    diffuse: {list(color)}\n"
+                     "    specular: [0, 0, 0]\n    attenuation: [0, 0, 1]\n" for ambient, color, at in lights)
+    return text.partition("\nlights:")[0] + "\nlights:\n" + listed + "world:" + text.partition("\nworld:")[2]
+
+
+def relight(build, work, truth, text):
+    """A level relit by what was found, beside the same by its own lights: mean FLIP, and the file that has the albedo."""
+    for name, rules in (("true", true_rules(truth, text)), ("relit", text)):
+        (work / "y.look.yaml").write_text(rules)
+        must(run(build / "relume", "render", work / "x.trace", "-f", 1, "-o", work / name / "x.####.exr", "--look", work / "y.look.yaml", "--aov", "gl,albedo"))
+    scored = json.loads(run(build / "relume", "diff", work / "true", work / "relit", "--channel", "beauty", "--json", "-").stdout)
+    return scored["frames"][0]["info"]["beauty_flip"], Image(work / "relit/x.0001.exr", {f"albedo.{c}" for c in "RGB"}).planes
+
+
 def main(build):
-    rows, bad = [], 0
+    rows, bad, albedos = [], 0, {}
 
     def row(what, figure, bar, passed):
         nonlocal bad
@@ -103,14 +124,21 @@ def main(build):
                 scores.append(compare_lights(json.loads(truth.read_text()), text))
                 seconds += took
                 score = scores[-1]
+                score["flip"], albedo = relight(build, work, json.loads(truth.read_text()), text)
+                other = albedos.setdefault(seed, albedo)
+                score["albedo_off"] = max(abs(a - b) for c in other for p, q in zip(other[c], albedo[c]) for a, b in zip(p, q))
                 print(f"{lighting}, seed {seed}: {score['found']} found, {score['missed']} missed, {score['invented']} invented; off by {score['off']:.5f} of "
-                      f"the size, {score['strength_off']:.4f} of the strength, {score['ambient_off']:.4f} of the ambient; {took:.2f} s", flush=True)
+                      f"the size, {score['strength_off']:.4f} of the strength, {score['ambient_off']:.4f} of the ambient; FLIP {score['flip']:.4f}; {took:.2f} s", flush=True)
             total = {key: sum(s[key] for s in scores) for key in ("found", "missed", "invented")}
             row(f"{lighting}: lights of {LEVELS} levels found, missed, invented", ", ".join(str(n) for n in total.values()), "none missed or invented",
                 not total["missed"] and not total["invented"])
             row(f"{lighting}: farthest off, of the level's size", f"{max(s['off'] for s in scores):.4f}", PLACE, max(s["off"] for s in scores) <= PLACE)
             row(f"{lighting}: strength off at most", f"{max(s['strength_off'] for s in scores):.4f}", STRENGTH,
                 max(s["strength_off"] for s in scores) <= STRENGTH)
+            row(f"{lighting}: mean FLIP of a relit level at most", f"{max(s['flip'] for s in scores):.4f}", FLIP, max(s["flip"] for s in scores) <= FLIP)
+            if lighting == "pass":
+                off = max(s["albedo_off"] for s in scores)
+                row("pass: albedo off that by multitexture at most", f"{off:.4f}", ALBEDO, off <= ALBEDO)
             row(f"{lighting}: processor seconds of a study", f"{seconds / LEVELS:.2f}", None, None)
         for kind, key, true in (("planar", "position", (2, 2.5, -7, 1)), ("zpass", "position", (2, 2.5, -7, 1)), ("zfail", "position", (2, 2.5, -7, 1)),
                                 ("directional", "position", (0.4364358, 0.8728716, 0.2182179, 0)), ("mirror", "plane", (0, 0, 1, 11))):
