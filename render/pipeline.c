@@ -178,7 +178,7 @@ static int decode(struct pipeline_state *state)
 
 /* --- Tracing ------------------------------------------------------------------------------------------------------- */
 
-enum outcome { TRACED, LATE, STOPPED, BROKEN };
+enum outcome { TRACED, LATE, EMPTY, STOPPED, BROKEN };
 
 static int start_tracer(const struct worker *w, struct tracer **out)
 {
@@ -243,11 +243,17 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	double start = progress_clock_s();
 	int err, late;
 
+	picture->frame = scene->frame;
+	if (!scene->width || !scene->height) { /* no device can do that: the others go on */
+		err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered", (unsigned long long)scene->frame, scene->width,
+		           scene->height);
+		note(w->state, scene->frame, "failed", 0);
+		return EMPTY;
+	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
 	picture->img.packers = packer_count(w->state);
 	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
-	picture->frame = scene->frame;
 	picture->seconds = progress_clock_s() - start;
 	if (!err)
 		return TRACED;

@@ -1,12 +1,16 @@
-/* Films over each other in a window without depth, which Mesa's llvmpipe draws by its quick rasterizer. Recorded by test_exact.py. */
+/*
+ * Films over each other in a window without depth, which Mesa's llvmpipe draws by its quick rasterizer. Recorded by test_exact.py.
+ * With an argument the window has one buffer.
+ */
 #include "tests/trace/window.h"
 
 #define FILMS 6
 
-int main(void)
+int main(int argc, char **argv)
 {
-	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, None };
+	int attributes[] = { GLX_RGBA, GLX_RED_SIZE, 8, argc > 1 ? None : GLX_DOUBLEBUFFER, None };
 
+	(void)argv;
 	window_size[0] = window_size[1] = 128;
 	open_window_of(attributes);
 	glEnable(GL_BLEND);
@@ -19,7 +23,10 @@ int main(void)
 			glColor4f(0.7f, 0.1f * (float)i, 0.5f, 0.1f + 0.03f * (float)(i + frame));
 			glRectf(-edge, -edge, edge, edge);
 		}
-		end_frame();
+		if (argc > 1)
+			glFlush();
+		else
+			end_frame();
 	}
 	return 0;
 }
