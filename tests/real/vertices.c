@@ -229,6 +229,11 @@ static void packed(void)
 	glVertexPointer(4, GL_INT_2_10_10_10_REV, 0, positions);
 	glColorPointer(4, GL_UNSIGNED_INT_2_10_10_10_REV, 0, colors);
 	glDrawArrays(GL_QUADS, 0, 4);
+	glVertexPointer(3, GL_INT_2_10_10_10_REV, 0, normals); /* refused: four components or none */
+	glColorPointer(3, GL_INT_2_10_10_10_REV, 0, normals);
+	expect(glGetError() == GL_INVALID_OPERATION, "packed arrays of three components are refused");
+	glTranslatef(0, -2, 0);
+	glDrawArrays(GL_QUADS, 0, 4);
 	glDisableClientState(GL_COLOR_ARRAY);
 	glDisableClientState(GL_VERTEX_ARRAY);
 	glEnable(GL_LIGHTING);

@@ -6,6 +6,7 @@
 
 #include "gl_tokens.h"
 #include "capture/format/call.h"
+#include "replay/gl/geometry/packed.h"
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
@@ -42,6 +43,9 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	const struct trace_value *v = arg(c, pointer);
 
 	if (gls_refuses(x, st, stride < 0, GL_INVALID_VALUE))
+		return;
+	/* GL 3.3 sec. 2.8. Mesa (22.3.6) takes normals for three components, and refuses them, too. */
+	if (gls_refuses(x, st, gls_is_packed(type) && size != 4 && size != GL_BGRA, GL_INVALID_OPERATION))
 		return;
 	array->size = size;
 	array->type = type;
