@@ -10,6 +10,7 @@
 #include "base/frames.h"
 #include "base/mat4.h"
 #include "look/modelview.h"
+#include "look/plane.h"
 #include "look/rules.h"
 #include "look/solid.h"
 #include "look/spare.h"
@@ -132,8 +133,9 @@ struct applying {
 	const struct spare *spare; /* NULL: nothing is spared */
 	const struct scene *scene;
 	struct scene *out;
-	float eye_from_world[16]; /* where lights stand in the world */
+	float eye_from_world[16], world_from_eye[16]; /* where lights and planes of the world are */
 	int knows_world;
+	int has_mirror;           /* pictures in mirrors may be left out */
 	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights */
 };
 
@@ -319,6 +321,46 @@ static void set_sky(const struct applying *a)
 		dome->up_eye[k] = turned[k] / length;
 }
 
+static int is_where_said(const struct applying *a, const struct scene_instance *in, const struct match *r)
+{
+	float plane[4];
+
+	if (!r || !r->in_plane)
+		return 1;
+	mat4_transform_plane(plane, r->in_plane, a->world_from_eye);
+	return a->knows_world && plane_holds(a->scene, in, plane);
+}
+
+/* 1 for the k-th rule of surfaces where it changes an instance. */
+static int applies(const struct applying *a, const struct scene_instance *in, uint32_t k)
+{
+	const struct surface_rule *r = &a->rules->surfaces[k];
+	const int is_reflection = r->left_out && *r->left_out && r->match && r->match->modelview &&
+	                          modelview_named(r->match->modelview) == MODELVIEW_MIRRORED;
+
+	if (is_kept(a->rules, r) || (is_reflection && !a->has_mirror))
+		return 0;
+	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_where_said(a, in, r->match);
+}
+
+/* 1 where a solid mirror is in the frame, or rules know of none. */
+static int has_mirror(const struct applying *a)
+{
+	int known = 0;
+
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++) {
+		const bool *solid = a->rules->surfaces[k].solid;
+
+		if (!solid || !*solid)
+			continue;
+		known = 1;
+		for (uint32_t i = 0; i < a->scene->n_instances; i++)
+			if (applies(a, &a->scene->instances[i], k))
+				return 1;
+	}
+	return !known;
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static void change_instance(const struct applying *a, uint32_t i)
 {
@@ -337,7 +379,7 @@ static void change_instance(const struct applying *a, uint32_t i)
 	if (rules->sky && !m->lighting && solid_is(scene, in))
 		m->surface.hidden |= SCENE_DOME_LIT;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
-		if (!is_kept(rules, &rules->surfaces[k]) && matches(scene, in, rules->surfaces[k].match, &a->look->draws[k]))
+		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
 	if (!m->surface.relit)
@@ -405,6 +447,8 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		a.lights_change = 0;
 	}
 	if (!err) {
+		mat4_invert(a.world_from_eye, a.eye_from_world);
+		a.has_mirror = has_mirror(&a);
 		size_lights(a.rules, out);
 		set_sky(&a);
 	}

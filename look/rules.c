@@ -28,6 +28,7 @@ static const cyaml_schema_field_t match_fields[] = {
 	TRUTH(struct match, blended), TRUTH(struct match, alpha_tested), TRUTH(struct match, depth_tested),
 	TRUTH(struct match, stencil_tested), TRUTH(struct match, environment_mapped), TRUTH(struct match, multiplies),
 	COUNT(struct match, units), TRUTH(struct match, parallel), TEXT(struct match, modelview),
+	NUMBERS(struct match, in_plane, 4),
 	CYAML_FIELD_END
 };
 

@@ -20,6 +20,7 @@
  *           multiplies: no           # is blended so that it multiplies what is there
  *           parallel: no             # projection
  *           modelview: plain         # mirrored, or singular as of shadows on a plane
+ *           in_plane: [0, 1, 0, -2]  # lies in this plane of the world (a, b, c, d), but for an edge; not where the world is unknown
  *         reflect: 0.2               # [0,1]
  *         transmit: 0.8              # [0,1], with reflect at most 1
  *         ior: 1.5                   # 1 and more
@@ -33,7 +34,8 @@
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         dome: no                   # does not take the light of `sky` below
- *         left_out: yes              # a trick: only OpenGL's picture shows it
+ *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
+ *                                    # frames with a `solid` mirror, if rules have one
  *         solid: yes                 # a mirror that is blended over its picture: the traced one is not
  *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
  *       - mesh: 90c2                 # enough of them shows where the viewer is
@@ -82,6 +84,7 @@ struct match {
 	const bool *program, *lit, *textured, *blended, *alpha_tested, *depth_tested, *stencil_tested, *environment_mapped, *multiplies, *parallel;
 	const uint32_t *units;
 	const char *modelview;
+	const float *in_plane;
 };
 
 /* What a rule says to its reader alone. */

@@ -71,7 +71,7 @@ static void write_mirror(const struct trick_found *f, FILE *out)
 	fprintf(out, "  - role: mirror\n    confidence: %.2f\n    why: \"it is blended over its picture, of which %.0f %% show\"\n",
 	        confidence_of(f), 100 * f->shows);
 	write_plane(f, out);
-	fprintf(out, "    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\", blended: yes }\n", f->surface[1], f->surface[0]);
+	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes }\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3]);
 	fprintf(out, "    solid: yes\n    reflect: %.4g\n", f->shows);
 }
 

@@ -5,6 +5,7 @@
 
 #include "gl_tokens.h"
 #include "look/modelview.h"
+#include "look/plane.h"
 #include "look/study/matrix.h"
 #include "look/study/pairs.h"
 
@@ -38,27 +39,6 @@ static int read_reflection(const double m[16], double plane[4])
 	return 1;
 }
 
-/* Of a mirror's points so many lie in its plane; the others are its edge. */
-#define IN_PLANE 0.9
-
-/* 1 where a mesh lies in a plane of eye space. */
-static int lies_in(const struct scene *s, const struct scene_instance *in, const double plane[4])
-{
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double eye[16];
-	uint32_t in_plane = 0;
-
-	matrix_from_floats(eye, in->modelview);
-	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		double at[3], far;
-
-		matrix_point(at, eye, (double[3]){ (double)mesh->position[4 * v], (double)mesh->position[4 * v + 1], (double)mesh->position[4 * v + 2] });
-		far = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
-		in_plane += fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3]) <= 1e-3 * (1 + far);
-	}
-	return in_plane > 0 && in_plane >= IN_PLANE * mesh->vertex_count;
-}
-
 /* The share of what lies behind that a draw lets through. */
 static double share_behind(const struct scene *s, const struct scene_instance *in)
 {
@@ -74,15 +54,15 @@ static double share_behind(const struct scene *s, const struct scene_instance *i
 /* The surface over the picture: drawn after it, blended, in its plane. */
 static void find_surface(struct trick_found *f, const struct scene *s, uint32_t after, const double plane[4])
 {
+	const float here[4] = { (float)plane[0], (float)plane[1], (float)plane[2], (float)plane[3] };
+
 	for (uint32_t i = after + 1; i < s->n_instances && !(f->shows > 0); i++) {
 		const struct scene_instance *in = &s->instances[i];
-		const struct scene_mesh *mesh = s->meshes[in->mesh];
 
-		if (mesh->kind != SCENE_TRIANGLES || in->rectangle || !(s->materials[in->material].color_mask & 7) || !(share_behind(s, in) > 0) ||
-		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || !lies_in(s, in, plane))
+		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || !(s->materials[in->material].color_mask & 7) || !(share_behind(s, in) > 0) ||
+		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || !plane_holds(s, in, here))
 			continue;
 		f->shows = share_behind(s, in);
-		memcpy(f->surface, mesh->hash, sizeof(f->surface));
 	}
 }
 

@@ -23,8 +23,7 @@ struct trick_found {
 	unsigned frames;
 	int has_opengl_light; /* a light of OpenGL's is there, and lights most of what the shadows fall on */
 	int stencil;     /* of a mirror: its picture was drawn through the stencil buffer */
-	uint64_t surface[2]; /* of a mirror: the mesh that was drawn over its picture, */
-	double shows;        /* and the share of the picture that it let through; 0: no such surface was found */
+	double shows;    /* of a mirror: the share of its picture that the surface drawn over it let through; 0: none was found */
 };
 
 struct tricks {

@@ -64,4 +64,11 @@ for kind, role, light, plane in (("planar", "planar shadow", LIGHT, FLOOR), ("di
         check(worst(after, before, COLORS) > 0.02, f"{kind}: the beauty differs from that with it")
         rules.write_text(text.replace("replace: yes", "replace: no"))
         check(worst(traced(kind, rules, "kept"), before, COLORS) == 0, f"{kind}: one key keeps the trick")
+    if kind == "mirror":
+        # Where no surface is the mirror, as in a frame that draws it otherwise, its picture stays.
+        rules.write_text(text.replace("replace: yes", "replace: no"))
+        kept = traced(kind, rules, "kept")
+        rules.write_text(re.sub(r"in_plane: \[[^]]*\]", "in_plane: [0, 0, 1, 99]", text))
+        check(worst(traced(kind, rules, "elsewhere"), kept, COLORS) == 0, f"{kind}: without the mirror its picture stays")
+        check(worst(kept, after, COLORS) > 0.02, f"{kind}: the traced mirror differs from its picture")
 finish()
