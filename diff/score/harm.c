@@ -9,7 +9,8 @@
  * either, the colour is not known (albedo is the film's, as black as a drawn shadow's), and the light itself is compared. Light is
  * gl x shadow + relight: of a drawn shadow that gives way to a traced one, gl x shadow still has both. A patch is explained where its
  * edges are as long as a quarter of a square's side of its area; patches below LEAST_PATCH pixels say nothing. Bar: 2 % of the frame.
- * An honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall 82 %, a lit figure between unlit walls 3.4 %.
+ * An honest room in the shade of its own walls took 1.1 % (rooms lit by OpenGL), seventeen other frames up to 0.03 %; a closed hall
+ * 82 %, a lit figure between unlit walls 3.4 %.
  *
  * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face (the shadow
  * terminator: the normal faces a light, the pixels' own plane turns away), dark ones of crossed cards that shade each other (attribute
