@@ -252,7 +252,8 @@ FAULTS = [
     ("a stale tile", ("R1", "R3"), None, stale_tile),
     ("mirrored", ("R3", "R4"), None, every(lambda p: p[:, ::-1])),
     ("gamma twice", ("R1", "P"), None, on_gl(lambda p: linear(display(display(p))))),
-    ("a drift of 1/255", ("P",), None, on_gl(lambda p: linear(numpy.minimum(display(p) + 1 / 255, 1)))),
+    ("a drift of 1/255", ("B",), None, on_gl(lambda p: linear(numpy.minimum(display(p) + 1 / 255, 1)))),  # R1 allows it, so P does
+    ("a drift of 3/255", ("P",), None, on_gl(lambda p: linear(numpy.minimum(display(p) + 3 / 255, 1)))),
     ("red and blue swapped", ("R1", "R3"), None, swap_colors),
     ("the shadows are gone", ("B",), FLOOR, drop_shadow),
     ("shadows in the beauty alone", ("E1",), FLOOR, lost_shadow_channel),
