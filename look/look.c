@@ -88,7 +88,6 @@ static void set_number(float *to, const float *from, int n)
 /* spares: 1 unless rules say `spare: no` */
 static void set_surface(struct scene_surface *s, const struct surface_rule *r, int spares)
 {
-	const uint32_t spared = SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN;
 	uint32_t passes;
 
 	set_number(&s->reflect, r->reflect, 1);
@@ -98,7 +97,7 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 	set_number(s->absorb, r->absorb, 3);
 	set_number(s->emission, r->emission, 3);
 	if (r->passes && spares && spare_named(r->passes, &passes))
-		s->hidden = (s->hidden & ~spared) | passes;
+		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	if (r->shadows)
 		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) |
 		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);

@@ -20,6 +20,9 @@
 
 enum { SPARE_MOST_LAMPS = 16 };
 
+/* What sparing decides of a surface, cards apart: bits of scene_surface's `hidden`. */
+#define SPARE_BITS (SCENE_HIDDEN_FROM_LIGHTS | SCENE_ONE_SIDED | SCENE_STOPS_NO_SUN)
+
 /* A light, once for all materials that have it. */
 struct spare_lamp {
 	float position[4]; /* as in scene_light */
@@ -34,7 +37,7 @@ struct spare {
 	int kept; /* 1: rules keep all this from being spared (look_apply) */
 };
 
-/** Which light a surface lets through, in words of rules.h (`passes`): of bits other than SCENE_CARD. */
+/** Which light a surface lets through, in words of rules.h (`passes`). bits: of SPARE_BITS */
 const char *spare_name(uint32_t bits);
 
 /** @return 1; 0: there is no such word */

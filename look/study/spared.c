@@ -61,7 +61,7 @@ int spared_add(struct spared *s, const struct scene *scene)
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		const struct scene_material *m = &scene->materials[scene->instances[i].material];
 		size_t mesh = 0, texture = 0;
-		const uint32_t spared = found.bits ? found.bits[i] & ~SCENE_CARD : 0, lit = m->lighting != 0;
+		const uint32_t spared = found.bits ? found.bits[i] & SPARE_BITS : 0, lit = m->lighting != 0;
 
 		if (!blockers_can(scene, i))
 			continue;
@@ -163,17 +163,20 @@ static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FI
 
 static unsigned write_all(const struct spared *s, FILE *out)
 {
+	unsigned n = 0;
+
 	if (!s->any)
 		return 0;
-	for (uint32_t lit = 0; lit < 2 && out; lit++) {
+	for (uint32_t lit = 0; lit < 2; lit++) {
 		const struct rule r = rule_of_kind(s, lit);
 
-		if (!r.frames)
+		n += r.frames > 0;
+		if (!r.frames || !out)
 			continue;
 		write_rule(&r, lit ? "cases that are lit" : "cases that are not lit", out);
 		fprintf(out, "    match: { lit: %s }\n    passes: %s\n", lit ? "yes" : "no", spare_name(r.decided));
 	}
-	return 2 + write_exceptions(s, 1, out) + write_exceptions(s, 0, out);
+	return n + write_exceptions(s, 1, out) + write_exceptions(s, 0, out);
 }
 
 unsigned spared_count(const struct spared *s)
