@@ -127,18 +127,6 @@ static void write_waiting(void)
 	flush();
 }
 
-/* 1 for commands that make shaders or programs current. */
-static int uses_program(const struct command *command)
-{
-	static const char *const names[] = { "glUseProgram", "glUseProgramObjectARB", "glBindProgramARB", "glBindProgramNV",
-		                             "glBindFragmentShaderATI", "glBindVertexShaderEXT" };
-
-	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
-		if (strcmp(command->name, names[i]) == 0)
-			return 1;
-	return 0;
-}
-
 /* `id` is the signature's in this trace. */
 static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known, unsigned flags)
 {
@@ -154,10 +142,8 @@ static uint8_t *enter(unsigned id, const struct command *command, uint8_t *known
 	*p++ = TRACE_ENTER;
 	p = put_varint(p, self.number - 1);
 	p = put_varint(p, id);
-	if (!*known) {
+	if (!*known)
 		p = put_call_signature(p, command);
-		recording.process->programs |= uses_program(command);
-	}
 	*known = 1;
 	if (flags) {
 		*p++ = TRACE_DETAIL_FLAGS;
@@ -336,6 +322,12 @@ void writer_note_window(uintptr_t drawable)
 
 	if (recording.process && (!is_first || !recording.process->windows))
 		recording.process->windows = is_first ? 1 : 2;
+}
+
+void writer_note_program(void)
+{
+	if (recording.process)
+		recording.process->programs = 1;
 }
 
 void writer_note_quit(void)

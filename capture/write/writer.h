@@ -71,6 +71,8 @@ void writer_end(void);
 void writer_note_end(unsigned trigger);
 /** The same of a frame's window. */
 void writer_note_window(uintptr_t drawable);
+/** A shader or program that the program makes current. */
+void writer_note_program(void);
 
 /** The recorder ended the program as it was told to: the command reports success. */
 void writer_note_quit(void);
