@@ -141,10 +141,6 @@ int main(void)
 	for (unsigned i = 0; i < sizeof(colors); i++)
 		colors[i] = (unsigned char)((i * 2654435761u) >> 23);
 	open_window();
-	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
-		reset();
-		frames[i]();
-		end_frame();
-	}
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), reset);
 	return 0;
 }

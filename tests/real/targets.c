@@ -520,10 +520,6 @@ int main(void)
 
 	open_window_of(attributes);
 	make_objects();
-	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
-		reset();
-		frames[i]();
-		end_frame();
-	}
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), reset);
 	return 0;
 }

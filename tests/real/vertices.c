@@ -268,10 +268,6 @@ int main(void)
 	static void (*const frames[])(void) = { no_numbers, divided, planes, octagon, provoking, packed };
 
 	open_window();
-	for (unsigned i = 0; i < sizeof(frames) / sizeof(frames[0]); i++) {
-		reset();
-		frames[i]();
-		end_frame();
-	}
+	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), reset);
 	return 0;
 }

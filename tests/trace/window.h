@@ -41,6 +41,16 @@ static inline void end_frame(void)
 	glXSwapBuffers(display, window);
 }
 
+/** One function a frame, each after `before`. */
+static inline void draw_frames(void (*const *frames)(void), size_t n, void (*before)(void))
+{
+	for (size_t i = 0; i < n; i++) {
+		before();
+		frames[i]();
+		end_frame();
+	}
+}
+
 /** The program's own check that nothing odd happened to it. */
 static inline void expect(int truth, const char *what)
 {
