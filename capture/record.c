@@ -79,8 +79,8 @@ static const struct options_row rows[] = {
 	{ "ref", 0, "KINDS", "keep what the program showed in NAME.ref: color, depth, or color,depth",
 	  options_text, AT(ref), .words = ref_kinds },
 	{ "ref-every", 0, "N", "only every Nth frame of these", take_count, AT(ref_every) },
-	{ "ref-exact", 0, NULL, "with Mesa's llvmpipe: switch its quick rasterizer off, whose colours are off by up to 2/255 in windows without "
-	  "depth (LP_PERF=no_rast_linear); the program shows the exact ones, too", options_flag, AT(ref_exact) },
+	{ "ref-exact", 0, NULL, "switch off Mesa llvmpipe's quick rasterizer (LP_PERF=no_rast_linear): in windows without depth its colours "
+	  "are off by up to 2/255; the program shows the exact ones, too", options_flag, AT(ref_exact) },
 	{ "frames", 0, "A-B", "record only the program's frames A to B, counted from 0 (\"A-\": to the end); the trace begins with all "
 	  "that they need and numbers them from 0; the program goes on", take_frames, .at = 0 },
 	{ "paused", 0, NULL, "begin with recording switched off", options_flag, AT(paused) },

@@ -65,7 +65,7 @@ static inline int pack_most(packi x)
  * The columns of a row that an ellipse reaches, from *first on. It is taken a little larger, beyond what rounding moves: which texels lie in
  * it, q decides.
  * @param dy  from the centre to the row
- * @return how many: 0 in lanes whose ellipse does not reach the row
+ * @return how many: 0 in a lane where the ellipse does not reach the row
  */
 WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint *at, packf dy, packi rows_left, packi *first)
 {

@@ -13,7 +13,7 @@ struct gls_exec;
 struct gls_picture {
 	struct scene_picture picture; /* first */
 	atomic_uint refs;
-	uint32_t lacks; /* buffers, bits as in scene_clear, whose values skipped frames left and nobody knows */
+	uint32_t lacks; /* buffers that hold what skipped frames drew, which is not known; bits as in scene_clear */
 };
 
 /* What a picture has room for. */

@@ -159,7 +159,7 @@ void reader_release_call(struct reader_call *p)
 	p->in_use = 0;
 }
 
-/* A call whose arguments hold nothing yet that can be looked at. */
+/* A call; its arguments are not read yet. */
 static inline void begin_call(struct reader_call *p, uint64_t thread, const struct call_sig *sig)
 {
 	p->call = (struct call){ .thread = thread, .sig = sig, .n_args = sig->n_args, .args = p->args, .ret.type = TRACE_NONE };

@@ -25,7 +25,7 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
 /**
  * The file whose program a kernel should come from. PoCL wants few programs: it preprocesses each in every run, for 40 ms, unless it is
  * kept here. Others compile all kernels of a program at once, and want only those that a run needs.
- * @param family  whose kernels run beside it
+ * @param family  the kernels that run beside it
  * @return its number in kernel_files, n_kernel_files: there is no such kernel
  */
 size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel);
