@@ -52,6 +52,13 @@ static int list_records(struct ref_file *ref, uint64_t file_bytes)
 	return 0;
 }
 
+static int compare_entries(const void *one, const void *other)
+{
+	const struct ref_entry *a = one, *b = other;
+
+	return a->frame != b->frame ? (a->frame > b->frame) - (a->frame < b->frame) : (a->offset > b->offset) - (a->offset < b->offset);
+}
+
 int ref_open(struct ref_file *ref, const char *path)
 {
 	char magic[MAGIC_BYTES];
@@ -77,6 +84,8 @@ int ref_open(struct ref_file *ref, const char *path)
 	rc = list_records(ref, (uint64_t)end);
 	if (rc)
 		goto fail;
+	if (ref->n_entries)
+		qsort(ref->entries, ref->n_entries, sizeof(*ref->entries), compare_entries);
 	return 0;
 
 fail:

@@ -6,8 +6,8 @@
  *   record* u32 kind, u32 width, u32 height, u64 frame, u64 packed_bytes, then packed_bytes of one raw Snappy block
  * kind 1: colour, RGBA, 8 bits each; the mean of a pixel's samples, as the window shows it.
  * kind 2: window depth, one float each, [0,1]; with several samples what glReadPixels gives.
- * Rows run from the bottom row up, as GL delivers them, without padding. Frames ascend; a frame's records follow
- * each other. A file cut at any byte is valid up to the last whole record.
+ * Rows run from the bottom row up, as GL delivers them, without padding. A frame's records follow each other. Frames ascend, but for
+ * those that several threads ended at the same time. A file cut at any byte is valid up to the last whole record.
  */
 #pragma once
 
@@ -35,7 +35,7 @@ struct ref_entry {
 struct ref_file {
 	void *stream; /* private */
 	char *path;
-	struct ref_entry *entries; /* all whole records, in file order */
+	struct ref_entry *entries; /* all whole records, by frames */
 	size_t n_entries;
 };
 

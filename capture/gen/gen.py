@@ -340,6 +340,7 @@ class Generator:
         written = [(i, *self.argument(command, p)) for i, p in enumerate(command.params)]
         outputs = [(i, after) for i, _, after in written if after]
         two_phases = outputs or not void
+        frame = "frame_" if any(names.fullmatch(command.name) for _, names, _ in self.overlay.lines["ends"]) else ""
         when = " && ".join(self.hook("when", command))
         enter = f"writer_enter(CMD_{command.name})"
         out.append("\tuint8_t *p_;")
@@ -361,7 +362,7 @@ class Generator:
         for i, before, _ in written:
             if before:
                 out += [f"\t\tp_ = put_argument(p_, {i});", f"\t\tp_ = {before};"]
-        out.append("\t\tcall_ = writer_enter_end(p_);" if two_phases else "\t\twriter_call_end(p_);")
+        out.append("\t\tcall_ = writer_enter_end(p_);" if two_phases else f"\t\twriter_{frame}call_end(p_);")
         out.append("\t}")
         nested = re.match(r"glX|egl|OSMesa", command.name)
         if nested:
@@ -377,7 +378,7 @@ class Generator:
                 out += [f"\t\tp_ = put_argument(p_, {i});", f"\t\tp_ = {after};"]
             if not void:
                 out += ["\t\tp_ = put_return(p_);", f"\t\tp_ = {self.result(command)};"]
-            out += ["\t\twriter_leave_end(p_);", "\t}"]
+            out += [f"\t\twriter_{frame}leave_end(p_);", "\t}"]
         out += [f"\t{code};" for code in self.hook("after", command)]
         if not void:
             out.append("\treturn result;")

@@ -9,6 +9,8 @@ struct drawable {
 	unsigned long window; /* X window or pixmap to ask the size of; 0: the size cannot change */
 	int width, height;    /* when it was asked; 0: not yet */
 	uint64_t asked_ns;
+	int marked_width, marked_height; /* as trace number `marked_epoch` has them (writer_epoch) */
+	unsigned marked_epoch;
 };
 
 enum drawable_system { DRAWABLE_NONE, DRAWABLE_GLX, DRAWABLE_EGL, DRAWABLE_OSMESA };

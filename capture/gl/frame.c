@@ -16,13 +16,12 @@
 #include "capture/gl/restore.h"
 #include "capture/gl/skip.h"
 #include "capture/write/clock.h"
-#include "capture/write/fake.h"
 #include "capture/write/report.h"
 #include "capture/write/writer.h"
 #include "tables/commands.h"
 
 static _Atomic uint64_t program_frames; /* recorded or not */
-static _Atomic int marked_width, marked_height; /* of the last size marker */
+static _Atomic int threads;             /* that draw */
 static struct {
 	uint64_t max_frames, quit_after, max_bytes; /* 0: no such wish */
 	uint64_t first, last;                       /* of the program's frames, from 0 */
@@ -32,6 +31,7 @@ static struct {
 
 static __thread struct {
 	struct drawable_target target;
+	int draws;             /* counted among the threads that do */
 	int in_primitive;      /* between Begin and End, where no call of ours may come */
 	int unswapped;         /* the frame that ends does so without a swap */
 	int drawn, primitives; /* since the last frame: anything at all, anything but clears */
@@ -39,23 +39,30 @@ static __thread struct {
 
 /* Frames */
 
-static void frame_end(uintptr_t drawable, int width, int height)
+/* 1 where the frame that ends may be one to be read back: with several threads nobody knows its number before it has ended. */
+static int may_be_read(void)
+{
+	return reference_wanted(writer_frames()) || (threads > 1 && reference_wanted(0));
+}
+
+static void frame_end(struct drawable *d, int width, int height)
 {
 	char text[64];
 
 	if (skip_active())
 		return;
-	if ((width != marked_width || height != marked_height || writer_frames() == 0) && width > 0 && height > 0) {
+	if ((width != d->marked_width || height != d->marked_height || d->marked_epoch != writer_epoch()) && width > 0 && height > 0) {
 		snprintf(text, sizeof(text), "relume:drawable %d %d", width, height);
 		marker_write(text);
-		marked_width = width;
-		marked_height = height;
+		d->marked_width = width;
+		d->marked_height = height;
+		d->marked_epoch = writer_epoch();
 	}
 	snprintf(text, sizeof(text), "relume:time %llu", (unsigned long long)clock_ns());
 	marker_write(text);
-	if (drawable == self.target.id && context_current() && reference_wanted(writer_frames()))
-		reference_read(writer_frames(), width, height, self.unswapped);
-	writer_note_window(drawable);
+	if (d->id == self.target.id && context_current() && may_be_read())
+		reference_read(width, height, self.unswapped);
+	writer_note_window(d->id);
 	writer_frame_ends();
 }
 
@@ -66,8 +73,8 @@ static void frame_end_of(const struct drawable_target *target)
 
 	if (!d)
 		return;
-	drawable_ask(d, target, reference_wanted(writer_frames()));
-	frame_end(d->id, d->width, d->height);
+	drawable_ask(d, target, may_be_read());
+	frame_end(d, d->width, d->height);
 	errno = saved;
 }
 
@@ -85,20 +92,26 @@ void frame_draw_to(const struct drawable_target *target)
 {
 	self.target = *target;
 	self.in_primitive = 0;
+	threads += !self.draws;
+	self.draws = 1;
 }
 
 /* A frame ends without a swap: a made-up call says so. */
 static void frame_end_current(void)
 {
 	const struct drawable_target *t = &self.target;
+	struct drawable *d;
+	uint8_t *p;
 
 	self.unswapped = 1;
 	if ((t->system == DRAWABLE_GLX || t->system == DRAWABLE_EGL) && t->id)
 		frame_end_of(t);
-	else
-		frame_end(t->id, t->width, t->height); /* OSMesa's, or none: framebuffer objects are drawn to */
+	else if ((d = drawable_find(t->id)))
+		frame_end(d, t->width, t->height); /* OSMesa's, or none: framebuffer objects are drawn to */
 	self.unswapped = 0;
-	fake_call(CMD_glFrameTerminatorGREMEDY, "");
+	p = writer_enter_fake(CMD_glFrameTerminatorGREMEDY);
+	if (p)
+		writer_frame_call_end(p);
 	frame_ended();
 }
 
@@ -201,7 +214,8 @@ void frame_ended(void)
 		return;
 	next = ++program_frames;
 	writer_note_end(FRAME_SWAP);
-	frames = skip_active() ? 0 : writer_frame_ended();
+	frames = writer_frame_ended();
+	reference_write(frames);
 	if (frames)
 		frame_recorded(frames);
 	if (next > wish.last)

@@ -26,9 +26,20 @@ static struct {
 	uint64_t every;
 	char path[STATS_PATH_BYTES];
 	uint64_t bytes;
-	uint8_t *pixels, *packed; /* kept from frame to frame */
-	size_t pixels_bytes, packed_bytes;
-} r;
+	uint8_t *pixels; /* kept from frame to frame */
+	size_t pixels_bytes;
+	struct readback *idle;
+	pthread_mutex_t lock;
+} r = { .lock = PTHREAD_MUTEX_INITIALIZER };
+
+/* A frame's records, which wait for its number. */
+struct readback {
+	struct readback *next;
+	uint8_t *records; /* one or two: a head, packed pixels */
+	size_t mapped, bytes;
+};
+
+static __thread struct readback *waiting __attribute__((tls_model("initial-exec")));
 
 __attribute__((constructor)) static void read_wishes(void)
 {
@@ -73,24 +84,36 @@ static void append(const void *data, size_t bytes)
 		r.bytes += bytes;
 }
 
-static void write_record(enum ref_kind kind, uint64_t frame, int width, int height)
+static void pack_record(enum ref_kind kind, int width, int height)
 {
 	size_t bytes = (size_t)width * (size_t)height * 4, packed = snappy_max_compressed_length(bytes);
-	struct ref_head head = { kind, (uint32_t)width, (uint32_t)height, frame, 0 };
+	struct ref_head head = { kind, (uint32_t)width, (uint32_t)height, 0, 0 };
+	uint8_t *at;
 
-	if (!pages_grow(&r.packed, &r.packed_bytes, packed + sizeof(head)) ||
-	    snappy_compress((char *)r.pixels, bytes, (char *)r.packed + sizeof(head), &packed) != SNAPPY_OK) {
+	if (!pages_grow(&waiting->records, &waiting->mapped, waiting->bytes + packed + sizeof(head))) {
+		fail("no memory", ENOMEM);
+		return;
+	}
+	at = waiting->records + waiting->bytes;
+	if (snappy_compress((char *)r.pixels, bytes, (char *)at + sizeof(head), &packed) != SNAPPY_OK) {
 		fail("no memory", ENOMEM);
 		return;
 	}
 	head.packed_bytes = packed;
-	memcpy(r.packed, &head, sizeof(head));
-	append(r.packed, packed + sizeof(head));
+	memcpy(at, &head, sizeof(head));
+	waiting->bytes += packed + sizeof(head);
 }
 
-/* Begin the file and make room for a frame's pixels. Returns 0, or -1. */
+/* Begin the file, and make room for a frame's pixels and records. Returns 0, or -1. */
 static int make_ready(int width, int height)
 {
+	if (!waiting && (waiting = r.idle))
+		r.idle = waiting->next;
+	if (!waiting && !(waiting = pages_map(sizeof(*waiting)))) {
+		fail("no memory", ENOMEM);
+		return -1;
+	}
+	waiting->bytes = 0;
 	if (!r.path[0]) {
 		if (writer_sidecar(r.path, sizeof(r.path), ".ref"))
 			return -1;
@@ -111,16 +134,15 @@ static int draws_to_front(void)
 	return buffer == GL_FRONT || buffer == GL_FRONT_LEFT || buffer == GL_LEFT || buffer == GL_FRONT_AND_BACK;
 }
 
-void reference_read(uint64_t frame, int width, int height, int unswapped)
+void reference_read(int width, int height, int unswapped)
 {
-	static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 	struct reading_state state = { 0 };
 	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
 
 	/* A list that is being compiled would take the selection of the buffer. */
 	if (list || width <= 0 || height <= 0)
 		return;
-	pthread_mutex_lock(&lock);
+	pthread_mutex_lock(&r.lock);
 	if (make_ready(width, height))
 		goto done;
 	context_errors_before();
@@ -129,15 +151,38 @@ void reference_read(uint64_t frame, int width, int height, int unswapped)
 		real_glReadBuffer(GL_FRONT);
 	if (r.color && !r.failed) {
 		reading_colors(width, height, r.pixels);
-		write_record(REF_COLOR, frame, width, height);
+		pack_record(REF_COLOR, width, height);
 	}
 	if (r.depth && !r.failed && context_get(GL_DEPTH_BITS) > 0) {
 		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, r.pixels);
-		write_record(REF_DEPTH, frame, width, height);
+		pack_record(REF_DEPTH, width, height);
 	}
 	reading_end(&state);
 	context_errors_after();
 done:
-	pthread_mutex_unlock(&lock);
+	pthread_mutex_unlock(&r.lock);
+	errno = saved;
+}
+
+void reference_write(uint64_t frame)
+{
+	struct readback *read = waiting;
+	struct ref_head head;
+	int saved = errno;
+
+	if (!read)
+		return;
+	for (size_t at = 0; at < read->bytes; at += sizeof(head) + head.packed_bytes) {
+		memcpy(&head, read->records + at, sizeof(head));
+		head.frame = frame - 1;
+		memcpy(read->records + at, &head, sizeof(head));
+	}
+	pthread_mutex_lock(&r.lock);
+	if (frame && read->bytes && reference_wanted(frame - 1))
+		append(read->records, read->bytes);
+	waiting = NULL;
+	read->next = r.idle;
+	r.idle = read;
+	pthread_mutex_unlock(&r.lock);
 	errno = saved;
 }

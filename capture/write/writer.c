@@ -35,7 +35,8 @@ static __thread struct {
 	unsigned depth;  /* > 0: inside the writer or nested, nothing is recorded */
 	unsigned number; /* 1-based */
 	void (*waiting)(void); /* writes calls that wait */
-	int frame_ends;        /* the next call does so */
+	int hand_over;         /* the next call ends a frame: pack what is before it */
+	uint64_t ended;        /* this thread's last frame, numbered from 1, where writer_frame_ended has not told it yet; or 0 */
 } self __attribute__((tls_model("initial-exec")));
 
 /* Opening */
@@ -192,6 +193,24 @@ void writer_call_end(uint8_t *p)
 	end(p);
 }
 
+/* Readers order frames by these events, so the number is given under the same lock. */
+static void number_frame(void)
+{
+	self.ended = ++recording.n_frames;
+}
+
+void writer_frame_call_end(uint8_t *p)
+{
+	number_frame();
+	writer_call_end(p);
+}
+
+void writer_frame_leave_end(uint8_t *p)
+{
+	number_frame();
+	writer_leave_end(p);
+}
+
 uint64_t writer_enter_end(uint8_t *p)
 {
 	uint64_t call = ++recording.n_calls;
@@ -219,7 +238,7 @@ void writer_leave_end(uint8_t *p)
 
 void writer_frame_ends(void)
 {
-	self.frame_ends = 1;
+	self.hand_over = 1;
 }
 
 /* The call that ends a frame is written: pack it while the call is made. */
@@ -229,12 +248,12 @@ static void hand_over_frame(void)
 
 	if (p)
 		end(recording_spill(p, 0));
-	self.frame_ends = 0;
+	self.hand_over = 0;
 }
 
 void writer_nest(void)
 {
-	if (self.frame_ends)
+	if (self.hand_over)
 		hand_over_frame();
 	self.depth++;
 }
@@ -267,18 +286,18 @@ uint64_t writer_bytes(void)
 
 uint64_t writer_frame_ended(void)
 {
-	uint8_t *p = begin();
-	uint64_t frames;
+	const uint64_t frame = self.ended;
+	uint8_t *p = frame ? begin() : NULL;
 
+	self.ended = 0;
 	if (!p)
 		return 0;
-	frames = ++recording.n_frames;
 	p = recording_spill(p, 1);
 	if (recording.state == RECORDING_ON)
-		recording.process->frames = frames; /* counted once it cannot be lost */
+		recording.process->frames = recording.n_frames; /* counted once they cannot be lost */
 	flushed_ns = clock_ns();
 	end(p);
-	return frames;
+	return frame;
 }
 
 void writer_flush_sometimes(void)

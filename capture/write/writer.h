@@ -23,6 +23,10 @@ uint8_t *writer_enter_memcpy(void);
 /** End a call that returns nothing. */
 void writer_call_end(uint8_t *p);
 
+/** The same of a call that ends a frame, and of its second half: the frame has its number from here on. */
+void writer_frame_call_end(uint8_t *p);
+void writer_frame_leave_end(uint8_t *p);
+
 /** End the first half of a call. Returns what writer_leave wants. */
 uint64_t writer_enter_end(uint8_t *p);
 
@@ -52,13 +56,16 @@ void writer_count_unknown(unsigned command);
 /** This thread's next call ends a frame. */
 void writer_frame_ends(void);
 
-/** A frame is complete: hand everything to the kernel, so that it outlives the process. Returns the frames so far. */
+/**
+ * A frame of this thread is complete: hand everything to the kernel, so that it outlives the process.
+ * @return the frame's number, from 1 on; 0: it is not in the trace
+ */
 uint64_t writer_frame_ended(void);
 
 /** The same of what is complete, where the last time is a while ago. */
 void writer_flush_sometimes(void);
 
-/** Frames completed so far: the number of the frame being drawn. */
+/** Frames numbered so far. Where one thread ends frames, that is the number, from 0 on, of the one being drawn. */
 uint64_t writer_frames(void);
 
 /** Bytes of the trace in the file. */

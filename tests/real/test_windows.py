@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """
-Two windows in one recording, by one context: each frame is its window's, and so is its reference (tests/real/windows.c).
+Two windows in one recording: each frame is its window's, and so is its reference, also where two threads swap at once
+(tests/real/windows.c).
 What a recording needs is told at its end and by `info`: several windows, programs, the size of references.
 """
 from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, must, record, relume, render
@@ -23,6 +24,16 @@ size = trace.with_suffix(".ref").stat().st_size
 check(f"bytes, {size} bytes of reference frames, 0 calls not recorded" in said, f"references of {size} bytes: {said}")
 info = must(relume("info", trace)).stdout
 check("windows     several" in info, f"info says: {info}")
+
+FRAMES = 80
+trace = SCRATCH / "threads.trace"
+record(trace, PROGRAM, "threads")
+render(trace, SCRATCH / "threads", *AS_SHOWN)
+_, score = diff(trace, SCRATCH / "threads")
+failing = [f["failing_pixels"] for f in score["frames"]]
+check(failing == [0] * FRAMES, f"two threads: failing pixels: {failing}")
+sizes = sorted((f["width"], f["height"]) for f in score["frames"])
+check(sizes == [(48, 48)] * 40 + [(80, 80)] * 40, f"two threads: sizes: {sizes}")
 
 trace = SCRATCH / "shaders.trace"
 said = record(trace, PROGRAM, "shaders", options=()).stderr

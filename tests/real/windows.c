@@ -1,10 +1,14 @@
 /*
- * Two windows of different sizes and colours, to which one context draws in turn. With an argument a program is current. Recorded by
- * test_windows.py.
+ * Two windows of different sizes and colours, recorded by test_windows.py. One context draws to them in turn; with "shaders" a program
+ * is current; with "threads" each has a thread and a context of its own, and both swap at the same time.
  */
+#include <pthread.h>
+#include <string.h>
+
 #include "tests/trace/window.h"
 
 #define FRAMES 5
+#define THREAD_FRAMES 40
 
 static XVisualInfo *visual;
 
@@ -48,14 +52,47 @@ static void both_from_one(int shaders)
 		}
 }
 
+static pthread_barrier_t both_drew;
+
+static void *paint(void *which)
+{
+	const int i = which != NULL, size = i ? 80 : 48;
+	Display *own = XOpenDisplay(NULL);
+	Window window = make_window(own, (unsigned)size);
+	GLXContext context = glXCreateContext(own, visual, NULL, True);
+
+	glXMakeCurrent(own, window, context);
+	for (int frame = 0; frame < THREAD_FRAMES; frame++) {
+		draw(i, frame % FRAMES, (unsigned)size);
+		glFinish();
+		pthread_barrier_wait(&both_drew);
+		glXSwapBuffers(own, window);
+	}
+	return NULL;
+}
+
+static void one_each(void)
+{
+	pthread_t threads[2];
+
+	pthread_barrier_init(&both_drew, NULL, 2);
+	pthread_create(&threads[0], NULL, paint, NULL);
+	pthread_create(&threads[1], NULL, paint, threads);
+	pthread_join(threads[0], NULL);
+	pthread_join(threads[1], NULL);
+}
+
 int main(int argc, char **argv)
 {
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 1, None };
 
+	XInitThreads();
 	display = XOpenDisplay(NULL);
-	(void)argv;
 	if (!display || !(visual = glXChooseVisual(display, DefaultScreen(display), attributes)))
 		return 1;
-	both_from_one(argc > 1);
+	if (argc > 1 && strcmp(argv[1], "threads") == 0)
+		one_each();
+	else
+		both_from_one(argc > 1);
 	return 0;
 }
