@@ -39,7 +39,7 @@ COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handl
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
 # The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
-OIIO_OBJ := $(addprefix $(BUILD)/,diff/pictures/oiio.o $(addprefix tracer/image/,image.o pack.o exr_pack.o) base/err.o base/memory.o)
+OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
@@ -47,7 +47,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
-	fonts-dejavu-core python3-numpy python3-jsonschema xdotool pkg-config zsh fish man-db \
+	fonts-dejavu-core python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
@@ -187,7 +187,7 @@ $(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -o $@ $(filter %.c,$^) -lglut -lGLU -lGL -lm
 
 # Tests are linked with everything of the command but its main function, and with the bridge itself.
-$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/diff/pictures/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/diff/pictures/oiio.o
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
@@ -239,12 +239,10 @@ DEPS_sweep-record := $(DEPS_sweep)
 DEPS_crashes := extremetuxracer foobillardplus
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
 DEPS_export := blender python3-numpy
-DEPS_faults := openimageio-tools
 DEPS_look := python3-yaml
-DEPS_metrics := python3-venv openimageio-tools
+DEPS_metrics := python3-venv
 DEPS_oclgrind := oclgrind valgrind
 DEPS_page := chromium
-DEPS_relit := openimageio-tools
 DEPS_thesis := povray blender python3-numpy
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays

@@ -30,7 +30,7 @@ static const struct verb {
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "write a frame as glTF, for other programs" },
 	{ "look", look_main, "study a trace: write rules about lights and surfaces for render" },
-	{ "render", render_main, "ray trace frames of a trace to OpenEXR" },
+	{ "render", render_main, "ray trace frames of a trace to OpenEXR, PNG or JPEG" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },

@@ -13,7 +13,6 @@
 #include "base/options.h"
 #include "base/progress.h"
 #include "diff/baseline/baseline.h"
-#include "diff/pictures/oiio.h"
 #include "diff/report/output.h"
 #include "diff/report/pictures.h"
 #include "diff/report/report.h"
@@ -21,6 +20,7 @@
 #include "diff/score/picture.h"
 #include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
+#include "tracer/image/oiio.h"
 
 /* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
 #define MAX_ASKED 1000000
@@ -102,7 +102,7 @@ static const struct options_table table = {
 	        "Score traced frames against their references, frame by frame and gate by gate.\n"
 	        "\n"
 	        "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
-	        "TRACED  images: those of 'relume render', or any\n"
+	        "TRACED  images: those of 'relume render', or any; the gates of effects, depth and harm need its OpenEXR files\n"
 	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n",
 	OPTIONS_ROWS(rows),

@@ -251,7 +251,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 		return EMPTY;
 	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
-	picture->img.packers = packer_count(w->state);
+	picture->img.packers = w->state->p->display ? 0 : packer_count(w->state); /* display pictures need the whole planes */
 	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->seconds = progress_clock_s() - start;
@@ -366,20 +366,34 @@ static void *work(void *arg)
 
 /* --- Writing ------------------------------------------------------------------------------------------------------- */
 
+static int write_display(struct pipeline_state *state, const struct image *img, const char *path)
+{
+	uint64_t bright = 0;
+	int err = display_write(state->p->display, img, path, &bright);
+
+	pthread_mutex_lock(&state->lock);
+	state->p->pixels += (uint64_t)img->width * img->height;
+	state->p->bright += bright;
+	pthread_mutex_unlock(&state->lock);
+	return err;
+}
+
 static int write_picture(struct pipeline_state *state, struct picture *picture)
 {
 	char path[MAX_PATH_BYTES];
 	int err = stamp_image(&state->p->stamp, &picture->img);
 
 	/* says which channels were left out on purpose */
-	if (!err && state->p->settings->tracer.aov)
+	if (!err && state->p->settings->tracer.aov && !state->p->display)
 		err = image_set_attribute(&picture->img, "relume:aov", "%s", state->p->settings->tracer.aov);
 
 	if (!err)
 		err = frame_pattern_expand(state->p->settings->output, picture->frame, path, sizeof(path));
 	if (!err)
 		err = folder_make_for(path);
-	return err ? err : image_write_exr(&picture->img, path);
+	if (err)
+		return err;
+	return state->p->display ? write_display(state, &picture->img, path) : image_write_exr(&picture->img, path);
 }
 
 static void *write_all(void *arg)

@@ -29,6 +29,8 @@ struct pipeline {
 	struct stamp stamp;
 	struct progress *progress;
 	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller frees it */
+	struct display *display; /* how display pictures are made; NULL: the files are OpenEXR */
+	uint64_t pixels, bright; /* filled in: of display pictures, and how many of these are brighter than white */
 	struct tracer_undrawn undrawn; /* filled in: what the scenes had that is not drawn */
 };
 

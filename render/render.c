@@ -89,6 +89,16 @@ static int prepare_device(const struct settings *s, struct device *dev)
 	return err;
 }
 
+/* How display pictures came out. */
+static void report_display(const struct pipeline *p)
+{
+	const struct display_options *o = &p->settings->display;
+
+	if (p->pixels && p->settings->progress != PROGRESS_NONE)
+		fprintf(stderr, "  exposure %+g stops, white at %g; %.2g %% of the pixels are brighter\n", (double)o->exposure, (double)o->white,
+		        100 * (double)p->bright / (double)p->pixels);
+}
+
 static int render_frames(struct pipeline *p, uint64_t total)
 {
 	const struct settings *s = p->settings;
@@ -97,6 +107,8 @@ static int render_frames(struct pipeline *p, uint64_t total)
 
 	for (size_t i = 0; i < p->n_devices && !err; i++)
 		err = prepare_device(s, p->devices[i]);
+	if (!err && s->kind != DISPLAY_EXR)
+		err = display_create(&s->display, &p->display);
 	if (err) {
 		device_close_list(&p->devices, &p->n_devices);
 		return err;
@@ -112,6 +124,8 @@ static int render_frames(struct pipeline *p, uint64_t total)
 	for (size_t i = 0; i < p->n_devices && p->n_devices > 1 && p->shares && s->progress != PROGRESS_NONE; i++)
 		fprintf(stderr, "  device %zu: %llu frames (%s)\n", i, (unsigned long long)p->shares[i], device_name(p->devices[i]));
 	free(p->shares);
+	report_display(p);
+	display_destroy(&p->display);
 	report(p);
 	device_close_list(&p->devices, &p->n_devices);
 	return err;

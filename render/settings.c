@@ -1,6 +1,7 @@
 #include "render/settings.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +60,28 @@ static int take_seconds(const struct options_row *row, const char *value, void *
 	return 0;
 }
 
+static int take_exposure(const struct options_row *row, const char *value, void *out)
+{
+	float *stops = out;
+	char *end;
+
+	*stops = strtof(value, &end);
+	if (end == value || *end || !(fabsf(*stops) <= 30))
+		return err_report(ERR_USAGE, NULL, "--%s takes stops from -30 to 30, not '%s'", row->name, value);
+	return 0;
+}
+
+static int take_white(const struct options_row *row, const char *value, void *out)
+{
+	float *white = out;
+	char *end;
+
+	*white = strtof(value, &end);
+	if (end == value || *end || !(*white >= 1) || *white > 1e4f)
+		return err_report(ERR_USAGE, NULL, "--%s takes a brightness from 1 to 10000, not '%s'", row->name, value);
+	return 0;
+}
+
 static int take_look(const struct options_row *row, const char *value, void *out)
 {
 	struct settings *s = out;
@@ -104,7 +127,8 @@ static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST", "frames, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all)",
 	  options_frames, AT(frames), .kind = RUN },
 	{ "chunk", 0, "I/N", "only the I-th of N parts of them, as for a task of a farm", take_chunk, .at = 0, .kind = RUN },
-	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number",
+	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "
+	  "a picture to look at",
 	  options_text, AT(output), .kind = RUN, .is_required = 1 },
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
@@ -131,6 +155,10 @@ static const struct options_row rows[] = {
 	  take_accel, AT(tracer), .words = accel_kind_names, .kind = RUN },
 	{ "relight", 0, NULL, "light pixels (Phong) instead of vertices; channel relight holds the difference",
 	  options_flag, AT(tracer.relight) },
+	{ .help = "Pictures to look at (.png, .jpg; sRGB, dithered but in mode gl):" },
+	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", take_exposure, AT(display.exposure) },
+	{ "white", 0, "X", "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks as it "
+	  "did; 4 in the modes diffuse and path)", take_white, AT(display.white) },
 	{ .help = "On what:" },
 	{ "device", 0, "LIST", "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
 	  "with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)", options_text, AT(device), .kind = RUN },
@@ -158,7 +186,7 @@ static const struct options_table table = {
 	.verb = "render",
 	.head = "usage: relume render TRACE [-f FRAMES] -o PATTERN [OPTIONS]\n"
 	        "\n"
-	        "Ray trace frames of a recording to OpenEXR.\n",
+	        "Ray trace frames of a recording to OpenEXR, or to pictures to look at.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
 	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
@@ -209,6 +237,27 @@ static int name_settings(struct settings *s, const struct options_line *line)
 
 /* --- The command line ---------------------------------------------------------------------------------------------- */
 
+/* What kind of file is asked for, and whether the other options are for it. */
+static int choose_kind(struct settings *s)
+{
+	const int has_bounces = s->tracer.mode == TRACER_DIFFUSE || s->tracer.mode == TRACER_PATH;
+	const int is_asked = s->display.white > 0 || s->display.exposure != 0;
+
+	s->kind = display_kind_of(s->output);
+	if (s->kind == DISPLAY_NONE)
+		return display_refuse(s->output);
+	if (s->kind == DISPLAY_EXR && is_asked)
+		return err_report(ERR_USAGE, NULL, "--exposure and --white are for .png and .jpg; OpenEXR keeps the light of the scene");
+	if (s->kind != DISPLAY_EXR && s->tracer.aov)
+		return err_report(ERR_USAGE, NULL, "--aov is for .exr; .png and .jpg have no channels but red, green and blue");
+	if (s->kind != DISPLAY_EXR)
+		s->tracer.aov = "";
+	s->display.rounds = s->tracer.mode == TRACER_GL;
+	if (!(s->display.white > 0))
+		s->display.white = has_bounces ? 4 : 1;
+	return 0;
+}
+
 int settings_parse(struct settings *s, int argc, char **argv)
 {
 	struct options_line line;
@@ -224,7 +273,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last))
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
 		                  s->output);
-	return name_settings(s, &line);
+	err = choose_kind(s);
+	return err ? err : name_settings(s, &line);
 }
 
 void settings_free(struct settings *s)

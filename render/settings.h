@@ -9,6 +9,7 @@
 #include "base/frames.h"
 #include "base/progress.h"
 #include "tracer/frame/trace.h"
+#include "tracer/image/display.h"
 
 struct settings {
 	const char *trace, *output, *device;
@@ -26,6 +27,8 @@ struct settings {
 	struct look *look;
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct tracer_options tracer;
+	enum display_kind kind;         /* of the files */
+	struct display_options display; /* of display pictures */
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */
 };
 

@@ -13,7 +13,7 @@
 #include "base/memory.h"
 #include "base/frames.h"
 #include "base/hash.h"
-#include "diff/pictures/oiio.h"
+#include "tracer/image/oiio.h"
 
 void set_free(struct set *set)
 {

@@ -8,9 +8,9 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
-#include "diff/pictures/oiio.h"
 #include "diff/report/ordered.h"
 #include "diff/report/pictures.h"
+#include "tracer/image/oiio.h"
 
 /* Where the data goes in the page. */
 #define DATA_MARKER "/*DATA*/"
@@ -46,7 +46,7 @@ static int write_picture(const char *name, uint8_t *rgb, uint32_t width, uint32_
 {
 	uint8_t *png;
 	size_t bytes;
-	int err = oiio_encode_png(&(struct oiio_pixels){ rgb, width, height }, PNG_LEVEL, &png, &bytes);
+	int err = oiio_encode(&(struct oiio_pixels){ rgb, width, height }, &(struct oiio_coding){ "png", .level = PNG_LEVEL }, &png, &bytes);
 
 	free(rgb);
 	if (err)

@@ -7,8 +7,8 @@
 
 #include "base/err.h"
 #include "base/part.h"
-#include "diff/pictures/oiio.h"
 #include "diff/report/pictures.h"
+#include "tracer/image/oiio.h"
 
 enum { COLUMNS = 4, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
 
@@ -143,7 +143,7 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 	for (size_t i = 0; !err && i < n_rows; i++)
 		err = draw_row(&sheet, i, rows[i], run, ref, traced);
 	if (!err)
-		err = oiio_encode_png(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, 6, &png, &bytes);
+		err = oiio_encode(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, &(struct oiio_coding){ "png", .level = 6 }, &png, &bytes);
 	if (!err)
 		err = part_open(&file, path);
 	if (!err) {

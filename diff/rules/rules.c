@@ -10,8 +10,8 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "base/frames.h"
-#include "diff/pictures/oiio.h"
 #include "diff/score/gates.h"
+#include "tracer/image/oiio.h"
 
 /* As the file has it. */
 

@@ -1,9 +1,11 @@
-#include "diff/pictures/oiio.h"
+#include "tracer/image/oiio.h"
 
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <OpenImageIO/filesystem.h>
@@ -69,6 +71,21 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 	return 0;
 }
 
+/** Lines as display_write leaves them: "relume:NAME TEXT". */
+int add_description(struct image *img, const std::string &text)
+{
+	std::istringstream lines(text);
+
+	for (std::string line; std::getline(lines, line);) {
+		const size_t space = line.find(' ');
+
+		if (line.compare(0, 7, "relume:") == 0 && space != std::string::npos &&
+		    image_set_attribute(img, line.substr(0, space).c_str(), "%s", line.c_str() + space + 1) != 0)
+			return ERR_SYSTEM;
+	}
+	return 0;
+}
+
 int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
 {
 	for (const char *name : { "relume:frame", "relume:encoding", "relume:trace", "relume:device" }) {
@@ -77,6 +94,8 @@ int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
 		if (!text.empty() && image_set_attribute(img, name, "%s", text.c_str()) != 0)
 			return ERR_SYSTEM;
 	}
+	if (int err = add_description(img, spec.get_string_attribute("ImageDescription")))
+		return err;
 	if (!image_attribute(img, "relume:encoding"))
 		return image_set_attribute(img, "relume:encoding", "%s", is_integer(spec.format) ? "display" : "linear");
 	return 0;
@@ -130,17 +149,26 @@ int read_image(struct image *img, const char *path)
 	return add_attributes(img, first);
 }
 
-int encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
+int encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)
 {
+	const std::string name = std::string("memory.") + coding->format;
 	std::vector<unsigned char> bytes;
 	OIIO::Filesystem::IOVecOutput proxy(bytes);
-	auto png = OIIO::ImageOutput::create("memory.png", &proxy);
+	auto file = OIIO::ImageOutput::create(name, &proxy);
 	OIIO::ImageSpec spec(int(pixels->width), int(pixels->height), 3, OIIO::TypeDesc::UINT8);
 
-	spec.attribute("png:compressionLevel", level);
-	if (!png || !png->open("memory.png", spec) || !png->write_image(OIIO::TypeDesc::UINT8, pixels->rgb) || !png->close())
-		return err_report(ERR_SYSTEM, NULL, "PNG: %s",
-		                  png ? png->geterror().c_str() : OIIO::geterror().c_str());
+	if (strcmp(coding->format, "png") == 0) {
+		spec.attribute("png:compressionLevel", coding->level);
+	} else {
+		spec.attribute("Compression", "jpeg:" + std::to_string(coding->quality));
+		spec.attribute("jpeg:subsampling", "4:4:4");
+	}
+	spec.attribute("oiio:ColorSpace", "sRGB");
+	if (coding->text)
+		spec.attribute("ImageDescription", coding->text);
+	if (!file || !file->open(name, spec) || !file->write_image(OIIO::TypeDesc::UINT8, pixels->rgb) || !file->close())
+		return err_report(ERR_SYSTEM, NULL, "%s: %s", coding->format,
+		                  file ? file->geterror().c_str() : OIIO::geterror().c_str());
 	*out = static_cast<uint8_t *>(malloc(bytes.size() ? bytes.size() : 1));
 	if (!*out)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -165,12 +193,12 @@ int oiio_read(struct image *img, const char *path)
 	}
 }
 
-int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
+int oiio_encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)
 {
 	try {
-		return encode_png(pixels, level, out, out_bytes);
+		return encode(pixels, coding, out, out_bytes);
 	} catch (const std::exception &e) {
-		return err_report(ERR_SYSTEM, NULL, "PNG: %s", e.what());
+		return err_report(ERR_SYSTEM, NULL, "%s: %s", coding->format, e.what());
 	}
 }
 

@@ -18,7 +18,8 @@ extern "C" {
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey
  *             picture gives R, G and B alike. Integer formats come as numbers in [0,1] with attribute
- *             relume:encoding = "display"; half and float formats as they are, "linear". Names longer than
+ *             relume:encoding = "display"; half and float formats as they are, "linear". A description as
+ *             display_write leaves it gives the attributes in it. Names longer than
  *             image.h's limit are an error, as are pictures above 2^28 pixels.
  * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
  */
@@ -30,13 +31,19 @@ struct oiio_pixels {
 	uint32_t width, height;
 };
 
+struct oiio_coding {
+	const char *format; /* "png" or "jpg" */
+	int level;          /* of PNG: zlib's, 1 (fast) .. 9 */
+	int quality;        /* of JPEG: 1 .. 100 */
+	const char *text;   /* kept as the picture's description; NULL: none */
+};
+
 /**
- * Encode pixels as PNG in memory.
- * @param level  zlib's, 1 (fast) .. 9
- * @param out    receives a buffer; caller frees with free()
+ * Encode pixels as a file in memory. The same pixels give the same bytes.
+ * @param out  receives a buffer; caller frees with free()
  * @return 0 or ERR_SYSTEM (reported)
  */
-int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes);
+int oiio_encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes);
 
 /**
  * Yee's perceptual metric (compare_Yee, as idiff -p), on codes: how many pixels look different.

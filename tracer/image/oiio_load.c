@@ -2,7 +2,7 @@
  * OpenImageIO and the hundreds of libraries behind it, loaded when the first picture needs them: linked with the command,
  * they are most of the time that a short run takes. The bridge itself is oiio.cpp, in relume-oiio.so.
  */
-#include "diff/pictures/oiio.h"
+#include "tracer/image/oiio.h"
 
 #include <dlfcn.h>
 #include <limits.h>
@@ -15,7 +15,7 @@ static struct {
 	pthread_once_t once;
 	int whole; /* all functions are there; else the reason was reported */
 	__typeof__(oiio_read) *read;
-	__typeof__(oiio_encode_png) *encode_png;
+	__typeof__(oiio_encode) *encode;
 	__typeof__(oiio_compare_yee) *compare_yee;
 	__typeof__(oiio_draw_text) *draw_text;
 } bridge = { .once = PTHREAD_ONCE_INIT };
@@ -33,10 +33,10 @@ static void load(void)
 		return;
 	}
 	*(void **)&bridge.read = dlsym(library, "oiio_read");
-	*(void **)&bridge.encode_png = dlsym(library, "oiio_encode_png");
+	*(void **)&bridge.encode = dlsym(library, "oiio_encode");
 	*(void **)&bridge.compare_yee = dlsym(library, "oiio_compare_yee");
 	*(void **)&bridge.draw_text = dlsym(library, "oiio_draw_text");
-	bridge.whole = bridge.read && bridge.encode_png && bridge.compare_yee && bridge.draw_text;
+	bridge.whole = bridge.read && bridge.encode && bridge.compare_yee && bridge.draw_text;
 	if (!bridge.whole)
 		err_report(ERR_SYSTEM, path, "is of another version of Relume");
 }
@@ -52,9 +52,9 @@ int oiio_read(struct image *img, const char *path)
 	return loaded() ? bridge.read(img, path) : ERR_SYSTEM;
 }
 
-int oiio_encode_png(const struct oiio_pixels *pixels, int level, uint8_t **out, size_t *out_bytes)
+int oiio_encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)
 {
-	return loaded() ? bridge.encode_png(pixels, level, out, out_bytes) : ERR_SYSTEM;
+	return loaded() ? bridge.encode(pixels, coding, out, out_bytes) : ERR_SYSTEM;
 }
 
 int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
