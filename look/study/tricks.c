@@ -47,13 +47,23 @@ static void take_in(struct trick_found *f, const struct trick_found *what)
 		f->plane[k] /= sqrt(length);
 }
 
-struct trick_found *tricks_note(struct tricks *t, const struct trick_found *what, uint64_t frame)
+static int is_same_trick(const struct trick_found *a, const struct trick_found *b)
 {
-	struct trick_found *f = t->found;
+	return a->kind == b->kind && (b->kind == TRICK_MIRROR || !(apart(a->light, b->light) > SAME)) && !(planes_apart(a->plane, b->plane) > SAME);
+}
 
-	while (f < t->found + t->n && (f->kind != what->kind || (what->kind != TRICK_MIRROR && apart(f->light, what->light) > SAME) ||
-	                               planes_apart(f->plane, what->plane) > SAME))
-		f++;
+struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame)
+{
+	struct trick_found *f = t->found, turned = *said;
+	const struct trick_found *what = said;
+
+	for (int k = 0; k < 4; k++)
+		turned.plane[k] = -said->plane[k];
+	for (; f < t->found + t->n && !is_same_trick(f, said); f++)
+		if (said->kind == TRICK_MIRROR && is_same_trick(f, &turned)) {
+			what = &turned; /* seen from its other side */
+			break;
+		}
 	if (f == t->found + TRICKS_MAX)
 		return NULL;
 	if (f == t->found + t->n) {

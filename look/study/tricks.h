@@ -33,8 +33,8 @@ struct tricks {
 	unsigned darkenings; /* draws that darken where the stencil buffer says so, in frames with shadow volumes */
 };
 
-/** A finding to be noted, or added to what it equals. @return NULL: there are too many */
-struct trick_found *tricks_note(struct tricks *t, const struct trick_found *what, uint64_t frame);
+/** A finding to be noted, or added to what it equals: a mirror also to one of the turned plane. @return NULL: there are too many */
+struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame);
 
 /**
  * 1 where most of what is drawn (at a plane, or at all where it is NULL) is lit by a light of OpenGL's at this place: traced shadows of

@@ -1,0 +1,43 @@
+/* What frames' tricks agree on (look/study/tricks.h). */
+#include "look/study/tricks.h"
+#include "tests/case.h"
+
+/* A viewer who walks around a mirror sees its plane turned; what is drawn beside it is another one. */
+START_TEST(test_mirror_has_two_sides)
+{
+	struct tricks t = { .n = 0 };
+	struct trick_found front = { .kind = TRICK_MIRROR, .plane = { 0, 0.6, 0.8, -2 } }, back = { .kind = TRICK_MIRROR, .plane = { 0, -0.6, -0.8, 2 } };
+	struct trick_found other = { .kind = TRICK_MIRROR, .plane = { 0, 0.6, 0.8, 2 } };
+
+	ck_assert_ptr_eq(tricks_note(&t, &front, 1), &t.found[0]);
+	ck_assert_ptr_eq(tricks_note(&t, &back, 2), &t.found[0]);
+	ck_assert_ptr_eq(tricks_note(&t, &other, 2), &t.found[1]);
+	ck_assert_uint_eq(t.n, 2);
+	ck_assert_uint_eq(t.found[0].votes, 2);
+	ck_assert_uint_eq(t.found[0].frames, 2);
+	for (int k = 0; k < 4; k++)
+		ck_assert_double_eq_tol(t.found[0].plane[k], front.plane[k], 1e-12);
+}
+END_TEST
+
+/* A shadow's plane is told apart: light comes from one side of it. */
+START_TEST(test_shadow_has_one_side)
+{
+	struct tricks t = { .n = 0 };
+	struct trick_found above = { .kind = TRICK_PLANAR_SHADOW, .light = { 0, 5, 0, 1 }, .plane = { 0, 1, 0, 0 } }, below = above;
+
+	below.plane[1] = -1;
+	tricks_note(&t, &above, 1);
+	tricks_note(&t, &below, 1);
+	ck_assert_uint_eq(t.n, 2);
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tests = tcase_create("tricks");
+
+	tcase_add_test(tests, test_mirror_has_two_sides);
+	tcase_add_test(tests, test_shadow_has_one_side);
+	return run_case(tests, "tricks");
+}
