@@ -135,6 +135,7 @@ struct applying {
 	float eye_from_world[16], world_from_eye[16]; /* where lights and planes of the world are */
 	int knows_world;
 	int has_mirror;           /* pictures in mirrors may be left out */
+	uint8_t *in_plane;        /* [instances][surfaces]: whether a rule's plane holds an instance, 1 no, 2 yes; 0: not asked yet */
 	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights */
 };
 
@@ -320,14 +321,20 @@ static void set_sky(const struct applying *a)
 		dome->up_eye[k] = turned[k] / length;
 }
 
-static int is_where_said(const struct applying *a, const struct scene_instance *in, const struct match *r)
+static int is_where_said(const struct applying *a, const struct scene_instance *in, uint32_t k)
 {
+	const struct match *r = a->rules->surfaces[k].match;
+	uint8_t *known;
 	float plane[4];
 
 	if (!r || !r->in_plane)
 		return 1;
-	mat4_transform_plane(plane, r->in_plane, a->world_from_eye);
-	return a->knows_world && plane_holds(a->scene, in, plane);
+	known = &a->in_plane[(size_t)(in - a->scene->instances) * a->rules->surfaces_count + k];
+	if (!*known) {
+		mat4_transform_plane(plane, r->in_plane, a->world_from_eye);
+		*known = a->knows_world && plane_holds(a->scene, in, plane) ? 2 : 1;
+	}
+	return *known == 2;
 }
 
 /* 1 for the k-th rule of surfaces where it changes an instance. */
@@ -339,7 +346,7 @@ static int applies(const struct applying *a, const struct scene_instance *in, ui
 
 	if (is_kept(a->rules, r) || (is_reflection && !a->has_mirror))
 		return 0;
-	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_where_said(a, in, r->match);
+	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_where_said(a, in, k);
 }
 
 /* 1 where a solid mirror is in the frame, or rules know of none. */
@@ -411,7 +418,8 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
 	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
-	if (!out->instances || !out->materials || !out->lights) {
+	a->in_plane = calloc(n + 1, a->rules->surfaces_count + (size_t)1);
+	if (!out->instances || !out->materials || !out->lights || !a->in_plane) {
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
@@ -424,35 +432,59 @@ static int copy_scene(struct applying *a)
 	return 0;
 }
 
-int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
+/* 1 where rules say of everything what light it lets through, or that nothing is spared. */
+static int decides_sparing(const struct rules *rules)
+{
+	int decided = 0; /* bits: 1 of what is not lit, 2 of what is */
+
+	for (uint32_t k = 0; k < rules->surfaces_count; k++) {
+		const struct match only = { .lit = rules->surfaces[k].match ? rules->surfaces[k].match->lit : NULL };
+
+		if (rules->surfaces[k].passes && (!rules->surfaces[k].match || memcmp(rules->surfaces[k].match, &only, sizeof(only)) == 0))
+			decided |= !only.lit ? 3 : *only.lit ? 2 : 1;
+	}
+	return decided == 3 || (rules->spare && !*rules->spare);
+}
+
+/* What the rules need to know of a frame before they apply. */
+static void prepare(struct applying *a)
 {
 	static const struct rules none = { .surfaces = NULL };
-	struct applying a = { .look = look, .rules = look ? look->rules : &none, .scene = scene, .out = out };
-	struct spare spare;
-	int in_world = 0, err = spare_find(scene, &spare);
+	int in_world = 0;
 
+	a->rules = a->look ? a->look->rules : &none;
+	for (uint32_t k = 0; k < a->rules->lights_count; k++) {
+		a->lights_change |= changes_light(&a->rules->lights[k]) ? lit_by(&a->rules->lights[k]) : 0;
+		in_world |= is_in_world(&a->rules->lights[k]);
+	}
+	a->knows_world = world_find(a->rules, a->scene, a->eye_from_world);
+	mat4_invert(a->world_from_eye, a->eye_from_world);
+	if (in_world && !a->knows_world) {
+		a->rules = &none; /* its lights stand nobody knows where */
+		a->lights_change = 0;
+	}
+}
+
+int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
+{
+	struct applying a = { .look = look, .scene = scene, .out = out };
+	struct spare spare;
+	int err;
+
+	prepare(&a);
+	err = spare_find(scene, decides_sparing(a.rules), &spare);
 	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
-	for (uint32_t k = 0; k < a.rules->lights_count; k++) {
-		a.lights_change |= changes_light(&a.rules->lights[k]) ? lit_by(&a.rules->lights[k]) : 0;
-		in_world |= is_in_world(&a.rules->lights[k]);
-	}
 	if (!err)
 		err = copy_scene(&a);
-	if (!err)
-		a.knows_world = world_find(a.rules, scene, a.eye_from_world);
-	if (!err && in_world && !a.knows_world) {
-		a.rules = &none; /* its lights stand nobody knows where */
-		a.lights_change = 0;
-	}
 	if (!err) {
-		mat4_invert(a.world_from_eye, a.eye_from_world);
 		a.has_mirror = has_mirror(&a);
 		size_lights(a.rules, out);
 		set_sky(&a);
 	}
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
 		change_instance(&a, i);
+	free(a.in_plane);
 	if (found)
 		*found = spare;
 	else

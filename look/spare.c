@@ -384,7 +384,20 @@ static int has_sun(const struct sparing *a)
 	return 0;
 }
 
-int spare_find(const struct scene *scene, struct spare *out)
+/* Bits of what shuts light out. */
+static int find_blocking(struct sparing *a)
+{
+	int err = blockers_create(a->scene, &a->blockers);
+
+	if (!err && has_sun(a))
+		find_backdrops(a);
+	if (!err)
+		err = find_enclosures(a);
+	blockers_destroy(&a->blockers);
+	return err;
+}
+
+int spare_find(const struct scene *scene, int cards_alone, struct spare *out)
 {
 	struct sparing *a = calloc(1, sizeof(*a));
 	int err = 0;
@@ -401,15 +414,10 @@ int spare_find(const struct scene *scene, struct spare *out)
 	out->bits = calloc(scene->n_instances, sizeof(*out->bits));
 	if (!out->bits)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (!err)
-		err = blockers_create(scene, &a->blockers);
-	if (!err && has_sun(a))
-		find_backdrops(a);
-	if (!err)
-		err = find_enclosures(a);
+	if (!err && !cards_alone)
+		err = find_blocking(a);
 	if (!err)
 		err = cards_find(scene, SCENE_CARD, out->bits, &out->cards);
-	blockers_destroy(&a->blockers);
 	free(a);
 	if (err || !(out->enclosures + out->backdrops + out->cards)) {
 		free(out->bits);

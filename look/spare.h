@@ -43,8 +43,12 @@ const char *spare_name(uint32_t bits);
 /** @return 1; 0: there is no such word */
 int spare_named(const char *name, uint32_t *bits);
 
-/** @param out  filled; free with spare_free @return 0 or ERR_SYSTEM (reported) */
-int spare_find(const struct scene *scene, struct spare *out);
+/**
+ * @param cards_alone  1: enclosures and backdrops, which take rays, are not looked for
+ * @param out          filled; free with spare_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int spare_find(const struct scene *scene, int cards_alone, struct spare *out);
 void spare_free(struct spare *spare);
 
 /**

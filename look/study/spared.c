@@ -51,7 +51,7 @@ static void count_votes(struct spared *s)
 int spared_add(struct spared *s, const struct scene *scene)
 {
 	struct spare found;
-	int err = spare_find(scene, &found);
+	int err = spare_find(scene, 0, &found);
 
 	if (err || !found.n_lamps) {
 		spare_free(&found);
