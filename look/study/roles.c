@@ -8,7 +8,6 @@
 #include "base/memory.h"
 #include "look/look.h"
 #include "look/study/face.h"
-#include "look/look.h"
 #include "look/study/matrix.h"
 
 /* Matrices agree up to this share of the world's numbers in them. */
@@ -65,7 +64,7 @@ static double distance_in_sizes(const struct motion_thing *t)
 static int is_sky(const struct roles *r, const struct motion *m, size_t i)
 {
 	return !r->things[i].is_flat && r->things[i].came_along >= 2 && !r->things[i].stayed && 2 * m->things[i].carried < m->things[i].again &&
-	       distance_in_sizes(&m->things[i]) < 0.5;
+	       distance_in_sizes(&m->things[i]) < 0.5 && !kinds_has_sky(&r->kinds, m->things[i].mesh);
 }
 
 /* What stands while all else turns looks held; what is held is near, and small beside the world. */
@@ -112,7 +111,9 @@ static void note_texture(struct roles *r, const struct scene *s, const struct sc
 		r->textures[i] = (struct role_texture){ .hash = { hash[0], hash[1] } };
 		r->n_textures++;
 	}
-	if (faces_viewer(s->meshes[in->mesh], eye))
+	if (s->meshes[in->mesh]->kind == SCENE_POINTS)
+		r->textures[i].points++;
+	if (s->meshes[in->mesh]->kind == SCENE_POINTS || faces_viewer(s->meshes[in->mesh], eye))
 		r->textures[i].facing++;
 	else
 		r->textures[i].others++;
@@ -122,7 +123,7 @@ static void note_texture(struct roles *r, const struct scene *s, const struct sc
 
 static int is_particle(const struct roles *r, const struct role_texture *t)
 {
-	return r->turns && t->frames >= 2 && t->facing >= FACING_SHARE * (t->facing + t->others);
+	return (r->turns || t->points == t->facing) && t->frames >= 2 && t->facing >= FACING_SHARE * (t->facing + t->others);
 }
 
 /* --- HUD ---------------------------------------------------------------------------------------------------------------- */
@@ -179,6 +180,8 @@ int roles_add(struct roles *r, const struct scene *scene, const struct motion *m
 	for (uint32_t i = 0; i < scene->n_instances; i++) {
 		double eye[16];
 
+		if (scene->meshes[scene->instances[i].mesh]->kind == SCENE_POINTS && scene->materials[scene->instances[i].material].point_sprite)
+			note_texture(r, scene, &scene->instances[i], eye, motion->n_frames);
 		if (motion->of_instance[i] == SCENE_NONE)
 			continue;
 		matrix_from_floats(eye, scene->instances[i].modelview);
@@ -189,12 +192,13 @@ int roles_add(struct roles *r, const struct scene *scene, const struct motion *m
 	note_hud(r, scene);
 	memcpy(r->camera, now->eye_from_world, sizeof(r->camera));
 	r->knows_camera = 1;
-	return 0;
+	return kinds_add(&r->kinds, scene);
 }
 
 void roles_free(struct roles *r)
 {
 	free(r->things);
+	kinds_free(&r->kinds);
 	*r = (struct roles){ .things = NULL };
 }
 
@@ -248,16 +252,17 @@ static unsigned write_all(const struct roles *r, const struct motion *m, FILE *o
 			continue;
 		n++;
 		if (out)
-			fprintf(out, "  - role: particle\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames face the viewer, who turns\"\n"
+			fprintf(out, "  - role: particle\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames %s\"\n"
 			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", blended: yes }\n    shadows: no\n    dome: no\n",
-			        (double)t->facing / (t->facing + t->others), t->facing, t->facing + t->others, t->frames, t->hash[1], t->hash[0]);
+			        (double)t->facing / (t->facing + t->others), t->facing, t->facing + t->others, t->frames,
+			        t->points == t->facing ? "are points with a picture" : "face the viewer, who turns", t->hash[1], t->hash[0]);
 	}
 	if (r->hud_frames && out)
 		fprintf(out, "  - role: HUD\n    confidence: %.2f\n"
 		        "    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
 		        "    match: { parallel: yes, stencil_tested: no }\n    shadows: no\n    mirrors: no\n    dome: no\n",
 		        1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
-	return n + (r->hud_frames > 0);
+	return n + (r->hud_frames > 0) + kinds_write(&r->kinds, out);
 }
 
 unsigned roles_count(const struct roles *r, const struct motion *motion)

@@ -1,9 +1,11 @@
 /*
  * What draws are, told by all frames together:
  *
- *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays
+ *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays; or it is painted
+ *               before the world and all around (layer.h)
  *   view model  the viewer holds it: its modelview stays while the camera moves
- *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns
+ *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns, or on points
+ *   decal, blob shadow   laid on surfaces (laid.h)
  *   HUD         in parallel projection over a world in perspective, and not cut out by the stencil buffer
  *
  * A role is given to all that has its mesh or its texture, and so only where all of that shows it.
@@ -12,6 +14,7 @@
 
 #include <stdio.h>
 
+#include "look/study/kinds.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
 
@@ -27,6 +30,7 @@ struct role_thing {
 struct role_texture {
 	uint64_t hash[2];
 	uint32_t facing, others; /* blended draws */
+	uint32_t points; /* of those that face the viewer */
 	uint32_t frames;
 	uint64_t last;
 };
@@ -41,6 +45,7 @@ struct roles {
 	double camera[16];  /* of the last frame */
 	int knows_camera;
 	unsigned turns;     /* frames between which the viewer turned */
+	struct kinds kinds; /* what each frame alone tells: layers of a sky, decals, shadows laid on the ground */
 };
 
 /** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */

@@ -4,6 +4,7 @@ import json
 import pathlib
 import subprocess
 
+import numpy
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -47,17 +48,37 @@ def modelview_kind(m):
     return "singular" if singular else "mirrored" if three < 0 else "plain"
 
 
-def state(scene, instance):
-    """What rules match, of an instance of `relume scene --json`."""
+def state(scene, instance, camera):
+    """What rules match, of an instance of `relume scene --json --vertices`."""
     m, view = scene["materials"][instance["material"]], scene["views"][instance["view"]]
     units = scene["units"][m["unit_first"]:m["unit_first"] + m["unit_count"]]
     p = view["projection"]
-    return {"mesh": scene["meshes"][instance["mesh"]]["hash"], "texture": [scene["textures"][u["texture"]]["hash"] for u in units],
+    return {"instance": instance, "camera": camera, "points": scene["meshes"][instance["mesh"]]["position"], "mesh": scene["meshes"][instance["mesh"]]["hash"], "texture": [scene["textures"][u["texture"]]["hash"] for u in units],
             "lit": bool(m["lighting"]), "textured": bool(units), "units": len(units), "blended": bool(m["blend"]), "alpha_tested": bool(m["alpha_test"]),
             "depth_tested": bool(m["depth_test"]), "stencil_tested": bool(m["stencil_test"]), "parallel": p[3] == 0 and p[7] == 0 and p[11] == 0,
             "environment_mapped": any(mode in MAPPED for u in units for mode in u["gen_mode"][:3]),
             "multiplies": bool(m["blend"]) and (m["blend_src_rgb"], m["blend_dst_rgb"]) in ((DST_COLOR, ZERO), (ZERO, SRC_COLOR)),
             "modelview": modelview_kind(instance["modelview"])}
+
+
+def camera_of(scene, world):
+    """What leads from the world into a frame's eye space, by the first mesh of the list `world` that it draws; None: it draws none."""
+    for anchor in world:
+        for instance in scene["instances"]:
+            if scene["meshes"][instance["mesh"]]["hash"].startswith(str(anchor["mesh"])):
+                return matrix(instance["modelview"]) @ numpy.linalg.inv(matrix(anchor["at"]))
+    return None
+
+
+def matrix(numbers16):
+    return numpy.array(numbers16, float).reshape(4, 4).T
+
+
+def lies_in(plane, has):
+    """1 where most points of a draw lie in a plane of the world, as look/plane.c has it."""
+    points = matrix(has["instance"]["modelview"]) @ numpy.array(has["points"], float).reshape(-1, 4).T
+    off = abs(numpy.array(plane) @ numpy.linalg.inv(has["camera"]) @ points)
+    return (off <= 1e-3 * abs(points).sum(axis=0)).mean() >= 0.9
 
 
 def matches(wanted, has):
@@ -66,7 +87,9 @@ def matches(wanted, has):
             return False
         if key == "texture" and not any(t.startswith(str(value)) for t in has["texture"]):
             return False
-        if key not in ("mesh", "texture") and has[key] != value:
+        if key == "in_plane" and not (has["camera"] is not None and lies_in(value, has)):
+            return False
+        if key not in ("mesh", "texture", "in_plane") and has[key] != value:
             return False
     return True
 
@@ -87,10 +110,14 @@ def compare(entry, build, work):
         run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options)
     rules = work / "labelled.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
-    rules = yaml.safe_load(rules.read_text())["surfaces"]
-    scene = json.loads(run(build / "relume", "scene", trace, "-f", entry["frame"], "--json"))
+    found_rules = yaml.safe_load(rules.read_text())
+    rules = found_rules["surfaces"]
+    scene = json.loads(run(build / "relume", "scene", trace, "-f", entry["frame"], "--json", "--vertices"))
+    camera = camera_of(scene, found_rules.get("world") or [])
     for instance in scene["instances"]:
-        has, found, label = state(scene, instance), None, None
+        if not scene["materials"][instance["material"]]["color_mask"] & 7:
+            continue # it shows nothing
+        has, found, label = state(scene, instance, camera), None, None
         for rule in rules:
             if rule.get("role") in ROLES and matches(rule.get("match", {}), has):
                 found = ROLES[rule["role"]]

@@ -1,0 +1,343 @@
+#include "look/study/laid.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+#include "look/look.h"
+#include "look/modelview.h"
+#include "look/solid.h"
+#include "look/study/face.h"
+#include "look/study/matrix.h"
+
+/* So many places of a draw are looked at, and this share of them lies on something-> */
+enum { PLACES = 8, MOST_TRIANGLES = 8192 };
+#define MOST 0.75
+/* How far it may be above that: of its size, and of its distance. */
+#define OFF_SIZE 0.1
+#define OFF_DISTANCE 1e-4
+/* Level with it within 15 degrees. */
+#define LEVEL 0.966
+/* A shadow's thing is so many times larger or smaller than it at most. */
+#define ALIKE 4
+/* Two draws are in one place where their middles and sizes differ by less than this share of it. */
+#define SAME 1e-3
+/* Colours that are black; texels' come of 8 bits. */
+#define BLACK 0.1f
+#define BLACK_TEXEL 26
+
+struct ball {
+	double middle[3], radius;
+};
+
+static struct ball ball_of(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, square = 0, eye[16];
+	struct ball ball = { .radius = 0 };
+
+	matrix_from_floats(eye, in->modelview);
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		const float *p = mesh->position + 4 * (size_t)v;
+		double at[3];
+
+		matrix_point(at, eye, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
+		for (int k = 0; k < 3; k++) {
+			low[k] = fmin(low[k], at[k]);
+			high[k] = fmax(high[k], at[k]);
+		}
+	}
+	for (int k = 0; k < 3 && mesh->vertex_count; k++) {
+		ball.middle[k] = 0.5 * (low[k] + high[k]);
+		square += (high[k] - low[k]) * (high[k] - low[k]);
+	}
+	ball.radius = 0.5 * sqrt(square);
+	return ball;
+}
+
+int laid_may_be(const struct scene *s, uint32_t instance)
+{
+	const struct scene_instance *in = &s->instances[instance];
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const int is_offset = m->polygon_offset & 4 && (m->polygon_offset_factor < 0 || m->polygon_offset_units < 0);
+
+	return mesh->kind == SCENE_TRIANGLES && mesh->primitive_count && mesh->primitive_count <= MOST_TRIANGLES && !in->rectangle &&
+	       s->views[in->view].target == 0 && !look_is_parallel(&s->views[in->view]) && m->color_mask & 7 &&
+	       (!m->depth_test || !m->depth_write || is_offset) && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
+}
+
+/* --- What it lies on ---------------------------------------------------------------------------------------------------- */
+
+/* 1 where a place with a normal lies on a face. */
+static int lies_on(const struct face *f, const double at[3], const double normal[3], double off)
+{
+	double from[3];
+
+	for (int k = 0; k < 3; k++)
+		from[k] = at[k] - f->corner[0][k];
+	if (fabs(matrix_dot3(from, f->normal)) > off || fabs(matrix_dot3(normal, f->normal)) < LEVEL)
+		return 0;
+	for (int c = 0; c < 3; c++) {
+		const double *a = f->corner[c], *b = f->corner[(c + 1) % 3];
+		double out[3];
+
+		for (int k = 0; k < 3; k++)
+			out[k] = (b[(k + 1) % 3] - a[(k + 1) % 3]) * f->normal[(k + 2) % 3] - (b[(k + 2) % 3] - a[(k + 2) % 3]) * f->normal[(k + 1) % 3];
+		for (int k = 0; k < 3; k++)
+			from[k] = at[k] - a[k];
+		if (matrix_dot3(from, out) > off * sqrt(matrix_dot3(out, out)))
+			return 0;
+	}
+	return 1;
+}
+
+/* What an instance lies on. */
+struct ground {
+	double normal[3]; /* towards the viewer */
+	double radius;    /* of the largest thing below it */
+	uint32_t instance; /* SCENE_NONE: it lies on nothing */
+};
+
+/* 1 where a place of a draw lies on an instance; normal: receives that of the face below */
+static int has_below(const struct scene *s, const struct scene_instance *below, const struct face *place, double off, double normal[3])
+{
+	const struct scene_mesh *mesh = s->meshes[below->mesh];
+	double eye[16], at[3];
+
+	matrix_from_floats(eye, below->modelview);
+	for (int k = 0; k < 3; k++)
+		at[k] = (place->corner[0][k] + place->corner[1][k] + place->corner[2][k]) / 3;
+	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+		struct face face;
+
+		if (!face_of(mesh, eye, p, &face) || !lies_on(&face, at, place->normal, off + OFF_DISTANCE * sqrt(matrix_dot3(at, at))))
+			continue;
+		for (int k = 0; k < 3; k++)
+			normal[k] = matrix_dot3(face.normal, at) > 0 ? -face.normal[k] : face.normal[k];
+		return 1;
+	}
+	return 0;
+}
+
+static double apart(const struct ball *a, const struct ball *b)
+{
+	double off[3] = { a->middle[0] - b->middle[0], a->middle[1] - b->middle[1], a->middle[2] - b->middle[2] };
+
+	return sqrt(matrix_dot3(off, off));
+}
+
+/* The middle of a face that is in sight. */
+static int is_in_sight(const double clip[16], const struct face *f)
+{
+	double at[4] = { 0, 0, 0, 1 }, out[4];
+
+	for (int k = 0; k < 3; k++)
+		at[k] = (f->corner[0][k] + f->corner[1][k] + f->corner[2][k]) / 3;
+	matrix_transform(out, clip, at);
+	return fabs(out[0]) <= out[3] && fabs(out[1]) <= out[3] && fabs(out[2]) <= out[3];
+}
+
+/* Some of a draw's faces, evenly spread over those in sight. @return how many */
+static unsigned find_places(const struct scene *s, const struct scene_instance *in, struct face out[PLACES])
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	double eye[16], projection[16];
+	uint32_t seen = 0, stride = 1;
+	unsigned n = 0;
+
+	matrix_from_floats(eye, in->modelview);
+	matrix_from_floats(projection, s->views[in->view].projection);
+	for (int pass = 0; pass < 2; pass++) {
+		if (pass)
+			stride = (seen + PLACES - 1) / PLACES;
+		seen = 0;
+		for (uint32_t p = 0; p < mesh->primitive_count; p++) {
+			struct face face;
+
+			if (!face_of(mesh, eye, p, &face) || !is_in_sight(projection, &face))
+				continue;
+			if (pass && seen % stride == 0 && n < PLACES)
+				out[n++] = face;
+			seen++;
+		}
+	}
+	return n;
+}
+
+/* The solid things before a draw that it lies on. @return 0: none of it is in sight */
+static int find_ground(const struct scene *s, const struct ball *balls, uint32_t instance, struct ground *ground)
+{
+	const struct scene_instance *in = &s->instances[instance];
+	const struct ball *ball = &balls[instance];
+	struct face places[PLACES];
+	const unsigned n = find_places(s, in, places);
+	unsigned found = 0;
+
+	*ground = (struct ground){ .instance = SCENE_NONE };
+	for (unsigned p = 0; p < n; p++) {
+		int lies = 0;
+
+		for (uint32_t i = instance; i-- > 0 && !lies;) {
+			const struct scene_instance *below = &s->instances[i];
+
+			if (apart(ball, &balls[i]) > ball->radius + balls[i].radius || !solid_is(s, below) ||
+			    s->views[below->view].space != s->views[in->view].space || s->meshes[below->mesh]->primitive_count > MOST_TRIANGLES)
+				continue;
+			lies = has_below(s, below, &places[p], OFF_SIZE * ball->radius, ground->normal);
+			if (lies && balls[i].radius > ground->radius) {
+				ground->radius = balls[i].radius;
+				ground->instance = i;
+			}
+		}
+		found += (unsigned)lies;
+	}
+	if (found < MOST * n)
+		ground->instance = SCENE_NONE;
+	return n > 0;
+}
+
+/* --- What it does -------------------------------------------------------------------------------------------------------- */
+
+static int has_black_texels(const struct scene_texture *t)
+{
+	if (t->floats || !t->texels)
+		return 0;
+	for (size_t i = 0; i < (size_t)t->width * t->height; i++)
+		for (int c = 0; c < 3; c++)
+			if (t->texels[4 * i + (size_t)c] > BLACK_TEXEL && t->texels[4 * i + 3] > 0)
+				return 0;
+	return 1;
+}
+
+/* 1 where a texture is white along its edge: what it multiplies by it stays there. A lightmap knows no edge. */
+static int has_white_edge(const struct scene_texture *t)
+{
+	if (t->floats || !t->texels || t->border)
+		return 0;
+	for (uint32_t y = 0; y < t->height; y++)
+		for (uint32_t x = 0; x < t->width; x += y == 0 || y + 1 == t->height || t->width < 2 ? 1 : t->width - 1)
+			for (int c = 0; c < 3; c++)
+				if (t->texels[4 * ((size_t)y * t->width + x) + (size_t)c] < 255 - BLACK_TEXEL)
+					return 0;
+	return 1;
+}
+
+static int has_black_vertices(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const float *own = s->currents[in->current].color;
+
+	for (uint32_t v = 0; v < (mesh->color ? mesh->vertex_count : 1); v++) {
+		const float *c = mesh->color ? mesh->color + 4 * (size_t)v : own;
+
+		if (c[0] > BLACK || c[1] > BLACK || c[2] > BLACK)
+			return 0;
+	}
+	return 1;
+}
+
+/* 1 where all that a draw adds is black. */
+static int is_black(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_unit *unit = m->unit_count == 1 ? &s->units[m->unit_first] : NULL;
+
+	if (m->lighting || m->unit_count > 1 || m->color_sum)
+		return 0;
+	if (!unit)
+		return has_black_vertices(s, in);
+	if (unit->env_mode == GL_REPLACE)
+		return has_black_texels(s->textures[unit->texture]);
+	return unit->env_mode == GL_MODULATE && (has_black_vertices(s, in) || has_black_texels(s->textures[unit->texture]));
+}
+
+/* 1 where nothing that a draw does makes anything brighter. */
+static int darkens(const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_material *m = &s->materials[in->material];
+
+	if (!m->blend || m->blend_equation_rgb != GL_FUNC_ADD)
+		return 0;
+	if (look_multiplies(m) && m->unit_count)
+		return has_white_edge(s->textures[s->units[m->unit_first + m->unit_count - 1].texture]);
+	if (m->blend_src_rgb == GL_ZERO)
+		return m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_ALPHA || m->blend_dst_rgb == GL_SRC_COLOR ||
+		       m->blend_dst_rgb == GL_ONE_MINUS_SRC_COLOR;
+	return look_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
+}
+
+/* 1 where something solid, neither far larger nor far smaller, stands on a draw. */
+static int has_thing(const struct scene *s, const struct ball *balls, uint32_t instance, const struct ground *ground)
+{
+	const struct ball *ball = &balls[instance];
+
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		const struct scene_instance *in = &s->instances[i];
+		const struct ball *thing = &balls[i];
+		double off[3], height, aside;
+
+		if (!(thing->radius < ALIKE * ball->radius && ball->radius < ALIKE * thing->radius) || i == instance || i == ground->instance || !solid_is(s, in) || s->views[in->view].space != s->views[s->instances[instance].view].space ||
+		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
+			continue;
+		for (int k = 0; k < 3; k++)
+			off[k] = thing->middle[k] - ball->middle[k];
+		height = matrix_dot3(off, ground->normal);
+		aside = sqrt(fmax(0, matrix_dot3(off, off) - height * height));
+		if (height > 0.1 * thing->radius && aside < thing->radius + ball->radius)
+			return 1;
+	}
+	return 0;
+}
+
+/* 1 where a draw is of the same points as one before it, and adds to that: another pass of a surface. One that covers it is a picture. */
+static int is_pass(const struct scene *s, const struct ball *balls, uint32_t instance)
+{
+	const struct scene_instance *in = &s->instances[instance];
+	const struct scene_material *m = &s->materials[in->material];
+
+	if (m->alpha_test || (m->blend && m->blend_src_rgb == GL_SRC_ALPHA && m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA))
+		return 0;
+	for (uint32_t i = 0; i < instance; i++)
+		if (s->meshes[s->instances[i].mesh]->primitive_count == s->meshes[in->mesh]->primitive_count &&
+		    apart(&balls[i], &balls[instance]) < SAME * balls[instance].radius &&
+		    fabs(balls[i].radius - balls[instance].radius) < SAME * balls[instance].radius)
+			return 1;
+	return 0;
+}
+
+static enum laid find_one(const struct scene *s, const struct ball *balls, uint32_t instance)
+{
+	const struct scene_material *m = &s->materials[s->instances[instance].material], *below;
+	struct ground ground;
+
+	if (!find_ground(s, balls, instance, &ground))
+		return LAID_UNKNOWN;
+	if (ground.instance == SCENE_NONE || is_pass(s, balls, instance))
+		return LAID_NOT;
+	if (!darkens(s, &s->instances[instance]) || !has_thing(s, balls, instance, &ground))
+		return look_multiplies(m) ? LAID_NOT : LAID_DECAL; /* lightmaps multiply, too */
+	below = &s->materials[s->instances[ground.instance].material];
+	return below->lighting && below->light_count ? LAID_LIT_SHADOW : LAID_SHADOW;
+}
+
+int laid_find(const struct scene *s, uint8_t *out)
+{
+	struct ball *balls = NULL;
+
+	for (uint32_t i = 0; i < s->n_instances; i++) {
+		if (out[i] == LAID_NOT)
+			continue;
+		if (!balls) {
+			balls = malloc(s->n_instances * sizeof(*balls));
+			if (!balls)
+				return err_report(ERR_SYSTEM, NULL, "out of memory");
+			for (uint32_t k = 0; k < s->n_instances; k++)
+				balls[k] = ball_of(s, &s->instances[k]);
+		}
+		out[i] = (uint8_t)find_one(s, balls, i);
+	}
+	free(balls);
+	return 0;
+}
