@@ -53,7 +53,7 @@ static void print_help(FILE *out)
 	      "relume --version prints the version.\n"
 	      "\n"
 	      "Exit codes: 0 done and passed, 1 compared and failed, 2 wrong usage, 3 input unreadable,\n"
-	      "4 baseline new or missing, 5 a device or the system failed.\n",
+	      "4 baseline new or missing, 5 a device or the system failed, 6 rendered, but draws are missing.\n",
 	      out);
 }
 

@@ -12,7 +12,7 @@ enum {
 	ERR_INPUT    = -3, /* an input is missing, unreadable or not what it should be */
 	ERR_BASELINE = -4, /* a baseline is new or missing */
 	ERR_SYSTEM   = -5, /* a device or the system failed: memory, disk, OpenCL, a child process */
-	ERR_GL       = -6, /* the recorded program made a GL error: state of the replay, never an exit code */
+	ERR_INCOMPLETE = -6, /* frames are there, but some of what the program drew is missing from them */
 	ERR_MEMORY   = -7  /* a device has too little memory for so much at once; not reported, never an exit code (tracer/device/device.h) */
 };
 

@@ -44,7 +44,7 @@ static void put_render(const struct farm_job *job, FILE *out, const char *task)
 	put_option(job, out, "-o", job->output);
 	if (task)
 		fprintf(out, " --chunk %s/%" PRIu64, task, job->n_tasks);
-	fputs(" --skip-existing -- ", out);
+	fputs(" --skip-existing --allow-incomplete -- ", out);
 	put_word(job, out, job->trace);
 }
 

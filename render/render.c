@@ -13,6 +13,7 @@
 #include "tracer/device/outcome.h"
 
 #define MAX_PATH_BYTES 4096
+#define MAX_LINES 20 /* about what is missing */
 
 /* How much of what was asked for the recording has. */
 struct extent {
@@ -66,12 +67,65 @@ static unsigned default_jobs(void)
 	return cores <= 4 ? 2 : cores >= 16 ? 8 : (unsigned)cores / 2;
 }
 
-static void report(const struct pipeline *p)
+/* --- What frames lack ------------------------------------------------------------------------------------------------ */
+
+struct missing {
+	struct replay_lack *lacks; /* of frames asked for, by the index */
+	long n;
+	int any; /* 1: these, or what only drawing has shown */
+};
+
+/* Before the first frame: find what those asked for will lack, and say so. */
+static int foretell(const struct settings *s, struct replay *replay, uint64_t end, struct missing *m)
+{
+	long n = replay_lacks(replay, &m->lacks);
+
+	for (long i = 0; i < n; i++) {
+		const struct replay_lack *l = &m->lacks[i];
+		uint64_t frame;
+		char range[64];
+
+		if (!frame_list_next(&s->frames, l->first, &frame) || frame > l->last || frame >= end)
+			continue;
+		if (l->last == UINT64_MAX)
+			snprintf(range, sizeof(range), "from frame %llu on", (unsigned long long)l->first);
+		else if (l->last == l->first)
+			snprintf(range, sizeof(range), "frame %llu", (unsigned long long)l->first);
+		else
+			snprintf(range, sizeof(range), "frames %llu to %llu", (unsigned long long)l->first, (unsigned long long)l->last);
+		if (m->n < MAX_LINES)
+			err_warn(s->trace, "missing, %s: %s%s%s", range, l->name, *l->why ? ": " : "", l->why);
+		m->lacks[m->n++] = *l;
+	}
+	if (m->n > MAX_LINES)
+		err_warn(s->trace, "and %ld more commands that are not done yet ('relume info' lists them)", m->n - MAX_LINES);
+	m->any = m->n > 0;
+	return n < 0 ? (int)n : 0;
+}
+
+static int is_foretold(const struct missing *m, const char *command)
+{
+	for (long i = 0; i < m->n; i++)
+		if (strcmp(m->lacks[i].name, command) == 0)
+			return 1;
+	return 0;
+}
+
+/* Afterwards: what only drawing has shown. */
+static void report(const struct pipeline *p, struct missing *m)
 {
 	const struct tracer_undrawn *u = &p->undrawn;
 	const char *trace = p->settings->trace;
+	const struct replay_count *counts;
+	size_t n = replay_unsupported(p->replay, &counts), said = 0;
 
-	replay_report_unsupported(p->replay, trace, 20);
+	for (size_t i = 0; i < n; i++) {
+		m->any |= !replay_is_rendered(&counts[i]);
+		if (!is_foretold(m, counts[i].name) && said++ < MAX_LINES)
+			err_warn(trace, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
+			         counts[i].why ? counts[i].why : "not done yet");
+	}
+	m->any |= u->targets != 0;
 	if (u->targets)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
 }
@@ -99,7 +153,7 @@ static void report_display(const struct pipeline *p)
 		        100 * (double)p->bright / (double)p->pixels);
 }
 
-static int render_frames(struct pipeline *p, uint64_t total)
+static int render_frames(struct pipeline *p, uint64_t total, struct missing *missing)
 {
 	const struct settings *s = p->settings;
 	struct progress progress;
@@ -126,7 +180,7 @@ static int render_frames(struct pipeline *p, uint64_t total)
 	free(p->shares);
 	report_display(p);
 	display_destroy(&p->display);
-	report(p);
+	report(p, missing);
 	device_close_list(&p->devices, &p->n_devices);
 	return err;
 }
@@ -135,6 +189,7 @@ static int render(struct settings *s)
 {
 	struct pipeline p = { .settings = s, .start_s = progress_clock_s() };
 	struct extent x = { .total = 0 };
+	struct missing missing = { .n = 0 };
 	int err = watch_start(&p.watch, s->frame_s, s->memory_bytes), number = 0;
 
 	if (err)
@@ -144,16 +199,21 @@ static int render(struct settings *s)
 		err = blas_store_open(s->cache, s->cache_bytes ? s->cache_bytes : BLAS_STORE_BYTES, &s->tracer.store);
 	if (!err)
 		err = choose_frames(s, p.replay, &x);
+	if (!err)
+		err = foretell(s, p.replay, x.end, &missing);
 	if (!err && s->look_auto && !s->dry_run)
 		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
 	if (!err) {
 		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
 		p.end = x.end;
-		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total);
+		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total, &missing);
 	}
 	if (!err && x.short_of)
 		err = err_report(ERR_INPUT, s->trace, "is damaged after frame %llu; frames up to there are done",
 		                 (unsigned long long)x.end - 1);
+	if (!err && missing.any && !s->allow_incomplete && !s->dry_run)
+		err = err_report(ERR_INCOMPLETE, s->trace, "every frame is there, but draws are missing (--allow-incomplete: exit with 0)");
+	free(missing.lacks);
 	number = watch_signal(p.watch);
 	if (number)
 		err_report(ERR_SYSTEM, NULL, "stopped by %s; the same command with --skip-existing goes on",

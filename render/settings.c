@@ -133,6 +133,8 @@ static const struct options_row rows[] = {
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
 	{ "force", 0, NULL, "render all, the opposite of --skip-existing (default)", options_clear, AT(skip_existing), .kind = RUN },
+	{ "allow-incomplete", 0, NULL, "exit with 0 where draws that Relume does not do are missing", options_flag, AT(allow_incomplete),
+	  .kind = RUN },
 	{ "dry-run", 0, NULL, "only say what would be done, a line for each frame", options_flag, AT(dry_run), .kind = RUN },
 	{ .help = "How the picture is made:" },
 	{ "mode", 0, "MODE", "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
@@ -191,7 +193,8 @@ static const struct options_table table = {
 	.notes = "Files appear whole or not at all. SIGINT and SIGTERM finish the files being written, drop the frames being traced and end\n"
 	         "with exit code 130 or 143; the same command with --skip-existing goes on from there.\n"
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
-	         "failed, or a frame was given up, 130 SIGINT, 143 SIGTERM.\n",
+	         "failed, or a frame was given up, 6 every frame is there, but draws that Relume does not do are missing,\n"
+	         "130 SIGINT, 143 SIGTERM.\n",
 	.takes = "one trace and -o PATTERN", .least = 1, .most = 1,
 };
 

@@ -17,7 +17,7 @@ struct settings {
 	int family; /* of traversal kernels, enum device_family; -1: what suits each device */
 	struct frame_list frames;
 	uint64_t chunk, n_chunks; /* n_chunks 0: all */
-	int skip_existing, dry_run;
+	int skip_existing, dry_run, allow_incomplete;
 	uint64_t memory_bytes;  /* 0: no limit */
 	double frame_s;         /* 0: no limit */
 	enum progress_style progress;

@@ -251,6 +251,20 @@ static size_t collect(struct replay *rp, const uint64_t *counts, const char *(*w
 	return n;
 }
 
+long replay_lacks(struct replay *rp, struct replay_lack **out)
+{
+	const struct index_lack *lacks;
+	int rc = have_index(rp, INDEX_KEEP);
+	size_t n = rc ? 0 : index_lacks(rp->index, &lacks);
+
+	*out = calloc(n + 1, sizeof(**out));
+	if (!*out)
+		return err_report(ERR_SYSTEM, rp->player.path, "out of memory");
+	for (size_t i = 0; i < n; i++)
+		(*out)[i] = (struct replay_lack){ lacks[i].name, lacks[i].why, lacks[i].first, lacks[i].stays ? UINT64_MAX : lacks[i].last };
+	return rc ? rc : (long)n;
+}
+
 static const char *what_is_missing(const struct gls_exec *x, unsigned command)
 {
 	return x->counts.why[command];
@@ -320,16 +334,4 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out)
 int replay_is_ours(const struct replay *rp)
 {
 	return rp->player.exec->is_ours;
-}
-
-void replay_report_unsupported(struct replay *rp, const char *where, size_t limit)
-{
-	const struct replay_count *counts;
-	size_t n = replay_unsupported(rp, &counts);
-
-	for (size_t i = 0; i < n && i < limit; i++)
-		err_warn(where, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
-		         counts[i].why ? counts[i].why : "not done yet");
-	if (n > limit)
-		err_warn(where, "and %zu more commands that are not done yet ('relume info' lists them)", n - limit);
 }

@@ -103,6 +103,15 @@ struct replay_count {
  */
 size_t replay_unsupported(struct replay *rp, const struct replay_count **out);
 
+/** What frames lack, by the trace's index: known before any of them is built. What only drawing shows is not there. */
+struct replay_lack {
+	const char *name, *why; /* of a command; what is missing of it, "": all. Borrowed from the replay */
+	uint64_t first, last;   /* frames that lack it; last is UINT64_MAX where all from the first on may */
+};
+
+/** @param out  receives an array, to be freed with free(), in the order in which it is met  @return entries, or ERR_* (reported) */
+long replay_lacks(struct replay *rp, struct replay_lack **out);
+
 /** What the frames so far ask of a renderer. */
 struct replay_needs {
 	uint64_t programs;   /* draws by shaders or programs */
@@ -135,6 +144,3 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out);
 
 /** 1 where a call met so far shows that the trace comes from `relume record`. */
 int replay_is_ours(const struct replay *rp);
-
-/** Warn of what replay_unsupported lists, at most `limit` lines, as the end of a run does. */
-void replay_report_unsupported(struct replay *rp, const char *where, size_t limit);

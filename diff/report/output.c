@@ -143,9 +143,69 @@ static void print_summary(const struct output_run *run, FILE *out)
 	fputc('\n', out);
 }
 
+/* What the table says of a frame, but for its number. */
+static void print_row(const struct output_run *run, const struct score *s, FILE *out)
+{
+	fprintf(out, " %-10s", score_outcome_names[s->outcome]);
+	if (output_is_compared(s)) {
+		if (run->reference)
+			fprintf(out, " %8.3f%%", 100 * s->fidelity);
+		else
+			fprintf(out, " %9s", "- ");
+		print_columns(s, out);
+		if (isnan(s->info.beauty_flip))
+			fprintf(out, " %9s", "- ");
+		else
+			fprintf(out, " %8.4g ", s->info.beauty_flip);
+	}
+	fputc('\n', out);
+	if (s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY || has_warning(s))
+		print_failure(s, out);
+}
+
+/* Frames in a row that failed alike. */
+struct rows {
+	uint64_t first, last;
+	char *text; /* NULL: none */
+};
+
+static void end_rows(struct rows *rows, FILE *out)
+{
+	char range[48];
+
+	if (!rows->text)
+		return;
+	snprintf(range, sizeof(range), rows->last > rows->first ? "%" PRIu64 "-%" PRIu64 : "%" PRIu64, rows->first, rows->last);
+	fprintf(out, "%7s%s", range, rows->text);
+	free(rows->text);
+	rows->text = NULL;
+}
+
+/* One row for frames that follow each other and fail with the same figures. Each frame that passed has its own. */
+static int add_row(struct rows *rows, const struct output_run *run, const struct score *s, FILE *out)
+{
+	size_t size;
+	char *text = NULL;
+	FILE *row = open_memstream(&text, &size);
+
+	if (row)
+		print_row(run, s, row);
+	if (!row || fclose(row) != 0)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (rows->text && s->outcome != SCORE_FRAME_PASSED && s->frame == rows->last + 1 && strcmp(text, rows->text) == 0) {
+		rows->last = s->frame;
+		free(text);
+		return 0;
+	}
+	end_rows(rows, out);
+	*rows = (struct rows){ s->frame, s->frame, text };
+	return 0;
+}
+
 void output_table(const struct output_run *run, FILE *out)
 {
 	size_t *order = malloc((run->n_scores ? run->n_scores : 1) * sizeof(*order));
+	struct rows rows = { .text = NULL };
 
 	if (!order) {
 		err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -155,25 +215,10 @@ void output_table(const struct output_run *run, FILE *out)
 	fprintf(out, "%7s %-10s %9s", "frame", "outcome", "fidelity");
 	print_columns(NULL, out);
 	fprintf(out, " %9s\n", "beauty");
-	for (size_t i = 0; i < run->n_scores; i++) {
-		const struct score *s = &run->scores[order[i]];
-
-		fprintf(out, "%7" PRIu64 " %-10s", s->frame, score_outcome_names[s->outcome]);
-		if (output_is_compared(s)) {
-			if (run->reference)
-				fprintf(out, " %8.3f%%", 100 * s->fidelity);
-			else
-				fprintf(out, " %9s", "- ");
-			print_columns(s, out);
-			if (isnan(s->info.beauty_flip))
-				fprintf(out, " %9s", "- ");
-			else
-				fprintf(out, " %8.4g ", s->info.beauty_flip);
-		}
-		fputc('\n', out);
-		if (s->outcome == SCORE_FRAME_FAILED || s->outcome == SCORE_FRAME_FLAKY || has_warning(s))
-			print_failure(s, out);
-	}
+	for (size_t i = 0; i < run->n_scores; i++)
+		if (add_row(&rows, run, &run->scores[order[i]], out))
+			break;
+	end_rows(&rows, out);
 	free(order);
 
 	/* How it was measured: notes of the first frame that was compared, where gates were not measured or by other means. */

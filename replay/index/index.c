@@ -81,6 +81,7 @@ static int get_toc(struct index *index, const void *data, size_t n)
 	index->damaged = cursor_u64(&in) != 0;
 	index->frames = get_array(&in, &index->n_frames, sizeof(*index->frames));
 	index->checkpoints = get_array(&in, &index->n_checkpoints, sizeof(*index->checkpoints));
+	index->lacks = get_array(&in, &index->n_lacks, sizeof(*index->lacks));
 	blobs = get_array(&in, &n_blobs, sizeof(*blobs));
 	index->signatures = get_array(&in, &index->n_signatures, 1);
 	index_undelta(index->frames, index->n_frames, 1);
@@ -141,6 +142,7 @@ static void forget(struct index *index)
 	free(index->blobs);
 	free(index->checkpoints);
 	free(index->frames);
+	free(index->lacks);
 	free(index->signatures);
 	table_free(&index->known);
 	*index = (struct index){ .trace = index->trace, .path = index->path, .file = index->file, .header = index->header };
@@ -192,6 +194,12 @@ struct index_facts index_facts(const struct index *index)
 		                     .damaged = index->damaged, .checkpoints = index->n_checkpoints,
 		                     .blobs = index->n_blobs, .build_s = index->build_s,
 		                     .bytes = index->file ? index->header.toc_offset + index->header.toc_packed : 0 };
+}
+
+size_t index_lacks(const struct index *index, const struct index_lack **out)
+{
+	*out = index->lacks;
+	return index->n_lacks;
 }
 
 void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint64_t *offset)

@@ -42,6 +42,17 @@ struct index_facts {
 };
 struct index_facts index_facts(const struct index *index);
 
+/** A command that replays do not execute, or only in part. */
+struct index_lack {
+	char name[64], why[128]; /* of the command; what is missing, "": all of it */
+	uint64_t first, last;    /* frames that call it */
+	uint64_t stays;          /* 1: frames behind the last one may lack it as well */
+	uint64_t seen;           /* private */
+};
+
+/** What the trace's frames lack, in the order in which it is met. Found without building scenes: what only drawing shows is not there. */
+size_t index_lacks(const struct index *index, const struct index_lack **out);
+
 /** The number of the call that ends a frame, and the unpacked bytes of the trace up to there. */
 void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint64_t *offset);
 

@@ -11,8 +11,11 @@
 #include "base/memory.h"
 #include "base/part.h"
 #include "base/progress.h"
+#include "capture/format/call.h"
 #include "replay/index/index_file.h"
 #include "replay/index/pack.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
 #include "replay/play/player.h"
 
 #define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
@@ -62,6 +65,73 @@ static int add_frame(struct index *index, struct player *p)
 	return 0;
 }
 
+/* The entry of a command. NULL: no memory */
+static struct index_lack *find_lack(struct index *index, const char *name)
+{
+	struct index_lack *l;
+
+	for (size_t i = 0; i < index->n_lacks; i++)
+		if (strncmp(index->lacks[i].name, name, sizeof(l->name) - 1) == 0)
+			return &index->lacks[i];
+	if (MEMORY_GROW(index->lacks, index->room_lacks, index->n_lacks + 1))
+		return NULL;
+	l = &index->lacks[index->n_lacks++];
+	memset(l, 0, sizeof(*l));
+	snprintf(l->name, sizeof(l->name), "%s", name);
+	return l;
+}
+
+/* A command is not executed; `seen` differs from that of the frame before where this frame calls it. */
+static int note_lack(struct index *index, const char *name, const char *why, uint64_t seen, int stays)
+{
+	const uint64_t frame = index->n_frames - 1;
+	struct index_lack *l = find_lack(index, name);
+
+	if (!l || l->seen == seen)
+		return l ? 0 : ERR_SYSTEM;
+	snprintf(l->why, sizeof(l->why), "%s", why ? why : "");
+	l->first = l->seen ? l->first : frame;
+	l->last = frame;
+	l->seen = seen;
+	l->stays = (uint64_t)stays;
+	return 0;
+}
+
+/* 1 where a program may draw: it stays current from frame to frame. */
+static int has_program(const struct gls_exec *x)
+{
+	for (size_t i = 0; i < x->n_contexts; i++) {
+		const struct gls_state *st = &x->contexts[i]->state;
+
+		if (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled)
+			return 1;
+	}
+	return 0;
+}
+
+/* What the frame that has just ended lacks. programs: what was counted by the end of the frame before */
+static int note_lacks(struct index *index, const struct gls_exec *x, uint64_t *programs)
+{
+	const struct gls_counts *counts = &x->counts;
+	int rc = 0;
+
+	if (has_program(x) || counts->programs_used != *programs)
+		rc = note_lack(index, "glUseProgram", gls_programs, index->n_frames, 0);
+	*programs = counts->programs_used;
+	for (unsigned i = 0; i < n_gls_commands && !rc; i++) {
+		const uint32_t kind = gls_commands[i].kind;
+
+		if (counts->unsupported[i] && counts->why[i] != gls_needs_renderer)
+			rc = note_lack(index, gls_commands[i].name, counts->why[i], counts->unsupported[i],
+			               kind != GLS_KIND_ARRAY && kind != GLS_KIND_VERTEX && kind != GLS_KIND_INSIDE);
+	}
+	for (size_t i = 0; i < counts->unknown.room && !rc; i++)
+		if (counts->unknown.entries[i].value)
+			rc = note_lack(index, ((const struct call_sig *)(uintptr_t)counts->unknown.entries[i].key)->name, NULL,
+			               (uintptr_t)counts->unknown.entries[i].value, 1);
+	return rc;
+}
+
 /* The least distance between checkpoints: looking at a large state takes time as well. */
 static uint64_t spacing(uint64_t state_bytes)
 {
@@ -94,12 +164,14 @@ static int measure(struct player *p, uint64_t *bytes)
 static int scan(struct index *index, struct player *p)
 {
 	uint64_t next = SPACING_BYTES; /* the next checkpoint stands there or later */
-	uint64_t last = 0, kept = 0, bytes; /* place and state bytes of the last checkpoint; state bytes now */
+	uint64_t last = 0, kept = 0, programs = 0, bytes; /* place and state bytes of the last checkpoint; state bytes now */
 	struct scene *none;
 	int rc;
 
 	while ((rc = player_next_frame(p, 0, &none)) == 1) {
 		rc = add_frame(index, p);
+		if (!rc)
+			rc = note_lacks(index, p->exec, &programs);
 		if (!rc && index->file && index->frames[index->n_frames - 1].offset >= next) {
 			uint64_t offset = index->frames[index->n_frames - 1].offset;
 
@@ -130,6 +202,8 @@ static void put_toc(const struct index *index, struct bytes *out)
 	bytes_put(out, index->frames, index->n_frames * sizeof(*index->frames));
 	bytes_put_u64(out, index->n_checkpoints);
 	bytes_put(out, index->checkpoints, index->n_checkpoints * sizeof(*index->checkpoints));
+	bytes_put_u64(out, index->n_lacks);
+	bytes_put(out, index->lacks, index->n_lacks * sizeof(*index->lacks));
 	bytes_put_u64(out, index->n_blobs);
 	bytes_put(out, index->blobs, index->n_blobs * sizeof(*index->blobs));
 	bytes_put_u64(out, index->n_signatures);

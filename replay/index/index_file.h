@@ -11,7 +11,7 @@
 #include "replay/index/index.h"
 #include "replay/index/snapshot.h"
 
-#define INDEX_MAGIC "RELIDX3\n" /* the number changes with this file's form */
+#define INDEX_MAGIC "RELIDX4\n" /* the number changes with this file's form */
 
 struct index_header {
 	char magic[8];
@@ -48,6 +48,8 @@ struct index {
 	size_t n_checkpoints, room_checkpoints;
 	struct index_frame *frames;
 	size_t n_frames, room_frames;
+	struct index_lack *lacks;
+	size_t n_lacks, room_lacks;
 	uint64_t calls;
 	int damaged;
 	uint8_t *signatures;

@@ -11,6 +11,7 @@
 #define REPEATED_A_CALL 128
 
 const char gls_needs_renderer[] = "needs pixels that were drawn: only a renderer has them";
+const char gls_programs[] = "programs: drawn as fixed function";
 
 void gls_error(struct gls_exec *x, struct gls_state *st, uint32_t error)
 {

@@ -26,6 +26,9 @@ void gls_unsupported(struct gls_exec *x, const char *why);
 /** What gls_unsupported says of calls that need pixels where nothing renders. */
 extern const char gls_needs_renderer[];
 
+/** What it says of draws by shaders or programs. */
+extern const char gls_programs[];
+
 /** The frame needs pixels of skipped frames: the replay starts again (gls_feedback). why: what shows them, a static string. */
 void gls_rewind(struct gls_exec *x, const char *why);
 

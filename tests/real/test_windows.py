@@ -39,4 +39,16 @@ trace = SCRATCH / "shaders.trace"
 said = record(trace, PROGRAM, "shaders", options=()).stderr
 check("the program uses shaders or programs" in said, f"record says: {said}")
 check("reference" not in said, f"record without references says: {said}")
+
+# What is missing is said before the first frame, and the exit code tells it; frames that fail alike share a row.
+to = SCRATCH / "shaders.####.exr"
+done = relume("render", trace, "-o", to, "-f", "0-3", *AS_SHOWN)
+lines = done.stderr.splitlines()
+check(done.returncode == 6, f"missing draws: exit code {done.returncode}")
+check("missing, frames 0 to 9: glUseProgram: programs" in lines[0], f"missing draws are foretold: {done.stderr}")
+check("draws are missing" in lines[-1], f"missing draws: {done.stderr}")
+done = relume("render", trace, "-o", to, "-f", "0-3", "--allow-incomplete", *AS_SHOWN)
+check(done.returncode == 0, f"--allow-incomplete: exit code {done.returncode}")
+done = relume("diff", SCRATCH / "windows.trace", SCRATCH / "frames", "-f", "0-14")
+check("  10-14 missing" in done.stdout and done.stdout.count("missing") == 2, f"five frames that are missing have one row: {done.stdout}")
 finish()

@@ -99,7 +99,7 @@ class Scorer:
             if batch != frames[:1] and last_s > SLOW_FRAME_S:
                 batch = batch[-(N_SLOW_FRAMES - 1):]
             begin = time.monotonic()
-            code, _, err = self.run(self.relume, "render", trace, "-f", ",".join(map(str, batch)), "--mode", mode, "-o",
+            code, _, err = self.run(self.relume, "render", trace, "--allow-incomplete", "-f", ",".join(map(str, batch)), "--mode", mode, "-o",
                                     pictures / "x.####.exr")
             # What rendering one frame takes, the replay of those before it left out.
             said = [line for line in err.splitlines() if line.startswith("rendered frame")]

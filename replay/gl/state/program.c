@@ -7,10 +7,17 @@
 #include "replay/machine/args.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-GLS_HANDLER(glUseProgram, STATE) { st->program = arg_u(c, 0); }
-GLS_HANDLER(glUseProgramObjectARB, STATE) { st->program = arg_u(c, 0); }
+static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t program)
+{
+	st->program = program;
+	x->counts.programs_used += program != 0;
+}
+
+GLS_HANDLER(glUseProgram, STATE) { use_program(x, st, arg_u(c, 0)); }
+GLS_HANDLER(glUseProgramObjectARB, STATE) { use_program(x, st, arg_u(c, 0)); }
 
 /* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
 GLS_HANDLER(glDrawBuffers, STATE)

@@ -39,7 +39,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	gls_shown_end(x, st, drawn);
 	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled)) {
 		x->counts.programs++;
-		gls_unsupported(x, "programs: drawn as fixed function");
+		gls_unsupported(x, gls_programs);
 	}
 }
 
