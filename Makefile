@@ -23,7 +23,7 @@ CPPFLAGS += -I. -I$(BUILD)/gen -isystem /usr/include/OpenEXR -isystem /usr/inclu
 ALL_CFLAGS := -std=c11 $(WARNINGS) -Werror=override-init -Werror=incompatible-pointer-types -ffp-contract=off -fPIC -pthread -MMD -MP $(SANFLAGS) $(CFLAGS)
 ALL_CXXFLAGS := -std=c++17 $(WARNINGS) -fPIC -pthread -MMD -MP $(SANFLAGS) $(CXXFLAGS)
 LIBS_OIIO := -Wl,--as-needed -lOpenImageIO -lOpenImageIO_Util -lstdc++
-LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lisal -lxxhash -lcyaml -ldl -lm -pthread
+LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -lz -ldeflate -lisal -lxxhash -lcyaml -lseccomp -ldl -lm -pthread
 
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
@@ -43,7 +43,7 @@ OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o image.o pack.
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
-	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev \
+	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev libseccomp-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
@@ -223,7 +223,7 @@ demo:
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity relit replay rooms sanitize seek \
+SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity relit replay rooms sandbox sanitize seek \
 	sweep sweep-record thesis
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)
@@ -243,12 +243,14 @@ DEPS_look := python3-yaml
 DEPS_metrics := python3-venv
 DEPS_oclgrind := oclgrind valgrind
 DEPS_page := chromium
+DEPS_sandbox := strace
 DEPS_thesis := povray blender python3-numpy
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays
 NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)
+NEEDS_sandbox = $(HELPERS)
 NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
 
 .SECONDEXPANSION:

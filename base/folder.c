@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/err.h"
 
@@ -35,6 +36,60 @@ int folder_try(const char *path)
 	if (snprintf(copy, sizeof(copy), "%s", path) >= (int)sizeof(copy))
 		return ENAMETOOLONG;
 	return *copy ? make_all(copy) : 0;
+}
+
+/* A folder made early, and how much of its path was there before. */
+struct early {
+	struct early *next;
+	size_t old;
+	int on_success;
+	char path[];
+};
+
+static struct early *early;
+
+static void drop_empty(int code, void *unused)
+{
+	(void)unused;
+	for (struct early *e = early; e; e = e->next)
+		while ((code == 0 ? e->on_success : 1) && strlen(e->path) > e->old && rmdir(e->path) == 0)
+			*strrchr(e->path, '/') = '\0';
+}
+
+/* How much of a path is there: bytes, up to a '/' or its end. */
+static size_t there(char *path)
+{
+	for (char *slash; (slash = strrchr(path, '/')) && access(path, F_OK) != 0;)
+		*slash = '\0';
+	return access(path, F_OK) == 0 ? strlen(path) : 0;
+}
+
+int folder_try_early(const char *path, int on_success)
+{
+	struct early *e;
+	char copy[PATH_MAX];
+	size_t old;
+	int failed;
+
+	if (snprintf(copy, sizeof(copy), "%s", path) >= (int)sizeof(copy))
+		return ENAMETOOLONG;
+	while (*copy && copy[1] && copy[strlen(copy) - 1] == '/')
+		copy[strlen(copy) - 1] = '\0';
+	e = calloc(1, sizeof(*e) + strlen(copy) + 1);
+	if (!e)
+		return ENOMEM;
+	strcpy(e->path, copy);
+	old = there(copy);
+	failed = folder_try(e->path);
+	if (failed || old == strlen(e->path) || (!early && on_exit(drop_empty, NULL))) {
+		free(e);
+		return failed;
+	}
+	e->old = old;
+	e->on_success = on_success;
+	e->next = early;
+	early = e;
+	return 0;
 }
 
 int folder_make(const char *path)

@@ -10,6 +10,13 @@ int folder_make(const char *path);
 int folder_try(const char *path);
 
 /**
+ * The same before it is known whether anything will come into it. At exit the folder goes again where it was made here and is empty.
+ * @param on_success  1: also where the exit code is 0
+ * @return 0, or the errno that says why not
+ */
+int folder_try_early(const char *path, int on_success);
+
+/**
  * A path in the user's cache folder: $XDG_CACHE_HOME/relume/NAME, or ~/.cache/relume/NAME (XDG base directory
  * specification 0.8). It may not exist yet.
  * @return 1; 0 where the user has no such folder, or the path is too long

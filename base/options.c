@@ -13,6 +13,9 @@
 /* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
 enum { NAME_COLUMNS = 25, PAGE_COLUMNS = 114, FIRST_ROW = 256 /* what getopt_long returns for the first row */ };
 
+/* Words that name files: no verb that is confined takes more. */
+enum { MOST_WORDS = 2 };
+
 static const struct options_row help_row = { "help", 'h', NULL, "this text", .set = NULL };
 
 /* --- Help ---------------------------------------------------------------------------------------------------------- */
@@ -159,6 +162,33 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 	if (line->n_words < table->least || (table->most >= 0 && line->n_words > table->most))
 		return options_misuse(table);
 	return 0;
+}
+
+/* --- What is kept ------------------------------------------------------------------------------------------------------ */
+
+static int no_sandbox;
+
+int options_no_sandbox(const struct options_row *row, const char *value, void *out)
+{
+	(void)row, (void)value, (void)out;
+	no_sandbox = 1;
+	return 0;
+}
+
+void options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also)
+{
+	struct confine_file files[OPTIONS_MAX_ROWS + MOST_WORDS + 1];
+	size_t n = 0;
+
+	for (size_t i = 0; i < table->n_rows; i++)
+		if (line->given[i] && table->rows[i].use)
+			files[n++] = (struct confine_file){ line->given[i], table->rows[i].use };
+	for (int i = 0; i < line->n_words && i < MOST_WORDS; i++)
+		files[n++] = (struct confine_file){ line->words[i], table->words_use };
+	if (also)
+		files[n++] = (struct confine_file){ also, CONFINE_READS };
+	if (!no_sandbox)
+		confine_to(files, n, kind);
 }
 
 /* --- Values -------------------------------------------------------------------------------------------------------- */

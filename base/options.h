@@ -15,6 +15,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "base/confine.h"
+
 enum { OPTIONS_MAX_ROWS = 40 };
 
 struct options_row {
@@ -34,6 +36,7 @@ struct options_row {
 	const char *const *words; /* options_word, options_text: what may be said, ended by NULL */
 	int is_required;
 	int kind;                 /* the verb's own */
+	enum confine_use use;     /* what the verb does with the file that the value names: options_confine */
 };
 
 /* An array of rows and how many there are, in a table's initializer. */
@@ -47,6 +50,7 @@ struct options_table {
 	const char *notes; /* what follows the options, as exit codes; NULL: nothing */
 	const char *takes; /* what must be said: "one trace and -o FILE" */
 	int least, most;   /* how many words that are no options; most -1: any number */
+	enum confine_use words_use; /* what it does with files that words name */
 	int stops;         /* 1: the first such word ends the options, as the rest is another program's */
 };
 
@@ -65,12 +69,23 @@ struct options_line {
  */
 int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line);
 
+/** A row for verbs that read recordings, without its braces. */
+#define OPTIONS_NO_SANDBOX .name = "no-sandbox", .help = "for debugging: keep the rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
+
+/**
+ * Keep the files that a command line names, and what verbs of this kind need; give up the rest, unless --no-sandbox was given. Before the first
+ * thread is started.
+ * @param also  one more that is read; NULL: none
+ */
+void options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also);
+
 /** Report what the verb takes. @return ERR_USAGE */
 int options_misuse(const struct options_table *table);
 
 void options_print_help(const struct options_table *table, FILE *out);
 
 /* Values of the common kinds; `out` is what stands in brackets. */
+int options_no_sandbox(const struct options_row *row, const char *value, void *out); /* nothing */
 int options_text(const struct options_row *row, const char *value, void *out);   /* const char *, borrowed; of `words` if any */
 int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */
 int options_clear(const struct options_row *row, const char *value, void *out);  /* int: 0 */

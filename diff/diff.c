@@ -81,17 +81,18 @@ static const struct options_row rows[] = {
 	{ "effects", 0, "E=LO:HI", "gate E3: effect E (shadow, relight, reflect, refract, any) must touch LO to HI per cent of the "
 	  "pixels; either may be left out; may be given several times", parse_effects, .at = offsetof(struct options, score) },
 	{ "baseline", 0, "DIR", "gate B: compare with the frames that 'relume approve' put there",
-	  options_text, .at = offsetof(struct options, baseline) },
+	  options_text, .at = offsetof(struct options, baseline), .use = CONFINE_READS },
 	{ "config", 0, "FILE", "bars, masks, flaky frames (default: relume-diff.yaml where there is one)",
 	  options_text, .at = offsetof(struct options, config) },
 	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee, .at = offsetof(struct options, score) },
 	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",
-	  options_text, .at = offsetof(struct options, report) },
+	  options_text, .at = offsetof(struct options, report), .use = CONFINE_FILLS },
 	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of the table",
-	  options_text, .at = offsetof(struct options, json) },
-	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit) },
+	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
+	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
 	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
 	  options_flag, .at = offsetof(struct options, annotations) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -108,21 +109,20 @@ static const struct options_table table = {
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
 	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
-	.takes = "REF and TRACED, or --baseline DIR and TRACED", .least = 1, .most = 2,
+	.takes = "REF and TRACED, or --baseline DIR and TRACED", .least = 1, .most = 2, .words_use = CONFINE_RECORDING,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
-static int parse_options(int argc, char **argv, struct options *o)
+static int parse_options(int argc, char **argv, struct options *o, struct options_line *line)
 {
-	struct options_line line;
-	int err = options_parse(&table, argc, argv, o, &line);
+	int err = options_parse(&table, argc, argv, o, line);
 
 	if (err)
 		return err;
-	if (line.n_words == 1 && !o->baseline)
+	if (line->n_words == 1 && !o->baseline)
 		return options_misuse(&table);
-	o->reference = line.n_words == 2 ? line.words[0] : NULL;
-	o->traced = line.words[line.n_words - 1];
+	o->reference = line->n_words == 2 ? line->words[0] : NULL;
+	o->traced = line->words[line->n_words - 1];
 	return 0;
 }
 
@@ -391,18 +391,20 @@ static int exit_code(const struct output_run *run)
 }
 
 /** Everything that is compared, and how. */
-static int open_all(struct options *o, struct set *ref, struct set *traced, struct baseline *baseline,
+static int open_all(struct options *o, const struct options_line *line, struct set *ref, struct set *traced, struct baseline *baseline,
                     struct score_rules **settings)
 {
 	const char *config = o->config ? o->config : access("relume-diff.yaml", F_OK) == 0 ? "relume-diff.yaml" : NULL;
 	int err = config ? score_rules_read(config, settings) : 0;
 
+	if (!err && *settings && !o->baseline)
+		o->baseline = score_rules_baseline(*settings);
+	if (!err)
+		options_confine(&table, line, CONFINE_READER, o->baseline);
 	if (!err && o->reference)
 		err = set_open(o->reference, ref);
 	if (!err)
 		err = set_open(o->traced, traced);
-	if (!err && *settings && !o->baseline)
-		o->baseline = score_rules_baseline(*settings);
 	if (!err && o->baseline)
 		err = baseline_open(o->baseline, baseline);
 	/* Two single images are a pair whatever their numbers. */
@@ -431,19 +433,20 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 int diff_main(int argc, char **argv, draw_namer *namer)
 {
 	struct options o = { 0 };
+	struct options_line line;
 	struct set ref = { 0 }, traced = { 0 };
 	struct baseline baseline = { 0 };
 	struct score_rules *settings = NULL;
 	struct output_run run = { 0 };
 	char name[256], *command = NULL;
 	uint64_t *frames = NULL;
-	int err = parse_options(argc, argv, &o), code = 0;
+	int err = parse_options(argc, argv, &o, &line), code = 0;
 
 	if (err) {
 		frame_list_free(&o.frames);
 		return err > 0 ? 0 : -err;
 	}
-	err = open_all(&o, &ref, &traced, &baseline, &settings);
+	err = open_all(&o, &line, &ref, &traced, &baseline, &settings);
 	if (err)
 		goto fail;
 	err = list_frames(&ref, &traced, &baseline, &o.frames, &frames, &run.n_scores);

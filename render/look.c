@@ -22,7 +22,9 @@ struct asked {
 static const struct options_row rows[] = {
 	{ "frames", 'f', "LIST", "frames to study, counted from 0: \"7\", \"1-500\", \"1-500x5\", with commas (default: all); of many "
 	  "only some, evenly spread", options_frames, .at = offsetof(struct asked, frames) },
-	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .is_required = 1 },
+	{ "output", 'o', "FILE", "the rules, as NAME.look.yaml", options_text, .at = offsetof(struct asked, output), .is_required = 1,
+	  .use = CONFINE_MAKES },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -32,7 +34,7 @@ static const struct options_table table = {
 	        "Study a recording, and write rules for relume render --look: where the camera is, what stands still, what tricks stand for\n"
 	        "light, where lights are. Each rule has a confidence and a reason. Whoever edits the file has the last word.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o FILE", .least = 1, .most = 1,
+	.takes = "one trace and -o FILE", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 /* Play the frames of a list, of too many every so often one, into a study. */
@@ -116,6 +118,8 @@ int look_main(int argc, char **argv)
 	struct study *study = NULL;
 	int err = options_parse(&table, argc, argv, &asked, &line);
 
+	if (!err)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!err)
 		err = study_trace(line.words[0], &asked.frames, &study);
 	if (!err)

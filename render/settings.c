@@ -129,13 +129,13 @@ static const struct options_row rows[] = {
 	{ "chunk", 0, "I/N", "only the I-th of N parts of them, as for a task of a farm", take_chunk, .at = 0, .kind = RUN },
 	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "
 	  "a picture to look at",
-	  options_text, AT(output), .kind = RUN, .is_required = 1 },
+	  options_text, AT(output), .kind = RUN, .is_required = 1, .use = CONFINE_MAKES },
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
 	{ "force", 0, NULL, "render all, the opposite of --skip-existing (default)", options_clear, AT(skip_existing), .kind = RUN },
 	{ "allow-incomplete", 0, NULL, "exit with 0 where draws that Relume does not do are missing", options_flag, AT(allow_incomplete),
 	  .kind = RUN },
-	{ "dry-run", 0, NULL, "only say what would be done, a line for each frame", options_flag, AT(dry_run), .kind = RUN },
+	{ "dry-run", 0, NULL, "only say what would be done, a line for each frame", options_flag, AT(dry_run), .kind = RUN, .use = CONFINE_DRY },
 	{ .help = "How the picture is made:" },
 	{ "mode", 0, "MODE", "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
 	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light between surfaces; "
@@ -150,7 +150,7 @@ static const struct options_row rows[] = {
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/rules.h shows all "
-	  "keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE },
+	  "keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
@@ -175,13 +175,14 @@ static const struct options_row rows[] = {
 	{ "cache", 0, "DIR", "where trees of large meshes, compiled kernels and what 'relume devices --check' found are kept for other "
 	  "runs; processes and machines may share it (default: relume/trees, kernels and devices in $XDG_CACHE_HOME, or in ~/.cache; "
 	  "PoCL keeps kernels itself)",
-	  take_folder, AT(cache), .kind = RUN },
+	  take_folder, AT(cache), .kind = RUN, .use = CONFINE_FILLS },
 	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes, AT(cache_bytes), .kind = RUN },
 	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },
 	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next",
 	  take_seconds, AT(frame_s), .kind = RUN },
 	{ "progress", 0, "WORD", "bar, lines, json (on standard output) or none (default: bar on a terminal, else lines)",
 	  take_progress, AT(progress), .kind = RUN },
+	{ OPTIONS_NO_SANDBOX, .kind = RUN },
 };
 
 static const struct options_table table = {
@@ -195,7 +196,7 @@ static const struct options_table table = {
 	         "Exit codes: 0 every frame is there, 2 wrong usage, 3 the trace cannot be read, 5 a device, the disk or the system\n"
 	         "failed, or a frame was given up, 6 every frame is there, but draws that Relume does not do are missing,\n"
 	         "130 SIGINT, 143 SIGTERM.\n",
-	.takes = "one trace and -o PATTERN", .least = 1, .most = 1,
+	.takes = "one trace and -o PATTERN", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 /* --- The name of the settings -------------------------------------------------------------------------------------- */
@@ -277,7 +278,11 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
 		                  s->output);
 	err = choose_kind(s);
-	return err ? err : name_settings(s, &line);
+	if (!err)
+		err = name_settings(s, &line);
+	if (!err)
+		options_confine(&table, &line, CONFINE_TRACER, NULL);
+	return err;
 }
 
 void settings_free(struct settings *s)

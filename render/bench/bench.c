@@ -60,7 +60,7 @@ static const struct options_row rows[] = {
 	  options_word, .at = offsetof(struct options, family), .words = device_family_names },
 	{ "threads", 0, "N", "compute threads on a CPU", options_number, .at = offsetof(struct options, threads), .most = 1024 },
 	{ "models", 0, "DIR", "folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj (default: ../shared/models; bumpy spheres "
-	  "stand in where they are missing)", options_text, .at = offsetof(struct options, models) },
+	  "stand in where they are missing)", options_text, .at = offsetof(struct options, models), .use = CONFINE_READS },
 	{ "accel", 0, "LIST", "kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all",
 	  take_kinds, .at = offsetof(struct options, kinds) },
 	{ "repeat", 0, "N", "runs of each (default 5)", options_number, .at = offsetof(struct options, repeats), .most = MAX_REPEATS },
@@ -68,6 +68,7 @@ static const struct options_row rows[] = {
 	{ "mode", 0, "MODE", "as for relume render (default whitted)",
 	  options_word, .at = offsetof(struct options, mode), .words = settings_mode_names },
 	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct options, json) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -79,7 +80,7 @@ static const struct options_table table = {
 	        "of several runs, for camera rays (with all that a frame with a new camera costs), shadow rays to one point light,\n"
 	        "and short incoherent rays; with --accel, the same for trees of several kinds, and what these cost.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one recording or none", .most = 1,
+	.takes = "one recording or none", .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 static int parse(int argc, char **argv, struct options *o)
@@ -94,6 +95,7 @@ static int parse(int argc, char **argv, struct options *o)
 		return err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
 	if (o->trace && o->kinds)
 		return err_report(ERR_USAGE, NULL, "--accel measures a scene of its own, no recording");
+	options_confine(&table, &line, CONFINE_TRACER, NULL);
 	return 0;
 }
 

@@ -129,6 +129,7 @@ struct dump {
 static const struct options_row rows[] = {
 	{ "calls", 'c', "LIST", "only these calls: \"100\", \"0-50\", \"0-1000x10\", or several with commas",
 	  options_frames, .at = offsetof(struct dump, calls) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -137,7 +138,7 @@ static const struct options_table table = {
 	        "\n"
 	        "Print one line per call: number, thread (@n, where it is not 0), name and arguments.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace", .least = 1, .most = 1,
+	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 int dump_main(int argc, char **argv)
@@ -149,6 +150,8 @@ int dump_main(int argc, char **argv)
 	uint64_t last;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = trace_reader_open(&reader, line.words[0], NULL);
 	if (rc)

@@ -16,7 +16,8 @@ struct export {
 
 static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct export, frame) },
-	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text, .at = offsetof(struct export, output), .is_required = 1 },
+	{ "output", 'o', "FILE", "the file; appears when it is whole", options_text, .at = offsetof(struct export, output), .is_required = 1, .use = CONFINE_MAKES },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -26,7 +27,7 @@ static const struct options_table table = {
 	        "Write one frame as binary glTF 2.0, for modellers and other renderers: meshes, materials, textures,\n"
 	        "cameras and lights. What glTF has no words for is left out and named.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace and -o FILE.glb", .least = 1, .most = 1,
+	.takes = "one trace and -o FILE.glb", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 static void report_losses(const char *where, const struct gltf_losses *l)
@@ -71,6 +72,8 @@ int export_main(int argc, char **argv)
 	struct scene *scene = NULL;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = replay_one_frame(line.words[0], o.frame, &scene);
 	if (!rc)

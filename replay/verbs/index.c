@@ -20,6 +20,7 @@ static const struct options_row rows[] = {
 	{ "check", 0, NULL, "compare what every checkpoint restores with what the recording's calls lead to (exit code 1 where they differ)",
 	  options_flag, .at = offsetof(struct asked, check) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -30,7 +31,7 @@ static const struct options_table table = {
 	        "anyway, and made anew where it is damaged or the recording has changed. It lies beside the recording as\n"
 	        "TRACE.index, or in $XDG_CACHE_HOME/relume (~/.cache/relume) where that folder cannot be written.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace", .least = 1, .most = 1,
+	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_WRITES,
 };
 
 static uint64_t file_bytes(const char *path)
@@ -84,6 +85,8 @@ int index_main(int argc, char **argv)
 	char hash[33];
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = player_open(&player, line.words[0]);
 	if (!rc)

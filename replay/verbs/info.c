@@ -52,6 +52,7 @@ struct asked {
 static const struct options_row rows[] = {
 	{ "all", 'a', NULL, "every command that was called, not only the most frequent", options_flag, .at = offsetof(struct asked, all) },
 	{ "json", 'j', NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -62,7 +63,7 @@ static const struct options_table table = {
 	        "drew (uncleared screens, screen copies), what Relume does not execute yet, and the GL errors that the\n"
 	        "program itself made.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace", .least = 1, .most = 1,
+	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 /* What becomes of a recording when it is rendered, one line each. */
@@ -205,6 +206,8 @@ int info_main(int argc, char **argv)
 	struct scene *scene = NULL;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = replay_open(&rp, line.words[0]);
 	if (rc)

@@ -15,7 +15,8 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
-	  options_text, .at = offsetof(struct asked, new), .is_required = 1 },
+	  options_text, .at = offsetof(struct asked, new), .is_required = 1, .use = CONFINE_WRITES },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -28,7 +29,7 @@ static const struct options_table table = {
 	        "changes what they say goes unnoticed, as recordings hold no checksums.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 there is a whole recording now, 3 nothing could be saved.\n",
-	.takes = "one trace and -o with the file to write", .least = 1, .most = 1,
+	.takes = "one trace and -o with the file to write", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 struct saved {
@@ -94,6 +95,8 @@ int repair_main(int argc, char **argv)
 	struct options_line line;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = repair(line.words[0], o.new);
 	return rc > 0 ? 0 : -rc;

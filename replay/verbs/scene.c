@@ -16,6 +16,7 @@ static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame, from 0 (default 0)", options_frame, .at = offsetof(struct asked, frame) },
 	{ "json", 'j', NULL, "everything, as JSON; otherwise one line per instance", options_flag, .at = offsetof(struct asked, json) },
 	{ "vertices", 'v', NULL, "with --json: the meshes' arrays too", options_flag, .at = offsetof(struct asked, vertices) },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -24,7 +25,7 @@ static const struct options_table table = {
 	        "\n"
 	        "Print what one frame draws: views, clears, instances with their meshes and materials, textures.\n",
 	OPTIONS_ROWS(rows),
-	.takes = "one trace", .least = 1, .most = 1,
+	.takes = "one trace", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 int scene_main(int argc, char **argv)
@@ -34,6 +35,8 @@ int scene_main(int argc, char **argv)
 	struct scene *scene = NULL;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = replay_one_frame(line.words[0], o.frame, &scene);
 	if (!rc && o.json)

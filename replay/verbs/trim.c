@@ -185,7 +185,8 @@ static int take_frames(const struct options_row *row, const char *text, void *ou
 static const struct options_row rows[] = {
 	{ "frames", 'f', "RANGE", "the frames to keep: 100-120, or 7", take_frames, .at = 0, .is_required = 1 },
 	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole",
-	  options_text, .at = offsetof(struct trim, new), .is_required = 1 },
+	  options_text, .at = offsetof(struct trim, new), .is_required = 1, .use = CONFINE_WRITES },
+	{ OPTIONS_NO_SANDBOX },
 };
 
 static const struct options_table table = {
@@ -199,7 +200,7 @@ static const struct options_table table = {
 	        "Reference frames that lie beside TRACE (TRACE with .ref) are cut with it.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 done, 2 wrong usage or no such frames, 3 TRACE cannot be read, 5 NEW cannot be written.\n",
-	.takes = "one trace, -f with the frames and -o with the file to write", .least = 1, .most = 1,
+	.takes = "one trace, -f with the frames and -o with the file to write", .least = 1, .most = 1, .words_use = CONFINE_RECORDING,
 };
 
 int trim_main(int argc, char **argv)
@@ -208,6 +209,8 @@ int trim_main(int argc, char **argv)
 	struct options_line line;
 	int rc = options_parse(&table, argc, argv, &t, &line);
 
+	if (!rc)
+		options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc) {
 		t.path = line.words[0];
 		rc = trim(&t);
