@@ -78,14 +78,14 @@ WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint
 	return (min(end, at->columns) - *first) & rows_left & (rest > 0.0f);
 }
 
-/* The Gaussian at places of an ellipse, 0 beyond it. One lane after the other: a device may round exp of a vector differently. */
+/* The Gaussian at places of an ellipse, 0 beyond it. */
 WIDE_VECTORS static inline packf pack_gauss(packf q, packi there)
 {
-	const packf power = -2.0f * pack_floor(select((packf)(0), q, q > 0.0f)) / 1023.0f;
+	const packi place = convert_int16(select((packf)(0), q, there & (q > 0.0f)));
 	packf out;
 
 	for (uint lane = 0; lane < 16; lane++)
-		((float *)&out)[lane] = exp(((const float *)&power)[lane]);
+		((float *)&out)[lane] = gauss_weight[((const int *)&place)[lane]];
 	return select((packf)(0), out, there);
 }
 

@@ -5,6 +5,7 @@
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
+#include "kernels/gl/gauss.h"
 #include "kernels/gl/tables.h"
 
 #define TEXTURE_OUTSIDE (-0x7fffffff) /* a texel position that is the border colour */
@@ -433,7 +434,7 @@ static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const s
 
 			if (!(q < 1024.0f))
 				continue;
-			weight = M_EXP(-2.0f * M_FLOOR(M_MAX(q, 0.0f)) / 1023.0f);
+			weight = gauss_weight[(uint32_t)M_MAX(q, 0.0f)];
 			sum = v4_add(sum, v4_scale(texture_texel(t, image, unit, level, column, row, 0), weight));
 			sum_weight += weight;
 		}
