@@ -255,23 +255,33 @@ static inline const struct clip_corner *pack_corner(const struct clip_polygon *p
 	return &polygon->corner[k == 2 ? 0 : part - 1 + k];
 }
 
-/* The corners of a lane's part, in place of those of its triangle. */
-static inline void pack_place_part(const struct clip_polygon *polygon, uint lane, struct pack *p)
+/* Those of some lanes that lie in the same part of the same triangle as the first of them. */
+WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, const struct pack *p, uint lanes)
+{
+	const uint lane = popcount((lanes & -lanes) - 1);
+
+	return lanes & pack_bits((vload16(0, list->primitive) == list->primitive[lane]) & (vload16(0, list->instance) == list->instance[lane]) &
+	                         (vload16(0, p->part) == p->part[lane]));
+}
+
+/* The corners of a part, in place of those of the lanes' triangle. */
+WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polygon, uint part, packi lanes, struct pack *p)
 {
 	for (uint k = 0; k < 3; k++) {
-		const struct clip_corner *c = pack_corner(polygon, p->part[lane], k);
+		const struct clip_corner *c = pack_corner(polygon, part, k);
 
-		LANE(p->px[k], float, lane) = c->place[0] - clip_origin(p->view);
-		LANE(p->py[k], float, lane) = c->place[1] - clip_origin(p->view);
-		LANE(p->z[k], float, lane) = c->window.z;
-		LANE(p->w_inv[k], float, lane) = c->window.w_inv;
-		LANE(p->corner1[k], float, lane) = c->b1;
-		LANE(p->corner2[k], float, lane) = c->b2;
+		p->px[k] = select(p->px[k], (packf)(c->place[0] - clip_origin(p->view)), lanes);
+		p->py[k] = select(p->py[k], (packf)(c->place[1] - clip_origin(p->view)), lanes);
+		p->z[k] = select(p->z[k], (packf)(c->window.z), lanes);
+		p->w_inv[k] = select(p->w_inv[k], (packf)(c->window.w_inv), lanes);
+		p->corner1[k] = select(p->corner1[k], (packf)(c->b1), lanes);
+		p->corner2[k] = select(p->corner2[k], (packf)(c->b2), lanes);
 	}
 }
 
-/* A lane's texture coordinates of one unit: those of its triangle's vertices become those of its part's corners. */
-static inline void pack_cut_texcoord(const struct clip_polygon *polygon, uint lane, const struct pack *p, packf (*texcoord)[4])
+/* Texture coordinates of one unit: those of the vertices of a lane's triangle become those of its part's corners in all lanes of the part. */
+WIDE_VECTORS static inline void pack_cut_texcoord(const struct clip_polygon *polygon, uint lane, packi lanes, const struct pack *p,
+                                                  packf (*texcoord)[4])
 {
 	struct vec4 pool[3 + CLIP_MAX_CUTS];
 
@@ -283,10 +293,10 @@ static inline void pack_cut_texcoord(const struct clip_polygon *polygon, uint la
 	for (uint k = 0; k < 3; k++) {
 		const struct vec4 c = pool[pack_corner(polygon, p->part[lane], k)->number];
 
-		LANE(texcoord[k][0], float, lane) = c.x;
-		LANE(texcoord[k][1], float, lane) = c.y;
-		LANE(texcoord[k][2], float, lane) = c.z;
-		LANE(texcoord[k][3], float, lane) = c.w;
+		texcoord[k][0] = select(texcoord[k][0], (packf)(c.x), lanes);
+		texcoord[k][1] = select(texcoord[k][1], (packf)(c.y), lanes);
+		texcoord[k][2] = select(texcoord[k][2], (packf)(c.z), lanes);
+		texcoord[k][3] = select(texcoord[k][3], (packf)(c.w), lanes);
 	}
 }
 
@@ -371,16 +381,21 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 	pack_corners(a, p);
 	for (int k = 0; k < 3; k++)
 		p->corner1[k] = p->corner2[k] = 0.0f;
+	vstore16((packu)(0), 0, p->part);
 	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
+		p->part[lane] = pack_part(a, pack_polygon(a, list, p, lane, kept), lane, p);
+	}
+	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
+		const uint lane = popcount((left & -left) - 1);
 		const struct clip_polygon *polygon = pack_polygon(a, list, p, lane, kept);
 
-		p->part[lane] = pack_part(a, polygon, lane, p);
+		same = pack_same_part(list, p, left);
 		if (p->part[lane] < polygon->n)
-			pack_place_part(polygon, lane, p);
+			pack_place_part(polygon, p->part[lane], pack_mask(same), p);
 		else
-			lanes &= ~(1u << lane);
+			lanes &= ~same;
 	}
 	pack_edges_of(p->px, p->py, &p->edges);
 	lanes &= pack_bits(fabs(p->edges.area) > 1.0e-6f);

@@ -149,10 +149,11 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 
 		for (int k = 0; k < 3; k++)
 			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord[k]);
-		for (uint left = cut; left; left &= left - 1) {
+		for (uint left = cut, same; left; left &= ~same) {
 			const uint lane = popcount((left & -left) - 1);
 
-			pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, p, texcoord);
+			same = pack_same_part(list, p, left);
+			pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, texcoord);
 		}
 		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
 		            out->sample[i]);
