@@ -190,16 +190,27 @@ WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf
 	return any_pack(differ) ? select((packf)(0), pack_rounded(color - sum), differ) : (packf)(0);
 }
 
-/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. */
-WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, int c, const struct pack_planes *to)
+/* A channel that no effect has a part in: GL's own colour alone. exact: it, encoded */
+WIDE_VECTORS static inline void pack_compose_gl(packf exact, int c, const struct pack_planes *to)
 {
-	const packf nudged = pack_nudged(p->gl[c]);
-	const packf first = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged;
+	const packf gl = pack_rounded(exact), relight = pack_effect(exact - gl, exact);
+
+	pack_store_half(to, COMPOSE_BEAUTY + c, gl + relight + 0.0f);
+	pack_store_half(to, COMPOSE_GL + c, gl);
+	pack_store_half(to, COMPOSE_SHADOW + c, (packf)(1));
+	pack_store_half(to, COMPOSE_RELIGHT + c, relight);
+	pack_store_half(to, COMPOSE_REFLECT + c, (packf)(0));
+	pack_store_half(to, COMPOSE_REFRACT + c, (packf)(0));
+}
+
+/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. first: GL's, or the normal's */
+WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, packf nudged, packf first, packf exact, int c,
+                                                     const struct pack_planes *to)
+{
 	const packf display_shadowed = select(p->shadowed[c], nudged, p->shadowed[c] == p->gl[c]);
 	const packf display_direct = select(p->direct[c], nudged, p->direct[c] == p->gl[c]);
 	const packf display_mirrored = select(p->mirrored[c], nudged, p->mirrored[c] == p->gl[c]);
 	const packf display_beauty = select(p->beauty[c], nudged, p->beauty[c] == p->gl[c]);
-	const packf exact = to->request->display ? first : pack_linear(first);
 	const packf shadowed = pack_encode(to->request, display_shadowed, first, exact);
 	const packf direct = pack_encode(to->request, display_direct, display_shadowed, shadowed);
 	const packf mirrored = pack_encode(to->request, display_mirrored, display_direct, direct);
@@ -216,6 +227,22 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	pack_store_half(to, COMPOSE_RELIGHT + c, relight);
 	pack_store_half(to, COMPOSE_REFLECT + c, reflect);
 	pack_store_half(to, COMPOSE_REFRACT + c, refract);
+}
+
+/* The same; what no effect changes goes a shorter way. */
+WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, int c, const struct pack_planes *to)
+{
+	const packi gl = as_int16(p->gl[c]);
+	const packi changed = (gl ^ as_int16(p->shadowed[c])) | (gl ^ as_int16(p->direct[c])) | (gl ^ as_int16(p->mirrored[c])) |
+	                      (gl ^ as_int16(p->beauty[c]));
+	const packf nudged = pack_nudged(p->gl[c]);
+	const packf first = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged;
+	const packf exact = to->request->display ? first : pack_linear(first);
+
+	if (to->request->normals || any_pack((changed != 0) | (p->gl[c] != p->gl[c])))
+		pack_compose_channel(p, nudged, first, exact, c, to);
+	else
+		pack_compose_gl(exact, c, to);
 	if (to->request->half_plane[COMPOSE_ALBEDO + c] != SCENE_NONE)
 		pack_store_half(to, COMPOSE_ALBEDO + c, to->request->display ? p->albedo[c] : pack_linear(p->albedo[c]));
 }
@@ -224,7 +251,7 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to)
 {
 	for (int c = 0; c < 3; c++)
-		pack_compose_channel(p, c, to);
+		pack_compose_color(p, c, to);
 	pack_store_half(to, COMPOSE_BEAUTY + 3, p->drawn);
 	pack_store_half(to, COMPOSE_GL + 3, p->gl[3]);
 	for (int i = 0; i < 3; i++) {
@@ -235,4 +262,24 @@ WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const 
 	pack_store_float(to, COMPOSE_Z, -p->position[2]);
 	pack_store_float(to, COMPOSE_ID, p->id);
 	pack_store_float(to, COMPOSE_LAYERS, p->layers);
+}
+
+/* The planes of sixteen pixels once more: what they are at another place. */
+WIDE_VECTORS static inline void pack_compose_again(uint from, const struct pack_planes *to)
+{
+	const struct compose_request *r = to->request;
+	const uint size = r->width * r->height;
+
+	for (uint i = 0; i < N_COMPOSE_HALVES; i++) {
+		__global ushort *plane = to->halves + r->half_plane[i] * size;
+
+		if (r->half_plane[i] != SCENE_NONE)
+			*(__global pack_loose_halves *)(plane + to->at) = *(__global const pack_loose_halves *)(plane + from);
+	}
+	for (uint i = 0; i < N_COMPOSE_FLOATS; i++) {
+		__global float *plane = to->floats + r->float_plane[i] * size;
+
+		if (r->float_plane[i] != SCENE_NONE)
+			*(__global pack_loose_floats *)(plane + to->at) = *(__global const pack_loose_floats *)(plane + from);
+	}
 }

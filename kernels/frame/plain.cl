@@ -256,7 +256,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 	}
 }
 
-static inline void compose_row(const struct plain_arguments *a, struct plain_row *row)
+static inline struct pack_planes planes_of(const struct plain_arguments *a, const struct plain_row *row)
 {
 	struct pack_planes to;
 
@@ -265,9 +265,14 @@ static inline void compose_row(const struct plain_arguments *a, struct plain_row
 	to.floats = a->floats;
 	to.at = (a->request.height - 1 - row->y) * a->width + row->x;
 	to.n = min(PACK_SIZE, a->width - row->x);
+	return to;
+}
+
+static inline void compose_row(struct plain_row *row, const struct pack_planes *to)
+{
 	for (int i = 0; i < 3; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
-	pack_compose(&row->pixels, &to);
+	pack_compose(&row->pixels, to);
 }
 
 /* s: what packs and shade_item take, with visibility where lights have been asked */
@@ -275,6 +280,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 {
 	struct plain_kept kept;
 	struct plain_row row;
+	uint empty = SCENE_NONE; /* where a row without fragments stands in the planes */
 
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept.pack.lit[i].instance = SCENE_NONE;
@@ -282,6 +288,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		kept.pack.cuts[i].instance = SCENE_NONE;
 	row.x = item % plain_columns(a->width) * PLAIN_WIDTH;
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
+		struct pack_planes to;
 		uint lanes;
 
 		row.y = item / plain_columns(a->width) * PLAIN_ROWS + k;
@@ -295,9 +302,16 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
 		if (row.y >= a->request.height || (s->n_slots && !row.dimmed))
 			continue;
+		to = planes_of(a, &row);
+		if (!lanes && empty != SCENE_NONE) {
+			pack_compose_again(empty, &to);
+			continue;
+		}
 		clear_row(a->cleared, &row.pixels);
 		shade_row(a, s, &row, lanes, &kept);
-		compose_row(a, &row);
+		compose_row(&row, &to);
+		if (!lanes && to.n == PACK_SIZE)
+			empty = to.at;
 	}
 }
 
