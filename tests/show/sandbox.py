@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SYSTEM = ("/usr/", "/lib", "/opt/", "/sys/", "/proc/self", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/filesystems", "/proc/driver", "/etc/ld.so.",
+SYSTEM = ("/usr", "/lib", "/opt", "/sys", "/proc/self", "/proc/mounts", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/filesystems", "/proc/driver", "/etc/ld.so.",
           "/etc/OpenCL", "/etc/alternatives", "/etc/localtime", "/etc/locale.alias", "/etc/debian_version", "/etc/os-release",
           "/dev/null", "/dev/zero", "/dev/full", "/dev/urandom", "/dev/random", "/dev/dri", "/dev/kfd", "/dev/nvidia", "/dev/shm")
 ROUNDS, FRAMES, COST = 9, 12, 1.0
