@@ -223,7 +223,7 @@ demo:
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity relit replay rooms sandbox sanitize seek \
+SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	sweep sweep-record thesis
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)

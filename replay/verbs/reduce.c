@@ -1,0 +1,412 @@
+/*
+ * relume reduce: the smallest recording with which a command still fails.
+ *
+ * Calls are left out in steps (enum level), ever finer ones, as long as the command ends with the exit code that it ends with on the
+ * whole recording. What belongs together (Begin and End, Push and Pop) goes together.
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/memory.h"
+#include "base/options.h"
+#include "base/verbs.h"
+#include "replay/machine/commands.h"
+#include "replay/trace/reader.h"
+#include "replay/trace/trace_out.h"
+#include "replay/verbs/shrink.h"
+
+enum { MOST_AT_ONCE = 64, MOST_NESTED = 256, ALWAYS = 0 };
+
+/* What is left out as one. */
+enum level {
+	FRAMES, /* what a frame draws, and its end */
+	DRAWS,  /* a draw; all from a Begin to its End */
+	BLOCKS, /* a display list; what draws in one; pairs; any other call */
+	CALLS,  /* calls between Begin and End, and in display lists, too */
+	N_LEVELS
+};
+static const char *const level_names[N_LEVELS] = { "frames", "draws", "blocks", "calls" };
+
+/* Of one call of the recording. */
+struct place {
+	int32_t command; /* in gls_commands, or -1 */
+	uint32_t frame;
+	uint32_t begin, list, pair; /* the call, counted from 1, that begins what it is in or ends; 0: none */
+};
+
+struct reduce {
+	const char *path, *new, *when;
+	unsigned at_once, limit_s;
+	struct place *calls; /* [n] */
+	size_t n, room;
+	uint8_t *kept;       /* [n] */
+	uint32_t *unit;      /* [n]: what a call is left out with at this level, counted from 1; ALWAYS: it is not left out */
+	char folder[PATH_MAX - 64];
+	int code;            /* of the command, on the whole recording */
+	uint64_t trials;
+};
+
+/* --- The recording ------------------------------------------------------------------------------------------------------ */
+
+static const struct {
+	const char *open, *close;
+} pairs[] = {
+	{ "glBegin", "glEnd" }, { "glNewList", "glEndList" }, { "glPushMatrix", "glPopMatrix" }, { "glPushAttrib", "glPopAttrib" },
+	{ "glPushClientAttrib", "glPopClientAttrib" }, { "glPushName", "glPopName" },
+};
+enum { PAIR_BEGIN, PAIR_LIST, N_PAIRS = sizeof(pairs) / sizeof(pairs[0]) };
+
+/* Calls that are open, innermost last; counted from 1. */
+struct open_calls {
+	uint32_t at[MOST_NESTED];
+	unsigned n;
+};
+
+static void place_call(struct reduce *r, struct open_calls open[N_PAIRS], const char *name)
+{
+	struct place *p = &r->calls[r->n - 1];
+
+	for (unsigned k = 0; k < N_PAIRS; k++) {
+		struct open_calls *o = &open[k];
+
+		if (strcmp(name, pairs[k].open) == 0 && o->n < MOST_NESTED)
+			o->at[o->n++] = p->pair = (uint32_t)r->n;
+		if (k == PAIR_BEGIN)
+			p->begin = o->n ? o->at[0] : 0;
+		if (k == PAIR_LIST)
+			p->list = o->n ? o->at[0] : 0;
+		if (strcmp(name, pairs[k].close) == 0 && o->n)
+			p->pair = o->at[--o->n];
+	}
+}
+
+static int read_calls(struct reduce *r)
+{
+	struct open_calls open[N_PAIRS] = { { .n = 0 } };
+	struct trace_reader *reader = NULL;
+	const struct call *call;
+	uint32_t frame = 0;
+	int rc = trace_reader_open(&reader, r->path, gls_command_find);
+
+	while (!rc && (rc = trace_reader_next(reader, &call)) == 1) {
+		rc = MEMORY_GROW(r->calls, r->room, r->n + 1);
+		if (rc)
+			break;
+		r->calls[r->n++] = (struct place){ .command = call->sig->command, .frame = frame };
+		place_call(r, open, call->sig->name);
+		frame += call->sig->command >= 0 && gls_commands[call->sig->command].drawing == GLS_ENDS;
+	}
+	trace_reader_close(&reader);
+	r->kept = malloc(r->n + 1);
+	r->unit = calloc(r->n + 1, sizeof(*r->unit));
+	if (!rc && (!r->kept || !r->unit))
+		rc = err_report(ERR_SYSTEM, NULL, "out of memory");
+	if (!rc)
+		memset(r->kept, 1, r->n);
+	return rc;
+}
+
+/* Write the recording, but for calls of units that are not in. in: NULL: all that is kept */
+static int write_calls(const struct reduce *r, const uint8_t *in, const char *path, uint64_t *bytes)
+{
+	struct trace_reader *reader = NULL;
+	struct trace_out *out = NULL;
+	const struct call *call;
+	int rc = trace_reader_open(&reader, r->path, gls_command_find);
+
+	if (!rc)
+		rc = trace_out_open(&out, path, r->path, reader);
+	for (size_t i = 0; i < r->n && !rc; i++) {
+		rc = trace_reader_next(reader, &call);
+		if (rc != 1)
+			rc = rc ? rc : err_report(ERR_INPUT, r->path, "has changed while it was read");
+		else
+			rc = r->kept[i] && (!in || r->unit[i] == ALWAYS || in[r->unit[i] - 1]) ? trace_out_call(out, call) : 0;
+	}
+	if (!rc)
+		rc = trace_out_finish(&out, bytes);
+	trace_out_drop(&out);
+	trace_reader_close(&reader);
+	return rc;
+}
+
+/* --- The command -------------------------------------------------------------------------------------------------------- */
+
+static void trial_path(const struct reduce *r, size_t i, const char *name, char out[PATH_MAX])
+{
+	snprintf(out, PATH_MAX, "%s/%zu%s", r->folder, i, name);
+}
+
+/* Start the command on a trial's recording. @return its process; below 0: ERR_SYSTEM (reported) */
+static pid_t start(const struct reduce *r, size_t i)
+{
+	char trace[PATH_MAX], folder[PATH_MAX];
+	const pid_t pid = fork();
+	int quiet;
+
+	if (pid < 0)
+		return err_report(ERR_SYSTEM, "fork", "%s", strerror(errno));
+	if (pid)
+		return pid;
+	trial_path(r, i, "/x.trace", trace);
+	prctl(PR_SET_PDEATHSIG, SIGKILL);
+	setpgid(0, 0);
+	quiet = open("/dev/null", O_RDWR);
+	dup2(quiet, STDIN_FILENO);
+	dup2(quiet, STDOUT_FILENO);
+	dup2(quiet, STDERR_FILENO);
+	setenv("TRACE", trace, 1);
+	trial_path(r, i, "", folder);
+	if (chdir(folder))
+		_exit(127);
+	execl("/bin/sh", "sh", "-c", r->when, (char *)NULL);
+	_exit(127);
+}
+
+/* Wait for a process. @return its exit code, 128 + signal, or -1: it took too long, or cannot be waited for */
+static int finish(pid_t pid, time_t until)
+{
+	int status = 0, late = 0;
+	pid_t done;
+
+	while ((done = waitpid(pid, &status, WNOHANG)) == 0) {
+		if (time(NULL) > until && !late++)
+			kill(-pid, SIGKILL);
+		nanosleep(&(struct timespec){ .tv_nsec = 2000000 }, NULL);
+	}
+	if (done < 0 || late)
+		return -1;
+	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *at)
+{
+	(void)st, (void)kind, (void)at;
+	return remove(path);
+}
+
+static void clear(const struct reduce *r, size_t i)
+{
+	char path[PATH_MAX];
+
+	trial_path(r, i, "", path);
+	if (nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS))
+		err_warn(path, "cannot be removed: %s", strerror(errno));
+}
+
+/* Run the command on some sets side by side. codes: receive exit codes, as finish */
+static int run_all(struct reduce *r, uint8_t *const *sets, size_t n, int *codes)
+{
+	pid_t pids[MOST_AT_ONCE];
+	char path[PATH_MAX];
+	size_t started = 0;
+	int err = 0;
+
+	for (; started < n && !err; started++) {
+		trial_path(r, started, "", path);
+		if (mkdir(path, 0777))
+			err = err_report(ERR_SYSTEM, path, "%s", strerror(errno));
+		trial_path(r, started, "/x.trace", path);
+		if (!err)
+			err = write_calls(r, sets[started], path, NULL);
+		pids[started] = err ? err : start(r, started);
+		err = pids[started] < 0 ? ERR_SYSTEM : err;
+	}
+	for (size_t i = 0; i < started; i++) {
+		codes[i] = pids[i] < 0 ? -1 : finish(pids[i], time(NULL) + r->limit_s);
+		clear(r, i);
+	}
+	r->trials += n;
+	return err;
+}
+
+static int test(void *user, uint8_t *const *sets, size_t n, int *fails)
+{
+	struct reduce *r = user;
+	int err = run_all(r, sets, n, fails);
+
+	for (size_t i = 0; i < n; i++)
+		fails[i] = fails[i] == r->code;
+	return err;
+}
+
+/* What the command says of the whole recording, twice. */
+static int find_fault(struct reduce *r)
+{
+	const time_t begin = time(NULL);
+	uint8_t *const all[2] = { NULL, NULL };
+	int codes[2], err;
+
+	r->limit_s = r->limit_s ? r->limit_s : 24 * 3600;
+	err = run_all(r, all, 1, codes);
+	if (!err)
+		err = run_all(r, all + 1, 1, codes + 1);
+	if (err)
+		return err;
+	if (codes[0] == 0)
+		return err_report(ERR_USAGE, r->path, "the command ends with exit code 0 on the whole recording: there is nothing to look for");
+	if (codes[0] != codes[1] || codes[0] < 0 || codes[0] == 127)
+		return err_report(ERR_USAGE, r->path, "the command ends with exit code %d, then with %d on the same recording", codes[0], codes[1]);
+	r->code = codes[0];
+	if (r->limit_s == 24 * 3600)
+		r->limit_s = (unsigned)(10 + 5 * (time(NULL) - begin));
+	return 0;
+}
+
+/* --- Levels ------------------------------------------------------------------------------------------------------------- */
+
+static int draws(const struct place *p)
+{
+	return p->begin || (p->command >= 0 && gls_commands[p->command].drawing);
+}
+
+/* The call, counted from 1, that names what a call is left out with. */
+static uint32_t name_of(const struct reduce *r, size_t i, enum level level)
+{
+	const struct place *p = &r->calls[i];
+
+	switch (level) {
+	case FRAMES: return draws(p) && !p->list ? p->frame + 1 : ALWAYS;
+	case DRAWS: return p->list || !draws(p) ? ALWAYS : p->begin ? p->begin : (uint32_t)i + 1;
+	case BLOCKS: return p->list ? p->list : p->begin ? p->begin : p->pair ? p->pair : (uint32_t)i + 1;
+	default: return p->pair ? p->pair : (uint32_t)i + 1;
+	}
+}
+
+/* Number the units of what is kept. numbers: room for one per call @return how many units; SIZE_MAX: out of memory (reported) */
+static size_t number_units(struct reduce *r, enum level level)
+{
+	uint32_t *numbers = calloc(r->n + 2, sizeof(*numbers));
+	size_t n = 0;
+
+	if (!numbers) {
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		return SIZE_MAX;
+	}
+	for (size_t i = 0; i < r->n; i++) {
+		const uint32_t name = name_of(r, i, level);
+
+		r->unit[i] = ALWAYS;
+		if (!r->kept[i] || name == ALWAYS)
+			continue;
+		if (!numbers[name])
+			numbers[name] = (uint32_t)++n;
+		r->unit[i] = numbers[name];
+	}
+	free(numbers);
+	return n;
+}
+
+static size_t count(const uint8_t *in, size_t n)
+{
+	size_t sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += in[i];
+	return sum;
+}
+
+static int reduce_level(struct reduce *r, enum level level)
+{
+	const size_t n = number_units(r, level);
+	uint8_t *in = n < SIZE_MAX ? malloc(n + 1) : NULL;
+	int err = in ? 0 : ERR_SYSTEM;
+
+	if (!err) {
+		memset(in, 1, n);
+		err = shrink(in, n, r->at_once, test, r);
+	}
+	for (size_t i = 0; i < r->n && !err; i++)
+		r->kept[i] = r->kept[i] && (r->unit[i] == ALWAYS || in[r->unit[i] - 1]);
+	if (!err)
+		fprintf(stderr, "%s: %zu of %zu needed, %zu calls are left; %" PRIu64 " trials\n", level_names[level], count(in, n), n,
+		        count(r->kept, r->n), r->trials);
+	free(in);
+	return err;
+}
+
+/* --- The verb ----------------------------------------------------------------------------------------------------------- */
+
+static int reduce(struct reduce *r)
+{
+	const char *tmp = getenv("TMPDIR");
+	const time_t begin = time(NULL);
+	uint64_t bytes = 0;
+	int err = read_calls(r);
+
+	if (!err && snprintf(r->folder, sizeof(r->folder), "%s/relume-reduce-XXXXXX", tmp && *tmp ? tmp : "/tmp") >= (int)sizeof(r->folder))
+		err = err_report(ERR_SYSTEM, tmp, "the name is too long");
+	if (!err && !mkdtemp(r->folder))
+		err = err_report(ERR_SYSTEM, r->folder, "%s", strerror(errno));
+	if (err)
+		return err;
+	err = find_fault(r);
+	for (int level = 0; level < N_LEVELS && !err; level++)
+		err = reduce_level(r, (enum level)level);
+	rmdir(r->folder);
+	if (!err)
+		err = write_calls(r, NULL, r->new, &bytes);
+	if (!err)
+		printf("%s: %zu of %zu calls, %" PRIu64 " bytes; the command ends with exit code %d; %" PRIu64 " trials in %ld s\n", r->new,
+		       count(r->kept, r->n), r->n, bytes, r->code, r->trials, (long)(time(NULL) - begin));
+	return err;
+}
+
+#define AT(member) .at = offsetof(struct reduce, member)
+
+static const struct options_row rows[] = {
+	{ "when", 'w', "COMMAND", "a command of the shell that fails on the recording $TRACE; it runs in a folder of its own, which goes afterwards",
+	  options_text, AT(when), .is_required = 1 },
+	{ "output", 'o', "FILE", "the recording to write; it appears when it is whole", options_text, AT(new), .is_required = 1 },
+	{ "jobs", 'j', "N", "commands that run at once (default: one for each core)", options_number, AT(at_once), .most = MOST_AT_ONCE },
+	{ "timeout", 0, "S", "seconds after which a command counts as passed (default: ten, and five times what the whole recording takes)",
+	  options_number, AT(limit_s), .most = 86400 },
+};
+
+static const struct options_table table = {
+	.verb = "reduce",
+	.head = "usage: relume reduce TRACE --when COMMAND -o NEW\n"
+	        "\n"
+	        "Find the smallest recording with which a command still fails: it leaves out frames, then draws, then calls, as long as COMMAND\n"
+	        "ends with the same exit code as on TRACE. NEW runs in apitrace's tools as TRACE does. No call of it can be left out alone.\n"
+	        "\n"
+	        "What a command may ask: does the last frame still look different on Mesa?\n"
+	        "\n"
+	        "    relume reduce x.trace -o small.trace --when 'relume raster \"$TRACE\" -o r.####.png &&\n"
+	        "        relume render \"$TRACE\" --mode gl --aov gl -o g.####.exr && relume diff r.####.png g.####.exr'\n",
+	OPTIONS_ROWS(rows),
+	.notes = "Exit codes: 0 done, 2 wrong usage or the command does not fail on TRACE, 3 TRACE cannot be read, 5 the system failed.\n",
+	.takes = "one trace, --when with a command and -o with the file to write", .least = 1, .most = 1,
+};
+
+int reduce_main(int argc, char **argv)
+{
+	struct reduce r = { .path = NULL };
+	struct options_line line;
+	int err = options_parse(&table, argc, argv, &r, &line);
+
+	if (!err) {
+		const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+
+		r.path = line.words[0];
+		r.at_once = r.at_once ? r.at_once : cores > MOST_AT_ONCE ? MOST_AT_ONCE : (unsigned)cores;
+		err = reduce(&r);
+	}
+	free(r.calls);
+	free(r.kept);
+	free(r.unit);
+	return err > 0 ? 0 : -err;
+}

@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""relume reduce: what is left of a recording still fails as the whole does, and nothing more of it can go."""
+import sys
+import tempfile
+
+from helpers import RELUME, ROOT, SCRATCH, check, corpus, finish, must, pathlib, record, relume, run
+
+sys.path.insert(0, str(ROOT / "tests/show"))
+from edit_trace import Trace  # noqa: E402
+
+ERROR = f"'{RELUME}' info --json \"$TRACE\" >info.json || exit 9; ! grep -q INVALID_ENUM info.json"
+TWO = f"'{RELUME}' scene \"$TRACE\" -f 0 >scene.txt || exit 9; ! grep -q '2 triangles of mesh' scene.txt"
+
+
+def names(trace):
+    return [line.split(" ", 1)[1].split("(")[0] for line in must(relume("dump", trace)).stdout.splitlines()]
+
+
+def reduce(trace, new, command, *options):
+    done = must(relume("reduce", trace, "-o", new, "--when", command, *options, timeout=300))
+    check(len(names(new)) == int(done.stdout.split(": ")[1].split(" of ")[0]), f"tells how many calls are left: {done.stdout}")
+    check(not run("apitrace", "dump", new).stderr, f"apitrace reads {new.name}")
+    return names(new)
+
+
+with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
+    out = pathlib.Path(folder)
+    record(out / "whole.trace", corpus("still_life"), "--frames", 3)
+    trace = Trace(out / "whole.trace")
+    trace.change(trace.find("glEnable")[20][0], 0x1234)
+    trace.save(out / "error.trace")
+    calls = reduce(out / "error.trace", out / "small.trace", ERROR)
+    check(calls.count("glEnable") == 1 and len(calls) <= 3, f"what an error needs: {calls}")
+    reduce(out / "error.trace", out / "alone.trace", ERROR, "--jobs", 1)
+    check((out / "small.trace").read_bytes() == (out / "alone.trace").read_bytes(), "the same whatever runs at once")
+
+    record(out / "pair.trace", corpus("two_triangles"), "--frames", 2)
+    calls = reduce(out / "pair.trace", out / "triangles.trace", TWO)
+    check(calls.count("glVertex2f") == 6 and len(calls) <= 12, f"what two triangles need: {calls}")
+
+    done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when", ERROR)
+    check(done.returncode == 2 and "nothing to look for" in done.stderr, f"a command that passes: {done.stderr}")
+    done = relume("reduce", out / "whole.trace", "-o", out / "none.trace", "--when", "[ -e '%s/second' ] && exit 4; touch '%s/second'; exit 3" % (out, out))
+    check(done.returncode == 2 and "with 3, then" not in done.stderr and "code 3, then with 4" in done.stderr, f"a fickle command: {done.stderr}")
+    check(relume("reduce", out / "missing.trace", "-o", out / "none.trace", "--when", "false").returncode == 3, "no such recording")
+    check(not (out / "none.trace").exists(), "nothing is written where nothing was found")
+finish()

@@ -1,0 +1,73 @@
+#!/usr/bin/python3
+"""tests/show/reduce.py BUILD [--only NAME] (as `make show-reduce`): ten faults put into real recordings, found again by `relume reduce`.
+
+A fault is one argument of one call, changed past the middle of the recording to a number that OpenGL does not know there. The command that
+fails: `relume info` finds an error of that call. Beside: how many calls `apitrace trim` keeps of the frame that has the fault.
+"""
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/show"))
+from edit_trace import Trace  # noqa: E402
+
+SHARED = ROOT.parent / "shared/traces"
+FAULTS = [("glxgears", "glShadeModel", 0), ("xss-queens", "glEnable", 0), ("xss-lament", "glBindTexture", 0), ("iv-SceneViewer", "glEnable", 0),
+          ("rss-lattice", "glEnable", 0), ("billard-gl", "glBindTexture", 0), ("neverball", "glMatrixMode", 0), ("xss-noof", "glBegin", 0),
+          ("billard-gl", "glBlendFunc", 1), ("neverball", "glTexEnvi", 1)]
+WRONG, AT, MOST = 0x1234, 0.6, 50
+SAID = re.compile(r": (\d+) of (\d+) calls, .*; (\d+) trials in (\d+) s")
+
+
+def run(*args, codes=(0,)):
+    done = subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if done.returncode not in codes:
+        sys.exit(f"{' '.join(map(str, args))}: exit code {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def plant(source, call, argument, path):
+    """Change one call of a recording; return the number of its frame."""
+    trace = Trace(source)
+    found = [i for i, (name, args) in enumerate(trace.calls) if name == call and len(args) > argument and args[argument].kind == "number"]
+    at = found[int(AT * len(found))]
+    trace.change(trace.calls[at][1][argument], WRONG)
+    trace.save(path)
+    return sum(name in ("glXSwapBuffers", "eglSwapBuffers") for name, _ in trace.calls[:at])
+
+
+def main(build, only):
+    rows, relume = [], (build / "relume").resolve()
+    for name, call, argument in FAULTS:
+        if only and only not in name:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            work = pathlib.Path(folder)
+            frame = plant(SHARED / f"{name}.trace", call, argument, work / "fault.trace")
+            when = (f"'{relume}' info --json \"$TRACE\" >info.json || exit 9; "
+                    f"! grep -A3 '\"gl_errors\"' info.json | grep -q '\"call\": \"{call}\"'")
+            said = SAID.search(run(relume, "reduce", work / "fault.trace", "-o", work / "small.trace", "--when", when))
+            left, whole, trials, seconds = map(int, said.groups())
+            again = subprocess.run(["sh", "-c", when], cwd=work, env={"TRACE": str(work / "small.trace"), "PATH": "/usr/bin:/bin"}, check=False)
+            run("apitrace", "trim", f"--frames={frame}", "-o", work / "trim.trace", work / "fault.trace")
+            trimmed = json.loads(run(relume, "info", "--json", work / "trim.trace", codes=(0, 3)) or '{"calls": 0}')["calls"]
+            passed = left <= MOST and again.returncode == 1
+            rows.append({"what": f"{name}: {call} of {whole} calls", "figure": f"{left} calls, {trials} trials, {seconds} s", "bar": f"at most {MOST}, still failing",
+                         "peer": f"apitrace trim of frame {frame}: {trimmed} calls", "passed": passed})
+            print("holds" if passed else "FAILS", *(str(rows[-1][k]) for k in ("what", "figure", "peer")), sep="  ", flush=True)
+    (build / "show").mkdir(exist_ok=True)
+    (build / "show/reduce.json").write_text(json.dumps({"name": "reduce", "command": "make show-reduce", "rows": rows}, indent=1))
+    return any(not row["passed"] for row in rows)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only")
+    options = parser.parse_args()
+    sys.exit(main(options.build, options.only))
