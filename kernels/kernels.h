@@ -208,7 +208,8 @@ typedef float element_float;
 /* Light from all around: kernels/frame/dome.h. */
 #define ARGUMENTS_dome_find(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, n) AND() OUT(dome_place, places)
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(scene_dome, dome) AND() VALUE(uint, n) AND() \
+	OUT(dome_place, places)
 #define ARGUMENTS_dome_ray(IN, OUT, VALUE, GROUP, AND) \
 	IN(dome_place, places) AND() IN(uint, pixels) AND() \
 	IN(float, directions) AND()         /* [4] for each pixel of a block: about z, then how far to look */ \
@@ -252,6 +253,7 @@ typedef float element_float;
 	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, depth) AND()            /* bounces at most */ \
 	IN(float, background) AND()         /* [4] */ \
+	IN(shaded, shaded) AND()            /* of the fragments that paths start from */ \
 	VALUE(uint, n) AND() \
 	OUT(float, radiance) AND()          /* [3] a path */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \

@@ -291,6 +291,7 @@ SHARED_SIZE(struct path, 28);
 #define PATH_DIFFUSE 0u
 #define PATH_REFLECT 1u
 #define PATH_REFRACT 2u
+#define PATH_NEAR 3u /* as PATH_REFLECT; where it meets nothing, the fragment's own colour stands for what it would find */
 
 /* Upper bounds of the rays that leave a fragment, and a hit: mirrored, let through, scattered. */
 #define PATHS_PER_FRAGMENT 3u

@@ -9,6 +9,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/mat4.h"
+#include "look/gloss.h"
 #include "look/modelview.h"
 #include "look/plane.h"
 #include "look/rules.h"
@@ -91,6 +92,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 	uint32_t passes;
 
 	set_number(&s->reflect, r->reflect, 1);
+	if (r->reflect)
+		s->hidden &= ~SCENE_NEAR_MIRROR;
 	set_number(&s->transmit, r->transmit, 1);
 	set_number(&s->ior, r->ior, 1);
 	set_number(&s->roughness, r->roughness, 1);
@@ -99,10 +102,12 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 	if (r->passes && spares && spare_named(r->passes, &passes))
 		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	if (r->shadows)
-		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT)) |
+		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT | SCENE_NEAR_MIRROR)) |
 		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
+	if (r->near)
+		s->hidden = (s->hidden & ~SCENE_NEAR_MIRROR) | (*r->near ? SCENE_NEAR_MIRROR : 0);
 	if (r->left_out)
 		s->hidden = (s->hidden & ~SCENE_LEFT_OUT) | (*r->left_out ? SCENE_LEFT_OUT : 0);
 	if (r->solid)
@@ -310,6 +315,7 @@ static void set_sky(const struct applying *a)
 	dome->reach = *r->reach;
 	memcpy(dome->light, r->light ? r->light : white, sizeof(dome->light));
 	memcpy(dome->ground, r->ground ? r->ground : dome->light, sizeof(dome->ground));
+	dome->lit = r->lit ? *r->lit : 0;
 	if (!r->up || (r->space && strcmp(r->space, "world") == 0 && !a->knows_world))
 		return;
 	memcpy(up, r->up, 3 * sizeof(*up));
@@ -382,7 +388,9 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.hidden |= SCENE_FACETED;
 	else if (a->spare->bits)
 		m->surface.hidden |= a->spare->bits[i];
-	if (rules->sky && !m->lighting && solid_is(scene, in))
+	if (rules->gloss && rules->gloss->share)
+		gloss_set(m, *rules->gloss->share, &m->surface);
+	if (rules->sky && (m->lighting ? out->dome.lit > 0 : !rules->sky->unlit || *rules->sky->unlit) && solid_is(scene, in))
 		m->surface.hidden |= SCENE_DOME_LIT;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (applies(a, in, k))

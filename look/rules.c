@@ -45,6 +45,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
 	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
+	TRUTH(struct surface_rule, near),
 	TEXT(struct surface_rule, passes),
 	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
 	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), TRUTH(struct surface_rule, solid), CYAML_FIELD_END
@@ -69,8 +70,11 @@ static const cyaml_schema_field_t light_fields[] = {
 
 static const cyaml_schema_field_t sky_fields[] = {
 	REASON(struct sky_rule), NUMBER(struct sky_rule, reach), NUMBERS(struct sky_rule, up, 3), TEXT(struct sky_rule, space),
-	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), CYAML_FIELD_END
+	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), NUMBER(struct sky_rule, lit), TRUTH(struct sky_rule, unlit),
+	CYAML_FIELD_END
 };
+
+static const cyaml_schema_field_t gloss_fields[] = { REASON(struct gloss_rule), NUMBER(struct gloss_rule, share), CYAML_FIELD_END };
 
 static const cyaml_schema_value_t surface_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct surface_rule,
                                                                          surface_fields) };
@@ -84,6 +88,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_MAPPING_PTR("sky", OPTIONAL_POINTER, struct rules, sky, sky_fields),
+	CYAML_FIELD_MAPPING_PTR("gloss", OPTIONAL_POINTER, struct rules, gloss, gloss_fields),
 	TRUTH(struct rules, spare), TRUTH(struct rules, replace),
 	CYAML_FIELD_END
 };
@@ -180,6 +185,8 @@ static int check_sky(const char *path, const struct sky_rule *r)
 	}
 	if (!err && r->up && r->up[0] == 0 && r->up[1] == 0 && r->up[2] == 0)
 		err = err_report(ERR_INPUT, path, "sky: up is no direction");
+	if (!err)
+		err = check_number(path, "sky", 0, "lit", r->lit, 0, 1);
 	return err ? err : check_space(path, "sky", r->space);
 }
 
@@ -214,6 +221,8 @@ static int check_all(const char *path, struct look *look)
 		err = check_light(path, &rules->lights[i], i);
 	for (uint32_t i = 0; !err && i < rules->world_count; i++)
 		err = check_anchor(path, &rules->world[i], i);
+	if (!err && rules->gloss)
+		err = check_number(path, "gloss", 0, "share", rules->gloss->share, 0, 1);
 	if (!err && rules->sky)
 		err = check_sky(path, rules->sky);
 	return err;

@@ -31,6 +31,7 @@
  *         passes: none               # light that it lets through all the same, in place of what each frame decides (look/spare.h):
  *                                    # none, from behind (of its lit side), suns (light at infinity), suns and from behind, all
  *         mirrors: yes               # is seen in them and through glass
+ *         near: yes                  # `reflect` mirrors what is there; where nothing is, the surface keeps its own colour
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         dome: no                   # does not take the light of `sky` below
@@ -52,12 +53,16 @@
  *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 }
  *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
  *
- *     sky:                           # light from all around on solid things that OpenGL does not light and no light above does
+ *     sky:                           # light from all around on solid things that no light above lights
  *       reach: 20                    # how far off things dim it, in units of eye space; near ones dim it more
  *       up: [0, 1, 0]                # whence `light` comes; from below comes `ground`. Without it all is `light`
  *       space: world                 # of `up`; default eye
  *       light: [1, 1, 1]
  *       ground: [0.5, 0.5, 0.5]
+ *       lit: 0.5                   # [0,1]: how much of it counts on what OpenGL lights; default 0
+ *       unlit: no                  # default yes: what OpenGL does not light takes it
+ *
+ *     gloss: { share: 1 }            # what is lit with highlights mirrors what is near (look/gloss.h): so much of it; default 0
  *
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
  *                                    # lit as OpenGL lights it (look/spare.h), and what covers the window as
@@ -98,7 +103,7 @@ struct surface_rule {
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
 	const uint32_t *lightmap;
-	const bool *shadows, *mirrors, *lit, *dome, *left_out, *solid;
+	const bool *shadows, *mirrors, *near, *lit, *dome, *left_out, *solid;
 	const char *passes;
 };
 
@@ -117,8 +122,14 @@ struct light_rule {
 
 struct sky_rule {
 	struct rule_reason reason;
-	const float *reach, *up, *light, *ground;
+	const float *reach, *up, *light, *ground, *lit;
+	const bool *unlit;
 	const char *space;
+};
+
+struct gloss_rule {
+	struct rule_reason reason;
+	const float *share;
 };
 
 struct anchor {
@@ -131,6 +142,7 @@ struct rules {
 	struct light_rule *lights;
 	struct anchor *world;
 	struct sky_rule *sky;
+	struct gloss_rule *gloss;
 	const bool *spare;
 	const bool *replace;
 	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */

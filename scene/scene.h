@@ -61,6 +61,7 @@ struct scene_face {
 #define SCENE_LEFT_OUT 64u           /* all: a trick that OpenGL drew; traced light does the same */
 #define SCENE_SOLID 128u             /* its blending: that mixes in what stands for a mirror's picture */
 #define SCENE_DOME_LIT 256u          /* nothing: scene.dome lights it */
+#define SCENE_NEAR_MIRROR 512u       /* nothing: it mirrors what is there, and keeps its own colour where nothing is */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {
@@ -77,11 +78,12 @@ struct scene_surface {
 	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; 0: none */
 };
 
-/* Light from all around, for what OpenGL does not light. Set by rules, not by GL. */
+/* Light from all around. Set by rules, not by GL. */
 struct scene_dome {
 	float up_eye[3];           /* unit vector; all 0: no direction is up, and all are `light` */
 	float reach;               /* things dim it up to this distance, eye-space units, near ones more; 0: there is no dome */
 	float light[3], ground[3]; /* from straight up and from straight down; in between in proportion to the height */
+	float lit;                 /* [0,1]: how much of it counts where GL lights a surface, and the rest is GL's */
 };
 
 /* One stage of the fixed-function stencil, per side (GL 2.1 sec. 4.1.5). */

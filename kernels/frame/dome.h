@@ -1,5 +1,5 @@
 /*
- * Light from all around (scene_dome) on surfaces that GL does not light: one fragment of the list a work item.
+ * Light from all around (scene_dome): one fragment of the list a work item. On what GL lights a share of it counts.
  *
  * Pixels of a block share a set of directions, each has its part of them (A. Keller and W. Heidrich, "Interleaved Sampling", 2001). A
  * fragment takes the mean over the block around it, of neighbours on the same surface. So few rays make no noise.
@@ -43,7 +43,7 @@ static inline void dome_find_item(const struct dome_find_arguments *a, uint32_t 
 		return;
 	v3_store(place->from, point_ray_origin(p.weight, &plane, normal, from));
 	v3_store(place->normal, normal);
-	place->strength = p.material->fog ? point_fog(&p) : 1.0f;
+	place->strength = (p.material->fog ? point_fog(&p) : 1.0f) * (p.material->lighting ? a->dome.lit : 1.0f);
 }
 
 /* Which part of its block's directions a pixel has. */

@@ -51,10 +51,25 @@ static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
 	return into < 0.0f ? v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))) : d;
 }
 
+/* The normal that a mirror turns rays about: of a near one the surface's own, also where GL does not light it. */
+static inline struct vec3 branch_normal(const struct point *p)
+{
+	struct vec3 n = point_normal(p), smooth;
+
+	if (p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR))
+		return n;
+	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
+	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
+	                             v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	if (!(v3_dot(smooth, smooth) > 0.0f))
+		return n;
+	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
+}
+
 static inline void branch_mirror(struct branches *b, const struct point *p, struct vec3 d, struct vec3 weight,
                                  uint32_t kind, uint32_t seed, uint32_t sample)
 {
-	struct vec3 n = point_normal(p), plane = point_plane_normal(p);
+	struct vec3 n = branch_normal(p), plane = point_plane_normal(p);
 	float roughness = p->material->surface.roughness, u, v;
 	GLOBAL struct ray *ray = branch(b, weight, kind, b->from.medium);
 	struct vec3 away;
@@ -163,7 +178,8 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	v3_store(s->beauty, v3_sub(mirrored, v3_scale(v3_load(s->direct), split.through)));
 	if (a->transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
 		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, a->sample);
-	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored), PATH_REFLECT, seed, a->sample);
+	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored),
+	              p.material->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT, seed, a->sample);
 	if (split.through > 0.0f) {
 		point_texture(t, &p, (const struct point_window *)0, &texturing);
 		branch_through(&b, &p, d, &split, v3_scale(glass_tint(t, &p, &texturing), split.through), PATH_REFRACT);
@@ -287,6 +303,10 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	b.count = 0u;
 	a->counts[item] = 0u;
 	weight = path_weight(&b.from);
+	if (hit.instance == SCENE_NONE && b.from.kind == PATH_NEAR) {
+		v3_store(out, v3_mul(weight, v3_load(a->shaded[b.from.target].direct)));
+		return;
+	}
 	if (hit.instance == SCENE_NONE) {
 		v3_store(out, v3_mul(weight, hit_nothing(t, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
 		return;
@@ -305,6 +325,10 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	if (b.from.medium != SCENE_NONE)
 		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - a->rays[item].t_min));
 	split = split_light(&p, d);
+	if (p.material->surface.hidden & SCENE_NEAR_MIRROR) { /* it is seen in another one with its own colour */
+		split.base += split.mirrored;
+		split.mirrored = 0.0f;
+	}
 	own = v3(color.x, color.y, color.z);
 	if (p.material->blend && !(split.through > 0.0f) && !(p.material->surface.hidden & SCENE_SOLID)) {
 		own = transparency_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -312,6 +336,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	}
 	v3_store(out, v3_mul(weight, v3_scale(own, split.base)));
 	seed = stage_seed(&a->paths[item], a->pixels, 0u);
+	b.from.kind = b.from.kind == PATH_NEAR ? PATH_REFLECT : b.from.kind;
 	if (b.from.depth < a->depth && a->transport == TRANSPORT_PATH && !b.count) {
 		branch_one(t, &b, &p, d, &split, &texturing, weight, seed, a->sample);
 	} else if (b.from.depth < a->depth && a->transport != TRANSPORT_PATH) {

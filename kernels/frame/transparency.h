@@ -71,6 +71,17 @@ static inline int transparency_is_spared(const struct point *p, struct vec3 d, i
 	return (hidden & SCENE_STOPS_NO_SUN && at_infinity) || (hidden & SCENE_ONE_SIDED && v3_dot(lit_side, d) < 0.0f);
 }
 
+/* Light that a stippled surface lets through (sec. 3.5.2): as many of its pixels are not drawn. */
+static inline float transparency_of_stipple(const struct tables *t, uint32_t stipple)
+{
+	uint32_t drawn = 0u;
+
+	for (uint32_t row = 0u; row < 32u; row++)
+		for (uint32_t bits = t->stipples[stipple * 32u + row]; bits; bits &= bits - 1u)
+			drawn++;
+	return 1.0f - (float)drawn / 1024.0f;
+}
+
 /*
  * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it looks around
  */
@@ -86,6 +97,8 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 
 	if (m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
 		return all;
+	if (m->polygon_stipple != SCENE_NONE && !m->blend && !m->alpha_test && !m->clip_plane_mask)
+		return v3_scale(all, transparency_of_stipple(t, m->polygon_stipple));
 	if (!m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask)
 		return none;
 	point_texture(t, &p, (const struct point_window *)0, &texturing);

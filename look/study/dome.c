@@ -14,6 +14,8 @@ enum { MOST_TRIANGLES = 64 };
 /* Upright within 60 degrees of the window's own up; one floor within 8 degrees. */
 #define UPRIGHT 0.5
 #define SAME_UP 0.99
+/* How much of it counts where OpenGL lights a surface: its lights are most of what is there, ambient light is the rest. */
+#define LIT_SHARE 0.6
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
 
@@ -39,12 +41,12 @@ static double seen_at(const struct scene_view *view, const struct face *face, do
 	return area * (0.2 + fabs(matrix_dot3(away, face->normal))) * sqrt(row[0] * row[1]) / (4 * clip[3] * clip[3]);
 }
 
-static void note_size(struct dome *d, double size, double weight)
+static void note_size(double sizes[DOME_SIZES], double size, double weight)
 {
 	const double bin = 4 * log2(size) + DOME_SIZES / 2.0;
 
 	if (isfinite(bin))
-		d->sizes[bin < 0 ? 0 : bin >= DOME_SIZES ? DOME_SIZES - 1 : (int)bin] += weight;
+		sizes[bin < 0 ? 0 : bin >= DOME_SIZES ? DOME_SIZES - 1 : (int)bin] += weight;
 }
 
 static void note_up(struct dome *d, const double normal[3], double weight)
@@ -88,7 +90,7 @@ static void note_face(struct dome *d, const struct scene_view *view, const struc
 		share = share < 0.25 ? share : 0.25;
 		weight += share;
 		if (share > 0)
-			note_size(d, size, share);
+			note_size(d->sizes[0], size, share);
 	}
 	d->unlit += weight;
 	window_up(view, up);
@@ -111,14 +113,18 @@ static void note_instance(struct dome *d, const struct scene *scene, const struc
 	matrix_from_floats(eye, in->modelview);
 	for (uint32_t p = 0; p < mesh->primitive_count; p += stride) {
 		struct face face;
-		double size;
+		double size, share;
 
 		if (!face_of(mesh, eye, p, &face))
 			continue;
-		if (scene->materials[in->material].lighting)
-			d->lit += seen_at(&scene->views[in->view], &face, face.area * stride, face.corner[0], &size);
-		else
+		if (!scene->materials[in->material].lighting) {
 			note_face(d, &scene->views[in->view], &face, face.area * stride, world_from_eye);
+			continue;
+		}
+		share = seen_at(&scene->views[in->view], &face, face.area * stride, face.corner[0], &size);
+		d->lit += share;
+		if (share > 0)
+			note_size(d->sizes[1], size, share);
 	}
 }
 
@@ -143,16 +149,25 @@ int dome_is_wanted(const struct dome *d)
 }
 
 /* The size that two thirds of what is seen have at most: half of it may be what the viewer holds. */
-static double middle_size(const struct dome *d)
+static double middle_size(const double sizes[DOME_SIZES])
 {
 	double sum = 0, whole = 0;
 	int i = 0;
 
 	for (int k = 0; k < DOME_SIZES; k++)
-		whole += d->sizes[k];
-	while (i < DOME_SIZES - 1 && (sum += d->sizes[i]) < 0.67 * whole)
+		whole += sizes[k];
+	while (i < DOME_SIZES - 1 && (sum += sizes[i]) < 0.67 * whole)
 		i++;
 	return exp2((i + 0.5 - DOME_SIZES / 2.0) / 4);
+}
+
+/* Where OpenGL lights most: its ambient light comes from all around, and what stands close dims it. */
+static void write_for_lit(const struct dome *d, FILE *out)
+{
+	fprintf(out, "sky:\n  role: ambient light\n  confidence: %.2f\n", d->lit / (d->unlit + d->lit));
+	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around\"\n",
+	        100 * d->lit / (d->unlit + d->lit));
+	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n", REACH * middle_size(d->sizes[1]), LIT_SHARE);
 }
 
 void dome_write(const struct dome *d, FILE *out)
@@ -160,8 +175,11 @@ void dome_write(const struct dome *d, FILE *out)
 	const struct dome_up *best = d->n_ups ? &d->ups[0] : NULL;
 	int has_floor;
 
-	if (!dome_is_wanted(d))
+	if (!dome_is_wanted(d)) {
+		if (d->lit > 0)
+			write_for_lit(d, out);
 		return;
+	}
 	for (unsigned i = 1; i < d->n_ups; i++)
 		best = d->ups[i].weight > best->weight ? &d->ups[i] : best;
 	has_floor = best && best->weight > LEAST_FLOOR * d->all && 2 * d->known > d->frames;
@@ -171,10 +189,10 @@ void dome_write(const struct dome *d, FILE *out)
 		fprintf(out, "%.0f %% of the rest is level, which says what is up\"\n", 100 * best->weight / d->all);
 	else
 		fprintf(out, "up is where the window has it\"\n");
-	fprintf(out, "  reach: %.4g\n", REACH * middle_size(d));
+	fprintf(out, "  reach: %.4g\n", REACH * middle_size(d->sizes[0]));
 	if (has_floor)
 		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n  space: world\n", best->normal[0], best->normal[1], best->normal[2]);
 	else
 		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n", d->up_eye[0], d->up_eye[1], d->up_eye[2]);
-	fprintf(out, "  light: [1, 1, 1]\n  ground: [0.7, 0.7, 0.7]\n");
+	fprintf(out, "  light: [1, 1, 1]\n  ground: [0.7, 0.7, 0.7]\n  lit: %g\n", LIT_SHARE);
 }

@@ -1,5 +1,5 @@
 /*
- * Light from all around, for a recording that has no other: how much of what is solid OpenGL lights, how large the world is as it is
+ * Light from all around, for a recording that has no other, and where things dim it: how much of what is solid OpenGL lights, how large the world is as it is
  * seen, and which way is up.
  */
 #pragma once
@@ -14,7 +14,7 @@ enum { DOME_SIZES = 160, DOME_UPS = 48 };
 /* All zero: nothing was seen. Weights are shares of the window. */
 struct dome {
 	double lit, unlit;
-	double sizes[DOME_SIZES]; /* of what is unlit, by half the window's width where it stands, eye units: four to an octave */
+	double sizes[2][DOME_SIZES]; /* of what is unlit, and of what is lit, by half the window's width where it stands, eye units: four to an octave */
 	struct dome_up {
 		double normal[3], weight; /* in the world; floors' normals, and ceilings' turned */
 	} ups[DOME_UPS];
@@ -30,5 +30,5 @@ void dome_add(struct dome *d, const struct scene *scene, const struct motion *mo
 /** Whether most of what is solid is lit by nothing. */
 int dome_is_wanted(const struct dome *d);
 
-/** The rule `sky`, where it is wanted. */
+/** The rule `sky`: for all, or where OpenGL lights most, for what it lights. */
 void dome_write(const struct dome *d, FILE *out);

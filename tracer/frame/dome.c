@@ -35,7 +35,7 @@ int dome_light_list(struct job *job, const struct accel_space *space, struct cam
 	if (!err)
 		err = launch_dome_find(tr->dev, n, LAUNCH(dome_find, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
 		                                          .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
-		                                          .n = n, .places = b->dome_places));
+		                                          .dome = job->scene->dome, .n = n, .places = b->dome_places));
 	for (uint32_t i = 0; i < rays && !err; i++) {
 		err = upload_directions(job, job->pass * rays + i);
 		if (!err)

@@ -313,7 +313,7 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 	                                           .pixels = b->pixels, .visibility = b->visibility,
 	                                           .n_slots = job->prepared.n_light_slots, .transport = transport,
 	                                           .sample = job->pass, .depth = job->options->depth,
-	                                           .background = b->background, .n = n, .radiance = b->radiance,
+	                                           .background = b->background, .shaded = b->shaded, .n = n, .radiance = b->radiance,
 	                                           .next_rays = *list->next_rays, .next_paths = *list->next_paths,
 	                                           .counts = b->next_counts));
 }

@@ -1,0 +1,35 @@
+#include "look/gloss.h"
+
+#include <math.h>
+
+/* Between a specular colour's largest and smallest part, as a share of the largest: from here on it is coloured. */
+#define COLORED 0.15f
+#define NO_METAL 0.1f
+/* What would mirror less is left alone: a step of 8 bits, seen in white. */
+#define LEAST 0.004f
+
+static float most_of(const float c[4])
+{
+	return fmaxf(fmaxf(c[0], c[1]), c[2]);
+}
+
+static int is_metal(const struct scene_face *f)
+{
+	const float most = most_of(f->specular), least = fminf(fminf(f->specular[0], f->specular[1]), f->specular[2]);
+
+	return most > 0 && most - least > COLORED * most && most > most_of(f->diffuse);
+}
+
+void gloss_set(const struct scene_material *m, float share, struct scene_surface *surface)
+{
+	const struct scene_face *f = &m->front;
+	const float roughness = sqrtf(2 / (f->shininess + 2));
+	/* The rougher, the more directions share it: what one ray brings counts less. */
+	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) * (1 - roughness);
+
+	if (!m->lighting || !(reflect > LEAST))
+		return;
+	surface->reflect = fminf(reflect, 1);
+	surface->roughness = roughness;
+	surface->hidden |= SCENE_NEAR_MIRROR;
+}
