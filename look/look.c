@@ -9,6 +9,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/mat4.h"
+#include "look/film.h"
 #include "look/gloss.h"
 #include "look/modelview.h"
 #include "look/plane.h"
@@ -388,6 +389,8 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.hidden |= SCENE_FACETED;
 	else if (a->spare->bits)
 		m->surface.hidden |= a->spare->bits[i];
+	if (a->spare && film_is(scene, in))
+		m->surface.hidden |= SCENE_FILM;
 	if (rules->gloss && rules->gloss->share)
 		gloss_set(m, *rules->gloss->share, &m->surface);
 	if (rules->sky && (m->lighting ? out->dome.lit > 0 : !rules->sky->unlit || *rules->sky->unlit) && solid_is(scene, in))

@@ -95,7 +95,7 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	struct vec4 color;
 	float cosine, beyond;
 
-	if (m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
+	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) || (to_lights && transparency_is_spared(&p, d, ray->t_max > 1.0f)))
 		return all;
 	if (m->polygon_stipple != SCENE_NONE && !m->blend && !m->alpha_test && !m->clip_plane_mask)
 		return v3_scale(all, transparency_of_stipple(t, m->polygon_stipple));

@@ -11,11 +11,12 @@
 enum { MOST_TRIANGLES = 64 };
 /* How far off things dim the light, in half the window's width where they stand. */
 #define REACH 0.6
+#define REACH_LIT 1.2
 /* Upright within 60 degrees of the window's own up; one floor within 8 degrees. */
 #define UPRIGHT 0.5
 #define SAME_UP 0.99
 /* How much of it counts where OpenGL lights a surface: its lights are most of what is there, ambient light is the rest. */
-#define LIT_SHARE 0.6
+#define LIT_SHARE 0.8
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
 
@@ -167,7 +168,7 @@ static void write_for_lit(const struct dome *d, FILE *out)
 	fprintf(out, "sky:\n  role: ambient light\n  confidence: %.2f\n", d->lit / (d->unlit + d->lit));
 	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around\"\n",
 	        100 * d->lit / (d->unlit + d->lit));
-	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n", REACH * middle_size(d->sizes[1]), LIT_SHARE);
+	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n", REACH_LIT * middle_size(d->sizes[1]), LIT_SHARE);
 }
 
 void dome_write(const struct dome *d, FILE *out)

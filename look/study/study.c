@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "look/gloss.h"
 #include "look/study/dome.h"
 #include "look/study/findings.h"
 #include "look/study/lightmaps.h"
@@ -24,6 +25,7 @@ struct study {
 	struct dome dome;
 	struct roles roles;
 	struct spared spared;
+	unsigned lit, glossy; /* materials of all frames; of these, such as mirror a little */
 };
 
 int study_create(struct study **out)
@@ -49,6 +51,24 @@ uint64_t study_most_frames(void)
 	return MOTION_MAX_FRAMES;
 }
 
+static void note_gloss(struct study *study, const struct scene *scene)
+{
+	for (uint32_t i = 0; i < scene->n_materials; i++) {
+		struct scene_surface surface = { .reflect = 0 };
+
+		gloss_set(&scene->materials[i], 1, &surface);
+		study->lit += scene->materials[i].lighting != 0;
+		study->glossy += surface.reflect > 0;
+	}
+}
+
+static void write_gloss(const struct study *study, FILE *out)
+{
+	if (study->glossy)
+		fprintf(out, "gloss:\n  role: highlights\n  confidence: 0.5\n  why: \"%u of %u materials that are lit have highlights sharp enough to mirror what is near\"\n"
+		        "  share: 1\n", study->glossy, study->lit);
+}
+
 int study_add(struct study *study, const struct scene *scene)
 {
 	int err = motion_add(&study->motion, scene);
@@ -65,6 +85,7 @@ int study_add(struct study *study, const struct scene *scene)
 		err = spared_add(&study->spared, scene);
 	if (!err)
 		dome_add(&study->dome, scene, &study->motion);
+	note_gloss(study, scene);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
 }
 
@@ -91,5 +112,6 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	findings_write_lights(&study->tricks, &study->solved, out);
 	if (!findings_relights(&study->solved))
 		dome_write(&study->dome, out);
+	write_gloss(study, out);
 	world_write(m, out);
 }
