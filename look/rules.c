@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "look/modelview.h"
 #include "look/spare.h"
+#include "scene/release.h"
 #include "scene/scene.h"
 
 /* --- The file ------------------------------------------------------------------------------------------------------ */
@@ -68,6 +69,11 @@ static const cyaml_schema_field_t light_fields[] = {
 	CYAML_FIELD_MAPPING_PTR("spot", OPTIONAL_POINTER, struct light_rule, spot, spot_fields), CYAML_FIELD_END
 };
 
+static const cyaml_schema_field_t unseen_fields[] = {
+	REASON(struct unseen_rule), COUNT(struct unseen_rule, frame),
+	CYAML_FIELD_STRING_PTR("draws", OPTIONAL_POINTER, struct unseen_rule, draws, 1, 1 << 20), CYAML_FIELD_END
+};
+
 static const cyaml_schema_field_t sky_fields[] = {
 	REASON(struct sky_rule), NUMBER(struct sky_rule, reach), NUMBERS(struct sky_rule, up, 3), TEXT(struct sky_rule, space),
 	NUMBERS(struct sky_rule, light, 3), NUMBERS(struct sky_rule, ground, 3), NUMBER(struct sky_rule, lit), TRUTH(struct sky_rule, unlit),
@@ -83,10 +89,13 @@ static const cyaml_schema_value_t light_schema = { CYAML_VALUE_MAPPING(CYAML_FLA
 
 static const cyaml_schema_value_t anchor_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct anchor, anchor_fields) };
 
+static const cyaml_schema_value_t unseen_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct unseen_rule, unseen_fields) };
+
 static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("surfaces", OPTIONAL_POINTER, struct rules, surfaces, &surface_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("lights", OPTIONAL_POINTER, struct rules, lights, &light_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_SEQUENCE("world", OPTIONAL_POINTER, struct rules, world, &anchor_schema, 0, CYAML_UNLIMITED),
+	CYAML_FIELD_SEQUENCE("unseen", OPTIONAL_POINTER, struct rules, unseen, &unseen_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_MAPPING_PTR("sky", OPTIONAL_POINTER, struct rules, sky, sky_fields),
 	CYAML_FIELD_MAPPING_PTR("gloss", OPTIONAL_POINTER, struct rules, gloss, gloss_fields),
 	TRUTH(struct rules, spare), TRUTH(struct rules, replace),
@@ -143,6 +152,13 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 	if (!err && r->match)
 		err = check_hash(path, list, i, "texture", r->match->texture);
 	return err;
+}
+
+static int read_draws(const char *path, const char *list, uint32_t rule, const char *text, struct frame_list *out)
+{
+	if (strspn(text, "0123456789-,") != strlen(text))
+		return err_report(ERR_INPUT, path, "%s, rule %u: draws '%.80s' is no list of numbers", list, rule + 1, text);
+	return frame_list_parse(text, out) ? ERR_INPUT : 0;
 }
 
 static int check_space(const char *path, const char *what, const char *space)
@@ -204,7 +220,8 @@ static int check_all(const char *path, struct look *look)
 	int err = 0;
 
 	look->draws = calloc(rules->surfaces_count + (size_t)1, sizeof(*look->draws));
-	if (!look->draws)
+	look->unseen = calloc(rules->unseen_count + (size_t)1, sizeof(*look->unseen));
+	if (!look->draws || !look->unseen)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; !err && i < rules->surfaces_count; i++) {
 		const struct match *m = rules->surfaces[i].match;
@@ -212,10 +229,13 @@ static int check_all(const char *path, struct look *look)
 		err = check_surface(path, &rules->surfaces[i], i);
 		if (err || !m || !m->draws)
 			continue;
-		if (strspn(m->draws, "0123456789-,") != strlen(m->draws))
-			err = err_report(ERR_INPUT, path, "surfaces, rule %u: draws '%s' is no list of numbers", i + 1, m->draws);
+		err = read_draws(path, "surfaces", i, m->draws, &look->draws[i]);
+	}
+	for (uint32_t i = 0; !err && i < rules->unseen_count; i++) {
+		if (!rules->unseen[i].frame || !rules->unseen[i].draws)
+			err = err_report(ERR_INPUT, path, "unseen, rule %u: it needs a frame and draws", i + 1);
 		else
-			err = frame_list_parse(m->draws, &look->draws[i]) ? ERR_INPUT : 0;
+			err = read_draws(path, "unseen", i, rules->unseen[i].draws, &look->unseen[i].draws);
 	}
 	for (uint32_t i = 0; !err && i < rules->lights_count; i++)
 		err = check_light(path, &rules->lights[i], i);
@@ -272,7 +292,12 @@ void rules_free(struct look **look)
 		return;
 	for (uint32_t i = 0; l->draws && i < l->rules->surfaces_count; i++)
 		frame_list_free(&l->draws[i]);
+	for (uint32_t i = 0; l->unseen && i < l->rules->unseen_count; i++) {
+		frame_list_free(&l->unseen[i].draws);
+		scene_release(&l->unseen[i].scene);
+	}
 	free(l->draws);
+	free(l->unseen);
 	config_free(&rules_schema, l->rules);
 	free(l);
 	*look = NULL;

@@ -41,6 +41,9 @@
  *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
  *       - mesh: 90c2                 # enough of them shows where the viewer is
  *         at: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]
+ *     unseen:                        # what stands still and not every frame draws: mirrors and shadows have it in each
+ *       - frame: 12                  # that draws it,
+ *         draws: 3-7,12              # with these draw numbers; needs `world`
  *     lights:
  *       - light: 0                   # OpenGL's; without this key a light is added
  *         off: no
@@ -137,20 +140,33 @@ struct anchor {
 	const float *at;
 };
 
+struct unseen_rule {
+	struct rule_reason reason;
+	const uint32_t *frame;
+	const char *draws;
+};
+
 struct rules {
 	struct surface_rule *surfaces;
 	struct light_rule *lights;
 	struct anchor *world;
+	struct unseen_rule *unseen;
 	struct sky_rule *sky;
 	struct gloss_rule *gloss;
 	const bool *spare;
 	const bool *replace;
-	uint32_t surfaces_count, lights_count, world_count; /* libcyaml wants these names */
+	uint32_t surfaces_count, lights_count, world_count, unseen_count; /* libcyaml wants these names */
 };
+
+struct scene;
 
 struct look {
 	struct rules *rules;
 	struct frame_list *draws; /* [surfaces_count] */
+	struct unseen {
+		struct frame_list draws;
+		struct scene *scene; /* of its frame; NULL: it is not there. Given back by rules_free */
+	} *unseen; /* [unseen_count] */
 };
 
 /** @return 0; ERR_INPUT (reported, with the line), ERR_SYSTEM (reported) */

@@ -98,6 +98,18 @@ int look_study(const char *trace, const struct frame_list *frames, struct look *
 	return err;
 }
 
+int look_fetch_unseen(struct replay *replay, struct look *look)
+{
+	int more = 1;
+
+	for (uint32_t i = 0; look && i < look->rules->unseen_count && more >= 0; i++) {
+		more = replay_seek(replay, *look->rules->unseen[i].frame);
+		if (more == 1)
+			more = replay_next_frame(replay, 1, &look->unseen[i].scene);
+	}
+	return more < 0 ? more : 0;
+}
+
 static int write_rules(const struct study *study, const char *trace, const char *path)
 {
 	struct part_file file;

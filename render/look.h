@@ -4,6 +4,7 @@
 #include "base/frames.h"
 
 struct look;
+struct replay;
 
 /**
  * Study a recording, and have its rules.
@@ -12,3 +13,10 @@ struct look;
  * @return 0 or ERR_* (reported)
  */
 int look_study(const char *trace, const struct frame_list *frames, struct look **look);
+
+/**
+ * Fetch the scenes that rules `unseen` name; a frame that is not there is left out.
+ * @param look  NULL: nothing to do
+ * @return 0 or ERR_* (reported)
+ */
+int look_fetch_unseen(struct replay *replay, struct look *look);

@@ -11,6 +11,7 @@
 #include "base/folder.h"
 #include "base/queue.h"
 #include "look/look.h"
+#include "look/unseen.h"
 #include "render/supply.h"
 #include "scene/release.h"
 
@@ -209,13 +210,15 @@ static int tell_harm(const struct spare *found, const struct scene *scene, struc
 /* The scene as the rules change it, traced. */
 static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
 {
-	struct scene changed = { .instances = NULL };
+	struct scene whole = { .instances = NULL }, changed = { .instances = NULL };
 	struct spare found = { .bits = NULL };
 	int err;
 
 	if (settings->tracer.mode == TRACER_GL)
 		return tracer_render(tracer, scene, &settings->tracer, img);
-	err = look_apply(settings->look, scene, &changed, &found);
+	err = unseen_add(settings->look, scene, &whole);
+	if (!err)
+		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
 	if (!err)
 		err = tracer_render(tracer, &changed, &settings->tracer, img);
 	if (!err)
@@ -223,6 +226,7 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 	if (changed.instances)
 		look_release(&changed);
 	spare_free(&found);
+	unseen_release(&whole);
 	return err;
 }
 

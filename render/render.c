@@ -203,6 +203,8 @@ static int render(struct settings *s)
 		err = foretell(s, p.replay, x.end, &missing);
 	if (!err && s->look_auto && !s->dry_run)
 		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
+	if (!err && !s->dry_run && s->tracer.mode != TRACER_GL)
+		err = look_fetch_unseen(p.replay, s->look);
 	if (!err) {
 		p.stamp = (struct stamp){ replay_trace_hash(p.replay), s->hash };
 		p.end = x.end;

@@ -10,6 +10,7 @@
 #include "look/study/mirrors.h"
 #include "look/study/motion.h"
 #include "look/study/roles.h"
+#include "look/study/seen.h"
 #include "look/study/shadows.h"
 #include "look/study/solve.h"
 #include "look/study/spared.h"
@@ -25,6 +26,7 @@ struct study {
 	struct dome dome;
 	struct roles roles;
 	struct spared spared;
+	struct seen seen;
 	unsigned lit, glossy; /* materials of all frames; of these, such as mirror a little */
 };
 
@@ -42,6 +44,7 @@ void study_destroy(struct study **study)
 	lightmaps_free(&(*study)->lightmaps);
 	roles_free(&(*study)->roles);
 	spared_free(&(*study)->spared);
+	seen_free(&(*study)->seen);
 	free(*study);
 	*study = NULL;
 }
@@ -84,6 +87,8 @@ int study_add(struct study *study, const struct scene *scene)
 	if (!err)
 		err = spared_add(&study->spared, scene);
 	if (!err)
+		err = seen_add(&study->seen, scene, &study->motion);
+	if (!err)
 		dome_add(&study->dome, scene, &study->motion);
 	note_gloss(study, scene);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
@@ -109,6 +114,7 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
 	roles_write(&study->roles, m, out);
+	seen_write(&study->seen, m, out);
 	findings_write_lights(&study->tricks, &study->solved, out);
 	if (!findings_relights(&study->solved))
 		dome_write(&study->dome, out);

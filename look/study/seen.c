@@ -1,0 +1,93 @@
+#include "look/study/seen.h"
+
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "base/memory.h"
+#include "look/look.h"
+#include "look/solid.h"
+
+/* Scenes of so many frames are kept while others are rendered. */
+enum { MOST_FRAMES = 8 };
+
+int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion)
+{
+	if (MEMORY_GROW(seen->draws, seen->room, seen->n + scene->n_instances + 1))
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < scene->n_instances; i++)
+		if (motion->of_instance[i] != SCENE_NONE && solid_is(scene, &scene->instances[i]) && !look_is_parallel(&scene->views[scene->instances[i].view]))
+			seen->draws[seen->n++] = (struct seen_draw){ motion->of_instance[i], scene->instances[i].draw, (uint32_t)motion->n_frames - 1 };
+	return 0;
+}
+
+void seen_free(struct seen *seen)
+{
+	free(seen->draws);
+	*seen = (struct seen){ .draws = NULL };
+}
+
+static int is_wanted(const struct motion *m, uint32_t thing, const unsigned char *covered)
+{
+	return !covered[thing] && motion_is_static(&m->things[thing]) && m->things[thing].frames < m->n_frames;
+}
+
+/* The frame that draws most of what no frame so far does. @return how many things */
+static size_t find_best(const struct seen *seen, const struct motion *m, const unsigned char *covered, uint32_t *best)
+{
+	size_t most = 0, n = 0;
+
+	for (size_t i = 0; i < seen->n; i++) {
+		n = i && seen->draws[i].frame == seen->draws[i - 1].frame ? n : 0;
+		n += (size_t)is_wanted(m, seen->draws[i].thing, covered);
+		if (n > most) {
+			most = n;
+			*best = seen->draws[i].frame;
+		}
+	}
+	return most;
+}
+
+/* A frame's draws as ranges; what they draw is covered then. */
+static void write_draws(const struct seen *seen, const struct motion *m, uint32_t frame, unsigned char *covered, FILE *out)
+{
+	uint32_t first = 0, last = 0;
+	const char *comma = "";
+
+	for (size_t i = 0; i < seen->n; i++) {
+		const struct seen_draw *d = &seen->draws[i];
+
+		if (d->frame != frame || !is_wanted(m, d->thing, covered))
+			continue;
+		covered[d->thing] = 1;
+		if (first && d->draw == last + 1) {
+			last++;
+			continue;
+		}
+		if (first)
+			fprintf(out, "%s%u-%u", comma, first, last);
+		comma = first ? "," : "";
+		first = last = d->draw;
+	}
+	fprintf(out, "%s%u-%u", comma, first, last);
+}
+
+int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
+{
+	unsigned char *covered = calloc(m->n_things + 1, 1);
+	uint32_t frame = 0;
+
+	if (!covered)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (int i = 0; i < MOST_FRAMES; i++) {
+		const size_t n = find_best(seen, m, covered, &frame);
+
+		if (!n)
+			break;
+		fprintf(out, "%s  - role: out of sight\n    why: \"%zu meshes stand still, and some frames leave them out\"\n    frame: %llu\n    draws: \"",
+		        i ? "" : "unseen:\n", n, (unsigned long long)m->cameras[frame].frame);
+		write_draws(seen, m, frame, covered, out);
+		fprintf(out, "\"\n");
+	}
+	free(covered);
+	return 0;
+}
