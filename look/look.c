@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -509,4 +510,114 @@ void look_release(struct scene *changed)
 	free(changed->materials);
 	free(changed->lights);
 	memset(changed, 0, sizeof(*changed));
+}
+
+/* --- What rules say, for a report ------------------------------------------------------------------------------------ */
+
+enum { TOLD_BYTES = 250, TOLD_DRAWS = 90 };
+
+/* 1 where a rule of surfaces before the k-th has its role: they are told together. */
+static int is_told(const struct rules *rules, uint32_t k)
+{
+	for (uint32_t i = 0; i < k; i++)
+		if (rules->surfaces[i].reason.role && strcmp(rules->surfaces[i].reason.role, rules->surfaces[k].reason.role) == 0)
+			return 1;
+	return 0;
+}
+
+static int has_role(const struct applying *a, const struct scene_instance *in, const char *role)
+{
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+		if (a->rules->surfaces[k].reason.role && strcmp(a->rules->surfaces[k].reason.role, role) == 0 && applies(a, in, k))
+			return 1;
+	return 0;
+}
+
+/* The draws of a role, as ranges, as many as there is room for. */
+static void list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
+{
+	const struct scene *s = a->scene;
+	uint32_t from = 0, end = 0;
+	size_t n = 0;
+
+	out[0] = 0;
+	for (uint32_t i = 0; i <= s->n_instances && n < TOLD_DRAWS - 24; i++) {
+		const int has = i < s->n_instances && has_role(a, &s->instances[i], role);
+		const uint32_t first = i < s->n_instances ? s->instances[i].draw : s->n_draws + 1;
+
+		if (end && (!has || first != end)) {
+			n += (size_t)snprintf(out + n, TOLD_DRAWS - n, "%s%u-%u", n ? "," : "", from, end - 1);
+			end = 0;
+		}
+		if (!has)
+			continue;
+		from = end ? from : first;
+		end = i + 1 < s->n_instances ? s->instances[i + 1].draw : s->n_draws + 1;
+		end = end > first ? end : first + 1;
+	}
+}
+
+static int tell_one(const char *kind, const struct rule_reason *r, const char *what, int (*tell)(void *user, const char *text), void *user)
+{
+	char text[TOLD_BYTES];
+
+	snprintf(text, sizeof(text), "%s\t%.40s\t%.2f\t%s\t%s", kind, r->role, r->confidence ? (double)*r->confidence : 1.0, what, r->why ? r->why : "");
+	return tell(user, text);
+}
+
+static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
+{
+	int err = 0;
+
+	for (uint32_t k = 0; k < a->rules->surfaces_count && !err; k++) {
+		char draws[TOLD_DRAWS];
+
+		if (!a->rules->surfaces[k].reason.role || is_told(a->rules, k))
+			continue;
+		list_draws(a, a->rules->surfaces[k].reason.role, draws);
+		if (draws[0])
+			err = tell_one("surface", &a->rules->surfaces[k].reason, draws, tell, user);
+	}
+	return err;
+}
+
+static int tell_lights(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
+{
+	int err = 0;
+
+	for (uint32_t k = 0; k < a->rules->lights_count && !err; k++) {
+		const struct light_rule *r = &a->rules->lights[k];
+		char place[TOLD_DRAWS] = "";
+		float at[4];
+
+		if (!r->reason.role)
+			continue;
+		if (r->position) {
+			place_light(a, r, at);
+			snprintf(place, sizeof(place), "%.6g %.6g %.6g %.6g", (double)at[0], (double)at[1], (double)at[2], (double)at[3]);
+		}
+		err = tell_one("light", &r->reason, place, tell, user);
+	}
+	if (!err && a->rules->sky && a->rules->sky->reason.role)
+		err = tell_one("light", &a->rules->sky->reason, "", tell, user);
+	if (!err && a->rules->gloss && a->rules->gloss->reason.role)
+		err = tell_one("light", &a->rules->gloss->reason, "", tell, user);
+	return err;
+}
+
+int look_tell(const struct look *look, const struct scene *scene, int (*tell)(void *user, const char *text), void *user)
+{
+	struct applying a = { .look = look, .scene = scene };
+	int err;
+
+	prepare(&a);
+	a.in_plane = calloc(scene->n_instances + (size_t)1, a.rules->surfaces_count + (size_t)1);
+	if (!a.in_plane)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	a.has_mirror = has_mirror(&a);
+	err = tell_surfaces(&a, tell, user);
+	if (!err)
+		err = tell_lights(&a, tell, user);
+	free(a.in_plane);
+	return err;
 }

@@ -207,6 +207,21 @@ static int tell_harm(const struct spare *found, const struct scene *scene, struc
 	return err;
 }
 
+/* What the report's page of roles and lights shows (diff/report/roles.h): an attribute each. */
+struct telling {
+	struct image *img;
+	unsigned n;
+};
+
+static int tell_role(void *user, const char *text)
+{
+	struct telling *t = user;
+	char name[32];
+
+	snprintf(name, sizeof(name), "relume:rule.%u", t->n++);
+	return image_set_attribute(t->img, name, "%s", text);
+}
+
 /* The scene as the rules change it, traced. */
 static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
 {
@@ -223,6 +238,8 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 		err = tracer_render(tracer, &changed, &settings->tracer, img);
 	if (!err)
 		err = tell_harm(&found, scene, img);
+	if (!err && settings->look)
+		err = look_tell(settings->look, scene, tell_role, &(struct telling){ img, 0 });
 	if (changed.instances)
 		look_release(&changed);
 	spare_free(&found);

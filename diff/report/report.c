@@ -10,6 +10,7 @@
 #include "base/part.h"
 #include "diff/report/ordered.h"
 #include "diff/report/pictures.h"
+#include "diff/report/roles.h"
 #include "tracer/image/oiio.h"
 
 /* Where the data goes in the page. */
@@ -117,6 +118,41 @@ static int write_thumbnail(const struct picture_frame *frame, FILE *out, size_t 
 	return write_picture("thumbnail", rgb, w, h, out, used);
 }
 
+/* Letters that JSON and HTML take as they are. */
+static void write_text(const char *text, FILE *out)
+{
+	for (; *text; text++)
+		if (strchr("\"\\<>&", *text) || (unsigned char)*text < ' ')
+			fprintf(out, "\\u%04x", (unsigned char)*text);
+		else
+			fputc(*text, out);
+}
+
+/* What rules said of the frame, and a picture of each. */
+static int write_roles(const struct picture_frame *frame, FILE *out, size_t *used)
+{
+	struct role role;
+	int err = 0;
+
+	for (unsigned i = 0; !err && roles_read(frame, i, &role); i++) {
+		char name[24];
+		uint8_t *rgb;
+
+		snprintf(name, sizeof(name), "role %u", i);
+		err = roles_paint(frame, &role, &rgb);
+		if (!err && rgb)
+			err = write_picture(name, rgb, frame->image.width, frame->image.height, out, used);
+		fprintf(out, "%s\n\"told %u\": [\"%s\"", *used ? "," : "", i, role.is_light ? "light" : "surface");
+		for (int k = 0; k < 3; k++) {
+			fputs(", \"", out);
+			write_text(k == 0 ? role.role : k == 1 ? role.confidence : role.why, out);
+			fputs("\"", out);
+		}
+		fputs("]", out);
+	}
+	return err;
+}
+
 /* The frames with pictures on the page: those that did not pass come first. */
 struct pictures {
 	const struct output_run *run;
@@ -150,6 +186,8 @@ static int write_pictures(const struct pictures *p, const struct score *s, int w
 	}
 	for (unsigned b = 0; whole && !err && frame.maps.failing && b < s->n_blame && b < BLAMED; b++)
 		err = write_blame(&frame, &s->blame[b], b, out, used);
+	if (whole && !err)
+		err = write_roles(&frame, out, used);
 	fputs("}</script>\n", out);
 fail:
 	picture_frame_free(&frame);
