@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
+#include "scene/backdrop.h"
 
 #define CLUSTER 32u /* triangles that share a box; neighbours in a mesh mostly lie side by side */
 
@@ -38,7 +39,7 @@ int blockers_can(const struct scene *s, uint32_t instance)
 	const struct scene_instance *in = &s->instances[instance];
 	const struct scene_material *m = &s->materials[in->material];
 
-	return s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
+	return instance >= scene_backdrop(s) && s->meshes[in->mesh]->kind == SCENE_TRIANGLES && s->views[in->view].target == 0 && !in->rectangle && m->depth_test &&
 	       m->color_mask & 7 && (!m->blend || m->depth_write) && !m->alpha_test && !m->logic_op && !(m->surface.transmit > 0) &&
 	       !(m->surface.hidden & SCENE_HIDDEN_FROM_LIGHTS);
 }

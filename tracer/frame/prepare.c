@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
+#include "scene/backdrop.h"
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
@@ -187,14 +188,15 @@ static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, co
 }
 
 /*
- * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none
- * themselves, so that all else is in front of them.
+ * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none themselves, so
+ * that all else is in front of them. Depth that is cleared before the world is drawn is none (scene/backdrop.h).
  * @param skies  [n_instances], all 0; receives 1 for each
  */
 static int find_skies(const struct scene *scene, uint8_t *skies)
 {
 	uint32_t *space = malloc((scene->n_views + (size_t)1) * sizeof(*space)); /* the first view with the same one */
 	uint8_t *deep = calloc(scene->n_views + (size_t)1, 1);
+	const uint32_t backdrop = scene_backdrop(scene);
 
 	for (uint32_t v = 0; v < scene->n_views && space && deep; v++) {
 		space[v] = 0;
@@ -205,7 +207,7 @@ static int find_skies(const struct scene *scene, uint8_t *skies)
 		const struct scene_instance *instance = &scene->instances[i];
 		const struct scene_material *m = &scene->materials[instance->material];
 
-		if (m->depth_test && m->depth_write)
+		if (m->depth_test && m->depth_write && i >= backdrop)
 			deep[space[instance->view]] = 1;
 		skies[i] = !deep[space[instance->view]] && (m->color_mask & 7) && !m->stencil_test &&
 		           scene->views[instance->view].projection[11] != 0;

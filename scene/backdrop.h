@@ -1,0 +1,12 @@
+/* What a frame draws first, and then clears the depth of: a picture of what is far, whatever its size. */
+#pragma once
+
+#include <stdint.h>
+
+struct scene;
+
+/**
+ * How many of the first instances are a backdrop: they are followed by a clear of the window's depth that keeps the colours, and by more
+ * instances than they are. (A view model is drawn after such a clear, too; what stands before it is the world.)
+ */
+uint32_t scene_backdrop(const struct scene *scene);
