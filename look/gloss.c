@@ -7,6 +7,8 @@
 #define NO_METAL 0.1f
 /* What would mirror less is left alone: a step of 8 bits, seen in white. */
 #define LEAST 0.004f
+/* A ray a pixel makes noise of rougher ones. */
+#define ROUGHEST 0.2f
 
 static float most_of(const float c[4])
 {
@@ -27,7 +29,7 @@ void gloss_set(const struct scene_material *m, float share, struct scene_surface
 	/* The rougher, the more directions share it: what one ray brings counts less. */
 	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) * (1 - roughness);
 
-	if (!m->lighting || !(reflect > LEAST))
+	if (!m->lighting || !(reflect > LEAST) || roughness > ROUGHEST)
 		return;
 	surface->reflect = fminf(reflect, 1);
 	surface->roughness = roughness;

@@ -94,8 +94,10 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 	uint32_t passes;
 
 	set_number(&s->reflect, r->reflect, 1);
-	if (r->reflect)
+	if (r->reflect) { /* it is no longer what highlights say */
 		s->hidden &= ~SCENE_NEAR_MIRROR;
+		s->roughness = 0;
+	}
 	set_number(&s->transmit, r->transmit, 1);
 	set_number(&s->ior, r->ior, 1);
 	set_number(&s->roughness, r->roughness, 1);
