@@ -11,7 +11,7 @@
 #include "look/study/face.h"
 #include "look/study/matrix.h"
 
-/* So many places of a draw are looked at, and this share of them lies on something-> */
+/* So many places of a draw are looked at, and this share of them lies on something. */
 enum { PLACES = 8, MOST_TRIANGLES = 8192 };
 #define MOST 0.75
 /* How far it may be above that: of its size, and of its distance. */

@@ -1,4 +1,7 @@
-"""The OpenCL device of host_cl.c: how clang compiles kernels for it, and the environment that preloads it."""
+"""
+The OpenCL device of host_cl.c: how clang compiles kernels for it, and the environment that preloads it. It starts clang, so that `relume render`
+needs --no-sandbox with it.
+"""
 import os
 import pathlib
 

@@ -75,7 +75,7 @@ def pictures(text):
 
 def frame(trace, *options, env=None):
     folder = pathlib.Path(tempfile.mkdtemp(dir=SCRATCH))
-    code, _, said = run(BUILD / "relume", "render", ROOT / "tests" / trace, "-f", "0", "-o", folder / "x.#.exr", "--no-cache", *options, env=env)
+    code, _, said = run(BUILD / "relume", "render", ROOT / "tests" / trace, "-f", "0", "-o", folder / "x.#.exr", "--no-cache", "--no-sandbox", *options, env=env)
     return code, said, folder / "x.0.exr"
 
 

@@ -106,7 +106,7 @@ def try_call(trace, want, kind, n, gone, code):
     if kind == "gpu":
         env["AS_TYPE"] = kind
     try:
-        done = render(trace, folder, env, *FRAMES)
+        done = render(trace, folder, env, *FRAMES, "--no-sandbox")
     except Exception as error:  # pylint: disable=broad-except
         return f"{error}"
     got = planes(SCRATCH / folder)
@@ -125,7 +125,7 @@ def try_calls(trace, kind):
     if kind == "gpu":
         env["AS_TYPE"] = kind
     name = f"{trace.stem}-{kind}"
-    must(render(trace, name, env, *FRAMES))
+    must(render(trace, name, env, *FRAMES, "--no-sandbox"))
     want, n_calls = planes(SCRATCH / name), int(COUNT.read_text().split()[0])
     check(len(want) == 2, f"{name}: frames {list(want)}")
     cases = [(n, gone, LOST[(n + gone) % len(LOST)]) for n in range(1 + (random.randrange(EVERY)), n_calls + 1, EVERY) for gone in (0, 1)]
