@@ -7,7 +7,8 @@ usage: gen.py OUT tokens                                                every GL
 
 A handler is a line GLS_HANDLER(glName, KIND) or GLS_HANDLER(glName, KIND, ROLE) in a source of replay/. GLS_FAMILY(glName, ...) handles
 all commands whose names are glName and a suffix (GL 2.1 sec. 2.3). A command without a handler takes that of the command that the
-registry calls its alias; else the excuse that overlay.txt gives; else it is counted when met.
+registry calls its alias, or that of the command which does the same by another suffix (glFrustumfOES, glFrustumx: glFrustum); else the
+excuse that overlay.txt gives; else it is counted when met.
 The lines "draws" and "ends" of capture/gen/overlay.txt say which commands do nothing but draw, or end a frame.
 """
 import re
@@ -84,12 +85,31 @@ def handled(handlers, names):
             found[stem] = stem, kind, role, NO_SUFFIX
             continue
         for name in names:
-            suffix = SUFFIX.fullmatch(name.removeprefix(stem)) if name.startswith(stem) else None
+            suffix = SUFFIX.fullmatch(name.removeprefix(stem).removesuffix("OES")) if name.startswith(stem) else None
             if suffix:
                 count, normalized, letters, array = suffix.groups()
                 kind_of_number = "NONE" if letters == "D" else letters.upper()
                 found[name] = stem, kind, role, f"{{ {count or 1}, GLS_SUFFIX_{kind_of_number}, {len(normalized)}, {len(array)} }}"
     return found
+
+
+def fixed_mask(command):
+    """Bits of the parameters that are 16.16 fixed point."""
+    return sum(1 << i for i, p in enumerate(command.params) if re.search(r"\bGL(fixed|clampx)\b", p.type))
+
+
+def same_by_suffix(name, commands):
+    """Commands that may do the same: without OES; with floats for fixed-point numbers; without the f that OpenGL ES 1 puts there."""
+    base = name.removesuffix("OES")
+    names = [base]
+    if name in commands and fixed_mask(commands[name]):
+        stem, v = (base[:-2], "v") if base.endswith("xv") else (base[:-1], "")
+        names += [stem + "f" + v, stem + v]
+    elif base.endswith("f"):
+        names.append(base[:-1])
+    shape = [p.pointer for p in commands[name].params] if name in commands else None
+    names += [n + "OES" for n in names[1:]]
+    return [n for n in names if n != name and (n not in commands or [p.pointer for p in commands[n].params] == shape)]
 
 
 def read_drawing(path):
@@ -118,7 +138,8 @@ def table(out, what, overlay, capture_overlay, sources):
             if name in known:
                 return name
             seen.add(name)
-            name = commands[name].alias if name in commands else ""
+            others = same_by_suffix(name, commands)
+            name = commands[name].alias if name in commands and commands[name].alias else next((n for n in others if n in known), "")
         return ""
 
     names = sorted(commands.keys() | excuses.keys() | handlers.keys())
@@ -134,7 +155,8 @@ def table(out, what, overlay, capture_overlay, sources):
         excuse = "" if handler else resolve(name, excuses)
         core = name in commands and any(re.fullmatch(r"GL_VERSION_(1_\d|2_[01])", v) for v in commands[name].versions)
         fields = [f'"{name}"', '"' + excuses[excuse].replace('"', '\\"') + '"' if excuse else "0", f"GLS_KIND_{kind}", f"GLS_ROLE_{role}",
-                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix]
+                  str(int(core)), next((does for pattern, does in drawing if pattern.fullmatch(name)), "0"), suffix,
+                  str(fixed_mask(commands[name]) if handler and name in commands else 0)]
         lines.append(f"\t{f'gls_{function}' if handler else '0'}," if what == "handlers" else "\t{ " + ", ".join(fields) + " },")
     lines.append("};")
     if what == "commands":

@@ -9,6 +9,12 @@
 #include "capture/gl/context.h"
 #include "real.h"
 
+/* OES_point_size_array, which desktop headers lack. */
+enum {
+	POINT_SIZE_ARRAY_OES = 0x8B9C, POINT_SIZE_ARRAY_TYPE_OES = 0x898A, POINT_SIZE_ARRAY_STRIDE_OES = 0x898B,
+	POINT_SIZE_ARRAY_POINTER_OES = 0x898C, POINT_SIZE_ARRAY_BUFFER_BINDING_OES = 0x8B9F
+};
+
 /* NAMES(slot, GL_name_ARRAY, command, size token, type token, size where it is fixed, feature) */
 #define NAMES(slot, name, command, size, type, fixed, feature) \
 	[ARRAY_##slot] = { GL_##name##_ARRAY, size, type, GL_##name##_ARRAY_STRIDE, GL_##name##_ARRAY_BUFFER_BINDING, \
@@ -18,10 +24,13 @@
 static const struct array_names names[] = {
 	UNSIZED(NORMAL, NORMAL, glNormalPointer, 3, 0),
 	SIZED(COLOR, COLOR, glColorPointer, 0),
-	UNSIZED(INDEX, INDEX, glIndexPointer, 1, 0),
-	NAMES(EDGE_FLAG, EDGE_FLAG, glEdgeFlagPointer, 0, 0, 1, 0),
+	UNSIZED(INDEX, INDEX, glIndexPointer, 1, HAS_FIXED_FUNCTION),
+	NAMES(EDGE_FLAG, EDGE_FLAG, glEdgeFlagPointer, 0, 0, 1, HAS_FIXED_FUNCTION),
 	UNSIZED(FOG_COORD, FOG_COORD, glFogCoordPointer, 1, HAS_FOG_COORD),
 	SIZED(SECONDARY_COLOR, SECONDARY_COLOR, glSecondaryColorPointer, HAS_SECONDARY_COLOR),
+	[ARRAY_POINT_SIZE] = { POINT_SIZE_ARRAY_OES, 0, POINT_SIZE_ARRAY_TYPE_OES, POINT_SIZE_ARRAY_STRIDE_OES,
+	                       POINT_SIZE_ARRAY_BUFFER_BINDING_OES, POINT_SIZE_ARRAY_POINTER_OES, CMD_glPointSizePointerOES, 1,
+	                       HAS_POINT_SIZES },
 	SIZED(TEXTURE, TEXTURE_COORD, glTexCoordPointer, 0),
 	SIZED(VERTEX, VERTEX, glVertexPointer, 0),
 };
@@ -108,7 +117,7 @@ void array_state_refresh(void)
 {
 	if (array_state.known && array_state.turn == context_turn())
 		return;
-	if (context_has(HAS_FIXED_FUNCTION)) {
+	if (context_has(HAS_CONVENTIONAL)) {
 		for (int slot = 0; slot < ARRAY_TEXTURE; slot++)
 			ask_fixed(&array_state.arrays[slot], &names[slot]);
 		ask_fixed(&array_state.arrays[ARRAY_VERTEX], &names[ARRAY_VERTEX]);
@@ -139,7 +148,7 @@ int array_state_pointer_is_offset(void)
 
 unsigned array_state_unit(void)
 {
-	return context_has(HAS_MULTITEXTURE) && context_has(HAS_FIXED_FUNCTION) ? (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) :
+	return context_has(HAS_MULTITEXTURE) && context_has(HAS_CONVENTIONAL) ? (unsigned)context_get(GL_CLIENT_ACTIVE_TEXTURE) :
 	                                                                         GL_TEXTURE0;
 }
 

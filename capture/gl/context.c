@@ -98,6 +98,21 @@ static const struct {
 	{ HAS_PACK_INVERT, 1000, { "GL_MESA_pack_invert" } },
 };
 
+/* "OpenGL ES-CM 1.1", the common profile, or -CL, that without floats. */
+static unsigned find_es1_features(const char *version)
+{
+	const char *extensions = (const char *)real_glGetString(GL_EXTENSIONS);
+	unsigned features = HAS_CONVENTIONAL | HAS_MULTITEXTURE;
+
+	if (strstr(version, " 1.0") != version + strlen("OpenGL ES-CM"))
+		features |= HAS_BUFFERS;
+	if (has_word(extensions, "GL_OES_framebuffer_object"))
+		features |= HAS_FRAMEBUFFERS;
+	if (has_word(extensions, "GL_OES_point_size_array"))
+		features |= HAS_POINT_SIZES;
+	return features;
+}
+
 static unsigned find_features(void)
 {
 	const char *text = (const char *)real_glGetString(GL_VERSION), *extensions = NULL;
@@ -106,6 +121,8 @@ static unsigned find_features(void)
 
 	if (!text)
 		return 0;
+	if (strncmp(text, "OpenGL ES-C", 11) == 0)
+		return find_es1_features(text);
 	if (strncmp(text, "OpenGL ES", 9) == 0) /* no fixed-function queries; what ES 2 and GL 2.0 share */
 		return HAS_BUFFERS | HAS_ATTRIBUTES | HAS_FRAMEBUFFERS;
 	if (sscanf(text, "%d.%d", &major, &minor) != 2)
@@ -114,7 +131,7 @@ static unsigned find_features(void)
 	if (version >= 32)
 		real_glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
 	if (!(profile & GL_CONTEXT_CORE_PROFILE_BIT)) {
-		features |= HAS_FIXED_FUNCTION;
+		features |= HAS_FIXED_FUNCTION | HAS_CONVENTIONAL;
 		extensions = (const char *)real_glGetString(GL_EXTENSIONS); /* an error in a core profile */
 	}
 	for (size_t i = 0; i < sizeof(feature_table) / sizeof(feature_table[0]); i++) {

@@ -32,7 +32,7 @@ static void made_current(int ok, const struct drawable_target *target, void *con
 	record_rectangle(CMD_glViewport, GL_VIEWPORT);
 	record_rectangle(CMD_glScissor, GL_SCISSOR_BOX);
 	drawable_make_size_known();
-	if (context_has(HAS_FIXED_FUNCTION))
+	if (context_has(HAS_CONVENTIONAL))
 		marker_write_bits();
 }
 

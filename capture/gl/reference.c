@@ -153,7 +153,7 @@ void reference_read(int width, int height, int unswapped)
 		reading_colors(width, height, r.pixels);
 		pack_record(REF_COLOR, width, height);
 	}
-	if (r.depth && !r.failed && context_get(GL_DEPTH_BITS) > 0) {
+	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0) { /* OpenGL ES reads no depth */
 		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, r.pixels);
 		pack_record(REF_DEPTH, width, height);
 	}

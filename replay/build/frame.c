@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/mat4.h"
 #include "base/memory.h"
 #include "capture/format/call.h"
 #include "replay/build/material.h"
@@ -169,7 +170,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 	    MEMORY_GROW(s->instances, f->room.instances, s->n_instances + 1))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
-		f->view = gls_frame_view(target->surface, st, e->attribs);
+		f->view = gls_frame_view(target->surface, st, e);
 	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;
@@ -185,7 +186,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		goto fail;
 	instance->draw = first_draw;
 	instance->first_primitive = f->next_primitive;
-	memcpy(instance->modelview, st->modelview.matrices[st->modelview.depth], 64);
+	memcpy(instance->modelview, e->in_window ? mat4_identity : st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;
 	if (e->rectangle && !add_rectangle(x, f, e))
 		goto fail;

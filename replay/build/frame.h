@@ -44,6 +44,7 @@ struct gls_event {
 	uint64_t call_number;
 	const struct scene_rectangle *rectangle; /* of pixels, at the mesh's only point; its texture is filled in. NULL: none */
 	struct gls_texture_image *image;         /* its pixels */
+	int in_window; /* 1: positions are window coordinates and texture coordinates final: no matrix counts */
 };
 
 /** 1 if draws and clears reach a surface when scenes are built: not so in selection and feedback (sec. 5.2, 5.3). */

@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include "gl_tokens.h"
+#include "base/mat4.h"
 #include "base/memory.h"
 #include "replay/build/intern.h"
 #include "replay/gl/texture/image.h"
@@ -45,16 +46,33 @@ static uint32_t space_of(struct gls_frame *f, const struct scene_view *view)
 	return (uint32_t)(found - 1);
 }
 
-uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_attribs *a)
+/* Window coordinates, depth included, as the eye's. */
+static void fill_window_view(const struct gls_surface *surface, struct scene_view *view)
 {
+	const float width = (float)surface->width, height = (float)surface->height;
+	const float projection[16] = { 2 / width, 0, 0, 0, 0, 2 / height, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1 };
+
+	memcpy(view->projection, projection, 64);
+	view->viewport[2] = width;
+	view->viewport[3] = height;
+	view->depth_range[1] = 1;
+}
+
+uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e)
+{
+	const struct gls_attribs *a = e->attribs;
 	struct gls_frame *f = surface->frame;
 	struct scene *s = f->out;
 	struct scene_view view;
 
 	memset(&view, 0, sizeof(view));
-	memcpy(view.projection, st->projection.matrices[st->projection.depth], 64);
-	memcpy(view.viewport, a->viewport.rect, 16);
-	memcpy(view.depth_range, a->viewport.depth_range, 8);
+	if (e->in_window) {
+		fill_window_view(surface, &view);
+	} else {
+		memcpy(view.projection, st->projection.matrices[st->projection.depth], 64);
+		memcpy(view.viewport, a->viewport.rect, 16);
+		memcpy(view.depth_range, a->viewport.depth_range, 8);
+	}
 	gls_scissor_of(surface, &a->scissor, view.scissor);
 	view.space = space_of(f, &view);
 	return gls_intern(&f->views, &s->views, &s->n_views, &f->room.views, &view, sizeof(view));
@@ -97,8 +115,9 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
 }
 
-/* @return 1 if the unit textures */
-static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, struct scene_unit *out)
+/* matrix: of the unit's coordinates.  @return 1 if the unit textures */
+static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, const float *matrix,
+                     struct scene_unit *out)
 {
 	unsigned u = unit->value.unit;
 	int target = enabled_target(unit);
@@ -133,7 +152,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->depth_mode = t->parameters.depth_mode;
 	for (unsigned i = 0; i < 4; i++)
 		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
-	memcpy(out->matrix, st->texture[u].matrices[st->texture[u].depth], 64);
+	memcpy(out->matrix, matrix, 64);
 	return 1;
 }
 
@@ -289,7 +308,9 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
-		m.unit_count += (uint32_t)fill_unit(x, f, st, &a->texturing.units[u], &units[m.unit_count]);
+		m.unit_count += (uint32_t)fill_unit(x, f, st, &a->texturing.units[u],
+		                                    e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth],
+		                                    &units[m.unit_count]);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));

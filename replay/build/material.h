@@ -28,7 +28,7 @@ struct gls_frame {
 };
 
 /** Projection, viewport and scissor. */
-uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_attribs *a);
+uint32_t gls_frame_view(const struct gls_surface *surface, const struct gls_state *st, const struct gls_event *e);
 /** Everything else that the fragments of a draw depend on, with units and lights. */
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e);
 /** Attributes that the mesh does not have and the material looks at. */

@@ -16,6 +16,7 @@
 #include "replay/gl/surface/surface.h"
 #include "replay/gl/texture/image.h"
 #include "replay/machine/errors.h"
+#include "replay/machine/fixed.h"
 #include "replay/machine/machine.h"
 
 #define MAX_THREADS 65536
@@ -74,6 +75,7 @@ static int switch_thread(struct gls_exec *x, uint64_t thread)
 int gls_exec_call(struct gls_exec *x, const struct call *c)
 {
 	const struct gls_command *k;
+	struct gls_fixed fixed;
 	int32_t command = c->sig->command;
 	int rc;
 
@@ -85,6 +87,8 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 		return table_set(&x->counts.unknown, (uintptr_t)c->sig, (void *)(uintptr_t)(n + 1));
 	}
 	k = &gls_commands[command];
+	if (k->fixed)
+		c = gls_fixed_to_float(&fixed, c, k->fixed);
 	x->command = (uint32_t)command;
 	x->counts.calls[command]++;
 	if ((c->thread != x->thread || !x->threads) && (rc = switch_thread(x, c->thread)))

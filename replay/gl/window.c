@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gl_tokens.h"
 #include "capture/format/call.h"
 #include "replay/gl/context.h"
 #include "replay/gl/geometry/pending.h"
@@ -35,9 +36,10 @@ static struct gls_context *find_or_create(struct gls_exec *x, uint64_t handle, c
 	return ctx ? ctx : gls_context_create(x, handle, 0, NULL, api);
 }
 
-static void create_context(struct gls_exec *x, const struct call *c, int64_t share, const struct trace_value *config, const char *api)
+static struct gls_context *create_context(struct gls_exec *x, const struct call *c, int64_t share, const struct trace_value *config,
+                                          const char *api)
 {
-	gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)share, config, api);
+	return gls_context_create(x, (uint64_t)gls_value_int(&c->ret), (uint64_t)share, config, api);
 }
 
 static void make_current(struct gls_exec *x, const struct call *c, unsigned drawable, unsigned read, unsigned context, const char *api)
@@ -79,7 +81,34 @@ GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state between contexts"); }
 
-GLS_HANDLER(eglCreateContext, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL"); }
+enum { EGL_OPENGL_ES_API = 0x30A0, EGL_CONTEXT_CLIENT_VERSION = 0x3098 };
+
+/* EGL 1.5 sec. 3.7: what eglBindAPI has chosen, OpenGL ES where nothing was. Recordings that begin late may lack the call. */
+static int is_es(const struct gls_exec *x, const struct call *c)
+{
+	uint64_t n;
+	const struct trace_value *list = arg_items(c, 3, &n);
+
+	if (x->egl_api)
+		return x->egl_api == EGL_OPENGL_ES_API;
+	for (uint64_t i = 0; i + 1 < n; i += 2)
+		if (gls_value_int(&list[i]) == EGL_CONTEXT_CLIENT_VERSION)
+			return gls_value_int(&list[i + 1]) == 1;
+	return 0;
+}
+
+GLS_HANDLER(eglBindAPI, WINDOW) { x->egl_api = arg_u(c, 0); }
+GLS_HANDLER(eglCreateContext, WINDOW)
+{
+	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL");
+
+	/*
+	 * Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1 sec. 2.12.2 says.
+	 * Known: it blends them with the fog before it clamps, and we after; that shows where a lit colour beyond 1 is in fog.
+	 */
+	if (ctx && is_es(x, c))
+		ctx->state.a.lighting.clamp = GL_FALSE;
+}
 GLS_HANDLER(eglDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(eglMakeCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "EGL"); }
 GLS_HANDLER(eglSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }

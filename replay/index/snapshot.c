@@ -96,6 +96,7 @@ static int save(struct saver *s)
 	bytes_put_u64(out, x->n_calls);
 	bytes_put_u64(out, x->caches.versions);
 	bytes_put_u64(out, x->thread);
+	bytes_put_u64(out, x->egl_api);
 	bytes_put_u64(out, (uint64_t)x->feedback.missing);
 	bytes_put_u64(out, x->n_contexts);
 	for (size_t i = 0; i < x->n_contexts; i++)
@@ -225,6 +226,7 @@ int snapshot_load(struct gls_exec *x, const struct snapshot_blobs *blobs, const 
 	x->n_calls = cursor_u64(&l.in);
 	x->caches.versions = cursor_u64(&l.in);
 	x->thread = cursor_u64(&l.in);
+	x->egl_api = (uint32_t)cursor_u64(&l.in);
 	x->feedback.missing = cursor_u64(&l.in) != 0;
 	count = loader_count(&l, sizeof(struct gls_state));
 	free(x->contexts);

@@ -74,6 +74,7 @@ struct gls_command {
 	uint16_t core;      /* 1: part of GL 1.0 - 2.1 */
 	uint16_t drawing;   /* enum gls_drawing, or 0 */
 	struct gls_suffix suffix;
+	uint16_t fixed;     /* bits of its arguments that are 16.16 fixed point; the handler takes floats (fixed.h) */
 };
 extern const struct gls_command gls_commands[]; /* sorted by name */
 extern const unsigned n_gls_commands;

@@ -94,6 +94,7 @@ struct gls_exec {
 	uint64_t thread;
 	struct table drawables;
 	struct table configs; /* of drawables, see config.c */
+	uint32_t egl_api;     /* what eglBindAPI has chosen; 0: nothing */
 	struct table maps;    /* mapped address -> struct gls_buffer */
 
 	const struct call *call;      /* being executed */

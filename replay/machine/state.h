@@ -214,7 +214,7 @@ struct gls_array {
 	uint64_t version;  /* changes with the contents of `client` */
 };
 enum gls_array_index {
-	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, N_GLS_ARRAYS
+	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, GLS_ARRAY_POINT_SIZE, N_GLS_ARRAYS
 };
 struct gls_client_attribs {
 	struct gls_pixel_store pack, unpack;
@@ -243,6 +243,7 @@ struct gls_texture_parameters {
 	float border_color[4], min_lod, max_lod, lod_bias, max_anisotropy, priority;
 	uint32_t base_level, max_level, generate_mipmap;
 	uint32_t compare_mode, compare_func, depth_mode;
+	int32_t crop[4];     /* x, y, width, height of what DrawTex shows, in texels (OES_draw_texture) */
 	uint32_t swizzle[4], srgb_decode; /* GL tokens (EXT_texture_swizzle, EXT_texture_sRGB_decode) */
 };
 struct gls_saved_texture {

@@ -82,6 +82,7 @@ GLS_HANDLER(glTexCoordPointer, CLIENT) { set_sized(x, st, c, GLS_ATTR_TEXCOORD +
 GLS_HANDLER(glNormalPointer, CLIENT) { set_unsized(x, st, c, GLS_ATTR_NORMAL, 3, 2); }
 GLS_HANDLER(glFogCoordPointer, CLIENT) { set_unsized(x, st, c, GLS_ATTR_FOG_COORD, 1, 2); }
 GLS_HANDLER(glIndexPointer, CLIENT) { set_unsized(x, st, c, GLS_ARRAY_INDEX, 1, 2); }
+GLS_HANDLER(glPointSizePointerOES, CLIENT) { set_unsized(x, st, c, GLS_ARRAY_POINT_SIZE, 1, 2); }
 GLS_HANDLER(glEdgeFlagPointer, CLIENT)
 {
 	set_pointer(x, st, c, GLS_ARRAY_EDGE_FLAG, 1, GL_UNSIGNED_BYTE, (int32_t)arg_i(c, 0), 1);

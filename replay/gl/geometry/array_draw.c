@@ -95,7 +95,8 @@ fail:
 	return ERR_SYSTEM;
 }
 
-static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
+/* point_size: in place of the state's; below 0: the state's own */
+static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, float point_size)
 {
 	struct gls_op_mesh op = { .mesh = mesh, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
 
@@ -103,6 +104,16 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh)
 		atomic_fetch_add(&mesh->refs, 1);
 		if (gls_list_append_mesh(x, st->list, &op) || st->list_mode == GL_COMPILE)
 			return;
+	}
+	if (point_size >= 0 && gls_is_drawn(x, st)) {
+		struct gls_attribs a = st->a;
+
+		a.point.size = point_size;
+		st->dirty |= GLS_DIRTY_MATERIAL;
+		gls_draw_event(x, st, &(struct gls_event){ .attribs = &a, .mesh = mesh, .values = (const float (*)[4])a.current.attribute,
+		                                           .command = x->command, .call_number = x->call->number });
+		st->dirty |= GLS_DIRTY_MATERIAL;
+		return;
 	}
 	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
 }
@@ -124,6 +135,30 @@ static struct gls_mesh *find_mesh(struct gls_exec *x, struct gls_state *st, stru
 	return mesh;
 }
 
+/* Points with an array of sizes: those in a row that have the same size are one draw. */
+static void draw_sized(struct gls_exec *x, struct gls_state *st, struct gls_sources *s, uint32_t first, uint32_t count,
+                       const uint32_t *elements, uint64_t identity)
+{
+	float size[4], next[4];
+
+	for (uint32_t begin = 0, end; begin < count; begin = end) {
+		const uint32_t *run = elements ? elements + begin : NULL;
+		struct gls_mesh *mesh;
+
+		gls_source_read(&s->size, elements ? elements[begin] : first + begin, size);
+		for (end = begin + 1; end < count; end++) {
+			gls_source_read(&s->size, elements ? elements[end] : first + end, next);
+			if (next[0] != size[0])
+				break;
+		}
+		mesh = find_mesh(x, st, s, GL_POINTS, first + begin, end - begin, run, 0,
+		                 gls_sources_key(st, s, GL_POINTS, elements ? identity + begin : first + begin,
+		                                 (uint64_t)(end - begin) << 1 | (elements != NULL)));
+		if (mesh)
+			put(x, st, mesh, size[0] > 0 ? size[0] : 0);
+	}
+}
+
 /*
  * Draw, or keep in the list being made.
  * @param elements  [count], NULL: first ..; `identity` tells different ones apart (a hash, or version and offset)
@@ -143,13 +178,17 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 		gls_unsupported(x, "draws beyond the end of an array");
 		return;
 	}
+	if (mode == GL_POINTS && s.has_sizes) {
+		draw_sized(x, st, &s, first, count, elements, identity);
+		return;
+	}
 	key = gls_sources_key(st, &s, mode, elements ? identity : first, (uint64_t)count << 1 | (elements != NULL));
 	mesh = find_mesh(x, st, &s, mode, first, count, elements, 0, key);
 	if (mesh && mode == GL_QUADS && !elements && !st->list &&
 	    gls_quads_turn(st, mesh->mesh.position, mesh->mesh.index, mesh->mesh.primitive_count))
 		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
 	if (mesh)
-		put(x, st, mesh);
+		put(x, st, mesh, -1);
 }
 
 static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)

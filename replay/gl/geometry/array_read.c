@@ -14,7 +14,7 @@
 
 size_t gls_type_bytes(uint32_t type)
 {
-	return type <= GL_FLOAT || type == GL_HALF_FLOAT || type == GL_DOUBLE ? (size_t)type_bytes(type) : 0;
+	return type <= GL_FLOAT || type == GL_HALF_FLOAT || type == GL_FIXED || type == GL_DOUBLE ? (size_t)type_bytes(type) : 0;
 }
 
 static unsigned components(const struct gls_array *array)
@@ -74,6 +74,9 @@ static float read_component(const uint8_t *p, uint32_t type, uint32_t normalized
 	case GL_UNSIGNED_INT:
 		memcpy(&u32, p, 4);
 		return normalized ? (float)(u32 / 4294967295.0) : (float)u32;
+	case GL_FIXED:
+		memcpy(&i32, p, 4);
+		return (float)i32 / 65536.0f;
 	case GL_HALF_FLOAT:
 		memcpy(&u16, p, 2);
 		return half_to_float(u16);
@@ -144,6 +147,7 @@ int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_source
 		gls_unsupported(x, "arrays whose contents the recording does not hold");
 		return 0;
 	}
+	s->has_sizes = arrays[GLS_ARRAY_POINT_SIZE].enabled && gls_source_open(st, &arrays[GLS_ARRAY_POINT_SIZE], &s->size);
 	s->has_edges = arrays[GLS_ARRAY_EDGE_FLAG].enabled && gls_source_open(st, &arrays[GLS_ARRAY_EDGE_FLAG], &s->edge);
 	return 1;
 }

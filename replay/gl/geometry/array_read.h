@@ -18,9 +18,9 @@ struct gls_source {
 
 /* All arrays of a draw. */
 struct gls_sources {
-	struct gls_source vertex, edge, attributes[N_GLS_ATTRIBUTES];
+	struct gls_source vertex, edge, size, attributes[N_GLS_ATTRIBUTES];
 	uint32_t present; /* attributes that come from arrays: 1 << attribute */
-	int has_edges;
+	int has_edges, has_sizes; /* sizes: of points (OES_point_size_array); no mesh depends on them */
 };
 
 /** Bytes of a component; 0: no type. */

@@ -7,6 +7,7 @@
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/texture/level.h"
 #include "replay/gl/texture/mipmap.h"
+#include "replay/gl/texture/palette.h"
 #include "replay/gl/texture/texcompress.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/unpack.h"
@@ -145,9 +146,8 @@ static int unpack_compressed(struct gls_exec *x, uint32_t internal_format, const
 	return 0;
 }
 
-GLS_FAMILY(glCompressedTexImage, STATE)
+static void compressed_image(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned n_dims)
 {
-	const unsigned n_dims = gls_commands[x->command].suffix.n;
 	unsigned face;
 	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), arg_i(c, 1), &face);
 	const struct gls_level_form form = form_of(c, n_dims);
@@ -162,6 +162,61 @@ GLS_FAMILY(glCompressedTexImage, STATE)
 		unpack_compressed(x, l->internal_format, (int64_t[3]){ l->width, l->height, l->depth }, pixels, n, l->texels);
 	if (l)
 		gls_texture_level_changed(x, t, face, arg_i(c, 1));
+}
+
+/* A level of a paletted image. first: texels of the levels before it */
+static void load_paletted(struct gls_exec *x, struct gls_state *st, const struct gls_palette *palette, struct gls_level *l,
+                          const uint8_t *data, size_t n, size_t first)
+{
+	const struct gls_pixel_store tight = { .alignment = 1 };
+	const size_t count = (size_t)l->width * l->height, bytes = count * palette->entry_bytes;
+	uint8_t *entries = gls_scratch(x, bytes);
+
+	if (!entries)
+		return;
+	if (gls_palette_expand(palette, data, n, first, count, entries)) {
+		gls_unsupported(x, "pixels beyond what the recording holds");
+		return;
+	}
+	gls_unpack_pixels(x, st, &(struct gls_pixels){ .format = palette->format, .type = palette->type, .width = l->width,
+	                                               .height = l->height, .data = entries, .n = bytes, .store = &tight },
+	                  l->internal_format, l->texels);
+}
+
+/* Levels 0 to -level at once (OES_compressed_paletted_texture). */
+static void paletted_images(struct gls_exec *x, struct gls_state *st, const struct call *c, const struct gls_palette *palette)
+{
+	unsigned face;
+	const int64_t last = -arg_i(c, 1);
+	struct gls_texture *t = gls_texture_find_level(x, st, arg_u(c, 0), last, &face);
+	struct gls_level_form form = { palette->internal_format, arg_i(c, 3), arg_i(c, 4), 1, arg_i(c, 5) };
+	size_t n, first = 0;
+	const uint8_t *data = gls_pixel_source(st, c, 7, &n);
+
+	for (int64_t level = 0; t && level <= last; level++) {
+		struct gls_level *l = gls_texture_specify(x, st, t, face, level, &form);
+
+		if (!l)
+			return;
+		if (data)
+			load_paletted(x, st, palette, l, data, n, first);
+		gls_texture_level_changed(x, t, face, level);
+		first += (size_t)l->width * l->height;
+		first += palette->index_bits == 4 ? first % 2 : 0;
+		form.width = form.width > 1 ? form.width / 2 : 1;
+		form.height = form.height > 1 ? form.height / 2 : 1;
+	}
+}
+
+GLS_FAMILY(glCompressedTexImage, STATE)
+{
+	const unsigned n_dims = gls_commands[x->command].suffix.n;
+	struct gls_palette palette;
+
+	if (n_dims == 2 && gls_palette_of(arg_u(c, 2), &palette))
+		paletted_images(x, st, c, &palette);
+	else
+		compressed_image(x, st, c, n_dims);
 }
 
 GLS_FAMILY(glCompressedTexSubImage, STATE)

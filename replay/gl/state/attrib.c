@@ -52,6 +52,10 @@ static uint32_t *bit_of(struct gls_state *st, uint32_t cap, uint32_t *bit)
 		{ GL_MAP2_COLOR_4, GL_MAP2_VERTEX_4, &a->evaluator.map2 },
 	};
 
+	if (cap == GL_TEXTURE_GEN_STR_OES) { /* OpenGL ES: s, t and r at once */
+		*bit = 7;
+		return &unit->gen_enabled;
+	}
 	for (unsigned i = 0; i < sizeof(ranges) / sizeof(ranges[0]); i++)
 		if (cap >= ranges[i].first && cap <= ranges[i].last) {
 			*bit = 1u << (cap - ranges[i].first);
@@ -110,6 +114,7 @@ static int client_array_of(const struct gls_state *st, uint32_t cap)
 	case GL_TEXTURE_COORD_ARRAY: return GLS_ATTR_TEXCOORD + (int)st->client.active_texture;
 	case GL_EDGE_FLAG_ARRAY: return GLS_ARRAY_EDGE_FLAG;
 	case GL_INDEX_ARRAY: return GLS_ARRAY_INDEX;
+	case GL_POINT_SIZE_ARRAY_OES: return GLS_ARRAY_POINT_SIZE;
 	default: return -1;
 	}
 }

@@ -47,7 +47,7 @@ void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *me
                    uint64_t call_number)
 {
 	if (gls_is_drawn(x, st))
-		gls_draw_event(x, st, &(struct gls_event){ &st->a, mesh, values, command, call_number, NULL, NULL });
+		gls_draw_event(x, st, &(struct gls_event){ &st->a, mesh, values, command, call_number, NULL, NULL, 0 });
 }
 
 void gls_draw_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)

@@ -65,14 +65,12 @@ GLS_FAMILY(glTexEnv, STATE)
 
 /* ---- coordinate generation, sec. 2.11.4 ---- */
 
-GLS_FAMILY(glTexGen, STATE)
+static void set_generation(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t coord)
 {
 	struct scene_unit *e = &gls_active_unit(st)->value;
-	uint32_t coord = arg_u(c, 0) - GL_S, mode;
+	uint32_t mode;
 	float v[4] = { 0 }, inverse[16];
 
-	if (gls_refuses(x, st, coord > 3, GL_INVALID_ENUM))
-		return;
 	arg_floats(c, 2, v, 4);
 	mode = token_of_float(v[0]);
 	switch (arg_u(c, 1)) {
@@ -96,3 +94,13 @@ GLS_FAMILY(glTexGen, STATE)
 	}
 }
 
+GLS_FAMILY(glTexGen, STATE)
+{
+	const uint32_t coord = arg_u(c, 0) - GL_S;
+
+	/* OES_texture_cube_map: s, t and r are set together. */
+	for (uint32_t i = 0; arg_u(c, 0) == GL_TEXTURE_GEN_STR_OES && i < 3; i++)
+		set_generation(x, st, c, i);
+	if (arg_u(c, 0) != GL_TEXTURE_GEN_STR_OES && !gls_refuses(x, st, coord > 3, GL_INVALID_ENUM))
+		set_generation(x, st, c, coord);
+}

@@ -291,6 +291,9 @@ static void set_parameter(struct gls_exec *x, struct gls_state *st, struct gls_t
 		set_number(x, st, t, p, v[0]);
 	else if (arg_u(c, 1) == GL_TEXTURE_BORDER_COLOR)
 		arg_color(x, c, 2, t->parameters.border_color);
+	else if (arg_u(c, 1) == GL_TEXTURE_CROP_RECT_OES)
+		for (unsigned i = 0; i < 4; i++)
+			t->parameters.crop[i] = (int32_t)v[i];
 	else if (arg_u(c, 1) == GL_TEXTURE_SWIZZLE_RGBA)
 		set_swizzles(x, st, t, v);
 	else

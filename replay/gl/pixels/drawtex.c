@@ -1,0 +1,111 @@
+/* OES_draw_texture: a rectangle of the window, textured by the crop rectangles of what is bound. */
+#include <string.h>
+
+#include "gl_tokens.h"
+#include "capture/format/call.h"
+#include "replay/build/mesh.h"
+#include "replay/gl/surface/draw.h"
+#include "replay/gl/texture/texture.h"
+#include "replay/machine/args.h"
+#include "replay/machine/commands.h"
+#include "replay/machine/errors.h"
+#include "replay/machine/geometry.h"
+#include "replay/machine/machine.h"
+
+/* What the vertices of a rectangle would go through has been gone through. */
+static void change_attributes(struct gls_attribs *a)
+{
+	a->lighting.enabled = a->lighting.color_material = 0;
+	a->lighting.shade_model = GL_SMOOTH;
+	a->fog.coord_source = GL_FOG_COORD;
+	a->transform.clip_plane_mask = 0;
+	a->polygon.cull = a->polygon.stipple = a->polygon.smooth = a->polygon.offset_fill = 0;
+	a->polygon.mode[0] = a->polygon.mode[1] = GL_FILL;
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		a->texturing.units[u].gen_enabled = 0;
+}
+
+/* Texture coordinates of corner (right, top) for each unit that has a 2D texture with texels. */
+static void set_coordinates(struct gls_exec *x, struct gls_state *st, struct gls_geometry *g, int right, int top)
+{
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
+		const struct gls_texture *t = st->a.texturing.units[u].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, u, GLS_TEXTURE_2D) : NULL;
+		const struct gls_level *l = t ? &t->levels[0][t->parameters.base_level] : NULL;
+		const int32_t *crop = t ? t->parameters.crop : NULL;
+		float *out = g->attribute[GLS_ATTR_TEXCOORD + u] + 4 * (size_t)g->n_vertices;
+
+		if (!(g->varying >> (GLS_ATTR_TEXCOORD + u) & 1))
+			continue;
+		out[0] = (float)(crop[0] + (right ? crop[2] : 0)) / (float)l->width;
+		out[1] = (float)(crop[1] + (top ? crop[3] : 0)) / (float)l->height;
+		out[2] = 0;
+		out[3] = 1;
+	}
+}
+
+/* Bits of texture coordinates that a rectangle gives. */
+static uint32_t textured_units(struct gls_exec *x, struct gls_state *st)
+{
+	uint32_t bits = 0;
+
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
+		const struct gls_texture *t = st->a.texturing.units[u].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, u, GLS_TEXTURE_2D) : NULL;
+
+		if (t && t->levels[0][t->parameters.base_level].width && t->levels[0][t->parameters.base_level].height)
+			bits |= 1u << (GLS_ATTR_TEXCOORD + u);
+	}
+	return bits;
+}
+
+/* rect: x, y, depth of the window, width, height.  @return a reference; NULL: out of memory (reported) */
+static struct gls_mesh *make_rectangle(struct gls_exec *x, struct gls_state *st, const float rect[5])
+{
+	struct gls_geometry *g = &x->scratch.geometry;
+	struct gls_mesh *mesh = NULL;
+
+	gls_geometry_clear(g);
+	g->kind = SCENE_TRIANGLES;
+	g->varying = textured_units(x, st);
+	if (gls_geometry_reserve(g, 4, 2)) {
+		gls_fail(x);
+		return NULL;
+	}
+	for (int corner = 0; corner < 4; corner++) {
+		const int right = corner == 1 || corner == 2, top = corner >= 2;
+
+		memcpy(g->position + 4 * (size_t)g->n_vertices,
+		       (float[4]){ rect[0] + (right ? rect[3] : 0), rect[1] + (top ? rect[4] : 0), rect[2], 1 }, 16);
+		set_coordinates(x, st, g, right, top);
+		g->edge[g->n_vertices++] = 1;
+	}
+	if (!gls_geometry_cut(g, GL_TRIANGLE_FAN, 0, 4, NULL, 0)) {
+		g->n_draws = 1;
+		mesh = gls_geometry_mesh(x, g);
+	}
+	gls_geometry_clear(g);
+	return mesh;
+}
+
+GLS_FAMILY(glDrawTex, STATE)
+{
+	struct gls_attribs a = st->a;
+	const float *range = a.viewport.depth_range;
+	struct gls_mesh *mesh;
+	float rect[5] = { 0 };
+
+	for (unsigned i = 0; i < 5 && !gls_commands[x->command].suffix.array; i++)
+		rect[i] = arg_f(c, i);
+	if (gls_commands[x->command].suffix.array)
+		arg_floats(c, 0, rect, 5);
+	if (gls_refuses(x, st, rect[3] <= 0 || rect[4] <= 0, GL_INVALID_VALUE) || !gls_is_drawn(x, st))
+		return;
+	rect[2] = range[0] + (rect[2] < 0 ? 0 : rect[2] > 1 ? 1 : rect[2]) * (range[1] - range[0]);
+	change_attributes(&a);
+	mesh = make_rectangle(x, st, rect);
+	st->dirty = GLS_DIRTY_ALL;
+	if (mesh)
+		gls_draw_event(x, st, &(struct gls_event){ .attribs = &a, .mesh = mesh, .values = (const float (*)[4])a.current.attribute,
+		                                           .command = x->command, .call_number = x->call->number, .in_window = 1 });
+	st->dirty = GLS_DIRTY_ALL;
+	gls_mesh_release(mesh);
+}
