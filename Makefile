@@ -44,16 +44,16 @@ OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o image.o pack.
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
 	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev libseccomp-dev \
-	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libgles-dev libosmesa6-dev libx11-dev \
+	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libgles-dev libwayland-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
-	check clang xvfb xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
+	check clang xvfb weston xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
 	fonts-dejavu-core python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
 	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
-CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c)) $(BUILD)/corpus/rooms
+CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
@@ -185,6 +185,10 @@ $(BUILD)/corpus/%: corpus/%.c $(BUILD)/flags
 $(BUILD)/corpus/es/%: corpus/es/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lEGL -lGLESv1_CM -lX11 -lm
+
+$(BUILD)/corpus/wayland/%: corpus/wayland/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -MMD -MP -MF $@.d -MT $@ -o $@ $< -lwayland-client -lwayland-egl -lEGL -lGL -lm
 
 $(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)/flags
 	@mkdir -p $(@D)
