@@ -175,8 +175,8 @@ typedef float element_float;
 	OUT(ray, rays)
 #define ARGUMENTS_hit_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
-	IN(uint, wanted) AND()              /* per hit: a bit for each slot of a light */ \
-	VALUE(uint, sample) AND() \
+	OUT(uint, wanted) AND()             /* per hit: a bit for each slot of a light; hit_ray: from want_lights */ \
+	VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, n) AND()                /* hits */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, out)
@@ -349,6 +349,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
 	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
 	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \
+	X(hit_ray_packet, hit_ray)      /* want_lights, and rays to all lights, SHADE_PACKET consecutive hits a work item (CPUs) */ \
 	X(ao_ray, ao_ray)               /* one fragment a work item: a look around */ \
 	X(shadow_sum, shadow_sum)       /* one ray to a light a work item: full visibility where nothing stopped it */ \
 	X(shadow_start, shadow_start)   /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
@@ -357,9 +358,11 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(scan_place, scan_place)       /* the same: where each count's results go */ \
 	X(gather_paths, gather_paths)   /* one path a work item: its next rays into one dense list */ \
 	X(leave, leave)                 /* one fragment a work item: its mirrored, bent and scattered rays */ \
+	X(leave_packet, leave)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
 	X(sky_ray, sky_ray)             /* one path a work item: its look at the sky where it hit nothing */ \
 	X(want_lights, want_lights)     /* one path a work item: lights to be asked for at its hit */ \
 	X(shade_hit, shade_hit)         /* one path a work item: the radiance it found and its next rays */ \
+	X(shade_hit_packet, shade_hit)  /* the same, SHADE_PACKET consecutive paths a work item (CPUs) */ \
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
 	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around */ \

@@ -100,6 +100,40 @@ static inline uint pack_same_kind(const struct tables *t, const struct pack_list
 	return same;
 }
 
+/* The items of a launch that a work item does, SHADE_PACKET of them: a bit for each that is left, and for each that packs know. */
+struct pack_left {
+	uint first;
+	ulong all, packed;
+	uint material[SHADE_PACKET];
+};
+
+/*
+ * The first item that is left, with those of its material that share a pack with it. Lanes beyond them repeat the last.
+ * @return a bit for each lane; 0: packs do not know it, item[0] goes alone
+ */
+static inline uint pack_next(struct pack_left *left, uint *item)
+{
+	const uint next = popcount((left->all & -left->all) - 1);
+	uint n = 0;
+
+	item[0] = left->first + next;
+	if (!(left->packed >> next & 1)) {
+		left->all &= left->all - 1;
+		return 0;
+	}
+	for (ulong rest = left->all & left->packed; rest && n < PACK_SIZE; rest &= rest - 1) {
+		const uint i = popcount((rest & -rest) - 1);
+
+		if (left->material[i] != left->material[next])
+			continue;
+		item[n++] = left->first + i;
+		left->all &= ~((ulong)1 << i);
+	}
+	for (uint lane = n; lane < PACK_SIZE; lane++)
+		item[lane] = item[n - 1];
+	return (1u << n) - 1;
+}
+
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
 
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */

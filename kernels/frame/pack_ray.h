@@ -232,23 +232,23 @@ static inline int pack_knows_rays(__global const struct scene_material *m)
 	return !m->surface.relit && !(m->surface.hidden & SCENE_CARD);
 }
 
-/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[lane] of the lanes that want one. */
+/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[place[lane]] of the lanes that want one. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve, struct pack_vec back,
-                                   __global const struct scene_light *light, uint lanes, __global struct ray *rays)
+                                   __global const struct scene_light *light, uint lanes, const uint *place, __global struct ray *rays)
 {
 	const int positional = light->position_eye[3] != 0.0f;
 	const float scale = positional ? 1.0f / light->position_eye[3] : 1.0f;
-	const struct pack_vec place = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
+	const struct pack_vec to = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
 	                                       (packf)(light->position_eye[2] * scale));
-	const struct pack_vec straight = positional ? pack_sub(place, pack_place_at(s, p->weight)) : place;
-	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, place, positional, straight, back);
-	const struct pack_vec d = positional ? pack_sub(place, o) : place;
+	const struct pack_vec straight = positional ? pack_sub(to, pack_place_at(s, p->weight)) : to;
+	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
+	const struct pack_vec d = positional ? pack_sub(to, o) : to;
 
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		const float8 ray = (float8)(LANE(o.x, float, lane), LANE(o.y, float, lane), LANE(o.z, float, lane), 0,
 		                            LANE(d.x, float, lane), LANE(d.y, float, lane), LANE(d.z, float, lane), positional ? 1.0f : 1.0e30f);
 
-		vstore8(ray, lane, (__global float *)rays);
+		vstore8(ray, place[lane], (__global float *)rays);
 	}
 }

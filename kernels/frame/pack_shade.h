@@ -68,26 +68,25 @@ WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struc
 }
 
 /* The vertices' lights seen as they are: one lane's triangle lit again, as setup_keep_lit does it. */
-static inline const struct lit *pack_relight(const struct shade_arguments *a, const struct pack_list *list, uint lane, const struct vec3 *seen,
-                                             struct pack_kept *kept)
+static inline const struct lit *pack_relight(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lane,
+                                             const struct vec3 *seen, struct pack_kept *kept)
 {
 	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
-	int same = l->instance == list->instance[lane] && l->primitive == list->primitive[lane];
+	const int front = LANE(p->front, const int, lane) != 0;
+	int same = l->instance == list->instance[lane] && l->primitive == list->primitive[lane] && l->p.front == front;
 
 	if (!same) {
-		struct fragment f;
-		float w_inv[3];
-
-		f.instance = l->instance = list->instance[lane];
-		f.primitive = l->primitive = list->primitive[lane];
-		l->p = point_of_triangle(&a->tables, a->windows, &f, w_inv);
+		l->instance = list->instance[lane];
+		l->primitive = list->primitive[lane];
+		point_vertices(t, &l->p, l->instance, l->primitive & ~FRAGMENT_PERSPECTIVE);
+		l->p.front = front;
 	}
 	for (uint i = 0; i < SCENE_MAX_LIGHTS; i++) {
 		same = same && seen[i].x == l->seen[i].x && seen[i].y == l->seen[i].y && seen[i].z == l->seen[i].z;
 		l->seen[i] = seen[i];
 	}
 	if (!same)
-		point_light_corners(&a->tables, &l->p, seen, l->lit);
+		point_light_corners(t, &l->p, seen, l->lit);
 	return l->lit;
 }
 
@@ -107,7 +106,7 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 		const struct lit *lit;
 
 		stage_seen(a->visibility, a->n_slots, a->n, list->item[lane], seen);
-		lit = pack_relight(a, list, lane, seen, kept);
+		lit = pack_relight(&a->tables, list, p, lane, seen, kept);
 		for (uint k = flat ? 2 : 0; k < 3; k++) {
 			LANE(v[k][0], float, lane) = lit[k].color.x;
 			LANE(v[k][1], float, lane) = lit[k].color.y;
@@ -130,6 +129,33 @@ struct pack_texturing {
 	packf fog;
 };
 
+/* Where the texture coordinates of the lanes' meshes start. */
+static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list, __global const struct scene_material *m, uint lanes)
+{
+	packu first = 0;
+
+	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
+		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
+
+		LANE(first, uint, lane) = t->geometries[list->instance[from]].texcoord_first;
+	}
+	return first;
+}
+
+/* As point_fog for what pack_is_plain knows. */
+WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct pack *p)
+{
+	__global const struct scene_material *m = p->material;
+	packf v[3][4], c;
+
+	if (!m->fog)
+		return 1.0f;
+	for (int k = 0; k < 3; k++)
+		pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
+	c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
+	return pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
+}
+
 WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
                                              struct pack_kept *kept, struct pack_texturing *out)
 {
@@ -137,13 +163,8 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 	__global const struct scene_material *m = p->material;
 	const float middle = 0.5f - clip_origin(p->view);
 	const uint cut = lanes & pack_bits(p->cut);
-	packu first;
+	const packu first = pack_texcoord_first(t, list, m, lanes);
 
-	for (uint lane = 0; lane < PACK_SIZE && m->unit_count; lane++) {
-		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
-
-		LANE(first, uint, lane) = t->geometries[list->instance[from]].texcoord_first;
-	}
 	for (uint i = 0; i < m->unit_count; i++) {
 		packf texcoord[3][4];
 
@@ -158,15 +179,7 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
 		            out->sample[i]);
 	}
-	out->fog = 1.0f;
-	if (m->fog) {
-		packf v[3][4], c;
-
-		for (int k = 0; k < 3; k++)
-			pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
-		c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
-		out->fog = pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
-	}
+	out->fog = pack_fog(t, p);
 }
 
 /* As point_finish_in_fog. */

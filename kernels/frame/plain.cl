@@ -134,13 +134,13 @@ static inline void send_rays(const struct plain_arguments *a, const struct plain
 	pack_measure(s);
 	pack_curve_of(&a->tables, p, &curve);
 	for (uint slot = 0; slot < a->n_slots; slot++) {
-		__global struct ray *rays = a->rays + slot * a->n + row->base;
+		__global struct ray *rays = a->rays + slot * a->n;
 		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);
 
 		if (wanted)
-			pack_light_rays(p, s, &curve, back, &a->tables.lights[p->material->light_first + slot], wanted, rays);
+			pack_light_rays(p, s, &curve, back, &a->tables.lights[p->material->light_first + slot], wanted, row->list.item, rays);
 		for (uint left = lanes & ~wanted; left; left &= left - 1)
-			stage_no_ray(&rays[popcount((left & -left) - 1)]);
+			stage_no_ray(&rays[row->list.item[popcount((left & -left) - 1)]]);
 	}
 }
 

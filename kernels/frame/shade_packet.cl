@@ -12,15 +12,8 @@ struct shade_kept {
 	struct pack_kept pack;
 };
 
-/* The fragments of a work item: a bit for each that is left, and for each that packs know. SHADE_PACKET is 64. */
-struct shade_left {
-	uint first;
-	ulong all, packed;
-	uint material[SHADE_PACKET];
-};
-
 /* Which ones are to be shaded. */
-static inline void find_left(const struct shade_arguments *a, uint first, struct shade_left *left)
+static inline void find_left(const struct shade_arguments *a, uint first, struct pack_left *left)
 {
 	uint last = SCENE_NONE;
 	int known = 0;
@@ -46,32 +39,19 @@ static inline void shade_alone(const struct shade_arguments *a, uint i, struct s
 	shade_item(a, i, 1, &kept->one[a->fragments[i].primitive % SHADE_TRIANGLES]);
 }
 
-/* The first that is left, and with it those of its material that it shares a pack with. */
-static inline void shade_next(const struct shade_arguments *a, struct shade_left *left, struct shade_kept *kept)
+static inline void shade_next(const struct shade_arguments *a, struct pack_left *left, struct shade_kept *kept)
 {
-	const uint next = popcount((left->all & -left->all) - 1);
+	uint item[PACK_SIZE], lanes = pack_next(left, item), alone;
 	struct pack_list list;
-	uint n = 0, done;
 
-	if (!(left->packed >> next & 1)) {
-		shade_alone(a, left->first + next, kept);
-		left->all &= left->all - 1;
+	if (!lanes) {
+		shade_alone(a, item[0], kept);
 		return;
 	}
-	for (ulong rest = left->all & left->packed; rest && n < PACK_SIZE; rest &= rest - 1) {
-		const uint i = popcount((rest & -rest) - 1);
-
-		if (left->material[i] != left->material[next])
-			continue;
-		pack_take(a->fragments, a->pixels, left->first + i, n++, &list);
-		left->all &= ~((ulong)1 << i);
-	}
-	for (uint lane = n; lane < PACK_SIZE; lane++)
-		pack_take(a->fragments, a->pixels, list.item[n - 1], lane, &list);
-	done = pack_shade(a, &list, (1u << n) - 1, &kept->pack);
-	for (uint lane = 0; lane < n; lane++)
-		if (!(done >> lane & 1))
-			shade_alone(a, list.item[lane], kept);
+	for (uint lane = 0; lane < PACK_SIZE; lane++)
+		pack_take(a->fragments, a->pixels, item[lane], lane, &list);
+	for (alone = lanes & ~pack_shade(a, &list, lanes, &kept->pack); alone; alone &= alone - 1)
+		shade_alone(a, item[popcount((alone & -alone) - 1)], kept);
 }
 
 KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
@@ -79,7 +59,7 @@ KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
 	const uint32_t first = (uint32_t)get_global_id(0) * SHADE_PACKET;
 	const struct shade_arguments a = KERNEL_STRUCT(shade);
 	struct shade_kept kept;
-	struct shade_left left;
+	struct pack_left left;
 
 	if (first >= n)
 		return;

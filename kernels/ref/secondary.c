@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/secondary.cl and shadow_packet.cl. */
+/* C twins of kernels/frame/secondary.cl, secondary_packet.cl and shadow_packet.cl. */
 #include "kernels/frame/path.h"
 
 void shadow_ray_c(const struct shadow_ray_arguments *a, size_t first, size_t last)
@@ -27,3 +27,26 @@ KERNEL_TWIN(want_lights, n)
 KERNEL_TWIN(shade_hit, n)
 KERNEL_TWIN(credit, n)
 KERNEL_TWIN(ao_shade, n)
+
+/* Lights are asked of hits at once. */
+void hit_ray_packet_c(const struct hit_ray_arguments *a, size_t first, size_t last)
+{
+	const struct want_lights_arguments w = { .tables = a->tables, .hits = a->hits, .rays = a->rays, .transport = a->transport,
+		                                 .n = a->n, .wanted = a->wanted };
+
+	for (size_t i = first * SHADE_PACKET; i < last * SHADE_PACKET && i < a->n; i++) {
+		want_lights_item(&w, (uint32_t)i);
+		for (size_t at = i; at < a->n_rays; at += a->n)
+			hit_ray_item(a, (uint32_t)at);
+	}
+}
+
+void leave_packet_c(const struct leave_arguments *a, size_t first, size_t last)
+{
+	leave_c(a, first * SHADE_PACKET, last * SHADE_PACKET);
+}
+
+void shade_hit_packet_c(const struct shade_hit_arguments *a, size_t first, size_t last)
+{
+	shade_hit_c(a, first * SHADE_PACKET, last * SHADE_PACKET);
+}

@@ -8,6 +8,7 @@ FAMILIES = ("packets", "binary", "compressed")
 PROGRAMS = {
     "mirror": (corpus("cornell"), "--frames", "1", "--mesh", "--mirror"),
     "glass": (corpus("still_life"), "--frames", "1"),
+    "spheres": (corpus("spheres"), "--frames", "1", "--size", "300x200"),
     "shapes": (BUILD / "tests/real/shapes",),
     "pixels": (BUILD / "tests/real/pixels",),
     "samples": (BUILD / "tests/real/samples",),

@@ -23,6 +23,12 @@ uint32_t secondary_transport(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
+/* Work items of the kernels that take SHADE_PACKET each. */
+static uint32_t packs(uint32_t n)
+{
+	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
+}
+
 /* Which of n rays meet anything in a space. */
 static int occlude(struct job *job, const struct accel_space *space, union buffer_ray rays, union buffer_uint occluded, uint32_t n)
 {
@@ -206,7 +212,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 			       .sample = job->pass * samples + i, .n = n, .n_rays = n_rays, .rays = b->rays);
 
 		if (device_family(tr->dev) == FAMILY_PACKETS)
-			err = launch_shadow_ray_packet(tr->dev, (n_rays + SHADE_PACKET - 1) / SHADE_PACKET, a);
+			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
@@ -220,19 +226,22 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4;
+	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4;
+	const int packets = device_family(tr->dev) == FAMILY_PACKETS;
 	int err = secondary_reserve_rays(job, n_rays);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
-	if (!err)
+	if (!err && !packets)
 		err = launch_want_lights(tr->dev, n, LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
 		                                            .rays = b->path_rays, .transport = transport, .n = n, .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		err = launch_hit_ray(tr->dev, n_rays, LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits,
-		                                             .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
-		                                             .wanted = b->wanted, .sample = job->pass * samples + i, .n = n,
-		                                             .n_rays = n_rays, .out = b->rays));
+		const struct hit_ray_launch *a =
+			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
+			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i, .n = n,
+			       .n_rays = n_rays, .out = b->rays);
+
+		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
 		if (!err)
 			err = ask(job, space, 1, n_rays, i, samples);
 	}
@@ -269,17 +278,17 @@ static int leave(struct job *job, const struct list *list, uint32_t transport, u
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
+	const struct leave_launch *a;
 	int err = reserve_next(job, list, (size_t)PATHS_PER_FRAGMENT * n);
 
 	if (!err)
 		err = frame_reserve(tr, next_counts, n);
 	if (err)
 		return err;
-	return launch_leave(tr->dev, n, LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
-	                                       .transport = transport, .sample = job->pass, .n = n, .shaded = b->shaded,
-	                                       .next_rays = *list->next_rays, .next_paths = *list->next_paths,
-	                                       .counts = b->next_counts));
+	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
+	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .n = n, .shaded = b->shaded,
+	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
+	return device_family(tr->dev) == FAMILY_PACKETS ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
 
 static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t n)
@@ -300,6 +309,7 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
+	const struct shade_hit_launch *a;
 	int err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n);
 
 	if (!err)
@@ -308,14 +318,11 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 		err = frame_reserve(tr, radiance, 3 * (size_t)n);
 	if (err)
 		return err;
-	return launch_shade_hit(tr->dev, n, LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits,
-	                                           .has_sky = has_sky, .rays = *list->rays, .paths = *list->paths,
-	                                           .pixels = b->pixels, .visibility = b->visibility,
-	                                           .n_slots = job->prepared.n_light_slots, .transport = transport,
-	                                           .sample = job->pass, .depth = job->options->depth,
-	                                           .background = b->background, .shaded = b->shaded, .n = n, .radiance = b->radiance,
-	                                           .next_rays = *list->next_rays, .next_paths = *list->next_paths,
-	                                           .counts = b->next_counts));
+	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky, .rays = *list->rays,
+	           .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
+	           .transport = transport, .sample = job->pass, .depth = job->options->depth, .background = b->background, .shaded = b->shaded,
+	           .n = n, .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
+	return device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
 }
 
 int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)

@@ -1,0 +1,218 @@
+/*
+ * Hits of paths, and fragments that light leaves, sixteen of one material at once: what point.h, transparency.h and path.h have for one,
+ * in the same order of operations and to the same bits. OpenCL C only. pack_knows_paths says which materials it knows.
+ */
+#pragma once
+
+#include "kernels/frame/pack_ray.h"
+#include "kernels/frame/pack_shade.h"
+#include "kernels/frame/path.h"
+
+/* Points of triangles, and the directions in which they are looked at. */
+struct pack_points {
+	struct pack_list list;
+	uint lanes;
+	struct pack p;
+	struct pack_surface surface;
+	struct pack_vec d, back; /* as the rays have it; against it, length 1 */
+	packf t, t_min;          /* of hits */
+};
+
+/* Whether packs know all that a material asks of hits. */
+static inline int pack_knows_paths(const struct shade_arguments *s, __global const struct scene_material *m)
+{
+	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && !m->blend &&
+	       !(m->surface.hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_NEAR_MIRROR)) && !(m->surface.roughness > 0.0f);
+}
+
+/* --- Where they are ------------------------------------------------------------------------------------------------ */
+
+static inline void pack_take_hit(__global const struct hit *hits, uint item, uint lane, struct pack_list *list)
+{
+	list->item[lane] = item;
+	list->instance[lane] = hits[item].instance;
+	list->primitive[lane] = hits[item].primitive;
+	list->b1[lane] = hits[item].b1;
+	list->b2[lane] = hits[item].b2;
+	list->depth[lane] = hits[item].t;
+	list->pixel[lane] = 0;
+}
+
+/* The hits of q->list, as point_from_hit has them. material: theirs */
+WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global const struct ray *rays,
+                                                __global const struct scene_material *material, struct pack_points *q)
+{
+	const packu ray = vload16(0, q->list.item) * 8;
+	struct pack *p = &q->p;
+	packf o[4], d[4];
+	packi behind;
+
+	p->material = material;
+	pack_load(t, 1, 1, &q->list, q->lanes, p);
+	pack_gather_from((__global const float *)rays, ray, o);
+	pack_gather_from((__global const float *)rays, ray + 4, d);
+	q->d = pack_vec(d[0], d[1], d[2]);
+	q->back = pack_scale(pack_normalize(q->d), (packf)(-1));
+	q->t = p->depth;
+	q->t_min = o[3];
+	p->weight[0] = 1.0f - p->b1 - p->b2;
+	p->weight[1] = p->b1;
+	p->weight[2] = p->b2;
+	pack_surface(t, p, &q->surface);
+	pack_measure(&q->surface);
+	behind = pack_dot(q->surface.plane, q->d) > 0.0f;
+	p->front = material->front_face == GL_CW ? behind : ~behind;
+}
+
+/* Textures at hits, as point_texture has them for points without neighbours. */
+WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
+                                                  struct pack_texturing *out)
+{
+	__global const struct scene_material *m = p->material;
+	const packu first = pack_texcoord_first(t, list, m, lanes);
+
+	for (uint i = 0; i < m->unit_count; i++) {
+		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
+		__global const struct texture_image *image = &t->textures[unit->texture];
+		packf c[4] = { 0.0f, 0.0f, 0.0f, 0.0f }, over;
+		packu texel;
+
+		for (int k = 0; k < 3; k++) {
+			packf texcoord[4];
+
+			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord);
+			for (int j = 0; j < 4; j++)
+				c[j] += texcoord[j] * p->weight[k];
+		}
+		over = 1.0f / c[3];
+		if (unit->mag_filter == GL_NEAREST) {
+			const packu at = as_uint16(pack_wrap_nearest(unit->wrap_t, c[1] * over, (int)image->height) * (int)image->width +
+			                           pack_wrap_nearest(unit->wrap_s, c[0] * over, (int)image->width));
+
+			texel = pack_texels(t->texels + image->level_first[0], at);
+		} else {
+			const struct pack_level l = pack_level(image, 0);
+
+			texel = pack_level_8(t, unit, &l, c[0] * over, c[1] * over);
+		}
+		for (int j = 0; j < 4; j++)
+			out->sample[i][j] = convert_float16(texel >> (packu)(8 * j) & 255) * (1.0f / 255.0f);
+	}
+	out->fog = pack_fog(t, p);
+}
+
+/* --- Ways on ------------------------------------------------------------------------------------------------------- */
+
+/* As struct split. */
+struct pack_split {
+	struct pack_vec normal;
+	packf mirrored, through, base, eta, cosine, cosine_beyond;
+};
+
+/* As glass_fresnel. */
+WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *cosine_beyond)
+{
+	const packf k = 1.0f - eta * eta * (1.0f - cosine * cosine);
+	const packi passes = k > 0.0f;
+	const packf beyond = sqrt(select((packf)(0), k, passes));
+	const packf across = (eta * cosine - beyond) / (eta * cosine + beyond), along = (cosine - eta * beyond) / (cosine + eta * beyond);
+
+	*cosine_beyond = beyond;
+	return select((packf)(1), 0.5f * (across * across + along * along), passes);
+}
+
+/* As split_light. d: length as split_light takes it */
+WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct pack_vec d, struct pack_split *s)
+{
+	__global const struct scene_material *m = q->p.material;
+	const float mirrored = clamp01(m->surface.reflect), through = fmin(clamp01(m->surface.transmit), 1.0f - mirrored);
+	packf fresnel = 0.0f;
+
+	s->normal = pack_normal(t, &q->p, &q->surface);
+	s->base = 1.0f - mirrored - through;
+	s->eta = select((packf)(glass_ior(m)), (packf)(1.0f / glass_ior(m)), q->p.front);
+	s->cosine = pack_clamp01(-pack_dot(s->normal, d));
+	s->cosine_beyond = 0.0f;
+	if (through > 0.0f)
+		fresnel = pack_fresnel(s->eta, s->cosine, &s->cosine_beyond);
+	s->mirrored = mirrored + through * fresnel;
+	s->through = through * (1.0f - fresnel);
+}
+
+/* Where the next rays of items are written, so many places each. */
+struct pack_branches {
+	__global struct ray *rays;
+	__global struct path *paths;
+	uint slots;
+	uint count[PACK_SIZE];      /* of each lane, so far */
+	packu target, depth, medium; /* of the paths that end here */
+};
+
+/* As branch_on_side. */
+WIDE_VECTORS static inline struct pack_vec pack_on_side(struct pack_vec d, struct pack_vec plane)
+{
+	const packf into = pack_dot(d, plane);
+
+	return pack_choose(d, pack_normalize(pack_sub(d, pack_scale(plane, 1.001f * into))), into < 0.0f);
+}
+
+/* Rays of some lanes in a direction, as branch and stage_ray have them. */
+WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct pack_vec direction, struct pack_vec weight,
+                                            packu kind, packu medium, struct pack_branches *b)
+{
+	const struct pack_vec o = pack_ray_origin(q->p.weight, &q->surface, direction, q->back);
+	const packf most = fmax(fmax(weight.x, weight.y), weight.z);
+	const packu depth = b->depth + 1;
+
+	for (uint left = lanes & pack_bits(most > PATH_LEAST); left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1), at = q->list.item[lane] * b->slots + b->count[lane]++;
+		__global struct path *path = &b->paths[at];
+
+		vstore8((float8)(LANE(o.x, const float, lane), LANE(o.y, const float, lane), LANE(o.z, const float, lane), 0,
+		                 LANE(direction.x, float, lane), LANE(direction.y, float, lane), LANE(direction.z, float, lane), 1.0e30f),
+		        at, (__global float *)b->rays);
+		path->weight[0] = LANE(weight.x, float, lane);
+		path->weight[1] = LANE(weight.y, float, lane);
+		path->weight[2] = LANE(weight.z, float, lane);
+		path->target = LANE(b->target, uint, lane);
+		path->kind = LANE(kind, uint, lane);
+		path->depth = LANE(depth, const uint, lane);
+		path->medium = LANE(medium, uint, lane);
+	}
+}
+
+/* As branch_mirror. */
+WIDE_VECTORS static inline void pack_branch_mirror(const struct pack_points *q, uint lanes, struct pack_vec d, const struct pack_split *s,
+                                                   struct pack_vec weight, packu kind, struct pack_branches *b)
+{
+	const struct pack_vec away = pack_sub(d, pack_scale(s->normal, 2.0f * pack_dot(s->normal, d))), plane = q->surface.plane;
+	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
+
+	pack_branch(q, lanes, pack_on_side(away, side), weight, kind, b->medium, b);
+}
+
+/* As branch_through. */
+WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, const struct pack_points *q, uint lanes, struct pack_vec d,
+                                                    const struct pack_split *s, struct pack_vec weight, packu kind, struct pack_branches *b)
+{
+	const struct pack_vec on = pack_normalize(pack_add(pack_scale(d, s->eta), pack_scale(s->normal, s->eta * s->cosine - s->cosine_beyond)));
+	const struct pack_vec plane = q->surface.plane;
+	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) < 0.0f);
+	const uint material = (uint)(q->p.material - t->materials);
+
+	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, select((packu)(SCENE_NONE), (packu)(material), q->p.front), b);
+}
+
+/* As glass_tint. from_vertices: as they are lit */
+static inline struct pack_vec pack_tint(const struct tables *t, const struct pack_points *q, const struct pack_texturing *texturing,
+                                        const struct pack_color *from_vertices)
+{
+	const struct pack_color c = pack_albedo(t, &q->list, &q->p, q->lanes, texturing, from_vertices);
+
+	return pack_vec(sqrt(pack_clamp01(c.c[0])), sqrt(pack_clamp01(c.c[1])), sqrt(pack_clamp01(c.c[2])));
+}
+
+WIDE_VECTORS static inline struct pack_vec pack_mul(struct pack_vec a, struct pack_vec b)
+{
+	return pack_vec(a.x * b.x, a.y * b.y, a.z * b.z);
+}

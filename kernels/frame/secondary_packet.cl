@@ -1,0 +1,311 @@
+/*
+ * Paths with SHADE_PACKET items of their lists a work item, for CPUs: sixteen points of one material at once (kernels/frame/pack_hit.h).
+ * What packs do not know goes one by one.
+ */
+#include "kernels/frame/pack_hit.h"
+
+/* --- Which ones ---------------------------------------------------------------------------------------------------- */
+
+/* The hits of a work item. */
+static inline void find_hits(const struct shade_arguments *s, __global const struct hit *hits, uint first, uint n, struct pack_left *left)
+{
+	uint last = SCENE_NONE;
+	int known = 0;
+
+	left->first = first;
+	left->all = left->packed = 0;
+	for (uint i = 0; i < min(SHADE_PACKET, n - first); i++) {
+		const uint instance = hits[first + i].instance;
+		__global const struct geometry *g = &s->tables.geometries[instance];
+
+		left->all |= (ulong)1 << i;
+		left->material[i] = SCENE_NONE;
+		if (instance == SCENE_NONE)
+			continue;
+		if (g->material != last)
+			known = pack_knows_paths(s, &s->tables.materials[g->material]);
+		last = left->material[i] = g->material;
+		if (known && pack_knows_geometry(g))
+			left->packed |= (ulong)1 << i;
+	}
+}
+
+/* The fragments of a work item that light leaves; the others have no paths. */
+static inline void find_leaving(const struct leave_arguments *a, const struct shade_arguments *s, uint first, struct pack_left *left)
+{
+	left->first = first;
+	left->all = left->packed = 0;
+	for (uint i = 0; i < min(SHADE_PACKET, a->n - first); i++) {
+		__global const struct geometry *g = &a->tables.geometries[a->fragments[first + i].instance];
+		__global const struct scene_material *m = &a->tables.materials[g->material];
+
+		a->counts[first + i] = 0;
+		left->material[i] = g->material;
+		if (!(a->shaded[first + i].flags & SHADED_THERE) ||
+		    (a->transport < TRANSPORT_DIFFUSE && !(m->surface.reflect > 0.0f || m->surface.transmit > 0.0f)))
+			continue;
+		left->all |= (ulong)1 << i;
+		if (pack_knows_paths(s, m) && pack_knows_geometry(g))
+			left->packed |= (ulong)1 << i;
+	}
+}
+
+/* --- Rays to lights ------------------------------------------------------------------------------------------------ */
+
+static inline void send_alone(const struct hit_ray_arguments *a, uint item)
+{
+	const struct want_lights_arguments w = {
+		.tables = a->tables, .hits = a->hits, .rays = a->rays, .transport = a->transport, .n = a->n, .wanted = a->wanted,
+	};
+
+	want_lights_item(&w, item);
+	for (uint at = item; at < a->n_rays; at += a->n)
+		hit_ray_item(a, at);
+}
+
+/* @return 0: one of the lights has a size */
+static inline int send_lanes(const struct hit_ray_arguments *a, struct pack_points *q, __global const struct scene_material *m)
+{
+	const uint n_slots = a->n_rays / a->n;
+	struct pack_curve curve;
+	packu lights;
+
+	for (uint slot = 0; slot < min(n_slots, (uint)m->light_count); slot++)
+		if (a->tables.lights[m->light_first + slot].radius > 0.0f)
+			return 0;
+	pack_place_hits(&a->tables, a->rays, m, q);
+	lights = pack_lights(&a->tables, &q->p) & 255;
+	pack_curve_of(&a->tables, &q->p, &curve);
+	for (uint slot = 0; slot < n_slots; slot++) {
+		__global struct ray *rays = a->out + slot * a->n;
+		const uint wanted = q->lanes & pack_bits((lights >> slot & 1) != 0);
+
+		if (wanted)
+			pack_light_rays(&q->p, &q->surface, &curve, q->back, &a->tables.lights[m->light_first + slot], wanted, q->list.item, rays);
+		for (uint left = q->lanes & ~wanted; left; left &= left - 1)
+			stage_no_ray(&rays[q->list.item[popcount((left & -left) - 1)]]);
+	}
+	return 1;
+}
+
+KERNEL_OF(float16) void hit_ray_packet(KERNEL_ARGUMENTS(hit_ray))
+{
+	const uint first = (uint)get_global_id(0) * SHADE_PACKET;
+	const struct hit_ray_arguments a = KERNEL_STRUCT(hit_ray);
+	const struct shade_arguments s = { .tables = a.tables, .transport = transport };
+	struct pack_left left;
+	struct pack_points q;
+	uint item[PACK_SIZE];
+
+	if (first >= n)
+		return;
+	find_hits(&s, hits, first, n, &left);
+	while (left.all) {
+		q.lanes = pack_next(&left, item);
+		for (uint lane = 0; lane < PACK_SIZE && q.lanes; lane++)
+			pack_take_hit(hits, item[lane], lane, &q.list);
+		if (q.lanes && send_lanes(&a, &q, &a.tables.materials[left.material[item[0] - first]]))
+			continue;
+		send_alone(&a, item[0]);
+		for (uint alone = q.lanes & ~1u; alone; alone &= alone - 1)
+			send_alone(&a, item[popcount((alone & -alone) - 1)]);
+	}
+}
+
+/* --- Hits ------------------------------------------------------------------------------------------------------------ */
+
+/* What paths carry. */
+struct way {
+	struct pack_vec weight;
+	packu kind;
+	struct pack_branches branches;
+};
+
+/* The paths of q's lanes. */
+WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, const struct pack_points *q, struct way *way)
+{
+	const packu place = vload16(0, q->list.item) * 7;
+	packf row[4], last[4];
+
+	pack_gather_from((__global const float *)a->paths, place, row);
+	pack_gather_from((__global const float *)a->paths, place + 3, last);
+	way->weight = pack_vec(row[0], row[1], row[2]);
+	way->kind = select(as_uint16(last[1]), (packu)(PATH_REFLECT), as_uint16(last[1]) == PATH_NEAR); /* those of PATH_NEAR that hit */
+	way->branches.rays = a->next_rays;
+	way->branches.paths = a->next_paths;
+	way->branches.slots = PATHS_PER_HIT;
+	way->branches.target = as_uint16(row[3]);
+	way->branches.depth = as_uint16(last[2]);
+	way->branches.medium = as_uint16(last[3]);
+	vstore16((packu)(0), 0, way->branches.count);
+}
+
+/* What the bodies that paths come through leave of them. */
+static inline void absorb(const struct tables *t, const struct pack_points *q, struct way *way)
+{
+	for (uint left = q->lanes & pack_bits(way->branches.medium != SCENE_NONE); left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		const struct vec3 rest = glass_absorb(&t->materials[LANE(way->branches.medium, uint, lane)],
+		                                      LANE(q->t, const float, lane) - LANE(q->t_min, const float, lane));
+
+		LANE(way->weight.x, float, lane) *= rest.x;
+		LANE(way->weight.y, float, lane) *= rest.y;
+		LANE(way->weight.z, float, lane) *= rest.z;
+	}
+}
+
+/* As hit_color. lit: receives the colours as the vertices have them */
+static inline struct pack_vec color_of(const struct shade_arguments *s, const struct pack_points *q, const struct pack_texturing *texturing,
+                                       struct pack_kept *kept, struct pack_color *lit)
+{
+	__global const float *emission = q->p.material->surface.emission;
+	struct pack_color secondary, color, relit;
+	uint dimmed = 0;
+
+	for (uint left = s->n_slots ? q->lanes : 0; left; left &= left - 1)
+		if (stage_dimmed(s->visibility, s->n_slots, s->n, q->list.item[popcount((left & -left) - 1)]))
+			dimmed |= left & -left;
+	pack_lit_from_vertices(&s->tables, &q->p, lit, &secondary);
+	color = pack_finish(&s->tables, &q->p, texturing, lit, &secondary, texturing->fog);
+	if (dimmed) {
+		pack_between_relit(s, &q->list, &q->p, dimmed, kept, &relit, &secondary);
+		relit = pack_finish(&s->tables, &q->p, texturing, &relit, &secondary, texturing->fog);
+		for (int i = 0; i < 3; i++)
+			color.c[i] = select(color.c[i], relit.c[i], pack_mask(dimmed));
+	}
+	return pack_vec(color.c[0] + emission[0], color.c[1] + emission[1], color.c[2] + emission[2]);
+}
+
+static inline void shade_hits(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,
+                              __global const struct scene_material *m, struct pack_kept *kept)
+{
+	struct pack_texturing texturing;
+	struct pack_split split;
+	struct pack_color lit;
+	struct pack_vec out;
+	struct way way;
+	uint on;
+
+	pack_place_hits(&a->tables, a->rays, m, q);
+	load_paths(a, q, &way);
+	pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);
+	out = color_of(s, q, &texturing, kept, &lit);
+	absorb(&a->tables, q, &way);
+	pack_split_light(&a->tables, q, q->d, &split);
+	out = pack_mul(way.weight, pack_scale(out, split.base));
+	on = q->lanes & pack_bits(way.branches.depth < a->depth);
+	if (on && (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f))
+		pack_branch_mirror(q, on, q->d, &split, pack_scale(way.weight, split.mirrored), way.kind, &way.branches);
+	on &= pack_bits(split.through > 0.0f);
+	if (on)
+		pack_branch_through(&a->tables, q, on, q->d, &split,
+		                    pack_mul(pack_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)), way.kind,
+		                    &way.branches);
+	for (uint left = q->lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1), item = q->list.item[lane];
+
+		v3_store(a->radiance + item * 3, v3(LANE(out.x, float, lane), LANE(out.y, float, lane), LANE(out.z, float, lane)));
+		a->counts[item] = way.branches.count[lane];
+	}
+}
+
+KERNEL_OF(float16) void shade_hit_packet(KERNEL_ARGUMENTS(shade_hit))
+{
+	const uint first = (uint)get_global_id(0) * SHADE_PACKET;
+	const struct shade_hit_arguments a = KERNEL_STRUCT(shade_hit);
+	const struct shade_arguments s = {
+		.tables = a.tables, .visibility = visibility, .n_slots = n_slots, .transport = transport, .n = n,
+	};
+	struct pack_left left;
+	struct pack_kept kept;
+	struct pack_points q;
+	uint item[PACK_SIZE];
+
+	if (first >= n)
+		return;
+	for (uint i = 0; i < SHADE_TRIANGLES; i++)
+		kept.lit[i].instance = SCENE_NONE;
+	find_hits(&s, hits, first, n, &left);
+	while (left.all) {
+		q.lanes = pack_next(&left, item);
+		for (uint lane = 0; lane < PACK_SIZE && q.lanes; lane++)
+			pack_take_hit(hits, item[lane], lane, &q.list);
+		if (q.lanes)
+			shade_hits(&a, &s, &q, &a.tables.materials[left.material[item[0] - first]], &kept);
+		else
+			shade_hit_item(&a, item[0]);
+	}
+}
+
+/* --- Fragments ------------------------------------------------------------------------------------------------------- */
+
+static inline void leave_lanes(const struct leave_arguments *a, struct pack_points *q, __global const struct scene_material *m)
+{
+	struct pack_color lit, secondary;
+	struct pack_texturing texturing;
+	struct pack_branches branches;
+	struct pack_split split;
+	struct pack_vec weight;
+	uint through;
+
+	q->p.material = m;
+	q->p.view = &a->views[a->tables.geometries[q->list.instance[0]].view];
+	pack_locate(&a->tables, a->windows, a->width, 1, &q->list, q->lanes, &q->p);
+	pack_surface(&a->tables, &q->p, &q->surface);
+	pack_measure(&q->surface);
+	q->d = pack_normalize(pack_view_direction(&q->p, 1));
+	q->back = pack_scale(pack_normalize(q->d), (packf)(-1));
+	pack_split_light(&a->tables, q, q->d, &split);
+	branches.rays = a->next_rays;
+	branches.paths = a->next_paths;
+	branches.slots = PATHS_PER_FRAGMENT;
+	branches.target = vload16(0, q->list.item);
+	branches.depth = 0;
+	branches.medium = SCENE_NONE;
+	vstore16((packu)(0), 0, branches.count);
+	for (uint left = q->lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		__global struct shaded *s = &a->shaded[q->list.item[lane]];
+		const struct vec3 direct = v3_load(s->direct), mirrored = v3_scale(direct, 1.0f - LANE(split.mirrored, float, lane));
+
+		v3_store(s->mirrored, mirrored);
+		v3_store(s->beauty, v3_sub(mirrored, v3_scale(direct, LANE(split.through, float, lane))));
+	}
+	weight = pack_vec(split.mirrored, split.mirrored, split.mirrored);
+	pack_branch_mirror(q, q->lanes, q->d, &split, weight, (packu)(PATH_REFLECT), &branches);
+	through = q->lanes & pack_bits(split.through > 0.0f);
+	if (through) {
+		pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);
+		pack_lit_from_vertices(&a->tables, &q->p, &lit, &secondary);
+		weight = pack_scale(pack_tint(&a->tables, q, &texturing, &lit), split.through);
+		pack_branch_through(&a->tables, q, through, q->d, &split, weight, (packu)(PATH_REFRACT), &branches);
+	}
+	for (uint left = q->lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		a->counts[q->list.item[lane]] = branches.count[lane];
+	}
+}
+
+KERNEL_OF(float16) void leave_packet(KERNEL_ARGUMENTS(leave))
+{
+	const uint first = (uint)get_global_id(0) * SHADE_PACKET;
+	const struct leave_arguments a = KERNEL_STRUCT(leave);
+	const struct shade_arguments s = { .tables = a.tables, .transport = transport };
+	struct pack_left left;
+	struct pack_points q;
+	uint item[PACK_SIZE];
+
+	if (first >= n)
+		return;
+	find_leaving(&a, &s, first, &left);
+	while (left.all) {
+		q.lanes = pack_next(&left, item);
+		for (uint lane = 0; lane < PACK_SIZE && q.lanes; lane++)
+			pack_take(fragments, pixels, item[lane], lane, &q.list);
+		if (q.lanes)
+			leave_lanes(&a, &q, &a.tables.materials[left.material[item[0] - first]]);
+		else
+			leave_item(&a, item[0]);
+	}
+}
