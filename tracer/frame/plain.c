@@ -104,7 +104,8 @@ int plain_band(struct job *job)
 	const uint32_t n = blocks * PLAIN_WIDTH * PLAIN_ROWS, n_slots = space ? job->prepared.n_light_slots : 0;
 	struct compose_request request;
 	struct plain_launch a;
-	int err = clear_pixel(job);
+	/* The top band comes first; a device that lacks memory may have given all away since. */
+	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.frame.buffer ? 0 : clear_pixel(job);
 
 	if (!err)
 		err = reserve(job, n, n_slots);
