@@ -120,6 +120,7 @@ typedef float element_float;
 	IN(float, visibility) AND()         /* [slot][fragment][3]: how much of a light's light arrives */ \
 	VALUE(uint, n_slots) AND()          /* 0: nobody has asked the lights yet */ \
 	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
+	VALUE(uint, albedo) AND()           /* 0: nobody asks for albedo, which stays 0 */ \
 	VALUE(uint, n) AND()                /* fragments */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \

@@ -309,7 +309,10 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	}
 	if (a->n_slots)
 		return lanes;
-	albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
+	for (int i = 0; i < 3; i++)
+		albedo.c[i] = 0.0f;
+	if (a->albedo)
+		albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
 	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
 	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);

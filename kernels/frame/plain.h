@@ -35,8 +35,8 @@ static inline struct shade_arguments plain_shading(const struct plain_arguments 
 {
 	const struct shade_arguments s = {
 		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
-		.height = a->height, .bits = a->bits, .visibility = a->visibility, .n_slots = n_slots, .transport = TRANSPORT_GL, .n = a->n,
-		.shaded = a->shaded,
+		.height = a->height, .bits = a->bits, .visibility = a->visibility, .n_slots = n_slots, .transport = TRANSPORT_GL,
+		.albedo = a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE, .n = a->n, .shaded = a->shaded,
 	};
 
 	return s;

@@ -301,7 +301,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 		return;
 	color.w *= coverage;
 	v4_store(out->gl, color);
-	color = point_albedo_of(t, &p, &texturing, from_vertices);
+	color = a->albedo ? point_albedo_of(t, &p, &texturing, from_vertices) : v4(0.0f, 0.0f, 0.0f, 0.0f);
 	v3_store(out->albedo, v3(color.x, color.y, color.z));
 	out->depth = f.depth;
 	stage_store_flags(a, &p, from_vertices.lights, group, kind, out);

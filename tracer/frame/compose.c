@@ -37,7 +37,7 @@ static const struct channel {
 };
 #define N_CHANNELS (sizeof(channels) / sizeof(channels[0]))
 
-int compose_wants(const char *aov, const char *group)
+static int has_group(const char *aov, const char *group)
 {
 	size_t n = strlen(group);
 
@@ -51,9 +51,9 @@ int compose_wants(const char *aov, const char *group)
 	return 0;
 }
 
-static const char *wanted(const struct tracer_options *options)
+int compose_asks(const struct tracer_options *options, const char *group)
 {
-	return options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov;
+	return has_group(options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov, group);
 }
 
 /* Which planes are wanted, one behind the other. @param halves, floats  receive how many */
@@ -67,7 +67,7 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
 	*halves = *floats = 0;
 	for (size_t i = 0; i < N_CHANNELS; i++) {
-		if (!compose_wants(wanted(options), channels[i].group))
+		if (!compose_asks(options, channels[i].group))
 			continue;
 		if (channels[i].full)
 			r.float_plane[channels[i].plane] = (*floats)++;
@@ -151,7 +151,7 @@ int compose_start(const struct job *job, uint32_t rows, struct image *img)
 	for (size_t i = 0; i < N_CHANNELS && !err; i++) {
 		const struct channel *c = &channels[i];
 
-		if (!compose_wants(wanted(job->options), c->group))
+		if (!compose_asks(job->options, c->group))
 			continue;
 		if (!(c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name)))
 			err = ERR_SYSTEM;
@@ -176,7 +176,7 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 	int err = 0;
 
 	for (size_t i = 0; i < N_CHANNELS && !err; i++)
-		if (compose_wants(wanted(job->options), channels[i].group))
+		if (compose_asks(job->options, channels[i].group))
 			err = fetch(job, &channels[i], request, image_row(img, n++, row));
 	return err ? err : image_finish_rows(img, row + job->n_rows);
 }

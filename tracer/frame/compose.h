@@ -25,8 +25,8 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
  */
 int compose_band(struct job *job, struct image *img);
 
-/** 1 where the option's list of channel groups holds this one. */
-int compose_wants(const char *aov, const char *group);
+/** 1 where a picture has the channels of a group. */
+int compose_asks(const struct tracer_options *options, const char *group);
 
 /** The names of all channel groups, NULL at the end. */
 extern const char *const compose_groups[];

@@ -5,6 +5,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "kernels/gl/pixel.h"
+#include "tracer/frame/compose.h"
 #include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
 
@@ -180,10 +181,13 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
+	const uint32_t transport = secondary_transport(job->options);
+	const uint32_t albedo = transport >= TRANSPORT_DIFFUSE || (job->image && compose_asks(job->options, "albedo"));
 	const struct shade_launch *a =
 		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
 		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
-		       .n_slots = slots, .transport = secondary_transport(job->options), .n = n, .shaded = b->shaded);
+		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n,
+		       .shaded = b->shaded);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS)
 		return launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
