@@ -252,6 +252,7 @@ DEPS_metrics := python3-venv
 DEPS_oclgrind := oclgrind valgrind
 DEPS_page := chromium
 DEPS_sandbox := strace
+DEPS_relit := extremetuxracer $(DEPS_parity)
 DEPS_thesis := povray blender python3-numpy
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays

@@ -1,13 +1,19 @@
 #!/usr/bin/python3
 """tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the beauty without rules, and as
 the beauty under the rules that `relume look` finds, side by side in BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no
-frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties."""
+frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties. Then the same of real
+programs, with what was seen when they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
 import json
 import pathlib
 import resource
 import subprocess
 import sys
 import tempfile
+
+import programs
+import sheet as real
+import unseen
+from display import need_display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAMS = {**{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "directional", "zpass", "zfail", "mirror")},
@@ -61,7 +67,25 @@ def cost(build, trace, folder):
     return frame[1] / max(frame[0], 1e-3)
 
 
+def judge(build, only):
+    """Rows of real programs."""
+    rows, verdicts = [], {}
+    for program in real.all_programs():
+        if only and program.name not in only:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            row, verdicts[program.name] = real.row(build, program, pathlib.Path(folder))
+        rows.append(row)
+    if not only:
+        better = sum(verdicts[program.name] == "better" for program in programs.OPEN)
+        rows.append({"what": "programs of the open set that are better relit", "figure": f"{better} of {len(programs.OPEN)}", "bar": real.BETTER,
+                     "peer": None, "passed": better >= real.BETTER})
+        print(f"better relit: {better} of {len(programs.OPEN)} (bar: {real.BETTER})", flush=True)
+    return rows
+
+
 def main(build, only):
+    need_display()
     rows, bad, out = [], 0, build / "show/relit"
     out.mkdir(parents=True, exist_ok=True)
     for name, program in PROGRAMS.items():
@@ -85,9 +109,17 @@ def main(build, only):
                      "passed": times <= COST})
         bad += times > COST
         print(f"{name}: gate N {harm}, gate R1 {raster}; {times:.2f} times the cost (bar: {COST}); look at {out}/{name}.png", flush=True)
+    if not only or "unseen" in only:
+        with tempfile.TemporaryDirectory() as folder:
+            for row in unseen.rows(build, pathlib.Path(folder)):
+                rows.append(row)
+                bad += not row["passed"]
+    for row in judge(build, only):
+        rows.append(row)
+        bad += not row["passed"]
     (build / "show/relit.json").write_text(json.dumps({"name": "relit", "command": "make show-relit", "rows": rows}, indent=1))
     return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]), sys.argv[2:]))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]))
