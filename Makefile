@@ -32,7 +32,7 @@ RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/for
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
-COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format film scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
@@ -232,7 +232,7 @@ demo:
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
-	sweep sweep-record thesis
+	film sweep sweep-record thesis
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)
 
@@ -246,6 +246,7 @@ DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-cli
 DEPS_sweep-record := $(DEPS_sweep)
 DEPS_crashes := extremetuxracer foobillardplus
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
+DEPS_film := ffmpeg chromium
 DEPS_export := blender python3-numpy
 DEPS_look := python3-yaml
 DEPS_metrics := python3-venv

@@ -214,6 +214,18 @@ int options_text(const struct options_row *row, const char *value, void *out)
 	return row->words && find_word(row, value) < 0 ? ERR_USAGE : 0;
 }
 
+int options_real(const struct options_row *row, const char *value, void *out)
+{
+	float *number = out;
+	char *end;
+
+	*number = strtof(value, &end);
+	if (end == value || *end || !(*number >= row->low && *number <= row->high))
+		return err_report(ERR_USAGE, NULL, "--%s takes a number from %g to %g, not '%s'", row->name, (double)row->low, (double)row->high,
+		                  value);
+	return 0;
+}
+
 int options_word(const struct options_row *row, const char *value, void *out)
 {
 	const int i = find_word(row, value);

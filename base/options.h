@@ -33,6 +33,7 @@ struct options_row {
 	int (*set)(const struct options_row *row, const char *value, void *out);
 	size_t at;
 	unsigned most;            /* options_number: the largest value */
+	float low, high;          /* options_real: the least and the largest value */
 	const char *const *words; /* options_word, options_text: what may be said, ended by NULL */
 	int is_required;
 	int kind;                 /* the verb's own */
@@ -90,6 +91,7 @@ int options_text(const struct options_row *row, const char *value, void *out);  
 int options_flag(const struct options_row *row, const char *value, void *out);   /* int: 1 */
 int options_clear(const struct options_row *row, const char *value, void *out);  /* int: 0 */
 int options_number(const struct options_row *row, const char *value, void *out); /* unsigned, 0 to `most` */
+int options_real(const struct options_row *row, const char *value, void *out);   /* float, `low` to `high` */
 int options_word(const struct options_row *row, const char *value, void *out);   /* int or enum: place in `words` */
 int options_bytes(const struct options_row *row, const char *value, void *out);  /* uint64_t, "800M" */
 int options_frame(const struct options_row *row, const char *value, void *out);  /* uint64_t */

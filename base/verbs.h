@@ -22,5 +22,6 @@ int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* render/devices.c */
 int bench_main(int argc, char **argv);   /* render/bench/bench.c */
 int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
+int film_main(int argc, char **argv);    /* film/film.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
 /* relume diff also takes what it must not know: diff/diff.h. */

@@ -1,6 +1,7 @@
 /* relume diff: score traced frames against their references, or any two sets of images. */
 #include "diff/diff.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@
 #define MAX_ASKED 1000000
 
 struct options {
-	const char *reference, *traced, *report, *json, *junit, *config, *baseline;
+	const char *reference, *traced, *report, *film, *json, *junit, *config, *baseline;
 	int annotations;
 	struct frame_list frames;
 	struct score_options score;
@@ -87,6 +88,8 @@ static const struct options_row rows[] = {
 	{ "yee", 0, NULL, "measure Yee's metric as well, which is slow", want_yee, .at = offsetof(struct options, score) },
 	{ "report", 0, "DIR", "DIR/index.html, one file with all pictures in it, and DIR/sheet.png, a contact sheet",
 	  options_text, .at = offsetof(struct options, report), .use = CONFINE_FILLS },
+	{ "film", 0, "FILM", "a film of 'relume film' that the report's page plays; it becomes part of the page",
+	  options_text, .at = offsetof(struct options, film), .use = CONFINE_READS },
 	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of the table",
 	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
 	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
@@ -121,6 +124,10 @@ static int parse_options(int argc, char **argv, struct options *o, struct option
 		return err;
 	if (line->n_words == 1 && !o->baseline)
 		return options_misuse(&table);
+	if (o->film && !o->report)
+		return err_report(ERR_USAGE, NULL, "--film is for the page of --report DIR");
+	if (o->film && access(o->film, R_OK) != 0)
+		return err_report(ERR_INPUT, o->film, "%s", strerror(errno));
 	o->reference = line->n_words == 2 ? line->words[0] : NULL;
 	o->traced = line->words[line->n_words - 1];
 	return 0;
@@ -464,6 +471,7 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 	run.baseline = o.baseline;
 	run.name = name;
 	run.command = command;
+	run.film = o.film;
 	run.options = &o.score;
 	run.settings = settings;
 

@@ -259,6 +259,12 @@ static unsigned packer_count(struct pipeline_state *state)
 	return cores > (long)in_flight ? (unsigned)cores / in_flight : 1;
 }
 
+/* When the program showed the frame, as relume film wants to know. */
+static int tell_time(const struct scene *scene, struct image *img)
+{
+	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
+}
+
 static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
 {
 	double start = progress_clock_s();
@@ -274,6 +280,8 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
 	picture->img.packers = w->state->p->display ? 0 : packer_count(w->state); /* display pictures need the whole planes */
 	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
+	if (!err)
+		err = tell_time(scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->seconds = progress_clock_s() - start;
 	if (!err)
@@ -404,6 +412,9 @@ static int write_picture(struct pipeline_state *state, struct picture *picture)
 	char path[MAX_PATH_BYTES];
 	int err = stamp_image(&state->p->stamp, &picture->img);
 
+	/* how relume film shows it */
+	if (!err && !state->p->display && state->p->settings->display.white > 1)
+		err = image_set_attribute(&picture->img, "relume:white", "%g", (double)state->p->settings->display.white);
 	/* says which channels were left out on purpose */
 	if (!err && state->p->settings->tracer.aov && !state->p->display)
 		err = image_set_attribute(&picture->img, "relume:aov", "%s", state->p->settings->tracer.aov);

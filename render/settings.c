@@ -1,7 +1,6 @@
 #include "render/settings.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,28 +56,6 @@ static int take_seconds(const struct options_row *row, const char *value, void *
 	*seconds = strtod(value, &end);
 	if (end == value || *end || !(*seconds > 0) || *seconds > 1e9)
 		return err_report(ERR_USAGE, NULL, "--%s takes seconds, not '%s'", row->name, value);
-	return 0;
-}
-
-static int take_exposure(const struct options_row *row, const char *value, void *out)
-{
-	float *stops = out;
-	char *end;
-
-	*stops = strtof(value, &end);
-	if (end == value || *end || !(fabsf(*stops) <= 30))
-		return err_report(ERR_USAGE, NULL, "--%s takes stops from -30 to 30, not '%s'", row->name, value);
-	return 0;
-}
-
-static int take_white(const struct options_row *row, const char *value, void *out)
-{
-	float *white = out;
-	char *end;
-
-	*white = strtof(value, &end);
-	if (end == value || *end || !(*white >= 1) || *white > 1e4f)
-		return err_report(ERR_USAGE, NULL, "--%s takes a brightness from 1 to 10000, not '%s'", row->name, value);
 	return 0;
 }
 
@@ -158,9 +135,9 @@ static const struct options_row rows[] = {
 	{ "relight", 0, NULL, "light pixels (Phong) instead of vertices; channel relight holds the difference",
 	  options_flag, AT(tracer.relight) },
 	{ .help = "Pictures to look at (.png, .jpg; sRGB, dithered but in mode gl):" },
-	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", take_exposure, AT(display.exposure) },
+	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", options_real, AT(display.exposure), .low = -30, .high = 30 },
 	{ "white", 0, "X", "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks as it "
-	  "did; 4 in the modes diffuse and path)", take_white, AT(display.white) },
+	  "did; 4 in the modes diffuse and path)", options_real, AT(display.white), .low = 1, .high = 10000 },
 	{ .help = "On what:" },
 	{ "device", 0, "LIST", "devices that share the frames, by number, type or part of the name as 'relume devices' lists them, "
 	  "with commas; \"all\"; \"reference\": no OpenCL (default: the first GPU, else CPU)", options_text, AT(device), .kind = RUN },

@@ -335,6 +335,7 @@ struct scene {
 	struct scene_dome dome;
 	uint32_t kd_tree; /* 1: of what drew here, some program has called rtBuildKdTreeEXT before */
 	uint32_t n_draws;
+	uint64_t time_ns; /* when the program ended the frame, by a clock that never runs backwards; 0: the recording does not tell */
 	/* 1: something was drawn, or looked at, before the whole buffer was cleared: `start` shows through where nothing covers it */
 	uint32_t needs_previous;
 	uint32_t keeps_depth; /* 1: depth may be that of frames before; what looks at it sets needs_previous, too */

@@ -14,6 +14,7 @@ struct output_run {
 	const char *baseline;           /* folder of approved frames, NULL: none */
 	const char *name;               /* of the recording, as configurations match it */
 	const char *command;            /* the command line that made this */
+	const char *film;               /* a file of 'relume film' for the page to play; NULL: none */
 	const struct score_options *options; /* of the command line */
 	const struct score_rules *settings;     /* NULL: none */
 	struct score *scores;           /* sorted by frame */

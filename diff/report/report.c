@@ -1,9 +1,11 @@
 #include "diff/report/report.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/err.h"
 #include "base/folder.h"
@@ -234,6 +236,25 @@ fail:
 	return err;
 }
 
+/* The film that goes with the frames, as the page plays it. */
+static int write_film(const char *path, FILE *out)
+{
+	const size_t n = strlen(path);
+	const char *kind = n > 4 && strcasecmp(path + n - 4, ".mp4") == 0 ? "mp4" : "webm";
+	uint8_t piece[3 * 4096]; /* whole groups of base64 */
+	FILE *film = fopen(path, "rb");
+	size_t got;
+
+	if (!film)
+		return err_report(ERR_INPUT, path, "%s", strerror(errno));
+	fprintf(out, "<script type=\"application/json\" id=\"film\">\"data:video/%s;base64,", kind);
+	while ((got = fread(piece, 1, sizeof(piece), film)))
+		write_base64(piece, got, out);
+	fputs("\"</script>\n", out);
+	fclose(film);
+	return 0;
+}
+
 static int write_page(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
 {
 	const char *marker = strstr(report_page, DATA_MARKER), *place = strstr(marker, PICTURES_MARKER), *rest;
@@ -249,6 +270,8 @@ static int write_page(const struct output_run *run, struct set *ref, struct set 
 	rest = marker + strlen(DATA_MARKER);
 	fwrite(rest, 1, (size_t)(place - rest), file.stream);
 	err = write_all_pictures(run, ref, traced, file.stream);
+	if (!err && run->film)
+		err = write_film(run->film, file.stream);
 	fputs(place + strlen(PICTURES_MARKER), file.stream);
 	return part_close(&file, err);
 }

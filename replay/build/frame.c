@@ -325,6 +325,7 @@ static void describe(struct gls_exec *x, const struct gls_surface *surface, stru
 	struct scene *s = f->out;
 
 	s->frame = x->frame;
+	s->time_ns = x->time_ns;
 	s->serial = f->serial;
 	s->n_primitives = f->next_primitive;
 	s->n_draws = f->next_draw - 1;

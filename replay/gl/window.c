@@ -169,6 +169,8 @@ GLS_HANDLER(glStringMarkerGREMEDY, INSIDE)
 	text[n] = 0;
 	if (strncmp(text, "relume:material ", 16) == 0)
 		set_surface(x, st, text + 16);
+	if (strncmp(text, "relume:time ", 12) == 0)
+		x->time_ns = strtoull(text + 12, NULL, 10);
 	if (strcmp(text, "relume:kdtree") == 0)
 		st->kd_tree = 1;
 	/* One comes with every frame of some programs, and sscanf measures the text before it looks at it. */

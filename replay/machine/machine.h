@@ -82,6 +82,7 @@ struct gls_exec {
 	int want;            /* 1: build scenes */
 	int failed;          /* ERR_*: we failed (errors.h) */
 	uint64_t frame;      /* being executed */
+	uint64_t time_ns;    /* when it ended, as the recorder says; 0: not known */
 	int frame_ended;     /* set by swaps */
 	int is_ours;         /* 1: our recorder has left its mark */
 

@@ -1,0 +1,110 @@
+#!/usr/bin/python3
+"""relume film: which pictures it gives to ffmpeg, how long each stands, and the page that plays the film.
+
+A program named ffmpeg keeps the pictures as they come; `make show-film` runs the real one.
+"""
+import os
+
+import numpy
+
+from helpers import SCRATCH, check, corpus, finish, must, record, relume, run
+
+bin_dir = SCRATCH / "bin"
+bin_dir.mkdir()
+(bin_dir / "ffmpeg").write_text("""#!/usr/bin/python3
+import shutil, sys
+assert "pipe:0" in sys.argv
+if "broken" in sys.argv[-1]:
+    sys.exit("no such encoder")
+with open(sys.argv[-1], "wb") as out:
+    out.write((sys.argv[sys.argv.index("-s") + 1] + " " + sys.argv[sys.argv.index("-r") + 1] + "\\n").encode())
+    shutil.copyfileobj(sys.stdin.buffer, out)
+""")
+(bin_dir / "ffmpeg").chmod(0o755)
+fake = dict(os.environ, PATH=f"{bin_dir}:{os.environ['PATH']}")
+
+trace = SCRATCH / "still.trace"
+frames, chunks, pngs = SCRATCH / "frames", SCRATCH / "chunks", SCRATCH / "pngs"
+record(trace, corpus("still_life"), "--frames", "4", options=("--ref", "color"))
+must(relume("render", trace, "-o", frames / "s.####.exr"))
+must(relume("render", trace, "-o", pngs / "s.####.png"))
+for i in (1, 2, 3, 4):
+    must(relume("render", trace, "-o", chunks / "s.####.exr", "--chunk", f"{i}/4"))
+
+
+def film(name, *options, of=frames, code=0, env=fake):
+    """Make one; return its pictures and their rate."""
+    done = relume("film", of, "-o", SCRATCH / name, *options, env=env)
+    check(done.returncode == code, f"film {name} {options}: exit code {done.returncode} and not {code}: {done.stderr}")
+    if code:
+        left = [p.name for p in SCRATCH.glob(f"{name}*")]
+        check(not left, f"nothing is left of it: {left}")
+        return done.stderr
+    head, data = (SCRATCH / name).read_bytes().split(b"\n", 1)
+    size, rate = head.decode().split()
+    width, height = map(int, size.split("x"))
+    return numpy.frombuffer(data, numpy.uint8).reshape(-1, height, width, 3), int(rate)
+
+
+def codes(picture):
+    raw = SCRATCH / "codes.ppm"
+    must(run("oiiotool", picture, "--ch", "R,G,B", "-d", "uint8", "-o", raw))
+    _, size, _, data = raw.read_bytes().split(b"\n", 3)
+    width, height = map(int, size.split())
+    return numpy.frombuffer(data, numpy.uint8).reshape(height, width, 3)
+
+
+# Side by side: what the program showed, and the display picture that render makes.
+must(relume("raster", trace, "-f", "1", "-o", SCRATCH / "raster.####.png"))
+shown, traced = codes(SCRATCH / "raster.0001.png"), codes(pngs / "s.0001.png")
+height, width, _ = shown.shape
+pictures, rate = film("plain.webm", "--fps", "25", "--no-labels")
+check(rate == 25 and pictures.shape == (4, height, 2 * width + 4, 3), f"four pictures at 25 a second: {rate}, {pictures.shape}")
+check((pictures[1, :, :width] != shown).mean() < 0.001, "on the left what the program showed")
+check((pictures[1, :, width + 4:] == traced).all(), "on the right what render shows")
+check((pictures[:, :, width:width + 4] == 0).all(), "a gap between them")
+again, _ = film("chunks.webm", "--fps", "25", "--no-labels", of=chunks)
+check((again == pictures).all(), "frames rendered in four chunks give the same film")
+
+# One alone, of some frames; both in turns; a line that moves.
+pictures, _ = film("traced.mp4", "--fps", "10", "--no-labels", "--layout", "traced", "-f", "1-2")
+check(len(pictures) == 2 and (pictures[0] == traced).all(), "traced alone")
+pictures, _ = film("raster.mkv", "--fps", "10", "--no-labels", "--layout", "raster", "--raster", trace, of=pngs)
+check(len(pictures) == 4 and (pictures[1] == shown).mean() > 0.999, "PNG frames, beside the recorded reference")
+pictures, _ = film("turns.webm", "--fps", "1", "--no-labels", "--layout", "alternate")
+kinds = [(numpy.abs(p.astype(int) - shown).mean() < numpy.abs(p.astype(int) - traced).mean()) for p in pictures]
+check(set(kinds) == {True, False}, f"alternating: {kinds}")
+pictures, _ = film("wipe.webm", "--fps", "4", "--no-labels", "--layout", "wipe")
+lines = [int((p == 255).all(axis=(0, 2)).argmax()) for p in pictures]
+check(len(set(lines)) == 4 and abs(lines[0] - width // 2) < 4, f"the line moves from the middle: {lines}")
+
+# Labels stand in a strip below the pictures.
+pictures, _ = film("labels.webm", "--fps", "25", "--caption", "a still life")
+strip = pictures[0, height:]
+check(pictures.shape[1] > height and strip[:, :200].max() > 200 and strip[:, width + 4:width + 200].max() > 200, "labels")
+check((pictures[1, :height, width + 4:] == traced).all(), "they cover nothing")
+check((SCRATCH / "labels.jpg").stat().st_size > 10000, "a poster")
+
+# Without --fps a frame stands as long as the program showed it: the recording's times.
+pictures, rate = film("times.webm", "--no-labels", "--layout", "raster")
+times = [int(line.split()[1]) for p in sorted(frames.glob("*.exr"))
+         for line in must(run("oiiotool", "--info", "-v", p)).stdout.replace('"', "").splitlines() if "relume:time" in line]
+gaps = [min(b - a, 2e9) / 1e9 for a, b in zip(times, times[1:])]
+check(len(times) == 4 and rate == 30, f"times are known: {times}, {rate}")
+check(len(pictures) == round(30 * (sum(gaps) + gaps[-1])), f"{len(pictures)} pictures for {gaps}")
+
+# What cannot be.
+check("ffmpeg" in film("none.webm", code=5, env=dict(fake, PATH="/nowhere")), "without ffmpeg: its package is named")
+check("ffmpeg" in film("broken.webm", code=5), "an ffmpeg that fails")
+said = film("film.avi", code=2)
+check(all(kind in said for kind in (".webm", ".mp4", ".mkv")), f"the known endings are told: {said}")
+check("--raster" in film("gl.webm", of=pngs, code=3), "PNG frames hold no raster picture")
+check("none of the frames" in film("far.webm", "-f", "77", code=3), "no such frame")
+
+# The report plays it.
+done = relume("diff", trace, frames, "--report", SCRATCH / "report", "--film", SCRATCH / "plain.webm")
+page = (SCRATCH / "report/index.html").read_text()
+check(done.returncode == 0 and page.count('id="film">"data:video/webm;base64,') == 1, f"a page with a film: {done.stderr}")
+check(relume("diff", trace, frames, "--film", SCRATCH / "plain.webm").returncode == 2, "without a page there is no film")
+check(relume("diff", trace, frames, "--report", SCRATCH / "none", "--film", SCRATCH / "none.webm").returncode == 3, "no such film")
+finish()
