@@ -228,6 +228,11 @@ check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$
 demo:
 	@corpus/demo.sh $(BUILD)
 
+# The picture at the head of README.md.
+DEPS_picture := ffmpeg
+picture: all $(BUILD)/deps.picture
+	@corpus/picture.sh $(BUILD)
+
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
@@ -382,7 +387,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
+.PHONY: picture all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
