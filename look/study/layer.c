@@ -178,6 +178,15 @@ static int is_within(const struct box *b)
 	return size > 0;
 }
 
+/* 1 where the world has the same thing at the same place: the draw is a pass of it. */
+static int is_in_world(const struct scene *s, const struct scene_instance *in, uint32_t end)
+{
+	for (uint32_t i = end; i < s->n_instances; i++)
+		if (s->instances[i].mesh == in->mesh && memcmp(s->instances[i].modelview, in->modelview, sizeof(in->modelview)) == 0)
+			return 1;
+	return 0;
+}
+
 void layer_find(const struct scene *s, uint8_t *out)
 {
 	const uint32_t end = find_end(s);
@@ -188,7 +197,7 @@ void layer_find(const struct scene *s, uint8_t *out)
 		const struct scene_instance *in = &s->instances[i];
 		struct box box = all;
 
-		if (!is_painted(s, in))
+		if (!is_painted(s, in) || is_in_world(s, in, end))
 			continue;
 		if (look_is_parallel(&s->views[in->view])) {
 			out[i] = covers_window(s, in) ? LAYER_SKY : LAYER_WORLD;

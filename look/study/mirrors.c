@@ -39,12 +39,24 @@ static int read_reflection(const double m[16], double plane[4])
 	return 1;
 }
 
+/* 1 where a texture lets nothing through, and leaves alpha as it is. */
+static int is_opaque(const struct scene *s, const struct scene_unit *u)
+{
+	const struct scene_texture *t = s->textures[u->texture];
+
+	for (size_t i = 0; i < (size_t)t->width * t->height; i++)
+		if (t->floats || t->texels[4 * i + 3] != 255)
+			return 0;
+	return u->env_mode == GL_MODULATE || u->env_mode == GL_DECAL;
+}
+
 /* The share of what lies behind that a draw lets through. */
 static double share_behind(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
 
-	if (!m->blend || m->blend_src_rgb != GL_SRC_ALPHA || m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA || m->unit_count)
+	if (!m->blend || m->blend_src_rgb != GL_SRC_ALPHA || m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA || m->unit_count > 1 ||
+	    (m->unit_count && !is_opaque(s, &s->units[m->unit_first])))
 		return 0;
 	if (m->lighting)
 		return 1 - fmin(1, fmax(0, (double)m->front.diffuse[3]));
@@ -63,6 +75,7 @@ static void find_surface(struct trick_found *f, const struct scene *s, uint32_t 
 		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || !plane_holds(s, in, here))
 			continue;
 		f->shows = share_behind(s, in);
+		f->surface_stencil = s->materials[in->material].stencil_test != 0;
 	}
 }
 

@@ -86,6 +86,7 @@ static void study_flat(struct tricks *t, const struct scene *s, const struct pai
 		matrix_mul(from_upright, shadow, inverse);
 		if (!read_matrix(from_upright, what.light, what.plane))
 			continue;
+		what.stencil = !(s->materials[s->instances[flat].material].color_mask & 7);
 		what.has_opengl_light = tricks_opengl_lights(s, what.light, what.plane);
 		into_world(motion_now(motion), what.light, what.plane);
 		tricks_note(t, &what, motion->n_frames);
@@ -105,7 +106,7 @@ int shadows_add(struct tricks *t, const struct scene *s, const struct motion *mo
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_material *m = &s->materials[in->material];
 
-		if (s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && (m->color_mask & 7) && !m->lighting &&
+		if (s->meshes[in->mesh]->kind == SCENE_TRIANGLES && !in->rectangle && (m->color_mask & 7 ? !m->lighting : m->stencil_test) &&
 		    modelview_kind_of(in->modelview) == MODELVIEW_SINGULAR)
 			study_flat(t, s, &pairs, i, motion);
 	}

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "look/modelview.h"
+#include "look/solid.h"
 #include "look/study/matrix.h"
 
 /* The same light or plane, said twice: lights of one level are farther from each other. */
@@ -81,6 +82,16 @@ struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said
 	return f;
 }
 
+int tricks_is_outvoted(const struct tricks *t, unsigned i)
+{
+	const struct trick_found *f = &t->found[i];
+
+	for (unsigned k = 0; k < t->n && f->kind == TRICK_PLANAR_SHADOW; k++)
+		if (t->found[k].kind == f->kind && t->found[k].votes > 4 * f->votes && planes_apart(t->found[k].plane, f->plane) < SAME)
+			return 1;
+	return 0;
+}
+
 /* 1 where a material is lit by a light of OpenGL's at a place of eye space. */
 static int is_lit_from(const struct scene *s, const struct scene_material *m, const double eye[4])
 {
@@ -124,8 +135,7 @@ int tricks_opengl_lights(const struct scene *s, const double light[4], const dou
 		const struct scene_instance *in = &s->instances[i];
 		const struct scene_material *m = &s->materials[in->material];
 
-		if (s->meshes[in->mesh]->kind != SCENE_TRIANGLES || in->rectangle || !m->depth_test || !m->depth_write || !(m->color_mask & 7) ||
-		    m->blend || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || (plane && !touches(s, in, plane)))
+		if (!solid_is(s, in) || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || (plane && !touches(s, in, plane)))
 			continue;
 		all++;
 		lit += (uint32_t)is_lit_from(s, m, light);

@@ -22,7 +22,8 @@ struct trick_found {
 	uint64_t last;   /* number of the frame that said so last, counted from 1 */
 	unsigned frames;
 	int has_opengl_light; /* a light of OpenGL's is there, and lights most of what the shadows fall on */
-	int stencil;     /* of a mirror: its picture was drawn through the stencil buffer */
+	int stencil;     /* of a mirror: its picture was drawn through the stencil buffer; of a planar shadow: it was drawn there alone */
+	int surface_stencil; /* of a mirror: the surface over its picture was drawn through the stencil buffer */
 	double shows;    /* of a mirror: the share of its picture that the surface drawn over it let through; 0: none was found */
 };
 
@@ -35,6 +36,12 @@ struct tricks {
 
 /** A finding to be noted, or added to what it equals: a mirror also to one of the turned plane. @return NULL: there are too many */
 struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said, uint64_t frame);
+
+/**
+ * 1 for a shadow that few say beside another of the same plane: a mesh that stands in many places is flattened from one of them, and
+ * the others say false lights.
+ */
+int tricks_is_outvoted(const struct tricks *t, unsigned i);
 
 /**
  * 1 where most of what is drawn (at a plane, or at all where it is NULL) is lit by a light of OpenGL's at this place: traced shadows of

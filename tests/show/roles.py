@@ -1,10 +1,16 @@
 """Roles that `relume look` gives to draws, beside labels written by hand (tests/look/labels.yaml): precision and recall per role."""
 import collections
 import json
+import os
 import pathlib
+import re
+import shutil
 import subprocess
+import sys
 
 import numpy
+import programs
+import recording
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -102,17 +108,37 @@ def run(*args):
     return subprocess.run([str(a) for a in args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout
 
 
-def compare(entry, build, work):
-    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is plain world."""
-    trace = SHARED / f"{entry['trace']}.trace" if "trace" in entry else work / "labelled.trace"
+def trace_of(entry, build, work):
+    """The recording that an entry of the labels is about, made where it is not there; None: it cannot be had."""
+    if "trace" in entry:
+        trace = SHARED / f"{entry['trace']}.trace"
+        return trace if trace.exists() else None
     if "record" in entry:
         program, *options = entry["record"]
-        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", build / "corpus" / program, *options)
+        run(ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", work / "labelled.trace", "--", build / "corpus" / program, *options)
+        return work / "labelled.trace"
+    known = {p.name: p for p in programs.OPEN}
+    program = known.get(entry["program"]) or programs.xscreensaver(entry["program"])
+    if not shutil.which(program.command[0], path=f"{os.environ['PATH']}:/usr/games:/usr/libexec/xscreensaver"):
+        return None
+    folder = work / program.name
+    script = f"import pathlib, programs, recording; recording.record({str(build / 'relume')!r}, {program!r}, pathlib.Path({str(folder)!r}))"
+    script = script.replace("Program(", "programs.Program(", 1)
+    subprocess.run([ROOT / "tests/xvfb.sh", sys.executable, "-c", script], stdin=subprocess.DEVNULL, capture_output=True, check=True,
+                   cwd=ROOT / "tests/show", env=dict(os.environ, PATH=f"{os.environ['PATH']}:/usr/games:/usr/libexec/xscreensaver"))
+    return recording.find(folder)
+
+
+def compare(entry, trace, build, work):
+    """(role, what it is) for each draw of the labelled frame: what is found and what the label says, None where it is plain world."""
     rules = work / "labelled.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
     found_rules = yaml.safe_load(rules.read_text())
     rules = found_rules["surfaces"]
-    scene = json.loads(run(build / "relume", "scene", trace, "-f", entry["frame"], "--json", "--vertices"))
+    frame = entry["frame"]
+    if frame == "last": # of a program that is played by hand, so to speak: which frame it is depends on the machine
+        frame = int(re.search(r"^frames +(\d+)", run(build / "relume", "info", trace), re.M)[1]) - 2
+    scene = json.loads(run(build / "relume", "scene", trace, "-f", frame, "--json", "--vertices"))
     camera = camera_of(scene, found_rules.get("world") or [])
     for instance in scene["instances"]:
         if not scene["materials"][instance["material"]]["color_mask"] & 7:
@@ -131,11 +157,12 @@ def score(build, work, row):
     """Print a row for the precision and for the recall of each role; row(what, figure, bar, passed)."""
     counts = collections.defaultdict(lambda: [0, 0, 0]) # right, found, labelled
     for entry in yaml.safe_load((ROOT / "tests/look/labels.yaml").read_text()):
-        name = entry.get("trace") or " ".join(str(x) for x in entry["record"][:2])
-        if "trace" in entry and not (SHARED / f"{name}.trace").exists():
+        name = entry.get("trace") or entry.get("program") or " ".join(str(x) for x in entry["record"][:2])
+        trace = trace_of(entry, build, work)
+        if not trace:
             print(f"{name}: not there, not compared", flush=True)
             continue
-        seen = collections.Counter(compare(entry, build, work))
+        seen = collections.Counter(compare(entry, trace, build, work))
         print(f"{name}: " + ("; ".join(f"{n} draws are {label or 'world'}, found {found or 'world'}" for (found, label), n in sorted(seen.items(), key=str)
                                        if found or label) or "no roles, none found"), flush=True)
         for (found, label), n in seen.items():
