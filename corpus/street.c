@@ -4,7 +4,8 @@
  *
  *   cc -o street corpus/street.c -lglut -lGLU -lGL -lm
  *
- * --by unlit draws it without OpenGL's lights, --by plain with neither blob nor mark.
+ * --by unlit draws it without OpenGL's lights, --by plain with neither blob nor mark, --by thrown with the blob as a texture unit of the
+ * ground, whose coordinates come of places.
  */
 #include <math.h>
 
@@ -95,6 +96,43 @@ static void draw_ground(int texture, float x, float z, float half, float repeat)
 	glTexCoord2f(repeat, repeat); glVertex3f(x + half, 0, z - half);
 	glTexCoord2f(0, repeat); glVertex3f(x - half, 0, z - half);
 	glEnd();
+}
+
+/** The ground with the ball's blob in its first unit, its own texture in the next. */
+static void draw_ground_under(float ball)
+{
+	const GLenum coords[2] = { GL_S, GL_T };
+
+	glActiveTexture(GL_TEXTURE1);
+	glEnable(GL_TEXTURE_2D);
+	glBindTexture(GL_TEXTURE_2D, textures[ROAD]);
+	glActiveTexture(GL_TEXTURE0);
+	glBindTexture(GL_TEXTURE_2D, textures[BLOB]);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
+	glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
+	glTexEnvi(GL_TEXTURE_ENV, GL_SOURCE0_RGB, GL_PREVIOUS);
+	glTexEnvi(GL_TEXTURE_ENV, GL_SOURCE1_RGB, GL_TEXTURE);
+	glTexEnvi(GL_TEXTURE_ENV, GL_OPERAND1_RGB, GL_ONE_MINUS_SRC_ALPHA);
+	for (int i = 0; i < 2; i++) {
+		const float plane[4] = { i ? 0 : 1 / 1.6f, 0, i ? 1 / 1.6f : 0, i ? 0.5f + 4 / 1.6f : 0.5f - ball / 1.6f };
+
+		glTexGeni(coords[i], GL_TEXTURE_GEN_MODE, GL_OBJECT_LINEAR);
+		glTexGenfv(coords[i], GL_OBJECT_PLANE, plane);
+		glEnable(i ? GL_TEXTURE_GEN_T : GL_TEXTURE_GEN_S);
+	}
+	glNormal3f(0, 1, 0);
+	glBegin(GL_QUADS);
+	glMultiTexCoord2f(GL_TEXTURE1, 0, 0); glVertex3f(-8, 0, 0);
+	glMultiTexCoord2f(GL_TEXTURE1, 6, 0); glVertex3f(8, 0, 0);
+	glMultiTexCoord2f(GL_TEXTURE1, 6, 6); glVertex3f(8, 0, -16);
+	glMultiTexCoord2f(GL_TEXTURE1, 0, 6); glVertex3f(-8, 0, -16);
+	glEnd();
+	glDisable(GL_TEXTURE_GEN_S);
+	glDisable(GL_TEXTURE_GEN_T);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+	glActiveTexture(GL_TEXTURE1);
+	glDisable(GL_TEXTURE_2D);
+	glActiveTexture(GL_TEXTURE0);
 }
 
 /** What lies on the ground: the mark, then the ball's blob. */
@@ -188,8 +226,11 @@ static void draw(void)
 		glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ -0.5f, 1, 0.3f, 0 });
 		glEnable(GL_LIGHTING);
 	}
-	draw_ground(ROAD, 0, -8, 8, 6);
-	if (!program.by || strcmp(program.by, "plain") != 0)
+	if (program.by && strcmp(program.by, "thrown") == 0)
+		draw_ground_under(ball);
+	else
+		draw_ground(ROAD, 0, -8, 8, 6);
+	if (!program.by || (strcmp(program.by, "plain") != 0 && strcmp(program.by, "thrown") != 0))
 		draw_laid(ball, is_lit);
 	draw_things(ball);
 	draw_lamp();

@@ -118,6 +118,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 		s->hidden = (s->hidden & ~SCENE_SOLID) | (*r->solid ? SCENE_SOLID : 0);
 	if (r->lightmap)
 		s->light_unit = *r->lightmap + 1;
+	if (r->shadow_unit)
+		s->light_unit = *r->shadow_unit + 1;
 	if (r->lit)
 		s->relit = *r->lit;
 	if (r->dome)
@@ -145,7 +147,7 @@ struct applying {
 	int knows_world;
 	int has_mirror;           /* pictures in mirrors may be left out */
 	uint8_t *in_plane;        /* [instances][surfaces]: whether a rule's plane holds an instance, 1 no, 2 yes; 0: not asked yet */
-	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights */
+	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights, 4 where a unit holds a shadow */
 };
 
 static int is_in_world(const struct light_rule *r)
@@ -304,7 +306,7 @@ static void size_lights(const struct rules *rules, struct scene *s)
 /* 1 where a rule replaces a trick, and the file says that tricks stay. */
 static int is_kept(const struct rules *rules, const struct surface_rule *r)
 {
-	return rules->replace && !*rules->replace && (r->left_out || r->solid);
+	return rules->replace && !*rules->replace && (r->left_out || r->solid || r->shadow_unit);
 }
 
 static void set_sky(const struct applying *a)
@@ -401,10 +403,10 @@ static void change_instance(const struct applying *a, uint32_t i)
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
-	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) : m->surface.relit && a->lights_change & 1;
+	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit : m->surface.relit && a->lights_change & 1;
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;
-	else
+	else if (m->lighting && a->lights_change >> 1 & 1)
 		m->surface.hidden &= ~SCENE_DOME_LIT;
 	if (m->surface.relit) {
 		n = list_lights(a, in, m, out->lights + out->n_lights);
@@ -467,6 +469,8 @@ static void prepare(struct applying *a)
 	int in_world = 0;
 
 	a->rules = a->look ? a->look->rules : &none;
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+		a->lights_change |= a->rules->surfaces[k].shadow_unit ? 4 : 0;
 	for (uint32_t k = 0; k < a->rules->lights_count; k++) {
 		a->lights_change |= changes_light(&a->rules->lights[k]) ? lit_by(&a->rules->lights[k]) : 0;
 		in_world |= is_in_world(&a->rules->lights[k]);

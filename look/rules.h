@@ -33,6 +33,7 @@
  *         mirrors: yes               # is seen in them and through glass
  *         near: yes                  # `reflect` mirrors what is there; where nothing is, the surface keeps its own colour
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
+ *         shadow_unit: 0             # of what OpenGL lights: the texture unit that holds a shadow, which traced ones replace
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
@@ -70,7 +71,7 @@
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
  *                                    # lit as OpenGL lights it (look/spare.h), and what covers the window as
  *                                    # the picture of a framebuffer object is traced (replay/gl/surface/shown.h)
- *     replace: yes                   # no: rules with left_out or solid do nothing
+ *     replace: yes                   # no: rules with left_out, solid or shadow_unit do nothing
  *
  * Each rule may also say `role`, `confidence`, `why` and `plane` (four numbers), for its reader alone. A frame that does not show where
  * the world is, where some light stands in it, is left as OpenGL drew it.
@@ -105,7 +106,7 @@ struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
-	const uint32_t *lightmap;
+	const uint32_t *lightmap, *shadow_unit;
 	const bool *shadows, *mirrors, *near, *lit, *dome, *left_out, *solid;
 	const char *passes;
 };

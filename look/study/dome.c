@@ -5,10 +5,17 @@
 
 #include "look/solid.h"
 #include "look/study/face.h"
+#include "look/study/layer.h"
 #include "look/study/matrix.h"
 
 /* Surfaces are asked about at so many of their triangles. */
 enum { MOST_TRIANGLES = 64 };
+/* And so many pictures of a sky, at so many of their texels. */
+enum { SKIES = 64, SKY_TEXELS = 1024 };
+/* How much of a sky's colour its light has: OpenGL's textures have some already. */
+#define TINT 0.3
+/* Where OpenGL lights more than this share of what is solid, its lights are those of the scene. */
+#define MOST_LIT 0.05
 /* How far off things dim the light, in half the window's width where they stand. */
 #define REACH 0.6
 #define REACH_LIT 1.2
@@ -20,26 +27,61 @@ enum { MOST_TRIANGLES = 64 };
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
 
-/*
- * The share of the window that a face covers about one of its points, in front of everything or not; 0 where it lies outside.
- * size: receives half the window's width there
- */
-static double seen_at(const struct scene_view *view, const struct face *face, double area, const double at[3], double *size)
+enum { CORNERS = 9 }; /* of a triangle that five planes cut, and one more */
+
+/* Cut a polygon by a side of the view volume: what is there where the sum is not negative. */
+static unsigned cut(double (*p)[4], unsigned n, const double side[4])
 {
-	double projection[16], clip[4], row[2] = { 0, 0 }, away[3];
+	double out[CORNERS][4];
+	unsigned m = 0;
+
+	for (unsigned i = 0; i < n && m + 2 <= CORNERS; i++) {
+		const double *a = p[i], *b = p[(i + 1) % n];
+		double here = 0, there = 0;
+
+		for (int k = 0; k < 4; k++) {
+			here += a[k] * side[k];
+			there += b[k] * side[k];
+		}
+		if (here >= 0)
+			memcpy(out[m++], a, sizeof(out[0]));
+		if ((here >= 0) == (there >= 0))
+			continue;
+		for (int k = 0; k < 4; k++)
+			out[m][k] = a[k] + (b[k] - a[k]) * here / (here - there);
+		m++;
+	}
+	memcpy(p, out, m * sizeof(out[0]));
+	return m;
+}
+
+/*
+ * The share of the window that a face covers, in front of everything or not.
+ * size: receives half the window's width where it stands; undefined where the share is 0
+ */
+static double share_of(const struct scene_view *view, const struct face *face, double *size)
+{
+	static const double sides[5][4] = { { 0, 0, 1, 1 }, { 1, 0, 0, 1 }, { -1, 0, 0, 1 }, { 0, 1, 0, 1 }, { 0, -1, 0, 1 } };
+	double projection[16], p[CORNERS][4], row = 0, area = 0, w = 0;
+	unsigned n = 3;
 
 	matrix_from_floats(projection, view->projection);
-	matrix_transform(clip, projection, (double[4]){ at[0], at[1], at[2], 1 });
-	if (!(clip[3] > 0) || fabs(clip[0]) > clip[3] || fabs(clip[1]) > clip[3] || fabs(clip[2]) > clip[3])
-		return 0;
-	for (int k = 0; k < 3; k++) {
-		row[0] += projection[4 * k] * projection[4 * k];
-		row[1] += projection[4 * k + 1] * projection[4 * k + 1];
-		away[k] = projection[4 * k + 3] != 0 ? projection[4 * k + 3] : projection[4 * k + 2];
+	for (int c = 0; c < 3; c++)
+		matrix_transform(p[c], projection, (double[4]){ face->corner[c][0], face->corner[c][1], face->corner[c][2], 1 });
+	for (int k = 0; k < 5 && n; k++)
+		n = cut(p, n, sides[k]);
+	for (unsigned i = 0; i < n; i++) {
+		const double *a = p[i], *b = p[(i + 1) % n];
+
+		if (!(a[3] > 0) || !(b[3] > 0))
+			return 0;
+		area += (a[0] / a[3] * b[1] / b[3] - a[1] / a[3] * b[0] / b[3]) / 8;
+		w += a[3] / n;
 	}
-	*size = clip[3] / sqrt(row[0]);
-	matrix_normalize3(away);
-	return area * (0.2 + fabs(matrix_dot3(away, face->normal))) * sqrt(row[0] * row[1]) / (4 * clip[3] * clip[3]);
+	for (int k = 0; k < 3; k++)
+		row += projection[4 * k] * projection[4 * k];
+	*size = w / sqrt(row);
+	return fabs(area);
 }
 
 static void note_size(double sizes[DOME_SIZES], double size, double weight)
@@ -75,31 +117,21 @@ static void window_up(const struct scene_view *view, double out[3])
 	matrix_normalize3(out);
 }
 
-static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, double area, const double world_from_eye[16])
+/* times: so many faces it stands for */
+static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, unsigned times, const double world_from_eye[16])
 {
-	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], weight = 0, side;
+	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], size, weight = fmin(1, times * share_of(view, face, &size)), side;
 
-	/* About the middle, and between it and each corner: floors often reach beyond the window. */
-	for (int i = 0; i < 4; i++) {
-		double at[3], size = 1, share;
-
-		for (int k = 0; k < 3; k++)
-			at[k] = (face->corner[0][k] + face->corner[1][k] + face->corner[2][k]) / 3;
-		for (int k = 0; k < 3 && i; k++)
-			at[k] = 0.5 * (at[k] + face->corner[i - 1][k]);
-		share = seen_at(view, face, 0.25 * area, at, &size);
-		share = share < 0.25 ? share : 0.25;
-		weight += share;
-		if (share > 0)
-			note_size(d->sizes[0], size, share);
-	}
+	if (!(weight > 0))
+		return;
 	d->unlit += weight;
+	note_size(d->sizes[0], size, weight);
 	window_up(view, up);
 	side = matrix_dot3(face->normal, up);
 	for (int k = 0; k < 3; k++)
 		normal[k] = side < 0 ? -face->normal[k] : face->normal[k];
 	matrix_transform(turned, world_from_eye, normal);
-	if (weight > 0 && fabs(side) > UPRIGHT && matrix_normalize3(turned))
+	if (fabs(side) > UPRIGHT && matrix_normalize3(turned))
 		note_up(d, turned, weight);
 	else
 		d->all += weight;
@@ -119,17 +151,41 @@ static void note_instance(struct dome *d, const struct scene *scene, const struc
 		if (!face_of(mesh, eye, p, &face))
 			continue;
 		if (!scene->materials[in->material].lighting) {
-			note_face(d, &scene->views[in->view], &face, face.area * stride, world_from_eye);
+			note_face(d, &scene->views[in->view], &face, stride, world_from_eye);
 			continue;
 		}
-		share = seen_at(&scene->views[in->view], &face, face.area * stride, face.corner[0], &size);
+		share = fmin(1, stride * share_of(&scene->views[in->view], &face, &size));
 		d->lit += share;
 		if (share > 0)
 			note_size(d->sizes[1], size, share);
 	}
 }
 
-void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion)
+/* The mean colour of a sky's picture. */
+static void note_sky(struct dome *d, const struct scene *s, const struct scene_instance *in)
+{
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_texture *t = m->unit_count == 1 ? s->textures[s->units[m->unit_first].texture] : NULL;
+	const size_t n = t ? (size_t)t->width * t->height : 0, stride = n / SKY_TEXELS + 1;
+	double sum[3] = { 0, 0, 0 }, weight = 0;
+
+	if (!t || t->floats || d->skies == SKIES || m->lighting)
+		return;
+	for (size_t i = 0; i < n; i += stride) {
+		const uint8_t *c = t->texels + 4 * i;
+
+		weight += c[3];
+		for (int k = 0; k < 3; k++)
+			sum[k] += c[k] / 255.0 * c[3];
+	}
+	if (!(weight > 0))
+		return;
+	for (int k = 0; k < 3; k++)
+		d->sky[k] += sum[k] / weight;
+	d->skies++;
+}
+
+void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion, const uint8_t *layers)
 {
 	double world_from_eye[16];
 
@@ -138,7 +194,9 @@ void dome_add(struct dome *d, const struct scene *scene, const struct motion *mo
 	d->frames++;
 	d->known += motion->n_frames == 1 || motion_now(motion)->witnessed;
 	for (uint32_t i = 0; i < scene->n_instances; i++)
-		if (solid_is(scene, &scene->instances[i])) {
+		if (layers[i] == LAYER_SKY) {
+			note_sky(d, scene, &scene->instances[i]);
+		} else if (solid_is(scene, &scene->instances[i])) {
 			window_up(&scene->views[scene->instances[i].view], d->up_eye);
 			note_instance(d, scene, &scene->instances[i], world_from_eye);
 		}
@@ -146,7 +204,7 @@ void dome_add(struct dome *d, const struct scene *scene, const struct motion *mo
 
 int dome_is_wanted(const struct dome *d)
 {
-	return d->unlit > d->lit;
+	return d->unlit > 0 && d->lit <= MOST_LIT * (d->lit + d->unlit);
 }
 
 /* The size that two thirds of what is seen have at most: half of it may be what the viewer holds. */
@@ -171,19 +229,46 @@ static void write_for_lit(const struct dome *d, FILE *out)
 	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n", REACH_LIT * middle_size(d->sizes[1]), LIT_SHARE);
 }
 
-void dome_write(const struct dome *d, FILE *out)
+/* What most of the level ground says; NULL: there is too little of it */
+static const struct dome_up *find_floor(const struct dome *d)
 {
 	const struct dome_up *best = d->n_ups ? &d->ups[0] : NULL;
-	int has_floor;
+
+	for (unsigned i = 1; i < d->n_ups; i++)
+		best = d->ups[i].weight > best->weight ? &d->ups[i] : best;
+	return best && best->weight > LEAST_FLOOR * d->all && 2 * d->known > d->frames ? best : NULL;
+}
+
+int dome_find_up(const struct dome *d, double up[3])
+{
+	const struct dome_up *floor = find_floor(d);
+
+	if (floor)
+		memcpy(up, floor->normal, sizeof(floor->normal));
+	return floor != NULL;
+}
+
+/* White, or somewhat of the sky's colour, as bright. */
+static void write_light(const struct dome *d, FILE *out)
+{
+	const double mean = (d->sky[0] + d->sky[1] + d->sky[2]) / 3;
+	double light[3];
+
+	for (int k = 0; k < 3; k++)
+		light[k] = mean > 0 ? 1 + TINT * (d->sky[k] / mean - 1) : 1;
+	fprintf(out, "  light: [%.3g, %.3g, %.3g]\n  ground: [0.7, 0.7, 0.7]\n", light[0], light[1], light[2]);
+}
+
+void dome_write(const struct dome *d, FILE *out)
+{
+	const struct dome_up *best = find_floor(d);
+	const int has_floor = best != NULL;
 
 	if (!dome_is_wanted(d)) {
 		if (d->lit > 0)
 			write_for_lit(d, out);
 		return;
 	}
-	for (unsigned i = 1; i < d->n_ups; i++)
-		best = d->ups[i].weight > best->weight ? &d->ups[i] : best;
-	has_floor = best && best->weight > LEAST_FLOOR * d->all && 2 * d->known > d->frames;
 	fprintf(out, "sky:\n  role: sky light\n  confidence: %.2f\n", d->unlit / (d->unlit + d->lit));
 	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid, and nothing tells of another light; ", 100 * d->lit / (d->unlit + d->lit));
 	if (has_floor)
@@ -195,5 +280,6 @@ void dome_write(const struct dome *d, FILE *out)
 		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n  space: world\n", best->normal[0], best->normal[1], best->normal[2]);
 	else
 		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n", d->up_eye[0], d->up_eye[1], d->up_eye[2]);
-	fprintf(out, "  light: [1, 1, 1]\n  ground: [0.7, 0.7, 0.7]\n  lit: %g\n", LIT_SHARE);
+	write_light(d, out);
+	fprintf(out, "  lit: %g\n", LIT_SHARE);
 }

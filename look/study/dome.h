@@ -21,14 +21,22 @@ struct dome {
 	unsigned n_ups;
 	double all;          /* weight of all normals */
 	double up_eye[3];    /* the window's, of the last frame */
+	double sky[3];       /* sum of its pictures' colours, */
+	unsigned skies;      /* so many */
 	unsigned frames, known; /* of these, with a known camera */
 };
 
-/** Study one more frame, after motion_add. */
-void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion);
+/**
+ * Study one more frame, after motion_add.
+ * @param layers  which instances are of a sky (layer.h)
+ */
+void dome_add(struct dome *d, const struct scene *scene, const struct motion *motion, const uint8_t *layers);
 
-/** Whether most of what is solid is lit by nothing. */
+/** Whether nearly all that is solid is lit by nothing. */
 int dome_is_wanted(const struct dome *d);
+
+/** The world's up, by its floors. @return 0: they do not tell */
+int dome_find_up(const struct dome *d, double up[3]);
 
 /** The rule `sky`: for all, or where OpenGL lights most, for what it lights. */
 void dome_write(const struct dome *d, FILE *out);

@@ -53,7 +53,7 @@ static void write_shadow(const struct trick_found *f, const struct solved *s, FI
 	        is_replaced(f, s) ? "what they darken is lit from there, and traced shadows replace them" : "no light is known there, and so they stay");
 	if (!is_volume)
 		write_plane(f, out);
-	fprintf(out, "    match: %s\n", is_volume ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" : "{ modelview: singular, lit: no }");
+	fprintf(out, "    match: %s\n", is_volume || f->stencil ? "{ stencil_tested: yes, blended: yes, depth_tested: no }" : "{ modelview: singular, lit: no }");
 	if (is_replaced(f, s))
 		fprintf(out, "    left_out: yes\n    shadows: no\n    mirrors: no\n");
 }
@@ -71,7 +71,8 @@ static void write_mirror(const struct trick_found *f, FILE *out)
 	fprintf(out, "  - role: mirror\n    confidence: %.2f\n    why: \"it is blended over its picture, of which %.0f %% show\"\n",
 	        confidence_of(f), 100 * f->shows);
 	write_plane(f, out);
-	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes }\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3]);
+	fprintf(out, "    match: { in_plane: [%.7g, %.7g, %.7g, %.7g], blended: yes, stencil_tested: %s }\n", f->plane[0], f->plane[1], f->plane[2], f->plane[3],
+	        f->surface_stencil ? "yes" : "no");
 	fprintf(out, "    solid: yes\n    reflect: %.4g\n", f->shows);
 }
 
@@ -120,21 +121,21 @@ void findings_write_surfaces(const struct tricks *t, const struct lightmaps *map
 	for (unsigned i = 0; i < t->n; i++) {
 		if (t->found[i].kind == TRICK_MIRROR)
 			write_mirror(&t->found[i], out);
-		else
+		else if (!tricks_is_outvoted(t, i))
 			write_shadow(&t->found[i], s, out);
 	}
 	write_walls(maps, s, out);
 }
 
-void findings_write_lights(const struct tricks *t, const struct solved *s, FILE *out)
+void findings_write_lights(const struct tricks *t, const struct solved *s, int has_more, FILE *out)
 {
 	unsigned lights = 0;
 
 	for (unsigned i = 0; i < t->n; i++)
-		lights += t->found[i].kind != TRICK_MIRROR;
-	fprintf(out, lights || findings_relights(s) ? "lights:\n" : "lights: []\n");
+		lights += t->found[i].kind != TRICK_MIRROR && !tricks_is_outvoted(t, i);
+	fprintf(out, lights || has_more || findings_relights(s) ? "lights:\n" : "lights: []\n");
 	for (unsigned i = 0; i < t->n; i++)
-		if (t->found[i].kind != TRICK_MIRROR)
+		if (t->found[i].kind != TRICK_MIRROR && !tricks_is_outvoted(t, i))
 			write_light(&t->found[i], out);
 	if (findings_relights(s))
 		write_solved(s, out);

@@ -118,12 +118,13 @@ static int list_candidates(struct kinds *k, const struct scene *s, const uint8_t
 int kinds_add(struct kinds *k, const struct scene *s)
 {
 	static const enum kind_role roles[] = { KIND_WORLD, KIND_DECAL, KIND_SHADOW, KIND_LIT_SHADOW };
-	uint8_t *layers = malloc(s->n_instances + (size_t)1), *laid = malloc(s->n_instances + (size_t)1), *asked = malloc(s->n_instances + (size_t)1);
-	int err = layers && laid && asked ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	uint8_t *laid = malloc(s->n_instances + (size_t)1), *asked = malloc(s->n_instances + (size_t)1);
+	int err = laid && asked ? MEMORY_GROW(k->layers, k->room_layers, s->n_instances + (size_t)1) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	const uint8_t *layers = k->layers;
 
 	k->frames++;
 	if (!err) {
-		layer_find(s, layers);
+		layer_find(s, k->layers);
 		err = list_candidates(k, s, layers, laid);
 	}
 	for (uint32_t i = 0; i < s->n_instances && !err; i++)
@@ -135,7 +136,6 @@ int kinds_add(struct kinds *k, const struct scene *s)
 			err = vote_all(k, s, &s->instances[i], KIND_SKY);
 		else if (layers[i] == LAYER_WORLD && asked[i] && laid[i] != LAID_UNKNOWN)
 			err = vote_all(k, s, &s->instances[i], roles[laid[i]]);
-	free(layers);
 	free(laid);
 	free(asked);
 	return err;
@@ -144,6 +144,7 @@ int kinds_add(struct kinds *k, const struct scene *s)
 void kinds_free(struct kinds *k)
 {
 	free(k->list);
+	free(k->layers);
 	table_free(&k->by_key);
 	*k = (struct kinds){ .list = NULL };
 }
@@ -154,15 +155,18 @@ void kinds_free(struct kinds *k)
 struct rule {
 	const char *role, *why, *view, *then;
 	uint32_t roles; /* bits of enum kind_role: any of them */
+	uint32_t when;  /* bits: 1: what OpenGL does not light stays so; 2: other lights light it */
 };
 
 static const struct rule rules[] = {
-	{ "sky", "are painted before the world, hide nothing of it, and are all around", "", "    shadows: no\n    dome: no\n", 1u << KIND_SKY },
-	{ "decal", "lie on what was drawn before them", ", parallel: no", "    shadows: no\n", 1u << KIND_DECAL },
+	{ "sky", "are painted before the world, hide nothing of it, and are all around", "", "    shadows: no\n    dome: no\n    lit: no\n", 1u << KIND_SKY, 3 },
+	{ "decal", "lie on what was drawn before them", ", parallel: no", "    shadows: no\n", 1u << KIND_DECAL, 3 },
 	{ "blob shadow", "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
-	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_LIT_SHADOW },
+	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_LIT_SHADOW, 3 },
 	{ "blob shadow", "darken what they lie on, below a thing that stands there; no light of OpenGL's does, and so they stay",
-	  ", parallel: no", "    shadows: no\n    dome: no\n", 1u << KIND_SHADOW },
+	  ", parallel: no", "    shadows: no\n    dome: no\n", 1u << KIND_SHADOW, 1 },
+	{ "blob shadow", "darken what they lie on, below a thing that stands there; traced shadows of the lights below replace them",
+	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_SHADOW, 2 },
 };
 
 enum { N_RULES = sizeof(rules) / sizeof(rules[0]) };
@@ -227,7 +231,7 @@ static int is_written(const struct kinds *k, size_t i, uint32_t roles)
 	return kind->by == BY_MESH ? !is_said(k, kind, roles) : kind->by == BY_TEXTURE || is_needed(k, i, roles);
 }
 
-unsigned kinds_write(const struct kinds *k, FILE *out)
+unsigned kinds_write(const struct kinds *k, int is_relit, FILE *out)
 {
 	unsigned n = 0;
 
@@ -237,7 +241,7 @@ unsigned kinds_write(const struct kinds *k, FILE *out)
 		for (size_t i = 0; i < k->n && of_role < MOST_RULES; i++) {
 			const struct kind *kind = &k->list[i];
 
-			if (!is_written(k, i, rules[r].roles))
+			if (!(rules[r].when >> is_relit & 1) || !is_written(k, i, rules[r].roles))
 				continue;
 			of_role++;
 			if (!out)

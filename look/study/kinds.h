@@ -29,6 +29,8 @@ struct kinds {
 	size_t n, room;
 	struct table by_key; /* -> index + 1 */
 	uint64_t frames;
+	uint8_t *layers; /* [n_instances] of the last frame: enum layer */
+	size_t room_layers;
 };
 
 /** Study one more frame. @return 0 or ERR_SYSTEM (reported) */
@@ -38,5 +40,10 @@ void kinds_free(struct kinds *k);
 /** 1 where a mesh is part of the sky by what kinds_write says. */
 int kinds_has_sky(const struct kinds *k, const uint64_t mesh[2]);
 
-/** Entries of the list `surfaces`. out: NULL: they are only counted. @return how many */
-unsigned kinds_write(const struct kinds *k, FILE *out);
+/**
+ * Entries of the list `surfaces`.
+ * @param is_relit  1: what OpenGL does not light is lit by other lights, which throw shadows
+ * @param out       NULL: they are only counted
+ * @return how many
+ */
+unsigned kinds_write(const struct kinds *k, int is_relit, FILE *out);

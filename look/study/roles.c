@@ -234,13 +234,13 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 			n++;
 			if (out)
 				fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n"
-				        "    shadows: no\n    dome: no\n", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], which);
+				        "    shadows: no\n    dome: no\n    lit: no\n", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], which);
 		}
 	return n;
 }
 
 /* out: NULL: they are only counted */
-static unsigned write_all(const struct roles *r, const struct motion *m, FILE *out)
+static unsigned write_all(const struct roles *r, const struct motion *m, int is_relit, FILE *out)
 {
 	unsigned n = write_meshes(r, m, is_sky, "sky", ", lit: no", "it turned with the world and came along with the viewer", out) +
 	             write_meshes(r, m, is_held, "view model", "", "it was where it was before the viewer, who moved", out);
@@ -262,15 +262,15 @@ static unsigned write_all(const struct roles *r, const struct motion *m, FILE *o
 		        "    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
 		        "    match: { parallel: yes, stencil_tested: no }\n    shadows: no\n    mirrors: no\n    dome: no\n",
 		        1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
-	return n + (r->hud_frames > 0) + kinds_write(&r->kinds, out);
+	return n + (r->hud_frames > 0) + kinds_write(&r->kinds, is_relit, out);
 }
 
 unsigned roles_count(const struct roles *r, const struct motion *motion)
 {
-	return write_all(r, motion, NULL);
+	return write_all(r, motion, 0, NULL);
 }
 
-void roles_write(const struct roles *r, const struct motion *motion, FILE *out)
+void roles_write(const struct roles *r, const struct motion *motion, int is_relit, FILE *out)
 {
-	write_all(r, motion, out);
+	write_all(r, motion, is_relit, out);
 }

@@ -55,5 +55,5 @@ void roles_free(struct roles *r);
 /** How many rules there are. */
 unsigned roles_count(const struct roles *r, const struct motion *motion);
 
-/** Entries of the list `surfaces`. */
-void roles_write(const struct roles *r, const struct motion *motion, FILE *out);
+/** Entries of the list `surfaces`. is_relit: 1: what OpenGL does not light is lit by other lights */
+void roles_write(const struct roles *r, const struct motion *motion, int is_relit, FILE *out);

@@ -4,9 +4,12 @@
 
 #include "base/err.h"
 #include "look/gloss.h"
+#include "look/study/cast.h"
 #include "look/study/dome.h"
 #include "look/study/findings.h"
+#include "look/study/lamps.h"
 #include "look/study/lightmaps.h"
+#include "look/study/matrix.h"
 #include "look/study/mirrors.h"
 #include "look/study/motion.h"
 #include "look/study/roles.h"
@@ -14,9 +17,13 @@
 #include "look/study/shadows.h"
 #include "look/study/solve.h"
 #include "look/study/spared.h"
+#include "look/study/sun.h"
 #include "look/study/tricks.h"
 #include "look/study/volumes.h"
 #include "look/study/world.h"
+
+/* The sine of the lowest height of a sun that lights the ground. */
+#define LOWEST_SUN 0.1
 
 struct study {
 	struct motion motion;
@@ -24,6 +31,9 @@ struct study {
 	struct lightmaps lightmaps;
 	struct solved solved;
 	struct dome dome;
+	struct cast cast;
+	struct sun sun;
+	struct lamps lamps;
 	struct roles roles;
 	struct spared spared;
 	struct seen seen;
@@ -89,8 +99,13 @@ int study_add(struct study *study, const struct scene *scene)
 	if (!err)
 		err = seen_add(&study->seen, scene, &study->motion);
 	if (!err)
-		dome_add(&study->dome, scene, &study->motion);
+		dome_add(&study->dome, scene, &study->motion, study->roles.kinds.layers);
 	note_gloss(study, scene);
+	cast_add(&study->cast, scene);
+	if (!err)
+		err = sun_add(&study->sun, scene, &study->motion, study->roles.kinds.layers);
+	if (!err)
+		lamps_add(&study->lamps, scene, &study->motion, study->roles.kinds.layers);
 	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
 }
 
@@ -99,10 +114,23 @@ int study_finish(struct study *study)
 	return study->lightmaps.n ? solve_lights(&study->lightmaps, &study->solved) : 0;
 }
 
+/* What shines in a world that OpenGL does not light, and lightmaps do not either: the sky's sun, lamps. up: receives the world's */
+static void find_shining(const struct study *study, double up[3], int *is_sunny, int *has_lamps)
+{
+	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n;
+	double towards[3];
+
+	*is_sunny = is_dark && dome_find_up(&study->dome, up) && sun_is_there(&study->sun, towards) && matrix_dot3(up, towards) > LOWEST_SUN;
+	*has_lamps = is_dark && lamps_count(&study->lamps, &study->motion);
+}
+
 void study_write(const struct study *study, const char *trace, FILE *out)
 {
 	const struct motion *m = &study->motion;
+	double up[3];
+	int is_sunny, has_lamps;
 
+	find_shining(study, up, &is_sunny, &has_lamps);
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
 	if (m->n_frames)
 		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
@@ -110,12 +138,23 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) ? "surfaces:\n" : "surfaces: []\n");
+	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || is_sunny || has_lamps ? "surfaces:\n" : "surfaces: []\n");
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
-	roles_write(&study->roles, m, out);
+	if (is_sunny || has_lamps)
+		sun_write_surfaces(out);
+	roles_write(&study->roles, m, is_sunny || has_lamps, out);
+	cast_write(&study->cast, out);
+	if (is_sunny || has_lamps)
+		lamps_write_surfaces(&study->lamps, m, out);
 	seen_write(&study->seen, m, out);
-	findings_write_lights(&study->tricks, &study->solved, out);
+	findings_write_lights(&study->tricks, &study->solved, is_sunny || has_lamps, out);
+	if (is_sunny || has_lamps)
+		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
+	if (is_sunny)
+		sun_write_light(&study->sun, up, out);
+	if (has_lamps)
+		lamps_write_lights(&study->lamps, m, out);
 	if (!findings_relights(&study->solved))
 		dome_write(&study->dome, out);
 	write_gloss(study, out);

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # limit: 300 s
 """What a program lays on the ground and paints behind the world (corpus/street, whose viewer stands still): a sky, a mark, a blob of shadow,
-each found once. The blob gives way to the traced shadow of OpenGL's light, and stays where there is none; OpenGL's own picture stays."""
+each found once. The blob gives way to the traced shadow of OpenGL's light, or of the sun that the sky shows; OpenGL's own picture stays."""
 import pathlib
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 from exr import Image  # noqa: E402
-from helpers import SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
+from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, render  # noqa: E402
 
 COLORS, GL = ["R", "G", "B"], ["gl.R", "gl.G", "gl.B"]
 MARK = (60, 155)  # columns that the mark covers
@@ -25,16 +26,25 @@ def brightness(planes, x0, y0, x1, y1):
     return sum(sum(row[x0:x1]) for row in planes["G"][y0:y1]) / ((x1 - x0) * (y1 - y0))
 
 
+def without_dome(text):
+    """Rules without light from all around and highlights: shadows alone are compared."""
+    return re.sub(r"^(sky|gloss):.*\n(  .*\n)*", "", text, flags=re.M)
+
+
 rules = {}
-for kind in ("lit", "unlit", "plain"):
-    record(SCRATCH / f"{kind}.trace", corpus("street"), "--frames", 4, "--size", "400x300", "--by", kind, options=())
+for kind in ("lit", "unlit", "plain", "thrown"):
+    record(SCRATCH / f"{kind}.trace", corpus("street"), "--frames", 4, "--size", "400x300", "--by", kind, **({} if kind == "unlit" else {"options": ()}))
     rules[kind] = SCRATCH / f"{kind}.look.yaml"
+    if kind == "thrown":
+        continue
     must(relume("look", SCRATCH / f"{kind}.trace", "-o", rules[kind]))
     text = rules[kind].read_text()
     for role, times in (("sky", 1), ("decal", kind != "plain"), ("blob shadow", kind != "plain")):
         check(text.count(f"- role: {role}\n") == times, f"{kind}: {role}: {text}")
-    check(("left_out: yes" in text) == (kind == "lit"), f"{kind}: only where OpenGL's light makes the same shadow the blob is left out: {text}")
+    check(("left_out: yes" in text) == (kind != "plain") and ("role: sun" in text) == (kind == "unlit"), f"{kind}: a light, and no blob beside it: {text}")
 
+for kind in ("lit", "plain"):
+    rules[kind].write_text(without_dome(rules[kind].read_text()))
 before, after, plain = picture("lit", "before"), picture("lit", "after", "--look", rules["lit"]), picture("plain", "after", "--look", rules["plain"])
 check(worst(before, after, GL) == 0, "OpenGL's picture stays")
 check(worst(before, after, COLORS) > 0.01, "the blob shows without rules")
@@ -44,8 +54,31 @@ check(off < 0.002, f"without it the picture is that of the scene drawn without: 
 rules["lit"].write_text(rules["lit"].read_text().replace("replace: yes", "replace: no"))
 check(worst(picture("lit", "kept", "--look", rules["lit"]), before, COLORS) == 0, "one key keeps the blob")
 
-# Where nothing is lit, sky light is: it leaves the sky and the blob as they are, and shapes the ball.
+# The same blob thrown onto the ground by a texture unit: the traced shadow replaces it, in the albedo too.
+must(relume("look", SCRATCH / "thrown.trace", "-o", rules["thrown"]))
+text = rules["thrown"].read_text()
+check(text.count("- role: shadow in a unit\n") == 1 and "shadow_unit: 0" in text, f"thrown: {text}")
+rules["thrown"].write_text(without_dome(text))
+before, after = picture("thrown", "before"), picture("thrown", "after", "--look", rules["thrown"])
+check(worst(before, after, GL) == 0, "thrown: OpenGL's picture stays")
+off, was = worst(after, plain, COLORS), worst(before, plain, COLORS)
+check(off < 0.006 < was, f"thrown: without it the picture is that of the scene drawn without: off by {off}, with it by {was}")
+rules["thrown"].write_text(without_dome(text).replace("replace: yes", "replace: no"))
+check(worst(picture("thrown", "kept", "--look", rules["thrown"]), before, COLORS) == 0, "thrown: one key keeps it")
+
+# Where nothing is lit, the sun that the sky shows lights it: the sky and the lamp stay as they are, open ground about so, the ball throws a
+# shadow towards the viewer. Sun: texel (39.5, 25.5) + 0.5 of the picture ahead, the viewer looks down by 10 degrees.
 unlit, shaped = picture("unlit", "before"), picture("unlit", "after", "--look", rules["unlit"])
+text = rules["unlit"].read_text()
+found = [float(x) for x in re.search(r"role: sun$.*?position: \[(.*?)\]", text, re.M | re.S)[1].split(",")]
+check(sum((a - b) ** 2 for a, b in zip(found, (0.2336, 0.4269, -0.8736, 0))) < 0.01 ** 2, f"the sun is where the sky has it: {found}")
+check(text.count("- role: lamp\n") == 1 and text.count("- role: light of a lamp\n") == 1, f"the lamp shines: {text}")
 check(worst(unlit, shaped, GL) == 0 and all(shaped[c][y][x] == unlit[c][y][x] for c in COLORS for y in range(60) for x in range(200)), "the sky stays")
-check(brightness(shaped, 170, 205, 205, 225) < 0.95 * brightness(unlit, 170, 205, 205, 225), "the ball is darker below")
+check(brightness(shaped, 330, 58, 355, 70) == brightness(unlit, 330, 58, 355, 70), "the lamp stays")
+check(0.85 < brightness(shaped, 330, 230, 390, 290) / brightness(unlit, 330, 230, 390, 290) < 1.15, "so does open ground")
+check(brightness(shaped, 160, 255, 190, 275) < 0.9 * brightness(unlit, 160, 255, 190, 275), "the ball throws a shadow")
+render(SCRATCH / "unlit.trace", SCRATCH / "harm", "-f", 2, "--look", rules["unlit"])
+code, score = diff(SCRATCH / "unlit.trace", SCRATCH / "harm")
+harm = [f["gates"]["N"] for f in score["frames"] if f["frame"] == 2]
+check(harm and harm[0]["state"] == "passed", f"no harm: {harm}")
 finish()
