@@ -5,17 +5,25 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "look/look.h"
+#include "look/modelview.h"
 #include "look/solid.h"
 
 /* Scenes of so many frames are kept while others are rendered. */
 enum { MOST_FRAMES = 8 };
+
+/* What a mirror's picture shows stands still as well, in a world that is not there. */
+static int is_world(const struct scene *s, const struct scene_instance *in)
+{
+	return solid_is(s, in) && !s->materials[in->material].stencil_test && modelview_kind_of(in->modelview) == MODELVIEW_PLAIN &&
+	       !look_is_parallel(&s->views[in->view]);
+}
 
 int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion)
 {
 	if (MEMORY_GROW(seen->draws, seen->room, seen->n + scene->n_instances + 1))
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (uint32_t i = 0; i < scene->n_instances; i++)
-		if (motion->of_instance[i] != SCENE_NONE && solid_is(scene, &scene->instances[i]) && !look_is_parallel(&scene->views[scene->instances[i].view]))
+		if (motion->of_instance[i] != SCENE_NONE && is_world(scene, &scene->instances[i]))
 			seen->draws[seen->n++] = (struct seen_draw){ motion->of_instance[i], scene->instances[i].draw, (uint32_t)motion->n_frames - 1 };
 	return 0;
 }
