@@ -86,6 +86,47 @@ $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map
 	$(Q)$(CXX) -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs -Wl,--version-script=capture/gen/exports.map \
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
+# The recorder for programs of 32 bits, beside the other one where the loader looks for either (capture/record.c).
+DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386
+I386_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -m32 -D_FILE_OFFSET_BITS=64 -Wno-psabi -I$(BUILD)/recorder/gen -fvisibility=hidden
+I386_OBJ := $(patsubst $(BUILD)/recorder/%,$(BUILD)/i386/%,$(RECORDER_OBJ))
+LIBRELUMES := $(BUILD)/lib/i386-linux-gnu/librelume.so $(BUILD)/lib/x86_64-linux-gnu/librelume.so
+i386: $(LIBRELUMES) $(BUILD)/i386/windows
+
+# Packages of both architectures have one version. Nothing that is installed may go for that: apt then says what is in the way.
+$(BUILD)/deps.i386: Makefile
+	@mkdir -p $(@D)
+	@if [ "$$(dpkg-query -W -f '$${db:Status-Status}\n' $(DEPS_i386) 2>/dev/null | grep -cx installed)" != $(words $(DEPS_i386)) ]; then \
+		echo "installing from Debian, i386 added: $(DEPS_i386) (see $@.log)"; \
+		[ "$$(id -u)" = 0 ] || sudo=sudo; \
+		{ $$sudo dpkg --add-architecture i386 && $$sudo apt-get -q update && \
+			DEBIAN_FRONTEND=noninteractive $$sudo apt-get -q -y --no-remove --no-install-recommends install $(DEPS_i386); } \
+			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
+	fi
+	@touch $@
+
+$(BUILD)/i386/gen/%.o: $(BUILD)/recorder/gen/%.c $(BUILD)/flags | $(BUILD)/deps.i386
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(I386_CFLAGS) -O2 -g0 -c -o $@ $<
+
+$(BUILD)/i386/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags | $(BUILD)/deps.i386
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(I386_CFLAGS) -O2 -c -o $@ $<
+
+$(BUILD)/lib/i386-linux-gnu/librelume.so: $(I386_OBJ) capture/gen/exports.map
+	@mkdir -p $(@D)
+	$(Q)$(CXX) -m32 -shared $(LDFLAGS) -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-z,defs \
+		-Wl,--version-script=capture/gen/exports.map -o $@ $(I386_OBJ) -l:libsnappy.a -ldl -pthread
+
+$(BUILD)/lib/x86_64-linux-gnu/librelume.so: $(BUILD)/librelume.so
+	@mkdir -p $(@D)
+	$(Q)ln -sf ../../librelume.so $@
+
+# A program for its test.
+$(BUILD)/i386/windows: tests/real/windows.c tests/trace/window.h | $(BUILD)/deps.i386
+	@mkdir -p $(@D)
+	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -l:libGL.so.1 -l:libX11.so.6 -lm -pthread
+
 # The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
 SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen
 $(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map $(BUILD)/relume
@@ -387,8 +428,8 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
+.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

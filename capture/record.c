@@ -148,6 +148,23 @@ static int parse(int argc, char **argv, struct options *o)
 	return set_trace(o, o->output);
 }
 
+/*
+ * Where the recorder for programs of 32 bits is there as well, the loader picks: it replaces $LIB, on Debian by lib/x86_64-linux-gnu or
+ * lib/i386-linux-gnu, in the program and in each process that it starts.
+ */
+static void prefer_both(char *recorder, size_t size)
+{
+	static const char *const folders[] = { "lib/x86_64-linux-gnu", "lib/i386-linux-gnu", "$LIB" };
+	const int folder = (int)(strrchr(recorder, '/') - recorder);
+	char path[PATH_MAX];
+
+	for (size_t i = 0; i < sizeof(folders) / sizeof(folders[0]); i++)
+		if (snprintf(path, sizeof(path), "%.*s/%s/librelume.so", folder, recorder, folders[i]) >= (int)size ||
+		    (folders[i][0] != '$' && access(path, R_OK)))
+			return;
+	strcpy(recorder, path);
+}
+
 static int find_recorder(char *out, size_t size)
 {
 	int rc = beside_find("librelume.so", out, size);
@@ -155,6 +172,8 @@ static int find_recorder(char *out, size_t size)
 	if (!rc && strpbrk(out, " :"))
 		rc = err_report(ERR_SYSTEM, out, "a library whose path holds a space or a colon cannot be preloaded; "
 		                "install Relume elsewhere");
+	if (!rc)
+		prefer_both(out, size);
 	return rc;
 }
 

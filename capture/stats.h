@@ -35,3 +35,4 @@ struct recorder_stats {
 	struct stats_process processes[STATS_MAX_PROCESSES];
 	struct stats_unknown unknown[STATS_MAX_UNKNOWN];
 };
+_Static_assert(sizeof(struct stats_process) == 1104 && sizeof(struct stats_unknown) == 72, "the same in programs of 32 bits");

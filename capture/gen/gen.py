@@ -146,6 +146,8 @@ class Generator:
         if kind in ("void", "char"):
             return "char" if kind == "char" else None
         if kind in ("sint", "uint"):
+            if base.endswith("long") and not base.endswith("long long"):
+                return kind[0] + "long" # as large as an address
             return kind[0] + {"char": "8", "short": "16", "int": "32", "long": "64"}[base.split()[-1]]
         return {"enum": "enum", "bits": "u32", "bool8": "bool8", "bool32": "bool32", "float": "f32", "double": "f64",
                 "opaque": "ptr"}[kind]

@@ -80,10 +80,14 @@ struct geometry_reply { /* the X protocol's GetGeometry reply */
 	uint16_t width, height, border_width;
 };
 
+struct geometry_cookie { /* a struct as XCB has it: i386 returns one otherwise than a number */
+	unsigned sequence;
+};
+
 static struct {
 	void *(*get_connection)(void *);
-	unsigned (*get_geometry)(void *, uint32_t);
-	struct geometry_reply *(*get_reply)(void *, unsigned, void **);
+	struct geometry_cookie (*get_geometry)(void *, uint32_t);
+	struct geometry_reply *(*get_reply)(void *, struct geometry_cookie, void **);
 } xcb;
 static pthread_once_t xcb_once = PTHREAD_ONCE_INIT;
 
@@ -94,8 +98,8 @@ static void find_xcb(void)
 	if (!x11 || !lib)
 		return;
 	xcb.get_connection = (void *(*)(void *))resolve_in(x11, "XGetXCBConnection");
-	xcb.get_geometry = (unsigned (*)(void *, uint32_t))resolve_in(lib, "xcb_get_geometry");
-	xcb.get_reply = (struct geometry_reply * (*)(void *, unsigned, void **)) resolve_in(lib, "xcb_get_geometry_reply");
+	xcb.get_geometry = (struct geometry_cookie (*)(void *, uint32_t))resolve_in(lib, "xcb_get_geometry");
+	xcb.get_reply = (struct geometry_reply * (*)(void *, struct geometry_cookie, void **)) resolve_in(lib, "xcb_get_geometry_reply");
 }
 
 static void ask_window_size(void *display, struct drawable *d)

@@ -39,6 +39,8 @@ uint8_t *put_array_s32(uint8_t *p, const int32_t *v, long n);
 uint8_t *put_array_u32(uint8_t *p, const uint32_t *v, long n);
 uint8_t *put_array_s64(uint8_t *p, const int64_t *v, long n);
 uint8_t *put_array_u64(uint8_t *p, const uint64_t *v, long n);
+#define put_array_slong(p, v, n) (sizeof(long) == 8 ? put_array_s64(p, v, n) : put_array_s32(p, v, n))
+#define put_array_ulong(p, v, n) (sizeof(long) == 8 ? put_array_u64(p, v, n) : put_array_u32(p, v, n))
 uint8_t *put_array_f32(uint8_t *p, const float *v, long n);
 uint8_t *put_array_f64(uint8_t *p, const double *v, long n);
 uint8_t *put_array_enum(uint8_t *p, const uint32_t *v, long n);

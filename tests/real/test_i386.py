@@ -1,0 +1,25 @@
+#!/usr/bin/python3
+"""
+Programs of 32 bits (`make i386`): recorded by the recorder of their class, whether started by themselves or by a program of 64 bits, and
+every picture as they showed it.
+"""
+from helpers import AS_SHOWN, BUILD, SCRATCH, check, diff, finish, record, render, skip
+
+FRAMES = 10
+PROGRAM = BUILD / "i386/windows"
+
+if not (BUILD / "lib/i386-linux-gnu/librelume.so").exists() or not PROGRAM.exists():
+    skip("'make i386' has not been run: no recorder for programs of 32 bits")
+
+for name, command in (("alone", [PROGRAM]), ("child", ["/bin/sh", "-c", f"{PROGRAM}; true"])):
+    trace = SCRATCH / f"{name}.trace"
+    said = record(trace, *command).stderr
+    check("cannot be preloaded" not in said, f"{name}: {said}")
+    render(trace, SCRATCH / name, *AS_SHOWN)
+    _, score = diff(trace, SCRATCH / name)
+    failing = [f["failing_pixels"] for f in score["frames"]]
+    check(failing == [0] * FRAMES, f"{name}: failing pixels: {failing}")
+    sizes = [(f["width"], f["height"]) for f in score["frames"]]
+    check(sizes == [(48, 48), (80, 80)] * 5, f"{name}: sizes: {sizes}")
+    check(all(f["gates"]["R5"]["state"] == "passed" for f in score["frames"]), f"{name}: depth")
+finish()
