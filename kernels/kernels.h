@@ -141,6 +141,7 @@ typedef float element_float;
 	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_turn) */ \
 	VALUE(uint, first) AND()            /* 1: there are no sums yet */ \
 	VALUE(uint, first_pixel) AND()      /* the number of the frame's first pixel among those of the sums */ \
+	VALUE(uint, radiant) AND()          /* as in compose_request */ \
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
@@ -260,7 +261,7 @@ typedef float element_float;
 	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
 	OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_credit(IN, OUT, VALUE, GROUP, AND) \
-	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, n) AND() \
+	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
 /* Prefix sums: kernels/frame/scan.h. */

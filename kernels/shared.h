@@ -301,7 +301,8 @@ SHARED_SIZE(struct path, 28);
 #define TRANSPORT_GL 0u      /* light as GL has it, from its vertices; mirrors and glass */
 #define TRANSPORT_RELIGHT 1u /* the same lit at each pixel */
 #define TRANSPORT_DIFFUSE 2u /* as GL, and one bounce from surface to surface */
-#define TRANSPORT_PATH 3u    /* no ambient light; what surfaces send each other takes its place */
+#define TRANSPORT_PATH 3u    /* no ambient light; what surfaces send each other takes its place; in GL's numbers */
+#define TRANSPORT_LINEAR 4u  /* the same in linear light, as which GL's colours are taken */
 
 /* Where a pixel's surface takes light from all around. */
 struct dome_place {
@@ -365,8 +366,9 @@ struct compose_request {
 	uint32_t n_passes; /* the parts are means of so many */
 	uint32_t display;  /* 1: GL's own numbers, 0: linear light */
 	uint32_t normals;  /* 1: the beauty shows normals as colours */
+	uint32_t radiant;  /* 1: means of passes are those of linear light */
 };
-SHARED_SIZE(struct compose_request, 152);
+SHARED_SIZE(struct compose_request, 156);
 
 /* Pixels of a row that a work item of compose_packet takes. */
 #define COMPOSE_PACKET 16u

@@ -116,7 +116,7 @@ static const struct options_row rows[] = {
 	{ .help = "How the picture is made:" },
 	{ "mode", 0, "MODE", "whitted: GL's picture with shadows, mirrors and glass (default); gl: GL's picture alone; normals; ao: "
 	  "how open surfaces are; ao-phong: the same over GL's picture; diffuse: whitted, and one bounce of light between surfaces; "
-	  "path: all bounces", options_word, AT(tracer.mode), .words = settings_mode_names },
+	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)", options_word, AT(tracer.mode), .words = settings_mode_names },
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
 	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
 	  "gl is enough for scratch frames)", take_aov, AT(tracer.aov) },

@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include "kernels/encode.h"
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
@@ -16,34 +17,6 @@ static inline uint32_t compose_columns(uint32_t width)
 }
 
 /* --- Numbers ------------------------------------------------------------------------------------------------------ */
-
-/*
- * x^2.4 for 1e-30 < x < 1e15, to 5e-7 of itself, by nothing but what is the same on every device: log2 of the mantissa by its
- * series in (m - 1) / (m + 1), times 2.4, and 2 to that by its own series.
- */
-static inline float compose_power(float x)
-{
-	uint32_t bits = M_BITS(x) - 0x3f3504f3u; /* mantissas from 1/sqrt(2) to sqrt(2) */
-	float m = M_FLOAT((bits & 0x7fffffu) + 0x3f3504f3u), e = (float)((int)bits >> 23);
-	float s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
-	float log2m = s * (2.885390082f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * 0.412198583f)));
-	float up = 2.4f * (e + log2m) + 12582912.0f, whole = up - 12582912.0f; /* 1.5 x 2^23: what is added is rounded */
-	float f = (2.4f * e - whole) + 2.4f * log2m;
-	float p = 1.0f + f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
-	          f * (0.0013333558f + f * 0.0001540353f)))));
-
-	return p * M_FLOAT((M_BITS(up) - 0x4b400000u + 127u) << 23);
-}
-
-/* sRGB's transfer function (IEC 61966-2-1): display-referred to linear light; odd. */
-static inline float compose_linear(float display)
-{
-	float x = M_FLOAT(M_BITS(display) & 0x7fffffffu), large = x < 1.0e15f ? x : 1.0e15f;
-	float y = compose_power((large + 0.055f) * 0.9478672986f);
-
-	y = x > 0.04045f ? y : x * 0.0773993808f;
-	return M_FLOAT(M_BITS(y) | (M_BITS(display) & 0x80000000u));
-}
 
 /* The bits of the nearest half, ties to even; beyond its range infinity. */
 static inline uint32_t compose_half(float x)
@@ -137,7 +110,7 @@ static inline void compose_encode(struct compose_pixel *p, uint32_t i, uint32_t 
 	else if (i >= 3u && M_BITS(p->display[i]) == M_BITS(p->display[i - 3u]))
 		p->color[i] = p->color[i - 3u];
 	else
-		p->color[i] = compose_linear(p->display[i]);
+		p->color[i] = encode_linear(p->display[i]);
 }
 
 /* Where the visible surface of a pixel lies; all 0 where there is none. */
@@ -152,6 +125,12 @@ static inline void compose_surface(const struct tables *t, GLOBAL const struct w
 	p = point_from_fragment(t, windows, f);
 	*normal = point_normal(&p);
 	*position = point_position(&p);
+}
+
+/* A part of a pass as it is added up: light where paths were followed in it, else GL's number. */
+static inline float compose_part(float display, uint32_t radiant)
+{
+	return radiant ? encode_linear(display) : display;
 }
 
 /* What is taken from a pixel: all but the colours' encoding and what follows from it. */
@@ -172,9 +151,10 @@ static inline void compose_load(const struct compose_arguments *a, uint32_t numb
 		p->display[COLOR_ALBEDO + c] = drawn ? pixel->albedo[c] : 0.0f;
 	}
 	for (uint32_t i = 0u; i < PASS_PARTS && a->request.n_passes > 1u; i++) {
-		float sum = a->sums[(a->first_pixel + number) * PASS_PARTS + i];
+		float sum = a->sums[(a->first_pixel + number) * PASS_PARTS + i] + compose_part(p->display[COLOR_SHADOWED + i], a->request.radiant);
+		float mean = sum / (float)a->request.n_passes;
 
-		p->display[COLOR_SHADOWED + i] = (sum + p->display[COLOR_SHADOWED + i]) / (float)a->request.n_passes;
+		p->display[COLOR_SHADOWED + i] = a->request.radiant ? encode_display(mean) : mean;
 	}
 	p->halves[COMPOSE_BEAUTY + 3u] = drawn ? 1.0f : 0.0f;
 	p->halves[COMPOSE_GL + 3u] = pixel->gl[3];
@@ -248,9 +228,9 @@ static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t it
 	if (sample_turn(a->first_pixel + item) != a->turn)
 		return;
 	for (uint32_t c = 0u; c < 3u; c++) {
-		sum[c] = pixel->shadowed[c] + (a->first ? 0.0f : sum[c]);
-		sum[3u + c] = pixel->direct[c] + (a->first ? 0.0f : sum[3u + c]);
-		sum[6u + c] = pixel->mirrored[c] + (a->first ? 0.0f : sum[6u + c]);
-		sum[9u + c] = pixel->beauty[c] + (a->first ? 0.0f : sum[9u + c]);
+		sum[c] = compose_part(pixel->shadowed[c], a->radiant) + (a->first ? 0.0f : sum[c]);
+		sum[3u + c] = compose_part(pixel->direct[c], a->radiant) + (a->first ? 0.0f : sum[3u + c]);
+		sum[6u + c] = compose_part(pixel->mirrored[c], a->radiant) + (a->first ? 0.0f : sum[6u + c]);
+		sum[9u + c] = compose_part(pixel->beauty[c], a->radiant) + (a->first ? 0.0f : sum[9u + c]);
 	}
 }

@@ -66,7 +66,7 @@ WIDE_VECTORS static inline packf pack_rounded(packf x)
 	return as_float16((bits & 0x80000000u) | select(normal, small, size < 0x38800000u));
 }
 
-/* As compose_power. */
+/* As encode_power. */
 WIDE_VECTORS static inline packf pack_power(packf x)
 {
 	const packu bits = as_uint16(x) - 0x3f3504f3u;
@@ -81,7 +81,7 @@ WIDE_VECTORS static inline packf pack_power(packf x)
 	return p * as_float16((as_uint16(up) - 0x4b400000u + 127u) << 23);
 }
 
-/* As compose_linear. */
+/* As encode_linear. */
 WIDE_VECTORS static inline packf pack_linear(packf display)
 {
 	const packf x = as_float16(as_uint16(display) & 0x7fffffffu), large = select((packf)(1.0e15f), x, x < 1.0e15f);

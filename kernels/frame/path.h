@@ -152,7 +152,7 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	GLOBAL struct shaded *s = &a->shaded[item];
 	uint32_t seed = sample_hash(a->pixels[item]);
 	struct branches b;
-	struct vec3 d, mirrored;
+	struct vec3 d, direct, mirrored;
 	struct split split;
 	struct texturing texturing;
 	struct point p;
@@ -173,11 +173,14 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	b.from.medium = SCENE_NONE;
 	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	split = split_light(&p, d);
-	mirrored = v3_scale(v3_load(s->direct), 1.0f - split.mirrored);
-	v3_store(s->mirrored, mirrored);
-	v3_store(s->beauty, v3_sub(mirrored, v3_scale(v3_load(s->direct), split.through)));
+	if (a->transport != TRANSPORT_LINEAR || split.mirrored > 0.0f || split.through > 0.0f) {
+		direct = stage_light(a->transport, v3_load(s->direct));
+		mirrored = v3_scale(direct, 1.0f - split.mirrored);
+		v3_store(s->mirrored, stage_number(a->transport, mirrored));
+		v3_store(s->beauty, stage_number(a->transport, v3_sub(mirrored, v3_scale(direct, split.through))));
+	}
 	if (a->transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
-		branch_scatter(&b, &p, d, v3_scale(v3_load(s->albedo), split.base), PATH_DIFFUSE, seed, a->sample);
+		branch_scatter(&b, &p, d, v3_scale(stage_light(a->transport, v3_load(s->albedo)), split.base), PATH_DIFFUSE, seed, a->sample);
 	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored),
 	              p.material->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT, seed, a->sample);
 	if (split.through > 0.0f) {
@@ -227,8 +230,8 @@ static inline struct vec4 hit_color(const struct tables *t, const struct point *
 	return v4(c.x, c.y, c.z, color.w);
 }
 
-/* The colour where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared with. */
-static inline struct vec3 hit_nothing(const struct tables *t, GLOBAL const struct hit *sky, GLOBAL const struct ray *ray,
+/* The light where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared with. */
+static inline struct vec3 hit_nothing(const struct tables *t, uint32_t transport, GLOBAL const struct hit *sky, GLOBAL const struct ray *ray,
                                       uint32_t has_sky, GLOBAL const float *background)
 {
 	struct hit hit;
@@ -238,13 +241,13 @@ static inline struct vec3 hit_nothing(const struct tables *t, GLOBAL const struc
 	struct vec4 color;
 
 	if (!has_sky || sky->instance == SCENE_NONE)
-		return v3_load(background);
+		return stage_light(transport, v3_load(background));
 	hit = *sky;
 	p = point_from_hit(t, &hit, v3_load(ray->d));
 	point_texture(t, &p, (const struct point_window *)0, &texturing);
 	lit = point_lit_from_vertices(&p);
 	color = point_finish(t, &p, &texturing, &lit);
-	return v3(color.x, color.y, color.z);
+	return stage_light(transport, v3(color.x, color.y, color.z));
 }
 
 /* Onwards past a surface that does not stop the ray: nothing is bent, and it is no bounce. */
@@ -262,7 +265,7 @@ static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, 
 /*
  * One of the ways on, as often as it carries light. What depth allows is the caller's question.
  */
-static inline void branch_one(const struct tables *t, struct branches *b, const struct point *p, struct vec3 d,
+static inline void branch_one(const struct tables *t, uint32_t transport, struct branches *b, const struct point *p, struct vec3 d,
                               const struct split *s, const struct texturing *texturing, struct vec3 weight, uint32_t seed,
                               uint32_t sample)
 {
@@ -276,7 +279,7 @@ static inline void branch_one(const struct tables *t, struct branches *b, const 
 		branch_through(b, p, d, s, v3_mul(weight, glass_tint(t, p, texturing)), b->from.kind);
 	} else if (point_takes_light(p)) {
 		albedo = point_albedo(t, p, texturing);
-		branch_scatter(b, p, d, v3_mul(weight, v3(albedo.x, albedo.y, albedo.z)), b->from.kind, seed, sample);
+		branch_scatter(b, p, d, v3_mul(weight, stage_light(transport, v3(albedo.x, albedo.y, albedo.z))), b->from.kind, seed, sample);
 	}
 }
 
@@ -304,11 +307,11 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	a->counts[item] = 0u;
 	weight = path_weight(&b.from);
 	if (hit.instance == SCENE_NONE && b.from.kind == PATH_NEAR) {
-		v3_store(out, v3_mul(weight, v3_load(a->shaded[b.from.target].direct)));
+		v3_store(out, v3_mul(weight, stage_light(a->transport, v3_load(a->shaded[b.from.target].direct))));
 		return;
 	}
 	if (hit.instance == SCENE_NONE) {
-		v3_store(out, v3_mul(weight, hit_nothing(t, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
+		v3_store(out, v3_mul(weight, hit_nothing(t, a->transport, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
 		return;
 	}
 	v3_store(out, v3(0.0f, 0.0f, 0.0f));
@@ -337,15 +340,24 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	v3_store(out, v3_mul(weight, v3_scale(own, split.base)));
 	seed = stage_seed(&a->paths[item], a->pixels, 0u);
 	b.from.kind = b.from.kind == PATH_NEAR ? PATH_REFLECT : b.from.kind;
-	if (b.from.depth < a->depth && a->transport == TRANSPORT_PATH && !b.count) {
-		branch_one(t, &b, &p, d, &split, &texturing, weight, seed, a->sample);
-	} else if (b.from.depth < a->depth && a->transport != TRANSPORT_PATH) {
+	if (b.from.depth < a->depth && stage_is_path(a->transport) && !b.count) {
+		branch_one(t, a->transport, &b, &p, d, &split, &texturing, weight, seed, a->sample);
+	} else if (b.from.depth < a->depth && !stage_is_path(a->transport)) {
 		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, seed, a->sample);
 		if (split.through > 0.0f)
 			branch_through(&b, &p, d, &split,
 			               v3_mul(v3_scale(weight, split.through), glass_tint(t, &p, &texturing)), b.from.kind);
 	}
 	a->counts[item] = b.count;
+}
+
+/* A part of a fragment and the light of one of its paths. What brings no light changes no bit. */
+static inline void credit_part(uint32_t transport, GLOBAL float *part, struct vec3 light)
+{
+	const struct vec3 was = v3_load(part);
+
+	if (v3_dot(light, light) > 0.0f)
+		v3_store(part, stage_number(transport, v3_add(stage_light(transport, was), light)));
 }
 
 /* credit: what the paths of a fragment found, into its parts. The first path of each fragment sums them up in order. */
@@ -360,9 +372,9 @@ static inline void credit_item(const struct credit_arguments *a, uint32_t item)
 		struct vec3 light = v3_load(a->radiance + i * 3u);
 
 		if (a->paths[i].kind == PATH_DIFFUSE)
-			v3_store(s->direct, v3_add(v3_load(s->direct), light));
+			credit_part(a->transport, s->direct, light);
 		if (a->paths[i].kind != PATH_REFRACT)
-			v3_store(s->mirrored, v3_add(v3_load(s->mirrored), light));
-		v3_store(s->beauty, v3_add(v3_load(s->beauty), light));
+			credit_part(a->transport, s->mirrored, light);
+		credit_part(a->transport, s->beauty, light);
 	}
 }

@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include "kernels/encode.h"
 #include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
 
@@ -75,12 +76,30 @@ static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 	return p->geometry->flags & GEOMETRY_LINE && ((float)x < drawn[0] || (float)row < drawn[1] || (float)row > drawn[2]);
 }
 
+/* 1: no ambient light, and light from surface to surface for as many bounces as are asked for. */
+static inline int stage_is_path(uint32_t transport)
+{
+	return transport >= TRANSPORT_PATH;
+}
+
+/* A colour of GL as light, where that is what is followed. */
+static inline struct vec3 stage_light(uint32_t transport, struct vec3 c)
+{
+	return transport == TRANSPORT_LINEAR ? v3(encode_linear(c.x), encode_linear(c.y), encode_linear(c.z)) : c;
+}
+
+/* And back: what the pixel's operations of OpenGL take. */
+static inline struct vec3 stage_number(uint32_t transport, struct vec3 c)
+{
+	return transport == TRANSPORT_LINEAR ? v3(encode_display(c.x), encode_display(c.y), encode_display(c.z)) : c;
+}
+
 /*
  * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
  * A surface that GL does not light shows its colour as it is.
  */
 static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p, const struct texturing *texturing,
-                                         const struct vec3 *seen)
+                                         uint32_t transport, const struct vec3 *seen)
 {
 	GLOBAL const struct scene_material *m = p->material;
 	struct light_list list = point_lights(p);
@@ -91,7 +110,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 	if (!point_takes_light(p)) {
 		lit = point_lit_from_vertices(p);
 		c = point_finish(t, p, texturing, &lit);
-		return v3_add(v3(c.x, c.y, c.z), v3_load(m->surface.emission));
+		return stage_light(transport, v3_add(v3(c.x, c.y, c.z), v3_load(m->surface.emission)));
 	}
 	for (uint32_t i = 0u; i < list.count; i++) {
 		GLOBAL const struct scene_light *light = &t->lights[list.first + i];
@@ -99,11 +118,11 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 		float strength = light_strength(light, at, &to_light), cosine = v3_dot(n, to_light);
 
 		if (cosine > 0.0f)
-			sum = v3_add(sum, v3_mul(v3_scale(v3_load(light->diffuse), strength * cosine), seen[i]));
+			sum = v3_add(sum, v3_mul(v3_scale(stage_light(transport, v3_scale(v3_load(light->diffuse), strength)), cosine), seen[i]));
 	}
 	c = point_albedo(t, p, texturing);
-	sum = v3_add(v3_mul(sum, v3(c.x, c.y, c.z)), v3_load(m->surface.emission));
-	return m->lighting ? v3_add(v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission), sum) : sum;
+	sum = v3_add(v3_mul(sum, stage_light(transport, v3(c.x, c.y, c.z))), stage_light(transport, v3_load(m->surface.emission)));
+	return m->lighting ? v3_add(stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)), sum) : sum;
 }
 
 /* Lights of the list that stage_radiance can be lit by. */
@@ -125,7 +144,7 @@ static inline uint32_t stage_radiant_lights(const struct tables *t, const struct
 /* Lights that must be asked for before a point can be lit. from_vertices: those that light its vertices (struct lit) */
 static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport, uint32_t from_vertices)
 {
-	if (transport == TRANSPORT_PATH)
+	if (stage_is_path(transport))
 		return stage_radiant_lights(t, p);
 	if (transport == TRANSPORT_RELIGHT && !p->material->surface.relit)
 		return from_vertices | point_lit_here(t, p, (const struct vec3 *)0).lights;
@@ -139,14 +158,14 @@ static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 col
 	v3_store(out->beauty, color);
 }
 
-/* The colour by the way of lighting that is asked for. color: by GL's own */
+/* The colour by the way of lighting that is asked for; with TRANSPORT_LINEAR linear light. color: by GL's own */
 static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                       uint32_t transport, const struct vec3 *seen, struct vec4 color)
 {
 	struct lit lit;
 
-	if (transport == TRANSPORT_PATH)
-		return stage_radiance(t, p, texturing, seen);
+	if (stage_is_path(transport))
+		return stage_radiance(t, p, texturing, transport, seen);
 	if (transport == TRANSPORT_RELIGHT || p->material->surface.relit) {
 		lit = point_lit_here(t, p, seen);
 		color = point_finish_relit(t, p, texturing, &lit);
@@ -296,7 +315,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	color = point_finish(t, &p, &texturing, &lit);
 	color = v4(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
-	stage_store_direct(out, stage_relit(t, &p, &texturing, a->transport, seen, color));
+	stage_store_direct(out, stage_number(a->transport, stage_relit(t, &p, &texturing, a->transport, seen, color)));
 	if (a->n_slots)
 		return;
 	color.w *= coverage;

@@ -212,6 +212,75 @@ START_TEST(test_glowing_ball)
 }
 END_TEST
 
+/* The same as linear light: GL's numbers are taken for display codes of it, and a mean of samples is one of light. */
+START_TEST(test_glowing_ball_in_linear_light)
+{
+	const float e = 0.5f, a = 0.8f, e_lin = image_linear_from_display(e), a_lin = image_linear_from_display(a);
+
+	for (unsigned depth = 0; depth < 6; depth += depth + 1)
+		for (unsigned samples = 1; samples < 4; samples += 2) {
+			struct tracer_options options = options_of(TRACER_PATH);
+			const float truth = e_lin * (1 - powf(a_lin, (float)depth + 1)) / (1 - a_lin);
+			struct made t;
+			struct image img;
+			uint32_t matte;
+
+			made_init(&t, SIZE, SIZE, 1);
+			matte = made_add_material(&t, a);
+			glow(&t, matte, e);
+			add_ball(&t, matte, (float[3]){ 0, 0, 0 }, 5, 1);
+			options.depth = depth;
+			options.samples = samples;
+			options.display = 0;
+			truth_render_with(&t, &options, &img);
+			for (uint32_t y = 0; y < SIZE; y += 7)
+				for (uint32_t x = 0; x < SIZE; x += 7)
+					ck_assert_float_eq_tol(truth_at(&img, "R", x, y), truth, 2e-3f);
+			truth_check_closure(&img);
+			image_free(&img);
+			made_free(&t);
+		}
+}
+END_TEST
+
+/*
+ * A plane under a light, seen from above: what GL shows where light falls straight is what linear light shows there; where it falls at an
+ * angle, the cosine dims light and not codes. A pixel that is half lit in the mean is half as bright, not half the code.
+ */
+START_TEST(test_light_falls_in_linear_light)
+{
+	struct tracer_options options = options_of(TRACER_PATH);
+	const float h = 0.5f, albedo = 0.8f, edge = 2 * (SIZE / 2 + 0.5f) / SIZE - 1;
+	struct made t;
+	struct image img;
+	uint32_t bright;
+
+	options.display = 0;
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0, 0, -10 + h, 1);
+	made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, right, up, 1, 1);
+	truth_render_with(&t, &options, &img);
+	for (uint32_t x = 0; x < SIZE; x++) {
+		const float px = 2 * ((float)x + 0.5f) / SIZE - 1, py = 1 - 2 * ((float)SIZE / 2 + 0.5f) / SIZE;
+		const float truth = image_linear_from_display(albedo) * h / sqrtf(px * px + py * py + h * h);
+
+		ck_assert_float_eq_tol(truth_at(&img, "R", x, SIZE / 2), truth, 2e-3f);
+	}
+	image_free(&img);
+	made_free(&t);
+
+	made_init(&t, SIZE, SIZE, 0);
+	bright = made_add_material(&t, 0);
+	glow(&t, bright, 1);
+	made_add_square(&t, bright, (float[3]){ edge - 2, 0, -10 }, right, up, 2, 1);
+	options.samples = 64;
+	truth_render_with(&t, &options, &img);
+	ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 2, SIZE / 3), 0.5f, 0.04f);
+	image_free(&img);
+	made_free(&t);
+}
+END_TEST
+
 /* A pixel that an upright edge halves by 30 % is 30 % bright in the mean; GL's own picture stays that of pixel centres. */
 START_TEST(test_samples)
 {
@@ -324,6 +393,8 @@ int main(void)
 	tcase_add_test(tests, test_openness_under_disk);
 	tcase_add_test(tests, test_white_furnace);
 	tcase_add_test(tests, test_glowing_ball);
+	tcase_add_test(tests, test_glowing_ball_in_linear_light);
+	tcase_add_test(tests, test_light_falls_in_linear_light);
 	tcase_add_test(tests, test_samples);
 	tcase_add_test(tests, test_samples_differ_from_pixel_to_pixel);
 	tcase_add_test(tests, test_relight);

@@ -28,14 +28,22 @@ END_TEST
 START_TEST(test_linear)
 {
 	for (uint32_t bits = 0; bits < 0x42000000u; bits += 3011) { /* up to 32 */
-		float x = common_float(bits), want = image_linear_from_display(x), got = compose_linear(x);
+		float x = common_float(bits), want = image_linear_from_display(x), got = encode_linear(x);
 
 		ck_assert_msg(fabsf(got - want) <= 1e-6f * want + 1e-40f, "%a: %a, not %a", (double)x, (double)got, (double)want);
-		ck_assert_float_eq(compose_linear(-x), -got);
+		ck_assert_float_eq(encode_linear(-x), -got);
 	}
-	ck_assert_float_eq(compose_linear(0), 0);
-	ck_assert_float_eq_tol(compose_linear(1), 1, 1e-6f);
-	ck_assert(compose_half(compose_linear(INFINITY)) == 0x7c00);
+	ck_assert_float_eq(encode_linear(0), 0);
+	for (float x = 1e-9f; x < 1e9f; x *= 1.37f) {
+		const float want = image_display_from_linear(x), got = encode_display(x);
+
+		ck_assert_float_eq_tol(got, want, 3e-6f * want);
+		ck_assert_float_eq_tol(encode_linear(got), x, 1e-5f * x);
+		ck_assert_float_eq(encode_display(-x), -got);
+	}
+	ck_assert_float_eq(encode_display(0), 0);
+	ck_assert_float_eq_tol(encode_linear(1), 1, 1e-6f);
+	ck_assert(compose_half(encode_linear(INFINITY)) == 0x7c00);
 }
 END_TEST
 
@@ -45,7 +53,7 @@ START_TEST(test_codes)
 	for (int code = 0; code < 255; code++)
 		for (int i = -40; i <= 40; i++) {
 			float gl = ((float)code + 0.5f + 0.002f * (float)i) / 255.0f, want = rintf(gl * 255.0f), settled = compose_nudged(gl);
-			float linear = compose_rounded(compose_linear(settled)), plain = compose_rounded(settled);
+			float linear = compose_rounded(encode_linear(settled)), plain = compose_rounded(settled);
 
 			ck_assert_float_eq(rintf(image_display_from_linear(linear) * 255.0f), want);
 			ck_assert_float_eq(rintf(plain * 255.0f), want);

@@ -4,6 +4,7 @@
 
 #include "base/err.h"
 #include "kernels/frame/compose.h"
+#include "tracer/frame/secondary.h"
 #include "tracer/image/pack.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
@@ -61,7 +62,8 @@ static struct compose_request request_of(const struct job *job, uint32_t *halves
 {
 	const struct tracer_options *options = job->options;
 	struct compose_request r = { .width = job->width, .height = job->n_rows, .n_passes = job->n_passes,
-		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS };
+		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS,
+		                     .radiant = secondary_transport(options) == TRANSPORT_LINEAR };
 
 	memset(r.half_plane, 0xff, sizeof(r.half_plane));
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
@@ -85,7 +87,7 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	                                        .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
 	                                        .floats = b->floats);
 
-	if (device_family(tr->dev) == FAMILY_PACKETS)
+	if (device_family(tr->dev) == FAMILY_PACKETS && !r->radiant)
 		return launch_compose_packet(tr->dev, compose_columns(job->width) * job->n_rows, a);
 	return launch_compose(tr->dev, job->n_pixels, a);
 }

@@ -17,7 +17,7 @@ const struct accel_space *secondary_space(const struct job *job, uint32_t view, 
 uint32_t secondary_transport(const struct tracer_options *options)
 {
 	if (options->mode == TRACER_PATH)
-		return TRANSPORT_PATH;
+		return options->display ? TRANSPORT_PATH : TRANSPORT_LINEAR;
 	if (options->mode == TRACER_DIFFUSE)
 		return TRANSPORT_DIFFUSE;
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
@@ -350,7 +350,7 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 		if (!err)
 			err = shade_hits(job, &list, sky != NULL, transport, n);
 		if (!err)
-			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .n = n,
+			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .transport = transport, .n = n,
 			                                       .shaded = b->shaded));
 		if (!err)
 			err = gather_list(job, &list, PATHS_PER_HIT, &n);

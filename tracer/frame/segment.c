@@ -339,5 +339,7 @@ int segment_add_pass(struct job *job, uint32_t first)
 	const struct frame_buffers *b = &job->tr->buffers;
 
 	return launch_add_pass(job->tr->dev, job->n_pixels, LAUNCH(add_pass, .frame = b->frame, .turn = job->turn, .first = first,
-	                                                           .first_pixel = frame_first_pixel(job), .n = job->n_pixels, .sums = b->sums));
+	                                                           .first_pixel = frame_first_pixel(job),
+	                                                           .radiant = secondary_transport(job->options) == TRANSPORT_LINEAR, .n = job->n_pixels,
+	                                                           .sums = b->sums));
 }

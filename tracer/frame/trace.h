@@ -21,7 +21,7 @@ enum tracer_mode {
 	TRACER_AO,       /* how open each surface is, as grey */
 	TRACER_AO_PHONG, /* the same over GL's picture */
 	TRACER_DIFFUSE,  /* whitted, and one bounce of light from surface to surface */
-	TRACER_PATH      /* light followed from surface to surface, no ambient light */
+	TRACER_PATH      /* light followed from surface to surface, no ambient light; linear but where `display` says otherwise */
 };
 
 struct tracer_options {
