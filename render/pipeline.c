@@ -12,6 +12,7 @@
 #include "base/queue.h"
 #include "look/look.h"
 #include "look/unseen.h"
+#include "render/cryptomatte.h"
 #include "render/supply.h"
 #include "scene/release.h"
 
@@ -267,6 +268,7 @@ static int tell_time(const struct scene *scene, struct image *img)
 
 static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
 {
+	const struct settings *settings = w->state->p->settings;
 	double start = progress_clock_s();
 	int err, late;
 
@@ -278,10 +280,13 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 		return EMPTY;
 	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
-	picture->img.packers = w->state->p->display ? 0 : packer_count(w->state); /* display pictures need the whole planes */
-	err = render_scene(w->state->p->settings, tracer, scene, &picture->img);
+	/* some need the whole planes */
+	picture->img.packers = w->state->p->display || settings->cryptomatte ? 0 : packer_count(w->state);
+	err = render_scene(settings, tracer, scene, &picture->img);
 	if (!err)
 		err = tell_time(scene, &picture->img);
+	if (!err && settings->cryptomatte)
+		err = cryptomatte_add(scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
 	picture->seconds = progress_clock_s() - start;
 	if (!err)

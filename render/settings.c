@@ -31,10 +31,34 @@ static int take_chunk(const struct options_row *row, const char *value, void *ou
 	return frame_chunk_parse(value, &s->chunk, &s->n_chunks);
 }
 
+/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id. */
 static int take_aov(const struct options_row *row, const char *value, void *out)
 {
-	options_text(row, value, out);
-	return tracer_check_aov(value);
+	struct settings *s = out;
+	size_t n = 0, groups = 0;
+
+	(void)row;
+	free(s->aov);
+	s->cryptomatte = 0;
+	s->aov = malloc(strlen(value) + sizeof(",id"));
+	if (!s->aov)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (const char *at = value; *at; at += *at == ',') {
+		const size_t length = strcspn(at, ",");
+		const int is_ours = length == strlen("cryptomatte") && strncmp(at, "cryptomatte", length) == 0;
+
+		if (!is_ours)
+			n += (size_t)sprintf(s->aov + n, "%s%.*s", groups++ ? "," : "", (int)length, at);
+		s->cryptomatte |= is_ours;
+		at += length;
+	}
+	s->aov[n] = '\0';
+	s->tracer.aov = groups || !s->cryptomatte ? s->aov : NULL;
+	if (tracer_check_aov(s->aov))
+		return ERR_USAGE;
+	if (groups && s->cryptomatte)
+		strcat(s->aov, ",id");
+	return 0;
 }
 
 static int take_length(const struct options_row *row, const char *value, void *out)
@@ -119,7 +143,7 @@ static const struct options_row rows[] = {
 	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)", options_word, AT(tracer.mode), .words = settings_mode_names },
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
 	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
-	  "gl is enough for scratch frames)", take_aov, AT(tracer.aov) },
+	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it", take_aov, .at = 0 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },
@@ -229,7 +253,7 @@ static int choose_kind(struct settings *s)
 		return display_refuse(s->output);
 	if (s->kind == DISPLAY_EXR && is_asked)
 		return err_report(ERR_USAGE, NULL, "--exposure and --white are for .png and .jpg; OpenEXR keeps the light of the scene");
-	if (s->kind != DISPLAY_EXR && s->tracer.aov)
+	if (s->kind != DISPLAY_EXR && s->aov)
 		return err_report(ERR_USAGE, NULL, "--aov is for .exr; .png and .jpg have no channels but red, green and blue");
 	if (s->kind != DISPLAY_EXR)
 		s->tracer.aov = "";
@@ -266,4 +290,5 @@ void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
 	rules_free(&s->look);
+	free(s->aov);
 }

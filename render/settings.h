@@ -27,6 +27,8 @@ struct settings {
 	struct look *look;
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct tracer_options tracer;
+	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
+	int cryptomatte;                /* 1: channels that render/cryptomatte.h adds */
 	enum display_kind kind;         /* of the files */
 	struct display_options display; /* of display pictures */
 	char hash[33]; /* of everything that decides about pictures but the trace and the version; explicit defaults count */

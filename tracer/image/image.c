@@ -26,6 +26,8 @@ void image_free(struct image *img)
 		free_planes(&img->channels[i]);
 	pack_destroy(&img->pack);
 	free(img->channels);
+	for (size_t i = 0; i < img->n_attributes; i++)
+		free(img->attributes[i].text);
 	free(img->attributes);
 	memset(img, 0, sizeof(*img));
 }
@@ -152,16 +154,25 @@ int image_set_attribute(struct image *img, const char *name, const char *fmt, ..
 {
 	struct image_attribute *attribute = find_attribute(img, name);
 	va_list args;
+	char *text;
+	int bytes;
 
+	va_start(args, fmt);
+	bytes = vasprintf(&text, fmt, args);
+	va_end(args);
+	if (bytes < 0)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!attribute) {
-		if (memory_resize(&img->attributes, img->n_attributes + 1, sizeof(*attribute)))
+		if (memory_resize(&img->attributes, img->n_attributes + 1, sizeof(*attribute))) {
+			free(text);
 			return ERR_SYSTEM;
+		}
 		attribute = &img->attributes[img->n_attributes++];
 		snprintf(attribute->name, sizeof(attribute->name), "%s", name);
+		attribute->text = NULL;
 	}
-	va_start(args, fmt);
-	vsnprintf(attribute->text, sizeof(attribute->text), fmt, args);
-	va_end(args);
+	free(attribute->text);
+	attribute->text = text;
 	return 0;
 }
 

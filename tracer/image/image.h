@@ -18,7 +18,7 @@ struct image_channel {
 
 struct image_attribute {
 	char name[48];
-	char text[256];
+	char *text; /* owned */
 };
 
 struct image {
