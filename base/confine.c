@@ -65,18 +65,18 @@ static void grant_folder_of(const struct sandbox *s, const char *file, uint32_t 
 		grant(s, folder, rights);
 }
 
-/* NAME.trace: NAME.ref and NAME.trace.index, which is made where it is missing or out of date. */
+/* NAME.trace: NAME.ref and NAME.trace.index, which is made where it is missing or older than the recording or this program. */
 static void grant_beside(const struct sandbox *s, const char *trace)
 {
 	const char *dot = strrchr(trace, '.');
-	struct stat recording, index;
+	struct stat recording, index, own;
 	char name[PATH_MAX];
 
 	if (dot && snprintf(name, sizeof(name), "%.*s.ref", (int)(dot - trace), trace) < (int)sizeof(name))
 		grant(s, name, READ_FILES);
 	if (stat(trace, &recording) || !S_ISREG(recording.st_mode) || snprintf(name, sizeof(name), "%s.index", trace) >= (int)sizeof(name))
 		return;
-	if (stat(name, &index) == 0 && index.st_mtime >= recording.st_mtime)
+	if (stat(name, &index) == 0 && index.st_mtime >= recording.st_mtime && stat("/proc/self/exe", &own) == 0 && index.st_mtime >= own.st_mtime)
 		grant(s, name, READ_FILES);
 	else
 		grant_folder_of(s, trace, ALL_IN_FOLDER);
