@@ -36,16 +36,16 @@ KERNEL = """#include "kernels/common.h"
 #include "kernels/kernels.h"
 __kernel void credit(KERNEL_ARGUMENTS(credit)) { const struct credit_arguments a = KERNEL_STRUCT(credit); (void)a; %s; }
 """
-RIGHT = ".paths = paths, .radiance = radiance, .n = 1, .shaded = shaded"
+RIGHT = ".paths = paths, .radiance = radiance, .transport = 0, .n = 1, .shaded = shaded"
 
 CASES = [  # text, what goes in, whether it compiles
     (LAUNCH, RIGHT, True),
-    (LAUNCH, ".paths = paths, .radiance = radiance, .n = 1", False),
+    (LAUNCH, ".paths = paths, .radiance = radiance, .transport = 0, .n = 1", False),
     (LAUNCH, RIGHT + ", .bits = 1", False),
     (LAUNCH, RIGHT + ", .n = 2", False),
-    (LAUNCH, ".paths = paths, .radiance = radiance, .n = 1, .n = 2", False),
-    (LAUNCH, ".paths = paths, .radiance = shaded, .n = 1, .shaded = shaded", False),
-    (LAUNCH, ".paths = paths, .radiance = radiance, .n = shaded, .shaded = shaded", False),
+    (LAUNCH, ".paths = paths, .radiance = radiance, .transport = 0, .n = 1, .n = 2", False),
+    (LAUNCH, ".paths = paths, .radiance = shaded, .transport = 0, .n = 1, .shaded = shaded", False),
+    (LAUNCH, ".paths = paths, .radiance = radiance, .transport = 0, .n = shaded, .shaded = shaded", False),
     (UPLOAD, "data", True),
     (UPLOAD, "others", False),
     (TWIN, ("credit", "(void)a->radiance[0]"), True),
