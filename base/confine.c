@@ -87,11 +87,7 @@ static void grant_made(const struct sandbox *s, const char *folder, int is_cache
 {
 	char parent[PATH_MAX];
 
-	if (snprintf(parent, sizeof(parent), "%s%s", *folder == '/' ? "" : "./", folder) >= (int)sizeof(parent))
-		return;
-	while (access(parent, F_OK) != 0 && strrchr(parent, '/') > parent)
-		*strrchr(parent, '/') = '\0';
-	if (access(folder, F_OK) != 0)
+	if (access(folder, F_OK) != 0 && folder_nearest(folder, parent, sizeof(parent)))
 		grant(s, parent, LANDLOCK_ACCESS_FS_REMOVE_DIR);
 	if (!folder_try_early(folder, is_cache))
 		grant(s, folder, ALL_IN_FOLDER);

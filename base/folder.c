@@ -38,12 +38,28 @@ int folder_try(const char *path)
 	return *copy ? make_all(copy) : 0;
 }
 
-/* A folder made early, and how much of its path was there before. */
+int folder_nearest(const char *path, char *out, size_t size)
+{
+	int n = snprintf(out, size, "%s%s", *path == '/' ? "" : "./", path);
+	char *slash;
+
+	if (n >= (int)size)
+		return 0;
+	while (n > 1 && out[n - 1] == '/')
+		out[--n] = '\0';
+	while (access(out, F_OK) != 0 && (slash = strrchr(out, '/')) > out)
+		*slash = '\0';
+	if (access(out, F_OK) != 0)
+		out[1] = '\0'; /* the root */
+	return 1;
+}
+
+/* A folder made early: its path, with a '/', and how much of that was there before. */
 struct early {
 	struct early *next;
 	size_t old;
 	int on_success;
-	char path[];
+	char path[PATH_MAX];
 };
 
 static struct early *early;
@@ -52,40 +68,26 @@ static void drop_empty(int code, void *unused)
 {
 	(void)unused;
 	for (struct early *e = early; e; e = e->next)
-		while ((code == 0 ? e->on_success : 1) && strlen(e->path) > e->old && rmdir(e->path) == 0)
+		while ((code || e->on_success) && strlen(e->path) > e->old && rmdir(e->path) == 0)
 			*strrchr(e->path, '/') = '\0';
-}
-
-/* How much of a path is there: bytes, up to a '/' or its end. */
-static size_t there(char *path)
-{
-	for (char *slash; (slash = strrchr(path, '/')) && access(path, F_OK) != 0;)
-		*slash = '\0';
-	return access(path, F_OK) == 0 ? strlen(path) : 0;
 }
 
 int folder_try_early(const char *path, int on_success)
 {
-	struct early *e;
-	char copy[PATH_MAX];
-	size_t old;
-	int failed;
+	struct early *e = calloc(1, sizeof(*e));
+	char nearest[PATH_MAX];
+	int failed = e ? 0 : ENOMEM;
 
-	if (snprintf(copy, sizeof(copy), "%s", path) >= (int)sizeof(copy))
-		return ENAMETOOLONG;
-	while (*copy && copy[1] && copy[strlen(copy) - 1] == '/')
-		copy[strlen(copy) - 1] = '\0';
-	e = calloc(1, sizeof(*e) + strlen(copy) + 1);
-	if (!e)
-		return ENOMEM;
-	strcpy(e->path, copy);
-	old = there(copy);
-	failed = folder_try(e->path);
-	if (failed || old == strlen(e->path) || (!early && on_exit(drop_empty, NULL))) {
+	if (!failed && !folder_nearest(path, nearest, sizeof(nearest)))
+		failed = ENAMETOOLONG;
+	if (!failed)
+		failed = folder_try(path);
+	if (failed || !folder_nearest(path, e->path, sizeof(e->path)) || strcmp(e->path, nearest) == 0 ||
+	    (!early && on_exit(drop_empty, NULL))) {
 		free(e);
 		return failed;
 	}
-	e->old = old;
+	e->old = strlen(nearest);
 	e->on_success = on_success;
 	e->next = early;
 	early = e;

@@ -10,7 +10,13 @@ int folder_make(const char *path);
 int folder_try(const char *path);
 
 /**
- * The same before it is known whether anything will come into it. At exit the folder goes again where it was made here and is empty.
+ * The nearest that is there of a folder and those that it would lie in. What it gives has a '/', or is ".".
+ * @return 1; 0: the path is too long
+ */
+int folder_nearest(const char *path, char *out, size_t size);
+
+/**
+ * folder_try, before it is known whether anything will come into it. At exit the folder goes again where it was made here and is empty.
  * @param on_success  1: also where the exit code is 0
  * @return 0, or the errno that says why not
  */

@@ -59,6 +59,9 @@ with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
         check(all(attempts.values()) and kept, f"{verb}: done in spite of confinement: {[w for w, n in attempts.items() if n == 0]}")
         reports = done.stderr.replace("intruder", "")
         check("confine" not in reports and "Landlock" not in reports, f"{verb}: {reports}")
+    for out in ("new/x.####.exr", "new/er/x.####.exr", f"{work}/new/x.####.exr"):
+        done = relume("render", "missing.trace", "-o", out, cwd=work / "own")
+        check(done.returncode == 3 and not (work / "own/new").exists() and not (work / "new").exists(), f"no such recording, {out}: {done}")
     for verb in ("info", "render", "diff"):
         done, attempts, kept = intrude(work, *VERBS[verb], "--no-sandbox")
         attempts.pop("io_uring") # kernels may refuse it to all

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/err.h"
@@ -20,7 +21,7 @@ static void setup(void)
 
 static void teardown(void)
 {
-	static const char *const made[] = { "a/b/c", "a/b", "a", "d" };
+	static const char *const made[] = { "a/b/c", "a/b", "a", "d", "kept" };
 
 	for (size_t i = 0; i < sizeof(made) / sizeof(made[0]); i++)
 		rmdir(made[i]);
@@ -62,6 +63,37 @@ START_TEST(test_in_the_way)
 }
 END_TEST
 
+/* A process that makes a folder early and exits. */
+static void make_early(const char *path, int on_success, int code)
+{
+	const pid_t child = fork();
+	int status;
+
+	if (child == 0)
+		exit(folder_try_early(path, on_success) ? 100 : code);
+	ck_assert_int_eq(waitpid(child, &status, 0), child);
+	ck_assert(WIFEXITED(status));
+	ck_assert_int_eq(WEXITSTATUS(status), code);
+}
+
+START_TEST(test_early)
+{
+	char whole[128];
+
+	make_early("d", 0, 3);
+	ck_assert(!is_folder("d"));
+	make_early("a/b/c/", 1, 0);
+	ck_assert(!is_folder("a"));
+	snprintf(whole, sizeof(whole), "%s/a/b", scratch);
+	make_early(whole, 0, 5);
+	ck_assert(!is_folder("a"));
+	make_early("kept", 0, 0);
+	ck_assert(is_folder("kept"));
+	make_early("kept", 1, 3); /* it was there before */
+	ck_assert(is_folder("kept"));
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tcase = tcase_create("folder");
@@ -69,5 +101,6 @@ int main(void)
 	tcase_add_checked_fixture(tcase, setup, teardown);
 	tcase_add_test(tcase, test_make);
 	tcase_add_test(tcase, test_in_the_way);
+	tcase_add_test(tcase, test_early);
 	return run_case(tcase, "folder");
 }
