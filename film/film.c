@@ -17,9 +17,8 @@
 #include "film/layout.h"
 #include "tracer/image/display.h"
 
-#define RECORDED_FPS 30u  /* pictures a second where frames stand as long as they did */
-#define PLAIN_FPS 30u     /* where that is not known */
-#define LONGEST_S 2.0     /* that a frame stands: what a program did longer, like loading, is cut */
+#define FPS 30u       /* pictures a second, unless it is asked for; frames, too, where nobody knows how long they stood */
+#define LONGEST_S 2.0 /* that a frame stands: what a program did longer, like loading, is cut */
 #define POSTER_QUALITY 90
 
 struct asked {
@@ -108,7 +107,7 @@ static int begin(struct film *f, const struct image *img)
 		return err;
 	f->width = img->width;
 	f->height = img->height;
-	f->fps = f->asked->fps ? f->asked->fps : image_attribute(img, "relume:time") ? RECORDED_FPS : PLAIN_FPS;
+	f->fps = f->asked->fps ? f->asked->fps : FPS;
 	layout_size(&f->asked->layout, f->width, f->height, &f->picture.width, &f->picture.height);
 	bytes = (size_t)f->width * f->height * 3;
 	f->raster_rgb = malloc(bytes);
@@ -141,7 +140,7 @@ static double duration(const struct film *f, uint64_t next_ns)
 		return 1.0 / f->asked->fps;
 	if (f->time_ns && next_ns > f->time_ns)
 		return fmin((double)(next_ns - f->time_ns) / 1e9, LONGEST_S);
-	return f->lasts_s > 0 ? f->lasts_s : 1.0 / PLAIN_FPS;
+	return f->lasts_s > 0 ? f->lasts_s : 1.0 / FPS;
 }
 
 /* The frame that is held has ended. */
@@ -193,26 +192,14 @@ static int write_poster(struct film *f)
 {
 	struct layout layout = f->asked->layout;
 	const size_t stem = (size_t)(strrchr(f->asked->output, '.') - f->asked->output);
-	struct part_file file;
-	uint8_t *bytes = NULL;
-	size_t n_bytes = 0;
 	char path[4096];
-	int err;
 
 	if (layout.kind == LAYOUT_ALTERNATE)
 		layout.kind = LAYOUT_WIPE;
 	layout_draw(&layout, f->raster_rgb, f->traced_rgb, f->width, f->height, 0, &f->picture);
 	if (snprintf(path, sizeof(path), "%.*s.jpg", (int)stem, f->asked->output) >= (int)sizeof(path))
 		return err_report(ERR_USAGE, f->asked->output, "the name is too long");
-	err = oiio_encode(&f->picture, &(struct oiio_coding){ "jpg", .quality = POSTER_QUALITY }, &bytes, &n_bytes);
-	if (!err)
-		err = part_open(&file, path);
-	if (!err) {
-		fwrite(bytes, 1, n_bytes, file.stream);
-		err = part_close(&file, 0);
-	}
-	free(bytes);
-	return err;
+	return display_save(&f->picture, &(struct oiio_coding){ "jpg", .quality = POSTER_QUALITY }, path);
 }
 
 /* --- All together -------------------------------------------------------------------------------------------------- */

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "base/part.h"
 #include "diff/report/pictures.h"
+#include "tracer/image/display.h"
 #include "tracer/image/oiio.h"
 
 enum { COLUMNS = 4, MAX_ROWS = 4, GAP = 8, LABEL = 22, LETTERS = 13, MAX_CELL = 640 };
@@ -120,10 +120,8 @@ static int draw_row(struct sheet *sheet, size_t row, const struct score *s, cons
 int sheet_write(const struct output_run *run, struct set *ref, struct set *traced, const char *path)
 {
 	const struct score *rows[MAX_ROWS];
-	size_t n_rows = choose_frames(run, rows), bytes;
+	const size_t n_rows = choose_frames(run, rows);
 	struct sheet sheet = { .cell_w = 1, .cell_h = 1 };
-	struct part_file file;
-	uint8_t *png = NULL;
 	int err = 0;
 
 	for (size_t i = 0; i < n_rows; i++) {
@@ -143,14 +141,7 @@ int sheet_write(const struct output_run *run, struct set *ref, struct set *trace
 	for (size_t i = 0; !err && i < n_rows; i++)
 		err = draw_row(&sheet, i, rows[i], run, ref, traced);
 	if (!err)
-		err = oiio_encode(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, &(struct oiio_coding){ "png", .level = 6 }, &png, &bytes);
-	if (!err)
-		err = part_open(&file, path);
-	if (!err) {
-		fwrite(png, 1, bytes, file.stream);
-		err = part_close(&file, 0);
-	}
-	free(png);
+		err = display_save(&(struct oiio_pixels){ sheet.rgb, sheet.width, sheet.height }, &(struct oiio_coding){ "png", .level = 6 }, path);
 	free(sheet.rgb);
 	return err;
 }

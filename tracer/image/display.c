@@ -147,20 +147,13 @@ static void describe(const struct image *img, char *text, size_t size)
 	}
 }
 
-int display_write(const struct display *display, const struct image *img, const char *path, uint64_t *over)
+int display_save(const struct oiio_pixels *pixels, const struct oiio_coding *coding, const char *path)
 {
-	char text[2048];
-	struct oiio_pixels pixels = { malloc((size_t)img->width * img->height * 3), img->width, img->height };
-	const struct oiio_coding coding = { display_kind_of(path) == DISPLAY_PNG ? "png" : "jpg", PNG_LEVEL, JPEG_QUALITY, text };
 	struct part_file file;
 	uint8_t *bytes = NULL;
 	size_t n_bytes = 0;
-	int err = pixels.rgb ? display_codes(display, img, "", pixels.rgb, over) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	int err = oiio_encode(pixels, coding, &bytes, &n_bytes);
 
-	describe(img, text, sizeof(text));
-	if (!err)
-		err = oiio_encode(&pixels, &coding, &bytes, &n_bytes);
-	free(pixels.rgb);
 	if (!err)
 		err = part_open(&file, path);
 	if (!err) {
@@ -168,5 +161,19 @@ int display_write(const struct display *display, const struct image *img, const 
 		err = part_close(&file, 0);
 	}
 	free(bytes);
+	return err;
+}
+
+int display_write(const struct display *display, const struct image *img, const char *path, uint64_t *over)
+{
+	char text[2048];
+	struct oiio_pixels pixels = { malloc((size_t)img->width * img->height * 3), img->width, img->height };
+	const struct oiio_coding coding = { display_kind_of(path) == DISPLAY_PNG ? "png" : "jpg", PNG_LEVEL, JPEG_QUALITY, text };
+	int err = pixels.rgb ? display_codes(display, img, "", pixels.rgb, over) : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	describe(img, text, sizeof(text));
+	if (!err)
+		err = display_save(&pixels, &coding, path);
+	free(pixels.rgb);
 	return err;
 }

@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "tracer/image/image.h"
+#include "tracer/image/oiio.h"
 
 enum display_kind { DISPLAY_NONE, DISPLAY_EXR, DISPLAY_PNG, DISPLAY_JPEG };
 
@@ -44,6 +45,9 @@ void display_destroy(struct display **display);
  * @return 0, or ERR_INPUT: there are no such channels (reported)
  */
 int display_codes(const struct display *display, const struct image *img, const char *layer, uint8_t *rgb, uint64_t *over);
+
+/** Write codes as a file that appears whole. @return 0 or ERR_SYSTEM (reported) */
+int display_save(const struct oiio_pixels *pixels, const struct oiio_coding *coding, const char *path);
 
 /**
  * Write R, G, B as a display picture; the file appears whole. Its description holds the picture's frame, trace, settings, version and
