@@ -8,6 +8,7 @@
 #include "gl_tokens.h"
 #include "look/look.h"
 #include "look/solid.h"
+#include "look/study/box.h"
 #include "look/study/matrix.h"
 
 /* A texture of a shadow leaves this much along its edge, and no more than that in its middle. */
@@ -104,16 +105,10 @@ static int find_coordinates(const struct scene *s, const struct scene_instance *
 /* The middle of an instance's box, in eye space. */
 static void find_middle(const struct scene *s, const struct scene_instance *in, double out[3])
 {
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, eye[16];
+	const struct box box = box_of(s->meshes[in->mesh], matrix_identity);
+	double eye[16];
 
-	for (uint32_t v = 0; v < mesh->vertex_count; v++)
-		for (int k = 0; k < 3; k++) {
-			low[k] = fmin(low[k], (double)mesh->position[4 * (size_t)v + (size_t)k]);
-			high[k] = fmax(high[k], (double)mesh->position[4 * (size_t)v + (size_t)k]);
-		}
-	for (int k = 0; k < 3; k++)
-		out[k] = 0.5 * (low[k] + high[k]);
+	box_measure(&box, out);
 	matrix_from_floats(eye, in->modelview);
 	matrix_point(out, eye, (double[3]){ out[0], out[1], out[2] });
 }

@@ -8,6 +8,7 @@
 #include "look/look.h"
 #include "look/modelview.h"
 #include "look/solid.h"
+#include "look/study/box.h"
 #include "look/study/face.h"
 #include "look/study/matrix.h"
 
@@ -33,26 +34,13 @@ struct ball {
 
 static struct ball ball_of(const struct scene *s, const struct scene_instance *in)
 {
-	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, square = 0, eye[16];
-	struct ball ball = { .radius = 0 };
+	double eye[16];
+	struct ball ball;
+	struct box box;
 
 	matrix_from_floats(eye, in->modelview);
-	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		const float *p = mesh->position + 4 * (size_t)v;
-		double at[3];
-
-		matrix_point(at, eye, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
-		for (int k = 0; k < 3; k++) {
-			low[k] = fmin(low[k], at[k]);
-			high[k] = fmax(high[k], at[k]);
-		}
-	}
-	for (int k = 0; k < 3 && mesh->vertex_count; k++) {
-		ball.middle[k] = 0.5 * (low[k] + high[k]);
-		square += (high[k] - low[k]) * (high[k] - low[k]);
-	}
-	ball.radius = 0.5 * sqrt(square);
+	box = box_of(s->meshes[in->mesh], eye);
+	ball.radius = 0.5 * box_measure(&box, ball.middle);
 	return ball;
 }
 

@@ -6,6 +6,7 @@
 #include "look/look.h"
 #include "look/modelview.h"
 #include "look/solid.h"
+#include "look/study/box.h"
 #include "look/study/face.h"
 #include "look/study/matrix.h"
 
@@ -16,21 +17,6 @@
 /* A picture behind the world covers this share of the window both ways. */
 #define COVERS 0.95
 enum { MOST_TRIANGLES = 512 }; /* of a mesh that are looked at */
-
-/* In eye space. */
-struct box {
-	double low[3], high[3];
-};
-
-static const struct box no_box = { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
-
-static void widen(struct box *b, const double at[3])
-{
-	for (int k = 0; k < 3; k++) {
-		b->low[k] = fmin(b->low[k], at[k]);
-		b->high[k] = fmax(b->high[k], at[k]);
-	}
-}
 
 /* Leaves a colour in the window. */
 static int is_painted(const struct scene *s, const struct scene_instance *in)
@@ -78,7 +64,7 @@ static double nearest_of(const struct face *f)
 	return inside ? fabs(along) : best;
 }
 
-/* 1 where a draw is about the viewer, or a part of what may be. box: widened by it */
+/* 1 where a draw is about the viewer, or a part of what may be. box: in eye space, widened by it */
 static int is_about(const struct scene *s, const struct scene_instance *in, struct box *box)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -91,7 +77,7 @@ static int is_about(const struct scene *s, const struct scene_instance *in, stru
 		double at[3];
 
 		matrix_point(at, eye, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
-		widen(box, at);
+		box_widen(box, at);
 		farthest = fmax(farthest, sqrt(matrix_dot3(at, at)));
 		if (mesh->kind != SCENE_TRIANGLES)
 			nearest = fmin(nearest, sqrt(matrix_dot3(at, at)));
@@ -110,18 +96,12 @@ static int covers_window(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	double eye[16], projection[16], clip[16];
-	struct box box = no_box;
+	struct box box;
 
 	matrix_from_floats(eye, in->modelview);
 	matrix_from_floats(projection, s->views[in->view].projection);
 	matrix_mul(clip, projection, eye);
-	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		const float *p = mesh->position + 4 * (size_t)v;
-		double at[3];
-
-		matrix_point(at, clip, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
-		widen(&box, at);
-	}
+	box = box_of(mesh, clip);
 	return mesh->kind == SCENE_TRIANGLES && box.low[0] <= -COVERS && box.low[1] <= -COVERS && box.high[0] >= COVERS && box.high[1] >= COVERS;
 }
 
@@ -140,7 +120,7 @@ static uint32_t end_by_clear(const struct scene *s)
 {
 	for (uint32_t c = 0; c < s->n_clears; c++) {
 		const struct scene_clear *clear = &s->clears[c];
-		struct box box = no_box;
+		struct box box = box_empty;
 		uint32_t i = 0;
 
 		if (clear->target || (clear->buffers & 3) != 2 || !clear->before_instance || (uint32_t)clear->scissor[2] < s->width ||
@@ -190,7 +170,7 @@ static int is_in_world(const struct scene *s, const struct scene_instance *in, u
 void layer_find(const struct scene *s, uint8_t *out)
 {
 	const uint32_t end = find_end(s);
-	struct box all = no_box;
+	struct box all = box_empty;
 
 	memset(out, LAYER_WORLD, s->n_instances);
 	for (uint32_t i = 0; i < end; i++) {

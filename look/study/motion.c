@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "look/look.h"
+#include "look/study/box.h"
 #include "look/study/matrix.h"
 
 /* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are better by far. */
@@ -16,22 +17,6 @@
 enum { MAX_GUESSES = 48 };
 
 /* --- Things ------------------------------------------------------------------------------------------------------------- */
-
-static void measure(const struct scene_mesh *mesh, struct motion_thing *t)
-{
-	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, square = 0;
-
-	for (uint32_t v = 0; v < mesh->vertex_count; v++)
-		for (int k = 0; k < 3; k++) {
-			low[k] = fmin(low[k], (double)mesh->position[4 * v + k]);
-			high[k] = fmax(high[k], (double)mesh->position[4 * v + k]);
-		}
-	for (int k = 0; k < 3; k++) {
-		t->middle[k] = mesh->vertex_count ? 0.5 * (low[k] + high[k]) : 0;
-		square += mesh->vertex_count ? (high[k] - low[k]) * (high[k] - low[k]) : 0;
-	}
-	t->size = sqrt(square);
-}
 
 static int is_deep(const struct scene *s, const struct scene_instance *in)
 {
@@ -74,6 +59,7 @@ static uint32_t find_thing(struct motion *m, struct table *counts, const struct 
 	const XXH128_hash_t points = hash_points(mesh);
 	uint64_t parts[4] = { points.low64, points.high64, matrix_determinant3(eye) < 0, 0 }, key = XXH3_64bits(parts, sizeof(parts));
 	uintptr_t before = (uintptr_t)table_find(counts, key), found;
+	struct box box;
 
 	if (table_set(counts, key, (void *)(before + 1)))
 		return SCENE_NONE;
@@ -88,7 +74,8 @@ static uint32_t find_thing(struct motion *m, struct table *counts, const struct 
 	    table_set(&m->by_key, key, (void *)(m->n_things + 1)))
 		return SCENE_NONE;
 	m->things[m->n_things] = (struct motion_thing){ .mesh = { mesh->hash[0], mesh->hash[1] } };
-	measure(mesh, &m->things[m->n_things]);
+	box = box_of(mesh, matrix_identity);
+	m->things[m->n_things].size = box_measure(&box, m->things[m->n_things].middle);
 	return (uint32_t)m->n_things++;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "look/study/box.h"
 
 enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, FOLLOWED = 3, ROUNDS = 4 };
 #define CUT_OFF (254.5 / 255)
@@ -335,15 +336,13 @@ static void prune(struct solving *s)
 
 static double extent_of(const struct lightmaps *maps)
 {
-	double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, most = 0;
+	struct box box = box_empty;
+	double most = 0;
 
 	for (size_t i = 0; i < maps->n; i++)
-		for (int k = 0; k < 3; k++) {
-			low[k] = fmin(low[k], maps->texels[i].at[k]);
-			high[k] = fmax(high[k], maps->texels[i].at[k]);
-		}
+		box_widen(&box, maps->texels[i].at);
 	for (int k = 0; k < 3; k++)
-		most = fmax(most, high[k] - low[k]);
+		most = fmax(most, box.high[k] - box.low[k]);
 	return most;
 }
 
