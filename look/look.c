@@ -106,8 +106,7 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 	if (r->passes && spares && spare_named(r->passes, &passes))
 		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	if (r->shadows)
-		s->hidden = (s->hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_LEFT_OUT | SCENE_SOLID | SCENE_DOME_LIT | SCENE_NEAR_MIRROR)) |
-		            (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
+		s->hidden = (s->hidden & ~(SPARE_BITS | SCENE_CARD | SCENE_FACETED | SCENE_FILM)) | (*r->shadows ? 0u : SCENE_HIDDEN_FROM_LIGHTS);
 	if (r->mirrors)
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->near)
@@ -434,8 +433,7 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
 	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
-	a->in_plane = calloc(n + 1, a->rules->surfaces_count + (size_t)1);
-	if (!out->instances || !out->materials || !out->lights || !a->in_plane) {
+	if (!out->instances || !out->materials || !out->lights) {
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
@@ -462,8 +460,8 @@ static int decides_sparing(const struct rules *rules)
 	return decided == 3 || (rules->spare && !*rules->spare);
 }
 
-/* What the rules need to know of a frame before they apply. */
-static void prepare(struct applying *a)
+/* What the rules need to know of a frame before they apply. in_plane is to be freed. */
+static int prepare(struct applying *a)
 {
 	static const struct rules none = { .surfaces = NULL };
 	int in_world = 0;
@@ -481,22 +479,26 @@ static void prepare(struct applying *a)
 		a->rules = &none; /* its lights stand nobody knows where */
 		a->lights_change = 0;
 	}
+	a->in_plane = calloc(a->scene->n_instances + (size_t)1, a->rules->surfaces_count + (size_t)1);
+	if (!a->in_plane)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	a->has_mirror = has_mirror(a);
+	return 0;
 }
 
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
 {
 	struct applying a = { .look = look, .scene = scene, .out = out };
-	struct spare spare;
-	int err;
+	struct spare spare = { .bits = NULL };
+	int err = prepare(&a);
 
-	prepare(&a);
-	err = spare_find(scene, decides_sparing(a.rules), &spare);
+	if (!err)
+		err = spare_find(scene, decides_sparing(a.rules), &spare);
 	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
 	if (!err)
 		err = copy_scene(&a);
 	if (!err) {
-		a.has_mirror = has_mirror(&a);
 		size_lights(a.rules, out);
 		set_sky(&a);
 	}
@@ -614,14 +616,10 @@ static int tell_lights(const struct applying *a, int (*tell)(void *user, const c
 int look_tell(const struct look *look, const struct scene *scene, int (*tell)(void *user, const char *text), void *user)
 {
 	struct applying a = { .look = look, .scene = scene };
-	int err;
+	int err = prepare(&a);
 
-	prepare(&a);
-	a.in_plane = calloc(scene->n_instances + (size_t)1, a.rules->surfaces_count + (size_t)1);
-	if (!a.in_plane)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	a.has_mirror = has_mirror(&a);
-	err = tell_surfaces(&a, tell, user);
+	if (!err)
+		err = tell_surfaces(&a, tell, user);
 	if (!err)
 		err = tell_lights(&a, tell, user);
 	free(a.in_plane);
