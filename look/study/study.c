@@ -128,9 +128,10 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 {
 	const struct motion *m = &study->motion;
 	double up[3];
-	int is_sunny, has_lamps;
+	int is_sunny, has_lamps, shines;
 
 	find_shining(study, up, &is_sunny, &has_lamps);
+	shines = is_sunny || has_lamps;
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
 	if (m->n_frames)
 		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
@@ -138,18 +139,19 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || is_sunny || has_lamps ? "surfaces:\n" : "surfaces: []\n");
+	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || shines
+	             ? "surfaces:\n" : "surfaces: []\n");
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
-	if (is_sunny || has_lamps)
+	if (shines)
 		sun_write_surfaces(out);
-	roles_write(&study->roles, m, is_sunny || has_lamps, out);
+	roles_write(&study->roles, m, shines, out);
 	cast_write(&study->cast, out);
-	if (is_sunny || has_lamps)
+	if (shines)
 		lamps_write_surfaces(&study->lamps, m, out);
 	seen_write(&study->seen, m, out);
-	findings_write_lights(&study->tricks, &study->solved, is_sunny || has_lamps, out);
-	if (is_sunny || has_lamps)
+	findings_write_lights(&study->tricks, &study->solved, shines, out);
+	if (shines)
 		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
 	if (is_sunny)
 		sun_write_light(&study->sun, up, out);
