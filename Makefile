@@ -32,7 +32,7 @@ RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/for
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
-COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base capture capture/format film scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format film scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
@@ -247,7 +247,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
-	$(patsubst %,$(BUILD)/tests/%,real/closer real/depths real/empty real/front real/kdtree real/leaving real/linear real/multisampled real/objects real/parameters real/parts real/persistent real/pixels real/samples real/shapes real/surfaces real/targets real/textures real/vertices real/windows bench/static_scene) \
+	$(patsubst %,$(BUILD)/tests/%,real/closer real/depths real/empty real/front real/kdtree real/leaving real/linear real/multisampled real/objects real/parameters real/parting real/parts real/persistent real/pixels real/samples real/shapes real/surfaces real/targets real/textures real/vertices real/windows bench/static_scene) \
 	$(patsubst %.c,$(BUILD)/%,$(filter-out $(wildcard tests/trace/test_*.c),$(wildcard tests/trace/*.c)))
 
 $(BUILD)/tests/%.so: tests/%.c $(BUILD)/flags
@@ -277,7 +277,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)

@@ -28,6 +28,7 @@ static const struct verb {
 	{ "trim", trim_main, "cut a recording down to some frames" },
 	{ "repair", repair_main, "save what can be read of a recording that was cut or damaged" },
 	{ "reduce", reduce_main, "find the smallest recording with which a command still fails" },
+	{ "bisect", bisect_main, "find the first call at which two recordings of a program part" },
 	{ "scene", scene_main, "print the scene of a frame" },
 	{ "export", export_main, "write a frame as glTF, for other programs" },
 	{ "look", look_main, "study a trace: write rules about lights and surfaces for render" },

@@ -15,6 +15,7 @@ int scene_main(int argc, char **argv);   /* replay/verbs/scene.c */
 int trim_main(int argc, char **argv);    /* replay/verbs/trim.c */
 int repair_main(int argc, char **argv);  /* replay/verbs/repair.c */
 int reduce_main(int argc, char **argv);  /* replay/verbs/reduce.c */
+int bisect_main(int argc, char **argv);  /* bisect/bisect.c */
 int export_main(int argc, char **argv);  /* replay/verbs/export.c */
 int look_main(int argc, char **argv);    /* render/look.c */
 int render_main(int argc, char **argv);  /* render/render.c */

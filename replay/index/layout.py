@@ -2,7 +2,7 @@
 """layout.py TXT OUT <PREPROCESSED: the members of the structs that a snapshot keeps, as a list for the C compiler.
 
 TXT (layout.txt) says what becomes of every member. OUT defines SNAPSHOT_MEMBERS(PLACED, SINGLE), a list of PLACED(struct,
-member) for structs that are saved as they lie, and of SINGLE(struct, member) for members that are saved one by one:
+member, type of its elements) for structs that are saved as they lie, and of SINGLE(struct, member) for members that are saved one by one:
 snapshot_layout.c hashes their names, offsets and sizes. Comments and prototypes change nothing.
 """
 import re
@@ -10,7 +10,7 @@ import sys
 
 
 def structs_of(text):
-    """{name: [(member, type, is a pointer)]} of all structs that are defined in preprocessed C."""
+    """{name: [(member, type, is a pointer, type in C)]} of all structs that are defined in preprocessed C."""
     structs = {}
     for match in re.finditer(r"\bstruct (\w+)\s*\{", text):
         depth, end = 1, match.end()
@@ -32,7 +32,7 @@ def members_of(body):
         for declarator in re.sub(r"\[[^\]]*\]", "", match[2]).split(","):
             name = re.search(r"(\w+)\W*$", declarator)
             if name:
-                members.append((name[1], match[1].split()[-1], "*" in declarator))
+                members.append((name[1], match[1].split()[-1], "*" in declarator, match[1].replace("const ", "")))
     return members
 
 
@@ -45,7 +45,7 @@ def main():
             rules[words[0]].setdefault(words[1], []).extend(words[2:])
 
     def points(name):
-        return any(pointer or (kind in structs and points(kind)) for _, kind, pointer in structs[name])
+        return any(pointer or (kind in structs and points(kind)) for _, kind, pointer, _ in structs[name])
 
     def check(name, named, found, what):
         errors.extend(f"struct {name}: {m} {what}" for m in found if m not in named)
@@ -56,26 +56,26 @@ def main():
         if name not in structs:
             sys.exit(f"{path}: there is no struct {name}")
     for name, named in rules["pointers"].items():
-        check(name, named, [m for m, kind, pointer in structs[name] if pointer or (kind in structs and points(kind))],
+        check(name, named, [m for m, kind, pointer, _ in structs[name] if pointer or (kind in structs and points(kind))],
               "is or holds a pointer: say what becomes of it where the struct is saved, and name it here")
     for name in {**rules["kept"], **rules["left"]}:
         kept = rules["kept"].get(name, [])
-        check(name, kept + rules["left"].get(name, []), [m for m, _, _ in structs[name]],
+        check(name, kept + rules["left"].get(name, []), [m for m, *_ in structs[name]],
               "is new: say whether snapshots keep it, and name it here")
-        rows += [("SINGLE", name, m) for m in kept]
-        todo += [kind for m, kind, pointer in structs[name] if m in kept and kind in structs and not pointer]
+        rows += [("SINGLE", name, m, None) for m in kept]
+        todo += [kind for m, kind, pointer, _ in structs[name] if m in kept and kind in structs and not pointer]
     while todo:
         name = todo.pop(0)
         if name in seen or name in rules["kept"] or name in rules["left"]:
             continue
         seen.add(name)
-        rows += [("PLACED", name, m) for m, _, _ in structs[name]]
-        todo += [kind for _, kind, pointer in structs[name] if kind in structs and not pointer]
+        rows += [("PLACED", name, m, "void *" if pointer else kind) for m, _, pointer, kind in structs[name]]
+        todo += [kind for _, kind, pointer, _ in structs[name] if kind in structs and not pointer]
     if errors:
         sys.exit("\n".join(f"{path}: {error}" for error in errors))
     with open(sys.argv[2], "w") as out:
         out.write("/* Made by replay/index/layout.py from layout.txt. */\n#define SNAPSHOT_MEMBERS(PLACED, SINGLE)")
-        out.writelines(f" \\\n\t{how}({name}, {member})" for how, name, member in rows)
+        out.writelines(f" \\\n\t{how}({name}, {member}{', ' + kind if kind else ''})" for how, name, member, kind in rows)
         out.write("\n")
 
 

@@ -82,6 +82,27 @@ int player_try_frame(struct player *p, int want, struct scene **scene)
 	return 1;
 }
 
+int player_step(struct player *p, const struct call **call)
+{
+	struct gls_exec *x = p->exec;
+	int rc = trace_reader_next(p->reader, call);
+
+	if (rc <= 0)
+		return rc;
+	x->want = 0;
+	x->frame_ended = 0;
+	rc = gls_exec_call(x, *call);
+	if (rc)
+		return rc;
+	if (x->frame_ended) {
+		gls_frame_skip(x);
+		x->frame++;
+		gls_mesh_cache_trim(x);
+		gls_image_cache_trim(x);
+	}
+	return x->failed ? x->failed : 1;
+}
+
 /* Why a frame takes so long, and what it waits for. */
 static void tell_rewind(const struct player *p, uint64_t frame)
 {

@@ -36,6 +36,13 @@ int player_next_frame(struct player *p, int want, struct scene **scene);
 /** The same, but a frame that needs pixels of skipped frames is left: 1 is returned and exec->feedback.rewind is set. */
 int player_try_frame(struct player *p, int want, struct scene **scene);
 
+/**
+ * Read one call and execute it, without building scenes.
+ * @param call  receives it, until the next one is read
+ * @return 1; 0 at the end; ERR_INPUT or ERR_SYSTEM (reported)
+ */
+int player_step(struct player *p, const struct call **call);
+
 /** Go on with another state machine, which the player then owns. What was counted so far goes on being counted. */
 void player_use(struct player *p, struct gls_exec *x);
 

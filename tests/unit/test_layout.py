@@ -28,8 +28,9 @@ class Layout(unittest.TestCase):
         code, rows = self.run_layout(SOURCE)
         self.assertEqual(code, 0)
         self.assertEqual([row.strip(" \t\\") for row in rows if row],
-                         ["SINGLE(apart, one)", "SINGLE(apart, two)", "PLACED(outer, a)", "PLACED(outer, b)", "PLACED(outer, c)",
-                          "PLACED(outer, inner)", "PLACED(inner, at)", "PLACED(inner, n)", "PLACED(inner, m)"])
+                         ["SINGLE(apart, one)", "SINGLE(apart, two)", "PLACED(outer, a, float)", "PLACED(outer, b, int)",
+                          "PLACED(outer, c, float)", "PLACED(outer, inner, struct inner)", "PLACED(inner, at, void *)",
+                          "PLACED(inner, n, unsigned)", "PLACED(inner, m, unsigned)"])
 
     def test_text_changes_nothing(self):
         other = SOURCE.replace("; ", ";\n\n    ").replace("int prototype", "long another").replace("(struct outer *outer)", "(void)")
