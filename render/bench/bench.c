@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/options.h"
 #include "base/verbs.h"
+#include "look/rules.h"
 #include "tracer/accel/builders.h"
 #include "render/bench/bench_accel.h"
 #include "render/bench/bench_frame.h"
@@ -21,6 +22,7 @@ struct options {
 	enum tracer_mode mode;
 	unsigned threads, repeats, kinds; /* kinds: bit 1 << enum accel_kind; 0: what is not asked for */
 	int json, family;                 /* enum device_family; -1: what suits the device */
+	struct look *look;                /* owned */
 };
 
 struct figure {
@@ -54,6 +56,15 @@ static int take_kinds(const struct options_row *row, const char *list, void *out
 	return 0;
 }
 
+static int take_look(const struct options_row *row, const char *file, void *out)
+{
+	struct look **look = out;
+
+	(void)row;
+	rules_free(look);
+	return rules_load(file, look);
+}
+
 static const struct options_row rows[] = {
 	{ "device", 0, "NAME", "number or part of the name of an OpenCL device, or 'reference'", options_text, .at = offsetof(struct options, device) },
 	{ "kernels", 0, "FAMILY", "with a recording: packets, binary or compressed, as for relume render",
@@ -67,6 +78,8 @@ static const struct options_row rows[] = {
 	{ "frame", 'f', "N", "which frame of the recording (default 0)", options_frame, .at = offsetof(struct options, frame) },
 	{ "mode", 0, "MODE", "as for relume render (default whitted)",
 	  options_word, .at = offsetof(struct options, mode), .words = settings_mode_names },
+	{ "look", 0, "FILE", "with a recording: rules for its surfaces and lights, as for relume render",
+	  take_look, .at = offsetof(struct options, look), .use = CONFINE_READS },
 	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct options, json) },
 	{ OPTIONS_NO_SANDBOX },
 };
@@ -170,15 +183,17 @@ int bench_main(int argc, char **argv)
 	struct bench *b = NULL;
 	int err = parse(argc, argv, &o);
 
-	if (err)
+	if (err) {
+		rules_free(&o.look);
 		return err > 0 ? 0 : -err;
+	}
 	err = device_open(o.device, o.threads, &dev);
 	if (!err && o.family >= 0)
 		device_choose_family(dev, (enum device_family)o.family);
 	if (!err && !o.trace)
 		err = bench_create(dev, o.models, 1600, 1200, &b);
 	if (!err && o.trace)
-		err = bench_frame(dev, o.trace, o.frame, o.mode, o.repeats, o.json);
+		err = bench_frame(dev, &(struct bench_frame){ o.trace, o.frame, o.look, o.mode, o.repeats, o.json });
 	else if (!err && o.kinds)
 		err = bench_accel(b, o.kinds, o.repeats, o.json);
 	else if (!err)
@@ -187,5 +202,6 @@ int bench_main(int argc, char **argv)
 		err = device_report_lack(dev);
 	bench_destroy(&b);
 	device_close(&dev);
+	rules_free(&o.look);
 	return -err;
 }

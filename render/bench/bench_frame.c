@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "look/look.h"
 #include "replay/replay.h"
 
 /* One line of the table: means of n runs. */
@@ -48,18 +49,16 @@ static void print_profile(const struct device *dev, const struct device_profile 
 		printf("%-18s %9.2f %9.2f\n", "(whole)", 1e3 * whole->wall_s / n, 1e3 * whole->cpu_s / n);
 }
 
-int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum tracer_mode mode, size_t n, int json)
+/* The scene is rendered 1 + n times: the first compiles kernels and builds what is kept. */
+static int measure(struct device *dev, const struct bench_frame *what, const struct scene *scene)
 {
-	const struct tracer_options options = { .mode = mode, .depth = 4, .samples = 1 };
+	const struct tracer_options options = { .mode = what->mode, .depth = 4, .samples = 1 };
 	struct device_profile profile;
 	struct device_spent whole = { 0, 0, 0, 0 };
-	struct scene *scene = NULL;
 	struct tracer *tracer = NULL;
-	int err = replay_one_frame(trace, frame, &scene);
+	int err = tracer_create(&tracer, dev);
 
-	if (!err)
-		err = tracer_create(&tracer, dev);
-	for (size_t i = 0; i <= n && !err; i++) { /* the first compiles kernels and builds what is kept */
+	for (size_t i = 0; i <= what->n && !err; i++) {
 		struct image img = { .width = 0 };
 		double wall, cpu;
 
@@ -79,8 +78,22 @@ int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum trac
 	}
 	device_set_profile(dev, NULL);
 	if (!err)
-		print_profile(dev, &profile, &whole, scene->width, scene->height, json);
+		print_profile(dev, &profile, &whole, scene->width, scene->height, what->json);
 	tracer_destroy(&tracer);
+	return err;
+}
+
+int bench_frame(struct device *dev, const struct bench_frame *what)
+{
+	struct scene *scene = NULL, changed = { .instances = NULL };
+	int err = replay_one_frame(what->trace, what->frame, &scene);
+
+	if (!err)
+		err = look_apply(what->look, scene, &changed, NULL);
+	if (!err)
+		err = measure(dev, what, what->mode == TRACER_GL ? scene : &changed);
+	if (changed.instances)
+		look_release(&changed);
 	scene_release(&scene);
 	return err;
 }

@@ -7,9 +7,21 @@
 #include "tracer/device/device.h"
 #include "tracer/frame/trace.h"
 
+struct look;
+
+/* What is rendered, and how often. */
+struct bench_frame {
+	const char *trace;
+	uint64_t frame;
+	const struct look *look; /* rules; NULL: none */
+	enum tracer_mode mode;
+	size_t n;
+	int json;
+};
+
 /**
  * Render a frame of a recording 1 + n times and print the means of the last n: the whole frame, each kernel, copies, and the
  * rest, which is the host's own work (trees, matrices, composing). Waits for each kernel.
  * @return 0 or ERR_* (reported)
  */
-int bench_frame(struct device *dev, const char *trace, uint64_t frame, enum tracer_mode mode, size_t n, int json);
+int bench_frame(struct device *dev, const struct bench_frame *what);
