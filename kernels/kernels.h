@@ -210,14 +210,13 @@ typedef float element_float;
 /* Light from all around: kernels/frame/dome.h. */
 #define ARGUMENTS_dome_find(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(scene_dome, dome) AND() VALUE(uint, n) AND() \
-	OUT(dome_place, places)
-#define ARGUMENTS_dome_ray(IN, OUT, VALUE, GROUP, AND) \
-	IN(dome_place, places) AND() IN(uint, pixels) AND() \
-	IN(float, directions) AND()         /* [4] for each pixel of a block: about z, then how far to look */ \
-	VALUE(uint, width) AND() VALUE(uint, n) AND() OUT(ray, rays)
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(scene_dome, dome) AND() \
+	IN(float, directions) AND()         /* [sample][pixel of a block][4]: about z, then how far to look */ \
+	VALUE(uint, samples) AND() VALUE(uint, n) AND() \
+	OUT(dome_place, places) AND() \
+	OUT(ray, rays)                      /* [sample][n] */
 #define ARGUMENTS_dome_sum(IN, OUT, VALUE, GROUP, AND) \
-	IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() \
+	IN(dome_place, places) AND() IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() VALUE(uint, samples) AND() \
 	VALUE(uint, is_first) AND()         /* 1: there are no sums yet */ \
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [4] a fragment: light r g b, and how many rays; read as well */
@@ -280,7 +279,7 @@ typedef float element_float;
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(credit) X(ao_shade) X(dome_find) X(dome_ray) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+	X(shade_hit) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -367,10 +366,11 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(shade_hit_packet, shade_hit)  /* the same, SHADE_PACKET consecutive paths a work item (CPUs) */ \
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
-	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around */ \
-	X(dome_ray, dome_ray)           /* the same: a look around from there */ \
-	X(dome_sum, dome_sum)           /* the same: the light that came by it */ \
+	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around, and its looks around */ \
+	X(dome_find_packet, dome_find)  /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
+	X(dome_sum, dome_sum)           /* one fragment a work item: the light that came by its looks */ \
 	X(dome_light, dome_light)       /* the same: its and its neighbours' light on its colours */ \
+	X(dome_light_packet, dome_light) /* the same, a tile of DOME_WIDTH x CAMERA_TILE pixels a work item (CPUs) */ \
 	X(clear, clear)                 /* one pixel a work item: a Clear */ \
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
 	X(resolve_packet, resolve)      /* the same, all colours of a pixel at once (CPUs) */ \

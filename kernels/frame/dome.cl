@@ -2,6 +2,5 @@
 #include "kernels/frame/dome.h"
 
 KERNEL_OF(float4) void dome_find(KERNEL_ARGUMENTS(dome_find)) KERNEL_ITEMS(dome_find, n)
-KERNEL_OF(float4) void dome_ray(KERNEL_ARGUMENTS(dome_ray)) KERNEL_ITEMS(dome_ray, n)
 __kernel void dome_sum(KERNEL_ARGUMENTS(dome_sum)) KERNEL_ITEMS(dome_sum, n)
 KERNEL_OF(float4) void dome_light(KERNEL_ARGUMENTS(dome_light)) KERNEL_ITEMS(dome_light, n)

@@ -55,6 +55,10 @@ struct pack_kept {
 	struct pack_lit lit[SHADE_TRIANGLES];
 };
 
+/* Sixteen numbers with the alignment of one: PoCL's vload16 and vstore16 take them one after the other. */
+typedef float16 pack_loose_floats __attribute__((aligned(4)));
+typedef uint16 pack_loose_uints __attribute__((aligned(4)));
+
 #define LANE(vector, type, lane) (((type *)&(vector))[lane])
 
 /* A fragment of the list, to a lane. */

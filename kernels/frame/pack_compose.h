@@ -16,9 +16,8 @@
 #endif
 #endif
 
-/* The same with the alignment of their elements: PoCL's vstore16 stores one after the other. */
+/* As pack_loose_floats. */
 typedef ushort16 pack_loose_halves __attribute__((aligned(2)));
-typedef float16 pack_loose_floats __attribute__((aligned(4)));
 
 /* Pixels before they are composed; colours as GL counts them. */
 struct pack_pixels {

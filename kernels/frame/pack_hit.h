@@ -18,11 +18,18 @@ struct pack_points {
 	packf t, t_min;          /* of hits */
 };
 
-/* Whether packs know all that a material asks of hits. */
+/* Whether packs know all that a material asks of fragments that light leaves. */
+static inline int pack_knows_leaving(const struct shade_arguments *s, __global const struct scene_material *m)
+{
+	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && pack_knows_rays(m);
+}
+
+/* And of hits. A near mirror in another one mirrors nothing. */
 static inline int pack_knows_paths(const struct shade_arguments *s, __global const struct scene_material *m)
 {
-	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && !m->blend &&
-	       !(m->surface.hidden & (SCENE_HIDDEN_FROM_MIRRORS | SCENE_NEAR_MIRROR)) && !(m->surface.roughness > 0.0f);
+	return pack_knows_leaving(s, m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
+	       !(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS) &&
+	       (m->surface.hidden & SCENE_NEAR_MIRROR || !(m->surface.roughness > 0.0f));
 }
 
 /* --- Where they are ------------------------------------------------------------------------------------------------ */
@@ -181,14 +188,58 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 	}
 }
 
-/* As branch_mirror. */
-WIDE_VECTORS static inline void pack_branch_mirror(const struct pack_points *q, uint lanes, struct pack_vec d, const struct pack_split *s,
-                                                   struct pack_vec weight, packu kind, struct pack_branches *b)
+/* As branch_normal. */
+WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
 {
-	const struct pack_vec away = pack_sub(d, pack_scale(s->normal, 2.0f * pack_dot(s->normal, d))), plane = q->surface.plane;
+	struct pack_vec v[3], smooth;
+
+	if (p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR))
+		return n;
+	for (int k = 0; k < 3; k++) {
+		packf row[4];
+
+		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
+		v[k] = pack_scale(pack_vec(row[0], row[1], row[2]), p->weight[k]);
+	}
+	smooth = pack_normalize(pack_add(pack_add(v[0], v[1]), v[2]));
+	smooth = pack_choose(smooth, pack_scale(smooth, (packf)(-1)), pack_dot(smooth, n) < 0.0f);
+	return pack_choose(n, smooth, pack_dot(smooth, smooth) > 0.0f);
+}
+
+/* As branch_mirror, of what is smooth. */
+WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const struct pack_points *q, uint lanes, struct pack_vec d,
+                                                   const struct pack_split *s, struct pack_vec weight, packu kind, struct pack_branches *b)
+{
+	const struct pack_vec n = pack_mirror_normal(t, &q->p, s->normal), plane = q->surface.plane;
+	const struct pack_vec away = pack_sub(d, pack_scale(n, 2.0f * pack_dot(d, n)));
 	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
 
 	pack_branch(q, lanes, pack_on_side(away, side), weight, kind, b->medium, b);
+}
+
+/* As branch_mirror, of fragments' materials that are rough. */
+static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct pack_vec d, const struct pack_split *s,
+                                     struct pack_vec weight, packu kind, struct pack_branches *b)
+{
+	const struct pack_vec n = pack_mirror_normal(&a->tables, &q->p, s->normal), plane = q->surface.plane;
+	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
+	struct pack_vec away = pack_sub(d, pack_scale(n, 2.0f * pack_dot(d, n))), across, along, off;
+	packf right = 0, up = 0;
+
+	for (uint left = q->lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+		float u, v, radius, turn;
+
+		sample_square(sample_hash(q->list.pixel[lane]) + SAMPLE_GLOSS, a->sample, &u, &v);
+		radius = M_SQRT(u);
+		turn = 6.283185307179586f * v;
+		LANE(right, float, lane) = radius * M_COS(turn);
+		LANE(up, float, lane) = radius * M_SIN(turn);
+	}
+	pack_basis(away, &across, &along);
+	off = pack_add(pack_scale(across, right), pack_scale(along, up));
+	away = pack_normalize(pack_add(away, pack_scale(off, (packf)(q->p.material->surface.roughness))));
+	pack_branch(q, q->lanes, pack_on_side(away, side), weight, kind, b->medium, b);
 }
 
 /* As branch_through. */

@@ -59,6 +59,16 @@ WIDE_VECTORS static inline struct pack_vec pack_normalize(struct pack_vec a)
 	return pack_choose(a, pack_scale(a, 1.0f / sqrt(length2)), length2 > 0.0f);
 }
 
+/* As sample_basis. */
+WIDE_VECTORS static inline void pack_basis(struct pack_vec n, struct pack_vec *across, struct pack_vec *along)
+{
+	const packi by_x = fabs(n.x) < 0.6f;
+	const packf one = 1, none = 0;
+
+	*across = pack_normalize(pack_cross(n, pack_vec(select(none, one, by_x), select(one, none, by_x), none)));
+	*along = pack_cross(n, *across);
+}
+
 /* The fragments' triangles in eye space, as struct point_plane. */
 struct pack_surface {
 	struct pack_vec corner[3], plane; /* plane: point_plane_normal */

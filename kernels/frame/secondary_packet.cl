@@ -45,7 +45,7 @@ static inline void find_leaving(const struct leave_arguments *a, const struct sh
 		    (a->transport < TRANSPORT_DIFFUSE && !(m->surface.reflect > 0.0f || m->surface.transmit > 0.0f)))
 			continue;
 		left->all |= (ulong)1 << i;
-		if (pack_knows_paths(s, m) && pack_knows_geometry(g))
+		if (pack_knows_leaving(s, m) && pack_knows_geometry(g))
 			left->packed |= (ulong)1 << i;
 	}
 }
@@ -192,10 +192,14 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 	out = color_of(s, q, &texturing, kept, &lit);
 	absorb(&a->tables, q, &way);
 	pack_split_light(&a->tables, q, q->d, &split);
+	if (m->surface.hidden & SCENE_NEAR_MIRROR) {
+		split.base += split.mirrored;
+		split.mirrored = 0;
+	}
 	out = pack_mul(way.weight, pack_scale(out, split.base));
 	on = q->lanes & pack_bits(way.branches.depth < a->depth);
 	if (on && (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f))
-		pack_branch_mirror(q, on, q->d, &split, pack_scale(way.weight, split.mirrored), way.kind, &way.branches);
+		pack_branch_mirror(&a->tables, q, on, q->d, &split, pack_scale(way.weight, split.mirrored), way.kind, &way.branches);
 	on &= pack_bits(split.through > 0.0f);
 	if (on)
 		pack_branch_through(&a->tables, q, on, q->d, &split,
@@ -246,7 +250,7 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 	struct pack_branches branches;
 	struct pack_split split;
 	struct pack_vec weight;
-	uint through;
+	uint through, kind;
 
 	q->p.material = m;
 	q->p.view = &a->views[a->tables.geometries[q->list.instance[0]].view];
@@ -272,7 +276,11 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 		v3_store(s->beauty, v3_sub(mirrored, v3_scale(direct, LANE(split.through, float, lane))));
 	}
 	weight = pack_vec(split.mirrored, split.mirrored, split.mirrored);
-	pack_branch_mirror(q, q->lanes, q->d, &split, weight, (packu)(PATH_REFLECT), &branches);
+	kind = m->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT;
+	if (m->surface.roughness > 0.0f)
+		pack_branch_rough(a, q, q->d, &split, weight, (packu)(kind), &branches);
+	else
+		pack_branch_mirror(&a->tables, q, q->lanes, q->d, &split, weight, (packu)(kind), &branches);
 	through = q->lanes & pack_bits(split.through > 0.0f);
 	if (through) {
 		pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);

@@ -1,7 +1,7 @@
 /*
  * The shading kernels on an OpenCL device against the same text compiled as C: one scene with everything that shades
  * (lights near and far, specular, two sides, flat and smooth, fog, blending, shadows, a mirror, glass), channel by channel;
- * with one sample a pixel and with several.
+ * with one sample a pixel and with several, and as rules change it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -60,6 +60,24 @@ static void take_samples(struct made *t)
 	t->materials[0].samples_off = 2;
 }
 
+/* As rules want it: light from all around, in which some see the ground; highlights that mirror what is near, a blended board that mirrors. */
+static void take_rules(struct made *t)
+{
+	t->scene.dome = (struct scene_dome){ .up_eye = { 0, 1, 0 }, .reach = 6, .light = { 1, 0.9f, 0.8f }, .ground = { 0.3f, 0.3f, 0.5f },
+		                             .lit = 0.8f };
+	for (uint32_t m = 0; m < MADE_MAX; m++)
+		t->materials[m].surface.hidden |= SCENE_DOME_LIT;
+	t->materials[0].surface.hidden |= SCENE_NEAR_MIRROR;
+	t->materials[0].surface.reflect = 0.2f;
+	t->materials[0].surface.roughness = 0.15f;
+	t->materials[0].fog_mode = GL_LINEAR;
+	t->materials[0].fog_end = 30;
+	t->materials[1].blend = 1;
+	t->materials[1].surface.hidden |= SCENE_SOLID;
+	t->materials[3].surface.hidden |= SCENE_NEAR_MIRROR;
+	t->materials[3].surface.reflect = 0.3f;
+}
+
 START_TEST(test_device_against_twins)
 {
 	struct device_description *devices = NULL;
@@ -70,8 +88,10 @@ START_TEST(test_device_against_twins)
 	if (device_list(&devices, &n) != 0 || n == 0)
 		return; /* no OpenCL here; said on standard error */
 	make_scene(&t);
-	if (_i)
+	if (_i == 1)
 		take_samples(&t);
+	if (_i == 2)
+		take_rules(&t);
 	setenv("RELUME_TEST_DEVICE", "reference", 1);
 	truth_render(&t, "whitted", &c);
 	truth_check_closure(&c);
@@ -107,6 +127,6 @@ int main(void)
 	TCase *tests = tcase_create("devices");
 
 	tcase_set_timeout(tests, 240);
-	tcase_add_loop_test(tests, test_device_against_twins, 0, 2); /* one sample a pixel, and several */
+	tcase_add_loop_test(tests, test_device_against_twins, 0, 3); /* one sample a pixel, several, rules */
 	return run_case(tests, "shade");
 }

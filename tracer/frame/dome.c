@@ -5,15 +5,24 @@
 
 /* Of options.rays, which are for a pixel on its own: neighbours share theirs. */
 #define RAYS_SHARED 8u
+/* Rays of a pixel that are traced at once. */
+#define RAYS_AT_ONCE 2u
 
-/* Where the pixels of a block look. sample: which of their rays, over all passes */
-static int upload_directions(struct job *job, uint32_t sample)
+/* Rays of a pixel, a pass. */
+static uint32_t rays_of(const struct job *job)
 {
-	float directions[DOME_BLOCK * DOME_BLOCK][4];
+	return (job->options->rays + RAYS_SHARED - 1) / RAYS_SHARED;
+}
 
-	for (uint32_t i = 0; i < DOME_BLOCK * DOME_BLOCK; i++)
-		dome_direction(&job->scene->dome, i, sample, directions[i]);
-	return frame_upload(job->tr, dome_directions, directions[0], sizeof(directions) / sizeof(directions[0][0]));
+/* Where the pixels of a block look. first: which of their rays, over all passes */
+static int upload_directions(struct job *job, uint32_t first, uint32_t samples)
+{
+	float directions[RAYS_AT_ONCE][DOME_BLOCK * DOME_BLOCK][4];
+
+	for (uint32_t i = 0; i < samples; i++)
+		for (uint32_t k = 0; k < DOME_BLOCK * DOME_BLOCK; k++)
+			dome_direction(&job->scene->dome, k, first + i, directions[i][k]);
+	return frame_upload(job->tr, dome_directions, directions[0][0], samples * sizeof(directions[0]) / sizeof(directions[0][0][0]));
 }
 
 int dome_is_there(const struct job *job)
@@ -21,35 +30,60 @@ int dome_is_there(const struct job *job)
 	return job->scene->dome.reach > 0 && job->options->mode == TRACER_WHITTED;
 }
 
-int dome_light_list(struct job *job, const struct accel_space *space, struct camera_rectangle rectangle, uint32_t n)
+/* n fragments' rays, along the directions that are there. */
+static int find(struct job *job, uint32_t samples, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const uint32_t rays = (job->options->rays + RAYS_SHARED - 1) / RAYS_SHARED;
-	int err = secondary_reserve_rays(job, n);
+	const struct dome_find_launch *a =
+		LAUNCH(dome_find, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
+		       .pixels = b->pixels, .width = job->width, .shaded = b->shaded, .dome = job->scene->dome, .directions = b->dome_directions,
+		       .samples = samples, .n = n, .places = b->dome_places, .rays = b->rays);
+
+	if (device_family(tr->dev) == FAMILY_PACKETS)
+		return launch_dome_find_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
+	return launch_dome_find(tr->dev, n, a);
+}
+
+/* Some rays of each fragment, and their light to what others brought. first: which of them */
+static int look_around(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples, uint32_t n)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	int err = upload_directions(job, job->pass * rays_of(job) + first, samples);
+
+	if (!err)
+		err = find(job, samples, n);
+	if (!err)
+		err = secondary_ask(job, space, 0, samples * n);
+	return err ? err : launch_dome_sum(job->tr->dev, n, LAUNCH(dome_sum, .places = b->dome_places, .rays = b->rays, .visibility = b->visibility, .dome = job->scene->dome,
+	                                                           .samples = samples, .is_first = first == 0, .n = n, .sums = b->dome_sums));
+}
+
+static int light(struct job *job, struct camera_rectangle rectangle, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct dome_light_launch *a =
+		LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = b->first, .counts = b->counts,
+		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome, .n = n,
+		       .shaded = b->shaded);
+
+	if (device_family(tr->dev) == FAMILY_PACKETS)
+		return launch_dome_light_packet(tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);
+	return launch_dome_light(tr->dev, n, a);
+}
+
+int dome_light_list(struct job *job, const struct accel_space *space, struct camera_rectangle rectangle, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t rays = rays_of(job), most = rays < RAYS_AT_ONCE ? rays : RAYS_AT_ONCE;
+	int err = secondary_reserve_rays(job, (size_t)most * n);
 
 	if (!err)
 		err = frame_reserve(tr, dome_places, n);
 	if (!err)
 		err = frame_reserve(tr, dome_sums, 4 * (size_t)n);
-	if (!err)
-		err = launch_dome_find(tr->dev, n, LAUNCH(dome_find, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-		                                          .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
-		                                          .dome = job->scene->dome, .n = n, .places = b->dome_places));
-	for (uint32_t i = 0; i < rays && !err; i++) {
-		err = upload_directions(job, job->pass * rays + i);
-		if (!err)
-			err = launch_dome_ray(tr->dev, n, LAUNCH(dome_ray, .places = b->dome_places, .pixels = b->pixels, .directions = b->dome_directions,
-			                                         .width = job->width, .n = n, .rays = b->rays));
-		if (!err)
-			err = secondary_ask(job, space, 0, n);
-		if (!err)
-			err = launch_dome_sum(tr->dev, n, LAUNCH(dome_sum, .rays = b->rays, .visibility = b->visibility, .dome = job->scene->dome,
-			                                         .is_first = i == 0, .n = n, .sums = b->dome_sums));
-	}
-	if (err)
-		return err;
-	return launch_dome_light(tr->dev, n, LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = b->first,
-	                                            .counts = b->counts, .rectangle = rectangle, .width = job->width,
-	                                            .first_pixel = frame_first_pixel(job), .dome = job->scene->dome, .n = n, .shaded = b->shaded));
+	for (uint32_t i = 0; i < rays && !err; i += most)
+		err = look_around(job, space, i, rays - i < most ? rays - i : most, n);
+	return err ? err : light(job, rectangle, n);
 }
