@@ -171,14 +171,14 @@ typedef float element_float;
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND()                /* fragments */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, rays)
 #define ARGUMENTS_hit_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
 	OUT(uint, wanted) AND()             /* per hit: a bit for each slot of a light; hit_ray: from want_lights */ \
-	VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
+	VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND()                /* hits */ \
 	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
 	OUT(ray, out)
@@ -232,7 +232,7 @@ typedef float element_float;
 /* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
@@ -251,8 +251,9 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(hit, sky) AND() \
 	VALUE(uint, has_sky) AND()          /* 0: sky is any buffer */ \
 	IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() IN(float, visibility) AND() \
-	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
+	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	VALUE(uint, depth) AND()            /* bounces at most */ \
+	VALUE(float, most) AND()            /* light that a path may bring (hit_bound); 0: no bound */ \
 	IN(float, background) AND()         /* [4] */ \
 	IN(shaded, shaded) AND()            /* of the fragments that paths start from */ \
 	VALUE(uint, n) AND() \

@@ -149,6 +149,8 @@ static const struct options_row rows[] = {
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },
 	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .most = 4096 },
+	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
+	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/rules.h shows all "
 	  "keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
@@ -269,6 +271,7 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	int err;
 
 	s->tracer.depth = 4;
+	s->tracer.clamp = 10;
 	s->family = -1;
 	err = options_parse(&table, argc, argv, s, &line);
 	if (err)

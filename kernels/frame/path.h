@@ -10,6 +10,8 @@
 
 /* Less of a pixel than this is not followed: a quarter of a step of 8 bits. */
 #define PATH_LEAST 0.0009765625f
+/* In mode path those that carry less than this go on by chance, and count as this (Russian roulette). */
+#define PATH_ROULETTE 0.0625f
 
 /* gather_paths: next rays to their places in the new list. */
 static inline void gather_paths_item(const struct gather_paths_arguments *a, uint32_t item)
@@ -66,8 +68,13 @@ static inline struct vec3 branch_normal(const struct point *p)
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }
 
+/* Which numbers the ways on from a point are chosen by (sample_take). */
+struct branch_samples {
+	uint32_t frame, seed, index;
+};
+
 static inline void branch_mirror(struct branches *b, const struct point *p, struct vec3 d, struct vec3 weight,
-                                 uint32_t kind, uint32_t seed, uint32_t sample)
+                                 uint32_t kind, const struct branch_samples *at)
 {
 	struct vec3 n = branch_normal(p), plane = point_plane_normal(p);
 	float roughness = p->material->surface.roughness, u, v;
@@ -78,7 +85,7 @@ static inline void branch_mirror(struct branches *b, const struct point *p, stru
 		return;
 	away = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n)));
 	if (roughness > 0.0f) {
-		sample_square(seed + SAMPLE_GLOSS, sample, &u, &v);
+		sample_take(at->frame, at->seed + SAMPLE_GLOSS, at->index, &u, &v);
 		away = v3_normalize(v3_add(away, v3_scale(sample_disk(away, u, v), roughness)));
 	}
 	plane = v3_dot(plane, d) > 0.0f ? v3_scale(plane, -1.0f) : plane;
@@ -125,13 +132,13 @@ static inline void branch_through(struct branches *b, const struct point *p, str
 }
 
 static inline void branch_scatter(struct branches *b, const struct point *p, struct vec3 d, struct vec3 weight,
-                                  uint32_t kind, uint32_t seed, uint32_t sample)
+                                  uint32_t kind, const struct branch_samples *at)
 {
 	struct vec3 plane = point_plane_normal(p), on;
 	GLOBAL struct ray *ray;
 	float u, v;
 
-	sample_square(seed + SAMPLE_BOUNCE, sample, &u, &v);
+	sample_take(at->frame, at->seed + SAMPLE_BOUNCE, at->index, &u, &v);
 	on = sample_cosine(point_normal(p), u, v);
 	plane = v3_dot(plane, d) > 0.0f ? v3_scale(plane, -1.0f) : plane;
 	ray = branch(b, weight, kind, b->from.medium);
@@ -150,7 +157,7 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	const struct tables *t = &a->tables;
 	struct fragment f = a->fragments[item];
 	GLOBAL struct shaded *s = &a->shaded[item];
-	uint32_t seed = sample_hash(a->pixels[item]);
+	const struct branch_samples at = { a->frame, sample_hash(a->pixels[item]), a->sample };
 	struct branches b;
 	struct vec3 d, direct, mirrored;
 	struct split split;
@@ -180,9 +187,9 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 		v3_store(s->beauty, stage_number(a->transport, v3_sub(mirrored, v3_scale(direct, split.through))));
 	}
 	if (a->transport >= TRANSPORT_DIFFUSE && point_takes_light(&p))
-		branch_scatter(&b, &p, d, v3_scale(stage_light(a->transport, v3_load(s->albedo)), split.base), PATH_DIFFUSE, seed, a->sample);
+		branch_scatter(&b, &p, d, v3_scale(stage_light(a->transport, v3_load(s->albedo)), split.base), PATH_DIFFUSE, &at);
 	branch_mirror(&b, &p, d, v3_scale(v3(1.0f, 1.0f, 1.0f), split.mirrored),
-	              p.material->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT, seed, a->sample);
+	              p.material->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT, &at);
 	if (split.through > 0.0f) {
 		point_texture(t, &p, (const struct point_window *)0, &texturing);
 		branch_through(&b, &p, d, &split, v3_scale(glass_tint(t, &p, &texturing), split.through), PATH_REFRACT);
@@ -262,25 +269,51 @@ static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, 
 	ray->t_min = ray_beyond(t);
 }
 
+/* Whether a path goes on. weight: what it carries; where it is little, more in turn. chance: [0,1) */
+static inline int branch_survives(struct vec3 *weight, float chance)
+{
+	const float share = v3_most(*weight) / PATH_ROULETTE;
+
+	if (!(share < 1.0f))
+		return 1;
+	if (!(chance < share))
+		return 0;
+	*weight = v3_scale(*weight, 1.0f / share);
+	return 1;
+}
+
 /*
  * One of the ways on, as often as it carries light. What depth allows is the caller's question.
  */
 static inline void branch_one(const struct tables *t, uint32_t transport, struct branches *b, const struct point *p, struct vec3 d,
-                              const struct split *s, const struct texturing *texturing, struct vec3 weight, uint32_t seed,
-                              uint32_t sample)
+                              const struct split *s, const struct texturing *texturing, struct vec3 weight,
+                              const struct branch_samples *at)
 {
 	struct vec4 albedo;
 	float u, v;
 
-	sample_square(seed + SAMPLE_CHOICE, sample, &u, &v);
+	sample_take(at->frame, at->seed + SAMPLE_CHOICE, at->index, &u, &v);
 	if (u < s->mirrored) {
-		branch_mirror(b, p, d, weight, b->from.kind, seed, sample);
+		if (branch_survives(&weight, v))
+			branch_mirror(b, p, d, weight, b->from.kind, at);
 	} else if (u < s->mirrored + s->through) {
-		branch_through(b, p, d, s, v3_mul(weight, glass_tint(t, p, texturing)), b->from.kind);
+		weight = v3_mul(weight, glass_tint(t, p, texturing));
+		if (branch_survives(&weight, v))
+			branch_through(b, p, d, s, weight, b->from.kind);
 	} else if (point_takes_light(p)) {
 		albedo = point_albedo(t, p, texturing);
-		branch_scatter(b, p, d, v3_mul(weight, stage_light(transport, v3(albedo.x, albedo.y, albedo.z))), b->from.kind, seed, sample);
+		weight = v3_mul(weight, stage_light(transport, v3(albedo.x, albedo.y, albedo.z)));
+		if (branch_survives(&weight, v))
+			branch_scatter(b, p, d, weight, b->from.kind, at);
 	}
+}
+
+/* What a path found, within bounds where a surface scattered it or it bounced twice: few samples of much light would leave bright dots. */
+static inline struct vec3 hit_bound(const struct shade_hit_arguments *a, const struct path *path, struct vec3 light)
+{
+	const float most = v3_most(light);
+
+	return a->most > 0.0f && most > a->most && path->depth + (path->kind == PATH_DIFFUSE) > 1u ? v3_scale(light, a->most / most) : light;
 }
 
 /*
@@ -297,7 +330,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	struct texturing texturing;
 	struct split split;
 	struct vec4 color;
-	uint32_t seed;
+	struct branch_samples at;
 	int dimmed;
 
 	b.from = a->paths[item];
@@ -311,7 +344,8 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 		return;
 	}
 	if (hit.instance == SCENE_NONE) {
-		v3_store(out, v3_mul(weight, hit_nothing(t, a->transport, &a->sky[item], &a->rays[item], a->has_sky, a->background)));
+		own = hit_nothing(t, a->transport, &a->sky[item], &a->rays[item], a->has_sky, a->background);
+		v3_store(out, hit_bound(a, &b.from, v3_mul(weight, own)));
 		return;
 	}
 	v3_store(out, v3(0.0f, 0.0f, 0.0f));
@@ -337,13 +371,15 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 		own = transparency_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
 		branch_on(&b, &a->rays[item], hit.t, v3_mul(v3_scale(weight, split.base), transparency_of_blend(p.material, color)));
 	}
-	v3_store(out, v3_mul(weight, v3_scale(own, split.base)));
-	seed = stage_seed(&a->paths[item], a->pixels, 0u);
+	v3_store(out, hit_bound(a, &b.from, v3_mul(weight, v3_scale(own, split.base))));
+	at.frame = a->frame;
+	at.seed = stage_seed(&a->paths[item], a->pixels, 0u);
+	at.index = a->sample;
 	b.from.kind = b.from.kind == PATH_NEAR ? PATH_REFLECT : b.from.kind;
 	if (b.from.depth < a->depth && stage_is_path(a->transport) && !b.count) {
-		branch_one(t, a->transport, &b, &p, d, &split, &texturing, weight, seed, a->sample);
+		branch_one(t, a->transport, &b, &p, d, &split, &texturing, weight, &at);
 	} else if (b.from.depth < a->depth && !stage_is_path(a->transport)) {
-		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, seed, a->sample);
+		branch_mirror(&b, &p, d, v3_scale(weight, split.mirrored), b.from.kind, &at);
 		if (split.through > 0.0f)
 			branch_through(&b, &p, d, &split,
 			               v3_mul(v3_scale(weight, split.through), glass_tint(t, &p, &texturing)), b.from.kind);

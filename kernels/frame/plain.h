@@ -47,7 +47,7 @@ static inline struct shadow_ray_arguments plain_rays(const struct plain_argument
 {
 	const struct shadow_ray_arguments s = {
 		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
-		.shaded = a->shaded, .sample = 0u, .n = a->n, .n_rays = a->n * a->n_slots, .rays = a->rays,
+		.shaded = a->shaded, .sample = 0u, .frame = 0u, .n = a->n, .n_rays = a->n * a->n_slots, .rays = a->rays,
 	};
 
 	return s;

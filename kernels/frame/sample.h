@@ -1,6 +1,6 @@
 /*
- * Samples that depend on neither time nor place: a sequence fills the unit square evenly, and each pixel and purpose turns it by a
- * number of its own.
+ * Samples that depend on neither time nor scheduling: a sequence fills the unit square evenly. In mode path each pixel, bounce, purpose
+ * and frame scrambles Sobol's by a number of its own; elsewhere each pixel and purpose turns one.
  */
 #pragma once
 
@@ -38,6 +38,56 @@ static inline void sample_square(uint32_t seed, uint32_t index, float *u, float 
 {
 	*u = sample_unit(index * 3242174889u + sample_hash(seed));
 	*v = sample_unit(index * 2447445414u + sample_hash(seed ^ 0x9e3779b9u));
+}
+
+/* The bits of a number, the last one first. */
+static inline uint32_t sample_reverse(uint32_t x)
+{
+	x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+	x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+	x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+	x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+	return x >> 16 | x << 16;
+}
+
+/* Each bit is exchanged or kept, as a hash of the bits below it says (S. Laine and T. Karras, "Stratified Sampling for Stochastic
+   Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
+static inline uint32_t sample_mix_upwards(uint32_t x, uint32_t seed)
+{
+	x ^= x * 0x3d20adeau;
+	x += seed;
+	x *= seed >> 16 | 1u;
+	x ^= x * 0x05526c56u;
+	x ^= x * 0x53a22864u;
+	return x;
+}
+
+/*
+ * Point `index` of Sobol's (0,2)-sequence, its digits exchanged as A. Owen has it ("Randomly Permuted (t,m,s)-Nets and
+ * (t,s)-Sequences", 1995) and its points in an order of their own, which makes seeds independent of each other (B. Burley, "Practical
+ * Hash-based Owen Scrambling", 2020). All points from 0 up to a power of two lie evenly.
+ */
+static inline void sample_sobol(uint32_t seed, uint32_t index, float *u, float *v)
+{
+	const uint32_t hash = sample_hash(seed), place = sample_reverse(sample_mix_upwards(sample_reverse(index), hash));
+	uint32_t second = place; /* Sobol's matrix of dimension 2, applied by halves: a row is Pascal's triangle modulo 2 */
+
+	second ^= second >> 16;
+	second ^= (second & 0xff00ff00u) >> 8;
+	second ^= (second & 0xf0f0f0f0u) >> 4;
+	second ^= (second & 0xccccccccu) >> 2;
+	second ^= (second & 0xaaaaaaaau) >> 1;
+	*u = sample_unit(sample_reverse(sample_mix_upwards(place, sample_hash(hash ^ 0x85ebca6bu))));
+	*v = sample_unit(sample_reverse(sample_mix_upwards(second, sample_hash(hash ^ 0xc2b2ae35u))));
+}
+
+/* Sample `index` of a purpose. frame: 0: as sample_square has it; else Sobol's, by this number of the frame */
+static inline void sample_take(uint32_t frame, uint32_t seed, uint32_t index, float *u, float *v)
+{
+	if (frame)
+		sample_sobol(seed ^ sample_hash(frame), index, u, v);
+	else
+		sample_square(seed, index, u, v);
 }
 
 /*

@@ -183,7 +183,7 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
-	sample_square(sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
+	sample_take(a->frame, sample_hash(a->pixels[i]) + SAMPLE_LIGHT + slot, a->sample, &u, &v);
 	stage_light_ray(t, &p, &kept->plane, &kept->curve, slot,
 	                stage_view_direction(&a->views[p.geometry->view], a->pixels[i] % a->width, a->pixels[i] / a->width), u, v,
 	                &a->rays[item]);
@@ -211,7 +211,7 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 		return;
 	}
 	p = point_from_hit(t, &hit, v3_load(a->rays[i].d));
-	sample_square(stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
+	sample_take(a->frame, stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
 	plane = point_plane_of(&p);
 	curve = shadow_curve_of(&p);
 	stage_light_ray(t, &p, &plane, &curve, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);

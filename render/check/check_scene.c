@@ -175,6 +175,17 @@ static void add_glass(struct made *m, uint32_t rings)
 	made_add_square(m, pane, (float[3]){ 1.2f, 1.2f, -5.5f }, (float[3]){ 0.8f, 0, 0.6f }, up, 0.9f, 1);
 }
 
+/* A square above that shines. */
+static void add_lamp(struct made *m)
+{
+	uint32_t lamp;
+
+	add_paint(m, &lamp, 0.2f, 0.2f, 0.2f);
+	for (int i = 0; i < 3; i++)
+		m->materials[lamp].surface.emission[i] = 1 + (float)i / 4;
+	made_add_square(m, lamp, (float[3]){ -1, 2, -8 }, right, (float[3]){ 0, 0, 1 }, 1, 2);
+}
+
 int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, uint32_t rings, struct check_world *w)
 {
 	struct made *m = &w->made;
@@ -197,8 +208,16 @@ int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, ui
 		add_films(m);
 	if (scene == CHECK_STENCIL)
 		add_stencils(m, rings);
-	if (scene == CHECK_GLASS)
+	if (scene == CHECK_GLASS || scene == CHECK_LINEAR)
 		add_glass(m, rings);
+	if (scene == CHECK_LINEAR) {
+		w->options.display = 0;
+		w->options.samples = 2;
+		w->options.clamp = 10;
+		m->materials[floor].surface.reflect = 0.3f;
+		m->materials[floor].surface.roughness = 0.1f;
+		add_lamp(m);
+	}
 	return m->err;
 }
 

@@ -14,7 +14,8 @@
 	X(MIRROR, mirror, TRACER_WHITTED)   /* a floor and a ball that mirror each other */ \
 	X(GLASS, glass, TRACER_WHITTED)     /* a ball and a pane, and their shadows */ \
 	X(AO, ao, TRACER_AO)                /* short rays in all directions */ \
-	X(PATH, path, TRACER_PATH)          /* light from surface to surface */
+	X(PATH, path, TRACER_PATH)          /* light from surface to surface */ \
+	X(LINEAR, linear, TRACER_PATH)      /* the same in linear light, two samples: rough mirrors, glass, a lamp */
 
 enum check_scene {
 #define CHECK_SCENE_ENUM(name, word, mode) CHECK_##name,

@@ -128,6 +128,17 @@ static void sharp_shadows(struct check_world *w)
 	w->made.lights[0].radius = 0;
 }
 
+static void codes_of_light(struct check_world *w)
+{
+	w->options.display = 1;
+}
+
+static void no_lamp(struct check_world *w)
+{
+	for (uint32_t i = 0; i < MADE_MAX; i++)
+		memset(w->made.materials[i].surface.emission, 0, sizeof(w->made.materials[i].surface.emission));
+}
+
 static const struct {
 	enum check_scene scene;
 	const char *what;
@@ -143,7 +154,9 @@ static const struct {
 	{ CHECK_MIRROR, "roughness", no_roughness },       { CHECK_GLASS, "glass", no_glass },
 	{ CHECK_GLASS, "refraction", no_bending },         { CHECK_GLASS, "absorption", no_absorption },
 	{ CHECK_AO, "reach", short_reach },                { CHECK_PATH, "bounces", one_bounce },
-	{ CHECK_PATH, "soft shadows", sharp_shadows },
+	{ CHECK_PATH, "soft shadows", sharp_shadows },     { CHECK_LINEAR, "linear light", codes_of_light },
+	{ CHECK_LINEAR, "a lamp", no_lamp },               { CHECK_LINEAR, "roughness", no_roughness },
+	{ CHECK_LINEAR, "glass", no_glass },
 };
 
 /* Draw a scene with the C twins, changed where `change` is not NULL. */

@@ -23,6 +23,12 @@ uint32_t secondary_transport(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
+/* The number of the frame that samples are scrambled by in mode path; 0: they are those of all frames. */
+static uint32_t frame_number(const struct job *job)
+{
+	return job->options->mode == TRACER_PATH ? (uint32_t)job->scene->frame + 1 : 0;
+}
+
 /* Work items of the kernels that take SHADE_PACKET each. */
 static uint32_t packs(uint32_t n)
 {
@@ -209,7 +215,8 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 		const struct shadow_ray_launch *a =
 			LAUNCH(shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
 			       .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
-			       .sample = job->pass * samples + i, .n = n, .n_rays = n_rays, .rays = b->rays);
+			       .sample = job->pass * samples + i, .frame = frame_number(job), .n = n, .n_rays = n_rays,
+			       .rays = b->rays);
 
 		if (device_family(tr->dev) == FAMILY_PACKETS)
 			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
@@ -238,8 +245,8 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 	for (uint32_t i = 0; i < samples && !err; i++) {
 		const struct hit_ray_launch *a =
 			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
-			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i, .n = n,
-			       .n_rays = n_rays, .out = b->rays);
+			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i,
+			       .frame = frame_number(job), .n = n, .n_rays = n_rays, .out = b->rays);
 
 		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
 		if (!err)
@@ -286,7 +293,8 @@ static int leave(struct job *job, const struct list *list, uint32_t transport, u
 	if (err)
 		return err;
 	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .n = n, .shaded = b->shaded,
+	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .frame = frame_number(job),
+	           .n = n, .shaded = b->shaded,
 	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
 	return device_family(tr->dev) == FAMILY_PACKETS ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
@@ -320,7 +328,8 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 		return err;
 	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky, .rays = *list->rays,
 	           .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
-	           .transport = transport, .sample = job->pass, .depth = job->options->depth, .background = b->background, .shaded = b->shaded,
+	           .transport = transport, .sample = job->pass, .frame = frame_number(job),
+	           .depth = job->options->depth, .most = job->options->clamp, .background = b->background, .shaded = b->shaded,
 	           .n = n, .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
 	return device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
 }

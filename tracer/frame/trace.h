@@ -30,6 +30,7 @@ struct tracer_options {
 	unsigned depth;   /* bounces at most */
 	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0 counts as 1 */
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
+	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no bound */
 	float reach;      /* of openness, eye-space units; 0: without end */
 	enum accel_kind accel; /* trees of meshes */
 	int accel_asked;       /* 0: nobody asked for these; they are kd-trees where the program called rtBuildKdTreeEXT */

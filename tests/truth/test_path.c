@@ -1,0 +1,150 @@
+/*
+ * Light followed from surface to surface in closed form, where it takes many samples: an integrating sphere, mirrors in a furnace; and
+ * what a bound of a sample's light leaves.
+ */
+#include <math.h>
+
+#include "tests/case.h"
+#include "tests/truth/scenes.h"
+
+#define SIZE 32
+
+static struct tracer_options options_of(unsigned samples)
+{
+	return (struct tracer_options){ .mode = TRACER_PATH, .display = 1, .depth = 4, .samples = samples };
+}
+
+static void glow(struct made *t, uint32_t m, float emission)
+{
+	for (int c = 0; c < 3; c++)
+		t->materials[m].front.emission[c] = t->materials[m].back.emission[c] = emission;
+}
+
+/* Half of a ball of radius 5 about the viewer, turned inside out. side: -1: before the viewer, 1: behind */
+static void add_half_ball(struct made *t, uint32_t material, float side)
+{
+	enum { CELLS = 32, N = CELLS * CELLS * 6 };
+	static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 0, 1 } };
+	static float position[N][3], normal[N][3];
+
+	for (uint32_t v = 0; v < N; v++) {
+		const float across = (float)M_PI * (float)(v / 6 % CELLS + (uint32_t)corner[v % 6][side < 0]) / CELLS;
+		const float down = (float)M_PI * (float)(v / 6 / CELLS + (uint32_t)corner[v % 6][side > 0]) / CELLS;
+		const float d[3] = { sinf(down) * cosf(across), -cosf(down), sinf(down) * sinf(across) * side };
+
+		for (int i = 0; i < 3; i++) {
+			position[v][i] = 5 * d[i];
+			normal[v][i] = -d[i];
+		}
+	}
+	made_add_triangles(t, material, (const float (*)[3])position, (const float (*)[3])normal, N);
+}
+
+/*
+ * Points of a sphere send each other the same share of their light wherever they lie (the principle of the integrating sphere). One half
+ * glows; the other, which the viewer sees, gets the mean. Numbers of different bounces must not depend on each other: each pixel
+ * comes to the same.
+ */
+START_TEST(test_integrating_sphere)
+{
+	const float e = 0.9f, a = 0.7f;
+	struct tracer_options options = options_of(64);
+	const float truth = a * e / 2 * (1 - powf(a, (float)options.depth)) / (1 - a);
+	double sum = 0, squares = 0;
+	uint32_t dark, bright;
+	struct image img;
+	struct made t;
+
+	made_init(&t, SIZE, SIZE, 1);
+	dark = made_add_material(&t, a);
+	bright = made_add_material(&t, a);
+	glow(&t, bright, e);
+	add_half_ball(&t, dark, -1);
+	add_half_ball(&t, bright, 1);
+	truth_render_with(&t, &options, &img);
+	for (uint32_t y = 0; y < SIZE; y++)
+		for (uint32_t x = 0; x < SIZE; x++) {
+			const double off = (double)(truth_at(&img, "R", x, y) - truth);
+
+			sum += off;
+			squares += off * off;
+		}
+	sum /= SIZE * SIZE;
+	squares = sqrt(squares / (SIZE * SIZE));
+	ck_assert_msg(fabs(sum) < 0.004 * (double)truth && squares < 0.07 * (double)truth, "off by %g in the mean, by %g a pixel; truth %g", sum, squares,
+	              (double)truth);
+	truth_check_closure(&img);
+	image_free(&img);
+	made_free(&t);
+}
+END_TEST
+
+/* Within a ball that glows by e, mirrors a share of r, evenly or roughly, and scatters a of the rest, each bounce keeps r + (1 - r) a. */
+START_TEST(test_furnace_with_mirror)
+{
+	const float e = 0.3f, a = 0.5f, r = 0.6f, keep = r + (1 - r) * a;
+
+	for (unsigned depth = 1; depth < 8; depth += depth + 1) {
+		struct tracer_options options = options_of(64);
+		const float truth = (1 - r) * e * (1 - powf(keep, (float)depth + 1)) / (1 - keep);
+		struct image img;
+		struct made t;
+		uint32_t m;
+		double sum = 0;
+
+		made_init(&t, SIZE, SIZE, 1);
+		m = made_add_material(&t, a);
+		glow(&t, m, e);
+		t.materials[m].surface.reflect = r;
+		t.materials[m].surface.roughness = depth > 1 ? 0.3f : 0;
+		made_add_ball(&t, m, (float[3]){ 0, 0, 0 }, 5, 32, 1);
+		options.depth = depth;
+		truth_render_with(&t, &options, &img);
+		for (uint32_t y = 0; y < SIZE; y++)
+			for (uint32_t x = 0; x < SIZE; x++) {
+				ck_assert_float_eq_tol(truth_at(&img, "R", x, y), truth, 0.15f * truth + 1e-3f);
+				sum += (double)truth_at(&img, "R", x, y) / (SIZE * SIZE);
+			}
+		ck_assert_double_eq_tol(sum, (double)truth, 0.004 * (double)truth + 5e-4);
+		truth_check_closure(&img);
+		image_free(&img);
+		made_free(&t);
+	}
+}
+END_TEST
+
+/* A bound leaves a surface's own light, and no more than that of what each bounce brings. */
+START_TEST(test_clamp)
+{
+	const float e = 0.5f, a = 1, most = 0.1f;
+	struct tracer_options options = options_of(1);
+	struct image img;
+	struct made t;
+	uint32_t m;
+
+	made_init(&t, SIZE, SIZE, 1);
+	m = made_add_material(&t, a);
+	glow(&t, m, e);
+	made_add_ball(&t, m, (float[3]){ 0, 0, 0 }, 5, 16, 1);
+	options.clamp = most;
+	truth_render_with(&t, &options, &img);
+	ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 2, SIZE / 3), e + 4 * most, 2e-3f);
+	image_free(&img);
+	options.clamp = 0;
+	truth_render_with(&t, &options, &img);
+	ck_assert_float_eq_tol(truth_at(&img, "R", SIZE / 2, SIZE / 3), 5 * e, 2e-3f);
+	image_free(&img);
+	made_free(&t);
+}
+END_TEST
+
+int main(void)
+{
+	TCase *tests = tcase_create("path");
+
+	tcase_set_timeout(tests, 180);
+	tcase_add_test(tests, test_integrating_sphere);
+	tcase_add_test(tests, test_furnace_with_mirror);
+	tcase_add_test(tests, test_clamp);
+	return run_case(tests, "path");
+}
