@@ -29,6 +29,8 @@ void gloss_set(const struct scene_material *m, float share, struct scene_surface
 	/* The rougher, the more directions share it: what one ray brings counts less. */
 	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) * (1 - roughness);
 
+	if (surface->reflect > 0 || surface->transmit > 0) /* the program says itself what it mirrors */
+		return;
 	if (!m->lighting || !(reflect > LEAST) || roughness > ROUGHEST)
 		return;
 	surface->reflect = fminf(reflect, 1);

@@ -405,8 +405,6 @@ static void change_instance(const struct applying *a, uint32_t i)
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit : m->surface.relit && a->lights_change & 1;
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;
-	else if (m->lighting && a->lights_change >> 1 & 1)
-		m->surface.hidden &= ~SCENE_DOME_LIT;
 	if (m->surface.relit) {
 		n = list_lights(a, in, m, out->lights + out->n_lights);
 		m->surface.light_first = out->n_lights;
