@@ -279,6 +279,7 @@ picture: all $(BUILD)/deps.picture
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
+SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)
 
@@ -311,7 +312,7 @@ NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so 
 
 .SECONDEXPANSION:
 $(SCRIPTS:%=show-%): show-%: all $$(NEEDS_$$*) $$(if $$(DEPS_$$*),$(BUILD)/deps.$$*)
-	@$(if $(filter $*,$(ON_SCREEN)),tests/xvfb.sh) $(PYTHON) -B tests/show/$(subst -,_,$*).py $(BUILD) $(ONLY:%=--only %)
+	@$(if $(filter $*,$(ON_SCREEN)),tests/xvfb.sh) $(PYTHON) -B tests/show/$(or $(SCRIPT_$*),$(subst -,_,$*)).py $(BUILD) $(ONLY:%=--only %)
 
 # What the house looks like: circles, sizes, repetitions.
 show-house: all

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tests/show/bisect.py BUILD [--only NAME] (as `make show-bisect`): ten pairs of recordings with one planted change, found at the very call.
+"""tests/show/bisection.py BUILD [--only NAME] (as `make show-bisect`): ten pairs of recordings with one planted change, found at the very call.
 
 Six pairs: a recording of a real program, and itself with one argument changed past its middle. Four pairs: a program of corpus/, and itself
 built with one line changed, left out or put in.
