@@ -277,7 +277,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes devices export farm faults frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes devices export farm faults flaky frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay

@@ -5,7 +5,7 @@
 #   record   only when the program or its arguments changed since the last run
 #   render   only frames that are not there yet, or were made from another recording, or by another version of Relume
 #   gate     every frame against what the program itself showed, and against the approved frames
-#   keep     the page, JUnit XML and all figures, whatever came out
+#   keep     the page, JUnit XML, a summary in Markdown and all figures, whatever came out
 #
 # KEPT (default: ci) is a folder that the CI server keeps between runs; BASELINE (default: approved) lies in the repository.
 # Exit codes are those of `relume diff`: 0 passed, 1 a picture changed, 4 frames that nobody has approved yet.
@@ -39,8 +39,9 @@ else
 fi
 
 "$relume" render "$out/$name.trace" -o "$out/frames/$name.####.exr" --skip-existing --allow-incomplete || exit
+rm -f "$out/summary.md"
 "$relume" diff --baseline "$baseline/$name" --report "$out/report" --junit "$out/junit.xml" --json "$out/scores.json" \
-	"$out/$name.trace" "$out/frames"
+	--markdown "${GITHUB_STEP_SUMMARY:-$out/summary.md}" "$out/$name.trace" "$out/frames"
 code=$?
 echo "page     $out/report/index.html"
 [ "$code" != 4 ] || echo "approve  $relume approve $out/frames $baseline/$name"

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,22 +11,22 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/options.h"
-#include "base/progress.h"
+#include "base/part.h"
 #include "diff/baseline/baseline.h"
+#include "diff/report/markdown.h"
 #include "diff/report/output.h"
-#include "diff/report/pictures.h"
 #include "diff/report/report.h"
+#include "diff/runs/scoring.h"
 #include "diff/score/gates.h"
-#include "diff/score/picture.h"
 #include "diff/pictures/set.h"
 #include "diff/rules/rules.h"
+#include "diff/runs/runs.h"
 #include "tracer/image/oiio.h"
-
-/* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
-#define MAX_ASKED 1000000
 
 struct options {
 	const char *reference, *traced, *report, *film, *json, *junit, *config, *baseline;
+	const char *markdown, *quarantine;
+	unsigned expires;
 	int annotations;
 	struct frame_list frames;
 	struct score_options score;
@@ -93,8 +92,13 @@ static const struct options_row rows[] = {
 	{ "json", 0, "FILE", "every figure and bar as JSON; - for standard output, instead of the table",
 	  options_text, .at = offsetof(struct options, json), .use = CONFINE_WRITES },
 	{ "junit", 0, "FILE", "JUnit XML, one case for each frame", options_text, .at = offsetof(struct options, junit), .use = CONFINE_WRITES },
+	{ "markdown", 0, "FILE", "a summary for a merge request, as Markdown; added to FILE where it is there",
+	  options_text, .at = offsetof(struct options, markdown), .use = CONFINE_WRITES },
 	{ "annotations", 0, NULL, "print workflow commands (::error, ::warning) that CI servers show beside a change",
 	  options_flag, .at = offsetof(struct options, annotations) },
+	{ "quarantine", 0, "FILE", "of several runs: write the entries that are proposed for flaky frames (default: standard output)",
+	  options_text, .at = offsetof(struct options, quarantine), .use = CONFINE_WRITES },
+	{ "expires", 0, "DAYS", "days after which these expire (default 30)", options_number, .at = offsetof(struct options, expires), .most = 3650 },
 	{ OPTIONS_NO_SANDBOX },
 };
 
@@ -102,17 +106,22 @@ static const struct options_table table = {
 	.verb = "diff",
 	.head = "usage: relume diff [OPTIONS] REF TRACED\n"
 	        "       relume diff [OPTIONS] --baseline DIR TRACED\n"
+	        "       relume diff [OPTIONS] REF RUN RUN...\n"
 	        "\n"
 	        "Score traced frames against their references, frame by frame and gate by gate.\n"
 	        "\n"
 	        "REF     a trace (NAME.ref beside it holds its frames), a .ref file, or images\n"
 	        "TRACED  images: those of 'relume render', or any; the gates of effects, depth and harm need its OpenEXR files\n"
 	        "        Images are a folder (the last number in a name is its frame), a pattern such as\n"
-	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n",
+	        "        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their colours.\n"
+	        "RUN     the same frames once more. With several, frames whose failures are noise are told apart from regressions: of each pixel\n"
+	        "        the value nearest to REF between what the runs show is taken, and what still fails is a regression. REF may be\n"
+	        "        approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and what it allows needlessly is named.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
-	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n",
-	.takes = "REF and TRACED, or --baseline DIR and TRACED", .least = 1, .most = 2, .words_use = CONFINE_RECORDING,
+	         "4 there are traced frames without a reference or an approved frame, and all others passed.\n"
+	         "Of several runs: 0 no regressions, 1 a frame is a regression, 3 an input cannot be read.\n",
+	.takes = "REF and TRACED, --baseline DIR and TRACED, or REF and up to 32 runs", .least = 1, .most = RUNS_MOST + 1, .words_use = CONFINE_RECORDING,
 };
 
 /** @return 0 go on, 1 help was printed, or ERR_* (reported) */
@@ -128,210 +137,13 @@ static int parse_options(int argc, char **argv, struct options *o, struct option
 		return err_report(ERR_USAGE, NULL, "--film is for the page of --report DIR");
 	if (o->film && access(o->film, R_OK) != 0)
 		return err_report(ERR_INPUT, o->film, "%s", strerror(errno));
-	o->reference = line->n_words == 2 ? line->words[0] : NULL;
+	if (line->n_words > 2 && (o->report || o->json || o->junit || o->annotations || o->markdown || o->baseline))
+		return err_report(ERR_USAGE, NULL, "of several runs there is a table: --report, --json, --junit, --markdown, --annotations and --baseline are for one");
+	if (line->n_words <= 2 && o->quarantine)
+		return err_report(ERR_USAGE, NULL, "--quarantine is for several runs");
+	o->reference = line->n_words >= 2 ? line->words[0] : NULL;
 	o->traced = line->words[line->n_words - 1];
 	return 0;
-}
-
-static int compare_frames(const void *a, const void *b)
-{
-	uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-
-	return (x > y) - (x < y);
-}
-
-/** All frames to score: of those asked for, the ones in either set or the baseline, and those asked for by number that none has. */
-static int list_frames(const struct set *ref, const struct set *traced, const struct baseline *baseline,
-                       const struct frame_list *asked, uint64_t **out, size_t *n_out)
-{
-	const struct set *sets[2] = { ref, traced };
-	uint64_t n_asked = asked->n_ranges && frame_list_last(asked) < MAX_ASKED
-		? frame_list_count(asked, frame_list_last(asked) + 1) : 0;
-	size_t n = 0, unique = 0, n_approved = 0;
-	uint64_t *frames;
-
-	for (size_t v = 0; v < baseline->n_variants; v++)
-		n_approved += baseline->variants[v]->n_frames;
-	frames = calloc(ref->n_entries + traced->n_entries + n_approved + n_asked + 1, sizeof(*frames));
-	if (!frames)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (int s = 0; s < 2; s++)
-		for (size_t i = 0; i < sets[s]->n_entries; i++)
-			if (frame_list_contains(asked, sets[s]->entries[i].frame))
-				frames[n++] = sets[s]->entries[i].frame;
-	for (size_t v = 0; v < baseline->n_variants; v++)
-		for (uint32_t i = 0; i < baseline->variants[v]->n_frames; i++)
-			if (frame_list_contains(asked, baseline->variants[v]->frames[i].frame))
-				frames[n++] = baseline->variants[v]->frames[i].frame;
-	for (uint64_t f = 0; n_asked && f <= frame_list_last(asked); f++)
-		if (frame_list_contains(asked, f))
-			frames[n++] = f;
-	qsort(frames, n, sizeof(*frames), compare_frames);
-	for (size_t i = 0; i < n; i++)
-		if (i == 0 || frames[i] != frames[i - 1])
-			frames[unique++] = frames[i];
-	if (unique == 0) {
-		free(frames);
-		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", ref->name, traced->name);
-	}
-	*out = frames;
-	*n_out = unique;
-	return 0;
-}
-
-/* What the threads share. Each takes the next frame; memory grows with threads, not with frames. */
-struct work {
-	struct set *ref, *traced;
-	const struct baseline *baseline;
-	const uint64_t *frames;
-	struct output_run *run;
-
-	pthread_mutex_t lock; /* over all below */
-	struct progress progress;
-	size_t next;
-	int err;
-};
-
-/** Stands in for a reference where there is none: the size alone. */
-static struct score_picture picture_of_size(const struct image *img)
-{
-	return (struct score_picture){ .width = img->width, .height = img->height };
-}
-
-/** A frame that failed only gates known to be flaky is no failure. */
-static void judge_flaky(const struct score_rules_frame *settings, struct score *s)
-{
-	unsigned failed = 0;
-
-	for (int g = 0; g < N_GATES; g++)
-		failed |= s->gates[g].state == SCORE_FAILED ? 1u << g : 0;
-	if (s->outcome != SCORE_FRAME_FAILED || !(failed & settings->flaky_gates) || failed & ~settings->flaky_gates)
-		return;
-	s->outcome = SCORE_FRAME_FLAKY;
-	s->flaky_reason = settings->flaky_reason;
-}
-
-/** Score an image that is there, against a reference (NULL: none), an approved frame, or both. */
-static int score_image(struct work *w, uint64_t frame, struct score_picture *picture, const struct image *image,
-                       struct score *out)
-{
-	const struct output_run *run = w->run;
-	struct score_rules_frame settings = { 0 };
-	struct score_approved approved;
-	struct image was = { 0 };
-	int found = 0;
-	int err = score_rules_for_frame(run->settings, run->name, frame, run->options,
-	                                (uint32_t[]){ picture->width, picture->height }, &settings);
-
-	picture->ignore = settings.ignore;
-	picture->recording = w->ref->trace_hash;
-	if (!err && w->baseline->dir)
-		err = baseline_look_up(w->baseline, image, frame, &was, &approved, &found);
-	if (!err)
-		err = score_frame(picture, image, frame, &settings.options, found ? &approved : NULL, out);
-	if (!err) {
-		judge_flaky(&settings, out);
-		if (out->outcome == SCORE_FRAME_PASSED && w->baseline->dir && !found)
-			out->outcome = SCORE_FRAME_NEW;
-	}
-	score_rules_frame_free(&settings);
-	image_free(&was);
-	return err;
-}
-
-/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
-static int score_one(struct work *w, uint64_t frame, struct score *out)
-{
-	const struct set_entry *r = set_find(w->ref, frame), *t = set_find(w->traced, frame);
-	const int needs_reference = w->run->reference != NULL;
-	struct image ref_image = { 0 }, image = { 0 };
-	struct score_picture picture = { 0 };
-	int err = 0;
-
-	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
-	if (!t || (!r && needs_reference))
-		return 0;
-	if (r)
-		err = set_read(w->ref, r, &ref_image);
-	if (!err && r)
-		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
-	if (err == ERR_INPUT && ref_image.n_channels)
-		err_report(ERR_INPUT, r->path ? r->path : w->ref->name, "the reference has no colour channels");
-	if (!err)
-		err = set_read(w->traced, t, &image);
-	if (!err && !r)
-		picture = picture_of_size(&image);
-	if (!err)
-		err = score_image(w, frame, &picture, &image, out);
-	if (err == ERR_INPUT) {
-		out->outcome = SCORE_FRAME_UNREADABLE;
-		err = 0;
-	}
-	score_picture_free(&picture);
-	image_free(&image);
-	image_free(&ref_image);
-	return err;
-}
-
-/** "failed (R4, R5), fidelity 99.912 %" */
-static void say_outcome(const struct score *s, int has_fidelity, char *text, size_t size)
-{
-	size_t n = (size_t)snprintf(text, size, "%s", score_outcome_names[s->outcome]), n_failed = 0;
-
-	for (int g = 0; g < N_GATES && n < size; g++)
-		if (s->gates[g].state == SCORE_FAILED)
-			n += (size_t)snprintf(text + n, size - n, "%s%s", n_failed++ ? ", " : " (", score_gates[g].name);
-	if (n < size)
-		n += (size_t)snprintf(text + n, size - n, "%s", n_failed ? ")" : "");
-	if (has_fidelity && n < size)
-		snprintf(text + n, size - n, ", fidelity %.3f %%", 100 * s->fidelity);
-}
-
-static void *score_frames(void *arg)
-{
-	struct work *w = arg;
-
-	pthread_mutex_lock(&w->lock);
-	while (!w->err && w->next < w->run->n_scores) {
-		size_t i = w->next++;
-		struct score *s = &w->run->scores[i];
-		char text[128];
-		int err;
-
-		pthread_mutex_unlock(&w->lock);
-		err = score_one(w, w->frames[i], s);
-		say_outcome(s, w->run->reference != NULL, text, sizeof(text));
-		pthread_mutex_lock(&w->lock);
-		if (err)
-			w->err = err;
-		w->run->counts[s->outcome]++;
-		progress_step(&w->progress, w->frames[i], text);
-	}
-	pthread_mutex_unlock(&w->lock);
-	return NULL;
-}
-
-static int score_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
-                     struct output_run *run)
-{
-	enum { MAX_THREADS = 16 };
-	struct work w = { .ref = ref, .traced = traced, .baseline = baseline, .frames = frames, .run = run,
-	                  .lock = PTHREAD_MUTEX_INITIALIZER };
-	pthread_t threads[MAX_THREADS];
-	long cores = sysconf(_SC_NPROCESSORS_ONLN);
-	int n = 0;
-
-	progress_begin(&w.progress, "scored", run->n_scores);
-	/* this thread works, too; one that does not start is no loss but time */
-	while (n < MAX_THREADS && n + 1 < cores && (size_t)n + 1 < run->n_scores &&
-	       pthread_create(&threads[n], NULL, score_frames, &w) == 0)
-		n++;
-	score_frames(&w);
-	while (n > 0)
-		pthread_join(threads[--n], NULL);
-	progress_end(&w.progress);
-	run->seconds = progress_clock_s() - w.progress.start_s;
-	return w.err;
 }
 
 /** Give the blamed draws their calls' names. What the trace does not tell stays unnamed: the scores stand without it. */
@@ -430,6 +242,8 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 		err = output_json(run, o->json);
 	if (!err && o->junit)
 		err = output_junit(run, o->junit);
+	if (!err && o->markdown)
+		err = markdown_write(run, o->report, o->markdown);
 	if (!err && !(o->json && strcmp(o->json, "-") == 0))
 		output_table(run, stdout);
 	if (!err && o->annotations)
@@ -437,9 +251,99 @@ static int write_all(const struct options *o, const struct output_run *run, stru
 	return err;
 }
 
+/* --- Several runs ------------------------------------------------------------------------------------------------------ */
+
+static int tell_runs(const struct options *o, const struct runs *r, const struct runs_frame *frames)
+{
+	struct part_file file;
+	int err = 0;
+
+	runs_table(r, frames, stdout);
+	if (o->quarantine) {
+		err = part_open(&file, o->quarantine);
+		if (!err) {
+			fputs("flaky:\n", file.stream);
+			runs_quarantine(r, frames, o->expires, file.stream);
+			err = part_close(&file, 0);
+		}
+	} else {
+		runs_quarantine(r, frames, o->expires, stdout);
+	}
+	if (!err)
+		err = runs_unneeded(r, stdout);
+	for (size_t i = 0; i < r->n_frames && !err; i++)
+		err = frames[i].verdict == RUNS_REGRESSION ? ERR_FAILED : 0;
+	return err;
+}
+
+static int score_runs(const struct options *o, struct runs *r, char **words, const struct score_rules *settings)
+{
+	static const struct baseline none = { .dir = NULL };
+	struct runs_frame *frames = calloc(r->n_frames + 1, sizeof(*frames));
+	char names[RUNS_MOST][256];
+	int err = frames ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+
+	for (size_t i = 0; i < r->n && !err; i++) {
+		struct output_run *run = &r->runs[i];
+		char *name = names[i];
+
+		name_run(r->match ? r->ref->name : words[i], name, sizeof(names[i]));
+		*run = (struct output_run){ .reference = r->ref->name, .traced = words[i], .name = name, .command = "", .options = &o->score,
+			                    .settings = settings, .n_scores = r->n_frames };
+		run->scores = calloc(r->n_frames + 1, sizeof(*run->scores));
+		err = run->scores ? scoring_all(r->ref, &r->sets[i], &none, r->frames, run) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	if (!err)
+		err = runs_judge(r, frames);
+	if (!err)
+		err = tell_runs(o, r, frames);
+	free(frames);
+	return err;
+}
+
+static int compare_runs(struct options *o, const struct options_line *line)
+{
+	static const struct baseline none = { .dir = NULL };
+	struct set ref = { 0 }, sets[RUNS_MOST] = { { 0 } };
+	const struct set *all[RUNS_MOST + 1] = { &ref };
+	struct output_run scored[RUNS_MOST] = { { 0 } };
+	struct runs r = { .runs = scored, .n = (size_t)line->n_words - 1, .ref = &ref, .sets = sets };
+	struct baseline unused = { 0 };
+	struct score_rules *settings = NULL;
+	uint64_t *frames = NULL;
+	char name[256];
+	int err;
+
+	o->traced = line->words[1];
+	err = open_all(o, line, &ref, &sets[0], &unused, &settings);
+	for (size_t i = 1; i < r.n && !err; i++)
+		err = set_open(line->words[i + 1], &sets[i]);
+	for (size_t i = 0; i < r.n; i++)
+		all[i + 1] = &sets[i];
+	if (!err)
+		err = scoring_list(all, r.n + 1, &none, &o->frames, &frames, &r.n_frames);
+	if (!err) {
+		name_run(ref.trace ? ref.trace : ref.name, name, sizeof(name));
+		r.match = ref.trace || ref.ref.stream ? name : NULL;
+		r.frames = frames;
+		err = score_runs(o, &r, line->words + 1, settings);
+	}
+	for (size_t i = 0; i < r.n; i++) {
+		free(scored[i].scores);
+		set_free(&sets[i]);
+	}
+	free(frames);
+	baseline_close(&unused);
+	score_rules_free(&settings);
+	set_free(&ref);
+	return err;
+}
+
+/* --- The verb ---------------------------------------------------------------------------------------------------------- */
+
 int diff_main(int argc, char **argv, draw_namer *namer)
 {
-	struct options o = { 0 };
+	struct options o = { .expires = 30 };
 	struct options_line line;
 	struct set ref = { 0 }, traced = { 0 };
 	struct baseline baseline = { 0 };
@@ -453,10 +357,15 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 		frame_list_free(&o.frames);
 		return err > 0 ? 0 : -err;
 	}
+	if (line.n_words > 2) {
+		err = compare_runs(&o, &line);
+		frame_list_free(&o.frames);
+		return -err;
+	}
 	err = open_all(&o, &line, &ref, &traced, &baseline, &settings);
 	if (err)
 		goto fail;
-	err = list_frames(&ref, &traced, &baseline, &o.frames, &frames, &run.n_scores);
+	err = scoring_list((const struct set *[]){ &ref, &traced }, 2, &baseline, &o.frames, &frames, &run.n_scores);
 	if (err)
 		goto fail;
 	run.scores = calloc(run.n_scores, sizeof(*run.scores));
@@ -475,7 +384,7 @@ int diff_main(int argc, char **argv, draw_namer *namer)
 	run.options = &o.score;
 	run.settings = settings;
 
-	err = score_all(&ref, &traced, &baseline, frames, &run);
+	err = scoring_all(&ref, &traced, &baseline, frames, &run);
 	if (!err && ref.trace)
 		err = name_blamed_draws(ref.trace, namer, &run);
 	if (!err)

@@ -22,8 +22,7 @@ static void order_scores(const struct output_run *run, size_t *out)
 				out[n++] = i;
 }
 
-/* A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
-static void gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
+void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size)
 {
 	const struct score_gate_info *info = &score_gates[id];
 	const struct score_gate *gate = &s->gates[id];
@@ -45,8 +44,7 @@ static void gate_text(const struct score *s, enum score_gate_id id, char *out, s
 		snprintf(out + used, size - used, "%s%s", used ? "; " : "", gate->note);
 }
 
-/** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame". */
-static void blame_text(const struct score_blame *b, char *out, size_t size)
+void output_blame_text(const struct score_blame *b, char *out, size_t size)
 {
 	size_t n = (size_t)snprintf(out, size, b->draw ? "draw %u" : "the background", b->draw);
 
@@ -92,7 +90,7 @@ static void print_failure(const struct score *s, FILE *out)
 	for (int g = 0; g < N_GATES; g++) {
 		if (s->gates[g].state < SCORE_WARNED)
 			continue;
-		gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "          %-3s %s%s: %s\n", score_gates[g].name,
 		        s->gates[g].state == SCORE_WARNED ? "(warning) " : "", score_gates[g].title, text);
 	}
@@ -101,7 +99,7 @@ static void print_failure(const struct score *s, FILE *out)
 	for (uint32_t b = 0; b < s->n_blame && b < 3; b++) {
 		double share = 100 * (double)s->blame[b].pixels / (double)s->blamed_pixels;
 
-		blame_text(&s->blame[b], text, sizeof(text));
+		output_blame_text(&s->blame[b], text, sizeof(text));
 		fprintf(out, "          %s holds %.3g %% of %" PRIu64 " failing pixels\n", text, share, s->blamed_pixels);
 	}
 }
@@ -432,7 +430,7 @@ static void junit_case(const struct score *s, FILE *out)
 
 		if (s->gates[g].state != SCORE_FAILED)
 			continue;
-		gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		fprintf(out, "%s ", score_gates[g].name);
 		put_escaped(text, out);
 		fputc('\n', out);
@@ -491,12 +489,12 @@ void output_annotations(const struct output_run *run, FILE *out)
 		for (int g = 0; g < N_GATES; g++) {
 			if (s->gates[g].state < SCORE_WARNED)
 				continue;
-			gate_text(s, (enum score_gate_id)g, text, sizeof(text));
+			output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 			fprintf(out, "%%0A%s %s: ", score_gates[g].name, score_gates[g].title);
 			annotation_text(text, out);
 		}
 		if (s->n_blame) {
-			blame_text(&s->blame[0], text, sizeof(text));
+			output_blame_text(&s->blame[0], text, sizeof(text));
 			fputs("%0A", out);
 			annotation_text(text, out);
 		}

@@ -26,6 +26,12 @@ struct output_run {
 /** 1 where the frame was there and was compared. */
 int output_is_compared(const struct score *s);
 
+/** A gate's figures beside their bars, "interior pixels over 2/255: 0.31 % (bar 0.1 %)", NUL-terminated. */
+void output_gate_text(const struct score *s, enum score_gate_id id, char *out, size_t size);
+
+/** "draw 12, glDrawElements (call 345), list 3, texture 0123..., in the approved frame", NUL-terminated. */
+void output_blame_text(const struct score_blame *b, char *out, size_t size);
+
 /** The table: a line for each frame, those that did not pass first, with failing figures beside their bars; then a summary. */
 void output_table(const struct output_run *run, FILE *out);
 

@@ -436,6 +436,39 @@ int score_rules_for_frame(const struct score_rules *settings, const char *name, 
 	return err;
 }
 
+static void visit_bars(const struct score_rules *s, const struct yaml_rule *rule, void (*visit)(void *, const struct score_rules_entry *), void *user)
+{
+	const char *parent = rule->preset ? rule->preset : rule->inherits;
+
+	if (parent)
+		visit_bars(s, find_preset(s->file, parent), visit, user);
+	for (uint32_t i = 0; i < rule->n_bars; i++) {
+		const struct yaml_bar *b = &rule->bars[i];
+
+		visit(user, &(struct score_rules_entry){ .key = b, .of = rule->name ? rule->name : "a rule", .gate = b->gate,
+		                                         .figure = b->figure ? (int)b->figure - 1 : 0, .fail = b->fail ? *b->fail : NAN });
+	}
+}
+
+void score_rules_visit(const struct score_rules *settings, const char *name, uint64_t frame,
+                       void (*visit)(void *user, const struct score_rules_entry *entry), void *user)
+{
+	const struct yaml_file *f = settings ? settings->file : NULL;
+
+	for (uint32_t i = 0; f && i < f->n_rules; i++)
+		if (matches(f->rules[i].match, &settings->rule_frames[i], name, frame))
+			visit_bars(settings, &f->rules[i], visit, user);
+	for (uint32_t i = 0; f && i < f->n_flaky; i++) {
+		struct score_rules_entry entry = { .key = &f->flaky[i], .of = "flaky", .reason = f->flaky[i].reason };
+
+		if (settings->is_expired[i] || !matches(f->flaky[i].match, &settings->flaky_frames[i], name, frame))
+			continue;
+		for (uint32_t g = 0; g < f->flaky[i].n_gates; g++)
+			entry.flaky_gates |= 1u << f->flaky[i].gates[g];
+		visit(user, &entry);
+	}
+}
+
 void score_rules_frame_free(struct score_rules_frame *frame)
 {
 	free(frame->ignore);

@@ -29,6 +29,21 @@ struct score_rules_frame {
 int score_rules_read(const char *path, struct score_rules **out);
 void score_rules_free(struct score_rules **settings);
 
+/* What a file allows for a frame: a bar in place of the default one, or gates that may fail. */
+struct score_rules_entry {
+	const void *key;         /* the same for the same line of the file */
+	const char *of;          /* a preset's name, "a rule" or "flaky" */
+	enum score_gate_id gate; /* a bar: whose, */
+	int figure;              /* which figure, */
+	double fail;             /* and what the file says; NAN: it says nothing about failing */
+	unsigned flaky_gates;    /* else: bit g: gate g may fail */
+	const char *reason;      /* why; NULL: a bar */
+};
+
+/** Call `visit` with each entry that applies to a frame, in the order of the file. */
+void score_rules_visit(const struct score_rules *settings, const char *name, uint64_t frame,
+                       void (*visit)(void *user, const struct score_rules_entry *entry), void *user);
+
 /** The folder of approved frames that the file names, relative to where the file lies; NULL: none. Borrowed. */
 const char *score_rules_baseline(const struct score_rules *settings);
 

@@ -250,6 +250,48 @@ class Diff(unittest.TestCase):
         better = self.config("rules:\n- bars: [{gate: P, fail: 0.1, better: 0.02}]\n")
         self.assertEqual([f["outcome"] for f in frames(*better, expect=1)], ["failed", "passed", "failed", "failed"])
 
+    def test_runs(self):
+        """Frame 2 is noisy, frame 3 wrong in all runs, frame 4 missing in one; each run is told from the others."""
+        runs = [self.dir / f"run{n}" for n in range(4)]
+        for n, run in enumerate(runs):
+            for frame in range(1, 5):
+                rows = [bytearray(row) for row in picture(frame)]
+                if frame == 2:
+                    rows[3 + n][3 * (5 + 8 * n):3 * (9 + 8 * n)] = b"\xff" * 12
+                if frame == 3:
+                    for row in rows[10:16]:
+                        row[30:60] = b"\x20\xf0\x20" * 10
+                if frame < 4 or n != 1:
+                    write_png(run / f"f.{frame}.png", [bytes(row) for row in rows])
+        rules = self.dir / "rules.yaml"
+        rules.write_text("rules:\n- {bars: [{gate: P, fail: 0.5}, {gate: R1, fail: 90}, {gate: R4, figure: 2, fail: 9000}]}\n"
+                         "flaky:\n- {frames: '1', gates: [R1], reason: a driver, expires: 2099-01-01}\n")
+        said = self.diff(self.ref, *runs, expect=1).stdout
+        verdicts = dict(re.findall(r"^ +(\d+) (flaky|regression)", said, re.M))
+        self.assertEqual(verdicts, {"2": "flaky", "3": "regression", "4": "flaky"}, said)
+        self.assertRegex(said, r"frames: \"2\", gates: \[R1[^]]*\], reason: .* in 4 of 4 runs, 16 pixels vary\", expires: 20\d\d-")
+        self.assertRegex(said, r"4 flaky +1 of 4  missing \(1\)")
+        self.assertIn("1 steady, 2 flaky (50 %), 1 regression\n", said)
+        said = self.diff("--config", rules, self.ref, *runs, expect=1).stdout
+        self.assertIn('the flaky entry "a driver": none of its gates failed in 4 pictures', said)
+        self.assertIn("bar 9000 for R4", said)
+        self.assertNotIn("bar 90 for R1", said)
+        self.diff("-f", "1,2,4", "--quarantine", self.dir / "q.yaml", "--expires", "9", self.ref, *runs, expect=0)
+        (self.dir / "approved.yaml").write_text((self.dir / "q.yaml").read_text())
+        self.assertEqual(self.outcomes(self.ref, runs[0], "--config", self.dir / "approved.yaml", expect=1)[2], "flaky")
+        self.assertNotIn("expires:", self.diff("--config", self.dir / "approved.yaml", self.ref, *runs, expect=1).stdout)
+        self.diff("--json", "-", self.ref, *runs, expect=2)
+        self.diff("--quarantine", "x", self.ref, runs[0], expect=2)
+
+    def test_markdown(self):
+        write_png(self.traced / "b.2.png", picture(9))
+        for _ in range(2):  # what a job's earlier steps said stays
+            self.diff("--markdown", self.dir / "sum.md", "--report", self.dir / "report", self.ref, self.traced, expect=1)
+        text = (self.dir / "sum.md").read_text()
+        self.assertEqual(text.count("### relume diff"), 2)
+        self.assertIn(f"3 passed, 1 failed of 4 frames; [page]({self.dir}/report/index.html)", text)
+        self.assertRegex(text, r"\| 2 \| failed \| \*\*R1\*\* interior pixels")
+
     def test_flaky(self):
         write_png(self.traced / "b.2.png", drifted(picture(2)))
         entry = "flaky:\n- {{frames: '2', gates: [{}], reason: a driver, expires: {}}}\n"

@@ -1,0 +1,194 @@
+#include "diff/runs/composite.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+enum { NEIGHBOURHOOD = 16, MIN_SHARE = 4 };
+
+/* What the runs showed of each number: codes of colours, or window depth. */
+struct range {
+	uint8_t *low, *high;       /* [n][3] */
+	uint8_t *off, *spread;     /* [n]: codes from the reference, and between runs, of the worst channel */
+	float *near, *far;         /* [n]; NULL: the reference has no depth */
+};
+
+static void widen(struct range *r, const struct score_picture *p, size_t n, int is_first)
+{
+	for (size_t i = 0; i < 3 * n; i++) {
+		r->low[i] = is_first || p->rgb[i] < r->low[i] ? p->rgb[i] : r->low[i];
+		r->high[i] = is_first || p->rgb[i] > r->high[i] ? p->rgb[i] : r->high[i];
+	}
+	for (size_t i = 0; r->near && i < n; i++) {
+		r->near[i] = is_first || p->depth[i] < r->near[i] ? p->depth[i] : r->near[i];
+		r->far[i] = is_first || p->depth[i] > r->far[i] ? p->depth[i] : r->far[i];
+	}
+}
+
+static void find_varying(const struct range *r, const struct score_picture *ref, int codes, struct composite_varying *out)
+{
+	*out = (struct composite_varying){ .x0 = UINT32_MAX, .y0 = UINT32_MAX };
+	for (uint32_t y = 0; y < ref->height; y++)
+		for (uint32_t x = 0; x < ref->width; x++) {
+			const size_t i = (size_t)y * ref->width + x;
+
+			if (score_ignores(ref, i) || r->spread[i] <= codes)
+				continue;
+			out->pixels++;
+			out->x0 = x < out->x0 ? x : out->x0;
+			out->y0 = y < out->y0 ? y : out->y0;
+			out->x1 = x > out->x1 ? x : out->x1;
+			out->y1 = y > out->y1 ? y : out->y1;
+		}
+}
+
+/* The nearest to what is wanted between two bounds. */
+static double nearest(double wanted, double low, double high)
+{
+	return wanted < low ? low : wanted > high ? high : wanted;
+}
+
+/* Where runs disagree about a pixel, its neighbours' values are within what they show as well: edges tremble by a pixel. */
+static int loosen(struct range *r, const struct score_picture *ref, int codes)
+{
+	const size_t n = 3 * (size_t)ref->width * ref->height;
+	uint8_t *low = malloc(n + 1), *high = malloc(n + 1);
+
+	if (!low || !high) {
+		free(low);
+		free(high);
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	memcpy(low, r->low, n);
+	memcpy(high, r->high, n);
+	for (uint32_t y = 0; y < ref->height; y++)
+		for (uint32_t x = 0; x < ref->width; x++) {
+			const size_t at = (size_t)y * ref->width + x;
+
+			for (uint32_t v = y ? y - 1 : 0; r->spread[at] > codes && v < ref->height && v <= y + 1; v++)
+				for (uint32_t u = x ? x - 1 : 0; u < ref->width && u <= x + 1; u++)
+					for (size_t c = 0; c < 3; c++) {
+						const size_t i = 3 * ((size_t)v * ref->width + u) + c;
+
+						low[3 * at + c] = r->low[i] < low[3 * at + c] ? r->low[i] : low[3 * at + c];
+						high[3 * at + c] = r->high[i] > high[3 * at + c] ? r->high[i] : high[3 * at + c];
+					}
+		}
+	free(r->low);
+	free(r->high);
+	r->low = low;
+	r->high = high;
+	return 0;
+}
+
+static void measure(const struct range *r, const struct score_picture *ref, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		r->off[i] = 0;
+		for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+			const int off = abs(ref->rgb[c] - (int)nearest(ref->rgb[c], r->low[c], r->high[c]));
+
+			r->off[i] = off > r->off[i] ? (uint8_t)off : r->off[i];
+		}
+	}
+}
+
+/* Is it likely to be noise that a pixel is off in all runs? */
+static int is_noise(const struct range *r, const struct score_picture *ref, uint32_t x, uint32_t y)
+{
+	const size_t at = (size_t)y * ref->width + x;
+	const uint32_t x0 = x > NEIGHBOURHOOD ? x - NEIGHBOURHOOD : 0, y0 = y > NEIGHBOURHOOD ? y - NEIGHBOURHOOD : 0;
+	uint32_t alike = 0, varying = 0;
+
+	if (r->spread[at] >= r->off[at])
+		return 1;
+	for (uint32_t v = y0; v < ref->height && v <= y + NEIGHBOURHOOD; v++)
+		for (uint32_t u = x0; u < ref->width && u <= x + NEIGHBOURHOOD; u++) {
+			const size_t i = (size_t)v * ref->width + u;
+
+			alike += r->off[i] > r->spread[i];
+			varying += r->spread[i] >= r->off[at];
+		}
+	return MIN_SHARE * alike <= varying;
+}
+
+static int put(struct image *base, const char *layer, const struct score_picture *ref, const struct range *r)
+{
+	const char *encoding = image_attribute(base, "relume:encoding");
+	const int is_display = encoding && strcmp(encoding, "display") == 0;
+	const size_t n = (size_t)ref->width * ref->height;
+	struct score_picture was = { 0 };
+	const float *planes[3];
+	float *depth = r->near ? image_channel(base, "gl.depth") : NULL;
+	int err = score_picture_from_image(base, layer, &was);
+
+	if (err || !score_find_layer(base, layer, planes)) {
+		score_picture_free(&was);
+		return err == ERR_SYSTEM ? err : 0;
+	}
+	for (size_t i = 0; i < n; i++) {
+		const int noise = is_noise(r, ref, (uint32_t)(i % ref->width), (uint32_t)(i / ref->width));
+
+		for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+			const uint8_t code = noise ? ref->rgb[c] : (uint8_t)nearest(ref->rgb[c], r->low[c], r->high[c]);
+
+			if (code != was.rgb[c])
+				((float *)planes[c % 3])[i] = is_display ? (float)code / 255 : image_linear_from_display((float)code / 255);
+		}
+		if (depth)
+			depth[i] = noise && r->off[i] ? ref->depth[i] : (float)nearest(ref->depth[i], r->near[i], r->far[i]);
+	}
+	score_picture_free(&was);
+	return 0;
+}
+
+int composite_make(struct image *base, const char *layer, const struct score_picture *ref, const struct image *images, size_t n, int codes,
+                   struct composite_varying *varying)
+{
+	const size_t pixels = (size_t)ref->width * ref->height;
+	struct range r = { malloc(3 * pixels + 1), malloc(3 * pixels + 1), malloc(pixels + 1), malloc(pixels + 1), NULL, NULL };
+	size_t used = 0;
+	int err = 0;
+
+	if (ref->depth && image_channel(base, "gl.depth")) {
+		r.near = malloc((pixels + 1) * sizeof(*r.near));
+		r.far = malloc((pixels + 1) * sizeof(*r.far));
+	}
+	if (!r.low || !r.high || !r.off || !r.spread || (!r.near) != (!r.far))
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t i = 0; i < n && !err; i++) {
+		struct score_picture p = { 0 };
+
+		if (images[i].width != ref->width || images[i].height != ref->height)
+			continue;
+		err = score_picture_from_image(&images[i], layer, &p);
+		if (!err && !p.depth) {
+			free(r.near);
+			free(r.far);
+			r.near = r.far = NULL;
+		}
+		if (!err)
+			widen(&r, &p, pixels, used++ == 0);
+		score_picture_free(&p);
+		err = err == ERR_INPUT ? 0 : err; /* it lacks the layer: validity says so */
+	}
+	*varying = (struct composite_varying){ .pixels = 0 };
+	if (!err && used) {
+		for (size_t i = 0; i < pixels; i++)
+			r.spread[i] = (uint8_t)score_code_difference(r.low + 3 * i, r.high + 3 * i);
+		find_varying(&r, ref, codes, varying);
+		err = loosen(&r, ref, codes);
+	}
+	if (!err && used) {
+		measure(&r, ref, pixels);
+		err = put(base, layer, ref, &r);
+	}
+	free(r.low);
+	free(r.high);
+	free(r.off);
+	free(r.spread);
+	free(r.near);
+	free(r.far);
+	return err;
+}

@@ -1,0 +1,213 @@
+#include "diff/runs/scoring.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "base/progress.h"
+#include "diff/score/gates.h"
+#include "diff/score/picture.h"
+#include "diff/report/pictures.h"
+#include "diff/rules/rules.h"
+
+/* More frames asked for by number than anybody has: a slip of the finger, not a list of missing ones. */
+#define MAX_ASKED 1000000
+
+static int compare_frames(const void *a, const void *b)
+{
+	uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+
+	return (x > y) - (x < y);
+}
+
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct frame_list *asked, uint64_t **out,
+                 size_t *n_out)
+{
+	uint64_t n_asked = asked->n_ranges && frame_list_last(asked) < MAX_ASKED
+		? frame_list_count(asked, frame_list_last(asked) + 1) : 0;
+	size_t n = 0, unique = 0, most = 0;
+	uint64_t *frames;
+
+	for (size_t v = 0; v < baseline->n_variants; v++)
+		most += baseline->variants[v]->n_frames;
+	for (size_t s = 0; s < n_sets; s++)
+		most += sets[s]->n_entries;
+	frames = calloc(most + n_asked + 1, sizeof(*frames));
+	if (!frames)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (size_t s = 0; s < n_sets; s++)
+		for (size_t i = 0; i < sets[s]->n_entries; i++)
+			if (frame_list_contains(asked, sets[s]->entries[i].frame))
+				frames[n++] = sets[s]->entries[i].frame;
+	for (size_t v = 0; v < baseline->n_variants; v++)
+		for (uint32_t i = 0; i < baseline->variants[v]->n_frames; i++)
+			if (frame_list_contains(asked, baseline->variants[v]->frames[i].frame))
+				frames[n++] = baseline->variants[v]->frames[i].frame;
+	for (uint64_t f = 0; n_asked && f <= frame_list_last(asked); f++)
+		if (frame_list_contains(asked, f))
+			frames[n++] = f;
+	qsort(frames, n, sizeof(*frames), compare_frames);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || frames[i] != frames[i - 1])
+			frames[unique++] = frames[i];
+	if (unique == 0) {
+		free(frames);
+		return err_report(ERR_USAGE, NULL, "none of the frames asked for is in %s or %s", sets[0]->name, sets[n_sets - 1]->name);
+	}
+	*out = frames;
+	*n_out = unique;
+	return 0;
+}
+
+/* What the threads share. Each takes the next frame; memory grows with threads, not with frames. */
+struct work {
+	struct scoring all;
+	const uint64_t *frames;
+	struct output_run *run;
+
+	pthread_mutex_t lock; /* over all below */
+	struct progress progress;
+	size_t next;
+	int err;
+};
+
+/** Stands in for a reference where there is none: the size alone. */
+static struct score_picture picture_of_size(const struct image *img)
+{
+	return (struct score_picture){ .width = img->width, .height = img->height };
+}
+
+/** A frame that failed only gates known to be flaky is no failure. */
+static void judge_flaky(const struct score_rules_frame *settings, struct score *s)
+{
+	unsigned failed = 0;
+
+	for (int g = 0; g < N_GATES; g++)
+		failed |= s->gates[g].state == SCORE_FAILED ? 1u << g : 0;
+	if (s->outcome != SCORE_FRAME_FAILED || !(failed & settings->flaky_gates) || failed & ~settings->flaky_gates)
+		return;
+	s->outcome = SCORE_FRAME_FLAKY;
+	s->flaky_reason = settings->flaky_reason;
+}
+
+int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture *picture, const struct image *image, struct score *out)
+{
+	const struct output_run *run = w->run;
+	struct score_rules_frame settings = { 0 };
+	struct score_approved approved;
+	struct image was = { 0 };
+	int found = 0;
+	int err = score_rules_for_frame(run->settings, run->name, frame, run->options,
+	                                (uint32_t[]){ picture->width, picture->height }, &settings);
+
+	picture->ignore = settings.ignore;
+	picture->recording = w->ref->trace_hash;
+	if (!err && w->baseline->dir)
+		err = baseline_look_up(w->baseline, image, frame, &was, &approved, &found);
+	if (!err)
+		err = score_frame(picture, image, frame, &settings.options, found ? &approved : NULL, out);
+	if (!err) {
+		judge_flaky(&settings, out);
+		if (out->outcome == SCORE_FRAME_PASSED && w->baseline->dir && !found)
+			out->outcome = SCORE_FRAME_NEW;
+	}
+	score_rules_frame_free(&settings);
+	image_free(&was);
+	return err;
+}
+
+/** Score one frame, whatever became of it. @return 0, or ERR_SYSTEM (reported) */
+static int score_one(struct work *w, uint64_t frame, struct score *out)
+{
+	const struct set_entry *r = set_find(w->all.ref, frame), *t = set_find(w->all.traced, frame);
+	const int needs_reference = w->run->reference != NULL;
+	struct image ref_image = { 0 }, image = { 0 };
+	struct score_picture picture = { 0 };
+	int err = 0;
+
+	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
+	if (!t || (!r && needs_reference))
+		return 0;
+	if (r)
+		err = set_read(w->all.ref, r, &ref_image);
+	if (!err && r)
+		err = picture_take_reference(&ref_image, w->run->options->channel, &picture);
+	if (err == ERR_INPUT && ref_image.n_channels)
+		err_report(ERR_INPUT, r->path ? r->path : w->all.ref->name, "the reference has no colour channels");
+	if (!err)
+		err = set_read(w->all.traced, t, &image);
+	if (!err && !r)
+		picture = picture_of_size(&image);
+	if (!err)
+		err = scoring_image(&w->all, frame, &picture, &image, out);
+	if (err == ERR_INPUT) {
+		out->outcome = SCORE_FRAME_UNREADABLE;
+		err = 0;
+	}
+	score_picture_free(&picture);
+	image_free(&image);
+	image_free(&ref_image);
+	return err;
+}
+
+/** "failed (R4, R5), fidelity 99.912 %" */
+static void say_outcome(const struct score *s, int has_fidelity, char *text, size_t size)
+{
+	size_t n = (size_t)snprintf(text, size, "%s", score_outcome_names[s->outcome]), n_failed = 0;
+
+	for (int g = 0; g < N_GATES && n < size; g++)
+		if (s->gates[g].state == SCORE_FAILED)
+			n += (size_t)snprintf(text + n, size - n, "%s%s", n_failed++ ? ", " : " (", score_gates[g].name);
+	if (n < size)
+		n += (size_t)snprintf(text + n, size - n, "%s", n_failed ? ")" : "");
+	if (has_fidelity && n < size)
+		snprintf(text + n, size - n, ", fidelity %.3f %%", 100 * s->fidelity);
+}
+
+static void *score_frames(void *arg)
+{
+	struct work *w = arg;
+
+	pthread_mutex_lock(&w->lock);
+	while (!w->err && w->next < w->run->n_scores) {
+		size_t i = w->next++;
+		struct score *s = &w->run->scores[i];
+		char text[128];
+		int err;
+
+		pthread_mutex_unlock(&w->lock);
+		err = score_one(w, w->frames[i], s);
+		say_outcome(s, w->run->reference != NULL, text, sizeof(text));
+		pthread_mutex_lock(&w->lock);
+		if (err)
+			w->err = err;
+		w->run->counts[s->outcome]++;
+		progress_step(&w->progress, w->frames[i], text);
+	}
+	pthread_mutex_unlock(&w->lock);
+	return NULL;
+}
+
+int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames, struct output_run *run)
+{
+	enum { MAX_THREADS = 16 };
+	struct work w = { .all = { ref, traced, baseline, run }, .frames = frames, .run = run,
+	                  .lock = PTHREAD_MUTEX_INITIALIZER };
+	pthread_t threads[MAX_THREADS];
+	long cores = sysconf(_SC_NPROCESSORS_ONLN);
+	int n = 0;
+
+	progress_begin(&w.progress, "scored", run->n_scores);
+	/* this thread works, too; one that does not start is no loss but time */
+	while (n < MAX_THREADS && n + 1 < cores && (size_t)n + 1 < run->n_scores &&
+	       pthread_create(&threads[n], NULL, score_frames, &w) == 0)
+		n++;
+	score_frames(&w);
+	while (n > 0)
+		pthread_join(threads[--n], NULL);
+	progress_end(&w.progress);
+	run->seconds = progress_clock_s() - w.progress.start_s;
+	return w.err;
+}

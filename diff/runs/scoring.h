@@ -1,0 +1,37 @@
+/* Scoring sets of frames: which frames there are, and each of them in threads. */
+#pragma once
+
+#include "base/frames.h"
+#include "diff/baseline/baseline.h"
+#include "diff/pictures/set.h"
+#include "diff/report/output.h"
+
+/* What frames are scored with. */
+struct scoring {
+	struct set *ref, *traced;
+	const struct baseline *baseline;
+	const struct output_run *run;
+};
+
+/**
+ * All frames to score: of those asked for, the ones in any set or in the baseline, and those asked for by number that none has.
+ * @param out, n_out  receive them in order; free with free()
+ * @return 0, ERR_USAGE (reported: none) or ERR_SYSTEM (reported)
+ */
+int scoring_list(const struct set *const *sets, size_t n_sets, const struct baseline *baseline, const struct frame_list *asked, uint64_t **out,
+                 size_t *n_out);
+
+/**
+ * Score an image that is there, against a reference, an approved frame, or both.
+ * @param picture  the reference; where there is none, of the image's size and without pixels
+ * @return 0, ERR_INPUT (reported) or ERR_SYSTEM (reported)
+ */
+int scoring_image(const struct scoring *all, uint64_t frame, struct score_picture *picture, const struct image *image, struct score *out);
+
+/**
+ * Score frames.
+ * @param frames  [run->n_scores]
+ * @param run     its scores, counts and seconds are filled in
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames, struct output_run *run);
