@@ -2,14 +2,18 @@
  * A courtyard without OpenGL's lighting, as games drew theirs: a sky about the viewer, textured ground, walls, pillars and crates, sparks
  * that face the viewer, something held in the viewer's hand, and a bar that tells the viewer's health.
  *
+ * courtyard lit: OpenGL lights all from a lamp over the crates, the sky too.
+ *
  *   cc -o courtyard corpus/courtyard.c -lglut -lGLU -lGL -lm
  */
 #include <math.h>
+#include <string.h>
 
 #include "program.h"
 
 enum { SIZE = 64, N_TEXTURES = 4 };
 static GLuint textures[N_TEXTURES]; /* stone, wood, sky, spark */
+static int is_lit;
 
 static void make_texel(int texture, int x, int y, GLubyte *out)
 {
@@ -39,19 +43,21 @@ static void init(void)
 	glBlendFunc(GL_SRC_ALPHA, GL_ONE);
 }
 
-/** A side of a box, at distance 1 along an axis, with its texture `repeat` times. */
+/** A side of a box, at distance 1 along an axis, with its texture `repeat` times; seen from within where that is negative. */
 static void draw_side(int axis, float sign, float repeat)
 {
 	static const float corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+	const float outwards = repeat < 0 ? -sign : sign;
 
+	glNormal3f(axis == 0 ? outwards : 0, axis == 1 ? outwards : 0, axis == 2 ? outwards : 0);
 	for (int i = 0; i < 4; i++) {
 		float at[3];
 
 		at[axis] = sign;
 		at[(axis + 1) % 3] = corners[i][0];
 		at[(axis + 2) % 3] = corners[i][1];
-		glTexCoord2f(repeat * (axis == 1 ? at[0] : at[(axis + 2) % 3 == 1 ? (axis + 1) % 3 : (axis + 2) % 3]) * 0.5f,
-		             repeat * (axis == 1 ? at[2] : at[1]) * 0.5f);
+		glTexCoord2f(fabsf(repeat) * (axis == 1 ? at[0] : at[(axis + 2) % 3 == 1 ? (axis + 1) % 3 : (axis + 2) % 3]) * 0.5f,
+		             fabsf(repeat) * (axis == 1 ? at[2] : at[1]) * 0.5f);
 		glVertex3fv(at);
 	}
 }
@@ -130,6 +136,20 @@ static void draw_viewer(void)
 	glEnable(GL_TEXTURE_2D);
 }
 
+/** A lamp before the pillars. */
+static void light(void)
+{
+	const float place[4] = { 0, 1.2f, -3, 1 }, dim[4] = { 0.5f, 0.5f, 0.5f, 1 };
+
+	if (!is_lit)
+		return;
+	glEnable(GL_LIGHTING);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_NORMALIZE);
+	glLightModelfv(GL_LIGHT_MODEL_AMBIENT, dim);
+	glLightfv(GL_LIGHT0, GL_POSITION, place);
+}
+
 static void draw(void)
 {
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -143,15 +163,22 @@ static void draw(void)
 	glRotatef(12, 1, 0, 0);
 	glRotatef(program_moved(program.animate_camera, 5), 0, 1, 0);
 	glBindTexture(GL_TEXTURE_2D, textures[2]);
-	draw_box(0, 0, 0, 60, 60, 60, 1.5f);
+	glPushMatrix();
+	glTranslatef(program_moved(program.animate_camera, 0.3f), -2, -3.5f);
+	light();
+	glPopMatrix();
+	draw_box(0, 0, 0, 60, 60, 60, -1.5f);
 	glTranslatef(program_moved(program.animate_camera, 0.3f), -2, -3.5f);
 	draw_world();
+	glDisable(GL_LIGHTING);
 	draw_sparks();
 	draw_viewer();
 }
 
 int main(int argc, char **argv)
 {
-	program_run(argc, argv, "courtyard", init, draw);
+	is_lit = argc > 1 && strcmp(argv[1], "lit") == 0;
+	argv[is_lit] = argv[0];
+	program_run(argc - is_lit, argv + is_lit, "courtyard", init, draw);
 	return 0;
 }

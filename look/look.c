@@ -111,6 +111,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 		s->hidden = (s->hidden & ~SCENE_HIDDEN_FROM_MIRRORS) | (*r->mirrors ? 0u : SCENE_HIDDEN_FROM_MIRRORS);
 	if (r->near)
 		s->hidden = (s->hidden & ~SCENE_NEAR_MIRROR) | (*r->near ? SCENE_NEAR_MIRROR : 0);
+	if (r->shaded)
+		s->hidden = (s->hidden & ~SCENE_UNSHADED) | (*r->shaded ? 0 : SCENE_UNSHADED);
 	if (r->left_out)
 		s->hidden = (s->hidden & ~SCENE_LEFT_OUT) | (*r->left_out ? SCENE_LEFT_OUT : 0);
 	if (r->solid)
@@ -403,6 +405,10 @@ static void change_instance(const struct applying *a, uint32_t i)
 		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit : m->surface.relit && a->lights_change & 1;
+	if (m->surface.hidden & SCENE_UNSHADED) {
+		m->surface.hidden &= ~SCENE_DOME_LIT;
+		m->surface.relit = 0;
+	}
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;
 	if (m->surface.relit) {

@@ -34,6 +34,7 @@
  *         near: yes                  # `reflect` mirrors what is there; where nothing is, the surface keeps its own colour
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
  *         shadow_unit: 0             # of what OpenGL lights: the texture unit that holds a shadow, which traced ones replace
+ *         shaded: no                 # nothing shades it: it keeps the light that OpenGL gives it, and takes none of the lights below
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
@@ -107,7 +108,7 @@ struct surface_rule {
 	struct match *match;
 	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
 	const uint32_t *lightmap, *shadow_unit;
-	const bool *shadows, *mirrors, *near, *lit, *dome, *left_out, *solid;
+	const bool *shadows, *mirrors, *near, *shaded, *lit, *dome, *left_out, *solid;
 	const char *passes;
 };
 

@@ -63,6 +63,7 @@ struct scene_face {
 #define SCENE_DOME_LIT 256u          /* nothing: scene.dome lights it */
 #define SCENE_NEAR_MIRROR 512u       /* nothing: it mirrors what is there, and keeps its own colour where nothing is */
 #define SCENE_FILM 1024u             /* lights: it is more seen through than seen, and casts no shadow */
+#define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {

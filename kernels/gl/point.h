@@ -315,7 +315,8 @@ static inline struct light_list point_lights(const struct point *p)
 /* Whether light has a part in a point's colour. */
 static inline int point_takes_light(const struct point *p)
 {
-	return (p->material->lighting || p->material->surface.relit) && !(p->geometry->flags & GEOMETRY_EXPANDED);
+	return (p->material->lighting || p->material->surface.relit) && !(p->geometry->flags & GEOMETRY_EXPANDED) &&
+	       !(p->material->surface.hidden & SCENE_UNSHADED);
 }
 
 /* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */

@@ -134,8 +134,8 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 	v4_store(out->color[1], back.color);
 	v4_store(out->secondary[0], front.secondary);
 	v4_store(out->secondary[1], back.secondary);
-	out->lit[0] = front.lights;
-	out->lit[1] = back.lights;
+	out->lit[0] = m->surface.hidden & SCENE_UNSHADED ? 0u : front.lights;
+	out->lit[1] = m->surface.hidden & SCENE_UNSHADED ? 0u : back.lights;
 	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
 	out->size[0] = vertex_point_size(m, eye);
 	out->size[1] = 0.0f;

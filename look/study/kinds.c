@@ -159,7 +159,7 @@ struct rule {
 };
 
 static const struct rule rules[] = {
-	{ "sky", "are painted before the world, hide nothing of it, and are all around", "", "    shadows: no\n    dome: no\n    lit: no\n", 1u << KIND_SKY, 3 },
+	{ "sky", "are painted before the world, hide nothing of it, and are all around", "", "    shadows: no\n    shaded: no\n", 1u << KIND_SKY, 3 },
 	{ "decal", "lie on what was drawn before them", ", parallel: no", "    shadows: no\n", 1u << KIND_DECAL, 3 },
 	{ "blob shadow", "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
 	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_LIT_SHADOW, 3 },

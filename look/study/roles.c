@@ -219,7 +219,7 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 	return SCENE_NONE;
 }
 
-static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *which,
+static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role, const char *then,
                              const char *why, FILE *out)
 {
 	unsigned n = 0;
@@ -233,8 +233,8 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 				continue;
 			n++;
 			if (out)
-				fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n"
-				        "    shadows: no\n    dome: no\n    lit: no\n", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], which);
+				fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: { mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
+				        "    shadows: no\n%s", role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], then);
 		}
 	return n;
 }
@@ -242,8 +242,8 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 /* out: NULL: they are only counted */
 static unsigned write_all(const struct roles *r, const struct motion *m, int is_relit, FILE *out)
 {
-	unsigned n = write_meshes(r, m, is_sky, "sky", ", lit: no", "it turned with the world and came along with the viewer", out) +
-	             write_meshes(r, m, is_held, "view model", "", "it was where it was before the viewer, who moved", out);
+	unsigned n = write_meshes(r, m, is_sky, "sky", "    shaded: no\n", "it turned with the world and came along with the viewer", out) +
+	             write_meshes(r, m, is_held, "view model", "    dome: no\n    lit: no\n", "it was where it was before the viewer, who moved", out);
 
 	for (unsigned i = 0; i < r->n_textures; i++) {
 		const struct role_texture *t = &r->textures[i];

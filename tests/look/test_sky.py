@@ -51,6 +51,21 @@ known = Image(SCRATCH / "longer" / "longer.0004.exr", SHOWN).planes
 check(mean(known, "shadow.G", 100, 5, 300, 40) == 1, "the sky keeps its light")
 check(mean(known, "shadow.R", 14, 277, 130, 286) == 1, "so does the HUD")
 
+# A sky that OpenGL lights is found as well. Nothing throws shadows on it, and it keeps OpenGL's colours.
+lamp = SCRATCH / "lamp.trace"
+record(lamp, corpus("courtyard"), "lit", "--frames", 6, "--animate", "camera", "--size", "400x300")
+must(relume("look", lamp, "-o", rules))
+text = rules.read_text()
+check(text.count("- role: sky\n") == 1, f"one rule for a lit sky: {text}")
+for name, options in (("shaded", ()), ("spared", ("--look", rules)), ("twins", ("--look", rules, "--device", "reference"))):
+    render(lamp, SCRATCH / name, "-f", 4, *options)
+shaded, spared, twins = (Image(SCRATCH / name / "lamp.0004.exr", SHOWN).planes for name in ("shaded", "spared", "twins"))
+check(mean(shaded, "shadow.G", 0, 0, 400, 60) < 0.97, "without rules walls throw shadows on the sky")
+for name, planes in (("packets", spared), ("twins", twins)):
+    check(all(min(map(min, planes[f"shadow.{c}"][:60])) == 1 for c in "RGB"), f"{name}: none does under rules")
+    check(all(planes[c][:60] == planes[f"gl.{c}"][:60] for c in "RGB"), f"{name}: the lit sky is as OpenGL painted it")
+check(mean(spared, "shadow.G", 340, 118, 400, 148) < 0.9, "a wall is shaded")
+
 # Rules: no dome for what is wood, a key out of range.
 edited = SCRATCH / "edited.yaml"
 edited.write_text("surfaces:\n  - dome: no\n" + text[text.index("sky:"):])
