@@ -105,9 +105,11 @@ WIDE_VECTORS static inline packf pack_function(uint function, const packf *a)
 	}
 }
 
-/* One channel of the result, scaled and clamped. */
+/* As combine_scaled, one channel of the result. */
 WIDE_VECTORS static inline packf pack_scaled(packf value, uint function, float scale)
 {
+	if (function == GL_DOT3_RGB_EXT || function == GL_DOT3_RGBA_EXT)
+		scale = 1.0f;
 	value *= scale;
 	return combine_leaves_range(function) || scale != 1.0f ? pack_clamp01(value) : value;
 }
@@ -140,6 +142,7 @@ WIDE_VECTORS static inline struct pack_color pack_combine_full(__global const st
 		out.c[c] = pack_scaled(dot ? 4.0f * sum : out.c[c], function, unit->scale_rgb);
 	for (uint k = 0; k < 3; k++)
 		a[k] = pack_argument(&from, unit->source_alpha[k], unit->operand_alpha[k], 3);
-	out.c[3] = rgba ? out.c[0] : pack_scaled(pack_function(unit->combine_alpha, a), unit->combine_alpha, unit->scale_alpha);
+	out.c[3] = rgba ? pack_scaled(4.0f * sum, function, unit->scale_alpha) :
+	                  pack_scaled(pack_function(unit->combine_alpha, a), unit->combine_alpha, unit->scale_alpha);
 	return out;
 }

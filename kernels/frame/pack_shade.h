@@ -198,10 +198,10 @@ WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t,
 	}
 	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
 		color.c[i] += secondary->c[i];
+	for (int i = 0; i < 3 && m->fog; i++)
+		color.c[i] = color.c[i] * fog + m->fog_color[i] * (1.0f - fog);
 	for (int i = 0; i < 4; i++)
 		color.c[i] = pack_clamp01(color.c[i]);
-	for (int i = 0; i < 3 && m->fog; i++)
-		color.c[i] = pack_clamp01(color.c[i] * fog + m->fog_color[i] * (1.0f - fog));
 	return color;
 }
 

@@ -130,10 +130,21 @@ static inline struct vec4 combine_function4(uint32_t function, const struct vec4
 	return combine_function(function, v4_mul(arguments[0], arguments[1]), v4_mul(arguments[2], arguments[3]), arguments[2]);
 }
 
+/* Scaled and clamped; the dot products of EXT_texture_env_dot3 are not scaled. */
+static inline struct vec4 combine_scaled(struct vec4 color, uint32_t function, float scale)
+{
+	if (function == GL_DOT3_RGB_EXT || function == GL_DOT3_RGBA_EXT)
+		scale = 1.0f;
+	color = v4_scale(color, scale);
+	return combine_leaves_range(function) || scale != 1.0f ? v4_clamp01(color) : color;
+}
+
+/* DOT3_RGBA gives alpha, too, which has its own scale nevertheless. */
 static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, struct vec4 previous, struct vec4 texture,
                                        struct vec4 primary, const struct vec4 *samples)
 {
 	int four = unit->env_mode == GL_COMBINE4_NV, n = four ? 4 : 3;
+	int rgba = unit->combine_rgb == GL_DOT3_RGBA || unit->combine_rgb == GL_DOT3_RGBA_EXT;
 	struct vec4 own = v4_load(unit->env_color), rgb[4], alpha[4], color, out;
 
 	for (int i = 0; i < n; i++) {
@@ -144,13 +155,7 @@ static inline struct vec4 combine_full(GLOBAL const struct scene_unit *unit, str
 	}
 	color = four ? combine_function4(unit->combine_rgb, rgb) : combine_function(unit->combine_rgb, rgb[0], rgb[1], rgb[2]);
 	out = four ? combine_function4(unit->combine_alpha, alpha) : combine_function(unit->combine_alpha, alpha[0], alpha[1], alpha[2]);
-	color = v4_scale(color, unit->scale_rgb);
-	if (combine_leaves_range(unit->combine_rgb) || unit->scale_rgb != 1.0f)
-		color = v4_clamp01(color);
-	out = v4_scale(out, unit->scale_alpha);
-	if (combine_leaves_range(unit->combine_alpha) || unit->scale_alpha != 1.0f)
-		out = v4_clamp01(out);
-	if (unit->combine_rgb == GL_DOT3_RGBA || unit->combine_rgb == GL_DOT3_RGBA_EXT)
-		out.w = color.w;
+	out = rgba ? combine_scaled(color, unit->combine_rgb, unit->scale_alpha) : combine_scaled(out, unit->combine_alpha, unit->scale_alpha);
+	color = combine_scaled(color, unit->combine_rgb, unit->scale_rgb);
 	return v4(color.x, color.y, color.z, out.w);
 }

@@ -221,7 +221,8 @@ static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const st
 }
 
 /*
- * Texture environments, colour sum and fog over a lit colour; clamped. fog_factor: 1 leaves the colour as it is.
+ * Texture environments, colour sum and fog over a lit colour; clamped after all of them, as Mesa (22.3.6) does, where sec. 3.9 clamps
+ * the sum before the fog. fog_factor: 1 leaves the colour as it is.
  * without: 1 + the number of a unit that is passed by; 0: none
  */
 static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p, const struct texturing *texturing,
@@ -242,17 +243,13 @@ static inline struct vec4 point_finish_in_fog(const struct tables *t, const stru
 	}
 	if (m->color_sum || (m->lighting && m->separate_specular))
 		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);
-	if (!(m->unclamped & 1u))
-		color = v4_clamp01(color);
 	if (m->fog) {
 		float f = fog_factor;
 
 		color = v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
 		           color.z * f + m->fog_color[2] * (1.0f - f), color.w);
-		if (!(m->unclamped & 1u))
-			color = v4_clamp01(color);
 	}
-	return color;
+	return m->unclamped & 1u ? color : v4_clamp01(color);
 }
 
 static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct texturing *texturing,

@@ -32,7 +32,7 @@ static inline struct vec4 light_material_color(GLOBAL const float *own, uint32_t
 	return tracked ? vertex_color : v4_load(own);
 }
 
-/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). */
+/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). On the very edge of its cone Mesa (22.3.6) has no light. */
 static inline float light_spot(GLOBAL const struct scene_light *light, struct vec3 to_light)
 {
 	struct vec3 axis = v3_normalize(v3_load(light->spot_direction_eye));
@@ -40,7 +40,7 @@ static inline float light_spot(GLOBAL const struct scene_light *light, struct ve
 
 	if (light->spot_cutoff_deg == 180.0f)
 		return 1.0f;
-	if (along < M_COS(light->spot_cutoff_deg * 0.017453292519943295f))
+	if (along <= M_MAX(M_COS(light->spot_cutoff_deg * 0.017453292519943295f), 0.0f))
 		return 0.0f;
 	return light->spot_exponent == 0.0f ? 1.0f : M_POW(along, light->spot_exponent);
 }

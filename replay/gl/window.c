@@ -102,10 +102,7 @@ GLS_HANDLER(eglCreateContext, WINDOW)
 {
 	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL");
 
-	/*
-	 * Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1 sec. 2.12.2 says.
-	 * Known: it blends them with the fog before it clamps, and we after; that shows where a lit colour beyond 1 is in fog.
-	 */
+	/* Mesa (22.3.6) clamps the colours of OpenGL ES' vertices after interpolation alone, other than OpenGL ES 1.1 sec. 2.12.2 says. */
 	if (ctx && is_es(x, c))
 		ctx->state.a.lighting.clamp = GL_FALSE;
 }

@@ -33,7 +33,7 @@ struct gls_current {
 	float index;
 	/* current raster position (sec. 2.13) */
 	float raster_position[4]; /* window coordinates and clip w */
-	float raster_distance, raster_color[4], raster_secondary[4], raster_texcoord[GLS_MAX_UNITS][4];
+	float raster_color[4], raster_secondary[4], raster_texcoord[GLS_MAX_UNITS][4];
 	uint32_t raster_valid;
 };
 

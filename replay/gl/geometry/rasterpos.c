@@ -112,7 +112,6 @@ static void raster_pos(struct gls_state *st, const float obj[4])
 		c->raster_position[i] = rect[i] + rect[2 + i] * 0.5f * (clip[i] / clip[3] + 1);
 	c->raster_position[2] = (range[1] - range[0]) * 0.5f * (clip[2] / clip[3]) + (range[1] + range[0]) * 0.5f;
 	c->raster_position[3] = clip[3];
-	c->raster_distance = st->a.fog.coord_source == GL_FOG_COORD ? c->attribute[GLS_ATTR_FOG_COORD][0] : fabsf(eye[2]);
 	normal = eye_normal(st);
 	set_colors(st, v4_load(eye), normal);
 	set_texcoords(st, v4_load(obj), v4_load(eye), normal);
@@ -130,7 +129,6 @@ static void window_pos(struct gls_state *st, const float at[4])
 	c->raster_position[2] = range[0] + z * (range[1] - range[0]);
 	c->raster_position[3] = 1;
 	c->raster_valid = 1;
-	c->raster_distance = st->a.fog.coord_source == GL_FOG_COORD ? c->attribute[GLS_ATTR_FOG_COORD][0] : 0;
 	clamp_color(c->raster_color, v4_load(c->attribute[GLS_ATTR_COLOR]));
 	clamp_color(c->raster_secondary, v4_load(c->attribute[GLS_ATTR_SECONDARY]));
 	memcpy(c->raster_texcoord, c->attribute[GLS_ATTR_TEXCOORD], sizeof(c->raster_texcoord));

@@ -50,9 +50,9 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	memcpy(values[GLS_ATTR_COLOR], c->raster_color, 16);
 	memcpy(values[GLS_ATTR_SECONDARY], c->raster_secondary, 16);
 	memcpy(values[GLS_ATTR_TEXCOORD], c->raster_texcoord, sizeof(c->raster_texcoord));
-	values[GLS_ATTR_FOG_COORD][0] = c->raster_distance;
+	values[GLS_ATTR_FOG_COORD][0] = 0; /* Mesa (22.3.6) has the fog at the viewer, other than sec. 3.10 and 2.13 say */
 	/* What a vertex would go through has been gone through. */
-	a->fog.color_sum |= a->lighting.enabled && a->lighting.separate_specular;
+	a->fog.color_sum = 0; /* nor does Mesa add secondary colours */
 	a->lighting.enabled = a->lighting.color_material = 0;
 	a->lighting.shade_model = GL_SMOOTH;
 	a->fog.coord_source = GL_FOG_COORD;
