@@ -81,7 +81,7 @@ static int is_drawable(const struct gls_exec *x, const struct gls_state *st, uin
 GLS_HANDLER(glDrawPixels, STATE)
 {
 	struct gls_pixels p = { .format = arg_u(c, 2), .type = arg_u(c, 3), .width = arg_u(c, 0), .height = arg_u(c, 1),
-		                .store = gls_client_store(x, st) };
+		                .store = gls_client_store(x, st), .drawn = 1 };
 	int indices = p.format == GL_COLOR_INDEX || p.format == GL_STENCIL_INDEX, rc;
 	uint32_t kind = kind_of(p.format);
 	struct gls_rectangle r;

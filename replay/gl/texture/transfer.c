@@ -32,7 +32,7 @@ int gls_transfer_changes_colors(const struct gls_state *st)
 
 float gls_transfer_depth(const struct gls_state *st, float depth)
 {
-	float v = depth * st->a.pixel.depth_scale + st->a.pixel.depth_bias;
+	float v = st ? depth * st->a.pixel.depth_scale + st->a.pixel.depth_bias : depth;
 
 	return v > 0 ? v < 1 ? v : 1 : 0;
 }

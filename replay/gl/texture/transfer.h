@@ -9,7 +9,7 @@ struct gls_state;
 void gls_transfer_color(const struct gls_state *st, float rgba[4]);
 /** 0: the state leaves colours as they are. */
 int gls_transfer_changes_colors(const struct gls_state *st);
-/** Scale, bias, clamp to [0,1]. */
+/** Scale, bias (neither where st is NULL), clamp to [0,1]. */
 float gls_transfer_depth(const struct gls_state *st, float depth);
 /** Shift and offset of a colour or stencil index. */
 uint32_t gls_transfer_index(const struct gls_state *st, uint32_t index);

@@ -207,7 +207,7 @@ static uint32_t index_at(const struct gls_state *st, const struct gls_pixels *p,
 		memcpy(&f, &value, 4);
 		value = token_of_float(f);
 	}
-	return gls_transfer_index(st, value);
+	return p->drawn ? value : gls_transfer_index(st, value);
 }
 
 int gls_unpack_indices(const struct gls_state *st, const struct gls_pixels *p, uint8_t *out)
@@ -389,7 +389,7 @@ static void unpack_texel(const struct unpacking *u, const uint8_t *data, uint8_t
 		for (unsigned k = 0; k < f->n; k++)
 			v[k] = plain_component(data + k * u->component, u->p->type, u->p->store->swap_bytes);
 	if (u->is_depth) {
-		v[0] = gls_transfer_depth(u->st, v[0]);
+		v[0] = gls_transfer_depth(u->p->drawn && u->p->type == GL_FLOAT ? NULL : u->st, v[0]);
 		memcpy(out, v, 4);
 		return;
 	}

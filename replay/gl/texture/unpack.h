@@ -20,6 +20,7 @@ struct gls_pixels {
 	const uint8_t *data;                  /* borrowed */
 	size_t n;                             /* bytes there are */
 	const struct gls_pixel_store *store;  /* how they lie there; borrowed */
+	int drawn; /* by glDrawPixels: Mesa (22.3.6) neither shifts and offsets its indices nor scales and biases its depths of GL_FLOAT */
 };
 
 /** The bytes of a pixel argument: client memory, or a place in the bound unpack buffer. NULL: there are none. */
