@@ -49,24 +49,27 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 {
 	const uint32_t *index = in->mesh->index + 3 * (size_t)primitive;
 	uint32_t flags = in->mesh->edge_flags ? in->mesh->edge_flags[primitive] : 7;
-	int front = is_front(in, index), side = in->material->lighting && in->material->two_side && !front, err = 0;
-	struct expand_end e[3];
+	int front = is_front(in, index), side = in->material->lighting && in->material->two_side && !front, err = 0, n;
+	struct expand_end e[EXPAND_CORNERS];
 	float offset;
 
 	if (in->cull & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK))
 		return 0;
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < 3; i++) {
 		e[i] = expand_load_end(in, index[i], side);
+		e[i].edge = flags >> i & 1;
+	}
 	if (in->material->shade_model == GL_FLAT)
 		for (int i = 0; i < 2; i++)
 			expand_take_color(&e[i], &e[2]);
-	offset = polygon_offset(in, e);
-	for (int i = 0; i < 3 && !err; i++) {
-		struct expand_end a = e[i], b = e[(i + 1) % 3];
+	n = expand_clip_triangle(in, e);
+	offset = n ? polygon_offset(in, e) : 0;
+	for (int i = 0; i < n && !err; i++) {
+		struct expand_end a = e[i], b = e[(i + 1) % n];
 
-		if (flags >> i & 1)
-			err = in->shape == PREPARED_LINES ? expand_line(in, out, &a, &b, offset, draw, stipple) :
-			                                    expand_point(in, out, a, offset, draw);
+		if (a.edge)
+			err = in->shape == PREPARED_LINES ? expand_edge(in, out, &a, &b, offset, draw, stipple) :
+			                                    expand_corner(in, out, a, offset, draw);
 	}
 	return err;
 }

@@ -123,6 +123,56 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
 }
 
+/* The place where a plane cuts the side between two corners at signed distances of different signs, from the nearer corner on as Mesa has it. */
+static struct expand_end cut_side(const struct expand_end *inside, float inner, const struct expand_end *outside, float outer)
+{
+	const int from_outside = -outer < inner;
+	struct expand_end e = from_outside ? *outside : *inside;
+
+	move_end(&e, from_outside ? inside : outside, from_outside ? outer / (outer - inner) : inner / (inner - outer));
+	return e;
+}
+
+/* Cut a polygon of n corners by one plane. @return how many are left */
+static int cut_polygon(const struct expand_input *in, struct expand_end *corners, int n, int plane)
+{
+	struct expand_end all[EXPAND_CORNERS];
+	float distance[EXPAND_CORNERS];
+	int left = 0, cuts = 0;
+
+	for (int i = 0; i < n; i++) {
+		distance[i] = expand_plane_distance(in, &corners[i], plane);
+		if (!isfinite(distance[i]))
+			return 0;
+		cuts |= distance[i] < 0;
+	}
+	if (!cuts)
+		return n;
+	memcpy(all, corners, (size_t)n * sizeof(*all));
+	for (int i = 0; i < n; i++) {
+		const struct expand_end *a = &all[i], *b = &all[(i + 1) % n];
+		const float da = distance[i], db = distance[(i + 1) % n];
+
+		if (!(da < 0))
+			corners[left++] = *a;
+		if ((da < 0) == (db < 0))
+			continue;
+		corners[left] = da < 0 ? cut_side(b, db, a, da) : cut_side(a, da, b, db);
+		corners[left++].edge = da < 0 ? a->edge : plane >= EXPAND_VOLUME_PLANES;
+	}
+	return left;
+}
+
+int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS])
+{
+	static const int order[EXPAND_VOLUME_PLANES] = { 3, 2, 5, 4, 0, 1 }; /* Mesa's */
+	int n = 3;
+
+	for (int i = 0; i < EXPAND_PLANES && n >= 3; i++)
+		n = cut_polygon(in, corners, n, i < EXPAND_VOLUME_PLANES ? order[i] : i);
+	return n >= 3 ? n : 0;
+}
+
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s)
 {
 	float w_inv = a->w_inv + (b->w_inv - a->w_inv) * s, w;

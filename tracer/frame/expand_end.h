@@ -10,7 +10,8 @@ struct expand_end {
 	struct shaded_vertex v;
 	float texcoord[SCENE_MAX_UNITS][4];
 	float x, y, z, w_inv;
-	int cut; /* clipping made it */
+	int cut;  /* clipping made it */
+	int edge; /* of a polygon's corner: the edge to the next corner, and in point mode this corner, are drawn */
 };
 
 /* The planes that cut: the view volume's, then those of the program that are enabled (GL 2.1 sec. 2.12), which cut in eye space. */
@@ -30,6 +31,17 @@ float expand_plane_distance(const struct expand_input *in, const struct expand_e
 
 /** Cut a line to what can be seen. @return 0 where nothing is left */
 int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct expand_end *b);
+
+/* Corners that a triangle may have when all planes have cut it. */
+enum { EXPAND_CORNERS = 3 + EXPAND_PLANES };
+
+/**
+ * Cut a triangle to what can be seen. Of the edges that the planes make, those along the program's own are drawn, those along the view
+ * volume's are not: Mesa (22.3.6) has it so, GL 2.1 sec. 3.5.4 draws none of either.
+ * @param corners  the triangle's three; replaced by what is left, of which the first is still the first if it is there
+ * @return how many corners; 0 where nothing is left
+ */
+int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS]);
 
 /** The point at share s of a projected line: attributes over w are linear in the window. */
 struct expand_end expand_line_point(const struct expand_end *a, const struct expand_end *b, float s);

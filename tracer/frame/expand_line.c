@@ -195,15 +195,13 @@ static int add_dash(const struct expand_input *in, struct expanded *out, const s
 	return 0;
 }
 
-int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
                 uint32_t draw, struct expand_stipple *stipple)
 {
 	float length;
 	uint32_t start = 0, n;
 	int err = 0;
 
-	if (!expand_clip_line(in, a, b))
-		return 0;
 	expand_project(in, a);
 	expand_project(in, b);
 	a->z = fminf(fmaxf(a->z + offset, 0), 1);
@@ -226,4 +224,10 @@ int expand_line(const struct expand_input *in, struct expanded *out, struct expa
 		stipple->counter += i < n;
 	}
 	return err;
+}
+
+int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
+                uint32_t draw, struct expand_stipple *stipple)
+{
+	return expand_clip_line(in, a, b) ? expand_edge(in, out, a, b, offset, draw, stipple) : 0;
 }

@@ -20,3 +20,7 @@ struct expand_stipple {
  */
 int expand_line(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
                 uint32_t draw, struct expand_stipple *stipple);
+
+/** As expand_line for a polygon's edge, which has been clipped with its polygon. */
+int expand_edge(const struct expand_input *in, struct expanded *out, struct expand_end *a, struct expand_end *b, float offset,
+                uint32_t draw, struct expand_stipple *stipple);

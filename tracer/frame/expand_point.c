@@ -54,8 +54,11 @@ int expand_point(const struct expand_input *in, struct expanded *out, struct exp
 		if (expand_plane_distance(in, &e, plane) < 0) /* their centre must lie in the view (sec. 2.12) */
 			return 0;
 	}
-	if (!(e.v.clip[3] > 0))
-		return 0;
+	return e.v.clip[3] > 0 ? expand_corner(in, out, e, offset, draw) : 0;
+}
+
+int expand_corner(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw)
+{
 	expand_project(in, &e);
 	e.z = fminf(fmaxf(e.z + offset, 0), 1);
 	if (expand_reserve_quad(in, out))
