@@ -102,18 +102,22 @@ def check_gates(score, n_frames, what, skip=()):
                 check(found and found["state"] == "passed", f"{what}: frame {frame['frame']}: gate {gate}: {found}")
 
 
+def frames_of(trace):
+    return trace.with_suffix(".frames")
+
+
 def check_same_pictures(name, frames, *options):
     """
     Record tests/real/NAME with options of `record`, trace it in mode gl, and check frame by frame that no pixel fails; `frames` says what each shows.
     Returns the trace and what `diff` says.
     """
-    trace = SCRATCH / f"{name}.trace"
+    trace = SCRATCH / f"{pathlib.Path(name).name}.trace"
     record(trace, BUILD / "tests/real" / name, options=("--ref", "color,depth", *options))
-    files = render(trace, SCRATCH / "frames", *AS_SHOWN)
-    check(len(files) == len(frames), f"{len(files)} frames of {len(frames)}")
-    _, score = diff(trace, SCRATCH / "frames")
+    files = render(trace, frames_of(trace), *AS_SHOWN)
+    check(len(files) == len(frames), f"{name}: {len(files)} frames of {len(frames)}")
+    _, score = diff(trace, frames_of(trace))
     for frame, what in zip(score["frames"], frames):
-        check(frame["failing_pixels"] == 0, f"{what}: {frame['failing_pixels']} pixels fail")
+        check(frame["failing_pixels"] == 0, f"{name}: {what}: {frame['failing_pixels']} pixels fail")
     return trace, score
 
 
@@ -131,5 +135,5 @@ def check_alone(trace, *numbers):
     render(trace, folder, *AS_SHOWN, "-f", ",".join(map(str, numbers)))
     for number in numbers:
         name = f"{trace.stem}.{number:04}.exr"
-        check((folder / name).read_bytes() == (SCRATCH / "frames" / name).read_bytes(),
+        check((folder / name).read_bytes() == (frames_of(trace) / name).read_bytes(),
               f"frame {number} is the same whether earlier ones were asked for or not")

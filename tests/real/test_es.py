@@ -5,7 +5,7 @@ missing or an error, apitrace reads the recordings, and a frame rendered alone i
 """
 import json
 
-from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_gates, corpus, diff, finish, must, record, relume, render, run
+from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_gates, corpus, diff, finish, frames_of, must, record, relume, render, run
 
 FRAMES = 10
 
@@ -18,10 +18,10 @@ for name in ("shapes", "fixed", "sprites"):
     check(not info["gl_errors"], f"{name}: errors: {info['gl_errors']}")
     dump = must(run("apitrace", "dump", "--color=never", trace))
     check(not dump.stderr, f"{name}: apitrace reads all of it: {dump.stderr}")
-    render(trace, SCRATCH / "frames", *AS_SHOWN)
+    render(trace, frames_of(trace), *AS_SHOWN)
     check_alone(trace, 7)
-    _, score = diff(trace, SCRATCH / "frames")
+    _, score = diff(trace, frames_of(trace))
     check_gates({"frames": score["frames"]}, FRAMES, name, skip=("R5",))
-    for file in (SCRATCH / "frames").glob("*.exr"):
+    for file in (frames_of(trace)).glob("*.exr"):
         file.unlink()
 finish()

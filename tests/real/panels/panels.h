@@ -1,0 +1,85 @@
+/*
+ * Windows full of panels: each panel draws the same thing under a state of its own, so that one frame tries a whole table of modes,
+ * functions, operands or terms of a chapter of the specification. Recorded by test_panels.py.
+ */
+#pragma once
+
+#include "tests/trace/window.h"
+
+enum { PANEL = 20, ACROSS = 16, DOWN = 12, PANELS = ACROSS * DOWN };
+
+/** A table: how many rows it has, what sets the state of row i, and what is drawn then in a square from -1 to 1. */
+struct table {
+	int n;
+	void (*set)(int i);
+	void (*draw)(int i);
+};
+
+/* A table that is one product of choices: the choice of `count` at this place, as i is used up. */
+static inline int choose(int *i, int count)
+{
+	const int chosen = *i % count;
+
+	*i /= count;
+	return chosen;
+}
+
+/* A number in [0, 1) for each i, the same in every run. */
+static inline float noise(unsigned i)
+{
+	i = i * 2654435761u ^ i >> 13;
+	i = i * 2246822519u ^ i >> 15;
+	return (float)(i >> 8 & 0xffff) / 65536;
+}
+
+static inline void set_matrices(void)
+{
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glFrustum(-0.5, 0.5, -0.5, 0.5, 1, 20);
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+	glTranslatef(0, 0, -2.2f);
+}
+
+static inline void draw_table(const struct table *t)
+{
+	expect(t->n <= PANELS, "the table has a panel for each row");
+	glViewport(0, 0, ACROSS * PANEL, DOWN * PANEL);
+	glClearColor(0.25f, 0.3f, 0.35f, 0.6f);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+	for (int i = 0; i < t->n; i++) {
+		const int x = i % ACROSS * PANEL, y = i / ACROSS * PANEL;
+
+		glPushAttrib(GL_ALL_ATTRIB_BITS);
+		glViewport(x, y, PANEL, PANEL);
+		glScissor(x, y, PANEL, PANEL);
+		glEnable(GL_SCISSOR_TEST);
+		set_matrices();
+		t->set(i);
+		t->draw(i);
+		glPopAttrib();
+		glDisable(GL_COLOR_SUM); /* Mesa (22.3.6) does not bring these two back */
+		glFogi(GL_FOG_COORD_SRC, GL_FRAGMENT_DEPTH);
+		glActiveTexture(GL_TEXTURE0);
+	}
+}
+
+/** Opens the window, and draws each table as a frame. */
+static inline void draw_tables(const struct table *tables, size_t n, void (*prepare)(void))
+{
+	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None };
+
+	window_size[0] = ACROSS * PANEL;
+	window_size[1] = DOWN * PANEL;
+	open_window_of(attributes);
+	if (prepare)
+		prepare();
+	for (size_t i = 0; i < n; i++) {
+		draw_table(&tables[i]);
+		end_frame();
+	}
+	expect(glGetError() == GL_NO_ERROR, "no error");
+}
+
+#define DRAW_TABLES(tables, prepare) draw_tables(tables, sizeof(tables) / sizeof((tables)[0]), prepare)
