@@ -78,7 +78,7 @@ void draw_init(struct drawing *d)
 	for (int i = 0; i <= N_TEXTURES; i++)
 		make_texture(i);
 	glGenTextures((GLsizei)mesh->n_faces, map_names);
-	for (size_t i = 0; i < mesh->n_faces && d->lighting != LIGHTING_OPENGL; i++)
+	for (size_t i = 0; i < mesh->n_faces && (d->lighting == LIGHTING_MULTITEXTURE || d->lighting == LIGHTING_PASS); i++)
 		if (mesh->faces[i].portal == NO_PORTAL)
 			make_lightmap(d, i);
 	glEnable(GL_DEPTH_TEST);
@@ -170,6 +170,8 @@ static void draw_lit_walls(const struct drawing *d, const unsigned char *visible
 		glDepthFunc(GL_LEQUAL);
 		glDepthMask(GL_TRUE);
 		glDisable(GL_BLEND);
+	} else if (d->lighting == LIGHTING_NONE) {
+		draw_walls(d, visible, 1, 0);
 	} else {
 		glEnable(GL_LIGHTING);
 		draw_walls(d, visible, 1, 0);
@@ -221,7 +223,8 @@ void draw_world(struct drawing *d, const unsigned char *visible, long frame, int
 		torus_matrix(d->level, frame, matrix);
 		glPushMatrix();
 		glMultMatrixf(matrix);
-		glEnable(GL_LIGHTING);
+		if (d->lighting != LIGHTING_NONE)
+			glEnable(GL_LIGHTING);
 		glBindTexture(GL_TEXTURE_2D, textures[1]);
 		torus_draw();
 		glDisable(GL_LIGHTING);

@@ -7,7 +7,8 @@
 enum lighting {
 	LIGHTING_MULTITEXTURE, /* lightmaps by a second texture unit */
 	LIGHTING_PASS,         /* lightmaps by a second pass, multiplied onto the first */
-	LIGHTING_OPENGL        /* no lightmaps: OpenGL's own lights at the vertices */
+	LIGHTING_OPENGL,       /* no lightmaps: OpenGL's own lights at the vertices */
+	LIGHTING_NONE          /* textures as they are, on walls and objects */
 };
 
 enum environment { ENVIRONMENT_NONE, ENVIRONMENT_CUBE, ENVIRONMENT_SPHERE };

@@ -169,6 +169,7 @@ void level_read(struct level *level, const char *path)
 /* --- Levels from a number ----------------------------------------------------------------------------------------------- */
 
 enum { GRID_X = 4, GRID_Z = 3, CELL = 12 };
+#define EYE_HEIGHT 1.7
 
 /* A number in [0, n), from a generator of 32 bits (Marsaglia 2003, "Xorshift RNGs"). */
 static unsigned pick(unsigned *state, unsigned n)
@@ -228,6 +229,36 @@ static void join(struct level *level, const double a[6], const double b[6], int 
 	add_portal(level, portal);
 }
 
+/* Where a doorway is, at a viewer's height. */
+static struct vec doorway_of(const double a[6], const double b[6], int axis)
+{
+	int across = 2 - axis;
+	double at = floor(2 * (fmax(a[across], b[across]) + fmin(a[across + 3], b[across + 3]))) / 4, along = 0.5 * (a[axis + 3] + b[axis]);
+
+	return axis ? vec(at, EYE_HEIGHT, along) : vec(along, EYE_HEIGHT, at);
+}
+
+/* Through a doorway and to the corner beyond it, which nothing stands in. */
+static void walk_on(struct level *level, struct vec doorway, const double room[6])
+{
+	ARRAY_PUSH(level->path, level->n_path, doorway);
+	ARRAY_PUSH(level->path, level->n_path, vec(room[0] + 1.2, EYE_HEIGHT, room[2] + 1.2));
+}
+
+/* Along the first row; from each of its rooms down to the last row, and back. */
+static void walk_rooms(struct level *level, double rooms[GRID_Z][GRID_X][6])
+{
+	ARRAY_PUSH(level->path, level->n_path, level->start);
+	for (int x = 0; x < GRID_X; x++) {
+		if (x)
+			walk_on(level, doorway_of(rooms[0][x - 1], rooms[0][x], 0), rooms[0][x]);
+		for (int z = 1; z < GRID_Z; z++)
+			walk_on(level, doorway_of(rooms[z - 1][x], rooms[z][x], 2), rooms[z][x]);
+		for (int z = GRID_Z - 1; z > 0; z--)
+			walk_on(level, doorway_of(rooms[z - 1][x], rooms[z][x], 2), rooms[z - 1][x]);
+	}
+}
+
 /* A panel before a room's wall at its greatest z, on the side that one looks at from the start. */
 static void hang_mirror(struct level *level, const double room[6])
 {
@@ -275,8 +306,9 @@ void level_generate(struct level *level, unsigned seed, unsigned n_lights)
 	ARRAY_PUSH(level->objects, level->n_objects, vec(rooms[0][0][0] + 4, 1.25, rooms[0][0][2] + 3.5));
 	ARRAY_PUSH(level->objects, level->n_objects, vec(rooms[0][0][0] + 2.5, 0.75, rooms[0][0][2] + 5));
 	hang_mirror(level, rooms[0][0]);
-	level->start = vec(rooms[0][0][0] + 1, 1.7, rooms[0][0][2] + 1);
+	level->start = vec(rooms[0][0][0] + 1, EYE_HEIGHT, rooms[0][0][2] + 1);
 	level->start_yaw_deg = 135;
+	walk_rooms(level, rooms);
 }
 
 void level_free(struct level *level)
@@ -285,5 +317,6 @@ void level_free(struct level *level)
 	free(level->portals);
 	free(level->lights);
 	free(level->objects);
+	free(level->path);
 	*level = (struct level){ .n_brushes = 0 };
 }

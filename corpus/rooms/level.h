@@ -44,6 +44,8 @@ struct level {
 	size_t n_objects;
 	struct vec start;
 	double start_yaw_deg;
+	struct vec *path; /* a walk from the start through all rooms; none in a level that was read */
+	size_t n_path;
 };
 
 /** Read a level file. Ends the program with a message where it is wrong. */

@@ -10,13 +10,14 @@
 
 static struct level level;
 static struct world world;
+static int walks;
 static struct drawing drawing = { .level = &level, .world = &world };
 
 static void usage(void)
 {
 	fputs("usage: rooms [--level FILE | --seed N] [--lights N] [--cull none|frustum|portal|bsp|octree]\n"
-	      "             [--lighting multitexture|pass|opengl] [--environment cube|sphere] [--mirror] [--shadow]\n"
-	      "             [--truth FILE.json] [--frames N] [--animate camera]\n"
+	      "             [--lighting multitexture|pass|opengl|none] [--environment cube|sphere] [--mirror] [--shadow]\n"
+	      "             [--truth FILE.json] [--frames N] [--animate camera|--walk]\n"
 	      "       rooms --check N    make levels 0 to N - 1 and see whether they are sound; no window\n", stderr);
 	exit(2);
 }
@@ -52,7 +53,7 @@ static int check_levels(unsigned n)
 /* Take our own options out; what is left is program.h's. @return the file for what is true, or NULL */
 static const char *parse(int *argc, char **argv)
 {
-	static const char *const lightings[] = { "multitexture", "pass", "opengl", NULL };
+	static const char *const lightings[] = { "multitexture", "pass", "opengl", "none", NULL };
 	static const char *const environments[] = { "none", "cube", "sphere", NULL };
 	const char *const cullings[] = { culling_names[0], culling_names[1], culling_names[2], culling_names[3], culling_names[4], NULL };
 	const char *file = NULL, *truth = NULL;
@@ -64,6 +65,10 @@ static const char *parse(int *argc, char **argv)
 
 		if (strcmp(argv[i], "--mirror") == 0 || strcmp(argv[i], "--shadow") == 0) {
 			*(argv[i][2] == 'm' ? &drawing.has_mirror : &drawing.has_shadow) = 1;
+			continue;
+		}
+		if (strcmp(argv[i], "--walk") == 0) {
+			walks = 1;
 			continue;
 		}
 		if (strcmp(argv[i], "--frames") == 0 || strcmp(argv[i], "--animate") == 0) {
@@ -111,6 +116,9 @@ static void init(void)
 static void draw(void)
 {
 	struct view view = world_view(&level, program.animate_camera ? 4 * (double)program_frame : 0);
+
+	if (walks)
+		view = world_walk(&level, 2 * (double)program_frame, 12 * (double)program_frame);
 
 	draw_frame(&drawing, &view, program_frame);
 }

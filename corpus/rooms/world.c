@@ -23,6 +23,22 @@ struct view world_view(const struct level *level, double turned_deg)
 	return (struct view){ level->start, level->start_yaw_deg + turned_deg, 0, 60, 4 / 3.0 };
 }
 
+struct view world_walk(const struct level *level, double metres, double turned_deg)
+{
+	struct view view = world_view(level, turned_deg);
+
+	for (size_t i = 0; i + 1 < level->n_path; i++) {
+		const struct vec way = vec_sub(level->path[i + 1], level->path[i]);
+		const double length = sqrt(vec_dot(way, way));
+
+		view.eye = vec_mad(level->path[i], way, length > 0 ? fmin(1, metres / length) : 0);
+		metres -= length;
+		if (metres < 0)
+			break;
+	}
+	return view;
+}
+
 static void write_vec(FILE *out, struct vec v)
 {
 	fprintf(out, "[%.9g, %.9g, %.9g]", v.x, v.y, v.z);

@@ -7,6 +7,9 @@
 void world_build(struct world *world, const struct level *level);
 
 /** The view from the level's start in a frame: it turns by so many degrees. */
+/** A viewer who has walked so many metres along the level's path, and has turned; at its end they stay. */
+struct view world_walk(const struct level *level, double metres, double turned_deg);
+
 struct view world_view(const struct level *level, double turned_deg);
 
 /** What is true of the level, as JSON: lights, mirror, zones, polygons drawn by each culling from the start. */

@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "show"))
 from exr import Image  # noqa: E402
-from helpers import SCRATCH, check, corpus, finish, must, record, relume, render  # noqa: E402
+from helpers import SCRATCH, check, corpus, diff, finish, must, record, relume, render  # noqa: E402
 from look import compare_lights  # noqa: E402
 
 for lighting, role in (("multitexture", "lightmap in a second unit"), ("pass", "lightmap pass")):
@@ -34,6 +34,14 @@ for lighting in ("multitexture", "pass"):
     off = [abs(a - b) for p, q in zip(image.planes["R"], image.planes["gl.R"]) for a, b in zip(p, q)]
     check(sum(off) / len(off) < 0.03, f"{lighting}: relit as bright as lightmapped: {sum(off) / len(off)}")
     albedos.append(image)
+bare = SCRATCH / "bare.trace"
+record(bare, corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", "none")
+drawn = render(bare, SCRATCH / "bare", "--aov", "gl,Z", "--encoding", "display")
+check(diff(bare, SCRATCH / "bare")[1]["frames"][0]["gates"]["R1"]["state"] == "passed", "textures alone are as Mesa draws them")
+texture = Image(drawn[0], ["gl.R", "gl.G"]).planes
+for image in albedos:
+    off = max(abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
+    check(off < 0.005, f"the albedo is the texels that the program drew: {off}")
 off = max(abs(a - b) for c in ("albedo.R", "albedo.G") for p, q in zip(albedos[0].planes[c], albedos[1].planes[c]) for a, b in zip(p, q))
 check(off < 0.01, f"the albedo is the texture's by multitexture as by a pass: {off}")
 finish()
