@@ -9,7 +9,7 @@
 #include "look/solid.h"
 
 /* Scenes of so many frames are kept while others are rendered. */
-enum { MOST_FRAMES = 8 };
+enum { MOST_FRAMES = 32 };
 
 /* What a mirror's picture shows stands still as well, in a world that is not there. */
 static int is_world(const struct scene *s, const struct scene_instance *in)
