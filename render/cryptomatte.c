@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "base/table.h"
 
 enum kind { DRAWS, MESHES, TEXTURES, N_KINDS };
 
@@ -97,21 +98,21 @@ static void name_object(const struct scene *scene, enum kind kind, uint32_t draw
 
 /* What a layer knows of each draw number, and its manifest. */
 struct layer {
-	uint32_t *numbers; /* [n_draws + 1]; 0: not met yet, or nothing */
-	char *manifest;    /* a JSON object without its last bracket */
+	uint32_t *numbers;  /* [n_draws + 1]; 0: not met yet, or nothing */
+	struct table named; /* by number: those that the manifest has */
+	char *manifest;     /* a JSON object without its brackets */
 	size_t n, room;
 };
 
 static int add_name(struct layer *layer, const char *name, uint32_t number)
 {
-	char entry[96];
-	const int bytes = snprintf(entry, sizeof(entry), "\"%s\":\"%08x\"", name, number);
+	enum { MOST = 96 }; /* bytes of an entry */
 
-	if (layer->n && strstr(layer->manifest, entry)) /* another draw of the same mesh or texture */
+	if (table_find(&layer->named, number)) /* another draw of the same mesh or texture */
 		return 0;
-	if (MEMORY_GROW(layer->manifest, layer->room, layer->n + (size_t)bytes + 2))
+	if (table_set(&layer->named, number, layer) || MEMORY_GROW(layer->manifest, layer->room, layer->n + MOST))
 		return ERR_SYSTEM;
-	layer->n += (size_t)sprintf(layer->manifest + layer->n, "%s%s", layer->n ? "," : "", entry);
+	layer->n += (size_t)snprintf(layer->manifest + layer->n, MOST, "%s\"%s\":\"%08x\"", layer->n ? "," : "", name, number);
 	return 0;
 }
 
@@ -154,7 +155,7 @@ static int describe(const char *name, const char *manifest, struct image *img)
 static int add_layer(const struct scene *scene, enum kind kind, struct image *img)
 {
 	const size_t n_pixels = (size_t)img->width * img->height;
-	struct layer layer = { calloc((size_t)scene->n_draws + 1, sizeof(*layer.numbers)), NULL, 0, 0 };
+	struct layer layer = { .numbers = calloc((size_t)scene->n_draws + 1, sizeof(*layer.numbers)) };
 	const float *ids = image_channel(img, "id");
 	float *planes[4];
 	int err = layer.numbers && ids ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -179,6 +180,7 @@ static int add_layer(const struct scene *scene, enum kind kind, struct image *im
 		err = describe(layers[kind], layer.manifest, img);
 	free(layer.numbers);
 	free(layer.manifest);
+	table_free(&layer.named);
 	return err;
 }
 
