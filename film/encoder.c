@@ -80,7 +80,7 @@ static int spawn(char *const *argv, int input, pid_t *child)
 
 static int start(struct encoder *e, uint32_t width, uint32_t height, unsigned fps)
 {
-	/* Pictures are sRGB; players take films for BT.709, whose matrix and range are said. Odd sizes get a row or column more. */
+	/* Pictures are sRGB; players take films for BT.709, so its matrix and range are said. Odd sizes get a row or column more. */
 	static char filter[] = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 	char size[32], rate[16];
 	char *argv[64] = { "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size,
