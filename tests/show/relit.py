@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the beauty without rules, and as
 the beauty under the rules that `relume look` finds, side by side in BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no
-frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties. Then the same of real
-programs, with what was seen when they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
+frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties. A relit frame costs at most
+twice a whitted one, of these and of two shared recordings (by name: cost). Then the same pictures of real programs, with what was seen when
+they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
 import json
 import pathlib
 import resource
@@ -23,6 +24,7 @@ PROGRAMS = {**{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "direct
 FRAME = 1
 RECORDED = 3
 COST = 2 # times a frame without rules
+COSTED = ("queens", "lament") # of the shared recordings
 
 
 def run(*args):
@@ -50,21 +52,42 @@ def gate(build, trace, folder):
     return frame["gates"]["N"]["state"], frame["gates"]["R1"]["state"]
 
 
-def seconds(build, trace, folder, last, *look):
-    """Processor time of frames 0 to `last`, rules studied before."""
+def seconds(build, trace, folder, first, last, *look):
+    """Processor time of frames `first` to `last`, rules studied before."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    run(build / "relume", "render", trace, "-f", f"0-{last}", "-o", folder / "cost.####.exr", *look)
+    run(build / "relume", "render", trace, "-f", f"{first}-{last}", "-o", folder / "cost.####.exr", *look)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def cost(build, trace, folder):
+def cost(build, trace, folder, first=0):
     """A relit frame's processor time over that of one without rules; starting up is taken off. Least of three each."""
     rules = folder / "cost.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
-    frame = [min(seconds(build, trace, folder, RECORDED - 1, *look) for _ in range(3)) - min(seconds(build, trace, folder, 0, *look) for _ in range(3))
+    frame = [min(seconds(build, trace, folder, first, first + RECORDED - 1, *look) for _ in range(3)) -
+             min(seconds(build, trace, folder, first, first, *look) for _ in range(3))
              for look in ((), ("--look", rules))]
     return frame[1] / max(frame[0], 1e-3)
+
+
+def cost_row(name, times):
+    return {"what": f"{name}: processor time of a relit frame over a whitted one", "figure": round(times, 2), "bar": COST, "peer": None,
+            "passed": times <= COST}
+
+
+def cost_rows(build, only):
+    """Rows of shared recordings."""
+    for program in real.all_programs():
+        if program.name not in COSTED or (only and not {program.name, "cost"} & set(only)):
+            continue
+        trace, frame, shared = real.find(build, program)
+        if not shared:
+            print(f"{program.name}: there is no shared recording", flush=True)
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            times = cost(build, trace, pathlib.Path(folder), frame)
+        print(f"{program.name}: {times:.2f} times the cost (bar: {COST})", flush=True)
+        yield cost_row(program.name, times)
 
 
 def judge(build, only):
@@ -105,10 +128,12 @@ def main(build, only):
         passed = harm == "passed" and raster == "passed"
         bad += not passed
         rows.append({"what": f"{name}: gates N, R1 of the relit frame", "figure": f"{harm}, {raster}", "bar": "passed", "peer": None, "passed": passed})
-        rows.append({"what": f"{name}: processor time of a relit frame over a whitted one", "figure": round(times, 2), "bar": COST, "peer": None,
-                     "passed": times <= COST})
+        rows.append(cost_row(name, times))
         bad += times > COST
         print(f"{name}: gate N {harm}, gate R1 {raster}; {times:.2f} times the cost (bar: {COST}); look at {out}/{name}.png", flush=True)
+    for row in cost_rows(build, only):
+        rows.append(row)
+        bad += not row["passed"]
     if not only or "unseen" in only:
         with tempfile.TemporaryDirectory() as folder:
             for row in unseen.rows(build, pathlib.Path(folder)):
