@@ -119,6 +119,8 @@ static void set_surface(struct scene_surface *s, const struct surface_rule *r, i
 		s->hidden = (s->hidden & ~SCENE_SOLID) | (*r->solid ? SCENE_SOLID : 0);
 	if (r->lightmap)
 		s->light_unit = *r->lightmap + 1;
+	if (r->vertex_light)
+		s->light_unit = *r->vertex_light ? SCENE_LIGHT_IN_COLORS : 0;
 	if (r->shadow_unit)
 		s->light_unit = *r->shadow_unit + 1;
 	if (r->lit)

@@ -50,7 +50,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	TEXT(struct surface_rule, passes),
 	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
 	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), COUNT(struct surface_rule, shadow_unit),
-	TRUTH(struct surface_rule, solid), CYAML_FIELD_END
+	TRUTH(struct surface_rule, solid), TRUTH(struct surface_rule, vertex_light), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {

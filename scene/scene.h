@@ -77,8 +77,11 @@ struct scene_surface {
 	/* 1: beside GL's picture, which stays, the surface is lit at each pixel by scene.lights[light_first .. +light_count)
 	   instead of GL's own; what GL does not light is then matte, of the colour it shows */
 	uint32_t relit, light_first, light_count;
-	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; 0: none */
+	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; SCENE_LIGHT_IN_COLORS; 0: none */
 };
+
+/* scene_surface.light_unit: vertex colours hold the light. */
+#define SCENE_LIGHT_IN_COLORS 0xfffffffeu
 
 /* Light from all around. Set by rules, not by GL. */
 struct scene_dome {

@@ -20,5 +20,8 @@ struct lightmap {
 
 void bake_face(struct lightmap *map, const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face);
 
+/** The light at a point of a wall, as its lightmap has it there. */
+void bake_point(const struct level *level, const struct mesh *mesh, const struct bsp *bsp, const struct face *face, struct vec p, unsigned char out[3]);
+
 /** Texture coordinates of a point of the wall. */
 void bake_coordinates(const struct lightmap *map, struct vec p, float st[2]);

@@ -3,9 +3,12 @@
 
 #include <GL/glu.h>
 #include <GL/glext.h>
+#include <math.h>
 #include <stdlib.h>
 
 enum { TEXELS = 64 };
+/* Metres between vertices that have light as their colours, at most. */
+#define COLORS_APART 1.0
 
 static GLuint textures[N_TEXTURES + 1], *map_names;
 
@@ -126,6 +129,52 @@ static void draw_face(const struct drawing *d, size_t which, int base, int light
 	glEnd();
 }
 
+/* A corner of a wall whose colour is the light there. */
+static void draw_lit_corner(const struct drawing *d, const struct face *face, struct vec p)
+{
+	GLubyte color[3];
+	struct vec u, v;
+
+	vec_frame(face->plane.n, &u, &v);
+	bake_point(d->level, &d->world->mesh, &d->world->bsp, face, p, color);
+	for (int k = 0; k < 3 && d->lighting == LIGHTING_PAINT; k++)
+		color[k] = (GLubyte)(140 + 110 * sin(1.7 * p.x + 2.3 * p.y + 1.1 * p.z + k));
+	glColor3ubv(color);
+	glTexCoord2d(0.5 * vec_dot(u, p), 0.5 * vec_dot(v, p));
+	glVertex3dv(&p.x);
+}
+
+/* A triangle, halved across its longest edge until that is short. */
+static void draw_halves(const struct drawing *d, const struct face *face, struct vec a, struct vec b, struct vec c)
+{
+	const struct vec ab = vec_sub(b, a), bc = vec_sub(c, b), ca = vec_sub(a, c);
+	const double x = vec_dot(ab, ab), y = vec_dot(bc, bc), z = vec_dot(ca, ca);
+
+	if (x >= y && x >= z && x > COLORS_APART * COLORS_APART) {
+		const struct vec middle = vec_mad(a, ab, 0.5);
+
+		draw_halves(d, face, a, middle, c);
+		draw_halves(d, face, middle, b, c);
+	} else if (fmax(x, fmax(y, z)) > COLORS_APART * COLORS_APART) {
+		draw_halves(d, face, b, c, a);
+	} else {
+		draw_lit_corner(d, face, a);
+		draw_lit_corner(d, face, b);
+		draw_lit_corner(d, face, c);
+	}
+}
+
+static void draw_in_colors(const struct drawing *d, const struct face *face)
+{
+	const struct mesh *mesh = &d->world->mesh;
+
+	glBegin(GL_TRIANGLES);
+	for (unsigned k = 2; k < face->n; k++)
+		draw_halves(d, face, mesh->points[face->v[0]], mesh->points[face->v[k - 1]], mesh->points[face->v[k]]);
+	glEnd();
+	glColor3f(1, 1, 1);
+}
+
 /* All visible walls, texture by texture. */
 static void draw_walls(const struct drawing *d, const unsigned char *visible, int base, int lightmap)
 {
@@ -145,7 +194,10 @@ static void draw_walls(const struct drawing *d, const unsigned char *visible, in
 				glActiveTexture(base ? GL_TEXTURE1 : GL_TEXTURE0);
 				glBindTexture(GL_TEXTURE_2D, map_names[i]);
 			}
-			draw_face(d, i, base, lightmap);
+			if (d->lighting == LIGHTING_COLORS || d->lighting == LIGHTING_PAINT)
+				draw_in_colors(d, &mesh->faces[i]);
+			else
+				draw_face(d, i, base, lightmap);
 		}
 	}
 	glActiveTexture(GL_TEXTURE0);
@@ -170,7 +222,7 @@ static void draw_lit_walls(const struct drawing *d, const unsigned char *visible
 		glDepthFunc(GL_LEQUAL);
 		glDepthMask(GL_TRUE);
 		glDisable(GL_BLEND);
-	} else if (d->lighting == LIGHTING_NONE) {
+	} else if (d->lighting != LIGHTING_OPENGL) {
 		draw_walls(d, visible, 1, 0);
 	} else {
 		glEnable(GL_LIGHTING);

@@ -8,6 +8,8 @@ enum lighting {
 	LIGHTING_MULTITEXTURE, /* lightmaps by a second texture unit */
 	LIGHTING_PASS,         /* lightmaps by a second pass, multiplied onto the first */
 	LIGHTING_OPENGL,       /* no lightmaps: OpenGL's own lights at the vertices */
+	LIGHTING_COLORS,       /* light baked into vertex colours, of walls cut into small triangles */
+	LIGHTING_PAINT,        /* the same with colours that are no light */
 	LIGHTING_NONE          /* textures as they are, on walls and objects */
 };
 

@@ -280,6 +280,8 @@ static inline struct vec4 point_albedo_of(const struct tables *t, const struct p
 		                     v4_clamp01(point_mix(p, v4_load(tables_face(t, p->geometry, p->number[0], side)->diffuse),
 		                                          v4_load(tables_face(t, p->geometry, p->number[1], side)->diffuse),
 		                                          v4_load(tables_face(t, p->geometry, p->number[2], side)->diffuse)));
+	else if (m->surface.light_unit == SCENE_LIGHT_IN_COLORS)
+		lit.color = point_matte_color(t, p);
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
 	return point_finish_in_fog(t, p, texturing, &lit, 1.0f, m->surface.light_unit);
 }

@@ -303,6 +303,14 @@ static inline struct vec4 point_current_color(const struct tables *t, const stru
 	                                                              tables_color(t, p->geometry, p->number[1]), last);
 }
 
+/* The same for lights of a rule: without light that vertices' colours hold. */
+static inline struct vec4 point_matte_color(const struct tables *t, const struct point *p)
+{
+	struct vec4 color = point_current_color(t, p);
+
+	return p->material->surface.light_unit == SCENE_LIGHT_IN_COLORS && p->geometry->attributes & SCENE_HAS_COLOR ? v4(1.0f, 1.0f, 1.0f, color.w) : color;
+}
+
 /* The lights of a point beyond GL: its own where a rule has given it some. */
 static inline struct light_list point_lights(const struct point *p)
 {
@@ -329,7 +337,7 @@ static inline struct lit point_lit_here(const struct tables *t, const struct poi
 		return point_lit_from_vertices(p);
 	if (!p->material->lighting)
 		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
-		                    tables_face(t, p->geometry, p->number[2], side), point_current_color(t, p), side, seen);
+		                    tables_face(t, p->geometry, p->number[2], side), point_matte_color(t, p), side, seen);
 	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));

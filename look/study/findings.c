@@ -98,21 +98,25 @@ static void write_walls(const struct lightmaps *maps, const struct solved *s, FI
 		fprintf(out, "  - role: lightmap pass\n    confidence: %.2f\n    why: \"%u walls; %u lights explain %.1f %% of it%s\"\n"
 		        "    match: { multiplies: yes, units: 1, lit: no, stencil_tested: no }\n%s",
 		        fmax(0, share), maps->n_passes, s->n, 100 * share, findings_relights(s) ? "" : stays, findings_relights(s) ? "    left_out: yes\n" : "");
+	if (maps->n_colors && findings_relights(s))
+		fprintf(out, "  - role: light in vertex colours\n    confidence: %.2f\n    why: \"%u meshes; %u lights explain %.1f %% of it\"\n"
+		        "    match: { lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no, parallel: no }\n"
+		        "    lit: yes\n    vertex_light: yes\n", share, maps->n_colors, s->n, 100 * share);
 	if (maps->n_passes && findings_relights(s))
 		fprintf(out, "  - role: wall below a lightmap pass\n    confidence: %.2f\n    why: \"its light comes by the pass\"\n"
 		        "    match: { units: 1, lit: no, blended: no, depth_tested: yes, stencil_tested: no, environment_mapped: no }\n    lit: yes\n", share);
 }
 
-static void write_solved(const struct solved *s, FILE *out)
+static void write_solved(const struct solved *s, const char *of, FILE *out)
 {
-	fprintf(out, "  - role: ambient light of lightmaps\n    confidence: %.2f\n"
+	fprintf(out, "  - role: ambient light of %s\n    confidence: %.2f\n"
 	        "    why: \"what no light explains is as bright as this everywhere\"\n    on: unlit\n    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.5g, %.5g, %.5g]\n    diffuse: [0, 0, 0]\n    specular: [0, 0, 0]\n",
-	        explained_share(s), s->ambient[0], s->ambient[1], s->ambient[2]);
+	        of, explained_share(s), s->ambient[0], s->ambient[1], s->ambient[2]);
 	for (unsigned i = 0; i < s->n; i++)
-		fprintf(out, "  - role: light of lightmaps\n    confidence: %.2f\n"
+		fprintf(out, "  - role: light of %s\n    confidence: %.2f\n"
 		        "    why: \"without it %.0f %% of what is explained is not; %zu texels, rest %.2g\"\n"
 		        "    on: unlit\n    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.5g, %.5g, %.5g]\n    specular: [0, 0, 0]\n"
-		        "    attenuation: [0, 0, 1]\n", s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
+		        "    attenuation: [0, 0, 1]\n", of, s->lights[i].share, 100 * s->lights[i].share, s->texels, s->residual, s->lights[i].at[0],
 		        s->lights[i].at[1], s->lights[i].at[2], s->lights[i].color[0], s->lights[i].color[1], s->lights[i].color[2]);
 }
 
@@ -127,7 +131,7 @@ void findings_write_surfaces(const struct tricks *t, const struct lightmaps *map
 	write_walls(maps, s, out);
 }
 
-void findings_write_lights(const struct tricks *t, const struct solved *s, int has_more, FILE *out)
+void findings_write_lights(const struct tricks *t, const struct lightmaps *maps, const struct solved *s, int has_more, FILE *out)
 {
 	unsigned lights = 0;
 
@@ -138,5 +142,5 @@ void findings_write_lights(const struct tricks *t, const struct solved *s, int h
 		if (t->found[i].kind != TRICK_MIRROR && !tricks_is_outvoted(t, i))
 			write_light(&t->found[i], out);
 	if (findings_relights(s))
-		write_solved(s, out);
+		write_solved(s, maps->n_colors ? "vertex colours" : "lightmaps", out);
 }

@@ -105,7 +105,7 @@ static int put_wall(struct lightmaps *l, const struct scene *s, const struct sce
 	return err;
 }
 
-static int put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, const double world[16])
+int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, const double world[16])
 {
 	int err = 0;
 
@@ -145,7 +145,7 @@ int lightmaps_add(struct lightmaps *l, const struct scene *s, const struct motio
 			l->unit = m->unit_count == 2 ? unit->unit : l->unit;
 		}
 		if (!err && !lightmaps_is_pass(m))
-			err = put_occluder(l, mesh, t->world);
+			err = lightmaps_put_occluder(l, mesh, t->world);
 	}
 	return err;
 }

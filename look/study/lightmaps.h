@@ -26,10 +26,13 @@ struct lightmaps {
 	struct table seen;       /* meshes that are in it */
 	unsigned n_units, n_passes; /* walls lit by a second unit, and by a second draw */
 	unsigned unit;              /* number of that unit */
+	unsigned n_colors;          /* meshes whose vertices have light as their colours (baked.h) */
 };
 
 /** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */
 int lightmaps_add(struct lightmaps *l, const struct scene *scene, const struct motion *motion);
+/** A mesh stops light. @return 0 or ERR_SYSTEM (reported) */
+int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, const double world[16]);
 void lightmaps_free(struct lightmaps *l);
 
 /** 1 where a draw only multiplies what is there: by its texture, and writes no depth. */

@@ -4,6 +4,7 @@
 
 #include "base/err.h"
 #include "look/gloss.h"
+#include "look/study/baked.h"
 #include "look/study/cast.h"
 #include "look/study/dome.h"
 #include "look/study/findings.h"
@@ -29,7 +30,7 @@
 struct study {
 	struct motion motion;
 	struct tricks tricks;
-	struct lightmaps lightmaps;
+	struct lightmaps lightmaps, baked; /* light in textures, and in vertex colours where there is none in textures */
 	struct solved solved;
 	struct dome dome;
 	struct cast cast;
@@ -54,6 +55,7 @@ void study_destroy(struct study **study)
 		return;
 	motion_free(&(*study)->motion);
 	lightmaps_free(&(*study)->lightmaps);
+	lightmaps_free(&(*study)->baked);
 	roles_free(&(*study)->roles);
 	spared_free(&(*study)->spared);
 	seen_free(&(*study)->seen);
@@ -109,18 +111,22 @@ int study_add(struct study *study, const struct scene *scene)
 		err = sun_add(&study->sun, scene, &study->motion, study->roles.kinds.layers);
 	if (!err)
 		lamps_add(&study->lamps, scene, &study->motion, study->roles.kinds.layers);
-	return err ? err : lightmaps_add(&study->lightmaps, scene, &study->motion);
+	if (!err)
+		err = lightmaps_add(&study->lightmaps, scene, &study->motion);
+	return err ? err : baked_add(&study->baked, scene, &study->motion);
 }
 
 int study_finish(struct study *study)
 {
-	return study->lightmaps.n ? solve_lights(&study->lightmaps, &study->solved) : 0;
+	struct lightmaps *maps = study->lightmaps.n ? &study->lightmaps : &study->baked;
+
+	return maps->n ? solve_lights(maps, &study->solved) : 0;
 }
 
 /* What shines in a world that OpenGL does not light, and lightmaps do not either: the sky's sun, lamps. up: receives the world's */
 static void find_shining(const struct study *study, double up[3], int *is_sunny, int *has_lamps)
 {
-	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n;
+	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n && !findings_relights(&study->solved);
 	double towards[3];
 
 	*is_sunny = is_dark && dome_find_up(&study->dome, up) && sun_is_there(&study->sun, towards) && matrix_dot3(up, towards) > LOWEST_SUN;
@@ -130,13 +136,14 @@ static void find_shining(const struct study *study, double up[3], int *is_sunny,
 void study_write(const struct study *study, const char *trace, FILE *out)
 {
 	const struct motion *m = &study->motion;
+	const struct lightmaps *maps = study->lightmaps.n ? &study->lightmaps : &study->baked;
 	double up[3];
 	int is_sunny, has_lamps, shines, is_studio;
 
 	find_shining(study, up, &is_sunny, &has_lamps);
 	shines = is_sunny || has_lamps;
 	/* Tricks tell where lights are: these stand in the world. */
-	is_studio = !shines && !study->tricks.n && !study->lightmaps.n && studio_write(&study->studio, NULL);
+	is_studio = !shines && !study->tricks.n && !study->lightmaps.n && !findings_relights(&study->solved) && studio_write(&study->studio, NULL);
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
 	if (m->n_frames)
 		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
@@ -144,18 +151,18 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || shines
+	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || shines
 	             ? "surfaces:\n" : "surfaces: []\n");
 	spared_write(&study->spared, out);
-	findings_write_surfaces(&study->tricks, &study->lightmaps, &study->solved, out);
+	findings_write_surfaces(&study->tricks, maps, &study->solved, out);
 	if (shines)
 		sun_write_surfaces(out);
-	roles_write(&study->roles, m, shines, out);
+	roles_write(&study->roles, m, shines || (maps == &study->baked && findings_relights(&study->solved)), out);
 	cast_write(&study->cast, out);
 	if (shines)
 		lamps_write_surfaces(&study->lamps, m, out);
 	seen_write(&study->seen, m, out);
-	findings_write_lights(&study->tricks, &study->solved, shines || is_studio, out);
+	findings_write_lights(&study->tricks, maps, &study->solved, shines || is_studio, out);
 	if (shines)
 		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
 	if (is_studio)

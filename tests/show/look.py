@@ -32,8 +32,8 @@ def distance(a, b):
 def solved_lights(text):
     """[(position, colour)] of lights that come of lightmaps, and the ambient light."""
     rules = re.split(r"^  - ", text.partition("\nlights:")[2].partition("\nworld:")[0], flags=re.M)
-    lights = [(numbers(r, "position")[:3], numbers(r, "diffuse")) for r in rules if r.startswith("role: light of lightmaps")]
-    ambient = [numbers(r, "ambient") for r in rules if r.startswith("role: ambient light of lightmaps")]
+    lights = [(numbers(r, "position")[:3], numbers(r, "diffuse")) for r in rules if r.startswith(("role: light of lightmaps", "role: light of vertex colours"))]
+    ambient = [numbers(r, "ambient") for r in rules if r.startswith(("role: ambient light of lightmaps", "role: ambient light of vertex colours"))]
     return lights, ambient[0] if ambient else None
 
 
@@ -102,8 +102,9 @@ def textures_alone(build, work, seed):
 
 
 def albedo_error(bare, albedo):
-    """How far a pixel's albedo is from its texture at most."""
-    return max(abs(a - b) for c in "RGB" for p, q in zip(bare[f"gl.{c}"], albedo[f"albedo.{c}"]) for a, b in zip(p, q))
+    """How far a pixel's albedo is from its texture at most, but for one in 10,000: single ones lie where small triangles end."""
+    off = sorted(abs(a - b) for c in "RGB" for p, q in zip(bare[f"gl.{c}"], albedo[f"albedo.{c}"]) for a, b in zip(p, q))
+    return off[int(0.9999 * (len(off) - 1))]
 
 
 def true_rules(truth, text):
@@ -135,7 +136,7 @@ def main(build):
 
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        for lighting in ("multitexture", "pass"):
+        for lighting in ("multitexture", "pass", "colors"):
             scores, seconds = [], 0.0
             for seed in range(LEVELS):
                 truth = work / "truth.json"
