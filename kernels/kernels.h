@@ -13,7 +13,7 @@
 #define KERNEL_STRUCTS(X) \
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
-	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place)
+	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -229,10 +229,26 @@ typedef float element_float;
 	VALUE(scene_dome, dome) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
+/* Surfaces that shine: kernels/frame/emitter.h. */
+#define ARGUMENTS_emission(IN, OUT, VALUE, GROUP, AND) \
+	IN(emitter, emitters) AND() VALUE(uint, emitter_first) AND() \
+	VALUE(uint, n_emitters) AND()       /* 0: emitters is any buffer */ \
+	VALUE(float, emitted)               /* sum of their areas times emitter_strength */
+#define ARGUMENTS_leave_ray(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() GROUP(emission, emission) AND() VALUE(uint, sample) AND() \
+	VALUE(uint, frame) AND() VALUE(uint, n) AND() OUT(ray, rays)
+#define ARGUMENTS_bounce_ray(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
+	GROUP(emission, emission) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
+	VALUE(uint, depth) AND()            /* bounces at most */ \
+	VALUE(uint, first) AND()            /* where their rays begin in out */ \
+	VALUE(uint, n) AND() OUT(ray, out)
+
 /* Paths: kernels/frame/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() GROUP(emission, emission) AND() IN(float, visibility) AND() \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
@@ -251,7 +267,7 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(hit, sky) AND() \
 	VALUE(uint, has_sky) AND()          /* 0: sky is any buffer */ \
 	IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() IN(float, visibility) AND() \
-	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
+	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() GROUP(emission, emission) AND() \
 	VALUE(uint, depth) AND()            /* bounces at most */ \
 	VALUE(float, most) AND()            /* light that a path may bring (hit_bound); 0: no bound */ \
 	IN(float, background) AND()         /* [4] */ \
@@ -275,12 +291,12 @@ typedef float element_float;
 	VALUE(uint, place_first)
 
 /* X(list): lists that are part of others, and those of kernels. */
-#define KERNEL_GROUPS(X) X(tables) X(camera_pass)
+#define KERNEL_GROUPS(X) X(tables) X(camera_pass) X(emission)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -365,6 +381,8 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(want_lights, want_lights)     /* one path a work item: lights to be asked for at its hit */ \
 	X(shade_hit, shade_hit)         /* one path a work item: the radiance it found and its next rays */ \
 	X(shade_hit_packet, shade_hit)  /* the same, SHADE_PACKET consecutive paths a work item (CPUs) */ \
+	X(leave_ray, leave_ray)         /* one fragment a work item: its ray to a surface that shines */ \
+	X(bounce_ray, bounce_ray)       /* one hit of a path a work item: the same */ \
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
 	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around, and its looks around */ \

@@ -285,8 +285,16 @@ struct path {
 	uint32_t kind;   /* PATH_*: the part of the fragment that its radiance belongs to */
 	uint32_t depth;  /* bounces so far, without the fragment's own */
 	uint32_t medium; /* material of the body it travels in, or SCENE_NONE */
+	float density;   /* of directions where it was scattered, a steradian; 0: its direction is not one of many */
 };
-SHARED_SIZE(struct path, 28);
+SHARED_SIZE(struct path, 32);
+
+/* A triangle that shines, in a list of all in its space. */
+struct emitter {
+	float end;               /* share of the list's light that is its or comes before: rises to 1 */
+	uint32_t instance, primitive; /* as in struct hit */
+};
+SHARED_SIZE(struct emitter, 12);
 
 #define PATH_DIFFUSE 0u
 #define PATH_REFLECT 1u

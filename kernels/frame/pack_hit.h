@@ -185,6 +185,7 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 		path->kind = LANE(kind, uint, lane);
 		path->depth = LANE(depth, const uint, lane);
 		path->medium = LANE(medium, uint, lane);
+		path->density = 0.0f;
 	}
 }
 

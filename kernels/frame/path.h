@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "kernels/frame/shadow.h"
+#include "kernels/frame/emitter.h"
 
 /* Less of a pixel than this is not followed: a quarter of a step of 8 bits. */
 #define PATH_LEAST 0.0009765625f
@@ -41,6 +41,7 @@ static inline GLOBAL struct ray *branch(struct branches *b, struct vec3 weight, 
 	v3_store(next->weight, weight);
 	next->kind = kind;
 	next->medium = medium;
+	next->density = 0.0f;
 	next->depth = b->from.depth + 1u;
 	return &b->rays[b->count++];
 }
@@ -142,13 +143,25 @@ static inline void branch_scatter(struct branches *b, const struct point *p, str
 	on = sample_cosine(point_normal(p), u, v);
 	plane = v3_dot(plane, d) > 0.0f ? v3_scale(plane, -1.0f) : plane;
 	ray = branch(b, weight, kind, b->from.medium);
-	if (ray)
-		stage_ray(p, branch_on_side(on, plane), d, ray);
+	if (!ray)
+		return;
+	stage_ray(p, branch_on_side(on, plane), d, ray);
+	if (!(v3_dot(on, plane) < 0.0f))
+		b->paths[b->count - 1u].density = clamp01(v3_dot(point_normal(p), on)) * 0.31830988618f;
 }
 
 static inline struct vec3 path_weight(const struct path *path)
 {
 	return v3(path->weight[0], path->weight[1], path->weight[2]);
+}
+
+/* A part of a fragment and the light of one of its paths. What brings no light changes no bit. */
+static inline void credit_part(uint32_t transport, GLOBAL float *part, struct vec3 light)
+{
+	const struct vec3 was = v3_load(part);
+
+	if (v3_dot(light, light) > 0.0f)
+		v3_store(part, stage_number(transport, v3_add(stage_light(transport, was), light)));
 }
 
 /* leave: a fragment's first rays, and the rest of its own colour. */
@@ -180,6 +193,15 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	b.from.medium = SCENE_NONE;
 	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	split = split_light(&p, d);
+	if (a->emission.n_emitters && v3_most(v3_load(a->visibility + item * 3u)) > 0.0f && point_takes_light(&p)) {
+		const struct emitter_sample place = { at.frame, at.seed, at.index };
+
+		direct = v3_mul(v3_mul(emitter_light(t, &a->emission, a->transport, &p, d, &place), v3_load(a->visibility + item * 3u)),
+		                stage_light(a->transport, v3_load(s->albedo)));
+		credit_part(a->transport, s->direct, direct);
+		credit_part(a->transport, s->mirrored, direct);
+		credit_part(a->transport, s->beauty, direct);
+	}
 	if (a->transport != TRANSPORT_LINEAR || split.mirrored > 0.0f || split.through > 0.0f) {
 		direct = stage_light(a->transport, v3_load(s->direct));
 		mirrored = v3_scale(direct, 1.0f - split.mirrored);
@@ -265,6 +287,7 @@ static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, 
 	if (!ray)
 		return;
 	b->paths[b->count - 1u].depth = b->from.depth;
+	b->paths[b->count - 1u].density = b->from.density;
 	*ray = *from;
 	ray->t_min = ray_beyond(t);
 }
@@ -314,6 +337,30 @@ static inline struct vec3 hit_bound(const struct shade_hit_arguments *a, const s
 	const float most = v3_most(light);
 
 	return a->most > 0.0f && most > a->most && path->depth + (path->kind == PATH_DIFFUSE) > 1u ? v3_scale(light, a->most / most) : light;
+}
+
+/* What surfaces that shine send a hit, and the part of its own shine that the point which the path comes from asked for, less. */
+static inline struct vec3 hit_emitters(const struct shade_hit_arguments *a, uint32_t item, const struct point *p,
+                                       const struct texturing *texturing, struct vec3 d)
+{
+	const struct tables *t = &a->tables;
+	const struct emitter_sample at = { a->frame, stage_seed(&a->paths[item], a->pixels, 0u), a->sample };
+	const float strength = emitter_strength(a->transport, p->material, p->geometry->attributes), density = a->paths[item].density;
+	struct vec3 sum = v3(0.0f, 0.0f, 0.0f), seen;
+	struct vec4 albedo;
+
+	if (!a->emission.n_emitters)
+		return sum;
+	if (strength > 0.0f && density > 0.0f && !(p->geometry->flags & GEOMETRY_EXPANDED))
+		sum = v3_scale(emitter_sends(t, p, a->transport),
+		               emitter_weight(density, emitter_density(&a->emission, strength, a->hits[item].t * a->hits[item].t,
+		                                                       v3_dot(point_plane_normal(p), d))) - 1.0f);
+	seen = v3_load(a->visibility + (a->n_slots * a->n + item) * 3u);
+	if (!(v3_most(seen) > 0.0f) || !point_takes_light(p) || a->paths[item].depth >= a->depth)
+		return sum;
+	albedo = point_albedo(t, p, texturing);
+	seen = v3_mul(seen, stage_light(a->transport, v3(albedo.x, albedo.y, albedo.z)));
+	return v3_add(sum, v3_mul(seen, emitter_light(t, &a->emission, a->transport, p, d, &at)));
 }
 
 /*
@@ -367,6 +414,8 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 		split.mirrored = 0.0f;
 	}
 	own = v3(color.x, color.y, color.z);
+	if (stage_is_path(a->transport))
+		own = v3_add(own, hit_emitters(a, item, &p, &texturing, d));
 	if (p.material->blend && !(split.through > 0.0f) && !(p.material->surface.hidden & SCENE_SOLID)) {
 		own = transparency_blend(p.material, color, v4(0.0f, 0.0f, 0.0f, 0.0f));
 		branch_on(&b, &a->rays[item], hit.t, v3_mul(v3_scale(weight, split.base), transparency_of_blend(p.material, color)));
@@ -385,15 +434,6 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 			               v3_mul(v3_scale(weight, split.through), glass_tint(t, &p, &texturing)), b.from.kind);
 	}
 	a->counts[item] = b.count;
-}
-
-/* A part of a fragment and the light of one of its paths. What brings no light changes no bit. */
-static inline void credit_part(uint32_t transport, GLOBAL float *part, struct vec3 light)
-{
-	const struct vec3 was = v3_load(part);
-
-	if (v3_dot(light, light) > 0.0f)
-		v3_store(part, stage_number(transport, v3_add(stage_light(transport, was), light)));
 }
 
 /* credit: what the paths of a fragment found, into its parts. The first path of each fragment sums them up in order. */

@@ -13,6 +13,7 @@
 #define SAMPLE_GLOSS 0x40000u
 #define SAMPLE_JITTER 0x50000u
 #define SAMPLE_DOME 0x60000u
+#define SAMPLE_EMITTER 0x70000u
 
 /* Mix the bits of a number: multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash functions"). */
 static inline uint32_t sample_hash(uint32_t x)

@@ -124,7 +124,7 @@ struct way {
 /* The paths of q's lanes. */
 WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, const struct pack_points *q, struct way *way)
 {
-	const packu place = vload16(0, q->list.item) * 7;
+	const packu place = vload16(0, q->list.item) * 8;
 	packf row[4], last[4];
 
 	pack_gather_from((__global const float *)a->paths, place, row);

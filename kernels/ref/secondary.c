@@ -25,6 +25,8 @@ KERNEL_TWIN(leave, n)
 KERNEL_TWIN(sky_ray, n)
 KERNEL_TWIN(want_lights, n)
 KERNEL_TWIN(shade_hit, n)
+KERNEL_TWIN(leave_ray, n)
+KERNEL_TWIN(bounce_ray, n)
 KERNEL_TWIN(credit, n)
 KERNEL_TWIN(ao_shade, n)
 

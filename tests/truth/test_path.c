@@ -113,6 +113,84 @@ START_TEST(test_furnace_with_mirror)
 }
 END_TEST
 
+/* The part of what a point sees above it that a square fills, parallel and right above: of half its side, at a height. */
+static double square_part(double half, double height)
+{
+	const double a = half / height, b = sqrt(1 + a * a);
+
+	return 4 * a / b * atan(a / b) / M_PI;
+}
+
+/* A floor under a square that glows, far and near, by its own material and by a rule, in OpenGL's numbers and in linear light. */
+START_TEST(test_square_over_floor)
+{
+	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 };
+	const float albedo = 0.8f, height = 12, e = 0.5f;
+
+	for (int i = 0; i < 12; i++) {
+		struct tracer_options options = options_of(16);
+		const float half = (float[3]){ 0.3f, 4, 60 }[i % 3];
+		const int by_rule = i / 3 % 2, linear = i / 6;
+		float truth = (float)square_part((double)half, (double)height);
+		double sum = 0;
+		uint32_t lamp;
+		struct image img;
+		struct made t;
+
+		truth *= linear ? image_linear_from_display(albedo) * image_linear_from_display(e) : albedo * e;
+		made_init(&t, SIZE, SIZE, 0);
+		t.view.projection[0] = t.view.projection[5] = 20; /* a tenth of a unit across */
+		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 1, 1);
+		lamp = made_add_material(&t, 0);
+		if (by_rule)
+			t.materials[lamp].surface.emission[0] = t.materials[lamp].surface.emission[1] = t.materials[lamp].surface.emission[2] = e;
+		else
+			glow(&t, lamp, e);
+		made_add_square(&t, lamp, (float[3]){ 0, 0, height - 10 }, y, x, half, 3);
+		options.depth = 1;
+		options.display = !linear;
+		truth_render_with(&t, &options, &img);
+		for (uint32_t at = 0; at < SIZE * SIZE; at++) {
+			ck_assert_float_eq_tol(truth_at(&img, "R", at % SIZE, at / SIZE), truth, 0.12f * truth);
+			sum += (double)truth_at(&img, "R", at % SIZE, at / SIZE) / (SIZE * SIZE);
+		}
+		ck_assert_double_eq_tol(sum, (double)truth, 0.005 * (double)truth);
+		truth_check_closure(&img);
+		image_free(&img);
+		made_free(&t);
+	}
+}
+END_TEST
+
+/* A sphere of light over a floor: right under it what OpenGL's point gives; half of that where an edge hides half of the sphere. */
+START_TEST(test_sphere_over_floor)
+{
+	static const float x[3] = { 1, 0, 0 }, y[3] = { 0, 1, 0 };
+	const float albedo = 0.8f;
+
+	for (int hidden = 0; hidden < 2; hidden++) {
+		struct tracer_options options = options_of(64);
+		double sum = 0;
+		struct image img;
+		struct made t;
+
+		made_init(&t, SIZE, SIZE, 0);
+		t.view.projection[0] = t.view.projection[5] = 2000;
+		made_add_light(&t, 0, 0, 10, 1);
+		t.lights[0].radius = 1;
+		made_add_square(&t, made_add_material(&t, albedo), (float[3]){ 0, 0, -10 }, x, y, 1, 1);
+		if (hidden)
+			made_add_square(&t, made_add_material(&t, 0), (float[3]){ 20, 0, 1 }, x, y, 20, 1);
+		truth_render_with(&t, &options, &img);
+		for (uint32_t at = 0; at < SIZE * SIZE; at++)
+			sum += (double)truth_at(&img, "R", at % SIZE, at / SIZE) / (SIZE * SIZE);
+		ck_assert_double_eq_tol(sum, (double)albedo * (hidden ? 0.5 : 1), 0.004);
+		image_free(&img);
+		made_free(&t);
+	}
+}
+END_TEST
+
 /* A bound leaves a surface's own light, and no more than that of what each bounce brings. */
 START_TEST(test_clamp)
 {
@@ -145,6 +223,8 @@ int main(void)
 	tcase_set_timeout(tests, 180);
 	tcase_add_test(tests, test_integrating_sphere);
 	tcase_add_test(tests, test_furnace_with_mirror);
+	tcase_add_test(tests, test_square_over_floor);
+	tcase_add_test(tests, test_sphere_over_floor);
 	tcase_add_test(tests, test_clamp);
 	return run_case(tests, "path");
 }

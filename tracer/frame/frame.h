@@ -22,7 +22,7 @@
 #define FRAME_WHOLE_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
 	X(uint, stipples) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums)
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters)
 #define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
 	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
@@ -65,6 +65,10 @@ struct job {
 	const struct scene_mesh **extra; /* [n_instances]: their meshes, or NULL */
 	const struct accel_space *spaces;
 	uint32_t n_spaces;
+	struct emission_list { /* surfaces that shine: those of a space in the list of all */
+		uint32_t first, n;
+		float emitted; /* as in kernels.h */
+	} *emissions; /* [n_spaces] in mode path, else NULL */
 	uint32_t width, height;
 	uint32_t row_first, n_rows; /* the band that is drawn; buffers of pixels hold its pixels, bottom row first */
 	uint32_t n_pixels;          /* of the band */

@@ -1,5 +1,6 @@
 #include "tracer/frame/secondary.h"
 
+#include "tracer/frame/emitters.h"
 #include "tracer/frame/scan.h"
 
 /* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
@@ -233,9 +234,10 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4;
+	const struct emission_launch emission = emitters_of(job, space);
+	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4, all = n_rays + (emission.n_emitters ? n : 0);
 	const int packets = device_family(tr->dev) == FAMILY_PACKETS;
-	int err = secondary_reserve_rays(job, n_rays);
+	int err = secondary_reserve_rays(job, all);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
@@ -249,8 +251,13 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 			       .frame = frame_number(job), .n = n, .n_rays = n_rays, .out = b->rays);
 
 		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
+		if (!err && all > n_rays)
+			err = launch_bounce_ray(tr->dev, n, LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays,
+			                                           .paths = b->paths, .pixels = b->pixels, .emission = emission, .sample = job->pass,
+			                                           .frame = frame_number(job), .depth = job->options->depth, .first = n_rays, .n = n,
+			                                           .out = b->rays));
 		if (!err)
-			err = ask(job, space, 1, n_rays, i, samples);
+			err = ask(job, space, 1, all, i, samples);
 	}
 	return err;
 }
@@ -281,7 +288,24 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 
 /* --- Paths --------------------------------------------------------------------------------------------------------- */
 
-static int leave(struct job *job, const struct list *list, uint32_t transport, uint32_t n)
+/* Which surfaces that shine each of n fragments sees, into buffers.visibility. */
+static int ask_emitters(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct emission_launch emission = emitters_of(job, space);
+	int err = emission.n_emitters ? secondary_reserve_rays(job, n) : 0;
+
+	if (err || !emission.n_emitters)
+		return err;
+	err = launch_leave_ray(tr->dev, n, LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+	                                          .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
+	                                          .emission = emission, .sample = job->pass, .frame = frame_number(job), .n = n,
+	                                          .rays = b->rays));
+	return err ? err : secondary_ask(job, space, 1, n);
+}
+
+static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -294,7 +318,7 @@ static int leave(struct job *job, const struct list *list, uint32_t transport, u
 		return err;
 	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
 	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass, .frame = frame_number(job),
-	           .n = n, .shaded = b->shaded,
+	           .emission = emitters_of(job, space), .visibility = b->visibility, .n = n, .shaded = b->shaded,
 	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
 	return device_family(tr->dev) == FAMILY_PACKETS ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
@@ -313,7 +337,8 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 	return err ? err : intersect(job, sky, b->sky_rays, b->sky_hits, n);
 }
 
-static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky, uint32_t transport, uint32_t n)
+static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky, uint32_t transport,
+                      uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -328,7 +353,7 @@ static int shade_hits(struct job *job, const struct list *list, uint32_t has_sky
 		return err;
 	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky, .rays = *list->rays,
 	           .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
-	           .transport = transport, .sample = job->pass, .frame = frame_number(job),
+	           .transport = transport, .sample = job->pass, .frame = frame_number(job), .emission = emitters_of(job, space),
 	           .depth = job->options->depth, .most = job->options->clamp, .background = b->background, .shaded = b->shaded,
 	           .n = n, .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
 	return device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
@@ -345,7 +370,9 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 	if (!err)
 		err = frame_reserve(tr, visibility, 3);
 	if (!err)
-		err = leave(job, &list, transport, n);
+		err = ask_emitters(job, space, n);
+	if (!err)
+		err = leave(job, &list, space, transport, n);
 	if (!err)
 		err = gather_list(job, &list, PATHS_PER_FRAGMENT, &n);
 	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
@@ -354,10 +381,10 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 			err = intersect(job, space, *list.rays, b->path_hits, n);
 		if (!err)
 			err = look_at_sky(job, sky, n);
-		if (!err && job->prepared.n_light_slots)
+		if (!err && (job->prepared.n_light_slots || emitters_of(job, space).n_emitters))
 			err = trace_hit_shadows(job, space, transport, n);
 		if (!err)
-			err = shade_hits(job, &list, sky != NULL, transport, n);
+			err = shade_hits(job, &list, space, sky != NULL, transport, n);
 		if (!err)
 			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .transport = transport, .n = n,
 			                                       .shaded = b->shaded));

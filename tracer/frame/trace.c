@@ -7,10 +7,12 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "tracer/frame/compose.h"
+#include "tracer/frame/emitters.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
 #include "tracer/frame/picture.h"
 #include "tracer/frame/plain.h"
+#include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 #include "tracer/frame/upload.h"
 
@@ -205,7 +207,9 @@ static int place_frame(struct job *job, const float shift[2])
 	if (!job->expanded || !job->extra)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	err = upload_state(job);
-	return err ? err : geometry_place(job);
+	if (!err)
+		err = geometry_place(job);
+	return err ? err : emitters_place(job, secondary_transport(job->options));
 }
 
 static void forget_frame(struct job *job)
@@ -214,8 +218,10 @@ static void forget_frame(struct job *job)
 		expanded_free(&job->expanded[i]);
 	free(job->expanded);
 	free(job->extra);
+	free(job->emissions);
 	job->expanded = NULL;
 	job->extra = NULL;
+	job->emissions = NULL;
 	prepared_free(&job->prepared);
 }
 
