@@ -14,6 +14,7 @@
 #include "look/unseen.h"
 #include "render/cryptomatte.h"
 #include "render/supply.h"
+#include "render/vectors.h"
 #include "scene/release.h"
 
 #define MAX_PATH_BYTES 4096
@@ -38,6 +39,14 @@ struct pipeline_state {
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
 	int begun; /* a scene was handed out */
+	/* For motion vectors: the frame that was decoded last, and those before frames that are handed out. */
+	struct vectors_frame *last;
+	uint64_t last_number;
+	struct earlier {
+		struct vectors_frame *before;
+		uint64_t frame; /* that it comes before */
+		struct earlier *next;
+	} *earlier;
 };
 
 struct worker {
@@ -141,16 +150,86 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 	       stamp_check(&state->p->stamp, frame, path) == STAMP_SAME;
 }
 
+/* Note where everything is in a frame, for the one after it. */
+static int note_last(struct pipeline_state *state, const struct scene *scene)
+{
+	vectors_free(&state->last);
+	state->last = vectors_note(scene);
+	state->last_number = scene->frame;
+	return state->last ? 0 : ERR_SYSTEM;
+}
+
+/* Decode the frame before one, unless it was the last, and keep what is to be known of it. @return 1; 0: there is none; ERR_* */
+static int note_earlier(struct pipeline_state *state, uint64_t frame)
+{
+	struct earlier *e;
+	struct scene *scene = NULL;
+	int more = 1;
+
+	if (frame && (!state->last || state->last_number + 1 != frame)) {
+		more = replay_seek(state->p->replay, frame - 1);
+		if (more == 1)
+			more = replay_next_frame(state->p->replay, 1, &scene);
+		if (more == 1 && note_last(state, scene))
+			more = ERR_SYSTEM;
+		scene_release(&scene);
+	}
+	e = more == 1 ? malloc(sizeof(*e)) : NULL;
+	if (!e)
+		return more == 1 ? err_report(ERR_SYSTEM, NULL, "out of memory") : more;
+	e->before = frame ? state->last : NULL;
+	e->frame = frame;
+	if (frame)
+		state->last = NULL;
+	pthread_mutex_lock(&state->lock);
+	e->next = state->earlier;
+	state->earlier = e;
+	pthread_mutex_unlock(&state->lock);
+	return 1;
+}
+
+/* What is known of the frame before one; stays until drop_earlier. */
+static const struct vectors_frame *earlier_of(struct pipeline_state *state, uint64_t frame)
+{
+	struct earlier *e;
+
+	pthread_mutex_lock(&state->lock);
+	for (e = state->earlier; e && e->frame != frame;)
+		e = e->next;
+	pthread_mutex_unlock(&state->lock);
+	return e ? e->before : NULL;
+}
+
+static void drop_earlier(struct pipeline_state *state, uint64_t frame)
+{
+	struct earlier **at, *e;
+
+	pthread_mutex_lock(&state->lock);
+	for (at = &state->earlier; *at && (*at)->frame != frame;)
+		at = &(*at)->next;
+	e = *at;
+	if (e)
+		*at = e->next;
+	pthread_mutex_unlock(&state->lock);
+	if (e)
+		vectors_free(&e->before);
+	free(e);
+}
+
 /* Replay up to a frame and hand out its scene. @return 1; 0: the recording ends before it; ERR_* */
 static int hand_out(struct pipeline_state *state, uint64_t frame)
 {
 	struct scene *scene = NULL;
-	int more = replay_seek(state->p->replay, frame);
+	int more = state->p->settings->motion ? note_earlier(state, frame) : 1;
 
+	if (more == 1)
+		more = replay_seek(state->p->replay, frame);
 	if (more != 1)
 		return more;
 	wait_for_memory(state);
 	more = replay_next_frame(state->p->replay, 1, &scene);
+	if (more == 1 && state->p->settings->motion && note_last(state, scene))
+		more = ERR_SYSTEM;
 	if (more == 1 && !state->begun++)
 		progress_start(state->p->progress, frame, progress_clock_s() - state->p->start_s);
 	if (more == 1 && call_worker(state))
@@ -281,10 +360,12 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
 	/* some need the whole planes */
-	picture->img.packers = w->state->p->display || settings->cryptomatte ? 0 : packer_count(w->state);
+	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion ? 0 : packer_count(w->state);
 	err = render_scene(settings, tracer, scene, &picture->img);
 	if (!err)
 		err = tell_time(scene, &picture->img);
+	if (!err && settings->motion)
+		err = vectors_add(scene, earlier_of(w->state, scene->frame), &picture->img);
 	if (!err && settings->cryptomatte)
 		err = cryptomatte_add(scene, &picture->img);
 	late = watch_end(w->state->p->watch, w->seat);
@@ -351,6 +432,7 @@ static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene
 		retire(state, scene);
 		return 0;
 	}
+	drop_earlier(state, scene->frame);
 	scene_release(&scene);
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))
@@ -504,6 +586,9 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 		pthread_join(workers[i].thread, NULL);
 	for (struct scene *scene; (scene = queue_take(&state->scenes));)
 		scene_release(&scene); /* every worker was gone */
+	while (state->earlier)
+		drop_earlier(state, state->earlier->frame);
+	vectors_free(&state->last);
 	queue_close(&state->pictures);
 	for (unsigned i = 0; i < n_writers; i++)
 		pthread_join(writers[i], NULL);

@@ -31,7 +31,16 @@ static int take_chunk(const struct options_row *row, const char *value, void *ou
 	return frame_chunk_parse(value, &s->chunk, &s->n_chunks);
 }
 
-/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id. */
+/* 1 where a list's word is one of ours; then the flag is set. */
+static int take_word(const char *at, size_t length, const char *word, int *flag)
+{
+	const int is_it = length == strlen(word) && strncmp(at, word, length) == 0;
+
+	*flag |= is_it;
+	return is_it;
+}
+
+/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id, motion from id and P. */
 static int take_aov(const struct options_row *row, const char *value, void *out)
 {
 	struct settings *s = out;
@@ -39,25 +48,24 @@ static int take_aov(const struct options_row *row, const char *value, void *out)
 
 	(void)row;
 	free(s->aov);
-	s->cryptomatte = 0;
-	s->aov = malloc(strlen(value) + sizeof(",id"));
+	s->cryptomatte = s->motion = 0;
+	s->aov = malloc(strlen(value) + sizeof(",id,P"));
 	if (!s->aov)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (const char *at = value; *at; at += *at == ',') {
 		const size_t length = strcspn(at, ",");
-		const int is_ours = length == strlen("cryptomatte") && strncmp(at, "cryptomatte", length) == 0;
+		const int is_ours = take_word(at, length, "cryptomatte", &s->cryptomatte) || take_word(at, length, "motion", &s->motion);
 
 		if (!is_ours)
 			n += (size_t)sprintf(s->aov + n, "%s%.*s", groups++ ? "," : "", (int)length, at);
-		s->cryptomatte |= is_ours;
 		at += length;
 	}
 	s->aov[n] = '\0';
-	s->tracer.aov = groups || !s->cryptomatte ? s->aov : NULL;
+	s->tracer.aov = groups || !(s->cryptomatte || s->motion) ? s->aov : NULL;
 	if (tracer_check_aov(s->aov))
 		return ERR_USAGE;
-	if (groups && s->cryptomatte)
-		strcat(s->aov, ",id");
+	if (groups && (s->cryptomatte || s->motion))
+		strcat(s->aov, s->motion ? ",id,P" : ",id");
 	return 0;
 }
 
@@ -143,7 +151,8 @@ static const struct options_row rows[] = {
 	  "path: all bounces, followed in linear light (with --encoding display in GL's own numbers)", options_word, AT(tracer.mode), .words = settings_mode_names },
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
 	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
-	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it", take_aov, .at = 0 },
+	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it; with motion, by how many "
+	  "pixels right and down what a pixel shows has moved since the frame before", take_aov, .at = 0 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },

@@ -28,6 +28,7 @@ struct settings {
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
+	int motion;                     /* 1: channels that render/vectors.h adds */
 	int cryptomatte;                /* 1: channels that render/cryptomatte.h adds */
 	enum display_kind kind;         /* of the files */
 	struct display_options display; /* of display pictures */

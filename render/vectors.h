@@ -1,0 +1,28 @@
+/*
+ * Motion vectors: channels motion.X and motion.Y, in pixels, right and down: by how much the point that a pixel shows has moved since the
+ * frame before; it was at the pixel minus this. motion.A is 1 where that is known, else 0, and the vector is 0.
+ *
+ * By nothing but what the recording has: a point goes back through its draw's modelview into its mesh, to that mesh's place in the frame
+ * before, and through that draw's matrices onto the picture. The draw before is the one of the same mesh, the n-th of them for the n-th;
+ * where there is none, of a mesh with the same triangles and other vertices, whose points are followed triangle by triangle. What was
+ * not drawn before, pixel rectangles, and what nothing drew have no vector. What hid a point then does not count.
+ */
+#pragma once
+
+#include "scene/scene.h"
+#include "tracer/image/image.h"
+
+/* Where everything was in a frame. */
+struct vectors_frame;
+
+/** Note a frame for the next one. @return NULL: out of memory (reported) */
+struct vectors_frame *vectors_note(const struct scene *scene);
+void vectors_free(struct vectors_frame **frame);
+
+/**
+ * Add the channels.
+ * @param before  the frame before, or NULL: there is none
+ * @param img     of this scene, whole planes, with channels id and P
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int vectors_add(const struct scene *scene, const struct vectors_frame *before, struct image *img);
