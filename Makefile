@@ -28,7 +28,7 @@ LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -l
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
 RECORDER_GEN := tables/commands tables/enums thunks
-RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c) \
+RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c capture/format/reserve.c) \
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
@@ -278,7 +278,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes devices export farm faults flaky frames kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes devices export farm faults flaky frames inject kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay
@@ -305,6 +305,7 @@ DEPS_relit := extremetuxracer $(DEPS_parity)
 DEPS_thesis := povray blender python3-numpy
 NEEDS_devices = $(HELPERS) $(BUILD)/show/devices/intel/ready
 NEEDS_frames := $(BUILD)/tests/bench/frame_rays
+NEEDS_inject = $(HELPERS)
 NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)

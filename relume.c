@@ -78,6 +78,14 @@ static int refuse(const char *typed)
 	                  nearest.word ? ", but " : "", nearest.word ? nearest.word : "");
 }
 
+/* What was printed may still be on its way: a full disk is told by the exit code. */
+static int finish(int code)
+{
+	if ((fflush(stdout) || ferror(stdout)) && code == 0)
+		return -err_report(ERR_SYSTEM, NULL, "standard output cannot be written");
+	return code;
+}
+
 int main(int argc, char **argv)
 {
 	const struct verb *verb;
@@ -101,6 +109,6 @@ int main(int argc, char **argv)
 	if (!verb)
 		return -refuse(argv[wants_help ? 2 : 1]);
 	if (wants_help)
-		return verb->main(2, (char *[]){ argv[2], "--help", NULL });
-	return verb->main(argc - 1, argv + 1);
+		return finish(verb->main(2, (char *[]){ argv[2], "--help", NULL }));
+	return finish(verb->main(argc - 1, argv + 1));
 }

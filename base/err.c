@@ -2,8 +2,17 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static _Thread_local int *shared;
+
+/* Memory that is short for one thing is short for all that comes of it: one line says so. */
+static int is_said(const char *fmt)
+{
+	static int said;
+
+	return strstr(fmt, "out of memory") && __atomic_exchange_n(&said, 1, __ATOMIC_RELAXED);
+}
 
 static void print_line(const char *kind, const char *where, const char *fmt, va_list args)
 {
@@ -21,7 +30,7 @@ int err_report(int code, const char *where, const char *fmt, ...)
 {
 	va_list args;
 
-	if (shared && __atomic_exchange_n(shared, 1, __ATOMIC_RELAXED))
+	if ((shared && __atomic_exchange_n(shared, 1, __ATOMIC_RELAXED)) || is_said(fmt))
 		return code;
 	va_start(args, fmt);
 	print_line("", where, fmt, args);

@@ -17,7 +17,7 @@ enum {
 };
 
 /**
- * Print "relume: WHERE: TEXT" as one line on standard error.
+ * Print "relume: WHERE: TEXT" as one line on standard error. Of texts that say "out of memory" a process prints the first.
  *
  * @param code   ERR_*, returned unchanged so that `return err_report(...)` reads well
  * @param where  file, or file and frame or call ("gears.trace: frame 12"); NULL leaves it out

@@ -627,7 +627,7 @@ int pipeline_run(struct pipeline *p)
 	replay_set_supplier(p->replay, NULL, NULL);
 	supply_free(&supply);
 	blas_cache_destroy(&state.cache);
-	for (size_t i = 0; workers && i < n; i++)
+	for (size_t i = 0; workers && p->shares && i < n; i++)
 		p->shares[i % p->n_devices] += workers[i].done;
 	for (size_t i = 0; workers && i < n; i++)
 		if (i >= p->n_devices && workers[i].dev)

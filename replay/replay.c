@@ -24,6 +24,7 @@ struct replay {
 	char hash[33];
 	struct replay_count *counts; /* what the last query answered */
 	size_t room;
+	int lacks_counts; /* 1: some were left out, as memory was short */
 	struct replay_context *contexts;
 	struct index *index; /* once it was needed */
 };
@@ -219,7 +220,11 @@ const char *replay_program(const struct replay *rp)
 
 static void put(struct replay *rp, size_t *n, const char *name, const char *why, uint64_t count)
 {
-	if (count && !MEMORY_GROW(rp->counts, rp->room, *n + 1))
+	if (!count)
+		return;
+	if (MEMORY_GROW(rp->counts, rp->room, *n + 1))
+		rp->lacks_counts = 1;
+	else
 		rp->counts[(*n)++] = (struct replay_count){ name, why, count };
 }
 
@@ -268,6 +273,11 @@ long replay_lacks(struct replay *rp, struct replay_lack **out)
 static const char *what_is_missing(const struct gls_exec *x, unsigned command)
 {
 	return x->counts.why[command];
+}
+
+int replay_lacks_counts(const struct replay *rp)
+{
+	return rp->lacks_counts;
 }
 
 size_t replay_unsupported(struct replay *rp, const struct replay_count **out)

@@ -126,6 +126,9 @@ int replay_is_rendered(const struct replay_count *count);
 /** All calls met so far by name, most frequent first; as above. */
 size_t replay_calls(struct replay *rp, const struct replay_count **out);
 
+/** 1 where some list of counts was not whole, as memory was short (reported). */
+int replay_lacks_counts(const struct replay *rp);
+
 /** GL errors that the program itself made so far: name of the call, why = the error's name; as above. */
 size_t replay_gl_errors(struct replay *rp, const struct replay_count **out);
 

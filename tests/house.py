@@ -69,7 +69,7 @@ def symbol_arrows(build, known):
     for path, name, part in objects(build, known):
         for line in subprocess.run(["nm", path], capture_output=True, text=True, check=True).stdout.splitlines():
             kind, symbol = line.split()[-2:]
-            if kind == "U":
+            if kind == "U" and not symbol.startswith(("_Zn", "_Zd")):  # C++'s new and delete are nobody's
                 wanted.append((part, name, symbol))
             elif kind in "TDBRVWC":
                 defined[part, symbol].add(name)

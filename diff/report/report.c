@@ -194,7 +194,7 @@ static int write_pictures(const struct pictures *p, const struct score *s, int w
 fail:
 	picture_frame_free(&frame);
 	/* a frame that cannot be read has been scored as such: the page goes on without its pictures */
-	return err == ERR_INPUT ? 0 : err;
+	return err == ERR_INPUT && !output_is_compared(s) ? 0 : err;
 }
 
 /** All others than samples, and what is beyond the budget, have a thumbnail. */

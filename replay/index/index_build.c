@@ -1,5 +1,6 @@
 #include "replay/index/index_build.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -245,11 +246,12 @@ done:
 static int begin_file(struct index *index, int cached, char path[PATH_MAX], char part[PATH_MAX])
 {
 	const struct index_header empty = { .layout = 0 };
+	char folder[PATH_MAX];
 	struct stat info;
 
 	if (!index_place(index, cached, path))
 		return 0;
-	if (cached && folder_make_for(path))
+	if (cached && (!folder_cached("", folder, sizeof(folder)) || folder_try(folder)))
 		return 0;
 	if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
 		return 0;
@@ -294,8 +296,12 @@ static int make(struct index *index, struct player *fresh)
 	if (kept && (rc || !index->file)) {
 		part_drop(part);
 	} else if (kept) {
-		/* Where it cannot get its name, this process has it all the same. */
-		if (part_finish(part, path) == 0 && !(index->path = strdup(path)))
+		const int has_name = rename(part, path) == 0;
+
+		if (!has_name) /* this process has it all the same */
+			err_warn(index->trace, "its index cannot be renamed into place: %s; the next run makes it again", strerror(errno));
+		part_drop(part);
+		if (has_name && !(index->path = strdup(path)))
 			rc = index_out_of_memory(index);
 	}
 	return rc;

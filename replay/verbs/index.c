@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "base/err.h"
 #include "base/hash.h"
 #include "base/options.h"
 #include "base/verbs.h"
@@ -99,7 +100,9 @@ int index_main(int argc, char **argv)
 			print_json(line.words[0], &facts);
 		else
 			print_text(line.words[0], &facts);
-		if (o.check)
+		if (!facts.path)
+			rc = err_report(ERR_SYSTEM, line.words[0], "its index is kept nowhere");
+		else if (o.check)
 			rc = index_check(index);
 	}
 	index_close(&index);

@@ -226,6 +226,8 @@ int info_main(int argc, char **argv)
 		else
 			print_text(rp, line.words[0], o.all ? (size_t)-1 : TOP_CALLS, &earlier);
 	}
+	if (rc == 0 && replay_lacks_counts(rp))
+		rc = ERR_SYSTEM;
 	replay_close(&rp);
 	free(earlier.ranges);
 	return -rc;

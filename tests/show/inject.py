@@ -1,0 +1,201 @@
+#!/usr/bin/python3
+"""tests/show/inject.py BUILD [--only VERB] (as `make show-inject`): each call of the system fails once, in turn.
+
+The nth malloc, read, write, mmap, open and thread that the command makes itself fails (tests/real/inject_shim.c), for every n of a small
+index, info, scene, trim, render and diff; once, and from there on. The command must then do without, with the same result; or end with
+code 3 or 5 and one line that says why. No file is left half-written. The recorder under the same shim: the program's own pictures and its
+exit code do not change. (OpenCL's calls: show-device-faults.)
+"""
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CLASSES = ("malloc", "read", "write", "mmap", "open", "thread")
+LIMIT_S = 20
+
+
+class Case:
+    """A command line; words @trace, @frames, @ref stand for inputs."""
+
+    def __init__(self, name, command, made=()):
+        self.name, self.command, self.made = name, command, made
+
+
+CASES = [
+    Case("index", ["index", "--force", "@trace"], ["x.trace.index"]),
+    Case("info", ["info", "@trace"]),
+    Case("scene", ["scene", "-f", "0", "--json", "@trace"]),
+    Case("trim", ["trim", "-f", "0", "-o", "new.trace", "@trace"], ["new.trace"]),
+    Case("diff", ["diff", "--json", "s.json", "--junit", "j.xml", "--report", "report", "@ref", "@frames"], ["s.json", "j.xml", "report/index.html"]),
+    Case("render", ["render", "@trace", "-f", "0", "--mode", "gl", "--aov", "gl", "-o", "out.####.exr", "--progress", "none"], ["out.0000.exr"]),
+]
+
+
+def digest(path):
+    text = path.read_bytes()
+    if path.suffix in (".json", ".xml", ".html"):  # how long it took, and where
+        text = b"\n".join(line for line in text.splitlines() if b"seconds" not in line and b"time=" not in line)
+    return hashlib.sha256(text).hexdigest()
+
+
+def plain(out):
+    return [line for line in out.splitlines() if not line.startswith(b"made in")]
+
+
+class Trial:
+    def __init__(self, build, inputs):
+        self.relume, self.shim, self.inputs = (build / "relume").resolve(), (build / "tests/real/inject_shim.so").resolve(), inputs
+
+    def run(self, case, inject=None, count=None, cache=None):
+        """(exit code, stdout, stderr, {file: digest}, names of other files)"""
+        with tempfile.TemporaryDirectory(dir=self.inputs) as folder:
+            work = pathlib.Path(folder)
+            shutil.copy2(self.inputs / "x.trace", work)
+            if case.name != "index":
+                shutil.copy2(self.inputs / "x.trace.index", work)
+            words = {"@trace": "x.trace", "@frames": "../frames", "@ref": "../x.ref"}
+            env = {**os.environ, "XDG_CACHE_HOME": str(cache or self.inputs / "cache"), "LD_PRELOAD": str(self.shim), "TMPDIR": folder}
+            if inject:
+                env["INJECT"] = inject
+            if count:
+                env["INJECT_COUNT"] = str(count)
+            try:
+                done = subprocess.run([self.relume, *(words.get(w, w) for w in case.command)], cwd=work, env=env, stdin=subprocess.DEVNULL,
+                                      capture_output=True, timeout=LIMIT_S, check=False)
+            except subprocess.TimeoutExpired:
+                return None, b"", b"", {}, []
+            files = {str(p.relative_to(work)): p for p in work.rglob("*") if p.is_file()}
+            known = {"x.trace", "x.trace.index", "report/sheet.png", *case.made}
+            return done.returncode, done.stdout, done.stderr, {n: digest(files[n]) for n in case.made if n in files}, sorted(set(files) - known)
+
+    def wrong(self, case, good, inject):
+        """What is wrong where a call fails; None: nothing."""
+        code, out, err, made, others = self.run(case, inject)
+        said = [line for line in err.decode(errors="replace").splitlines() if line.startswith("relume:") and " warning: " not in line]
+        if code is None:
+            return "hangs"
+        if code not in (good[0], 3, 5):
+            return f"exit code {code}: {err.decode(errors='replace')[-300:]}"
+        if others:
+            return f"leaves {others}"
+        if case.name == "diff" and code == 3:  # a frame that cannot be read is a result
+            return None if len(said) == 1 else f"exit code 3 with {len(said)} lines: {err[-400:]}"
+        if any(made[n] != good[3][n] for n in made):
+            return f"exit code {code}: another {[n for n in made if made[n] != good[3][n]]}"
+        if case.name == "index" and b"cache/relume" in out:  # where it goes if it cannot lie beside the recording
+            return None
+        if code == good[0]:
+            return None if set(made) == set(good[3]) and (plain(out) == plain(good[1]) or case.name == "diff") else f"exit code {code}, but not the same: {err[-300:]}"
+        most = 2 if case.name == "render" else 1  # each worker tells what became of it
+        return None if 1 <= len(said) <= most else f"exit code {code} with {len(said)} lines: {err.decode(errors='replace')[-400:]}"
+
+
+def counts_of(path):
+    counts = {}
+    for line in path.read_text().splitlines():
+        name, n = line.split()
+        counts[name] = max(counts.get(name, 0), int(n))
+    return counts
+
+
+def points_of(counts, most):
+    """Every n of each class, once and from there on; of more than `most`, evenly spread ones."""
+    for name in CLASSES:
+        n = counts.get(name, 0)
+        step = max(1, -(-n // most)) if most else 1
+        for at in range(1, n + 1, step):
+            yield f"{name}:{at}"
+            if name in ("malloc", "write"):
+                yield f"{name}:{at}+"
+
+
+def try_case(trial, case, most, workers):
+    """(points tried, [what is wrong])"""
+    count = trial.inputs / f"{case.name}.count"
+    trial.run(case)  # what is kept for later runs is there now
+    good = trial.run(case, count=count)
+    if good[0] != 0 or set(good[3]) != set(case.made):
+        return 0, [f"{case.name} does not work: {good}"]
+    points = list(points_of(counts_of(count), most))
+    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+        found = list(pool.map(lambda point: trial.wrong(case, good, point), points))
+    wrong = [f"{case.name} {point}: {what}" for point, what in zip(points, found) if what]
+    again = trial.run(case)
+    if again[0] != good[0] or again[3] != good[3]:
+        wrong.append(f"{case.name}: not the same afterwards: {again[0]} {again[2][-300:]}")
+    return len(points), wrong
+
+
+def try_recorder(trial, build, most):
+    """Record a program while the recorder's calls fail: the program must not notice."""
+    shim, work = trial.shim, trial.inputs / "record"
+    work.mkdir()
+    program, count = (build / "tests/trace/pixels").resolve(), work / "count"
+    record = [trial.relume, "record", "-o", "r.trace", "--ref", "color", "--", program]
+
+    def run(env, *command):
+        done = subprocess.run([ROOT / "tests/xvfb.sh", "env", *env, *command], cwd=work, stdin=subprocess.DEVNULL, capture_output=True, timeout=LIMIT_S, check=False)
+        return done.returncode, done.stdout
+
+    alone = run([], program)
+    if run([f"LD_PRELOAD={shim}", f"INJECT_COUNT={count}"], *record) != alone:
+        return 0, ["recording pixels: not as without a recorder"]
+    points, wrong = list(points_of(counts_of(count), most)), []
+    for point in points:
+        got = run([f"LD_PRELOAD={shim}", f"INJECT={point}"], *record)
+        if got != alone and got[0] not in (2, 3, 5):
+            wrong.append(f"record {point}: exit code {got[0]} instead of {alone[0]}")
+        for path in work.glob("*.part"):
+            wrong.append(f"record {point}: leaves {path.name}")
+            path.unlink()
+    return len(points), wrong
+
+
+def prepare(build, inputs):
+    relume = (build / "relume").resolve()
+    made = [[ROOT / "tests/xvfb.sh", relume, "record", "-o", inputs / "x.trace", "--ref", "color", "--", build.resolve() / "corpus/two_triangles", "--frames", "2", "--size", "64x48"],
+            [relume, "index", inputs / "x.trace"],
+            [relume, "render", inputs / "x.trace", "-o", inputs / "frames/x.####.exr", "--mode", "gl", "--aov", "gl"]]
+    for command in made:
+        done = subprocess.run([str(w) for w in command], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.exit(f"{command}: exit code {done.returncode}\n{done.stderr}")
+
+
+def main(build, only, most):
+    rows, failed = [], 0
+    with tempfile.TemporaryDirectory() as folder:
+        inputs = pathlib.Path(folder)
+        prepare(build, inputs)
+        trial = Trial(build, inputs)
+        for case in CASES:
+            if only and only != case.name:
+                continue
+            n, wrong = try_case(trial, case, most, os.cpu_count())
+            rows.append({"what": f"relume {case.name}", "figure": f"{n} points, {len(wrong)} failures", "bar": "0 failures", "peer": None, "passed": n > 0 and not wrong})
+            print("\n".join(wrong), *rows[-1].values(), sep="  ", flush=True)
+        if not only or only == "record":
+            n, wrong = try_recorder(trial, build, 60)
+            rows.append({"what": "relume record, at most 60 of each class", "figure": f"{n} points, {len(wrong)} failures", "bar": "0 failures", "peer": None, "passed": n > 0 and not wrong})
+            print("\n".join(wrong), *rows[-1].values(), sep="  ", flush=True)
+        failed = sum(not row["passed"] for row in rows)
+    (build / "show").mkdir(exist_ok=True)
+    (build / "show/inject.json").write_text(json.dumps({"name": "inject", "command": "make show-inject", "rows": rows}, indent=1))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only")
+    parser.add_argument("--most", type=int, default=0, help="points of each class at most (0: all)")
+    options = parser.parse_args()
+    sys.exit(main(options.build, options.only, options.most))
