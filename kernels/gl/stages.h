@@ -190,19 +190,62 @@ static inline float stage_coverage(const struct point *p)
 	return c.x * c.x + c.y * c.y <= 1.0f ? 1.0f : 0.0f;
 }
 
-/* The texel of a bitmap or pixel rectangle under a fragment. */
-static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, const struct fragment *f,
-                                                       uint32_t *kind)
-{
-	struct vec4 a = v4_load(p->vertex[0]->color[1]);
-	struct vec4 c = v4_add(a, v4_add(v4_scale(v4_sub(v4_load(p->vertex[1]->color[1]), a), f->b1),
-	                                 v4_scale(v4_sub(v4_load(p->vertex[2]->color[1]), a), f->b2)));
-	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(a.z + 0.5f)];
-	float column = M_MAX(M_FLOOR(c.x), 0.0f), row = M_MAX(M_FLOOR(c.y), 0.0f);
+/* A pixel rectangle's extent along one axis: a place in the window (y from the top) and the texel there, at either end. */
+struct stage_extent {
+	float place[2], texel[2]; /* by ascending texel */
+};
 
-	*kind = (uint32_t)(a.w + 0.5f);
-	column = M_MIN(column, (float)(image->width - 1u));
-	row = M_MIN(row, (float)(image->height - 1u));
+static inline struct stage_extent stage_extent_of(const struct point *p, uint32_t axis)
+{
+	struct stage_extent e;
+
+	for (uint32_t i = 0u; i < 3u; i++) {
+		const float texel = p->vertex[i]->color[1][axis], place = p->vertex[i]->size[axis];
+
+		if (i == 0u || texel < e.texel[0]) {
+			e.texel[0] = texel;
+			e.place[0] = place;
+		}
+		if (i == 0u || texel > e.texel[1]) {
+			e.texel[1] = texel;
+			e.place[1] = place;
+		}
+	}
+	return e;
+}
+
+/*
+ * The texel that one axis of a rectangle has at a pixel, in the order of operations that llvmpipe (22.3.6) has for a texture's coordinate:
+ * zooms often put the middle of a pixel on the border of two texels.
+ * @param base    the end at which its plane of coordinates stands on the axis
+ * @param across  the rectangle's size along the other axis, signed from its base
+ */
+static inline float stage_texel(const struct stage_extent *e, int base, float across, uint32_t pixel, uint32_t n)
+{
+	const float from = e->texel[base] / (float)n, step = from - e->texel[!base] / (float)n, size = e->place[base] - e->place[!base];
+	const float along = step * (across * (1.0f / (size * across)));
+
+	return M_MIN(M_MAX(M_FLOOR(M_FMA(along, (float)pixel, from - along * (e->place[base] - 0.5f)) * (float)n), 0.0f), (float)(n - 1u));
+}
+
+/*
+ * The texel of a bitmap or pixel rectangle under a fragment; y from the top. llvmpipe's planes stand on the last column's end, and on the
+ * row's end where a triangle has two corners; those of a mirrored rectangle on the first column's end and the last row's.
+ */
+static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, uint32_t x, uint32_t y, uint32_t *kind)
+{
+	const struct stage_extent columns = stage_extent_of(p, 0u), rows = stage_extent_of(p, 1u);
+	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(p->vertex[0]->color[1][2] + 0.5f)];
+	const int mirrored = (columns.place[1] > columns.place[0]) == (rows.place[1] > rows.place[0]);
+	int high = 0, at_column = !mirrored, at_row;
+	float column, row;
+
+	for (uint32_t i = 0u; i < 3u; i++)
+		high += p->vertex[i]->color[1][1] == rows.texel[1];
+	at_row = mirrored || high == 2;
+	column = stage_texel(&columns, at_column, rows.place[!at_row] - rows.place[at_row], x, image->width);
+	row = stage_texel(&rows, at_row, columns.place[at_column] - columns.place[!at_column], y, image->height);
+	*kind = (uint32_t)(p->vertex[0]->color[1][3] + 0.5f);
 	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
 }
 
@@ -288,7 +331,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border leaves depth even where it ends */
 		drawn = a->n_slots != 0u;
 	if (drawn && p.geometry->flags & GEOMETRY_PIXELS) {
-		group = stage_pixel_group(t, &p, &f, &kind);
+		group = stage_pixel_group(t, &p, x, a->height - 1u - y, &kind);
 		drawn = kind != SCENE_BITMAP || *group;
 	}
 	if (!drawn) {

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """
 The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them: tests/real/panels/.
-Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms that put a pixel's centre on an edge between two.
+Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
+between two.
 """
 from helpers import check_same_pictures, finish
 

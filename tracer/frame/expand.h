@@ -17,7 +17,7 @@ struct expand_input {
 	enum prepared_shape shape;
 	const struct scene_rectangle *rectangles; /* [mesh vertices]; NULL: it draws no bitmaps or pixel rectangles */
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons not drawn in this shape */
-	uint32_t height, depth_bits;
+	uint32_t width, height, depth_bits;
 	uint32_t from_below; /* scene.samples_from_below */
 	const struct shaded_vertex *vertices; /* [mesh vertices] */
 	const float (*texcoords)[4];          /* [mesh vertices][unit_count] */

@@ -86,6 +86,12 @@ static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float
 		place[i] = fminf(fmaxf(corner + kept[i] * zoom, -2 * FARTHEST), 2 * FARTHEST);
 }
 
+/* A place in the window by way of clip space and back, as Mesa has it, and to the same bits. scale: half the window's size, < 0 to turn it */
+static float through_clip(float place, uint32_t size, float scale)
+{
+	return fmaf(scale, place / (float)size * 2 - 1, (float)size * 0.5f);
+}
+
 int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32_t i, uint32_t draw)
 {
 	const struct scene_rectangle *r = &in->rectangles[i];
@@ -99,11 +105,13 @@ int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32
 	e.z = fminf(fmaxf(corner[2], 0), 1);
 	keep_near(corner[0], r->zoom[0], r->width, column, x);
 	keep_near(corner[1], r->zoom[1], r->height, row, y);
-	for (int k = 0; k < 4; k++) {
-		int right = k == 1 || k == 2, high = k >= 2;
+	/* The second corner first: cut from there to the last one, as Mesa cuts it; see stage_texel. */
+	for (int k = 1; k < 5; k++) {
+		int right = k == 1 || k == 2, high = k == 2 || k == 3;
 
-		expand_add_smooth_corner(in, out, &e, x[right], (float)in->height - y[high],
-		                  (float[4]){ column[right], row[high], (float)r->texture, (float)r->kind });
+		expand_add_smooth_corner(in, out, &e, through_clip(x[right], in->width, (float)in->width * 0.5f),
+		                         through_clip(y[high], in->height, (float)in->height * -0.5f),
+		                         (float[4]){ column[right], row[high], (float)r->texture, (float)r->kind });
 	}
 	expand_add_triangles(in, out, draw);
 	return 0;

@@ -64,7 +64,7 @@ static int expand_instance(struct job *job, uint32_t i)
 	float (*texcoords)[4] = malloc((n_coords + 1) * sizeof(*texcoords));
 	struct expand_input in = { .mesh = scene->meshes[scene->instances[p->instances[i].scene_instance].mesh],
 		                   .material = m, .units = scene->units + m->unit_first, .view = &p->views[g->view],
-		                   .shape = p->shapes[i], .cull = p->culls[i], .height = job->height,
+		                   .shape = p->shapes[i], .cull = p->culls[i], .width = job->width, .height = job->height,
 		                   .depth_bits = scene->depth_bits, .from_below = scene->samples_from_below, .vertices = vertices,
 		                   .texcoords = (const float (*)[4])texcoords };
 	uint32_t first = scene->instances[p->instances[i].scene_instance].rectangle;

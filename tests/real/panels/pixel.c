@@ -179,8 +179,9 @@ static void draw_indexed_texture(int i)
 /* Zooms of any size and sign, from places off the pixels' corners. */
 static void draw_zoomed(int i)
 {
-	static const float zooms[6] = { 1, 0.6f, 2.2f, -1, -1.6f, 3 };
+	static const float drawn[6] = { 1, 0.5f, 2.5f, -0.5f, -1.5f, 3 }, copied[6] = { 1, 0.6f, 2.2f, -1, -1.6f, 3 };
 	const int x = choose(&i, 6), y = choose(&i, 6), copy = choose(&i, 2);
+	const float *zooms = copy ? copied : drawn;
 
 	place(0, 0);
 	glRasterPos3f(zooms[x] > 0 ? -0.77f : 0.77f, zooms[y] > 0 ? -0.61f : 0.83f, 0);
