@@ -35,6 +35,7 @@ static const struct verb {
 	{ "render", render_main, "ray trace frames of a trace to OpenEXR, PNG or JPEG" },
 	{ "raster", raster_main, "rasterize frames of a trace with a real OpenGL" },
 	{ "diff", diff_with_names, "score traced frames against rasterized ones, or any two sets" },
+	{ "denoise", denoise_main, "take the noise out of rendered frames" },
 	{ "film", film_main, "make a film of rendered frames, beside what the program showed" },
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
 	{ "farm", farm_main, "render on many machines, by array jobs of Slurm or by scripts" },

@@ -24,5 +24,6 @@ int devices_main(int argc, char **argv); /* render/devices.c */
 int bench_main(int argc, char **argv);   /* render/bench/bench.c */
 int raster_main(int argc, char **argv);  /* replay/verbs/raster.c */
 int film_main(int argc, char **argv);    /* film/film.c */
+int denoise_main(int argc, char **argv); /* film/denoise.c */
 int approve_main(int argc, char **argv); /* diff/baseline/approve.c */
 /* relume diff also takes what it must not know: diff/diff.h. */
