@@ -22,7 +22,7 @@ PROGRAMS = {**{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "direct
                for lighting in ("multitexture", "pass", "opengl")},
             "spheres": ("spheres",), "still_life": ("still_life",), "closed_hall": ("closed_hall",), "arena": ("arena",), "courtyard": ("courtyard", "--animate", "camera")}
 FRAME = 1
-RECORDED = 3
+FEW, RECORDED = 2, 8 # frames
 COST = 2 # times a frame without rules
 COSTED = ("queens", "lament") # of the shared recordings
 
@@ -61,13 +61,13 @@ def seconds(build, trace, folder, first, last, *look):
 
 
 def cost(build, trace, folder, first=0):
-    """A relit frame's processor time over that of one without rules; starting up is taken off. Least of three each."""
+    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least of three each."""
     rules = folder / "cost.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
-    frame = [min(seconds(build, trace, folder, first, first + RECORDED - 1, *look) for _ in range(3)) -
-             min(seconds(build, trace, folder, first, first, *look) for _ in range(3))
+    more = [min(seconds(build, trace, folder, first, first + RECORDED - 1, *look) for _ in range(3)) -
+             min(seconds(build, trace, folder, first, first + FEW - 1, *look) for _ in range(3))
              for look in ((), ("--look", rules))]
-    return frame[1] / max(frame[0], 1e-3)
+    return more[1] / max(more[0], 1e-3)
 
 
 def cost_row(name, times):
