@@ -329,8 +329,11 @@ size_t replay_contexts(struct replay *rp, const struct replay_context **out)
 	free(rp->contexts);
 	rp->contexts = calloc(x->n_contexts + 1, sizeof(*rp->contexts));
 	*out = rp->contexts;
-	if (!rp->contexts)
+	if (!rp->contexts) {
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		rp->lacks_counts = 1;
 		return 0;
+	}
 	for (size_t i = 0; i < x->n_contexts; i++) {
 		struct gls_context *ctx = x->contexts[i];
 		struct gls_drawable *d = ctx->state.ever_current ? gls_drawable_of(x, ctx->state.drawable) : NULL;
