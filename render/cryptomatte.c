@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/table.h"
+#include "scene/drawn.h"
 
 enum kind { DRAWS, MESHES, TEXTURES, N_KINDS };
 
@@ -60,25 +61,10 @@ static float as_float(uint32_t bits)
 
 /* --- Names --------------------------------------------------------------------------------------------------------- */
 
-/* The last instance that begins with a draw or before it. Instances stand in the order of draws. NULL: there is none */
-static const struct scene_instance *instance_of(const struct scene *scene, uint32_t draw)
-{
-	uint32_t low = 0, high = scene->n_instances;
-
-	while (low < high) {
-		const uint32_t middle = low + (high - low) / 2;
-
-		if (scene->instances[middle].draw <= draw)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low ? &scene->instances[low - 1] : NULL;
-}
-
 static void name_object(const struct scene *scene, enum kind kind, uint32_t draw, char name[64])
 {
-	const struct scene_instance *instance = instance_of(scene, draw);
+	const uint32_t number = scene_instance_of(scene, draw);
+	const struct scene_instance *instance = number == SCENE_NONE ? NULL : &scene->instances[number];
 	const struct scene_material *m = instance ? &scene->materials[instance->material] : NULL;
 	const uint64_t *hash = NULL;
 

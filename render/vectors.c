@@ -9,6 +9,7 @@
 #include "base/err.h"
 #include "base/table.h"
 #include "look/study/matrix.h"
+#include "scene/drawn.h"
 
 /* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions are floats. */
 #define OFF_TRIANGLE 1e-3
@@ -303,18 +304,9 @@ static void find_instances(struct work *w)
 	const struct scene *scene = w->scene;
 
 	for (size_t pixel = 0; pixel < (size_t)w->width * w->height; pixel++) {
-		const uint32_t draw = (uint32_t)w->id[pixel];
-		uint32_t low = 0, high = scene->n_instances;
+		const uint32_t draw = (uint32_t)w->id[pixel], i = draw ? scene_instance_of(scene, draw) : SCENE_NONE;
 
-		while (low < high) {
-			const uint32_t middle = low + (high - low) / 2;
-
-			if (scene->instances[middle].draw <= draw)
-				low = middle + 1;
-			else
-				high = middle;
-		}
-		w->instance[pixel] = draw && low && w->was[low - 1] ? low - 1 : SCENE_NONE;
+		w->instance[pixel] = i != SCENE_NONE && w->was[i] ? i : SCENE_NONE;
 	}
 }
 
