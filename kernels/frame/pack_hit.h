@@ -192,19 +192,7 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 /* As branch_normal. */
 WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
 {
-	struct pack_vec v[3], smooth;
-
-	if (p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR))
-		return n;
-	for (int k = 0; k < 3; k++) {
-		packf row[4];
-
-		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
-		v[k] = pack_scale(pack_vec(row[0], row[1], row[2]), p->weight[k]);
-	}
-	smooth = pack_normalize(pack_add(pack_add(v[0], v[1]), v[2]));
-	smooth = pack_choose(smooth, pack_scale(smooth, (packf)(-1)), pack_dot(smooth, n) < 0.0f);
-	return pack_choose(n, smooth, pack_dot(smooth, smooth) > 0.0f);
+	return p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR) ? n : pack_smooth_normal(t, p, n);
 }
 
 /* As branch_mirror, of what is smooth. */

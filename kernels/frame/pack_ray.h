@@ -98,15 +98,11 @@ WIDE_VECTORS static inline struct pack_vec pack_place_at(const struct pack_surfa
 	                pack_scale(s->corner[2], weight[2]));
 }
 
-/* As point_normal. */
-WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, const struct pack *p, const struct pack_surface *s)
+/* The vertices' normals at the points, on the side of n; n where they have none. */
+WIDE_VECTORS static inline struct pack_vec pack_smooth_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
 {
-	const packi seen = p->material->front_face == GL_CW ? p->front : ~p->front;
-	const struct pack_vec n = pack_scale(s->plane, select((packf)(1), (packf)(-1), seen));
 	struct pack_vec v[3], smooth;
 
-	if (!p->material->lighting)
-		return n;
 	for (int k = 0; k < 3; k++) {
 		packf row[4];
 
@@ -114,8 +110,17 @@ WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, c
 		v[k] = pack_scale(pack_vec(row[0], row[1], row[2]), p->weight[k]);
 	}
 	smooth = pack_normalize(pack_add(pack_add(v[0], v[1]), v[2]));
-	return pack_choose(n, pack_choose(smooth, pack_scale(smooth, (packf)(-1)), pack_dot(smooth, n) < 0.0f),
-	                   pack_dot(smooth, smooth) > 0.0f);
+	smooth = pack_choose(smooth, pack_scale(smooth, (packf)(-1)), pack_dot(smooth, n) < 0.0f);
+	return pack_choose(n, smooth, pack_dot(smooth, smooth) > 0.0f);
+}
+
+/* As point_normal. */
+WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, const struct pack *p, const struct pack_surface *s)
+{
+	const packi seen = p->material->front_face == GL_CW ? p->front : ~p->front;
+	const struct pack_vec n = pack_scale(s->plane, select((packf)(1), (packf)(-1), seen));
+
+	return p->material->lighting ? pack_smooth_normal(t, p, n) : n;
 }
 
 /* As stage_view_direction. */
