@@ -1,6 +1,7 @@
 #include "base/folder.h"
 
 #include <errno.h>
+#include <ftw.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -123,4 +124,16 @@ int folder_cached(const char *name, char *out, size_t size)
 	else if (home && *home)
 		n = snprintf(out, size, "%s/.cache/relume/%s", home, name);
 	return n > 0 && (size_t)n < size;
+}
+
+static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *at)
+{
+	(void)st, (void)kind, (void)at;
+	return remove(path);
+}
+
+void folder_remove(const char *path)
+{
+	if (nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS))
+		err_warn(path, "cannot be removed: %s", strerror(errno));
 }

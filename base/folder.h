@@ -31,3 +31,6 @@ int folder_cached(const char *name, char *out, size_t size);
 
 /** Make the folder of a file, and its parents. @return 0 or ERR_SYSTEM (reported) */
 int folder_make_for(const char *file);
+
+/** Remove a folder and all that is in it; links in it are not followed. What stays is named in a warning. */
+void folder_remove(const char *path);

@@ -4,7 +4,6 @@
  */
 #include "base/verbs.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -301,19 +300,6 @@ static int name_frames(const struct options *o, const struct frame_ends *ends, c
 	return err;
 }
 
-/** Remove a folder of plain files. */
-static void remove_folder(const char *folder)
-{
-	DIR *dir = opendir(folder);
-
-	for (struct dirent *file; dir && (file = readdir(dir));)
-		if (file->d_name[0] != '.')
-			unlinkat(dirfd(dir), file->d_name, 0);
-	if (dir)
-		closedir(dir);
-	rmdir(folder);
-}
-
 /** Make the output's folder, and a scratch folder beside the output: pictures arrive by rename. */
 static int make_scratch(const char *output, char *out, size_t size)
 {
@@ -347,7 +333,7 @@ static int raster(const struct options *o, const struct frame_ends *ends)
 	if (!err)
 		err = name_frames(o, ends, folder);
 	stop_display(server);
-	remove_folder(folder);
+	folder_remove(folder);
 	return err;
 }
 

@@ -6,7 +6,6 @@
  */
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <signal.h>
@@ -20,6 +19,7 @@
 #include <unistd.h>
 
 #include "base/err.h"
+#include "base/folder.h"
 #include "base/memory.h"
 #include "base/options.h"
 #include "base/verbs.h"
@@ -192,19 +192,12 @@ static int finish(pid_t pid, time_t until)
 	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *at)
-{
-	(void)st, (void)kind, (void)at;
-	return remove(path);
-}
-
 static void clear(const struct reduce *r, size_t i)
 {
 	char path[PATH_MAX];
 
 	trial_path(r, i, "", path);
-	if (nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS))
-		err_warn(path, "cannot be removed: %s", strerror(errno));
+	folder_remove(path);
 }
 
 /* Run the command on some sets side by side. codes: receive exit codes, as finish */
@@ -356,7 +349,7 @@ static int reduce(struct reduce *r)
 	err = find_fault(r);
 	for (int level = 0; level < N_LEVELS && !err; level++)
 		err = reduce_level(r, (enum level)level);
-	rmdir(r->folder);
+	folder_remove(r->folder);
 	if (!err)
 		err = write_calls(r, NULL, r->new, &bytes);
 	if (!err)
