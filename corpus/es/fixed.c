@@ -43,7 +43,7 @@ static void make_texture(void)
 
 static void set_up(void)
 {
-	static const GLfixed fog[4] = { X(0.2), X(0.1), X(0.3), X(1) }, diffuse[4] = { X(0.5), X(0.45), X(0.4), X(1) };
+	static const GLfixed fog[4] = { X(0.2), X(0.1), X(0.3), X(1) }, diffuse[4] = { X(1), X(0.875), X(0.75), X(1) };
 	static const GLfixed ambient[4] = { X(0.3), X(0.3), X(0.3), X(1) }, spot[3] = { 0, 0, X(-1) };
 
 	glViewport(0, 0, WIDTH, HEIGHT);
@@ -76,7 +76,7 @@ static void set_up(void)
 
 static void draw_cubes(int frame)
 {
-	static const GLfixed position[4] = { 0, 0, 0, X(1) }, shine[4] = { X(0.25), X(0.25), X(0.25), X(1) };
+	static const GLfixed position[4] = { 0, 0, 0, X(1) }, shine[4] = { X(1), X(1), X(1), X(1) };
 
 	glLightxv(GL_LIGHT0, GL_POSITION, position);
 	glEnable(GL_DEPTH_TEST);

@@ -136,7 +136,7 @@ static void draw_floor(void)
 
 static void draw_torus(int frame)
 {
-	static const GLfloat diffuse[4] = { 0.8f, 0.3f, 0.2f, 1 }, specular[4] = { 0.6f, 0.6f, 0.6f, 1 };
+	static const GLfloat diffuse[4] = { 0.8f, 0.3f, 0.2f, 1 }, specular[4] = { 1, 1, 1, 1 };
 	const GLfloat plane[4] = { 0.3f, 1, 0, 0.6f - 0.05f * (float)frame };
 
 	glPushMatrix();
@@ -144,7 +144,6 @@ static void draw_torus(int frame)
 	glMaterialfv(GL_FRONT_AND_BACK, GL_DIFFUSE, diffuse);
 	glMaterialfv(GL_FRONT_AND_BACK, GL_SPECULAR, specular);
 	glMaterialf(GL_FRONT_AND_BACK, GL_SHININESS, 25);
-	glDisable(GL_FOG);
 	glEnable(GL_LIGHTING);
 	glClipPlanef(GL_CLIP_PLANE0, plane);
 	glEnable(GL_CLIP_PLANE0);
@@ -162,7 +161,6 @@ static void draw_torus(int frame)
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
 	glDisable(GL_CLIP_PLANE0);
 	glDisable(GL_LIGHTING);
-	glEnable(GL_FOG);
 	glPopMatrix();
 }
 
