@@ -4,14 +4,13 @@
  */
 #pragma once
 
-#include "kernels/frame/pack.h"
-#include "kernels/frame/pack_combine.h"
+#include "kernels/frame/pack_light.h"
 #include "kernels/frame/pack_sample.h"
 
 /* Whether pack_shade knows all that a material asks for. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !m->surface.relit &&
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
 	            (!m->fog || m->fog_mode == GL_LINEAR) &&
 	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
 
@@ -183,8 +182,9 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 }
 
 /* As point_finish_in_fog. */
-WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
-                                                         const struct pack_color *lit, const struct pack_color *secondary, packf fog)
+WIDE_VECTORS static inline struct pack_color pack_finish_without(const struct tables *t, const struct pack *p,
+                                                                 const struct pack_texturing *texturing, const struct pack_color *lit,
+                                                                 const struct pack_color *secondary, packf fog, uint without)
 {
 	__global const struct scene_material *m = p->material;
 	struct pack_color color = *lit;
@@ -192,6 +192,8 @@ WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t,
 	for (uint i = 0; i < m->unit_count; i++) {
 		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
 
+		if (unit->unit + 1 == without)
+			continue;
 		color = unit->env_mode == GL_COMBINE ?
 		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
 		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i], unit->env_color);
@@ -205,6 +207,21 @@ WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t,
 	return color;
 }
 
+/* As point_finish. */
+WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
+                                                         const struct pack_color *lit, const struct pack_color *secondary)
+{
+	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, 0);
+}
+
+/* As point_finish_relit. */
+WIDE_VECTORS static inline struct pack_color pack_finish_relit(const struct tables *t, const struct pack *p,
+                                                               const struct pack_texturing *texturing, const struct pack_color *lit,
+                                                               const struct pack_color *secondary)
+{
+	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, p->material->surface.light_unit);
+}
+
 /* The colour that point_albedo_of starts from. from_vertices: as they are lit */
 static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lanes,
                                             const struct pack_color *from_vertices)
@@ -216,24 +233,12 @@ static inline struct pack_color pack_matte(const struct tables *t, const struct 
 	packf v[3][4];
 
 	if (!m->lighting)
-		return out;
+		return m->surface.light_unit == SCENE_LIGHT_IN_COLORS ? pack_matte_color(t, list, p, lanes) : out;
 	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
 		out.c[i] = pack_clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
 	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
 		return out;
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const uint from = lanes >> lane & 1 ? lane : popcount((lanes & -lanes) - 1);
-		__global const struct geometry *g = &t->geometries[list->instance[from]];
-
-		for (uint k = 0; k < 3; k++) {
-			const struct vec4 c = tables_color(t, g, LANE(p->number[k], uint, lane));
-
-			LANE(v[k][0], float, lane) = c.x;
-			LANE(v[k][1], float, lane) = c.y;
-			LANE(v[k][2], float, lane) = c.z;
-			LANE(v[k][3], float, lane) = c.w;
-		}
-	}
+	pack_vertex_colors(t, list, p, lanes, v);
 	for (int i = 0; i < 4; i++)
 		out.c[i] = pack_clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
 	return out;
@@ -248,7 +253,7 @@ static inline struct pack_color pack_albedo(const struct tables *t, const struct
 
 	for (int i = 0; i < 4; i++)
 		none.c[i] = 0.0f;
-	return pack_finish(t, p, texturing, &matte, &none, (packf)(1));
+	return pack_finish_without(t, p, texturing, &matte, &none, (packf)(1), p->material->surface.light_unit);
 }
 
 /* As pixel_nudge. */
@@ -273,6 +278,30 @@ static inline void pack_store_relit(__global struct shaded *out, uint lane, cons
 }
 
 /*
+ * As stage_relit, with the emission.
+ * color: by GL's own lighting
+ * lights: of vertices; receives those that light the points where rules light them anew
+ */
+static inline struct pack_color pack_direct(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                            const struct pack_texturing *texturing, const struct pack_color *color, packu *lights)
+{
+	__global const struct scene_material *m = p->material;
+	struct pack_color out = *color;
+	struct pack_lit_here here;
+	struct pack_surface s;
+
+	if (m->surface.relit) {
+		pack_surface(&a->tables, p, &s);
+		pack_lit_here(a, list, p, &s, lanes, &here);
+		out = pack_finish_relit(&a->tables, p, texturing, &here.color, &here.secondary);
+		*lights = here.lights;
+	}
+	for (int i = 0; i < 3; i++)
+		out.c[i] += m->surface.emission[i];
+	return out;
+}
+
+/*
  * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
  * @return the lanes that it has done: none of slivers
  */
@@ -292,16 +321,16 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	if (!lanes)
 		return 0;
 	pack_texture(a, list, &p, lanes, kept, &texturing);
-	if (a->n_slots) {
+	if (a->n_slots && !m->surface.relit) {
 		pack_between_relit(a, list, &p, lanes, kept, &from_vertices, &secondary);
 	} else {
 		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
 	}
-	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary, texturing.fog);
-	for (int i = 0; i < 3; i++) {
+	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary);
+	for (int i = 0; i < 3; i++)
 		color.c[i] = pack_nudge(color.c[i]);
-		direct.c[i] = color.c[i] + m->surface.emission[i];
-	}
+	lights = pack_lights(t, &p);
+	direct = pack_direct(a, list, &p, lanes, &texturing, &color, &lights);
 	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
@@ -313,7 +342,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 		albedo.c[i] = 0.0f;
 	if (a->albedo)
 		albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
-	lights = (pack_lights(t, &p) & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
+	lights = (lights & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
 	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];

@@ -96,12 +96,12 @@ WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global
 
 /* Colours of lanes that show. */
 WIDE_VECTORS static inline void put_colors(struct pack_pixels *to, const struct pack *p, const struct pack_color *gl,
-                                           const struct pack_color *shadowed, packi show)
+                                           const struct pack_color *shadowed, const struct pack_color *direct, packi show)
 {
 	for (int i = 0; i < 3; i++) {
 		pack_put(&to->gl[i], gl->c[i], show);
 		pack_put(&to->shadowed[i], shadowed->c[i], show);
-		pack_put(&to->direct[i], shadowed->c[i] + p->material->surface.emission[i], show);
+		pack_put(&to->direct[i], direct->c[i], show);
 	}
 	pack_put(&to->gl[3], gl->c[3], show);
 	pack_put(&to->drawn, (packf)(1), show);
@@ -123,11 +123,11 @@ static inline void put_surface(const struct plain_arguments *a, struct plain_row
 	}
 }
 
-/* Rays to the lights that light them. */
+/* Rays to the lights that light them. lights: a bit for each that does */
 static inline void send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p, struct pack_surface *s,
-                             uint lanes)
+                             packu lights, uint lanes)
 {
-	const packu lights = pack_lights(&a->tables, p);
+	__global const struct scene_light *light = pack_lights_of(&a->tables, p->material);
 	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
 	struct pack_curve curve;
 
@@ -138,7 +138,7 @@ static inline void send_rays(const struct plain_arguments *a, const struct plain
 		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);
 
 		if (wanted)
-			pack_light_rays(p, s, &curve, back, &a->tables.lights[p->material->light_first + slot], wanted, row->list.item, rays);
+			pack_light_rays(p, s, &curve, back, &light[slot], wanted, row->list.item, rays);
 		for (uint left = lanes & ~wanted; left; left &= left - 1)
 			stage_no_ray(&rays[row->list.item[popcount((left & -left) - 1)]]);
 	}
@@ -150,10 +150,11 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 {
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
-	struct pack_color lit, secondary, color, shadowed;
+	struct pack_color lit, secondary, color, shadowed, direct;
 	struct pack_texturing texturing;
 	struct pack_surface surface;
 	struct pack p;
+	packu lights;
 	packi show;
 
 	p.material = &t->materials[g->material];
@@ -164,7 +165,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	show = pack_mask(lanes) & shows(a, p.material, p.depth);
 	pack_texture(s, &row->list, &p, lanes, kept, &texturing);
 	pack_lit_from_vertices(t, &p, &lit, &secondary);
-	color = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
+	color = pack_finish(t, &p, &texturing, &lit, &secondary);
 	for (int i = 0; i < 3; i++)
 		color.c[i] = pack_nudge(color.c[i]);
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE) {
@@ -174,18 +175,20 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 			pack_put(&row->pixels.albedo[i], albedo.c[i], show);
 	}
 	shadowed = color;
-	if (lanes & row->dimmed) {
+	if (lanes & row->dimmed && !p.material->surface.relit) {
 		pack_between_relit(s, &row->list, &p, lanes & row->dimmed, kept, &lit, &secondary);
-		lit = pack_finish(t, &p, &texturing, &lit, &secondary, texturing.fog);
+		lit = pack_finish(t, &p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
 			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
 	}
-	put_colors(&row->pixels, &p, &color, &shadowed, show);
+	lights = pack_lights(t, &p);
+	direct = pack_direct(s, &row->list, &p, lanes, &texturing, &shadowed, &lights);
+	put_colors(&row->pixels, &p, &color, &shadowed, &direct, show);
 	if (pack_wants_surface(&a->request) || (a->n_slots && !s->n_slots))
 		pack_surface(t, &p, &surface);
 	put_surface(a, row, &p, &surface, show);
 	if (a->n_slots && !s->n_slots)
-		send_rays(a, row, &p, &surface, lanes);
+		send_rays(a, row, &p, &surface, lights, lanes);
 	return lanes;
 }
 
@@ -240,13 +243,15 @@ static inline void shade_one(const struct plain_arguments *a, const struct shade
 static inline void shade_row(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
                              struct plain_kept *kept)
 {
+	__global const struct scene_material *m;
 	uint material;
 
 	while (lanes) {
 		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->list, lanes, &material);
 		uint done = 0;
 
-		if (same & bit && pack_is_plain(s, &a->tables.materials[material]) && pack_knows_rays(&a->tables.materials[material]))
+		m = &a->tables.materials[material];
+		if (same & bit && pack_is_plain(s, m) && pack_knows_rays(m))
 			done = shade_lanes(a, s, row, same, &kept->pack);
 		if (!(done & bit)) {
 			shade_one(a, s, row, popcount(bit - 1), kept);

@@ -63,25 +63,38 @@ static inline void send_alone(const struct hit_ray_arguments *a, uint item)
 		hit_ray_item(a, at);
 }
 
+/* A bit for each light that lights a hit. */
+static inline packu lights_at(const struct hit_ray_arguments *a, const struct pack_points *q)
+{
+	const struct shade_arguments s = { .tables = a->tables };
+	struct pack_lit_here here;
+
+	if (!q->p.material->surface.relit)
+		return pack_lights(&a->tables, &q->p);
+	pack_lit_here(&s, &q->list, &q->p, &q->surface, q->lanes, &here);
+	return here.lights;
+}
+
 /* @return 0: one of the lights has a size */
 static inline int send_lanes(const struct hit_ray_arguments *a, struct pack_points *q, __global const struct scene_material *m)
 {
-	const uint n_slots = a->n_rays / a->n;
+	const uint n_slots = a->n_rays / a->n, n_lights = m->surface.relit ? m->surface.light_count : m->light_count;
+	__global const struct scene_light *light = pack_lights_of(&a->tables, m);
 	struct pack_curve curve;
 	packu lights;
 
-	for (uint slot = 0; slot < min(n_slots, (uint)m->light_count); slot++)
-		if (a->tables.lights[m->light_first + slot].radius > 0.0f)
+	for (uint slot = 0; slot < min(n_slots, n_lights); slot++)
+		if (light[slot].radius > 0.0f)
 			return 0;
 	pack_place_hits(&a->tables, a->rays, m, q);
-	lights = pack_lights(&a->tables, &q->p) & 255;
+	lights = lights_at(a, q) & 255;
 	pack_curve_of(&a->tables, &q->p, &curve);
 	for (uint slot = 0; slot < n_slots; slot++) {
 		__global struct ray *rays = a->out + slot * a->n;
 		const uint wanted = q->lanes & pack_bits((lights >> slot & 1) != 0);
 
 		if (wanted)
-			pack_light_rays(&q->p, &q->surface, &curve, q->back, &a->tables.lights[m->light_first + slot], wanted, q->list.item, rays);
+			pack_light_rays(&q->p, &q->surface, &curve, q->back, &light[slot], wanted, q->list.item, rays);
 		for (uint left = q->lanes & ~wanted; left; left &= left - 1)
 			stage_no_ray(&rays[q->list.item[popcount((left & -left) - 1)]]);
 	}
@@ -158,22 +171,23 @@ static inline void absorb(const struct tables *t, const struct pack_points *q, s
 static inline struct pack_vec color_of(const struct shade_arguments *s, const struct pack_points *q, const struct pack_texturing *texturing,
                                        struct pack_kept *kept, struct pack_color *lit)
 {
-	__global const float *emission = q->p.material->surface.emission;
 	struct pack_color secondary, color, relit;
 	uint dimmed = 0;
+	packu lights;
 
-	for (uint left = s->n_slots ? q->lanes : 0; left; left &= left - 1)
+	for (uint left = s->n_slots && !q->p.material->surface.relit ? q->lanes : 0; left; left &= left - 1)
 		if (stage_dimmed(s->visibility, s->n_slots, s->n, q->list.item[popcount((left & -left) - 1)]))
 			dimmed |= left & -left;
 	pack_lit_from_vertices(&s->tables, &q->p, lit, &secondary);
-	color = pack_finish(&s->tables, &q->p, texturing, lit, &secondary, texturing->fog);
+	color = pack_finish(&s->tables, &q->p, texturing, lit, &secondary);
 	if (dimmed) {
 		pack_between_relit(s, &q->list, &q->p, dimmed, kept, &relit, &secondary);
-		relit = pack_finish(&s->tables, &q->p, texturing, &relit, &secondary, texturing->fog);
+		relit = pack_finish(&s->tables, &q->p, texturing, &relit, &secondary);
 		for (int i = 0; i < 3; i++)
 			color.c[i] = select(color.c[i], relit.c[i], pack_mask(dimmed));
 	}
-	return pack_vec(color.c[0] + emission[0], color.c[1] + emission[1], color.c[2] + emission[2]);
+	color = pack_direct(s, &q->list, &q->p, q->lanes, texturing, &color, &lights);
+	return pack_vec(color.c[0], color.c[1], color.c[2]);
 }
 
 static inline void shade_hits(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,

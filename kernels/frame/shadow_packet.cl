@@ -30,7 +30,7 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 	pack_measure(&surface);
 	pack_curve_of(&a->tables, &p, &curve);
 	back = pack_scale(pack_normalize(pack_view_direction(&p, 1)), (packf)(-1));
-	pack_light_rays(&p, &surface, &curve, back, &a->tables.lights[m->light_first + slot], lanes, list->item, rays);
+	pack_light_rays(&p, &surface, &curve, back, &pack_lights_of(&a->tables, m)[slot], lanes, list->item, rays);
 }
 
 /* Rays first .. end - 1 of a slot, sixteen at most. */
@@ -48,7 +48,7 @@ static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot,
 		const uint bit = lanes & -lanes, lane = popcount(bit - 1), same = pack_same_kind(&a->tables, &list, lanes, &material);
 		__global const struct scene_material *m = &a->tables.materials[material];
 
-		if (same & bit && pack_knows_rays(m) && !(a->tables.lights[m->light_first + slot].radius > 0.0f)) {
+		if (same & bit && pack_knows_rays(m) && !(pack_lights_of(&a->tables, m)[slot].radius > 0.0f)) {
 			send_lanes(a, &list, m, same, slot, a->rays + slot * a->n);
 			lanes &= ~same;
 		} else {

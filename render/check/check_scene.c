@@ -175,6 +175,12 @@ static void add_glass(struct made *m, uint32_t rings)
 	made_add_square(m, pane, (float[3]){ 1.2f, 1.2f, -5.5f }, (float[3]){ 0.8f, 0, 0.6f }, up, 0.9f, 1);
 }
 
+/* What rules light anew: by the second light alone. */
+static void relight(struct scene_material *m)
+{
+	m->surface.relit = m->surface.light_first = m->surface.light_count = 1;
+}
+
 /* A square above that shines. */
 static void add_lamp(struct made *m)
 {
@@ -204,6 +210,8 @@ int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, ui
 	add_things(m, rings);
 	if (scene == CHECK_MIRROR)
 		m->materials[floor + 2].surface.reflect = 0.7f; /* the first ball */
+	if (scene == CHECK_OPAQUE || scene == CHECK_MIRROR)
+		relight(&m->materials[floor + 3]); /* the second one */
 	if (scene == CHECK_BLENDED)
 		add_films(m);
 	if (scene == CHECK_STENCIL)

@@ -60,6 +60,23 @@ static void take_samples(struct made *t)
 	t->materials[0].samples_off = 2;
 }
 
+/* Lamps of rules, the last one a spot: for the wall in place of OpenGL's own lights, and for what OpenGL does not light. */
+static void take_lamps(struct made *t)
+{
+	struct scene_light *spot = &t->lights[made_add_light(t, 0.5f, 2, -5, 1)];
+
+	spot->spot_direction_eye[1] = -0.5f;
+	spot->spot_cutoff_deg = 50;
+	spot->spot_exponent = 4;
+	spot->attenuation[2] = 0.02f;
+	spot->specular[0] = 0.5f;
+	t->materials[0].surface.relit = t->materials[3].surface.relit = 1;
+	t->materials[0].surface.light_first = 1;
+	t->materials[0].surface.light_count = 2;
+	t->materials[3].surface.light_count = 3;
+	t->materials[3].lighting = 0;
+}
+
 /* As rules want it: light from all around, in which some see the ground; highlights that mirror what is near, a blended board that mirrors. */
 static void take_rules(struct made *t)
 {
@@ -76,6 +93,7 @@ static void take_rules(struct made *t)
 	t->materials[1].surface.hidden |= SCENE_SOLID;
 	t->materials[3].surface.hidden |= SCENE_NEAR_MIRROR;
 	t->materials[3].surface.reflect = 0.3f;
+	take_lamps(t);
 }
 
 START_TEST(test_device_against_twins)
