@@ -1,18 +1,19 @@
 /*
  * A cube over a floor, and what stood for light in its day: a shadow flattened onto the floor, a shadow volume in the stencil buffer, a
  * mirror drawn as the world behind it; or none of these, and a mirror by rtMaterialEXT. The light is at (2, 4, 1) of the world, or far
- * away in that direction; the mirror is the plane z = -3. From frame 1 on the viewer moves around.
+ * away in that direction; the mirror is the plane z = -3. From frame 1 on the viewer moves around. On a grid or gravel the shadow is
+ * flattened, too, but the floor is one picture without OpenGL's light: dark, with bright lines, or with grain.
  *
  *   cc -o tricks corpus/tricks.c -lglut -lGLU -lGL -lm
- *   tricks planar|directional|zpass|zfail|mirror|none|traced-mirror [--frames N]
+ *   tricks planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]
  */
 #include <math.h>
 
 #include "program.h"
 
-enum { PLANAR, DIRECTIONAL, ZPASS, ZFAIL, MIRROR, NONE, TRACED_MIRROR, N_KINDS };
+enum { PLANAR, DIRECTIONAL, ZPASS, ZFAIL, MIRROR, NONE, TRACED_MIRROR, GRID, GRAVEL, N_KINDS };
 
-static const char *const kinds[] = { "planar", "directional", "zpass", "zfail", "mirror", "none", "traced-mirror" };
+static const char *const kinds[] = { "planar", "directional", "zpass", "zfail", "mirror", "none", "traced-mirror", "grid", "gravel" };
 static int kind;
 static float light[4] = { 2, 4, 1, 1 };
 static const float corners[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { -1, 1, -1 }, { 1, 1, -1 }, { -1, -1, 1 }, { 1, -1, 1 }, { -1, 1, 1 }, { 1, 1, 1 } };
@@ -53,6 +54,37 @@ static void draw_floor(void)
 	glEnd();
 }
 
+static void make_picture(void)
+{
+	enum { SIZE = 64 };
+	static GLubyte texels[SIZE][SIZE][3];
+
+	for (int y = 0; y < SIZE; y++)
+		for (int x = 0; x < SIZE; x++)
+			for (int c = 0; c < 3; c++)
+				texels[y][x][c] = kind == GRAVEL ? (GLubyte)((x * 37 + y * 59 + x * y * 11) % 48) : x < 3 || y < 3 ? 180 : 16;
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, SIZE, SIZE, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+}
+
+/* One square, as nothing lights its vertices. It has no normal: the last one is the cube's. */
+static void draw_picture(void)
+{
+	glDisable(GL_LIGHTING);
+	glEnable(GL_TEXTURE_2D);
+	glColor3f(1, 1, 1);
+	glBegin(GL_QUADS);
+	for (int k = 0; k < 4; k++) {
+		const float x = k == 1 || k == 2 ? 6.0f : -6.0f, z = k < 2 ? 6.0f : -3.0f;
+
+		glTexCoord2f(x / 2, z / 2);
+		glVertex3f(x, 0, z);
+	}
+	glEnd();
+	glDisable(GL_TEXTURE_2D);
+	glEnable(GL_LIGHTING);
+}
+
 static void color(float r, float g, float b, float a)
 {
 	glColor4f(r, g, b, a);
@@ -64,7 +96,10 @@ static void draw_world(void)
 	glLightfv(GL_LIGHT0, GL_POSITION, light);
 	glEnable(GL_LIGHTING);
 	color(0.8f, 0.8f, 0.7f, 1);
-	draw_floor();
+	if (kind == GRID || kind == GRAVEL)
+		draw_picture();
+	else
+		draw_floor();
 	color(0.8f, 0.3f, 0.2f, 1);
 	glPushMatrix();
 	place_cube();
@@ -243,7 +278,7 @@ static void draw(void)
 	if (kind == MIRROR)
 		mirrored_world();
 	draw_world();
-	if (kind == PLANAR || kind == DIRECTIONAL)
+	if (kind == PLANAR || kind == DIRECTIONAL || kind == GRID || kind == GRAVEL)
 		flat_shadow();
 	if (kind == ZPASS || kind == ZFAIL)
 		volume_shadow();
@@ -262,6 +297,8 @@ static void init(void)
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHT0);
 	program_perspective(45, 0.5, 60);
+	if (kind == GRID || kind == GRAVEL)
+		make_picture();
 }
 
 int main(int argc, char **argv)
@@ -269,7 +306,7 @@ int main(int argc, char **argv)
 	for (kind = 0; argc > 1 && kind < N_KINDS && strcmp(argv[1], kinds[kind]) != 0;)
 		kind++;
 	if (argc < 2 || kind == N_KINDS) {
-		fprintf(stderr, "usage: %s planar|directional|zpass|zfail|mirror|none|traced-mirror [--frames N]\n", argv[0]);
+		fprintf(stderr, "usage: %s planar|directional|zpass|zfail|mirror|none|traced-mirror|grid|gravel [--frames N]\n", argv[0]);
 		return 2;
 	}
 	argv[1] = argv[0];

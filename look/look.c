@@ -411,6 +411,8 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.hidden &= ~SCENE_DOME_LIT;
 		m->surface.relit = 0;
 	}
+	if (m->surface.hidden & SCENE_NEAR_MIRROR && !scene->meshes[in->mesh]->normal)
+		m->surface.hidden |= SCENE_NO_NORMALS;
 	if (!m->surface.relit)
 		m->surface.light_unit = 0;
 	if (m->surface.relit) {

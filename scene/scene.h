@@ -64,6 +64,7 @@ struct scene_face {
 #define SCENE_NEAR_MIRROR 512u       /* nothing: it mirrors what is there, and keeps its own colour where nothing is */
 #define SCENE_FILM 1024u             /* lights: it is more seen through than seen, and casts no shadow */
 #define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
+#define SCENE_NO_NORMALS 4096u       /* nothing: a near mirror that GL does not light turns rays about its faces */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
 struct scene_surface {

@@ -192,7 +192,9 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 /* As branch_normal. */
 WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p, struct pack_vec n)
 {
-	return p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR) ? n : pack_smooth_normal(t, p, n);
+	const uint kind = p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS);
+
+	return p->material->lighting || kind != SCENE_NEAR_MIRROR ? n : pack_smooth_normal(t, p, n);
 }
 
 /* As branch_mirror, of what is smooth. */

@@ -54,12 +54,12 @@ static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
 	return into < 0.0f ? v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))) : d;
 }
 
-/* The normal that a mirror turns rays about: of a near one the surface's own, also where GL does not light it. */
+/* The normal that a mirror turns rays about: of a near one the surface's own, if it has any, also where GL does not light it. */
 static inline struct vec3 branch_normal(const struct point *p)
 {
 	struct vec3 n = point_normal(p), smooth;
 
-	if (p->material->lighting || !(p->material->surface.hidden & SCENE_NEAR_MIRROR))
+	if (p->material->lighting || (p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS)) != SCENE_NEAR_MIRROR)
 		return n;
 	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),

@@ -27,63 +27,6 @@ enum { SKIES = 64, SKY_TEXELS = 1024 };
 /* A floor has at least this share of what is seen. */
 #define LEAST_FLOOR 0.08
 
-enum { CORNERS = 9 }; /* of a triangle that five planes cut, and one more */
-
-/* Cut a polygon by a side of the view volume: what is there where the sum is not negative. */
-static unsigned cut(double (*p)[4], unsigned n, const double side[4])
-{
-	double out[CORNERS][4];
-	unsigned m = 0;
-
-	for (unsigned i = 0; i < n && m + 2 <= CORNERS; i++) {
-		const double *a = p[i], *b = p[(i + 1) % n];
-		double here = 0, there = 0;
-
-		for (int k = 0; k < 4; k++) {
-			here += a[k] * side[k];
-			there += b[k] * side[k];
-		}
-		if (here >= 0)
-			memcpy(out[m++], a, sizeof(out[0]));
-		if ((here >= 0) == (there >= 0))
-			continue;
-		for (int k = 0; k < 4; k++)
-			out[m][k] = a[k] + (b[k] - a[k]) * here / (here - there);
-		m++;
-	}
-	memcpy(p, out, m * sizeof(out[0]));
-	return m;
-}
-
-/*
- * The share of the window that a face covers, in front of everything or not.
- * size: receives half the window's width where it stands; undefined where the share is 0
- */
-static double share_of(const struct scene_view *view, const struct face *face, double *size)
-{
-	static const double sides[5][4] = { { 0, 0, 1, 1 }, { 1, 0, 0, 1 }, { -1, 0, 0, 1 }, { 0, 1, 0, 1 }, { 0, -1, 0, 1 } };
-	double projection[16], p[CORNERS][4], row = 0, area = 0, w = 0;
-	unsigned n = 3;
-
-	matrix_from_floats(projection, view->projection);
-	for (int c = 0; c < 3; c++)
-		matrix_transform(p[c], projection, (double[4]){ face->corner[c][0], face->corner[c][1], face->corner[c][2], 1 });
-	for (int k = 0; k < 5 && n; k++)
-		n = cut(p, n, sides[k]);
-	for (unsigned i = 0; i < n; i++) {
-		const double *a = p[i], *b = p[(i + 1) % n];
-
-		if (!(a[3] > 0) || !(b[3] > 0))
-			return 0;
-		area += (a[0] / a[3] * b[1] / b[3] - a[1] / a[3] * b[0] / b[3]) / 8;
-		w += a[3] / n;
-	}
-	for (int k = 0; k < 3; k++)
-		row += projection[4 * k] * projection[4 * k];
-	*size = w / sqrt(row);
-	return fabs(area);
-}
-
 static void note_size(double sizes[DOME_SIZES], double size, double weight)
 {
 	const double bin = 4 * log2(size) + DOME_SIZES / 2.0;
@@ -120,7 +63,7 @@ static void window_up(const struct scene_view *view, double out[3])
 /* times: so many faces it stands for */
 static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, unsigned times, const double world_from_eye[16])
 {
-	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], size, weight = fmin(1, times * share_of(view, face, &size)), side;
+	double up[3], normal[4] = { 0, 0, 0, 0 }, turned[4], size, weight = fmin(1, times * face_share(face, view->projection, &size)), side;
 
 	if (!(weight > 0))
 		return;
@@ -154,7 +97,7 @@ static void note_instance(struct dome *d, const struct scene *scene, const struc
 			note_face(d, &scene->views[in->view], &face, stride, world_from_eye);
 			continue;
 		}
-		share = fmin(1, stride * share_of(&scene->views[in->view], &face, &size));
+		share = fmin(1, stride * face_share(&face, scene->views[in->view].projection, &size));
 		d->lit += share;
 		if (share > 0)
 			note_size(d->sizes[1], size, share);

@@ -8,6 +8,7 @@
 #include "look/study/cast.h"
 #include "look/study/dome.h"
 #include "look/study/findings.h"
+#include "look/study/floor.h"
 #include "look/study/lamps.h"
 #include "look/study/lightmaps.h"
 #include "look/study/matrix.h"
@@ -37,6 +38,7 @@ struct study {
 	struct sun sun;
 	struct lamps lamps;
 	struct roles roles;
+	struct floors floors;
 	struct spared spared;
 	struct seen seen;
 	struct studio studio;
@@ -92,6 +94,8 @@ int study_add(struct study *study, const struct scene *scene)
 
 	if (!err)
 		err = shadows_add(&study->tricks, scene, &study->motion);
+	if (!err)
+		floors_add(&study->floors, scene, &study->motion, &study->tricks);
 	if (!err)
 		err = mirrors_add(&study->tricks, scene, &study->motion);
 	if (!err)
@@ -151,7 +155,8 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || shines
+	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) ||
+	             floors_write(&study->floors, NULL) || shines
 	             ? "surfaces:\n" : "surfaces: []\n");
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, maps, &study->solved, out);
@@ -159,6 +164,7 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 		sun_write_surfaces(out);
 	roles_write(&study->roles, m, shines || (maps == &study->baked && findings_relights(&study->solved)), out);
 	cast_write(&study->cast, out);
+	floors_write(&study->floors, out);
 	if (shines)
 		lamps_write_surfaces(&study->lamps, m, out);
 	seen_write(&study->seen, m, out);

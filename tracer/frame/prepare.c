@@ -307,7 +307,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	if (instance->flags & INSTANCE_SECONDARY)
 		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||
 		                       m->polygon_stipple != SCENE_NONE ||
-		                       m->surface.hidden & ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED);
+		                       m->surface.hidden & ~(SCENE_CARD | SCENE_FACETED | SCENE_DOME_LIT | SCENE_NEAR_MIRROR | SCENE_UNSHADED | SCENE_NO_NORMALS);
 }
 
 /* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the second. */
