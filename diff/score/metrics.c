@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/err.h"
+
 /** sRGB's transfer function for all codes, in double precision: metrics are compared to a millionth. */
 static void fill_linear(double linear[256])
 {
@@ -146,17 +148,18 @@ static void halve(double *plane, uint32_t width, uint32_t height)
 	}
 }
 
-static double ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, int n_scales)
+static int ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, int n_scales, double *out)
 {
 	static const double exponents[MS_SCALES] = { 0.0448, 0.2856, 0.3001, 0.2363, 0.1333 };
 	const size_t n = (size_t)width * height;
 	double result = 1, *memory;
 
+	*out = NAN;
 	if ((width < height ? width : height) >> (n_scales - 1) < SSIM_SIZE)
-		return NAN;
+		return 0;
 	memory = malloc((2 * n + 5 * (size_t)width) * sizeof(*memory));
 	if (!memory)
-		return NAN;
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	fill_luma(a, memory, n);
 	fill_luma(b, memory + n, n);
 	for (int scale = 0; scale < n_scales; scale++) {
@@ -175,17 +178,18 @@ static double ssim_over_scales(const uint8_t *a, const uint8_t *b, uint32_t widt
 		height /= 2;
 	}
 	free(memory);
-	return result;
+	*out = result;
+	return 0;
 }
 
-double metric_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height)
+int metric_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *out)
 {
-	return ssim_over_scales(a, b, width, height, 1);
+	return ssim_over_scales(a, b, width, height, 1, out);
 }
 
-double metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height)
+int metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *out)
 {
-	return ssim_over_scales(a, b, width, height, MS_SCALES);
+	return ssim_over_scales(a, b, width, height, MS_SCALES, out);
 }
 
 /* Colour difference. */
@@ -279,13 +283,14 @@ static int compare_doubles(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
-double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels)
+int metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels, double *out)
 {
 	double *differences = malloc((n_pixels ? n_pixels : 1) * sizeof(*differences));
-	double result = NAN, linear[256];
+	double linear[256];
 
+	*out = NAN;
 	if (!differences)
-		return NAN;
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	fill_linear(linear);
 	for (size_t i = 0; i < n_pixels; i++) {
 		double rgb[2][3], lab[2][3];
@@ -303,7 +308,7 @@ double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels)
 	}
 	qsort(differences, n_pixels, sizeof(*differences), compare_doubles);
 	if (n_pixels)
-		result = differences[(n_pixels - 1) * 95 / 100];
+		*out = differences[(n_pixels - 1) * 95 / 100];
 	free(differences);
-	return result;
+	return 0;
 }

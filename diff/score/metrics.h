@@ -1,4 +1,4 @@
-/* Metrics between two pictures, [height][width][3] codes. */
+/* Metrics between two pictures, [height][width][3] codes. Those that return an int need memory: 0, or ERR_SYSTEM (reported). */
 #pragma once
 
 #include <stddef.h>
@@ -15,12 +15,12 @@ double metric_mrse(const uint8_t *ref, const uint8_t *test, size_t n_pixels);
 
 /**
  * Structural similarity on luma (Rec.709 weights on codes): Wang et al. 2004, 11x11 Gaussian of sigma 1.5, K .01 and
- * .03, mean over windows that lie inside the picture; NAN below 11 pixels or without memory.
+ * .03, mean over windows that lie inside the picture; NAN below 11 pixels.
  */
-double metric_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height);
+int metric_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *out);
 
-/** Multi-scale SSIM (Wang et al. 2003) over five scales; NAN below 176 pixels or without memory. */
-double metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height);
+/** Multi-scale SSIM (Wang et al. 2003) over five scales; NAN below 176 pixels. */
+int metric_ms_ssim(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *out);
 
 /** CIE L*a*b* (D65) of linear Rec.709. */
 void metric_lab_from_linear(const double rgb[3], double lab[3]);
@@ -28,5 +28,5 @@ void metric_lab_from_linear(const double rgb[3], double lab[3]);
 /** Colour difference CIEDE2000 (Sharma, Wu and Dalal 2005), all k = 1. */
 double metric_ciede2000(const double lab1[3], const double lab2[3]);
 
-/** 95th percentile of CIEDE2000 over all pixels; NAN without memory. */
-double metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels);
+/** 95th percentile of CIEDE2000 over all pixels; NAN where there are none. */
+int metric_ciede2000_p95(const uint8_t *a, const uint8_t *b, size_t n_pixels, double *out);

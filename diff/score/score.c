@@ -40,9 +40,11 @@ static int measure_beauty(const struct gate_frame *f)
 		return err == ERR_INPUT ? 0 : err; /* there is none */
 	copy_ignored(ref, &beauty);
 	err = flip_compare(ref->rgb, beauty.rgb, ref->width, ref->height, NULL, &s->info.beauty_flip);
+	if (!err)
+		err = metric_ms_ssim(ref->rgb, beauty.rgb, ref->width, ref->height, &s->info.beauty_ms_ssim);
+	if (!err)
+		err = metric_ciede2000_p95(ref->rgb, beauty.rgb, n, &s->info.beauty_ciede_p95);
 	s->info.beauty_psnr_db = metric_psnr_db(ref->rgb, beauty.rgb, n);
-	s->info.beauty_ms_ssim = metric_ms_ssim(ref->rgb, beauty.rgb, ref->width, ref->height);
-	s->info.beauty_ciede_p95 = metric_ciede2000_p95(ref->rgb, beauty.rgb, n);
 	score_picture_free(&beauty);
 	return err;
 }
@@ -53,13 +55,12 @@ static int measure_info(const struct gate_frame *f)
 	const struct score_picture *ref = f->ref, *traced = &f->traced;
 	const size_t n = (size_t)ref->width * ref->height;
 	struct score_info *info = &f->score->info;
-	int err = 0;
+	int err = metric_ssim(ref->rgb, traced->rgb, ref->width, ref->height, &info->gl_ssim);
 
 	info->gl_psnr_db = metric_psnr_db(ref->rgb, traced->rgb, n);
-	info->gl_ssim = metric_ssim(ref->rgb, traced->rgb, ref->width, ref->height);
 	info->gl_rmse = metric_rmse(ref->rgb, traced->rgb, n);
 	info->gl_mrse = metric_mrse(ref->rgb, traced->rgb, n);
-	if (f->options->yee)
+	if (!err && f->options->yee)
 		err = f->options->yee(ref->rgb, traced->rgb, ref->width, ref->height, &info->gl_yee);
 	return err ? err : measure_beauty(f);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/err.h"
 #include "diff/score/metrics.h"
 #include "tests/case.h"
 
@@ -82,16 +83,25 @@ static void fill(uint8_t *pixels, int seed)
 				pixels[3 * (y * WIDTH + x) + c] = (uint8_t)((x * 3 + y * 2 + c * 40 + (x * y) % 23 * seed) % 256);
 }
 
+static double similarity(int (*metric)(const uint8_t *, const uint8_t *, uint32_t, uint32_t, double *), const uint8_t *one, const uint8_t *two,
+                         uint32_t width, uint32_t height)
+{
+	double out = -1;
+
+	ck_assert_int_eq(metric(one, two, width, height, &out), 0);
+	return out;
+}
+
 START_TEST(ssim)
 {
 	fill(a, 1);
 	fill(b, 3);
-	ck_assert_double_eq_tol(metric_ssim(a, b, WIDTH, HEIGHT), 0.4366558348, 1e-9); /* scikit-image 0.26.0 */
-	ck_assert_double_eq_tol(metric_ms_ssim(a, b, WIDTH, HEIGHT), 0.6991122712, 1e-9);
-	ck_assert_double_eq_tol(metric_ssim(a, a, WIDTH, HEIGHT), 1, 1e-12);
-	ck_assert_double_eq_tol(metric_ms_ssim(b, b, WIDTH, HEIGHT), 1, 1e-12);
-	ck_assert(isnan(metric_ssim(a, b, 10, 100)));
-	ck_assert(isnan(metric_ms_ssim(a, b, 175, 180)));
+	ck_assert_double_eq_tol(similarity(metric_ssim, a, b, WIDTH, HEIGHT), 0.4366558348, 1e-9); /* scikit-image 0.26.0 */
+	ck_assert_double_eq_tol(similarity(metric_ms_ssim, a, b, WIDTH, HEIGHT), 0.6991122712, 1e-9);
+	ck_assert_double_eq_tol(similarity(metric_ssim, a, a, WIDTH, HEIGHT), 1, 1e-12);
+	ck_assert_double_eq_tol(similarity(metric_ms_ssim, b, b, WIDTH, HEIGHT), 1, 1e-12);
+	ck_assert(isnan(similarity(metric_ssim, a, b, 10, 100)));
+	ck_assert(isnan(similarity(metric_ms_ssim, a, b, 175, 180)));
 }
 END_TEST
 
@@ -106,15 +116,35 @@ START_TEST(psnr)
 }
 END_TEST
 
+static double p95(void)
+{
+	double out = -1;
+
+	ck_assert_int_eq(metric_ciede2000_p95(a, b, N, &out), 0);
+	return out;
+}
+
 START_TEST(ciede2000_percentile)
 {
 	memset(a, 100, sizeof(a));
 	memcpy(b, a, sizeof(a));
-	ck_assert_double_eq(metric_ciede2000_p95(a, b, N), 0);
+	ck_assert_double_eq(p95(), 0);
 	memset(b, 200, 3 * N / 25); /* 4 % of the pixels */
-	ck_assert_double_eq(metric_ciede2000_p95(a, b, N), 0);
+	ck_assert_double_eq(p95(), 0);
 	memset(b, 200, 3 * N / 10);
-	ck_assert_double_gt(metric_ciede2000_p95(a, b, N), 20);
+	ck_assert_double_gt(p95(), 20);
+}
+END_TEST
+
+/* So many pixels have no room anywhere: an error, not a figure that is missing. */
+START_TEST(without_memory)
+{
+	const uint32_t much = 1u << 24;
+	double out;
+
+	ck_assert_int_eq(metric_ssim(a, b, much, much, &out), ERR_SYSTEM);
+	ck_assert_int_eq(metric_ms_ssim(a, b, much, much, &out), ERR_SYSTEM);
+	ck_assert_int_eq(metric_ciede2000_p95(a, b, (size_t)much * much, &out), ERR_SYSTEM);
 }
 END_TEST
 
@@ -127,5 +157,8 @@ int main(void)
 	tcase_add_test(tests, ssim);
 	tcase_add_test(tests, psnr);
 	tcase_add_test(tests, ciede2000_percentile);
+#ifndef __SANITIZE_ADDRESS__ /* which ends the process */
+	tcase_add_test(tests, without_memory);
+#endif
 	return run_case(tests, "metrics");
 }

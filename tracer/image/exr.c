@@ -307,6 +307,8 @@ int image_read_exr(struct image *img, const char *path)
 	if (!S_ISREG(status.st_mode))
 		return err_report(ERR_INPUT, path, "is not a file");
 	rc = exr_start_read(&file, path, &setup);
+	if (rc == EXR_ERR_OUT_OF_MEMORY)
+		return err_report(ERR_SYSTEM, path, "out of memory");
 	if (rc != EXR_ERR_SUCCESS)
 		return err_report(ERR_INPUT, path, "is not a readable OpenEXR file: %s", reason(rc));
 	result = read_layout(file, img, path, &y_first);
@@ -314,7 +316,9 @@ int image_read_exr(struct image *img, const char *path)
 		result = read_attributes(file, img);
 	if (!result) {
 		rc = read_chunks(file, img, y_first);
-		if (rc != EXR_ERR_SUCCESS)
+		if (rc == EXR_ERR_OUT_OF_MEMORY)
+			result = err_report(ERR_SYSTEM, path, "out of memory");
+		else if (rc != EXR_ERR_SUCCESS)
 			result = err_report(ERR_INPUT, path, "is damaged: %s", reason(rc));
 	}
 	exr_finish(&file);
