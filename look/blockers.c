@@ -8,6 +8,8 @@
 #include "base/mat4.h"
 #include "scene/backdrop.h"
 
+/* Of eye space's coordinates: rays are found in boxes that their triangles lie in by this much. */
+#define MARGIN 1e-4f
 #define CLUSTER 32u /* triangles that share a box; neighbours in a mesh mostly lie side by side */
 
 struct box {
@@ -19,6 +21,7 @@ struct blockers {
 	struct box *boxes;       /* of clusters, mesh after mesh */
 	uint32_t *first;         /* [mesh]: its first cluster; SCENE_NONE: not yet made */
 	float (*eye_inverse)[16]; /* [instance]: from eye to object space */
+	struct box *around;      /* [instance]: in eye space, of those that block */
 	uint8_t *blocks;         /* [instance] */
 };
 
@@ -65,7 +68,37 @@ static void box_cluster(const struct scene_mesh *mesh, uint32_t cluster, struct 
 			}
 }
 
-/* Boxes of all meshes that block. */
+/* A box in eye space around all clusters of an instance, a little wider than they are. */
+static struct box box_around(const struct blockers *b, const struct scene_instance *in)
+{
+	struct box out = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+	float far = 0;
+
+	for (uint32_t i = 0; i < cluster_count(b->scene->meshes[in->mesh]); i++) {
+		const struct box *box = &b->boxes[b->first[in->mesh] + i];
+
+		for (unsigned c = 0; c < 8; c++) {
+			const float corner[4] = { c & 1 ? box->high[0] : box->low[0], c & 2 ? box->high[1] : box->low[1], c & 4 ? box->high[2] : box->low[2], 1 };
+			float eye[4];
+
+			mat4_transform(eye, in->modelview, corner);
+			for (int k = 0; k < 3; k++) {
+				out.low[k] = fminf(out.low[k], eye[k]);
+				out.high[k] = fmaxf(out.high[k], eye[k]);
+				far = fmaxf(far, fabsf(eye[k]));
+			}
+			if (eye[3] != 1)
+				far = INFINITY;
+		}
+	}
+	for (int k = 0; k < 3; k++) {
+		out.low[k] -= MARGIN * far;
+		out.high[k] += MARGIN * far;
+	}
+	return out;
+}
+
+/* Boxes of all meshes and instances that block. */
 static int make_boxes(struct blockers *b)
 {
 	const struct scene *s = b->scene;
@@ -88,6 +121,9 @@ static int make_boxes(struct blockers *b)
 	for (uint32_t i = 0; i < s->n_meshes; i++)
 		for (uint32_t k = 0; b->first[i] != SCENE_NONE && k < cluster_count(s->meshes[i]); k++)
 			box_cluster(s->meshes[i], k, &b->boxes[b->first[i] + k]);
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		if (b->blocks[i])
+			b->around[i] = box_around(b, &s->instances[i]);
 	return 0;
 }
 
@@ -102,7 +138,8 @@ int blockers_create(const struct scene *scene, struct blockers **out)
 	b->first = malloc((scene->n_meshes + (size_t)1) * sizeof(*b->first));
 	b->eye_inverse = malloc((scene->n_instances + (size_t)1) * sizeof(*b->eye_inverse));
 	b->blocks = malloc(scene->n_instances + (size_t)1);
-	if (b->first && b->eye_inverse && b->blocks && make_boxes(b) == 0)
+	b->around = malloc((scene->n_instances + (size_t)1) * sizeof(*b->around));
+	if (b->first && b->eye_inverse && b->blocks && b->around && make_boxes(b) == 0)
 		return 0;
 	blockers_destroy(out);
 	return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -117,6 +154,7 @@ void blockers_destroy(struct blockers **blockers)
 	free(b->boxes);
 	free(b->first);
 	free(b->eye_inverse);
+	free(b->around);
 	free(b->blocks);
 	free(b);
 	*blockers = NULL;
@@ -127,7 +165,41 @@ int blockers_has(const struct blockers *b, uint32_t instance)
 	return b->blocks[instance];
 }
 
-/* --- Rays, in object space ---------------------------------------------------------------------------------------------- */
+/* --- Rays, in eye space ------------------------------------------------------------------------------------------------- */
+
+/* How a ray meets boxes: 1 / direction, and how far off it may be by rounding. */
+struct sight {
+	float from[3], over[3], t_max, margin;
+};
+
+static struct sight sight_of(const float from[3], const float direction[3], float t_max)
+{
+	struct sight s = { .t_max = t_max };
+
+	for (int k = 0; k < 3; k++) {
+		s.from[k] = from[k];
+		s.over[k] = 1 / direction[k];
+		s.margin = fmaxf(s.margin, MARGIN * fabsf(from[k]));
+	}
+	return s;
+}
+
+/* 0 where the ray passes by. What is no number counts as a hit. */
+static int may_meet(const struct sight *s, const struct box *box)
+{
+	float near = 0, far = s->t_max;
+
+	for (int k = 0; k < 3; k++) {
+		const float a = (box->low[k] - s->margin - s->from[k]) * s->over[k], b = (box->high[k] + s->margin - s->from[k]) * s->over[k];
+		const float first = a < b ? a : b, last = a < b ? b : a;
+
+		near = first > near ? first : near;
+		far = last < far ? last : far;
+	}
+	return !(near > far * 1.001f);
+}
+
+/* --- The same in object space ------------------------------------------------------------------------------------------- */
 
 struct line {
 	float from[3], d[3], t_max;
@@ -215,6 +287,7 @@ static unsigned meet_instance(const struct blockers *b, uint32_t i, const struct
 unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[3], const float direction[3], float t_max,
                      struct blocker_hit out[BLOCKERS_MOST])
 {
+	const struct sight sight = sight_of(from, direction, t_max);
 	unsigned n = 0;
 
 	for (uint32_t i = 0; i < b->scene->n_instances && n < BLOCKERS_MOST; i++) {
@@ -222,7 +295,7 @@ unsigned blockers_on(const struct blockers *b, uint32_t space, const float from[
 		float origin[4], towards[4];
 		struct line line = { .t_max = t_max };
 
-		if (!b->blocks[i] || b->scene->views[b->scene->instances[i].view].space != space)
+		if (!b->blocks[i] || b->scene->views[b->scene->instances[i].view].space != space || !may_meet(&sight, &b->around[i]))
 			continue;
 		mat4_transform(origin, b->eye_inverse[i], a);
 		mat4_transform(towards, b->eye_inverse[i], d);
