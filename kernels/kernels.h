@@ -138,7 +138,7 @@ typedef float element_float;
 	IN(frame_pixel, fourth) AND() VALUE(uint, n) AND() OUT(frame_pixel, frame)
 #define ARGUMENTS_add_pass(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, frame) AND() \
-	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_turn) */ \
+	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_takes_part) */ \
 	VALUE(uint, first) AND()            /* 1: there are no sums yet */ \
 	VALUE(uint, first_pixel) AND()      /* the number of the frame's first pixel among those of the sums */ \
 	VALUE(uint, radiant) AND()          /* as in compose_request */ \

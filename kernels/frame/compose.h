@@ -225,7 +225,7 @@ static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t it
 	GLOBAL const struct frame_pixel *pixel = &a->frame[item];
 	GLOBAL float *sum = a->sums + (a->first_pixel + item) * PASS_PARTS;
 
-	if (sample_turn(a->first_pixel + item) != a->turn)
+	if (!sample_takes_part(a->first_pixel + item, a->turn))
 		return;
 	for (uint32_t c = 0u; c < 3u; c++) {
 		sum[c] = compose_part(pixel->shadowed[c], a->radiant) + (a->first ? 0.0f : sum[c]);

@@ -105,6 +105,12 @@ static inline uint32_t sample_turn(uint32_t pixel)
 	return sample_hash(pixel + SAMPLE_JITTER) % SAMPLE_TURNS;
 }
 
+/* 1 where a pixel takes part in a turn. SAMPLE_TURNS is the turn of all pixels: in mode path, where noise hides bands. */
+static inline int sample_takes_part(uint32_t pixel, uint32_t turn)
+{
+	return turn == SAMPLE_TURNS || sample_turn(pixel) == turn;
+}
+
 /*
  * Sample `index` (1 and up; 0 is the pixel's centre) of the pixels of a turn: by how much it is off the centre, pixels. A step of
  * 1/256 pixel, to which vertices are snapped, is left at the sides: there the picture's own border may be cut away.

@@ -77,7 +77,8 @@ struct job {
 	union buffer_frame_pixel *frame; /* the sample's that is drawn */
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; pass 0 is its centre, and the last to be traced */
-	uint32_t turn;           /* which pixels take part in the other passes (sample_turn) */
+	uint32_t is_first;       /* of the passes that are summed up: there are no sums yet */
+	uint32_t turn;           /* which pixels take part in the other passes (sample_takes_part) */
 	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
 	struct scene_picture *picture;
 };

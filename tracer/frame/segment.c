@@ -146,7 +146,7 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 				for (int32_t x = x0; x < block_end(x0, r.x1); x++) {
 					uint32_t number = (uint32_t)y * job->width + (uint32_t)x, pixel = number - frame_first_pixel(job);
 
-					if (job->pass && sample_turn(number) != job->turn)
+					if (job->pass && !sample_takes_part(number, job->turn))
 						tr->counts[pixel] = 0;
 					tr->first[pixel] = next;
 					next += tr->counts[pixel];

@@ -4,12 +4,14 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/progress.h"
 #include "kernels/camera/camera.h"
 #include "kernels/frame/sample.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/emitters.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
+#include "tracer/frame/noise.h"
 #include "tracer/frame/picture.h"
 #include "tracer/frame/plain.h"
 #include "tracer/frame/secondary.h"
@@ -165,7 +167,7 @@ static int trace_band(struct job *job)
 		return err;
 	if (job->pass > 0) {
 		/* What was added in part cannot be added again. */
-		err = segment_add_pass(job, job->pass == job->n_passes - 1);
+		err = segment_add_pass(job, job->is_first);
 		return err == ERR_MEMORY ? device_report_lack(job->tr->dev) : err;
 	}
 	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
@@ -242,8 +244,6 @@ static int trace_pass(struct job *job)
 		release_band(job->tr);
 		err = place_frame(job, shift);
 	}
-	if (!err && job->pass == 0)
-		count_undrawn(job);
 	if (!err)
 		err = trace_bands(job);
 	forget_frame(job);
@@ -273,9 +273,90 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
 		picture->samples[i].unknown = 0;
 	err = trace_pass(&job);
+	count_undrawn(&job);
 	if (!err)
 		picture_keep(&tracer->drawn, scene, picture);
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
+}
+
+/* --- Samples ------------------------------------------------------------------------------------------------------- */
+
+/* A frame's samples on their way: what was told and measured of them. */
+struct sampling {
+	double start_s, last_s; /* of the first sample; where the last ended */
+	uint32_t next; /* after so many, the noise is measured and the preview shown; then again after half as many more */
+	struct noise noise;
+};
+
+static int show_all(struct job *job, struct image *img)
+{
+	int err = compose_start(job, rows_of_band(job), img);
+
+	job->pass = 0;
+	job->image = img;
+	return err ? err : trace_pass(job);
+}
+
+/* The picture of the samples so far. It leaves no trace in those to come. */
+static int show_preview(const struct job *job, uint32_t passes)
+{
+	struct job so_far = *job;
+	struct image img = { .width = 0 };
+	int err;
+
+	so_far.n_passes = passes + 1;
+	err = show_all(&so_far, &img);
+	if (!err)
+		err = job->options->preview(job->options->preview_user, &img);
+	image_free(&img);
+	return err;
+}
+
+/* After a pass: whether it was the last that is needed. passes: so many are summed up; one more is to come in any case */
+static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *enough)
+{
+	const struct tracer_options *o = job->options;
+	const double now = progress_clock_s() - s->start_s, taken = now - s->last_s;
+	int err = 0;
+
+	s->last_s = now;
+	*enough = o->seconds > 0 && now + (passes > 1 ? taken : 0) >= o->seconds; /* the first loads kernels, too */
+	if (passes < s->next || *enough)
+		return 0;
+	s->next += (s->next + 1) / 2;
+	if (o->noise > 0) {
+		float noise;
+
+		err = noise_measure(job, &s->noise, passes, &noise);
+		*enough = noise <= o->noise;
+	}
+	if (!err && !*enough && o->preview)
+		err = show_preview(job, passes);
+	s->last_s = progress_clock_s() - s->start_s;
+	return err;
+}
+
+/* All passes but the one through pixel centres. Where sampling may end early, in order: the first samples lie evenly by themselves. */
+static int sum_passes(struct job *job)
+{
+	const struct tracer_options *o = job->options;
+	const uint32_t n = job->n_passes, is_path = o->mode == TRACER_PATH;
+	const int in_order = is_path || o->seconds > 0 || o->noise > 0 || o->preview;
+	struct sampling s = { .start_s = progress_clock_s(), .next = 1 };
+	int err = 0, enough = 0;
+	uint32_t i = 1;
+
+	for (; i < n && !err && !enough; i++) {
+		job->pass = in_order ? i : n - i;
+		job->is_first = i == 1;
+		for (job->turn = is_path ? SAMPLE_TURNS : 0; job->turn < SAMPLE_TURNS + is_path && !err; job->turn++)
+			err = trace_pass(job);
+		if (!err)
+			err = is_enough(job, &s, i, &enough);
+	}
+	job->n_passes = i;
+	noise_free(&s.noise);
+	return err;
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
@@ -283,7 +364,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 {
 	struct tracer_options known = *options;
 	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width, .height = scene->height,
-		           .n_passes = options->samples ? options->samples : 1, .image = img };
+		           .n_passes = options->samples ? options->samples : 1 };
 	int err = 0;
 
 	if (check_size(scene) != 0)
@@ -292,13 +373,12 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		known.rays = 16;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
 	/* The pass through pixel centres comes last: values that are no means are its own. */
-	for (job.pass = job.n_passes - 1; job.pass > 0 && !err; job.pass--)
-		for (job.turn = 0; job.turn < SAMPLE_TURNS && !err; job.turn++)
-			err = trace_pass(&job);
+	err = sum_passes(&job);
 	if (!err)
-		err = compose_start(&job, rows_of_band(&job), img);
-	if (!err)
-		err = trace_pass(&job);
+		err = show_all(&job, img);
+	if (!err && job.n_passes < options->samples)
+		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);
+	count_undrawn(&job);
 	if (err)
 		image_free(img);
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;

@@ -29,6 +29,11 @@ struct tracer_options {
 	int display;      /* 1: channels keep GL's display-referred numbers; 0: linear light */
 	unsigned depth;   /* bounces at most */
 	unsigned samples; /* of a pixel, which is their mean; spread differently in each (kernels/frame/sample.h); 0 counts as 1 */
+	double seconds;   /* where above 0, no sample begins that would end later; the picture then depends on time */
+	float noise;      /* where above 0, none begins once the picture is less noisy than this (noise.h) */
+	/* Where not NULL, shown a whole picture of the samples so far, now and then. @return 0, or ERR_* (reported), which ends the frame */
+	int (*preview)(void *user, struct image *img);
+	void *preview_user;
 	unsigned rays;    /* rays to each light that has a size, and into the surroundings, a sample; 0 counts as 16 */
 	float clamp;      /* of mode path: the most light that a path may bring, but by one mirror or glass alone; 0: no bound */
 	float reach;      /* of openness, eye-space units; 0: without end */
