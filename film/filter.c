@@ -484,6 +484,16 @@ static void drop_channel(struct image *img, size_t i)
 	img->n_channels--;
 }
 
+/* Files take a channel as it was rendered, where that is still there. */
+static void forget_halves(struct image *img, const float *plane)
+{
+	for (size_t i = 0; i < img->n_channels; i++)
+		if (img->channels[i].values == plane) {
+			free(img->channels[i].halves);
+			img->channels[i].halves = NULL;
+		}
+}
+
 int filter_put(const struct filter_frame *f, struct image *img)
 {
 	static const char *const effects[] = { "shadow.", "relight.", "reflect.", "refract." };
@@ -495,6 +505,7 @@ int filter_put(const struct filter_frame *f, struct image *img)
 		to[c] = image_channel(img, name);
 		if (!to[c])
 			return ERR_SYSTEM;
+		forget_halves(img, to[c]);
 	}
 	for (size_t i = 0; i < (size_t)f->width * f->height; i++)
 		for (int c = 0; c < 3; c++)
@@ -506,4 +517,19 @@ int filter_put(const struct filter_frame *f, struct image *img)
 				break;
 			}
 	return image_set_attribute(img, "relume:denoised", "1");
+}
+
+int filter_alone(struct image *img)
+{
+	struct filter_frame f = { .width = 0 };
+	int err = filter_take(img, NULL, &f);
+
+	if (!err)
+		err = filter_guess(&f);
+	if (!err)
+		err = filter_space(&f);
+	if (!err)
+		err = filter_put(&f, img);
+	filter_free(&f);
+	return err;
 }

@@ -45,3 +45,9 @@ int filter_space(struct filter_frame *frame);
 
 /** Into R, G and B; effect channels, which no longer add up to them, go. @return 0 or ERR_SYSTEM (reported) */
 int filter_put(const struct filter_frame *frame, struct image *img);
+
+/**
+ * All of this for a frame by itself.
+ * @return 0; ERR_INPUT (reported: channels are missing); ERR_SYSTEM (reported)
+ */
+int filter_alone(struct image *img);

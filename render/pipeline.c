@@ -10,9 +10,11 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/queue.h"
+#include "film/filter.h"
 #include "look/look.h"
 #include "look/unseen.h"
 #include "render/cryptomatte.h"
+#include "render/preview.h"
 #include "render/supply.h"
 #include "render/vectors.h"
 #include "scene/release.h"
@@ -305,17 +307,23 @@ static int tell_role(void *user, const char *text)
 /* The scene as the rules change it, traced. */
 static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
 {
+	struct preview preview = { settings, scene->frame };
+	struct tracer_options options = settings->tracer;
 	struct scene whole = { .instances = NULL }, changed = { .instances = NULL };
 	struct spare found = { .bits = NULL };
 	int err;
 
-	if (settings->tracer.mode == TRACER_GL)
-		return tracer_render(tracer, scene, &settings->tracer, img);
+	options.preview = settings->preview ? preview_show : NULL;
+	options.preview_user = &preview;
+	if (options.mode == TRACER_GL)
+		return tracer_render(tracer, scene, &options, img);
 	err = unseen_add(settings->look, scene, &whole);
 	if (!err)
 		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
 	if (!err)
-		err = tracer_render(tracer, &changed, &settings->tracer, img);
+		err = tracer_render(tracer, &changed, &options, img);
+	if (!err && settings->denoise)
+		err = filter_alone(img);
 	if (!err)
 		err = tell_harm(&found, scene, img);
 	if (!err && settings->look)
@@ -360,7 +368,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
 	/* some need the whole planes */
-	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion ? 0 : packer_count(w->state);
+	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->denoise ? 0 : packer_count(w->state);
 	err = render_scene(settings, tracer, scene, &picture->img);
 	if (!err)
 		err = tell_time(scene, &picture->img);

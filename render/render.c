@@ -170,6 +170,8 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 	p->progress = &progress;
 	p->jobs = s->jobs ? s->jobs : default_jobs();
 	part_sweep(s->output);
+	if (s->preview)
+		part_sweep(s->preview);
 	progress_begin_style(&progress, "rendered", total, s->progress);
 	err = pipeline_run(p);
 	progress_end(&progress);

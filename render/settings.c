@@ -126,6 +126,9 @@ static int take_progress(const struct options_row *row, const char *value, void 
 	return 0;
 }
 
+/* Of a pixel; the default where sampling may stop earlier. */
+#define MOST_SAMPLES 65536
+
 /* --- The options --------------------------------------------------------------------------------------------------- */
 
 #define ACCEL_TEXT(kind, name, build, spare, keep_from, help) name " (" help "), "
@@ -139,6 +142,8 @@ static const struct options_row rows[] = {
 	{ "output", 'o', "PATTERN", "file names: ####, %04d, $F4 or {frame} stand for the frame number; .exr holds all channels, .png and .jpg "
 	  "a picture to look at",
 	  options_text, AT(output), .kind = RUN, .is_required = 1, .use = CONFINE_MAKES },
+	{ "preview", 0, "PATTERN", "where a frame's picture is shown while samples still come in: .exr, .png or .jpg, always whole, made anew "
+	  "each time their number has grown by half", options_text, AT(preview), .kind = RUN, .use = CONFINE_MAKES },
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
 	{ "force", 0, NULL, "render all, the opposite of --skip-existing (default)", options_clear, AT(skip_existing), .kind = RUN },
@@ -155,7 +160,13 @@ static const struct options_row rows[] = {
 	  "pixels right and down what a pixel shows has moved since the frame before", take_aov, .at = 0 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
-	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = 65536 },
+	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = MOST_SAMPLES },
+	{ "noise", 0, "X", "stop sampling a frame once its noise, the root mean square of its pixels' standard errors over the mean brightness, "
+	  "is at most X, as 0.02; --samples is the most (then 65536 by default)", options_real, AT(tracer.noise), .low = 0, .high = 1e30 },
+	{ "time", 0, "S", "begin no sample of a frame that would end later than S seconds after its first; one there is always. How many they are is in "
+	  "attribute relume:samples, and another run may take more or fewer; with --noise, whichever stops first", take_seconds, AT(tracer.seconds) },
+	{ "denoise", 0, NULL, "take the noise out of each frame by itself; relume denoise does better where several frames are there",
+	  options_flag, AT(denoise) },
 	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
@@ -253,6 +264,40 @@ static int name_settings(struct settings *s, const struct options_line *line)
 
 /* --- The command line ---------------------------------------------------------------------------------------------- */
 
+/* Taking noise out needs these (filter_take). */
+#define DENOISE_NEEDS "reflect,refract,albedo,N,Z"
+
+/* Whether what is to be denoised is there. */
+static int check_denoised(struct settings *s)
+{
+	static const char *const needed[] = { "reflect", "refract", "albedo", "N", "Z" };
+
+	if (s->tracer.mode == TRACER_GL || s->tracer.mode == TRACER_NORMALS)
+		return err_report(ERR_USAGE, NULL, "--denoise: mode %s has no noise", settings_mode_names[s->tracer.mode]);
+	for (size_t i = 0; i < sizeof(needed) / sizeof(needed[0]) && s->tracer.aov; i++) {
+		int is_there = 0;
+
+		for (const char *at = s->tracer.aov; *at; at += strcspn(at, ",") + (at[strcspn(at, ",")] == ','))
+			take_word(at, strcspn(at, ","), needed[i], &is_there);
+		if (!is_there)
+			return err_report(ERR_USAGE, NULL, "--denoise needs %s; --aov leaves out %s", DENOISE_NEEDS, needed[i]);
+	}
+	return 0;
+}
+
+static int check_preview(const struct settings *s)
+{
+	if (!s->preview)
+		return 0;
+	if (display_kind_of(s->preview) == DISPLAY_NONE)
+		return display_refuse(s->preview);
+	if (strcmp(s->preview, s->output) == 0)
+		return err_report(ERR_USAGE, s->preview, "is the frame's own name; a preview needs another");
+	if (frame_pattern_has_number(s->output) && !frame_pattern_has_number(s->preview))
+		return err_report(ERR_USAGE, s->preview, "several frames need previews named with #### or {frame}");
+	return 0;
+}
+
 /* What kind of file is asked for, and whether the other options are for it. */
 static int choose_kind(struct settings *s)
 {
@@ -267,7 +312,7 @@ static int choose_kind(struct settings *s)
 	if (s->kind != DISPLAY_EXR && s->aov)
 		return err_report(ERR_USAGE, NULL, "--aov is for .exr; .png and .jpg have no channels but red, green and blue");
 	if (s->kind != DISPLAY_EXR)
-		s->tracer.aov = "";
+		s->tracer.aov = s->denoise ? DENOISE_NEEDS : "";
 	s->display.rounds = s->tracer.mode == TRACER_GL;
 	if (!(s->display.white > 0))
 		s->display.white = has_bounces ? 4 : 1;
@@ -290,7 +335,13 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last))
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
 		                  s->output);
+	if (!s->tracer.samples && (s->tracer.noise > 0 || s->tracer.seconds > 0))
+		s->tracer.samples = MOST_SAMPLES;
 	err = choose_kind(s);
+	if (!err && s->denoise)
+		err = check_denoised(s);
+	if (!err)
+		err = check_preview(s);
 	if (!err)
 		err = name_settings(s, &line);
 	if (!err)

@@ -29,6 +29,8 @@ struct settings {
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */
+	int denoise;                    /* 1: noise is taken out of each frame by itself (film/filter.h) */
+	const char *preview;            /* file names of pictures of the samples so far; NULL: none */
 	int cryptomatte;                /* 1: channels that render/cryptomatte.h adds */
 	enum display_kind kind;         /* of the files */
 	struct display_options display; /* of display pictures */
