@@ -85,6 +85,24 @@ START_TEST(test_draw_texture)
 }
 END_TEST
 
+/* A base level that no texture has (GL 2.1 sec. 3.8.10: the texture is incomplete) leaves the rectangle without a texture. */
+START_TEST(test_rectangle_without_level)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glTexParameteri", "eei", GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 100000000);
+	gl_call(&gl, "glEnable", "e", GL_TEXTURE_2D);
+	gl_call(&gl, "glDrawTexiOES", "iiiii", 8, 16, 1, 20, 10);
+	ck_assert_uint_eq(gl_error(&gl), 0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 1);
+	ck_assert_ptr_null(s->meshes[s->instances[0].mesh]->texcoord[0]);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* OES_point_size_array: points of one size in a row are one draw. */
 START_TEST(test_point_sizes)
 {
@@ -133,4 +151,4 @@ START_TEST(test_palette)
 }
 END_TEST
 
-GL_TESTS("es", test_fixed, test_generation, test_draw_texture, test_point_sizes, test_palette)
+GL_TESTS("es", test_fixed, test_generation, test_draw_texture, test_rectangle_without_level, test_point_sizes, test_palette)

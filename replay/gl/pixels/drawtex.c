@@ -25,17 +25,29 @@ static void change_attributes(struct gls_attribs *a)
 		a->texturing.units[u].gen_enabled = 0;
 }
 
+/* The 2D texture of a unit, and its first level; NULL where it is not enabled or has no texels. */
+static const struct gls_level *level_of(struct gls_exec *x, struct gls_state *st, unsigned unit, const struct gls_texture **out)
+{
+	const struct gls_texture *t = st->a.texturing.units[unit].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) : NULL;
+	const struct gls_level *l = t && t->parameters.base_level < GLS_MAX_LEVELS ? &t->levels[0][t->parameters.base_level] : NULL;
+
+	*out = t;
+	return l && l->width && l->height ? l : NULL;
+}
+
 /* Texture coordinates of corner (right, top) for each unit that has a 2D texture with texels. */
 static void set_coordinates(struct gls_exec *x, struct gls_state *st, struct gls_geometry *g, int right, int top)
 {
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
-		const struct gls_texture *t = st->a.texturing.units[u].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, u, GLS_TEXTURE_2D) : NULL;
-		const struct gls_level *l = t ? &t->levels[0][t->parameters.base_level] : NULL;
-		const int32_t *crop = t ? t->parameters.crop : NULL;
-		float *out = g->attribute[GLS_ATTR_TEXCOORD + u] + 4 * (size_t)g->n_vertices;
+		const struct gls_texture *t;
+		const struct gls_level *l = level_of(x, st, u, &t);
+		const int32_t *crop;
+		float *out;
 
-		if (!(g->varying >> (GLS_ATTR_TEXCOORD + u) & 1))
+		if (!l || !(g->varying >> (GLS_ATTR_TEXCOORD + u) & 1))
 			continue;
+		crop = t->parameters.crop;
+		out = g->attribute[GLS_ATTR_TEXCOORD + u] + 4 * (size_t)g->n_vertices;
 		out[0] = (float)(crop[0] + (right ? crop[2] : 0)) / (float)l->width;
 		out[1] = (float)(crop[1] + (top ? crop[3] : 0)) / (float)l->height;
 		out[2] = 0;
@@ -49,9 +61,9 @@ static uint32_t textured_units(struct gls_exec *x, struct gls_state *st)
 	uint32_t bits = 0;
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
-		const struct gls_texture *t = st->a.texturing.units[u].enabled >> GLS_TEXTURE_2D & 1 ? gls_texture_bound(x, st, u, GLS_TEXTURE_2D) : NULL;
+		const struct gls_texture *t;
 
-		if (t && t->levels[0][t->parameters.base_level].width && t->levels[0][t->parameters.base_level].height)
+		if (level_of(x, st, u, &t))
 			bits |= 1u << (GLS_ATTR_TEXCOORD + u);
 	}
 	return bits;
