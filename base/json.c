@@ -33,23 +33,42 @@ void json_end(struct json *j, char bracket)
 	j->has_items = 1;
 }
 
+/* The bytes of a character of well-formed UTF-8 (RFC 3629: not longer than need be, no surrogates, up to U+10FFFF); 0: there is none here. */
+static unsigned character(const unsigned char *p)
+{
+	const unsigned n = *p < 0x80 ? 1 : *p < 0xc2 ? 0 : *p < 0xe0 ? 2 : *p < 0xf0 ? 3 : *p < 0xf5 ? 4 : 0;
+
+	for (unsigned i = 1; i < n; i++)
+		if ((p[i] & 0xc0) != 0x80)
+			return 0;
+	if ((*p == 0xe0 && p[1] < 0xa0) || (*p == 0xed && p[1] > 0x9f) || (*p == 0xf0 && p[1] < 0x90) || (*p == 0xf4 && p[1] > 0x8f))
+		return 0;
+	return n;
+}
+
+/* The number of a character of up to three bytes that YAML's reader, which takes our JSON too, refuses as it is: controls, the byte order mark, ... */
+static unsigned unprintable(const unsigned char *p, unsigned n)
+{
+	const unsigned number = n == 1 ? *p : n == 2 ? (*p & 0x1fu) << 6 | (p[1] & 0x3f) : n == 3 ? (*p & 0xfu) << 12 | (p[1] & 0x3fu) << 6 | (p[2] & 0x3f) : 0;
+
+	return number < 0x20 || (number >= 0x7f && number < 0xa0) || number == 0xfeff || number >= 0xfffe ? number : 0;
+}
+
 /* Well-formed UTF-8 passes; any other byte is shown as the character of its number. */
 void json_string(struct json *j, const char *text)
 {
 	start_item(j);
 	fputc('"', j->out);
-	for (const unsigned char *p = (const unsigned char *)text; *p; p++) {
-		unsigned n = *p < 0x80 ? 0 : (*p & 0xe0) == 0xc0 ? 1 : (*p & 0xf0) == 0xe0 ? 2 : (*p & 0xf8) == 0xf0 ? 3 : 9;
-		unsigned k = 0;
-		while (k < n && (p[k + 1] & 0xc0) == 0x80)
-			k++;
+	for (const unsigned char *p = (const unsigned char *)text; *p;) {
+		unsigned n = character(p);
+
 		if (*p == '"' || *p == '\\')
 			fprintf(j->out, "\\%c", *p);
-		else if (*p < 0x20 || (*p >= 0x80 && k < n))
-			fprintf(j->out, "\\u%04x", *p);
+		else if (!n || unprintable(p, n))
+			fprintf(j->out, "\\u%04x", n ? unprintable(p, n) : *p);
 		else
-			for (fputc(*p, j->out); n; n--)
-				fputc(*++p, j->out);
+			fwrite(p, 1, n, j->out);
+		p += n ? n : 1;
 	}
 	fputc('"', j->out);
 }

@@ -251,6 +251,17 @@ static void write_text(FILE *out, const char *key, const char *text)
 	fputc('\n', out);
 }
 
+/** A file's name: without quotes where YAML takes it for text all the same. */
+static void write_name(FILE *out, const char *name)
+{
+	fputs("file: ", out);
+	if (isalpha((unsigned char)*name) && name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-")] == '\0')
+		fputs(name, out);
+	else
+		json_string(&(struct json){ .out = out }, name);
+	fputs(", ", out);
+}
+
 int baseline_write(const char *folder, const struct baseline_variant *v)
 {
 	struct part_file file;
@@ -269,8 +280,10 @@ int baseline_write(const char *folder, const struct baseline_variant *v)
 
 		fprintf(file.stream, "- {frame: %" PRIu64 ", width: %u, height: %u, ", f->frame, f->width, f->height);
 		if (f->file)
-			fprintf(file.stream, "file: %s, ", f->file);
-		fprintf(file.stream, "channels: \"%s\"}\n", f->channels);
+			write_name(file.stream, f->file);
+		fputs("channels: ", file.stream);
+		json_string(&(struct json){ .out = file.stream }, f->channels);
+		fputs("}\n", file.stream);
 	}
 	return part_close(&file, 0);
 }
