@@ -6,6 +6,27 @@
 #include "replay/gl/geometry/eval.h"
 #include "replay/gl/geometry/vertexarray.h"
 
+/* ---- what fits ---- */
+
+static int store_fits(const struct gls_pixel_store *s)
+{
+	const int32_t counts[] = { s->row_length, s->image_height, s->skip_rows, s->skip_pixels, s->skip_images };
+	int fits = s->alignment == 1 || s->alignment == 2 || s->alignment == 4 || s->alignment == 8;
+
+	for (size_t i = 0; i < sizeof(counts) / sizeof(counts[0]); i++)
+		fits &= counts[i] >= 0 && counts[i] <= 1 << 24; /* as glPixelStore takes them */
+	return fits;
+}
+
+static int arrays_fit(const struct gls_array *arrays)
+{
+	int fits = 1;
+
+	for (unsigned i = 0; i < N_GLS_ARRAYS; i++)
+		fits &= arrays[i].stride >= 0;
+	return fits;
+}
+
 /* ---- vertex arrays ---- */
 
 static void put_array_memory(struct saver *s, const struct gls_array *arrays)
@@ -58,6 +79,7 @@ static void *get_vertex_array(struct loader *l)
 	if (!object)
 		return NULL;
 	cursor_copy(&l->in, object, sizeof(*object));
+	l->in.failed |= !arrays_fit(object->arrays);
 	get_array_memory(l, object->arrays);
 	if (!loader_is_bad(l))
 		return object;
@@ -125,6 +147,12 @@ static int depth_fits(const struct gls_matrix_stack *loaded, const struct gls_ma
 	return loaded->max == made->max && loaded->depth < made->max;
 }
 
+/* Client state of a context or of its stack: what is a place in an array, a divisor or a size. */
+static int client_fits(const struct gls_client_attribs *c)
+{
+	return store_fits(&c->pack) && store_fits(&c->unpack) && c->active_texture < GLS_MAX_UNITS && arrays_fit(c->arrays);
+}
+
 /* Do all numbers fit that are places in arrays? */
 static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 {
@@ -136,7 +164,7 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
 		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
 	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&
-	       raw->a.texturing.active < GLS_MAX_UNITS && raw->client.active_texture < GLS_MAX_UNITS && !raw->begin_mode;
+	       raw->a.texturing.active < GLS_MAX_UNITS && client_fits(&raw->client) && !raw->begin_mode;
 }
 
 void snapshot_get_state(struct loader *l, struct gls_state *st)
@@ -166,7 +194,7 @@ void snapshot_get_state(struct loader *l, struct gls_state *st)
 			l->in.failed = 1;
 	for (unsigned i = 0; i < st->client_depth; i++) {
 		forget_memory(st->client_stack[i].client.arrays);
-		if (st->client_stack[i].client.active_texture >= GLS_MAX_UNITS)
+		if (!client_fits(&st->client_stack[i].client))
 			l->in.failed = 1;
 	}
 	st->maps = gls_maps_load(&l->in);
