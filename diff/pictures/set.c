@@ -296,12 +296,20 @@ fail:
 	return ERR_SYSTEM;
 }
 
-/** 1 where an OpenEXR file is tiled, deep or of several parts (version field, bits 9, 11 and 12): what image.h does not read. */
-static int is_foreign_exr(const char *path)
+/** A picture of any kind, by the first bytes of its file. */
+static int read_picture(const char *path, struct image *img)
 {
 	uint8_t head[8];
+	const int is_exr = read_head(path, head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0;
+	/* Version field, bits 9, 11 and 12: it is tiled, deep or of several parts, which image.h does not read. */
+	const int is_plain = is_exr && (head[5] & 0x1a) == 0;
+	int err = 0;
 
-	return read_head(path, head) && memcmp(head, "\x76\x2f\x31\x01", 4) == 0 && (head[5] & 0x1a) != 0;
+	if (strcasecmp(extension_of(path), "exr") == 0 && (is_plain || !is_exr))
+		return image_read_exr(img, path);
+	if (is_exr)
+		err = image_check_exr(path);
+	return err ? err : oiio_read(img, path);
 }
 
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img)
@@ -309,8 +317,7 @@ int set_read(const struct set *set, const struct set_entry *entry, struct image 
 	int err;
 
 	if (entry->path)
-		return strcasecmp(extension_of(entry->path), "exr") == 0 && !is_foreign_exr(entry->path)
-			? image_read_exr(img, entry->path) : oiio_read(img, entry->path);
+		return read_picture(entry->path, img);
 	err = add_record(set, REF_COLOR, entry->frame, img);
 	if (!err)
 		err = add_record(set, REF_DEPTH, entry->frame, img);

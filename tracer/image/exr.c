@@ -293,6 +293,18 @@ static exr_result_t read_chunks(exr_context_t file, const struct image *img, int
 	return rc;
 }
 
+int image_check_exr(const char *path)
+{
+	exr_context_initializer_t setup = context_setup();
+	exr_context_t file = NULL;
+	exr_result_t rc = exr_start_read(&file, path, &setup);
+
+	if (rc != EXR_ERR_SUCCESS)
+		return err_report(ERR_INPUT, path, "is not a readable OpenEXR file: %s", reason(rc));
+	exr_finish(&file);
+	return 0;
+}
+
 int image_read_exr(struct image *img, const char *path)
 {
 	exr_context_initializer_t setup = context_setup();

@@ -85,6 +85,13 @@ int image_write_exr(const struct image *img, const char *path);
  */
 int image_read_exr(struct image *img, const char *path);
 
+/**
+ * Check the head of any OpenEXR file, tiled or of several parts, too. The reader behind OpenImageIO (OpenEXR 3.1.5) believes sizes in it, and
+ * takes gigabytes for a file that is damaged there.
+ * @return 0, or ERR_INPUT (reported)
+ */
+int image_check_exr(const char *path);
+
 /** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also beyond [0,1]. */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);

@@ -1,5 +1,6 @@
 #include "tracer/image/oiio.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -22,6 +23,7 @@ namespace {
 /* Large enough for any frame, small enough that a lying header cannot take all memory. */
 constexpr int64_t MAX_PIXELS = int64_t(1) << 28;
 constexpr int MAX_CHANNELS = 256;
+constexpr int STRIP_ROWS = 64;
 
 /* Debian package fonts-dejavu-core. */
 constexpr const char *FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -31,33 +33,26 @@ bool is_integer(const OIIO::TypeDesc &format)
 	return !format.is_floating_point();
 }
 
-/** Copy channel `from` of interleaved pixels into a new channel of the image. */
-bool add_channel(struct image *img, const char *name, bool full_float, const std::vector<float> &pixels, int n_channels,
-                 int from)
-{
-	float *plane = image_add_channel(img, name, full_float);
-	const size_t n = size_t(img->width) * img->height;
+/** A channel of an image, and which one of a file's it is. */
+struct channel {
+	float *plane;
+	int from;
+};
 
-	if (!plane)
-		return false;
-	for (size_t i = 0; i < n; i++)
-		plane[i] = pixels[i * size_t(n_channels) + size_t(from)];
-	return true;
-}
-
-/** Channels of one part; `prefix` (a part's name and a dot, or nothing) goes before their names. */
-int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, const std::vector<float> &pixels,
-             const char *path)
+/** Channels of one part, all 0 yet; `prefix` (a part's name and a dot, or nothing) goes before their names. */
+int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, std::vector<channel> &out, const char *path)
 {
-	const auto full_float_at = [&spec](int c) { return spec.channelformat(c) != OIIO::TypeDesc::HALF; };
-	const bool full_float = full_float_at(0);
 	const bool grey = prefix.empty() && spec.nchannels <= 2 && spec.channel_name(0) != "R";
+	const auto add = [&](const char *name, int from) {
+		out.push_back({ image_add_channel(img, name, spec.channelformat(grey ? 0 : from) != OIIO::TypeDesc::HALF), from });
+		return out.back().plane != nullptr;
+	};
 
 	if (grey) {
 		for (const char *name : { "R", "G", "B" })
-			if (!add_channel(img, name, full_float, pixels, spec.nchannels, 0))
+			if (!add(name, 0))
 				return ERR_SYSTEM;
-		if (spec.nchannels == 2 && !add_channel(img, "A", full_float, pixels, 2, 1))
+		if (spec.nchannels == 2 && !add("A", 1))
 			return ERR_SYSTEM;
 	}
 	for (int c = 0; !grey && c < spec.nchannels; c++) {
@@ -65,8 +60,30 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 
 		if (name.empty() || name.size() >= sizeof(img->channels[0].name))
 			return err_report(ERR_INPUT, path, "channel %d has no usable name", c);
-		if (!image_channel(img, name.c_str()) && !add_channel(img, name.c_str(), full_float_at(c), pixels, spec.nchannels, c))
+		if (!image_channel(img, name.c_str()) && !add(name.c_str(), c))
 			return ERR_SYSTEM;
+	}
+	return 0;
+}
+
+/** Pixels of one part, in strips: a file that ends early costs what it holds, not what its head claims. */
+int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const std::vector<channel> &channels, const char *path)
+{
+	const int rows = std::min(spec.tile_width ? std::max(spec.tile_height, 1) : STRIP_ROWS, spec.height), n = spec.nchannels;
+	const size_t width = size_t(spec.width);
+	std::vector<float> strip(width * size_t(rows) * size_t(n));
+
+	for (int y = 0; y < spec.height; y += rows) {
+		const int end = std::min(y + rows, spec.height);
+		const bool good = spec.tile_width
+			? in.read_tiles(part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, 0, 1, 0, n, OIIO::TypeDesc::FLOAT, strip.data())
+			: in.read_scanlines(part, 0, spec.y + y, spec.y + end, 0, 0, n, OIIO::TypeDesc::FLOAT, strip.data());
+
+		if (!good)
+			return err_report(ERR_INPUT, path, "%s", in.geterror().c_str());
+		for (const channel &c : channels)
+			for (size_t i = 0; i < width * size_t(end - y); i++)
+				c.plane[size_t(y) * width + i] = strip[i * size_t(n) + size_t(c.from)];
 	}
 	return 0;
 }
@@ -137,12 +154,12 @@ int read_image(struct image *img, const char *path)
 			return err_report(ERR_INPUT, path, "part %d is deep: several samples a pixel are no picture yet", part);
 		if (spec.width != first.width || spec.height != first.height)
 			return err_report(ERR_INPUT, path, "part %d is of another size than the first one", part);
-		std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-		if (!in->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-			return err_report(ERR_INPUT, path, "%s", in->geterror().c_str());
 		img->width = uint32_t(spec.width);
 		img->height = uint32_t(spec.height);
-		int err = add_part(img, spec, prefix_of(spec, part), pixels, path);
+		std::vector<channel> channels;
+		int err = add_part(img, spec, prefix_of(spec, part), channels, path);
+		if (!err)
+			err = read_part(*in, spec, part, channels, path);
 		if (err)
 			return err;
 	}
