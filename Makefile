@@ -54,7 +54,7 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
-TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c)
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
 
@@ -263,7 +263,7 @@ $(filter-out %.so,$(HELPERS)): $(BUILD)/%: %.c $(BUILD)/flags
 HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
-HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(HOST_TESTS)
+HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
 check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits $(BUILD)/tests/bench/build
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
@@ -278,7 +278,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes devices export farm faults flaky frames inject kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay
@@ -375,35 +375,57 @@ DEPS_fresh := debootstrap
 show-fresh: $(BUILD)/deps.fresh
 	@tests/fresh.sh $(BUILD)
 
-# libFuzzer under sanitizers: on reader and state machine (replay), on calls of the state machine alone (calls). What they find worth
-# keeping goes into tests/fuzz/kept and kept_calls.
+# libFuzzer under sanitizers, a target for each reader: tests/fuzz/fuzz_NAME.c. What they find worth keeping goes into tests/fuzz/kept*.
 DEPS_fuzz := clang libclang-rt-14-dev
 FUZZ_SECONDS ?= 3600
-FUZZ_TARGETS := replay calls
-FUZZ_SRC := $(wildcard base/*.c scene/*.c) $(REPLAY_SRC) capture/format/sizes.c capture/format/ref.c tests/fuzz/calls.c tests/fuzz/stream.c
-FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/gen/commands.o $(BUILD)/fuzz/objects/gen/handlers.o $(BUILD)/fuzz/objects/gen/fuzz_commands.o
-FUZZ_CFLAGS := $(CPPFLAGS) -std=c11 -O1 -g -ffp-contract=off -pthread -MMD -MP -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+FUZZ_CC ?= clang
+FUZZ_CXX ?= clang++
+FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look farm $(addprefix diff/,rules baseline score pictures) \
+	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
+	$(addprefix tests/fuzz/,calls.c stream.c target.c)
+FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c)
+FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)
+FUZZ_SAN := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+FUZZ_CFLAGS := $(CPPFLAGS) -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
-	$(Q)clang $(FUZZ_CFLAGS) -c -o $@ $<
+	$(Q)$(FUZZ_CC) $(FUZZ_CFLAGS) -std=c11 -c -o $@ $<
+
+$(BUILD)/fuzz/objects/%.o: %.cpp | $(BUILD)/deps.fuzz
+	@mkdir -p $(@D)
+	$(Q)$(FUZZ_CXX) $(FUZZ_CFLAGS) -std=c++17 -c -o $@ $<
 
 $(BUILD)/fuzz/objects/gen/%.o: $(BUILD)/gen/%.c | $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
-	$(Q)clang $(FUZZ_CFLAGS) -c -o $@ $<
+	$(Q)$(FUZZ_CC) $(FUZZ_CFLAGS) -std=c11 -c -o $@ $<
 
-$(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(FUZZ_OBJ)
-	$(Q)clang -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS)
+$(BUILD)/fuzz/parts.a: $(FUZZ_OBJ)
+	@rm -f $@
+	$(Q)$(AR) rcs $@ $^
+
+$(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(BUILD)/fuzz/parts.a
+	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS)
+
+# The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that.
+DRIVE_OBJ := $(patsubst %,$(BUILD)/tests/fuzz/targets/%.o,$(filter-out calls replay,$(FUZZ_TARGETS)))
+$(BUILD)/tests/fuzz/targets/%.o: tests/fuzz/fuzz_%.c $(BUILD)/flags | $(GENERATED_H)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -DLLVMFuzzerTestOneInput=fuzz_$* -DLLVMFuzzerInitialize=begin_$* -c -o $@ $<
+
+$(BUILD)/tests/fuzz/drive: $(DRIVE_OBJ) $(BUILD)/tests/fuzz/target.o
+$(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 
 $(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)
 	$(Q)$(PYTHON) -B $< $@ $(sort $(REPLAY_SRC))
 
 .PHONY: fuzz fuzz-keep
-fuzz: all $(HELPERS) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
-	@tests/xvfb.sh tests/fuzz/campaign.sh $(BUILD) $(FUZZ_SECONDS)
+fuzz: all $(HELPERS) $(BUILD)/tests/fuzz/make_seeds $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
+	@tests/xvfb.sh tests/fuzz/campaign.py $(BUILD) run $(FUZZ_SECONDS) $(ONLY)
 
-# Small ones: what only large ones reach is found again from the golden recordings.
+# Small ones: what only large ones reach is found again from recordings.
 fuzz-keep: $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%)
-	@tests/fuzz/keep.sh $(BUILD)
+	@tests/fuzz/campaign.py $(BUILD) keep $(ONLY)
 
 # Only in a commit of its own.
 golden-update: all
@@ -435,4 +457,4 @@ FORCE:
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
-	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)
+	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

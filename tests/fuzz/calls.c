@@ -94,6 +94,8 @@ void calls_invent(unsigned *state, uint8_t *slot, const uint8_t *near)
 struct calls {
 	struct trace_value args[CALLS_MAX_PARAMS], items[CALLS_MAX_PARAMS][MAX_ITEMS];
 	uint8_t blob[CALLS_MAX_PARAMS][MAX_BLOB];
+	struct call_sig sig;
+	struct call call; /* as a reader's, it is there until the next one */
 };
 
 static int64_t int_of(uint32_t v)
@@ -196,36 +198,35 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
 {
 	const struct calls_command *command = command_at(slot);
-	struct call_sig sig = { .name = command->name, .command = gls_command_find(command->name) };
-	struct call call = { .number = number, .sig = &sig, .args = c->args };
+	uint32_t n = 0;
 
-	for (; command->letters[call.n_args]; call.n_args++)
-		c->args[call.n_args] = value_of(c, call.n_args, command->letters[call.n_args],
-		                                (uint32_t)(slot[2 + 2 * call.n_args] | slot[3 + 2 * call.n_args] << 8),
-		                                &calls_groups[command->group[call.n_args]]);
-	sig.n_args = call.n_args;
-	call.ret = (struct trace_value){ .type = TRACE_OPAQUE, .u = (uint64_t)(slot[CALLS_SLOT - 1] & 3) << 4 };
-	return gls_exec_call(x, &call);
+	for (; command->letters[n]; n++)
+		c->args[n] = value_of(c, n, command->letters[n], (uint32_t)(slot[2 + 2 * n] | slot[3 + 2 * n] << 8),
+		                      &calls_groups[command->group[n]]);
+	c->sig = (struct call_sig){ .name = command->name, .command = gls_command_find(command->name), .n_args = n };
+	c->call = (struct call){ .number = number, .sig = &c->sig, .args = c->args, .n_args = n,
+		                 .ret = { .type = TRACE_OPAQUE, .u = (uint64_t)(slot[CALLS_SLOT - 1] & 3) << 4 } };
+	return gls_exec_call(x, &c->call);
 }
 
-static int call(struct gls_exec *x, const char *name, struct trace_value ret, uint32_t n, const struct trace_value *args)
+static int call(struct gls_exec *x, struct calls *c, const char *name, struct trace_value ret, uint32_t n, const struct trace_value *args)
 {
-	struct call_sig sig = { .name = name, .command = gls_command_find(name), .n_args = n };
-	struct call made = { .sig = &sig, .args = args, .n_args = n, .ret = ret };
-
-	return gls_exec_call(x, &made);
+	memcpy(c->args, args, n * sizeof(*args));
+	c->sig = (struct call_sig){ .name = name, .command = gls_command_find(name), .n_args = n };
+	c->call = (struct call){ .sig = &c->sig, .args = c->args, .n_args = n, .ret = ret };
+	return gls_exec_call(x, &c->call);
 }
 
 static const struct trace_value NONE = { .type = TRACE_NONE }, ZERO = { .type = TRACE_NULL },
                                 CONTEXT = { .type = TRACE_OPAQUE, .u = 0x10 }, WINDOW = { .type = TRACE_UINT, .u = 7 },
                                 SIZE = { .type = TRACE_UINT, .u = 64 };
 
-static int make_current(struct gls_exec *x)
+static int make_current(struct gls_exec *x, struct calls *c)
 {
-	return call(x, "glXCreateContext", CONTEXT, 4, (struct trace_value[]){ CONTEXT, ZERO, ZERO, WINDOW }) ||
-	       call(x, "glXMakeCurrent", NONE, 3, (struct trace_value[]){ CONTEXT, WINDOW, CONTEXT }) ||
-	       call(x, "glViewport", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE }) ||
-	       call(x, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
+	return call(x, c, "glXCreateContext", CONTEXT, 4, (struct trace_value[]){ CONTEXT, ZERO, ZERO, WINDOW }) ||
+	       call(x, c, "glXMakeCurrent", NONE, 3, (struct trace_value[]){ CONTEXT, WINDOW, CONTEXT }) ||
+	       call(x, c, "glViewport", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE }) ||
+	       call(x, c, "glScissor", NONE, 4, (struct trace_value[]){ ZERO, ZERO, SIZE, SIZE });
 }
 
 /* Blobs of a snapshot, one after the other. Nothing but zeros, such as a texture that nobody filled, takes no room. */
@@ -347,6 +348,32 @@ static void paint_nothing(void *user, const struct scene *scene)
 
 const struct calls_painter calls_grey = { .paint = paint_nothing, .supply = supply_grey, .skips = 1 };
 
+/* @return as calls_run */
+static int run(struct gls_exec *x, struct calls *c, const uint8_t *data, size_t size, const struct calls_painter *painter)
+{
+	const uint64_t first = x->frame;
+	int wrong = 0;
+
+	for (size_t at = 0; at + CALLS_SLOT <= size && x->frame - first < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
+		if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->feedback.rewind)
+			break;
+		if (x->frame_ended) {
+			wrong = end_frame(x, painter);
+			begin_frame(x, size, painter);
+		}
+	}
+	if (!x->failed && !x->feedback.rewind && !wrong && !call(x, c, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
+		wrong = end_frame(x, painter);
+	return wrong;
+}
+
+static void begin(struct gls_exec *x, size_t size, const struct calls_painter *painter)
+{
+	begin_frame(x, size, painter);
+	x->feedback.supply = painter ? painter->supply : NULL;
+	x->feedback.supply_user = painter ? painter->user : NULL;
+}
+
 int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter)
 {
 	struct calls *c = calloc(1, sizeof(*c));
@@ -354,22 +381,33 @@ int calls_run(const uint8_t *data, size_t size, const struct calls_painter *pain
 	int wrong = 0;
 
 	if (c && !gls_exec_create(&x, "calls")) {
-		begin_frame(x, size, painter);
-		x->feedback.supply = painter ? painter->supply : NULL;
-		x->feedback.supply_user = painter ? painter->user : NULL;
-		if (!make_current(x))
-			for (size_t at = 0; at + CALLS_SLOT <= size && x->frame < MAX_FRAMES && !wrong; at += CALLS_SLOT) {
-				if (execute(x, c, at / CALLS_SLOT, data + at) || x->failed || x->feedback.rewind)
-					break;
-				if (x->frame_ended) {
-					wrong = end_frame(x, painter);
-					begin_frame(x, size, painter);
-				}
-			}
-		if (!x->failed && !x->feedback.rewind && !wrong && !call(x, "glXSwapBuffers", NONE, 2, (struct trace_value[]){ CONTEXT, WINDOW }))
-			wrong = end_frame(x, painter);
+		begin(x, size, painter);
+		if (!make_current(x, c))
+			wrong = run(x, c, data, size, painter);
 	}
 	gls_exec_destroy(&x);
 	free(c);
 	return wrong;
+}
+
+void calls_begin(struct gls_exec *x)
+{
+	struct calls *c = calloc(1, sizeof(*c));
+
+	if (c)
+		make_current(x, c);
+	x->call = NULL;
+	free(c);
+}
+
+void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const struct calls_painter *painter)
+{
+	struct calls *c = calloc(1, sizeof(*c));
+
+	if (c) {
+		begin(x, size, painter);
+		run(x, c, data, size, painter);
+	}
+	x->call = NULL;
+	free(c);
 }

@@ -13,6 +13,8 @@
 
 #include "replay/replay.h"
 
+struct gls_exec;
+
 #define CALLS_MAX_PARAMS 15
 #define CALLS_SLOT (2 + 2 * CALLS_MAX_PARAMS)
 
@@ -66,3 +68,9 @@ extern const struct calls_painter calls_grey;
  * @return 0; 1 where they are not
  */
 int calls_run(const uint8_t *data, size_t size, const struct calls_painter *painter);
+
+/** What stands before the calls of calls_run: a context is current. */
+void calls_begin(struct gls_exec *x);
+
+/** Execute more calls in a state machine that is there, and build its scenes. */
+void calls_go_on(struct gls_exec *x, const uint8_t *data, size_t size, const struct calls_painter *painter);

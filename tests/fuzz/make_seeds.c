@@ -1,0 +1,219 @@
+/*
+ * make_seeds index TRACE FILE: the input of fuzz_index.c for an index of the trace with a checkpoint at each frame.
+ * make_seeds snapshot FOLDER: inputs of fuzz_snapshot.c: states that some of the kept sequences of calls lead to.
+ * make_seeds tree FILE: the input of fuzz_tree.c for a tree of 64 triangles.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "replay/gl/dispatch.h"
+#include "replay/gl/surface/frames.h"
+#include "replay/index/index_file.h"
+#include "replay/index/snapshot.h"
+#include "tests/fuzz/calls.h"
+#include "tests/fuzz/snapshot.h"
+#include "tracer/accel/tree.h"
+
+#define KEPT "tests/fuzz/kept_calls"
+#define LARGEST 65536
+#define EVERY 24 /* sequence of the kept ones */
+#define MOST_CHECKPOINTS 3
+
+static void must(int good, const char *what)
+{
+	if (good)
+		return;
+	perror(what);
+	exit(1);
+}
+
+static void write_file(const char *path, const struct bytes *b)
+{
+	FILE *out = fopen(path, "wb");
+
+	must(out && !b->failed && fwrite(b->data, 1, b->n, out) == b->n && fclose(out) == 0, path);
+}
+
+/* --- An index ------------------------------------------------------------------------------------------------------- */
+
+struct made {
+	struct bytes blobs, list; /* list: of struct index_blob */
+	uint64_t n;
+};
+
+static int put_blob(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	struct made *made = user;
+	struct index_blob blob = { { name[0], name[1] }, sizeof(struct index_header) + made->blobs.n, n };
+
+	for (uint64_t i = 0; i < made->n; i++)
+		if (memcmp(((struct index_blob *)(void *)made->list.data)[i].name, name, 16) == 0)
+			return 0;
+	bytes_put(&made->blobs, data, n);
+	bytes_put(&made->list, &blob, sizeof(blob));
+	made->n++;
+	return 0;
+}
+
+static void add_checkpoint(struct gls_exec *x, const struct trace_place *place, struct made *made, struct bytes *checkpoints)
+{
+	const struct snapshot_blobs blobs = { .put = put_blob, .user = made };
+	struct index_checkpoint c = { .frame = x->frame, .place = *place };
+	struct bytes state = { 0 };
+
+	must(!snapshot_save(x, &blobs, &state), "a snapshot");
+	hash_bytes(state.data, state.n, c.name);
+	c.bytes = state.n;
+	put_blob(made, c.name, state.data, state.n);
+	bytes_put(checkpoints, &c, sizeof(c));
+	free(state.data);
+}
+
+static void put_array(struct bytes *out, const struct bytes *from, size_t size)
+{
+	bytes_put_u64(out, from->n / size);
+	bytes_put(out, from->data, from->n);
+}
+
+static void make_index(const char *path, const char *to)
+{
+	struct made made = { .n = 0 };
+	struct bytes frames = { 0 }, checkpoints = { 0 }, toc = { 0 }, all = { 0 };
+	const struct index_lack lack = { .name = "glFoo", .why = "a part", .last = 2, .stays = 1 };
+	struct trace_reader *r = NULL;
+	struct gls_exec *x = NULL;
+	const struct call *call;
+	struct trace_place place;
+	uint8_t *signatures;
+	size_t n;
+	uint32_t size;
+
+	must(!trace_reader_open(&r, path, gls_command_find) && !gls_exec_create(&x, path), path);
+	while (trace_reader_next(r, &call) == 1 && !gls_exec_call(x, call))
+		if (x->frame_ended) {
+			gls_frame_skip(x);
+			x->frame++;
+			x->frame_ended = 0;
+			must(trace_reader_place(r, &place), "a place");
+			bytes_put(&frames, (uint64_t[]){ x->n_calls, place.offset }, 16);
+			if (x->frame <= MOST_CHECKPOINTS)
+				add_checkpoint(x, &place, &made, &checkpoints);
+		}
+	must(!trace_reader_signatures(r, &signatures, &n), "signatures");
+	bytes_put_u64(&toc, x->n_calls);
+	bytes_put_u64(&toc, 0);
+	put_array(&toc, &frames, 16);
+	put_array(&toc, &checkpoints, sizeof(struct index_checkpoint));
+	bytes_put_u64(&toc, 1);
+	bytes_put(&toc, &lack, sizeof(lack));
+	put_array(&toc, &made.list, sizeof(struct index_blob));
+	bytes_put_u64(&toc, n);
+	bytes_put(&toc, signatures, n);
+	size = (uint32_t)toc.n;
+	bytes_put(&all, &size, sizeof(size));
+	bytes_put(&all, toc.data, toc.n);
+	bytes_put(&all, made.blobs.data, made.blobs.n);
+	write_file(to, &all);
+}
+
+/* --- Snapshots ------------------------------------------------------------------------------------------------------ */
+
+static void put_record(struct bytes *out, const uint64_t name[2], const void *data, size_t n)
+{
+	uint32_t size = (uint32_t)n;
+
+	bytes_put(out, name, 16);
+	bytes_put(out, &size, sizeof(size));
+	bytes_put(out, data, n);
+}
+
+static int put_behind(void *user, const uint64_t name[2], const void *data, size_t n)
+{
+	put_record(user, name, data, n);
+	return 0;
+}
+
+static void make_snapshots(const char *folder)
+{
+	static uint8_t calls[LARGEST];
+	static const uint64_t none[2] = { 0, 0 }, last[2] = { UINT64_MAX, UINT64_MAX };
+	FILE *file = fopen(KEPT, "rb");
+	uint32_t size;
+
+	must(file != NULL, KEPT);
+	for (int i = 0; fread(&size, sizeof(size), 1, file) == 1; i++) {
+		struct bytes state = { 0 }, blobs = { 0 }, all = { 0 };
+		const struct snapshot_blobs put = { .put = put_behind, .user = &blobs };
+		struct gls_exec *x = NULL;
+		char path[4096];
+
+		must(size <= LARGEST && fread(calls, 1, size, file) == size, KEPT);
+		if (i % EVERY)
+			continue;
+		must(!gls_exec_create(&x, "seeds"), "a state machine");
+		calls_begin(x);
+		calls_go_on(x, calls, size / 2 / CALLS_SLOT * CALLS_SLOT, &calls_grey);
+		if (!x->failed && !x->feedback.rewind && !snapshot_save(x, &put, &state)) {
+			put_record(&all, none, state.data, state.n);
+			put_record(&all, last, calls + size / 2 / CALLS_SLOT * CALLS_SLOT, size - size / 2 / CALLS_SLOT * CALLS_SLOT);
+			bytes_put(&all, blobs.data, blobs.n);
+			snprintf(path, sizeof(path), "%s/%04d", folder, i);
+			write_file(path, &all);
+		}
+		gls_exec_destroy(&x);
+		free(state.data);
+		free(blobs.data);
+		free(all.data);
+	}
+	fclose(file);
+}
+
+/* --- A tree --------------------------------------------------------------------------------------------------------- */
+
+static uint32_t split(struct node2 *nodes, uint32_t *n, uint32_t first, uint32_t count)
+{
+	const uint32_t at = (*n)++;
+
+	for (uint32_t side = 0; side < 2; side++) {
+		uint32_t from = first + side * (count / 2), items = count / 2;
+
+		for (int k = 0; k < 3; k++) {
+			nodes[at].lo[side][k] = (float)from;
+			nodes[at].hi[side][k] = (float)(from + items);
+		}
+		nodes[at].count[side] = items <= 2 ? items : 0;
+		nodes[at].child[side] = items <= 2 ? from : split(nodes, n, from, items);
+	}
+	return at;
+}
+
+static void make_tree(const char *path)
+{
+	struct node2 nodes[64] = { 0 };
+	uint32_t n = 0, order[64];
+	struct bytes all = { 0 };
+
+	split(nodes, &n, 0, 64);
+	for (uint32_t i = 0; i < 64; i++)
+		order[i] = 63 - i;
+	bytes_put(&all, "", 1);
+	bytes_put(&all, (uint32_t[]){ n, 64 }, 8);
+	bytes_put(&all, nodes, n * sizeof(nodes[0]));
+	bytes_put(&all, order, sizeof(order));
+	write_file(path, &all);
+}
+
+int main(int argc, char **argv)
+{
+	if (argc == 4 && strcmp(argv[1], "index") == 0)
+		make_index(argv[2], argv[3]);
+	else if (argc == 3 && strcmp(argv[1], "snapshot") == 0)
+		make_snapshots(argv[2]);
+	else if (argc == 3 && strcmp(argv[1], "tree") == 0)
+		make_tree(argv[2]);
+	else
+		return 2;
+	return 0;
+}

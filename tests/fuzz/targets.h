@@ -1,0 +1,8 @@
+/* The targets that drive.c knows: fuzz_NAME.c of each. `replay` and `calls` have tests of their own. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define TARGETS(X) \
+	X(container) X(verbs) X(index) X(snapshot) X(ref) X(exr) X(oiio) X(look) X(rules) X(baseline) X(json) X(gltf) X(tree) X(outcome) X(farm)
