@@ -12,9 +12,11 @@ import re
 import shutil
 import subprocess
 import sys
-import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/show"))
+import browser  # noqa: E402
+
 LAYOUTS = ("side", "wipe", "alternate")
 
 # Run in the page by a second script: what the video is, and how much its picture changes while it plays.
@@ -43,25 +45,6 @@ def run(*command):
     return done.stdout
 
 
-def chromium(work, page, *options):
-    return ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
-            f"--user-data-dir={work / 'profile'}", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1100", *options,
-            f"file://{page}"]
-
-
-def played(work, page):
-    """What the page's script says of the video; a video takes its time, which --dump-dom does not wait for."""
-    child = subprocess.Popen(chromium(work, page, "--enable-logging=stderr"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                             stderr=subprocess.PIPE, text=True, errors="replace")
-    watchdog = threading.Timer(60, child.kill)
-    watchdog.start()
-    text = next((m for m in (re.search(r"FOUND(\{.*?\})DNUOF", line) for line in child.stderr) if m), None)
-    watchdog.cancel()
-    child.kill()
-    child.wait()
-    return json.loads(text[1]) if text else {}
-
-
 def hashes(film):
     """Of each picture of a film, as ffmpeg reads it."""
     return re.findall(r", (\w{32})$", run("ffmpeg", "-loglevel", "error", "-i", film, "-f", "framemd5", "-"), re.MULTILINE)
@@ -83,10 +66,10 @@ def main(build):
     one, four = hashes(work / "one.webm"), hashes(work / "four.webm")
     run(relume, "diff", trace, work / "one", "--report", work / "report", "--film", work / "one.webm")
     page = work / "report/index.html"
-    run(*chromium(work, page, f"--screenshot={work / 'page.png'}"))
+    run(*browser.command(work, page, f"--screenshot={work / 'page.png'}"))
     probed = work / "report/probe.html"
     probed.write_text(page.read_text() + PLAY)
-    found = played(work, probed)
+    found = browser.said(work, probed) or {}
     lines = [
         ("pictures of the film", len(one), 24, len(one) == 24),
         ("of these not the same from four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0, one == four),

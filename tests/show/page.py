@@ -19,32 +19,12 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
 sys.path.insert(0, str(ROOT / "tests/fuzz"))
+import browser  # noqa: E402
 from exr_numpy import write_png  # noqa: E402
 from mutate import unpack_block  # noqa: E402
 
 N_FRAMES, N_DAMAGED = 1000, 200
 BAR_OPEN_S, BAR_MB = 3, 80
-
-# Run in the page by a second script; what it finds goes into the title, which --dump-dom shows.
-OPERATE = """<script>
-addEventListener("load", () => setTimeout(() => {
-	const key = k => document.dispatchEvent(new KeyboardEvent("keydown", { key: k }));
-	const found = {}, views = () => document.querySelectorAll("#views img").length;
-	found.frames = document.querySelectorAll("#list li").length;
-	found.side = views();
-	key("4"); found.all = views();
-	key("2"); found.blink = views();
-	key("3"); found.swipe = views();
-	key("1");
-	const before = state.frame.frame; key("j"); found.moved = state.frame.frame !== before; key("k");
-	$("filter").value = "no such thing"; $("filter").oninput(); found.filtered = state.shown.length;
-	$("filter").value = ""; $("filter").oninput(); found.back = state.shown.length;
-	found.layers = [...document.querySelector("select[aria-label='picture a']").options].map(o => o.value);
-	found.gates = document.querySelectorAll("#frame table tr").length;
-	document.title = "FOUND" + JSON.stringify(found) + "DNUOF";
-}, 300));
-</script>"""
-
 
 def run(*command, check=True):
     done = subprocess.run([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -55,9 +35,7 @@ def run(*command, check=True):
 
 
 def chromium(work, page, *options):
-    return run("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
-               f"--user-data-dir={work / 'profile'}", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300",
-               *options, f"file://{page}")
+    return run(*browser.command(work, page, *options))
 
 
 def colors(path):
@@ -122,14 +100,10 @@ def main(build):
             (frames / "s.0001.exr").write_bytes(data[:at] + b"1" + data[at + 1:])
         run(relume, "diff", work / "s.trace", frames, "--report", work / f"report-{name}", check=False)
         chromium(work, work / f"report-{name}" / "index.html", f"--screenshot={work / name}.png")
-    page = work / "report-wrong" / "operated.html"
-    page.write_text((work / "report-wrong" / "index.html").read_text().replace("</body>", OPERATE + "</body>"))
-    dom = chromium(work, page, "--dump-dom", "--virtual-time-budget=4000").stdout
-    found = re.search("FOUND(.*?)DNUOF", dom)
-    found = json.loads(found.group(1).replace("&gt;", ">")) if found else {}
-    good = (found.get("frames") == 2 and found.get("side") == 5 and found.get("all", 0) >= 9 and found.get("blink") == 1 and
-            found.get("swipe") == 2 and found.get("moved") and found.get("filtered") == 0 and found.get("back") == 2 and
-            {"reference", "compared", "beauty", "shadow", "depth", "id", "flip"} <= set(found.get("layers", ())))
+    found = browser.operate(work, work / "report-wrong") or {}
+    good = (found.get("errors") == [] and found["frames"] == 2 and len(found["side"]) == 5 and len(found["all"]) >= 9 and found["blinked_back"] == "reference" and
+            len(found["swipe"][0]) == 2 and found["nothing"] == 0 and found["all_again"] == 2 and
+            {"reference", "compared", "beauty", "shadow", "depth", "id", "flip"} <= set(found["all"]))
     rows.append({"what": "keys, views, search and channels of a ray traced run", "figure": json.dumps(found), "bar": "all work",
                  "peer": "Chromium, headless", "passed": bool(good)})
     (build / "show" / "page.json").write_text(json.dumps({"name": "page", "command": "make show-page", "rows": rows}, indent=1) + "\n")

@@ -1,0 +1,38 @@
+"""The report's page in Chromium, without a network: opened, looked at, operated (operate.js)."""
+import json
+import pathlib
+import re
+import subprocess
+import threading
+
+HERE = pathlib.Path(__file__).resolve().parent
+NAME = "chromium"
+SAID = re.compile(r"FOUND(\{.*\})DNUOF")
+
+
+def command(work, page, *options):
+    """How a page is opened; `work` keeps the browser's own files."""
+    return [NAME, "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run", f"--user-data-dir={work / 'profile'}",
+            "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1600,1300", *options, f"file://{page}"]
+
+
+def said(work, page):
+    """What the page's script says by console.log("FOUND{...}DNUOF"): it is given its time, unlike by --dump-dom. None: nothing within a minute."""
+    child = subprocess.Popen(command(work, page, "--enable-logging=stderr"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                             errors="replace", start_new_session=True)
+    watchdog = threading.Timer(60, child.kill)
+    watchdog.start()
+    found = next((m for m in (SAID.search(line) for line in child.stderr) if m), None)
+    watchdog.cancel()
+    child.kill()
+    child.communicate()
+    return json.loads(found[1]) if found else None
+
+
+def operate(work, report, at=""):
+    """What operate.js finds in a report's page, opened at a frame ("#7")."""
+    page = report / "operated.html"
+    text = (report / "index.html").read_text()
+    text = text.replace("<body>", "<body><script>window.wrong = []; addEventListener('error', e => wrong.push(e.message));</script>", 1)
+    page.write_text(text.replace("</body>", f"<script>{(HERE / 'operate.js').read_text()}</script></body>"))
+    return said(work, f"{page}{at}")
