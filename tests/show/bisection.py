@@ -5,7 +5,6 @@ Six pairs: a recording of a real program, and itself with one argument changed p
 built with one line changed, left out or put in.
 """
 import argparse
-import json
 import pathlib
 import re
 import subprocess
@@ -16,6 +15,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
 from edit_trace import Trace  # noqa: E402
+from table import Shown  # noqa: E402
 
 SHARED, AT = ROOT.parent / "shared/traces", 0.6
 EDITS = [("glxgears", "glRotatef", 0, 12.5), ("xss-queens", "glBlendFunc", 1, 1), ("neverball", "glBindTexture", 1, 3),
@@ -73,18 +73,15 @@ def built(relume, work, name, line, instead, was, now):
 
 
 def main(folder, only):
-    relume, rows = (folder / "relume").resolve(), []
+    relume, shown = (folder / "relume").resolve(), Shown(folder, "bisect")
     for kind, cases in ((edited, EDITS), (built, BUILDS)):
         for case in cases:
             if only and only not in case[0]:
                 continue
             with tempfile.TemporaryDirectory() as scratch:
                 what, figure, good = kind(relume, pathlib.Path(scratch), *case)
-            rows.append({"what": what, "figure": figure, "bar": "the very call, and no other", "peer": None, "passed": good})
-            print("holds" if good else "FAILS", what, figure, sep="  ", flush=True)
-    (folder / "show").mkdir(exist_ok=True)
-    (folder / "show/bisect.json").write_text(json.dumps({"name": "bisect", "command": "make show-bisect", "rows": rows}, indent=1))
-    return any(not row["passed"] for row in rows)
+            shown.row(what, figure, "the very call, and no other", good)
+    return shown.finish()
 
 
 if __name__ == "__main__":

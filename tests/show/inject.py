@@ -9,7 +9,6 @@ exit code do not change. (OpenCL's calls: show-device-faults.)
 import argparse
 import concurrent.futures
 import hashlib
-import json
 import os
 import pathlib
 import shutil
@@ -18,6 +17,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests/show"))
+from table import Shown  # noqa: E402
+
 CLASSES = ("malloc", "read", "write", "mmap", "open", "thread")
 LIMIT_S = 20
 
@@ -171,25 +173,21 @@ def prepare(build, inputs):
 
 
 def main(build, only, most):
-    rows, failed = [], 0
+    shown = Shown(build, "inject")
     with tempfile.TemporaryDirectory() as folder:
         inputs = pathlib.Path(folder)
         prepare(build, inputs)
         trial = Trial(build, inputs)
-        for case in CASES:
-            if only and only != case.name:
+        for name in (*(case.name for case in CASES), "record"):
+            if only and only != name:
                 continue
-            n, wrong = try_case(trial, case, most, os.cpu_count())
-            rows.append({"what": f"relume {case.name}", "figure": f"{n} points, {len(wrong)} failures", "bar": "0 failures", "peer": None, "passed": n > 0 and not wrong})
-            print("\n".join(wrong), *rows[-1].values(), sep="  ", flush=True)
-        if not only or only == "record":
-            n, wrong = try_recorder(trial, build, 60)
-            rows.append({"what": "relume record, at most 60 of each class", "figure": f"{n} points, {len(wrong)} failures", "bar": "0 failures", "peer": None, "passed": n > 0 and not wrong})
-            print("\n".join(wrong), *rows[-1].values(), sep="  ", flush=True)
-        failed = sum(not row["passed"] for row in rows)
-    (build / "show").mkdir(exist_ok=True)
-    (build / "show/inject.json").write_text(json.dumps({"name": "inject", "command": "make show-inject", "rows": rows}, indent=1))
-    return 1 if failed else 0
+            if name == "record":
+                n, wrong = try_recorder(trial, build, 60)
+            else:
+                n, wrong = try_case(trial, next(case for case in CASES if case.name == name), most, os.cpu_count())
+            print(*wrong, sep="\n", end="\n" if wrong else "")
+            shown.row(f"relume {name}" + (", at most 60 of each class" if name == "record" else ""), f"{n} points, {len(wrong)} failures", "0 failures", n > 0 and not wrong)
+    return shown.finish()
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
 from edit_trace import Trace  # noqa: E402
+from table import Shown  # noqa: E402
 
 SHARED = ROOT.parent / "shared/traces"
 FAULTS = [("glxgears", "glShadeModel", 0), ("xss-queens", "glEnable", 0), ("xss-lament", "glEnable", 0), ("iv-SceneViewer", "glEnable", 0),
@@ -42,7 +43,7 @@ def plant(source, call, argument, path):
 
 
 def main(build, only):
-    rows, relume = [], (build / "relume").resolve()
+    shown, relume = Shown(build, "reduce"), (build / "relume").resolve()
     for name, call, argument in FAULTS:
         if only and only not in name:
             continue
@@ -56,13 +57,9 @@ def main(build, only):
             again = subprocess.run(["sh", "-c", when], cwd=work, env={"TRACE": str(work / "small.trace"), "PATH": "/usr/bin:/bin"}, check=False)
             run("apitrace", "trim", f"--frames={frame}", "-o", work / "trim.trace", work / "fault.trace")
             trimmed = json.loads(run(relume, "info", "--json", work / "trim.trace", codes=(0, 3)) or '{"calls": 0}')["calls"]
-            passed = left <= MOST and again.returncode == 1
-            rows.append({"what": f"{name}: {call} of {whole} calls", "figure": f"{left} calls, {trials} trials, {seconds} s", "bar": f"at most {MOST}, still failing",
-                         "peer": f"apitrace trim of frame {frame}: {trimmed} calls", "passed": passed})
-            print("holds" if passed else "FAILS", *(str(rows[-1][k]) for k in ("what", "figure", "peer")), sep="  ", flush=True)
-    (build / "show").mkdir(exist_ok=True)
-    (build / "show/reduce.json").write_text(json.dumps({"name": "reduce", "command": "make show-reduce", "rows": rows}, indent=1))
-    return any(not row["passed"] for row in rows)
+            shown.row(f"{name}: {call} of {whole} calls", f"{left} calls, {trials} trials, {seconds} s", f"at most {MOST}, still failing", left <= MOST and again.returncode == 1,
+                      f"apitrace trim of frame {frame}: {trimmed} calls")
+    return shown.finish()
 
 
 if __name__ == "__main__":

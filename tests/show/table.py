@@ -11,6 +11,23 @@ import pathlib
 import sys
 
 
+class Shown:
+    """The rows of show-NAME: each is printed as it comes, and all are written at the end."""
+
+    def __init__(self, build, name):
+        self.path, self.name, self.rows = build / "show" / f"{name}.json", name, []
+
+    def row(self, what, figure, bar, passed, peer=None):
+        self.rows.append({"what": what, "figure": figure, "bar": bar, "peer": peer, "passed": passed})
+        print({True: "holds", False: "FAILS", None: "-    "}[passed], what, figure, *([peer] if peer else []), sep="  ", flush=True)
+
+    def finish(self):
+        """The exit code."""
+        self.path.parent.mkdir(exist_ok=True)
+        self.path.write_text(json.dumps({"name": self.name, "command": f"make show-{self.name}", "rows": self.rows}, indent=1))
+        return not self.rows or any(row["passed"] is False for row in self.rows)
+
+
 def main(folder):
     rows = [("", "what", "figure", "bar", "peer")]
     bad = 0
