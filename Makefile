@@ -370,6 +370,11 @@ DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
+# Not part of `make show`: faults put into our own sources, one at a time, and the tests run: hours. It goes on where it was stopped.
+TESTS_SECONDS ?=
+show-tests: all $(HELPERS)
+	@$(PYTHON) -B tests/show/tests.py $(BUILD) $(ONLY:%=--only %) $(TESTS_SECONDS:%=--seconds %)
+
 # Not part of `make show`: needs root, and minutes.
 DEPS_fresh := debootstrap
 show-fresh: $(BUILD)/deps.fresh
@@ -453,7 +458,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-fresh \
+.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-tests show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
