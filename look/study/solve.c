@@ -18,6 +18,8 @@ enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, FOLLOWED = 3, ROU
 #define CREEP 1e-7
 /* A light has settled where it moves by no more than this share of the world. */
 #define SETTLED 1e-5
+/* At most this share of samples strays. */
+#define MOST_STRAYS 0.1
 
 struct sample {
 	double at[3], normal[3], light[3];
@@ -25,6 +27,7 @@ struct sample {
 	double gain[SOLVE_MOST_LIGHTS]; /* light of each at unit strength */
 	unsigned wall;
 	uint32_t blocker; /* what stood before a light the last time */
+	int strays;       /* no lights explain it: it counts for nothing */
 };
 
 struct solving {
@@ -33,6 +36,12 @@ struct solving {
 	const struct occluders *walls;
 	struct solved *out;
 };
+
+/* 1 where a sample says how much light there is: lightmaps are cut off at 1. */
+static int counts(const struct sample *x, int channel)
+{
+	return x->light[channel] < CUT_OFF && !x->strays;
+}
 
 /* Light of unit strength from a place, if nothing stands between. */
 static double gain_of(const struct solving *s, struct sample *x, const double at[3], int looks)
@@ -62,7 +71,7 @@ static double explained(const struct solving *s, const double at[3], const unsig
 		if (sees)
 			sees[i] = gain > 0;
 		for (int c = 0; c < 3; c++) {
-			if (x->light[c] >= CUT_OFF)
+			if (!counts(x, c))
 				continue;
 			product[c] += gain * x->rest[c];
 			square[c] += gain * gain;
@@ -121,7 +130,7 @@ static void fit_strengths(struct solving *s)
 		for (size_t i = 0; i < s->n; i++) {
 			const struct sample *p = &s->samples[i];
 
-			for (unsigned j = 0; j < n && p->light[c] < CUT_OFF; j++) {
+			for (unsigned j = 0; j < n && counts(p, c); j++) {
 				double gj = j < out->n ? p->gain[j] : 1;
 
 				b[j] += gj * p->light[c];
@@ -170,7 +179,7 @@ static double squares_left(const struct solving *s)
 
 	for (size_t i = 0; i < s->n; i++)
 		for (int c = 0; c < 3; c++)
-			sum += s->samples[i].light[c] < CUT_OFF ? s->samples[i].rest[c] * s->samples[i].rest[c] : 0;
+			sum += counts(&s->samples[i], c) ? s->samples[i].rest[c] * s->samples[i].rest[c] : 0;
 	return sum;
 }
 
@@ -181,7 +190,7 @@ static double spread_of(const struct solving *s, unsigned which)
 
 	for (size_t i = 0; i < s->n; i++) {
 		const struct sample *x = &s->samples[i];
-		double gain = x->light[0] < CUT_OFF && x->light[1] < CUT_OFF && x->light[2] < CUT_OFF ? x->gain[which] * x->gain[which] : 0;
+		double gain = counts(x, 0) && counts(x, 1) && counts(x, 2) ? x->gain[which] * x->gain[which] : 0;
 
 		sum += gain;
 		squares += gain * gain;
@@ -307,7 +316,7 @@ static void polish(struct solving *s, double scale, unsigned char *sees)
 	}
 }
 
-/* Lights that explain next to nothing go. */
+/* Lights that explain next to nothing go, or a few texels only. */
 static void prune(struct solving *s)
 {
 	double all = 0;
@@ -321,7 +330,7 @@ static void prune(struct solving *s)
 		leave_rest(s, j);
 		without = squares_left(s);
 		l->share = without > 0 ? 1 - all / without : 0;
-		if (l->color[0] + l->color[1] + l->color[2] > 0 && l->share > 0.05)
+		if (l->color[0] + l->color[1] + l->color[2] > 0 && l->share > 0.05 && spread_of(s, j) > SPREAD_LEAST)
 			continue;
 		s->out->n--;
 		memmove(l, l + 1, (s->out->n - j) * sizeof(*l));
@@ -332,6 +341,47 @@ static void prune(struct solving *s)
 		all = squares_left(s);
 	}
 	leave_rest(s, SOLVE_MOST_LIGHTS);
+}
+
+/* How far off the lights are at a sample, in its worst channel. */
+static double off_by(const struct sample *x)
+{
+	double most = 0;
+
+	for (int c = 0; c < 3; c++)
+		most = fmax(most, x->light[c] < CUT_OFF ? fabs(x->rest[c]) : 0);
+	return most;
+}
+
+/*
+ * Some samples lie: a vertex at the rim of a shadow may stand on its other side. Those that the lights explain worst are left out, with a
+ * stricter measure each time, and the lights move to where they explain the others. Where that would be many, it is the lights that lie.
+ */
+static void leave_out_strays(struct solving *s, double scale, unsigned char *sees)
+{
+	static const double most_steps[] = { 32, 6, 2 }; /* of 8 bits */
+
+	for (size_t round = 0; round < sizeof(most_steps) / sizeof(most_steps[0]); round++) {
+		size_t n = 0;
+
+		for (size_t i = 0; i < s->n; i++)
+			n += off_by(&s->samples[i]) > most_steps[round] / 255;
+		if (!s->out->n || n > MOST_STRAYS * (double)s->n)
+			break;
+		for (size_t i = 0; i < s->n; i++)
+			s->samples[i].strays = off_by(&s->samples[i]) > most_steps[round] / 255;
+		fit_strengths(s);
+		polish(s, scale, sees);
+		leave_rest(s, SOLVE_MOST_LIGHTS);
+	}
+}
+
+/* What the lights do not explain: strays count. */
+static double residual_of(struct solving *s)
+{
+	for (size_t i = 0; i < s->n; i++)
+		s->samples[i].strays = 0;
+	return sqrt(squares_left(s) / (3.0 * (double)s->n + 1));
 }
 
 static double extent_of(const struct lightmaps *maps)
@@ -380,7 +430,10 @@ int solve_lights(struct lightmaps *maps, struct solved *out)
 		leave_rest(&s, SOLVE_MOST_LIGHTS);
 	}
 	prune(&s);
-	out->residual = sqrt(squares_left(&s) / (3.0 * (double)s.n + 1));
+	s.step = 1;
+	leave_out_strays(&s, scale, sees);
+	prune(&s);
+	out->residual = residual_of(&s);
 	out->texels = s.n;
 	free(s.samples);
 	free(sees);
