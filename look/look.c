@@ -19,6 +19,9 @@
 #include "look/spare.h"
 #include "look/world.h"
 
+/* Between ambient light and what a program rounds to 8 bits. */
+#define SHADE (2.0f / 255)
+
 /* --- Which surfaces ------------------------------------------------------------------------------------------------ */
 
 static int has_texture(const struct scene *s, const struct scene_material *m, const char *text)
@@ -382,6 +385,21 @@ static int has_mirror(const struct applying *a)
 	return !known;
 }
 
+/* 1 where an instance whose vertices all have one colour is as bright as ambient light makes it: no other light of the rules falls there. */
+static int is_in_shade(const struct applying *a, const struct scene_instance *in)
+{
+	const float *color = a->scene->currents[in->current].color;
+	float ambient[3] = { 0, 0, 0 };
+
+	for (uint32_t k = 0; k < a->rules->lights_count; k++) {
+		const struct light_rule *r = &a->rules->lights[k];
+
+		for (int c = 0; c < 3 && !r->light && r->ambient && !(r->off && *r->off); c++)
+			ambient[c] += r->ambient[c];
+	}
+	return fabsf(color[0] - ambient[0]) < SHADE && fabsf(color[1] - ambient[1]) < SHADE && fabsf(color[2] - ambient[2]) < SHADE;
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static void change_instance(const struct applying *a, uint32_t i)
 {
@@ -413,7 +431,8 @@ static void change_instance(const struct applying *a, uint32_t i)
 	}
 	if (m->surface.hidden & SCENE_NEAR_MIRROR && !scene->meshes[in->mesh]->normal)
 		m->surface.hidden |= SCENE_NO_NORMALS;
-	if (!m->surface.relit)
+	if (!m->surface.relit ||
+	    (m->surface.light_unit == SCENE_LIGHT_IN_COLORS && !scene->meshes[in->mesh]->color && !is_in_shade(a, in)))
 		m->surface.light_unit = 0;
 	if (m->surface.relit) {
 		n = list_lights(a, in, m, out->lights + out->n_lights);

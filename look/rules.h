@@ -33,7 +33,8 @@
  *         mirrors: yes               # is seen in them and through glass
  *         near: yes                  # `reflect` mirrors what is there; where nothing is, the surface keeps its own colour
  *         lightmap: 1                # of what takes the lights below: the texture unit that holds light
- *         vertex_light: yes          # of what takes the lights below: vertex colours hold light, and are no part of its own colour
+ *         vertex_light: yes          # of what takes the lights below: vertex colours hold light, and are no part of its own colour; one
+ *                                    # colour for all vertices does where it is that of the ambient light below
  *         shadow_unit: 0             # of what OpenGL lights: the texture unit that holds a shadow, which traced ones replace
  *         shaded: no                 # nothing shades it: it keeps the light that OpenGL gives it, and takes none of the lights below
  *         lit: yes                   # takes the lights below where OpenGL does not light it

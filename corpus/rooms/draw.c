@@ -137,8 +137,8 @@ static void draw_lit_corner(const struct drawing *d, const struct face *face, st
 
 	vec_frame(face->plane.n, &u, &v);
 	bake_point(d->level, &d->world->mesh, &d->world->bsp, face, p, color);
-	for (int k = 0; k < 3 && d->lighting == LIGHTING_PAINT; k++)
-		color[k] = (GLubyte)(140 + 110 * sin(1.7 * p.x + 2.3 * p.y + 1.1 * p.z + k));
+	for (int k = 0; k < 3 && d->lighting != LIGHTING_COLORS; k++)
+		color[k] = d->lighting == LIGHTING_WHITE ? 255 : (GLubyte)(140 + 110 * sin(1.7 * p.x + 2.3 * p.y + 1.1 * p.z + k));
 	glColor3ubv(color);
 	glTexCoord2d(0.5 * vec_dot(u, p), 0.5 * vec_dot(v, p));
 	glVertex3dv(&p.x);
@@ -194,7 +194,7 @@ static void draw_walls(const struct drawing *d, const unsigned char *visible, in
 				glActiveTexture(base ? GL_TEXTURE1 : GL_TEXTURE0);
 				glBindTexture(GL_TEXTURE_2D, map_names[i]);
 			}
-			if (d->lighting == LIGHTING_COLORS || d->lighting == LIGHTING_PAINT)
+			if (d->lighting == LIGHTING_COLORS || d->lighting == LIGHTING_PAINT || d->lighting == LIGHTING_WHITE)
 				draw_in_colors(d, &mesh->faces[i]);
 			else
 				draw_face(d, i, base, lightmap);
@@ -275,7 +275,7 @@ void draw_world(struct drawing *d, const unsigned char *visible, long frame, int
 		torus_matrix(d->level, frame, matrix);
 		glPushMatrix();
 		glMultMatrixf(matrix);
-		if (d->lighting != LIGHTING_NONE)
+		if (d->lighting != LIGHTING_NONE && d->lighting != LIGHTING_WHITE)
 			glEnable(GL_LIGHTING);
 		glBindTexture(GL_TEXTURE_2D, textures[1]);
 		torus_draw();

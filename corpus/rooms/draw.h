@@ -10,7 +10,8 @@ enum lighting {
 	LIGHTING_OPENGL,       /* no lightmaps: OpenGL's own lights at the vertices */
 	LIGHTING_COLORS,       /* light baked into vertex colours, of walls cut into small triangles */
 	LIGHTING_PAINT,        /* the same with colours that are no light */
-	LIGHTING_NONE          /* textures as they are, on walls and objects */
+	LIGHTING_NONE,         /* textures as they are, on walls and objects */
+	LIGHTING_WHITE         /* the same, on walls cut as those with light in their colours */
 };
 
 enum environment { ENVIRONMENT_NONE, ENVIRONMENT_CUBE, ENVIRONMENT_SPHERE };

@@ -16,7 +16,7 @@ static struct drawing drawing = { .level = &level, .world = &world };
 static void usage(void)
 {
 	fputs("usage: rooms [--level FILE | --seed N] [--lights N] [--cull none|frustum|portal|bsp|octree]\n"
-	      "             [--lighting multitexture|pass|opengl|colors|paint|none] [--environment cube|sphere] [--mirror] [--shadow]\n"
+	      "             [--lighting multitexture|pass|opengl|colors|paint|none|white] [--environment cube|sphere] [--mirror] [--shadow]\n"
 	      "             [--truth FILE.json] [--frames N] [--animate camera|--walk]\n"
 	      "       rooms --check N    make levels 0 to N - 1 and see whether they are sound; no window\n", stderr);
 	exit(2);
@@ -53,7 +53,7 @@ static int check_levels(unsigned n)
 /* Take our own options out; what is left is program.h's. @return the file for what is true, or NULL */
 static const char *parse(int *argc, char **argv)
 {
-	static const char *const lightings[] = { "multitexture", "pass", "opengl", "colors", "paint", "none", NULL };
+	static const char *const lightings[] = { "multitexture", "pass", "opengl", "colors", "paint", "none", "white", NULL };
 	static const char *const environments[] = { "none", "cube", "sphere", NULL };
 	const char *const cullings[] = { culling_names[0], culling_names[1], culling_names[2], culling_names[3], culling_names[4], NULL };
 	const char *file = NULL, *truth = NULL;

@@ -308,7 +308,7 @@ static inline struct vec4 point_matte_color(const struct tables *t, const struct
 {
 	struct vec4 color = point_current_color(t, p);
 
-	return p->material->surface.light_unit == SCENE_LIGHT_IN_COLORS && p->geometry->attributes & SCENE_HAS_COLOR ? v4(1.0f, 1.0f, 1.0f, color.w) : color;
+	return p->material->surface.light_unit == SCENE_LIGHT_IN_COLORS ? v4(1.0f, 1.0f, 1.0f, color.w) : color;
 }
 
 /* The lights of a point beyond GL: its own where a rule has given it some. */
