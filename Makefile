@@ -32,7 +32,7 @@ RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/for
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
-COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format film scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
+COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c,base bisect capture capture/format film query scene look look/study kernels/ref tracer/* render render/bench render/check farm)) \
 	$(wildcard diff/*.c diff/*/*.c)
 COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handlers.c $(BUILD)/gen/page.c
 
@@ -56,11 +56,17 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
 
 # Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
 $(BUILD)/relume: $(COMMAND_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -static-libstdc++ -static-libgcc -o $@ $^ $(LIBS:-lsnappy=-l:libsnappy.a)
+
+# The same without its main function, for other programs: query/relume-rays.h.
+RAYS_OBJ := $(filter-out $(BUILD)/relume.o,$(COMMAND_OBJ))
+$(BUILD)/librelume-rays.so: $(RAYS_OBJ) query/exports.map
+	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -static-libstdc++ -static-libgcc -Wl,-Bsymbolic -Wl,-soname,librelume-rays.so \
+		-Wl,--version-script=query/exports.map -o $@ $(RAYS_OBJ) $(LIBS:-lsnappy=-l:libsnappy.a)
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -264,7 +270,7 @@ HOST_TESTS := $(addprefix $(BUILD)/tests/check/test_,rays camera shade compose)
 
 # With ONLY, what other tests need is left alone.
 HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests/fuzz/drive $(HOST_TESTS)
-check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(BUILD)/tests/bench/hits $(BUILD)/tests/bench/build
+check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
 demo:
@@ -277,7 +283,7 @@ picture: all $(BUILD)/deps.picture
 
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
-SHOWS := show-house show-rays show-rays-avx2 show-hits show-build show-host show-metrics show-batch-faults show-device-faults
+SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
@@ -321,12 +327,13 @@ show-house: all
 	@$(PYTHON) -B tests/house.py $(BUILD) --count --json $(BUILD)/show/house.json
 
 # Benches beside Embree, which is linked here and nowhere else: the traversal kernels (bench: without a bar), whole frames against the
-# rays in them and a rasteriser, hits ray by ray (the test of that name in tests/check runs fewer), the builders of acceleration structures.
+# rays in them and a rasteriser, hits ray by ray and queries one by one (the tests of those names in tests/check run fewer), the builders of acceleration structures.
 MODELS ?= ../shared/models
-BENCHES := $(addprefix $(BUILD)/tests/bench/,embree frame_rays hits build)
+BENCHES := $(addprefix $(BUILD)/tests/bench/,embree frame_rays hits build queries)
 $(BENCHES:=.o): | $(GENERATED_H)
 $(addprefix $(BUILD)/tests/bench/,embree.o frame_rays.o): private ALL_CFLAGS += -O3 -march=native
 $(BUILD)/tests/bench/build: $(BUILD)/tests/bench/embree_build.o
+$(BUILD)/tests/bench/queries: $(BUILD)/tests/bench/brute.o
 $(BENCHES): %: %.o $(BUILD)/parts.a
 	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
 
@@ -335,13 +342,14 @@ bench: $(BUILD)/tests/bench/embree
 
 show-rays show-rays-avx2: $(BUILD)/tests/bench/embree
 show-hits: $(BUILD)/tests/bench/hits
+show-query: $(BUILD)/tests/bench/queries
 show-build: $(BUILD)/tests/bench/build
 # As on a processor without AVX-512: PoCL compiles for such a one, and Embree is held to AVX2.
 show-rays-avx2: $(BUILD)/tests/real/avx2_shim.so
 show-rays-avx2: NARROW = LD_PRELOAD=$(abspath $(BUILD)/tests/real/avx2_shim.so) POCL_CACHE_DIR=$(abspath $(BUILD)/tests/pocl-cache-avx2)
 show-rays-avx2: BARS := --bars 1 --isa avx2
 show-rays show-build: BARS := --bars 1
-show-rays show-rays-avx2 show-hits show-build:
+show-rays show-rays-avx2 show-hits show-query show-build:
 	@mkdir -p $(BUILD)/show
 	@$(NARROW) $< --models $(MODELS) $(BARS) --json $(BUILD)/show/$(@:show-%=%).json --command "make $@"
 

@@ -13,7 +13,8 @@
 #define KERNEL_STRUCTS(X) \
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
-	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter)
+	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
+	X(query_point) X(query_nearest) X(query_body) X(query_contact)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -92,6 +93,19 @@ typedef float element_float;
 	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node2, node2, triangle)
 #define ARGUMENTS_intersect_compressed(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node2, node8c, triangle)
+
+/* Queries of one tree: kernels/rays/query.h. */
+#define ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) \
+	VALUE(uint, n) AND() IN(node2, nodes) AND() IN(triangle, triangles)
+#define ARGUMENTS_query_all(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(ray, rays) AND() \
+	VALUE(uint, most) AND()             /* hits that are kept of each ray */ \
+	OUT(hit, hits) AND() OUT(uint, counts)
+#define ARGUMENTS_query_distance(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(query_point, points) AND() OUT(query_nearest, nearest)
+#define ARGUMENTS_query_box(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(query_body, bodies) AND() OUT(query_contact, contacts)
+#define ARGUMENTS_query_sphere(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_query_box(IN, OUT, VALUE, GROUP, AND)
 
 /* Shading. In these, `n` counts what there is one work item for, unless noted. */
 #define ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) \
@@ -294,7 +308,8 @@ typedef float element_float;
 #define KERNEL_GROUPS(X) X(tables) X(camera_pass) X(emission)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
-	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
+	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
+	X(vertex) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
 
@@ -360,6 +375,10 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(intersect_binary, intersect_binary) \
 	X(occlude_compressed, occlude_compressed) /* the same, compressed nodes */ \
 	X(intersect_compressed, intersect_compressed) \
+	X(query_all, query_all)         /* one ray a work item: all that it hits */ \
+	X(query_distance, query_distance) /* one point a work item: what is nearest */ \
+	X(query_box, query_box)         /* one moving box a work item: what it meets first */ \
+	X(query_sphere, query_sphere)   /* the same, a sphere */ \
 	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
 	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \

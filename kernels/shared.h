@@ -289,6 +289,35 @@ struct path {
 };
 SHARED_SIZE(struct path, 32);
 
+/* Queries: kernels/rays/query.h. A point, and how far from it things count. */
+struct query_point {
+	float p[3], most;
+};
+SHARED_SIZE(struct query_point, 16);
+
+/* What is nearest to a point. */
+struct query_nearest {
+	float distance;
+	float p[3];         /* the nearest point */
+	uint32_t primitive; /* SCENE_NONE: nothing is so near, and nothing else is said */
+};
+SHARED_SIZE(struct query_nearest, 20);
+
+/* A box along the axes, or a sphere, on its way from `centre` to `centre` + `move`. */
+struct query_body {
+	float centre[3];
+	float size[3]; /* half the box's edges; size[0]: the sphere's radius */
+	float move[3];
+};
+SHARED_SIZE(struct query_body, 36);
+
+/* What a body meets first. */
+struct query_contact {
+	float t;            /* [0,1], of its way; 0 where it touches something before it moves */
+	uint32_t primitive; /* SCENE_NONE: it meets nothing */
+};
+SHARED_SIZE(struct query_contact, 8);
+
 /* A triangle that shines, in a list of all in its space. */
 struct emitter {
 	float end;               /* share of the list's light that is its or comes before: rises to 1 */

@@ -23,13 +23,17 @@ place() {
 
 version=$(sed -n 's/^#define RELUME_VERSION "\(.*\)"/\1/p' base/version.h)
 sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume.pc.in >"$build/relume.pc"
+sed "s|@PREFIX@|$prefix|; s|@VERSION@|$version|" packaging/relume-rays.pc.in >"$build/relume-rays.pc"
 
 place 755 "$build/relume" bin/relume
 place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours, whose folder goes with the last of them
 place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
+place 644 "$build/librelume-rays.so" lib/relume/librelume-rays.so
 place 644 capture/relume.h include/relume.h
+place 644 query/relume-rays.h include/relume-rays.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
+place 644 "$build/relume-rays.pc" share/pkgconfig/relume-rays.pc
 place 644 diff/score/score.schema.json share/relume/score.schema.json
 place 644 README.md share/doc/relume/README.md
 for page in "$build"/pages/man/*.1; do

@@ -1,0 +1,36 @@
+/* The triangles of a scene in one space: what queries are asked of. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene/scene.h"
+
+/* Where a triangle is from. */
+struct soup_source {
+	uint32_t draw, primitive; /* as in struct relume_rays_triangle */
+};
+
+struct query_soup {
+	float (*position)[4]; /* [n_vertices], w is 1 */
+	uint32_t (*index)[3];
+	struct soup_source *sources; /* [n_triangles], or NULL: of one's own */
+	uint32_t n_vertices, n_triangles;
+};
+
+/**
+ * The triangles of a frame that rays see, in eye space; of its eye spaces the one that has most. Those with a corner at infinity or
+ * behind it are left out.
+ * @param out  query_soup_free
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int query_soup_of_frame(const struct scene *scene, struct query_soup *out);
+
+/**
+ * Triangles of somebody's own.
+ * @param where  what messages call them
+ * @return 0; ERR_SYSTEM, ERR_USAGE (reported: an index or a number that cannot be)
+ */
+int query_soup_of_triangles(const float (*position)[3], size_t n_vertices, const uint32_t (*index)[3], size_t n_triangles,
+                            const char *where, struct query_soup *out);
+void query_soup_free(struct query_soup *soup);

@@ -1,0 +1,8 @@
+#!/bin/sh
+# limit: 300 s
+# Answers of relume-rays.h against all triangles one by one, other ones in each run, on OpenCL and on the C twins: a short form of
+# make show-query. QUERIES_SEED repeats one.
+seed=${QUERIES_SEED:-$(date +%s)}
+echo "QUERIES_SEED=$seed"
+"$RELUME_BUILD/tests/bench/queries" --count 3000 --rates 0 --seed "$seed" &&
+	"$RELUME_BUILD/tests/bench/queries" --count 1000 --rates 0 --seed "$seed" --device reference
