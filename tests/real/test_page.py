@@ -14,7 +14,8 @@ from exr_numpy import write_png  # noqa: E402
 N_FRAMES, EVERY = 1000, 5  # one of five frames is damaged
 SIDE = ["reference", "compared", "difference", "flip"]
 WANTED = {
-    "errors": [], "opened": 995, "frames": N_FRAMES, "order": [0, 5, 10], "verdict": "not passed, failed", "counts": "800 passed200 failed", "bars": N_FRAMES,
+    "errors": [], "opened": 995, "frames": N_FRAMES, "order": [0, 5, 10], "about": "ref; 1000 frames", "zooms": "0.5 x1 x2 x4 x8 x",
+    "verdict": "not passed, failed", "counts": "800 passed200 failed", "bars": N_FRAMES,
     "bar": [0, 90, 50, "0.86"],  # fidelity 0.9583 on a floor of 0.9, of 86
     "chart": "the floor of the chart is 90 %, its top 100 %", "heading": "frame 995 failed fidelity 95.833 %", "in_sight": True, "corner": "x 0  y 0   raster (reference) 0 90 30   beauty 0 90 30",
     "outside": "x -1  y 0",

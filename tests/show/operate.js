@@ -24,6 +24,8 @@ async function operate()
 	found.opened = now();
 	found.frames = list.children.length;
 	found.order = [...list.children].slice(0, 3).map(item => item.frame.frame);
+	found.about = $("about").textContent.replace(/^.* against /, "").replace(/, .*/, "");
+	found.zooms = [...document.querySelectorAll("#tools select")].pop().textContent;
 	found.verdict = $("verdict").textContent + ", " + $("verdict").className;
 	found.counts = $("counts").textContent;
 	found.bars = document.querySelectorAll("#chart rect").length - 1;

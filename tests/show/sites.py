@@ -23,11 +23,12 @@ class Site:
     end: int
     instead: str
     line: int = 0
+    column: int = 0
     was: str = ""
     id: str = ""
 
     def told(self):
-        return f"{self.path}:{self.line}: {self.kind} `{self.was}` -> `{self.instead}`"
+        return f"{self.path}:{self.line}:{self.column}: {self.kind} `{self.was}` -> `{self.instead}`"
 
 
 def tokens_of(text):
@@ -112,7 +113,7 @@ def find(root, path, seed):
     text, seen = (root / path).read_text(), {}
     for site in of_text(path, text):
         begin, end = text.rfind("\n", 0, site.begin) + 1, text.find("\n", site.end)
-        site.line, site.was = text.count("\n", 0, site.begin) + 1, text[site.begin:site.end]
+        site.line, site.column, site.was = text.count("\n", 0, site.begin) + 1, site.begin - begin + 1, text[site.begin:site.end]
         key = (path, text[begin:end].strip(), site.begin - begin, site.kind, site.instead)
         seen[key] = seen.get(key, 0) + 1
         site.id = hashlib.sha256(repr((seed, key, seen[key])).encode()).hexdigest()[:12]

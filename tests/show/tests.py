@@ -116,6 +116,7 @@ class Campaign:
 
     def likely_first(self, site, folder):
         stem = re.sub(r"_(packet|single|wide)$", "", pathlib.Path(site.path).stem)
+        words = [word for word in stem.split("_") if len(word) > 3]
         noticed = {}
         for verdict in self.verdicts.values():
             if verdict["verdict"] == "noticed" and verdict["folder"] == folder:
@@ -123,7 +124,7 @@ class Campaign:
 
         def worth(test):
             seconds = self.times.get(test.name, UNKNOWN_S[test.command.suffix or ".c"])
-            return (1 + 20 * (stem in test.name) + 3 * (re.search(rf"\b{stem}\b", self.texts[test.name]) is not None) +
+            return (1 + 20 * (stem in test.name) + 3 * sum(word in self.texts[test.name] for word in words) +
                     next((40 / (1 + at) for at, part in enumerate(ROOMS[folder].split()) if part in test.name), 0) + 10 * noticed.get(test.name, 0)) / (3 + seconds)
         return sorted(self.tests, key=worth, reverse=True)
 
