@@ -30,7 +30,12 @@
 /* The same for t, and how close to a sphere a triangle touches it. */
 #define QUERY_SLACK 1e-5f
 #define QUERY_TOUCH 1e-6f
-#define QUERY_STEPS 40u
+/*
+ * By how much the direction to the nearest point may be wrong: where an edge is as near as a face but for rounding, the square root of
+ * that. Steps towards a triangle are shorter by as much.
+ */
+#define QUERY_TURN 1e-3f
+#define QUERY_STEPS 64u
 
 /* A question on its way through the tree. */
 struct query {
@@ -180,12 +185,13 @@ static inline void query_take_contact(struct query *q, float t, uint32_t primiti
 
 static inline void query_try_sphere(struct query *q, const struct query_triangle *triangle)
 {
-	const float touch = QUERY_TOUCH * (q->radius + q->extent);
+	const float touch = QUERY_TOUCH * (q->radius + q->extent), slower = QUERY_TURN * M_SQRT(query_dot(q->d, q->d));
 	float t = 0.0f;
 
 	for (uint32_t i = 0; i < QUERY_STEPS && t <= q->far; i++) {
 		const struct vec3 away = query_away(triangle, v3_scale(q->d, t));
-		const float distance = M_SQRT(query_dot(away, away)), gap = distance - q->radius, approach = -query_dot(away, q->d);
+		const float distance = M_SQRT(query_dot(away, away)), gap = distance - q->radius;
+		const float approach = slower * distance - query_dot(away, q->d);
 
 		if (gap <= touch) {
 			query_take_contact(q, t, triangle->primitive);
