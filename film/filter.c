@@ -11,13 +11,21 @@
 #define ALBEDO_LEAST 0.02f /* light is what a surface shows over its albedo, at least this */
 #define PASSES 5u
 #define GLOSS_PASSES 2u    /* what mirrors show has edges that no guide knows */
-#define SIGMA_LIGHT 4.0f   /* as many standard deviations of brightness */
+#define SIGMA_LIGHT 1.8f   /* as many standard deviations of the noise */
 #define SIGMA_DEPTH 1.0f
 #define MOST_THREADS 16u
 
 static float brightness(const float c[3])
 {
 	return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
+
+/* The mean square of what two colours differ by. */
+static float distance2(const float a[3], const float b[3])
+{
+	const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+
+	return (x * x + y * y + z * z) / 3;
 }
 
 /* --- Rows on threads ------------------------------------------------------------------------------------------------------- */
@@ -184,7 +192,49 @@ static float slope_at(const struct filter_frame *f, uint32_t x, uint32_t y)
 
 /* --- A guess ------------------------------------------------------------------------------------------------------------------- */
 
-/* Mean and variance of brightness over 7 x 7 pixels of the same surface. */
+#define WINDOW 3u          /* pixels to each side */
+#define MOST_PAIRS 128u
+#define QUANTILE 0.6f      /* which of the pairs is looked at; and the same quantile of a normal variable's square */
+#define QUANTILE_SQUARE 0.7083f
+
+static int by_size(const void *a, const void *b)
+{
+	const float x = *(const float *)a, y = *(const float *)b;
+
+	return (x > y) - (x < y);
+}
+
+/* Half the squared difference of two neighbours, where they lie on one surface. */
+static void add_pair(const struct filter_frame *f, const float (*plane)[3], size_t a, size_t b, float slope, float *pairs, size_t *n)
+{
+	if (*n < MOST_PAIRS && f->is_there[a] && same_surface(f, a, b, slope, 1) > 0.5f)
+		pairs[(*n)++] = distance2(plane[a], plane[b]) / 2;
+}
+
+/*
+ * The variance of the noise about a pixel, from how much neighbours differ. Most pairs of neighbours do so by noise alone; edges of
+ * shadows, where some differ by more, are no noise and stay.
+ */
+static float noise_about(const struct filter_frame *f, const float (*plane)[3], uint32_t x, uint32_t y)
+{
+	const float slope = slope_at(f, x, y);
+	float pairs[MOST_PAIRS];
+	size_t n = 0;
+
+	for (uint32_t v = y > WINDOW ? y - WINDOW : 0; v <= y + WINDOW && v < f->height; v++)
+		for (uint32_t u = x > WINDOW ? x - WINDOW : 0; u <= x + WINDOW && u < f->width; u++) {
+			const size_t k = (size_t)v * f->width + u;
+
+			if (u < x + WINDOW && u + 1 < f->width)
+				add_pair(f, plane, k, k + 1, slope, pairs, &n);
+			if (v < y + WINDOW && v + 1 < f->height)
+				add_pair(f, plane, k, k + f->width, slope, pairs, &n);
+		}
+	qsort(pairs, n, sizeof(*pairs), by_size);
+	return n ? pairs[(size_t)((float)(n - 1) * QUANTILE)] / QUANTILE_SQUARE : 0;
+}
+
+/* The noise of brightness, and its mean over 7 x 7 pixels of the same surface. */
 static void guess_row(const void *user, uint32_t y)
 {
 	const struct filter_frame *f = user;
@@ -192,21 +242,20 @@ static void guess_row(const void *user, uint32_t y)
 	for (uint32_t x = 0; x < f->width; x++) {
 		const size_t i = (size_t)y * f->width + x;
 		const float slope = slope_at(f, x, y);
-		float sum = 0, squares = 0, weights = 0;
+		float sum = 0, weights = 0;
 
 		if (!f->is_there[i])
 			continue;
-		for (uint32_t v = y > 3 ? y - 3 : 0; v <= y + 3 && v < f->height; v++)
-			for (uint32_t u = x > 3 ? x - 3 : 0; u <= x + 3 && u < f->width; u++) {
+		for (uint32_t v = y > WINDOW ? y - WINDOW : 0; v <= y + WINDOW && v < f->height; v++)
+			for (uint32_t u = x > WINDOW ? x - WINDOW : 0; u <= x + WINDOW && u < f->width; u++) {
 				const size_t k = (size_t)v * f->width + u;
-				const float w = same_surface(f, i, k, slope, hypotf((float)u - (float)x, (float)v - (float)y)), b = brightness(f->light[k]);
+				const float w = same_surface(f, i, k, slope, hypotf((float)u - (float)x, (float)v - (float)y));
 
-				sum += w > 0 ? w * b : 0;
-				squares += w > 0 ? w * b * b : 0;
+				sum += w > 0 ? w * brightness(f->light[k]) : 0;
 				weights += w;
 			}
 		f->guess[i] = weights > 0 ? sum / weights : brightness(f->light[i]);
-		f->variance[i] = weights > 0 ? fmaxf(squares / weights - f->guess[i] * f->guess[i], 0) : 0;
+		f->variance[i] = noise_about(f, (const float (*)[3])f->light, x, y);
 	}
 }
 
@@ -394,7 +443,7 @@ static void pass_pixel(const struct pass *p, uint32_t x, uint32_t y)
 			w = k == i ? 1 : same_surface(f, i, k, slope, (float)p->step * hypotf((float)u, (float)v));
 			if (!(w > 0))
 				continue;
-			w *= kernel[abs(u)] * kernel[abs(v)] * expf(-fabsf(bright - brightness(p->from[k])) / scale);
+			w *= kernel[abs(u)] * kernel[abs(v)] * expf(-sqrtf(distance2(p->from[i], p->from[k])) / scale);
 			for (int c = 0; c < 3; c++)
 				sum[c] += w * p->from[k][c];
 			variance += w * w * p->variance[k];
@@ -442,26 +491,13 @@ static int run_passes(const struct filter_frame *f, uint32_t n, float (**plane)[
 	return err;
 }
 
-/* The variance of what mirrors show, about each pixel: as guess_row has it of light. */
+/* The noise of what mirrors show, about each pixel: as guess_row has it of light. */
 static void gloss_row(const void *user, uint32_t y)
 {
 	const struct pass *p = user;
-	const struct filter_frame *f = p->frame;
 
-	for (uint32_t x = 0; x < f->width; x++) {
-		const size_t i = (size_t)y * f->width + x;
-		float sum = 0, squares = 0, weights = 0;
-
-		for (uint32_t v = y ? y - 1 : 0; v <= y + 1 && v < f->height; v++)
-			for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < f->width; u++) {
-				const float b = brightness(p->from[(size_t)v * f->width + u]);
-
-				sum += b;
-				squares += b * b;
-				weights += 1;
-			}
-		p->next_variance[i] = fmaxf(squares / weights - sum * sum / (weights * weights), 0) / (SIGMA_LIGHT * SIGMA_LIGHT);
-	}
+	for (uint32_t x = 0; x < p->frame->width; x++)
+		p->next_variance[(size_t)y * p->frame->width + x] = noise_about(p->frame, p->from, x, y) / (SIGMA_LIGHT * SIGMA_LIGHT);
 }
 
 int filter_space(struct filter_frame *f)

@@ -5,7 +5,7 @@
  * time: a point's light in frames before and after, followed by motion vectors, where surface and brightness are the same. Then over the
  * picture: five passes of an a-trous wavelet whose steps double (H. Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast
  * Global Illumination Filtering", 2010), guided by normals, depth and the variance that is left (C. Schied et al., "Spatiotemporal
- * Variance-Guided Filtering", 2017). All in C on this processor: the same frames give the same bytes, whatever the number of threads.
+ * Variance-Guided Filtering", 2017), which neighbours tell (noise_about in filter.c). All in C on this processor: the same frames give the same bytes, whatever the number of threads.
  */
 #pragma once
 
@@ -14,7 +14,7 @@
 struct filter_frame {
 	uint32_t width, height;
 	float (*light)[3], (*gloss)[3]; /* on surfaces; in mirrors and through glass */
-	float *variance;                /* of light's brightness */
+	float *variance;                /* of light's noise, the mean of the channels */
 	float *guess;                   /* brightness as it may be, to compare frames by */
 	float (*albedo)[3], (*normal)[3], *depth;
 	float (*motion)[3]; /* pixels right and down since the frame before, and 1 where that is known */
