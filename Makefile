@@ -284,7 +284,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
 	film sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay
@@ -306,6 +306,7 @@ DEPS_look := python3-yaml
 DEPS_metrics := python3-venv
 DEPS_oclgrind := oclgrind valgrind
 DEPS_page := chromium
+DEPS_path := blender python3-numpy
 DEPS_sandbox := strace
 DEPS_relit := extremetuxracer $(DEPS_parity)
 DEPS_thesis := povray blender python3-numpy
@@ -361,6 +362,15 @@ $(BUILD)/show/venv/ready: | $(BUILD)/deps.metrics
 $(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0
 	@touch $@
+
+SHOWS += show-denoise
+DEPS_denoise := python3-venv
+$(BUILD)/show/denoise/venv/ready: | $(BUILD)/deps.denoise
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 pyoidn==2.5.1.0
+	@touch $@
+
+show-denoise: all $(BUILD)/show/denoise/venv/ready
+	@$(BUILD)/show/denoise/venv/bin/python -B tests/show/denoise.py $(BUILD)
 
 show-metrics: all $(BUILD)/tests/unit/test_metrics $(BUILD)/show/venv/ready
 	@$(BUILD)/show/venv/bin/python -B tests/show/metrics.py $(BUILD)

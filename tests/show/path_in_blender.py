@@ -1,0 +1,85 @@
+"""Run inside Blender: import a .glb, make it what OpenGL would light, and render it with Cycles at several numbers of samples.
+
+Arguments after --: the file, the same frame as `relume scene --json` has it, the start of the pictures' names, the numbers of samples.
+Prints seconds of the processor of each.
+"""
+import json
+import math
+import sys
+import time
+
+import bpy
+import mathutils
+import numpy
+
+if not hasattr(numpy, "bool"):  # Debian 12's Blender 3.4.1 names an alias that its NumPy 1.24 no longer has
+    numpy.bool = bool
+
+path, told, out, *counts = sys.argv[sys.argv.index("--") + 1:]
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.gltf(filepath=path)
+scene = bpy.context.scene
+with open(told, encoding="utf-8") as file:
+    told = json.load(file)
+
+
+def linear(display):
+    return display / 12.92 if display <= 0.04045 else ((display + 0.055) / 1.055) ** 2.4
+
+
+def light_at(place):
+    """The light of OpenGL's that is nearest to a place of Blender's, where z is up."""
+    return min(told["lights"], key=lambda l: (mathutils.Vector((l["position_eye"][0], -l["position_eye"][2], l["position_eye"][1])) - place).length)
+
+
+world = bpy.data.worlds.new("cleared")
+world.use_nodes = True
+world.node_tree.nodes["Background"].inputs["Color"].default_value = [*(linear(c) for c in told["clears"][0]["color"][:3]), 1]
+scene.world = world
+for item in [o for o in bpy.data.objects if o.type == "LIGHT"]:
+    light, strong = item.data, light_at(item.matrix_world.translation)
+    if light.type in ("POINT", "SPOT"):
+        light.shadow_soft_size = 0
+        light.use_nodes = True
+        nodes = light.node_tree.nodes
+        falloff = nodes.new("ShaderNodeLightFalloff")
+        falloff.inputs["Strength"].default_value = 1
+        light.node_tree.links.new(falloff.outputs["Constant"], nodes["Emission"].inputs["Strength"])
+        light.energy = 4 * math.pi ** 2 * linear(max(strong["diffuse"][:3]) / strong["attenuation"][0])  # a white surface that faces it shows the light's colour, however far it is
+        if light.type == "SPOT":
+            light.spot_blend = 0
+for material in bpy.data.materials:
+    # OpenGL's surfaces scatter as Lambert has it, which the principled shader does not; mirrors, glass and what blends keep it
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    node = next((n for n in nodes if n.type == "BSDF_PRINCIPLED"), None)
+    if not node or any(node.inputs[name].is_linked or node.inputs[name].default_value != value
+                       for name, value in (("Metallic", 0), ("Transmission", 0), ("Alpha", 1))):
+        continue
+    matte, color = nodes.new("ShaderNodeBsdfDiffuse"), node.inputs["Base Color"]
+    matte.inputs["Color"].default_value = color.default_value
+    if color.is_linked:
+        links.new(color.links[0].from_socket, matte.inputs["Color"])
+    for link in list(node.outputs["BSDF"].links):
+        links.new(matte.outputs["BSDF"], link.to_socket)
+scene.render.engine = "CYCLES"
+scene.cycles.device = "CPU"
+scene.cycles.use_adaptive_sampling = False
+scene.cycles.use_denoising = False
+scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = scene.cycles.transmission_bounces = 4
+scene.cycles.sample_clamp_direct = scene.cycles.sample_clamp_indirect = 0
+scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = told["width"], told["height"], 100
+scene.render.use_persistent_data = True
+scene.render.image_settings.file_format = "OPEN_EXR"
+scene.render.image_settings.color_depth = "32"
+scene.render.image_settings.exr_codec = "ZIPS"
+scene.camera = next(o for o in bpy.data.objects if o.type == "CAMERA")
+scene.cycles.samples = 1
+bpy.ops.render.render()
+seconds = {}
+for count in counts:
+    scene.cycles.samples, scene.render.filepath = int(count), f"{out}.{count}.exr"
+    begin = time.process_time()
+    bpy.ops.render.render(write_still=True)
+    seconds[count] = time.process_time() - begin
+print("\nRENDERED " + json.dumps({"seconds": seconds, "version": bpy.app.version_string}), flush=True)
