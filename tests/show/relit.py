@@ -2,7 +2,8 @@
 """tests/show/relit.py BUILD [NAME...] (as `make show-relit`): programs of the corpus as their raster frame, as the beauty without rules, and as
 the beauty under the rules that `relume look` finds, side by side in BUILD/show/relit/NAME.png, to be looked at. Gate N must pass: no
 frame is darker than its shadows explain. Channels of OpenGL's own picture must be the same in both beauties. A relit frame costs at most
-twice a whitted one, of these and of all real programs (by name: cost). Then the same pictures of real programs, with what was seen when
+twice a whitted one, of these and of all real programs (by name: cost), and a study of 1,000 frames at most what rendering 20 costs
+(study.py; by name: study). Then the same pictures of real programs, with what was seen when
 they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
 import json
 import pathlib
@@ -13,6 +14,7 @@ import tempfile
 
 import programs
 import sheet as real
+import study
 import unseen
 from display import need_display
 
@@ -133,9 +135,11 @@ def main(build, only):
     for row in cost_rows(build, only):
         rows.append(row)
         bad += not row["passed"]
-    if not only or "unseen" in only:
+    for name, part in (("study", study), ("unseen", unseen)):
+        if only and name not in only:
+            continue
         with tempfile.TemporaryDirectory() as folder:
-            for row in unseen.rows(build, pathlib.Path(folder)):
+            for row in part.rows(build, pathlib.Path(folder)):
                 rows.append(row)
                 bad += not row["passed"]
     for row in judge(build, only):
