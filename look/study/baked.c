@@ -121,24 +121,27 @@ static int put_mesh(struct lightmaps *l, const struct scene_mesh *mesh, const do
 	return err;
 }
 
-int baked_add(struct lightmaps *l, const struct scene *s, const struct motion *motion)
+static uint64_t key_of(const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
 {
+	const struct scene_material *m = &s->materials[in->material];
+
+	(void)t;
+	return solid_is(s, in) && !m->blend && !m->alpha_test && !m->stencil_test ? s->meshes[in->mesh]->hash[0] : 0;
+}
+
+static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
+{
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	int err = 0;
 
-	for (uint32_t i = 0; i < s->n_instances && !err; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_material *m = &s->materials[in->material];
-		const struct scene_mesh *mesh = s->meshes[in->mesh];
-		const struct motion_thing *t = motion->of_instance[i] == SCENE_NONE ? NULL : &motion->things[motion->of_instance[i]];
+	if (may_be_baked(s, in) && varies(mesh) && l->n + mesh->vertex_count <= MOST_VERTICES)
+		err = put_mesh(l, mesh, t->world, s->materials[in->material].front_face == GL_CW ? -1 : 1);
+	return err || !t->votes ? err : lightmaps_put_occluder(l, mesh, t->world);
+}
 
-		if (!t || (t->again && t->still != t->again) || !solid_is(s, in) || m->blend || m->alpha_test || m->stencil_test ||
-		    table_find(&l->seen, mesh->hash[0]))
-			continue;
-		err = table_set(&l->seen, mesh->hash[0], (void *)(uintptr_t)1);
-		if (!err && may_be_baked(s, in) && varies(mesh) && l->n + mesh->vertex_count <= MOST_VERTICES)
-			err = put_mesh(l, mesh, t->world, m->front_face == GL_CW ? -1 : 1);
-		if (!err && t->votes)
-			err = lightmaps_put_occluder(l, mesh, t->world);
-	}
-	return err;
+int baked_add(struct lightmaps *l, const struct scene *s, const struct motion *motion)
+{
+	static const struct lightmaps_kind kind = { key_of, put_draw };
+
+	return lightmaps_walk(l, s, motion, &kind);
 }

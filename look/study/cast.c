@@ -94,7 +94,8 @@ static int find_coordinates(const struct scene *s, const struct scene_instance *
 		return 0;
 	for (int r = 0; r < 4; r++)
 		for (int c = 0; c < 4; c++)
-			rows[4 * c + r] = u->gen_mode[r] != mode ? (r == 3 && c == 3) : mode == GL_EYE_LINEAR ? (double)u->gen_eye_plane[r][c] : (double)u->gen_object_plane[r][c];
+			rows[4 * c + r] = u->gen_mode[r] != mode     ? (r == 3 && c == 3) :
+			                  mode == GL_EYE_LINEAR ? (double)u->gen_eye_plane[r][c] : (double)u->gen_object_plane[r][c];
 	if (mode == GL_EYE_LINEAR)
 		memcpy(out, rows, sizeof(rows));
 	else

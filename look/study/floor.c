@@ -156,7 +156,8 @@ unsigned floors_write(const struct floors *f, FILE *out)
 			continue;
 		n++;
 		if (out)
-			fprintf(out, "  - role: polished floor\n    confidence: 0.5\n    why: \"shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its texels are as their neighbours\"\n"
+			fprintf(out, "  - role: polished floor\n    confidence: 0.5\n"
+			        "    why: \"shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its texels are as their neighbours\"\n"
 			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", lit: no, parallel: no, modelview: plain }\n    reflect: %g\n    near: yes\n",
 			        t->shadowed, t->draws, 100 * t->even, t->hash[1], t->hash[0], MIRRORED);
 	}

@@ -9,7 +9,10 @@
 #include "look/study/layer.h"
 
 enum { BY_MESH, BY_TEXTURE, BY_STATE };
-enum { STATE_LIT = 1, STATE_BLENDED = 2, STATE_ALPHA = 4, STATE_DEPTH = 8, STATE_STENCIL = 16, STATE_MULTIPLIES = 32, STATE_PARALLEL = 64, STATE_UNITS = 128 };
+enum {
+	STATE_LIT = 1, STATE_BLENDED = 2, STATE_ALPHA = 4, STATE_DEPTH = 8, STATE_STENCIL = 16, STATE_MULTIPLIES = 32, STATE_PARALLEL = 64,
+	STATE_UNITS = 128
+};
 /* A mesh is asked about so often what it lies on, in a frame and in all, and a role has so many rules. */
 enum { MOST_IN_FRAME = 4, MOST_VOTES = 48, MOST_RULES = 64 };
 /* Nearly always. */
@@ -190,7 +193,8 @@ static int has(const struct kind *k, uint32_t roles)
 /* 1 where a rule of a mesh's texture or state says it already. */
 static int is_said(const struct kinds *k, const struct kind *mesh, uint32_t roles)
 {
-	return (mesh->texture && has(&k->list[mesh->texture - 1], roles)) || (mesh->state && has(&k->list[mesh->state - 1], roles) && mesh->frames == 1 && k->frames > 1);
+	return (mesh->texture && has(&k->list[mesh->texture - 1], roles)) ||
+	       (mesh->state && has(&k->list[mesh->state - 1], roles) && mesh->frames == 1 && k->frames > 1);
 }
 
 /* 1 where a state needs a rule of its own: some mesh that is in one frame alone has it, and no texture tells. */
@@ -216,8 +220,9 @@ static void write_match(const struct kind *k, const char *view, FILE *out)
 		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n", k->by == BY_MESH ? "mesh" : "texture", k->hash[1], k->hash[0], view);
 		return;
 	}
-	fprintf(out, "    match: { lit: %s, units: %" PRIu64 ", blended: %s, alpha_tested: %s, depth_tested: %s,\n", yes_no[(s & STATE_LIT) != 0], s / STATE_UNITS,
-	        yes_no[(s & STATE_BLENDED) != 0], yes_no[(s & STATE_ALPHA) != 0], yes_no[(s & STATE_DEPTH) != 0]);
+	fprintf(out, "    match: { lit: %s, units: %" PRIu64 ", blended: %s, alpha_tested: %s, depth_tested: %s,\n",
+	        yes_no[(s & STATE_LIT) != 0], s / STATE_UNITS, yes_no[(s & STATE_BLENDED) != 0], yes_no[(s & STATE_ALPHA) != 0],
+	        yes_no[(s & STATE_DEPTH) != 0]);
 	fprintf(out, "             stencil_tested: %s, multiplies: %s, parallel: %s }\n", yes_no[(s & STATE_STENCIL) != 0],
 	        yes_no[(s & STATE_MULTIPLIES) != 0], yes_no[(s & STATE_PARALLEL) != 0]);
 }

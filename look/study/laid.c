@@ -256,6 +256,12 @@ static int darkens(const struct scene *s, const struct scene_instance *in)
 	return look_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
 }
 
+/* 1 where two balls are neither far larger nor far smaller than each other. */
+static int is_alike(const struct ball *a, const struct ball *b)
+{
+	return a->radius < ALIKE * b->radius && b->radius < ALIKE * a->radius;
+}
+
 /* 1 where something solid, neither far larger nor far smaller, stands on a draw. */
 static int has_thing(const struct scene *s, const struct ball *balls, uint32_t instance, const struct ground *ground)
 {
@@ -266,8 +272,8 @@ static int has_thing(const struct scene *s, const struct ball *balls, uint32_t i
 		const struct ball *thing = &balls[i];
 		double off[3], height, aside;
 
-		if (!(thing->radius < ALIKE * ball->radius && ball->radius < ALIKE * thing->radius) || i == instance || i == ground->instance || !solid_is(s, in) || s->views[in->view].space != s->views[s->instances[instance].view].space ||
-		    modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
+		if (!is_alike(thing, ball) || i == instance || i == ground->instance || !solid_is(s, in) ||
+		    s->views[in->view].space != s->views[s->instances[instance].view].space || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN)
 			continue;
 		for (int k = 0; k < 3; k++)
 			off[k] = thing->middle[k] - ball->middle[k];

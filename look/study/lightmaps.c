@@ -122,32 +122,56 @@ int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, c
 	return err;
 }
 
-int lightmaps_add(struct lightmaps *l, const struct scene *s, const struct motion *motion)
+int lightmaps_walk(struct lightmaps *l, const struct scene *s, const struct motion *motion, const struct lightmaps_kind *kind)
 {
 	int err = 0;
 
 	for (uint32_t i = 0; i < s->n_instances && !err; i++) {
-		const struct scene_instance *in = &s->instances[i];
-		const struct scene_material *m = &s->materials[in->material];
-		const struct scene_mesh *mesh = s->meshes[in->mesh];
 		const struct motion_thing *t = motion->of_instance[i] == SCENE_NONE ? NULL : &motion->things[motion->of_instance[i]];
-		const struct scene_unit *unit = light_unit(s, m);
-		uint64_t key = unit ? mesh->hash[0] ^ s->textures[unit->texture]->hash[0] * 0x9e3779b97f4a7c15u : mesh->hash[0];
+		const uint64_t key = t && (!t->again || t->still == t->again) ? kind->key_of(s, &s->instances[i], t) : 0;
 
-		if (!t || modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || m->stencil_test || (t->again && t->still != t->again))
-			continue;
-		if ((!unit && (m->blend || m->lighting || !t->votes || m->alpha_test)) || table_find(&l->seen, key))
+		if (!key || table_find(&l->seen, key))
 			continue;
 		err = table_set(&l->seen, key, (void *)(uintptr_t)1);
-		if (!err && unit && mesh->texcoord[unit->unit]) {
-			err = put_wall(l, s, in, unit, t->world);
-			*(m->unit_count == 2 ? &l->n_units : &l->n_passes) += 1;
-			l->unit = m->unit_count == 2 ? unit->unit : l->unit;
-		}
-		if (!err && !lightmaps_is_pass(m))
-			err = lightmaps_put_occluder(l, mesh, t->world);
+		if (!err)
+			err = kind->put(l, s, &s->instances[i], t);
 	}
 	return err;
+}
+
+static uint64_t key_of(const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
+{
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_unit *unit = light_unit(s, m);
+	const uint64_t hash = s->meshes[in->mesh]->hash[0];
+
+	if (modelview_kind_of(in->modelview) != MODELVIEW_PLAIN || m->stencil_test)
+		return 0;
+	if (unit)
+		return hash ^ s->textures[unit->texture]->hash[0] * 0x9e3779b97f4a7c15u;
+	return m->blend || m->lighting || !t->votes || m->alpha_test ? 0 : hash;
+}
+
+static int put_draw(struct lightmaps *l, const struct scene *s, const struct scene_instance *in, const struct motion_thing *t)
+{
+	const struct scene_material *m = &s->materials[in->material];
+	const struct scene_mesh *mesh = s->meshes[in->mesh];
+	const struct scene_unit *unit = light_unit(s, m);
+	int err = 0;
+
+	if (unit && mesh->texcoord[unit->unit]) {
+		err = put_wall(l, s, in, unit, t->world);
+		*(m->unit_count == 2 ? &l->n_units : &l->n_passes) += 1;
+		l->unit = m->unit_count == 2 ? unit->unit : l->unit;
+	}
+	return err || lightmaps_is_pass(m) ? err : lightmaps_put_occluder(l, mesh, t->world);
+}
+
+int lightmaps_add(struct lightmaps *l, const struct scene *s, const struct motion *motion)
+{
+	static const struct lightmaps_kind kind = { key_of, put_draw };
+
+	return lightmaps_walk(l, s, motion, &kind);
 }
 
 void lightmaps_free(struct lightmaps *l)

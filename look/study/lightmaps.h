@@ -31,6 +31,17 @@ struct lightmaps {
 
 /** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */
 int lightmaps_add(struct lightmaps *l, const struct scene *scene, const struct motion *motion);
+
+/* What is looked for among draws of what stands still. */
+struct lightmaps_kind {
+	/* Each draw is taken once by its key; 0: it is not looked for */
+	uint64_t (*key_of)(const struct scene *scene, const struct scene_instance *instance, const struct motion_thing *thing);
+	int (*put)(struct lightmaps *l, const struct scene *scene, const struct scene_instance *instance, const struct motion_thing *thing);
+};
+
+/** Put draws of what stands still that were not taken before. @return 0, what put returns, or ERR_SYSTEM (reported) */
+int lightmaps_walk(struct lightmaps *l, const struct scene *scene, const struct motion *motion, const struct lightmaps_kind *kind);
+
 /** A mesh stops light. @return 0 or ERR_SYSTEM (reported) */
 int lightmaps_put_occluder(struct lightmaps *l, const struct scene_mesh *mesh, const double world[16]);
 void lightmaps_free(struct lightmaps *l);

@@ -155,8 +155,8 @@ void study_write(const struct study *study, const char *trace, FILE *out)
 	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
 	world_report(m, out);
 	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) || roles_count(&study->roles, m) || cast_write(&study->cast, NULL) ||
-	             floors_write(&study->floors, NULL) || shines
+	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) || spared_count(&study->spared) ||
+	             roles_count(&study->roles, m) || cast_write(&study->cast, NULL) || floors_write(&study->floors, NULL) || shines
 	             ? "surfaces:\n" : "surfaces: []\n");
 	spared_write(&study->spared, out);
 	findings_write_surfaces(&study->tricks, maps, &study->solved, out);
