@@ -129,11 +129,11 @@ static int find_planes(struct image *img, const char *where, struct planes *out)
 			strncat(name, groups[g].letters + c, 1);
 			*plane = image_channel(img, name);
 			if (!*plane && groups[g].is_needed)
-				return err_report(ERR_INPUT, where, "has no channel %s; render it with all channels, or --aov reflect,refract,albedo,N,Z",
-				                  name);
+				return err_report(ERR_INPUT, where, "has no channel %s; render it with all channels, or --aov %s",
+				                  name, FILTER_NEEDS);
 		}
 	out->depth = image_channel(img, "Z");
-	return out->depth ? 0 : err_report(ERR_INPUT, where, "has no channel Z; render it with all channels, or --aov reflect,refract,albedo,N,Z");
+	return out->depth ? 0 : err_report(ERR_INPUT, where, "has no channel Z; render it with all channels, or --aov %s", FILTER_NEEDS);
 }
 
 int filter_take(struct image *img, const char *where, struct filter_frame *f)

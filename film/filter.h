@@ -11,6 +11,9 @@
 
 #include "tracer/image/image.h"
 
+/* The groups of channels that filter_take needs beside the beauty, as `relume render --aov` takes them. */
+#define FILTER_NEEDS "reflect,refract,albedo,N,Z"
+
 struct filter_frame {
 	uint32_t width, height;
 	float (*light)[3], (*gloss)[3]; /* on surfaces; in mirrors and through glass */

@@ -8,6 +8,7 @@
 
 #include "base/err.h"
 #include "base/options.h"
+#include "film/filter.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
 
@@ -264,23 +265,26 @@ static int name_settings(struct settings *s, const struct options_line *line)
 
 /* --- The command line ---------------------------------------------------------------------------------------------- */
 
-/* Taking noise out needs these (filter_take). */
-#define DENOISE_NEEDS "reflect,refract,albedo,N,Z"
+/* The word of a list with commas behind the one at its head. */
+static const char *next_word(const char *list)
+{
+	list += strcspn(list, ",");
+	return list + (*list == ',');
+}
 
 /* Whether what is to be denoised is there. */
 static int check_denoised(struct settings *s)
 {
-	static const char *const needed[] = { "reflect", "refract", "albedo", "N", "Z" };
-
 	if (s->tracer.mode == TRACER_GL || s->tracer.mode == TRACER_NORMALS)
 		return err_report(ERR_USAGE, NULL, "--denoise: mode %s has no noise", settings_mode_names[s->tracer.mode]);
-	for (size_t i = 0; i < sizeof(needed) / sizeof(needed[0]) && s->tracer.aov; i++) {
+	for (const char *needed = FILTER_NEEDS; *needed && s->tracer.aov; needed = next_word(needed)) {
+		const size_t length = strcspn(needed, ",");
 		int is_there = 0;
 
-		for (const char *at = s->tracer.aov; *at; at += strcspn(at, ",") + (at[strcspn(at, ",")] == ','))
-			take_word(at, strcspn(at, ","), needed[i], &is_there);
+		for (const char *at = s->tracer.aov; *at && !is_there; at = next_word(at))
+			is_there = strcspn(at, ",") == length && strncmp(at, needed, length) == 0;
 		if (!is_there)
-			return err_report(ERR_USAGE, NULL, "--denoise needs %s; --aov leaves out %s", DENOISE_NEEDS, needed[i]);
+			return err_report(ERR_USAGE, NULL, "--denoise needs %s; --aov leaves out %.*s", FILTER_NEEDS, (int)length, needed);
 	}
 	return 0;
 }
@@ -312,7 +316,7 @@ static int choose_kind(struct settings *s)
 	if (s->kind != DISPLAY_EXR && s->aov)
 		return err_report(ERR_USAGE, NULL, "--aov is for .exr; .png and .jpg have no channels but red, green and blue");
 	if (s->kind != DISPLAY_EXR)
-		s->tracer.aov = s->denoise ? DENOISE_NEEDS : "";
+		s->tracer.aov = s->denoise ? FILTER_NEEDS : "";
 	s->display.rounds = s->tracer.mode == TRACER_GL;
 	if (!(s->display.white > 0))
 		s->display.white = has_bounces ? 4 : 1;
