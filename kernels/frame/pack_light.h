@@ -71,7 +71,7 @@ static inline struct pack_color pack_matte_color(const struct tables *t, const s
 /* --- Lights -------------------------------------------------------------------------------------------------------- */
 
 /* As light_spot. */
-static inline packf pack_spot(__global const struct scene_light *light, struct pack_vec to_light, uint lanes)
+static inline packf pack_spot(__global const struct scene_light *light, struct pack_vec to_light)
 {
 	const struct vec3 axis = v3_normalize(v3_load(light->spot_direction_eye));
 	packf along;
@@ -89,7 +89,7 @@ static inline packf pack_spot(__global const struct scene_light *light, struct p
 }
 
 /* As light_strength. */
-static inline packf pack_strength(__global const struct scene_light *light, struct pack_vec at, uint lanes, struct pack_vec *to_light)
+static inline packf pack_strength(__global const struct scene_light *light, struct pack_vec at, struct pack_vec *to_light)
 {
 	const float w = light->position_eye[3];
 	const struct vec3 place = w != 0.0f ? v3_scale(v3_load(light->position_eye), 1.0f / w) : v3_load(light->position_eye);
@@ -105,7 +105,7 @@ static inline packf pack_strength(__global const struct scene_light *light, stru
 		                           distance * (light->attenuation[1] + distance * light->attenuation[2]));
 	}
 	*to_light = pack_normalize(to);
-	return strength * pack_spot(light, *to_light, lanes);
+	return strength * pack_spot(light, *to_light);
 }
 
 /* The shares of a slot's light that reach some lanes, as stage_seen has them. */
@@ -128,7 +128,7 @@ static inline void pack_add_light(const struct pack_matter *m, __global const st
                                   packu bit, int apart, struct pack_lit_here *out)
 {
 	struct pack_vec to_light;
-	const packf strength = pack_strength(light, m->at, lanes, &to_light), n_l = pack_dot(m->normal, to_light);
+	const packf strength = pack_strength(light, m->at, &to_light), n_l = pack_dot(m->normal, to_light);
 	const packi is_lit = (n_l > 0.0f) & (strength > 0.0f);
 	const packf matte_share = n_l * strength;
 	packf shine = 1.0f, sum = 0.0f;
