@@ -8,19 +8,14 @@
 #include "base/memory.h"
 #include "tracer/frame/prepare.h"
 
-/* An instance that rays see: its mesh, where it stands, and its draw. */
-static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t i)
+/* The mesh of an instance that rays of a space see; NULL: they do not. */
+static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t space, uint32_t i)
 {
-	const struct instance *instance = &p->instances[i];
+	const struct scene_instance *instance = &scene->instances[p->instances[i].scene_instance];
 
-	if (!(instance->flags & INSTANCE_SECONDARY) || p->shapes[i] != PREPARED_FILLED)
+	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->shapes[i] != PREPARED_FILLED || scene->views[instance->view].space != space)
 		return NULL;
-	return scene->meshes[scene->instances[instance->scene_instance].mesh];
-}
-
-static uint32_t space_of(const struct scene *scene, const struct prepared *p, uint32_t i)
-{
-	return scene->views[scene->instances[p->instances[i].scene_instance].view].space;
+	return scene->meshes[instance->mesh];
 }
 
 /* The space with most triangles; of equal ones the first. */
@@ -34,9 +29,9 @@ static uint32_t largest_space(const struct scene *scene, const struct prepared *
 		uint64_t n = 0;
 
 		for (uint32_t i = 0; i < p->n_instances; i++) {
-			const struct scene_mesh *mesh = seen_mesh(scene, p, i);
+			const struct scene_mesh *mesh = seen_mesh(scene, p, space, i);
 
-			n += mesh && space_of(scene, p, i) == space ? mesh->primitive_count : 0;
+			n += mesh ? mesh->primitive_count : 0;
 		}
 		if (n > most) {
 			most = n;
@@ -112,18 +107,18 @@ int query_soup_of_frame(const struct scene *scene, struct query_soup *out)
 		return err;
 	space = largest_space(scene, &p);
 	for (uint32_t i = 0; i < p.n_instances; i++) {
-		const struct scene_mesh *mesh = seen_mesh(scene, &p, i);
+		const struct scene_mesh *mesh = seen_mesh(scene, &p, space, i);
 
-		if (mesh && space_of(scene, &p, i) == space) {
+		if (mesh) {
 			n_vertices += mesh->vertex_count;
 			n_triangles += mesh->primitive_count;
 		}
 	}
 	err = make_room(n_vertices, n_triangles, 1, out);
 	for (uint32_t i = 0; i < p.n_instances && !err; i++) {
-		const struct scene_mesh *mesh = seen_mesh(scene, &p, i);
+		const struct scene_mesh *mesh = seen_mesh(scene, &p, space, i);
 
-		if (mesh && space_of(scene, &p, i) == space)
+		if (mesh)
 			add_instance(&scene->instances[p.instances[i].scene_instance], mesh, out);
 	}
 	prepared_free(&p);
