@@ -263,7 +263,7 @@ static int refuse_calls(enum confine_kind kind)
 		return -ENOMEM;
 	for (size_t i = 0; i < sizeof(refused) / sizeof(refused[0]); i++)
 		seccomp_rule_add(filter, no, refused[i], 0);
-	if (kind == CONFINE_READER) {
+	if (kind != CONFINE_TRACER) {
 		seccomp_rule_add(filter, no, SCMP_SYS(execve), 0);
 		seccomp_rule_add(filter, no, SCMP_SYS(execveat), 0);
 	}

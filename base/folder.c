@@ -73,6 +73,11 @@ static void drop_empty(int code, void *unused)
 			*strrchr(e->path, '/') = '\0';
 }
 
+void folder_drop_early(void)
+{
+	drop_empty(1, NULL);
+}
+
 int folder_try_early(const char *path, int on_success)
 {
 	struct early *e = calloc(1, sizeof(*e));

@@ -22,6 +22,9 @@ int folder_nearest(const char *path, char *out, size_t size);
  */
 int folder_try_early(const char *path, int on_success);
 
+/** What exit does about those after a failure, for a process that ends by _exit. */
+void folder_drop_early(void);
+
 /**
  * A path in the user's cache folder: $XDG_CACHE_HOME/relume/NAME, or ~/.cache/relume/NAME (XDG base directory
  * specification 0.8). It may not exist yet.

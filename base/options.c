@@ -5,9 +5,11 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/limits.h"
 #include "base/nearest.h"
 
 /* Help texts: names take up to NAME_COLUMNS, lines PAGE_COLUMNS. */
@@ -175,6 +177,24 @@ int options_no_sandbox(const struct options_row *row, const char *value, void *o
 	return 0;
 }
 
+/* Limits by the size of all recordings that are named. */
+static void limit(const struct confine_file *files, size_t n, enum confine_kind kind)
+{
+	const char *recording = NULL;
+	struct limits limits;
+	struct stat info;
+	uint64_t bytes = 0;
+
+	for (size_t i = 0; i < n; i++)
+		if (files[i].use == CONFINE_RECORDING && stat(files[i].path, &info) == 0 && S_ISREG(info.st_mode)) {
+			recording = recording ? recording : files[i].path;
+			bytes += (uint64_t)info.st_size;
+		}
+	limits = kind == CONFINE_READER ? limits_of_reader(bytes) : limits_of_tracer(bytes);
+	if (recording)
+		limits_begin(recording, &limits);
+}
+
 void options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also)
 {
 	struct confine_file files[OPTIONS_MAX_ROWS + MOST_WORDS + 1];
@@ -187,8 +207,11 @@ void options_confine(const struct options_table *table, const struct options_lin
 		files[n++] = (struct confine_file){ line->words[i], table->words_use };
 	if (also)
 		files[n++] = (struct confine_file){ also, CONFINE_READS };
-	if (!no_sandbox)
-		confine_to(files, n, kind);
+	if (no_sandbox)
+		return;
+	confine_to(files, n, kind);
+	if (kind == CONFINE_READER || kind == CONFINE_TRACER)
+		limit(files, n, kind);
 }
 
 /* --- Values -------------------------------------------------------------------------------------------------------- */

@@ -71,10 +71,10 @@ struct options_line {
 int options_parse(const struct options_table *table, int argc, char **argv, void *out, struct options_line *line);
 
 /** A row for verbs that read recordings, without its braces. */
-#define OPTIONS_NO_SANDBOX .name = "no-sandbox", .help = "for debugging: keep the rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
+#define OPTIONS_NO_SANDBOX .name = "no-sandbox", .help = "for debugging: no limits of memory and time, and all rights that reading a recording does not need (files, sockets, programs)", .set = options_no_sandbox
 
 /**
- * Keep the files that a command line names, and what verbs of this kind need; give up the rest, unless --no-sandbox was given. Before the first
+ * Keep the files that a command line names, and what verbs of this kind need; give up the rest, and begin limits, unless --no-sandbox was given. Before the first
  * thread is started.
  * @param also  one more that is read; NULL: none
  */
