@@ -285,7 +285,7 @@ picture: all $(BUILD)/deps.picture
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
 SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
-	film sweep sweep-record thesis
+	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames replay
 SHOWS += $(SCRIPTS:%=show-%)
@@ -317,6 +317,7 @@ NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)
 NEEDS_sandbox = $(HELPERS)
+NEEDS_soak = $(HELPERS)
 NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
 
 .SECONDEXPANSION:
