@@ -287,7 +287,7 @@ SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build sho
 SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
-ON_SCREEN := crashes frames replay
+ON_SCREEN := crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
 
 show:
@@ -317,6 +317,7 @@ NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)
 NEEDS_sandbox = $(HELPERS)
+NEEDS_mutants = $(HELPERS) $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds
 NEEDS_soak = $(HELPERS)
 NEEDS_sanitize := $(foreach s,thread address,$(BUILD)/sanitized/$s/librelume.so $(BUILD)/sanitized/$s/threads)
 
@@ -407,11 +408,11 @@ FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look farm $(addprefix diff/,rules baseline score pictures) \
 	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
-	$(addprefix tests/fuzz/,calls.c stream.c target.c)
-FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c)
+	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
+FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
 FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)
 FUZZ_SAN := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
-FUZZ_CFLAGS := $(CPPFLAGS) -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)
+FUZZ_CFLAGS := $(CPPFLAGS) -I$(BUILD)/recorder/gen -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
 	$(Q)$(FUZZ_CC) $(FUZZ_CFLAGS) -std=c11 -c -o $@ $<
@@ -421,6 +422,10 @@ $(BUILD)/fuzz/objects/%.o: %.cpp | $(BUILD)/deps.fuzz
 	$(Q)$(FUZZ_CXX) $(FUZZ_CFLAGS) -std=c++17 -c -o $@ $<
 
 $(BUILD)/fuzz/objects/gen/%.o: $(BUILD)/gen/%.c | $(BUILD)/deps.fuzz
+	@mkdir -p $(@D)
+	$(Q)$(FUZZ_CC) $(FUZZ_CFLAGS) -std=c11 -c -o $@ $<
+
+$(BUILD)/fuzz/objects/gen/enums.o: $(BUILD)/recorder/gen/tables/enums.c | $(BUILD)/deps.fuzz
 	@mkdir -p $(@D)
 	$(Q)$(FUZZ_CC) $(FUZZ_CFLAGS) -std=c11 -c -o $@ $<
 
@@ -435,9 +440,10 @@ $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/
 DRIVE_OBJ := $(patsubst %,$(BUILD)/tests/fuzz/targets/%.o,$(filter-out calls replay,$(FUZZ_TARGETS)))
 $(BUILD)/tests/fuzz/targets/%.o: tests/fuzz/fuzz_%.c $(BUILD)/flags | $(GENERATED_H)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -DLLVMFuzzerTestOneInput=fuzz_$* -DLLVMFuzzerInitialize=begin_$* -c -o $@ $<
+	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -DLLVMFuzzerTestOneInput=fuzz_$* -DLLVMFuzzerInitialize=begin_$* -I$(BUILD)/recorder/gen -c -o $@ $<
+$(BUILD)/tests/fuzz/targets/recorder.o: | $(BUILD)/recorder/gen/stamp
 
-$(BUILD)/tests/fuzz/drive: $(DRIVE_OBJ) $(BUILD)/tests/fuzz/target.o
+$(BUILD)/tests/fuzz/drive: $(DRIVE_OBJ) $(BUILD)/tests/fuzz/target.o $(addprefix $(BUILD)/recorder/,capture/write/pages.o capture/write/values.o gen/tables/enums.o)
 $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 
 $(BUILD)/gen/fuzz_commands.c: tests/fuzz/gen_commands.py replay/gen.py capture/gen/registry.py $(REPLAY_SRC) | $(GENERATED_H)

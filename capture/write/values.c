@@ -172,6 +172,8 @@ uint8_t *put_array_head(uint8_t *p, long n)
 	return put_varint(p, n > 0 ? (uint64_t)n : 0);
 }
 
+enum { MAX_TEXT = 1 << 24 }; /* bytes; a longer one comes from a length that is garbage, and would fill the disk */
+
 uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const int *lengths)
 {
 	if (!strings)
@@ -184,7 +186,7 @@ uint8_t *put_strings(uint8_t *p, const char *const *strings, long count, const i
 		pages_read(&text, strings + i, sizeof(text));
 		if (lengths)
 			pages_read(&length, lengths + i, sizeof(length));
-		p = put_string(p, text, length);
+		p = put_string(p, text, length > MAX_TEXT ? 0 : length);
 	}
 	return p;
 }

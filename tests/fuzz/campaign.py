@@ -29,7 +29,7 @@ SLICE_S = 60
 LONGEST = {"calls": 16384, "snapshot": 200_000, "index": 150_000, "exr": 100_000, "oiio": 100_000, "ref": 100_000}
 SMALL = {"calls": 2048, "snapshot": 60_000, "index": 100_000}  # what is kept is smaller
 EDGES_ALONE = ("-set_cover_merge=1", "-use_counters=0")  # of calls, how often each is passed would be thousands of sequences
-ENV = dict(os.environ, ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1", UBSAN_OPTIONS="print_stacktrace=1")
+TIMEOUT_S = 30  # by the clock, of a process that gives way to all others
 
 
 def all_targets():
@@ -55,6 +55,11 @@ def unpacked(folder, target):
     for i, part in enumerate(kept_of(target)):
         (kept / f"{i:05}").write_bytes(part)
     return kept
+
+
+def environment(target, **more):
+    leaks = int(target != "oiio")  # OpenImageIO's readers leak
+    return dict(os.environ, ASAN_OPTIONS=f"allocator_may_return_null=1:detect_leaks={leaks}", UBSAN_OPTIONS="print_stacktrace=1", **more)
 
 
 def load(path):
@@ -84,11 +89,10 @@ def slice_of(folder, target, seconds):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     log = folder / f"{target}.log"
     with open(log, "w") as out:
-        done = subprocess.run([program, f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=6000",
-                               f"-detect_leaks={int(target != 'oiio')}",  # OpenImageIO's readers leak
+        done = subprocess.run([program, f"-max_total_time={seconds}", f"-timeout={TIMEOUT_S}", "-rss_limit_mb=2048", "-malloc_limit_mb=6000",
                                f"-max_len={LONGEST.get(target, 65536)}", "-close_fd_mask=3", "-print_final_stats=1", f"-artifact_prefix={folder}/{target}-",
                                found, folder / f"kept_{target}", folder / f"seeds_{target}"],
-                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out, check=False, env=dict(ENV, TMPDIR=str(work)))
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=out, check=False, env=environment(target, TMPDIR=str(work)))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     text = log.read_text(errors="replace")
     edges = [int(n) for n in re.findall(r" cov: (\d+)", text)]
@@ -133,7 +137,7 @@ def keep(build, targets):
             if path.is_file() and path.stat().st_size <= most:
                 shutil.copy(path, small / str(i))
         subprocess.run([folder / target, "-merge=1", *(EDGES_ALONE if target == "calls" else ()), "-close_fd_mask=3", out, unpacked(folder, target), small],
-                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=dict(ENV, FUZZ_FREE="1"))
+                       stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=environment(target, FUZZ_FREE="1"))
         parts = kept_of(target) + [path.read_bytes() for path in out.iterdir() if path.stat().st_size <= most]
         if target == "replay":
             subprocess.run(["cp", "-n", *out.iterdir(), HERE / "kept"], check=False)

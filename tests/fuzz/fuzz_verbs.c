@@ -1,6 +1,6 @@
 /*
- * The verbs that read a recording, whole and in one process: the first byte chooses one, the rest is the trace's file. What they write
- * goes into a folder of this process.
+ * The verbs that read a recording, whole and in one process: the low bits of the first byte choose one. The rest is the trace's file; where the
+ * first byte's highest bit is set it is the logical stream in it. What they write goes into a folder of this process.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,13 +29,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
 	char in[4096], out[4200], *argv[MOST_WORDS + 1];
 	const struct verb *verb;
-	uint8_t which;
+	uint8_t which, *packed = NULL;
 	int argc = 0, code;
 
 	if (!target_take(&data, &size, &which, 1))
 		return 0;
-	verb = &verbs[which % (sizeof(verbs) / sizeof(verbs[0]))];
-	target_write("in.trace", data, size, in);
+	verb = &verbs[which % 128 % (sizeof(verbs) / sizeof(verbs[0]))];
+	if (which & 128)
+		packed = target_pack(data, size, &size);
+	target_write("in.trace", packed ? packed : data, size, in);
+	free(packed);
 	for (; argc < MOST_WORDS && verb->words[argc]; argc++) {
 		const char *word = verb->words[argc];
 

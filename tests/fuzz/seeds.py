@@ -73,6 +73,9 @@ frames:
 """
 # Two frames of 2 x 2 pixels, colour and depth (capture/format/ref.h); a block of Snappy's that is one literal.
 REF = b"RELREF1\n" + b"".join(struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16)) for frame in (3, 4) for kind in (1, 2))
+# Memory of eight pages, the third of which is missing, and a call of each kind (fuzz_recorder.c).
+RECORDER = bytes([0xfb, *b"a text" * 20]).ljust(256, b"\0") + b"".join(
+    struct.pack("<BBHi5i", what, wild, 8000, 300, 0x1908, 0x1401, 16, 16, 1) for what in range(8) for wild in (0, 1, 9))
 FARM = b"x.trace\0-f\0001-50x5\0-o\0x.####.exr\0--chunk\00010\0--sbatch=--partition=night\0--for\0slurm\0--\0--mode\0gl\0"
 
 
@@ -164,6 +167,7 @@ def make_seeds(build, folder):
     (out["ref"] / "small").write_bytes(REF)
     (out["farm"] / "all").write_bytes(FARM)
     (out["json"] / "text").write_bytes("a \"b\" \\ \n\x01 äöü € 😀".encode() + b"\xff\xc0\x80\xed\xa0\x80")
+    (out["recorder"] / "all").write_bytes(RECORDER)
     (out["outcome"] / "one").write_bytes(bytes(1 + 3 * 80))
     done.touch()
 

@@ -1,5 +1,6 @@
 #include "tests/fuzz/target.h"
 
+#include <snappy-c.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,8 @@
 #include <unistd.h>
 
 #include "base/folder.h"
+
+#define CHUNK ((size_t)1 << 20)
 
 static char folder[2048];
 
@@ -69,6 +72,28 @@ void target_write(const char *name, const uint8_t *data, size_t size, char path[
 	file = fopen(path, "wb");
 	if (!file || fwrite(data, 1, size, file) != size || fclose(file))
 		abort();
+}
+
+uint8_t *target_pack(const uint8_t *stream, size_t size, size_t *n)
+{
+	const size_t most = snappy_max_compressed_length(CHUNK) + 4;
+	uint8_t *out = malloc(2 + (size / CHUNK + 1) * most);
+
+	if (!out)
+		abort();
+	memcpy(out, "at", 2);
+	*n = 2;
+	for (size_t at = 0; at < size; at += CHUNK) {
+		size_t packed = most - 4, part = size - at < CHUNK ? size - at : CHUNK;
+		uint32_t length;
+
+		if (snappy_compress((const char *)stream + at, part, (char *)out + *n + 4, &packed) != SNAPPY_OK)
+			abort();
+		length = (uint32_t)packed;
+		memcpy(out + *n, &length, 4);
+		*n += 4 + packed;
+	}
+	return out;
 }
 
 int target_take(const uint8_t **data, size_t *size, void *out, size_t n)

@@ -26,5 +26,8 @@ void target_end(void);
 /** Write a file below it, in place of what is there. @param path  receives its name; [4096] */
 void target_write(const char *name, const uint8_t *data, size_t size, char path[4096]);
 
+/** A trace's file, in Snappy chunks, of its logical stream (capture/format/trace.md). @return its bytes, to be freed with free() */
+uint8_t *target_pack(const uint8_t *stream, size_t size, size_t *n);
+
 /** The next n bytes of an input, which then begins behind them. @return 0: it has not so many */
 int target_take(const uint8_t **data, size_t *size, void *out, size_t n);

@@ -1,17 +1,22 @@
 #!/usr/bin/python3
-"""tests/show/mutants.py BUILD [COUNT]: damaged recordings: no crash, no hang, bounded memory, exit code 0 or 3.
+"""tests/show/mutants.py BUILD (as `make show-mutants`): damaged files: no crash, no hang, bounded memory.
 
-COUNT mutants (10,000) are shared out among recordings made here of programs of ours, glxgears and two screen savers; what
-breaks is kept in BUILD/show/mutants/.
+20,000 mutants of recordings made here of programs of ours, glxgears and two screen savers, through all verbs that read one: most in
+one process (tests/fuzz/drive.c), some through the command itself (tests/fuzz/mutate.py, exit code 0 or 3). 5,000 of every other file that
+Relume reads, from files as it and others make them (tests/fuzz/seeds.py). What breaks is kept in BUILD/show/mutants/.
 """
 import json
 import os
 import pathlib
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-HEAD = 300_000  # bytes of the unpacked stream: two frames or more of each
+HEAD = 100_000  # bytes of the unpacked stream: a frame or more of each
+TRACES, COMMANDS, OTHERS = 20_000, 1_000, 5_000
+VERBS = 7       # of tests/fuzz/fuzz_verbs.c
+SEED = 1
 
 PROGRAMS = {
     "two_triangles": ["corpus/two_triangles", "--frames", "6"],
@@ -22,29 +27,62 @@ PROGRAMS = {
 }
 
 
-def main(build, count):
+def record(build, folder):
+    for name, command in PROGRAMS.items():
+        program = [str(build / command[0]) if "/" in command[0] and command[0][0] != "/" else command[0], *command[1:]]
+        trace = folder / f"{name}.trace"
+        if not trace.exists():
+            # A program that `timeout` ends has recorded what it could; whether it did, unpacking tells.
+            subprocess.run([ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", *program], check=False,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return sorted(folder.glob("*.trace"))
+
+
+def drive(build, folder, target, count, parts):
+    """How many of so many mutants break the target."""
+    pack = folder / f"{target}.pack"
+    pack.write_bytes(b"".join(len(part).to_bytes(4, "little") + part for part in parts))
+    os.symlink(ROOT / "tests", folder / "tests") if not (folder / "tests").exists() else None  # targets read golden recordings
+    work = folder / "tmp"
+    work.mkdir(exist_ok=True)
+    done = subprocess.run([build / "tests/fuzz/drive", "mutate", target, str(count), str(SEED), pack], capture_output=True, text=True, check=False, cwd=folder,
+                          env=dict(os.environ, TMPDIR=str(work)))
+    print(done.stdout.strip(), flush=True)
+    return done.stdout.count(": input ") if done.returncode in (0, 1) else count
+
+
+def main(build):
     os.environ["RELUME"] = str(build / "relume")
     sys.path[:0] = [str(ROOT / "tests/fuzz"), str(ROOT / "tests/real")]
     sys.dont_write_bytecode = True
     import mutate
+    import seeds
     folder = build / "show" / "mutants"
     folder.mkdir(parents=True, exist_ok=True)
-    rows, broken = [], 0
-    for seed, (name, command) in enumerate(PROGRAMS.items()):
-        trace = folder / f"{name}.trace"
-        program = [str(build / command[0]) if "/" in command[0] and command[0][0] != "/" else command[0], *command[1:]]
-        # A program that `timeout` ends has recorded what it could; whether it did, unpacking tells.
-        subprocess.run([ROOT / "tests/xvfb.sh", build / "relume", "record", "-o", trace, "--", *program], check=False,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        share = count // len(PROGRAMS)
-        print(f"{name}: {share} mutants", flush=True)
-        wrong = mutate.main(trace, share, seed, HEAD)
-        broken += wrong
-        rows.append({"what": f"{name}: {share} mutants, info and scene of each", "figure": f"{wrong} break a run", "bar": "0",
-                     "peer": None, "passed": wrong == 0})
+    rows = []
+
+    def row(what, count, work):
+        begin = time.monotonic()
+        wrong = work()
+        rows.append({"what": what, "figure": f"{wrong} of {count} break a run", "bar": "0", "peer": None, "passed": wrong == 0})
+        print(f"{'holds' if not wrong else 'FAILS'}  {what}: {rows[-1]['figure']} ({time.monotonic() - begin:.0f} s)", flush=True)
+
+    traces = record(build, folder)
+    streams = [bytes(mutate.unpack(trace.read_bytes(), HEAD)[:HEAD]) for trace in traces]
+    share = COMMANDS // len(traces)
+    for seed, trace in enumerate(traces):
+        row(f"{trace.stem}, by info and scene of the command", share, lambda trace=trace, seed=seed: mutate.main(trace, share, seed, HEAD))
+    count = TRACES - share * len(traces)
+    parts = [bytes([128 + verb]) + stream for stream in streams for verb in range(VERBS)]
+    row(f"{len(traces)} recordings, by {VERBS} verbs", count, lambda: drive(build, folder, "verbs", count, parts))
+    seeds.make_seeds(build, build / "fuzz")
+    for target in sorted(path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")):
+        parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(ROOT / f"tests/fuzz/kept_{target}")
+        if target not in ("verbs", "replay", "calls"):
+            row(target, OTHERS, lambda target=target, parts=parts: drive(build, folder, target, OTHERS, parts))
     (build / "show" / "mutants.json").write_text(json.dumps({"name": "mutants", "command": "make show-mutants", "rows": rows}, indent=1))
-    return 1 if broken else 0
+    return any(not row["passed"] for row in rows)
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 10_000))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
