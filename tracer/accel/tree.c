@@ -1,5 +1,6 @@
 #include "tracer/accel/tree.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,12 +28,22 @@ void tree_free(struct tree *tree)
 	*tree = (struct tree){ NULL };
 }
 
+static int box_is_sound(const struct node2 *node, int side)
+{
+	for (int axis = 0; axis < 3; axis++)
+		if (!(node->lo[side][axis] >= -FLT_MAX && node->lo[side][axis] <= node->hi[side][axis] && node->hi[side][axis] <= FLT_MAX))
+			return 0;
+	return 1;
+}
+
 /* One side of a node; notes how deep its child is (0: nobody has come to it yet) and how many items leaves hold. */
 static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t *depth, uint64_t *items)
 {
 	const uint32_t child = tree->nodes[at].child[side], count = tree->nodes[at].count[side];
 
 	*items += count;
+	if ((count || child) && !box_is_sound(&tree->nodes[at], side))
+		return 0;
 	if (count)
 		return count <= TREE_LEAF_TRIANGLES && child <= tree->n_order && count <= tree->n_order - child;
 	if (!child)
