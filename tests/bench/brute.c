@@ -97,35 +97,78 @@ int brute_distance(const struct brute *b, const struct relume_rays_point *point,
 
 enum verdict { MISS, EDGE, HIT };
 
+/* A triangle as a ray sees it: from the ray's origin (s), and the ray's direction (d). */
+struct seen {
+	double v[3][3], e1[3], e2[3], n[3], s[3], d[3];
+};
+
+static void look_at(const struct brute *b, const struct relume_rays_ray *ray, uint32_t i, struct seen *seen)
+{
+	corners(b, i, seen->v);
+	for (int a = 0; a < 3; a++) {
+		seen->e1[a] = seen->v[1][a] - seen->v[0][a];
+		seen->e2[a] = seen->v[2][a] - seen->v[0][a];
+		seen->s[a] = ray->origin[a] - seen->v[0][a];
+		seen->d[a] = ray->direction[a];
+	}
+	cross(seen->e1, seen->e2, seen->n);
+}
+
+/* The six products of a . (b x c), none taken from another. */
+static double products(const double a[3], const double b[3], const double c[3])
+{
+	double sum = 0;
+
+	for (int i = 0; i < 3; i++) {
+		const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+		sum += fabs(a[i]) * (fabs(b[j] * c[k]) + fabs(b[k] * c[j]));
+	}
+	return sum;
+}
+
+/*
+ * How far single precision may be off on a narrow triangle. Moeller and Trumbore divide triple products: t = e2.(s x e1) / e1.(d x e2),
+ * and two weights alike. The cross product rounds each of its products at most twice and the sum of three at most three times; s, e1 and e2
+ * are rounded differences. So a triple product errs by at most 8 units of 2^-24 of its six products, however much these cancel: for a sliver
+ * nearly all.
+ * t: receives what that makes of t. @return what it makes of the place in the triangle
+ */
+static double narrowness(const struct seen *a, double *t)
+{
+	const double unit = 8 * ldexp(1, -24), length1 = sqrt(dot(a->e1, a->e1)), length2 = sqrt(dot(a->e2, a->e2));
+	const double all = products(a->e1, a->d, a->e2), rest = fabs(dot(a->n, a->d)) - unit * all;
+	const double of_t = products(a->e2, a->s, a->e1), of_u = products(a->s, a->d, a->e2), of_v = products(a->d, a->s, a->e1);
+
+	if (!(rest > 0))
+		return *t = INFINITY;
+	*t = unit * (of_t + fabs(*t) * all) / rest;
+	return unit * ((of_u + all) * length1 + (of_v + all) * length2) / rest;
+}
+
 /* Where the ray passes the triangle's outline, seen along it, and at which t it meets the plane. */
 static enum verdict meet(const struct brute *b, const struct relume_rays_ray *ray, uint32_t i, double *t, double *slack)
 {
-	const double o[3] = { ray->origin[0], ray->origin[1], ray->origin[2] };
-	const double d[3] = { ray->direction[0], ray->direction[1], ray->direction[2] };
-	const double length = sqrt(dot(d, d)), band = band_of(b, size_of(ray->origin));
-	double v[3][3], e1[3], e2[3], n[3], from[3], at[3], cosine;
+	const double band = band_of(b, size_of(ray->origin));
+	struct seen a;
+	double at[3], cosine, length, off, place;
 
-	corners(b, i, v);
-	for (int a = 0; a < 3; a++) {
-		e1[a] = v[1][a] - v[0][a];
-		e2[a] = v[2][a] - v[0][a];
-		from[a] = v[0][a] - o[a];
-	}
-	cross(e1, e2, n);
-	cosine = fabs(dot(n, d)) / (sqrt(dot(n, n)) * length);
-	if (!(dot(n, n) > 0) || cosine < 1e-5) {
-		*t = 0;
-		*slack = INFINITY;
+	look_at(b, ray, i, &a);
+	length = sqrt(dot(a.d, a.d));
+	cosine = fabs(dot(a.n, a.d)) / (sqrt(dot(a.n, a.n)) * length);
+	*t = 0;
+	*slack = INFINITY;
+	if (!(dot(a.n, a.n) > 0) || cosine < 1e-5)
 		return EDGE; /* edge-on, or no area: either answer */
-	}
-	*t = dot(n, from) / dot(n, d);
-	*slack = band / cosine / length;
-	for (int a = 0; a < 3; a++)
-		at[a] = o[a] + *t * d[a];
+	*t = off = -dot(a.n, a.s) / dot(a.n, a.d);
+	place = fmax(band / cosine, narrowness(&a, &off));
+	*slack = fmax(band / cosine / length, off);
+	for (int k = 0; k < 3; k++)
+		at[k] = ray->origin[k] + *t * a.d[k];
 	/* A hit's weights may leave [0,1] by 1e-6 (kernels/rays/rays.h): of edges that is less than the band. */
-	if (to_triangle(v, at) > band / cosine)
+	if (to_triangle(a.v, at) > place)
 		return MISS;
-	return fmin(fmin(to_segment(at, v[0], v[1]), to_segment(at, v[1], v[2])), to_segment(at, v[2], v[0])) > band / cosine ? HIT : EDGE;
+	return fmin(fmin(to_segment(at, a.v[0], a.v[1]), to_segment(at, a.v[1], a.v[2])), to_segment(at, a.v[2], a.v[0])) > place ? HIT : EDGE;
 }
 
 /* Whether t lies in the ray's span: 1 for sure, 0 for sure not, -1 within rounding. */
