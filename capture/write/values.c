@@ -204,17 +204,54 @@ uint8_t *put_zeros(uint8_t *p, const void *data, long n)
 	return put_room(p);
 }
 
+/*
+ * Arrays of a call that GL refuses or ignores may be anywhere and of any length. Vectors and matrices, which a program passes thousands of times a
+ * frame, are read as GL reads them unless their address can be nobody's; a copy by the kernel costs more than they do. Longer arrays are copied.
+ */
+enum { SHORT_ARRAY = 16, PIECE = 256 };
+
+/* Linux maps nothing below vm.mmap_min_addr, and no program's memory takes addresses of more than 56 bits. */
+static int may_be_mapped(const void *at)
+{
+	return (uintptr_t)at >= 0x10000 && (uint64_t)(uintptr_t)at >> 56 == 0;
+}
+
+/* Elements to put; 0 where there is no end of a long array: its length is garbage, and would fill the disk with zeros. */
+static long elements_count(const void *array, long n, size_t size)
+{
+	char last;
+
+	return n > PIECE && pages_read(&last, (const char *)array + ((size_t)n * size - 1), 1) ? 0 : n;
+}
+
+/* n elements: where they are, or a copy in `piece`. @param all  elements of the array */
+static const void *elements(void *piece, const void *from, long n, size_t size, long all)
+{
+	if (all <= SHORT_ARRAY && may_be_mapped(from))
+		return from;
+	pages_read(piece, from, (size_t)n * size);
+	return piece;
+}
+
 /* Elements of one type: `value` writes v[i], in 128 bytes at most, so 16 fit the margin. */
 #define DEFINE_PUT_ARRAY(suffix, type, value)                                                                                 \
-	uint8_t *put_array_##suffix(uint8_t *p, type const *v, long n)                                                        \
+	uint8_t *put_array_##suffix(uint8_t *p, type const *array, long n)                                                    \
 	{                                                                                                                     \
-		if (!v)                                                                                                       \
+		type piece[PIECE];                                                                                            \
+                                                                                                                              \
+		if (!array)                                                                                                   \
 			return put_null(p);                                                                                   \
+		n = elements_count(array, n, sizeof(piece[0]));                                                               \
 		p = put_array_head(p, n);                                                                                     \
-		for (long i = 0; i < n; i++) {                                                                                \
-			p = value;                                                                                            \
-			if (i % 16 == 15)                                                                                     \
-				p = put_room(p);                                                                              \
+		for (long at = 0; at < n; at += PIECE) {                                                                      \
+			const long part = n - at < PIECE ? n - at : PIECE;                                                    \
+			type const *v = elements(piece, array + at, part, sizeof(piece[0]), n);                               \
+                                                                                                                              \
+			for (long i = 0; i < part; i++) {                                                                     \
+				p = value;                                                                                    \
+				if (i % 16 == 15)                                                                             \
+					p = put_room(p);                                                                      \
+			}                                                                                                     \
 		}                                                                                                             \
 		return put_room(p);                                                                                           \
 	}

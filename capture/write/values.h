@@ -31,6 +31,7 @@ uint8_t *put_visual(uint8_t *p, const void *visual);
 uint8_t *put_attribs(uint8_t *p, const int *list, int end);
 uint8_t *put_attribs_wide(uint8_t *p, const long *list, long end);
 
+/** Arrays of values; NULL becomes null. More than 16 are read without faulting, and more than 256 whose end cannot be read are put as none. */
 uint8_t *put_array_s8(uint8_t *p, const int8_t *v, long n);
 uint8_t *put_array_u8(uint8_t *p, const uint8_t *v, long n);
 uint8_t *put_array_s16(uint8_t *p, const int16_t *v, long n);

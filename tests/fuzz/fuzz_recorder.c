@@ -103,7 +103,12 @@ static void run(const struct step *s, const uint8_t *bytes)
 		n = image_bytes(&layout, &box);
 		put_blob(chunk, from, n < (long)(4 * MOST_BYTES) ? n : 0);
 		break;
-	case 6: put_zeros(chunk, from, size % 4096); break;
+	case 6:
+		if (s->wild & 16 && size > 16) /* shorter ones are read as they are */
+			put_array_f32(chunk, (const float *)(const void *)from, size);
+		else
+			put_zeros(chunk, from, size % 4096);
+		break;
 	default:
 		map1_count((unsigned)s->more[0], s->more[1], s->more[2]);
 		map2_count((unsigned)s->more[0], s->more[1], s->more[2], s->more[3], s->more[4]);

@@ -1,6 +1,37 @@
 /* Calls that GL refuses may point anywhere: the recorder must not look there as if it were safe. */
 #include "window.h"
 
+#include <sys/mman.h>
+
+#define PAGE 4096
+#define RESERVED (8 << 20) /* bytes */
+
+/* Arrays where nothing is, of a few values and of more than there is memory; the last one has its first values alone. */
+static void pass_arrays(void)
+{
+	const float *nowhere = (const float *)8;
+	char *pages = mmap(NULL, RESERVED, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+	const unsigned short *end = (const unsigned short *)(pages + PAGE) - 2;
+
+	expect(pages != MAP_FAILED && mprotect(pages, PAGE, PROT_READ | PROT_WRITE) == 0, "one page that can be read, and none behind it");
+	memset(pages, 7, PAGE);
+	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 30, nowhere);
+	expect(glGetError() == GL_INVALID_VALUE, "no map is so long");
+	glPixelMapfv(GL_PIXEL_MAP_R_TO_R, 1 << 20, (const float *)pages);
+	expect(glGetError() == GL_INVALID_VALUE, "nor where there is something");
+	glPixelMapusv(GL_PIXEL_MAP_I_TO_R, 20, end);
+	expect(glGetError() == GL_INVALID_VALUE, "20 is no power of two");
+	glUniform4fv(-1, 1, nowhere);
+	expect(glGetError() == GL_INVALID_OPERATION, "no program is current");
+	glUniform4fv(-1, 100, (const float *)(pages + PAGE));
+	expect(glGetError() == GL_INVALID_OPERATION, "nor now");
+	glBegin(GL_POINTS);
+	glLoadMatrixf(nowhere);
+	glEnd();
+	expect(glGetError() == GL_INVALID_OPERATION, "no matrices between Begin and End");
+	munmap(pages, RESERVED);
+}
+
 int main(void)
 {
 	const char *nowhere[1] = { (const char *)8 };
@@ -10,6 +41,7 @@ int main(void)
 	expect(glGetError() == GL_INVALID_VALUE, "no such shader");
 	glShaderSource(12345, 1, (const char **)8, NULL);
 	expect(glGetError() == GL_INVALID_VALUE, "nor now");
+	pass_arrays();
 	end_frame();
 	return 0;
 }
