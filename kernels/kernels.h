@@ -136,6 +136,7 @@ typedef float element_float;
 	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
 	VALUE(uint, albedo) AND()           /* 0: nobody asks for albedo, which stays 0 */ \
 	VALUE(uint, n) AND()                /* fragments */ \
+	IN(uint, programs) AND()            /* scene.programs: `program` alone reads them */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(scene_clear, clear) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
@@ -383,6 +384,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
 	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
+	X(program, shade)               /* after either, where fragment programs are: one fragment a work item, coloured by its program */ \
 	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
 	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
 	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \

@@ -157,6 +157,7 @@ static int add_material(struct adding *a, const struct scene *from, const struct
 	m.unit_first = a->out->n_units;
 	m.light_first = a->out->n_lights;
 	m.polygon_stipple = SCENE_NONE;
+	m.fragment_program = 0;
 	for (uint32_t i = 0; i < m.unit_count && !err; i++) {
 		struct scene_unit unit = from->units[was->unit_first + i];
 

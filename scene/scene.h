@@ -160,7 +160,8 @@ struct scene_material {
 	uint32_t unclamped;  /* bits: colours that may leave [0,1] (ARB_color_buffer_float): 1 of fragments, 2 of vertices */
 
 	struct scene_surface surface;
-	uint32_t program; /* 1: the draw used a program object or ARB program; rendered as fixed function */
+	uint32_t program; /* 1: the draw used a program object or ARB program */
+	uint32_t fragment_program; /* 0, or 1 + where in scene.programs the program that shades it begins; else it is rendered as fixed function */
 };
 
 /* One enabled texture unit as a draw saw it (GL 2.1 sec. 3.8). */
@@ -332,6 +333,8 @@ struct scene {
 	uint32_t (*stipples)[32];
 	struct scene_rectangle *rectangles;
 	uint32_t n_rectangles;
+	uint32_t *programs;   /* words of all programs (program.h) */
+	uint32_t n_programs;  /* words */
 	const struct scene_mesh **meshes;       /* the array is the scene's, the meshes are the cache's */
 	const struct scene_texture **textures;
 	uint32_t n_instances, n_materials, n_units, n_lights, n_currents, n_views, n_clears, n_stipples, n_meshes,

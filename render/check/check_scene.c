@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gl_tokens.h"
+#include "scene/program.h"
 
 const char *const check_scene_names[N_CHECK_SCENES] = {
 #define CHECK_SCENE_NAME(name, word, mode) #word,
@@ -192,6 +193,34 @@ static void add_lamp(struct made *m)
 	made_add_square(m, lamp, (float[3]){ -1, 2, -8 }, right, (float[3]){ 0, 0, 1 }, 1, 2);
 }
 
+/* A square whose colour a program makes of a texture, by where it is in the window; where that is dark it is cut out. */
+static void add_program(struct check_world *w)
+{
+	enum { OWN = SCENE_PROGRAM_FIRST, SAMPLE = OWN + 4, CONSTANTS = SCENE_PROGRAM_CONSTANT };
+	static const struct scene_instruction instructions[] = {
+		{ SCENE_OP_MULTIPLY, 4, SCENE_STEP_A, OWN, 4 * SCENE_INPUT_POSITION, CONSTANTS, 0 },
+		{ SCENE_OP_TEXTURE, 1, 0, SAMPLE, OWN, 0, 0 },
+		{ SCENE_OP_ADD, 1, SCENE_NEGATE_B, OWN, SAMPLE, CONSTANTS + 1, 0 },
+		{ SCENE_OP_KILL, 1, 0, 0, OWN, 0, 0 },
+		{ SCENE_OP_FRACTION, 3, SCENE_STEP_A, OWN, 4 * SCENE_INPUT_POSITION, 0, 0 },
+		{ SCENE_OP_MAD, 4, SCENE_STEP_A | SCENE_STEP_B | SCENE_STEP_C | SCENE_SATURATE, SCENE_PROGRAM_COLOR, SAMPLE, 4 * SCENE_INPUT_COLOR, OWN },
+		{ SCENE_OP_SELECT, 1, SCENE_NEGATE_A, SCENE_PROGRAM_DEPTH, OWN, 4 * SCENE_INPUT_POSITION + 2, CONSTANTS + 1 },
+	};
+	static const float constants[4] = { 0.01f, 0.3f, 0, 0 };
+	const uint32_t n = sizeof(instructions) / sizeof(instructions[0]), material = made_add_material(&w->made, 0.7f);
+	const struct scene_program head = { n, 4, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1 };
+
+	_Static_assert(sizeof(head) + sizeof(instructions) + sizeof(constants) <= sizeof(w->program), "there is room for it");
+	memcpy(w->program, &head, sizeof(head));
+	memcpy((char *)w->program + sizeof(head), instructions, sizeof(instructions));
+	memcpy((char *)w->program + sizeof(head) + sizeof(instructions), constants, sizeof(constants));
+	w->made.scene.programs = w->program;
+	w->made.scene.n_programs = sizeof(w->program) / 4;
+	w->made.materials[material].unit_count = 1;
+	w->made.materials[material].fragment_program = 1;
+	made_add_square(&w->made, material, (float[3]){ -1.5f, 0.9f, -4.5f }, right, up, 0.9f, 2);
+}
+
 int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, uint32_t rings, struct check_world *w)
 {
 	struct made *m = &w->made;
@@ -212,8 +241,10 @@ int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, ui
 		m->materials[floor + 2].surface.reflect = 0.7f; /* the first ball */
 	if (scene == CHECK_OPAQUE || scene == CHECK_MIRROR)
 		relight(&m->materials[floor + 3]); /* the second one */
-	if (scene == CHECK_BLENDED)
+	if (scene == CHECK_BLENDED) {
 		add_films(m);
+		add_program(w);
+	}
 	if (scene == CHECK_STENCIL)
 		add_stencils(m, rings);
 	if (scene == CHECK_GLASS || scene == CHECK_LINEAR)

@@ -21,7 +21,7 @@
 /* Those that a frame keeps from band to band, and those of a band. */
 #define FRAME_WHOLE_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
-	X(uint, stipples) X(texture_image, textures) X(view, views) \
+	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
 	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters)
 #define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \

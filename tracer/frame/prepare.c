@@ -9,6 +9,7 @@
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
 #include "scene/backdrop.h"
+#include "scene/program.h"
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
@@ -337,6 +338,17 @@ static void add_shapes(const struct scene *scene, struct prepared *p, struct seg
 
 /* --- Segments ---------------------------------------------------------------------------------------------------- */
 
+/* 1 where a program discards fragments or gives them another depth. */
+static int program_moves(const struct scene *scene, const struct scene_material *m)
+{
+	const struct scene_program *program;
+
+	if (!m->fragment_program)
+		return 0;
+	program = (const struct scene_program *)(scene->programs + (m->fragment_program - 1));
+	return program->kills || program->sets_depth;
+}
+
 /* The camera mode that answers for a draw on its own. */
 static uint32_t draw_mode(const struct scene *scene, const struct scene_instance *instance)
 {
@@ -347,7 +359,8 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 		return CAMERA_COLUMN;
 	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
 	    (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE || m->samples_off || m->alpha_to_coverage ||
-	    m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
+	    m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) || program_moves(scene, m) ||
+	    scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;

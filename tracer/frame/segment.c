@@ -186,12 +186,12 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	const struct shade_launch *a =
 		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
 		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
-		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n,
+		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs,
 		       .shaded = b->shaded);
+	int err = device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a) :
+	                                                     launch_shade(tr->dev, n, a);
 
-	if (device_family(tr->dev) == FAMILY_PACKETS)
-		return launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a);
-	return launch_shade(tr->dev, n, a);
+	return err || !job->scene->n_programs ? err : launch_program(tr->dev, n, a);
 }
 
 static int run_resolve(struct job *job, struct camera_rectangle r)

@@ -136,6 +136,8 @@ int upload_state(struct job *job)
 	if (!err)
 		err = frame_upload(tr, stipples, (const uint32_t *)s->stipples, 32 * (size_t)s->n_stipples);
 	if (!err)
+		err = frame_upload(tr, programs, s->programs, s->n_programs);
+	if (!err)
 		err = upload_textures(job);
 	return err;
 }

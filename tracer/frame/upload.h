@@ -7,7 +7,7 @@
 int upload_attributes(struct job *job);
 int upload_indices(struct job *job);
 
-/** Materials, lights, texture units and textures, current values, stipples. */
+/** Materials, lights, texture units and textures, current values, stipples, programs. */
 int upload_state(struct job *job);
 
 /** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */

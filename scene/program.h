@@ -1,0 +1,65 @@
+/*
+ * Programs of a draw's fragments (ARB_fragment_program), as replay/programs/ translates them and kernels/gl/program.h runs them: instructions
+ * on registers of one number each. scene.programs holds them as words: a struct scene_program, its instructions, its constants.
+ *
+ * Registers: inputs, four for each of enum scene_program_input; SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH; the program's own. All but inputs
+ * begin as 0.
+ */
+#pragma once
+
+#include "scene/scene.h"
+
+#define SCENE_PROGRAM_REGISTERS 256u     /* at most */
+#define SCENE_PROGRAM_INSTRUCTIONS 4096u /* at most */
+#define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
+
+enum scene_program_input {
+	SCENE_INPUT_COLOR, SCENE_INPUT_SECONDARY,
+	SCENE_INPUT_FOG,      /* its coordinate, 0, 0, 1 */
+	SCENE_INPUT_POSITION, /* in the window; w is 1 / clip w */
+	SCENE_INPUT_TEXCOORD, /* of unit 0; others follow */
+	N_SCENE_INPUTS = SCENE_INPUT_TEXCOORD + SCENE_MAX_UNITS
+};
+#define SCENE_PROGRAM_COLOR (4u * N_SCENE_INPUTS)
+#define SCENE_PROGRAM_DEPTH (SCENE_PROGRAM_COLOR + 4u)
+#define SCENE_PROGRAM_FIRST (SCENE_PROGRAM_DEPTH + 4u) /* of the program's own */
+
+struct scene_program {
+	uint32_t n_instructions;
+	uint32_t n_constants; /* numbers */
+	uint32_t n_registers;
+	uint32_t inputs;      /* bits 1 << scene_program_input: those that it reads */
+	uint32_t kills;       /* 1: it may discard fragments */
+	uint32_t sets_depth;  /* 1: register SCENE_PROGRAM_DEPTH is the fragment's depth */
+};
+
+/* X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. */
+#define SCENE_OPERATIONS(X) \
+	X(MOVE) X(ABSOLUTE) X(FLOOR) X(FRACTION) X(RECIPROCAL) X(INVERSE_ROOT) X(EXP2) X(LOG2) X(SINE) X(COSINE) \
+	X(ADD) X(MULTIPLY) X(MINIMUM) X(MAXIMUM) X(LESS) X(GREATER_EQUAL) X(POWER) \
+	X(MAD)    /* a b + c */ \
+	X(SELECT) /* a < 0 ? b : c */ \
+	X(KILL)   /* the fragment is discarded where a < 0 */ \
+	X(TEXTURE) /* four registers from `to` on; the coordinates are four registers from a on, b the unit, c SCENE_TEXTURE_* */
+enum scene_operation {
+#define SCENE_OPERATION(name) SCENE_OP_##name,
+	SCENE_OPERATIONS(SCENE_OPERATION)
+	N_SCENE_OPERATIONS
+};
+
+#define SCENE_TEXTURE_DIVIDED 1u /* coordinates are divided by the fourth */
+#define SCENE_TEXTURE_BIASED 2u  /* the fourth is added to the level */
+
+#define SCENE_STEP_A 1u      /* each of an instruction's numbers has the next a */
+#define SCENE_STEP_B 2u
+#define SCENE_STEP_C 4u
+#define SCENE_NEGATE_A 8u
+#define SCENE_NEGATE_B 16u
+#define SCENE_NEGATE_C 32u
+#define SCENE_SATURATE 64u   /* results are clamped to [0,1] */
+
+/* n results, in registers from `to` on. */
+struct scene_instruction {
+	uint32_t operation, n, flags; /* flags: SCENE_STEP_A ... */
+	uint32_t to, a, b, c;
+};
