@@ -387,7 +387,7 @@ static void explain_no_frame(const struct stats_process *p)
 static void explain_needs(const struct stats_process *p)
 {
 	if (p->programs)
-		err_warn(p->path, "the program uses shaders or programs; what they draw is rendered as fixed function ('relume info' counts it)");
+		err_warn(p->path, "the program uses shaders or programs; 'relume info' tells which of their draws are rendered as fixed function");
 	if (p->windows > 1)
 		err_warn(p->path, "its frames are of several windows, in the order of their swaps");
 }

@@ -114,7 +114,7 @@ long replay_lacks(struct replay *rp, struct replay_lack **out);
 
 /** What the frames so far ask of a renderer. */
 struct replay_needs {
-	uint64_t programs;   /* draws by shaders or programs */
+	uint64_t programs;   /* draws by shaders or programs that are not run */
 	int several_windows; /* 1: frames end in more than one */
 	int single_buffered; /* 1: some context has no back buffer */
 };

@@ -171,7 +171,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
 		f->view = gls_frame_view(target->surface, st, e);
-	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material)
+	if (f->last != st || st->dirty & GLS_DIRTY_MATERIAL || e->attribs->lighting.color_material || st->arb_fragment_enabled)
 		f->material = gls_frame_material(x, target, st, e);
 	f->last = st;
 	instance = &s->instances[s->n_instances];
@@ -253,7 +253,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 
 static void free_frame(struct gls_frame *f)
 {
-	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->spaces };
+	struct table *tables[] = { &f->materials, &f->units, &f->lights, &f->currents, &f->views, &f->stipples, &f->programs, &f->spaces };
 
 	for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++)
 		table_free(tables[i]);
@@ -280,6 +280,7 @@ static void release_reference(struct scene *s)
 	free(s->clears);
 	free(s->stipples);
 	free(s->rectangles);
+	free(s->programs);
 	free(s->meshes);
 	free(s->textures);
 	free(s->draws);

@@ -9,11 +9,13 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "replay/build/intern.h"
+#include "replay/build/program.h"
 #include "replay/gl/texture/image.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "replay/programs/program.h"
 
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
 {
@@ -115,12 +117,19 @@ static uint32_t pack_swizzle(const uint32_t token[4])
 	return packed == (1u << 3 | 2u << 6 | 3u << 9) ? 0 : packed | SCENE_SWIZZLED;
 }
 
-/* matrix: of the unit's coordinates.  @return 1 if the unit textures */
-static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, const float *matrix,
-                     struct scene_unit *out)
+/* What coordinates are generated of, and what they go through. */
+static void fill_coordinates(const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
+{
+	for (unsigned i = 0; i < 4; i++)
+		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
+	memcpy(out->matrix, matrix, 64);
+}
+
+/* target: -1: none; matrix: of the unit's coordinates.  @return 1 if the unit textures */
+static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_unit *unit, int target,
+                     const float *matrix, struct scene_unit *out)
 {
 	unsigned u = unit->value.unit;
-	int target = enabled_target(unit);
 	struct gls_texture *t = target >= 0 ? gls_texture_bound(x, st, u, (unsigned)target) : NULL;
 	const struct gls_texture_parameters *p = t ? &gls_texture_sampler(st, u, t)->parameters : NULL;
 	struct gls_texture_image *image = t ? gls_texture_image_of(x, t, p->min_filter) : NULL;
@@ -150,10 +159,52 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	out->compare_mode = p->compare_mode;
 	out->compare_func = p->compare_func;
 	out->depth_mode = t->parameters.depth_mode;
-	for (unsigned i = 0; i < 4; i++)
-		out->gen_mode[i] = unit->gen_enabled >> i & 1 ? unit->value.gen_mode[i] : 0;
-	memcpy(out->matrix, matrix, 64);
+	fill_coordinates(unit, matrix, out);
 	return 1;
+}
+
+/*
+ * A unit whose coordinates or texture a program looks at, although there is no texture or no complete one: what is sampled is black. What
+ * stands in for the program where it does not run passes the unit by.
+ * @return 1; 0: out of memory (reported)
+ */
+static int fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_unit *unit, const float *matrix, struct scene_unit *out)
+{
+	static const uint8_t black[4] = { 0, 0, 0, 255 };
+	struct gls_texture_image *image = gls_texture_image_find(x, 1, 1, sizeof(black), black);
+
+	if (!image)
+		return 0;
+	*out = unit->value;
+	out->texture = gls_frame_texture(x, f, image);
+	gls_texture_image_release(image);
+	out->wrap_s = out->wrap_t = out->wrap_r = GL_REPEAT;
+	out->min_filter = out->mag_filter = GL_NEAREST;
+	out->env_mode = GL_COMBINE;
+	out->combine_rgb = out->combine_alpha = GL_REPLACE;
+	out->source_rgb[0] = out->source_alpha[0] = GL_PREVIOUS;
+	out->operand_rgb[0] = GL_SRC_COLOR;
+	out->operand_alpha[0] = GL_SRC_ALPHA;
+	fill_coordinates(unit, matrix, out);
+	return out->texture != SCENE_NONE;
+}
+
+/* The units that a draw looks at. program: its fragment program, NULL: none. @return how many */
+static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
+                           const struct gls_program *program, struct scene_unit units[GLS_MAX_UNITS])
+{
+	uint32_t n = 0;
+
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
+		const struct gls_unit *unit = &e->attribs->texturing.units[u];
+		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
+		const int target = program ? (int)program->code.targets[u] - 1 : enabled_target(unit);
+
+		if (fill_unit(x, f, st, unit, target, matrix, &units[n]) ||
+		    (program && (target >= 0 || program->code.inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
+			n++;
+	}
+	return n;
 }
 
 /* Numbers of the state are clamped for drawables that could hold no others (ARB_color_buffer_float). */
@@ -295,6 +346,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	struct scene *s = f->out;
 	const struct gls_attribs *a = e->attribs;
 	const uint32_t unclamped = unclamped_by(a, target->surface);
+	const struct gls_program *program = gls_program_of_fragments(st);
 	struct scene_unit units[GLS_MAX_UNITS];
 	struct scene_material m;
 
@@ -307,10 +359,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
-	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
-		m.unit_count += (uint32_t)fill_unit(x, f, st, &a->texturing.units[u],
-		                                    e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth],
-		                                    &units[m.unit_count]);
+	m.unit_count = fill_units(x, f, st, e, program, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
@@ -328,6 +377,12 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
+	if (program) {
+		m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for programs' colours, whatever ShadeModel says */
+		m.fragment_program = gls_program_build(f, st, a, program);
+		if (!m.fragment_program)
+			return SCENE_NONE;
+	}
 	return gls_intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
 }
 

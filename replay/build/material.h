@@ -13,8 +13,8 @@
 /* The events of a surface so far; for frame.c and material.c. */
 struct gls_frame {
 	struct scene *out; /* NULL between frames */
-	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles; } room;
-	struct table materials, units, lights, currents, views, stipples, spaces; /* hash -> index + 1 */
+	struct { uint32_t instances, materials, units, lights, currents, views, clears, stipples, meshes, textures, draws, rectangles, programs; } room;
+	struct table materials, units, lights, currents, views, stipples, programs, spaces; /* hash -> index + 1 */
 	uint32_t material, view; /* of the last draw, while its context's state is not dirty */
 	const struct gls_state *last;
 	uint32_t next_draw, next_primitive;

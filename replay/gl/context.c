@@ -17,6 +17,7 @@
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "replay/programs/program.h"
 
 #define MAX_CONTEXTS 4096
 
@@ -150,7 +151,7 @@ static void release_share(struct gls_share *share)
 		gls_texture_free(share->defaults[i]);
 	TABLE_DROP(&share->framebuffers, gls_framebuffer_free);
 	TABLE_DROP(&share->renderbuffers, gls_renderbuffer_free);
-	table_free(&share->programs);
+	TABLE_DROP(&share->programs, gls_program_free);
 	free(share);
 }
 

@@ -18,6 +18,7 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/play/player.h"
+#include "replay/programs/program.h"
 
 #define SPACING_BYTES ((uint64_t)1 << 20) /* of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* an index may have so many, however small the trace */
@@ -98,26 +99,28 @@ static int note_lack(struct index *index, const char *name, const char *why, uin
 	return 0;
 }
 
-/* 1 where a program may draw: it stays current from frame to frame. */
-static int has_program(const struct gls_exec *x)
+/* What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL: nothing. */
+static const char *program_lack(const struct gls_exec *x)
 {
 	for (size_t i = 0; i < x->n_contexts; i++) {
-		const struct gls_state *st = &x->contexts[i]->state;
+		const char *lack = gls_program_lack(&x->contexts[i]->state);
 
-		if (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled)
-			return 1;
+		if (lack)
+			return lack;
 	}
-	return 0;
+	return NULL;
 }
 
 /* What the frame that has just ended lacks. programs: what was counted by the end of the frame before */
 static int note_lacks(struct index *index, const struct gls_exec *x, uint64_t *programs)
 {
 	const struct gls_counts *counts = &x->counts;
+	const char *lack = program_lack(x);
 	int rc = 0;
 
-	if (has_program(x) || counts->programs_used != *programs)
-		rc = note_lack(index, "glUseProgram", gls_programs, index->n_frames, 0);
+	if (lack || counts->programs_used != *programs)
+		rc = note_lack(index, lack && lack != gls_programs ? "glProgramStringARB" : "glUseProgram", lack ? lack : gls_programs,
+		               index->n_frames, 0);
 	*programs = counts->programs_used;
 	for (unsigned i = 0; i < n_gls_commands && !rc; i++) {
 		const uint32_t kind = gls_commands[i].kind;

@@ -193,6 +193,49 @@ static const struct snapshot_table renderbuffers = {
 	"renderbuffer", sizeof(struct gls_renderbuffer), put_renderbuffer, get_renderbuffer, free
 };
 
+/* ---- programs: their texts are translated again ---- */
+
+static void put_program(struct saver *s, void *value)
+{
+	const struct gls_program *p = value;
+
+	bytes_put(s->out, &p->target, sizeof(p->target));
+	bytes_put(s->out, p->local, sizeof(p->local));
+	bytes_put_u64(s->out, p->source != NULL);
+	saver_blob(s, p->source, p->source ? p->source_bytes : 0);
+}
+
+static void drop_program(void *program)
+{
+	gls_program_free(program);
+}
+
+static void *get_program(struct loader *l)
+{
+	struct gls_program *p = loader_alloc(l, sizeof(*p));
+	uint8_t *text;
+	size_t n;
+
+	if (!p)
+		return NULL;
+	cursor_copy(&l->in, &p->target, sizeof(p->target));
+	cursor_copy(&l->in, p->local, sizeof(p->local));
+	if (cursor_u64(&l->in)) {
+		text = loader_blob(l, &n);
+		if (!loader_is_bad(l) && gls_program_set(p, text ? (const char *)text : "", text ? n : 0))
+			l->err = ERR_SYSTEM;
+		free(text);
+	} else {
+		free(loader_blob(l, &n));
+	}
+	if (!loader_is_bad(l))
+		return p;
+	gls_program_free(p);
+	return NULL;
+}
+
+static const struct snapshot_table programs = { "program", sizeof(((struct gls_program *)0)->local), put_program, get_program, drop_program };
+
 /* ---- all that contexts share ---- */
 
 void snapshot_put_share(struct saver *s, const struct gls_share *share)
@@ -200,7 +243,7 @@ void snapshot_put_share(struct saver *s, const struct gls_share *share)
 	saver_table(s, &share->lists, &snapshot_lists);
 	saver_table(s, &share->textures, &textures);
 	saver_table(s, &share->buffers, &buffers);
-	saver_table(s, &share->programs, &snapshot_numbers);
+	saver_table(s, &share->programs, &programs);
 	saver_table(s, &share->framebuffers, &framebuffers);
 	saver_table(s, &share->renderbuffers, &renderbuffers);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
@@ -215,7 +258,7 @@ void snapshot_get_share(struct loader *l, struct gls_share *share)
 	loader_table(l, &share->lists, &snapshot_lists);
 	loader_table(l, &share->textures, &textures);
 	loader_table(l, &share->buffers, &buffers);
-	loader_table(l, &share->programs, &snapshot_numbers);
+	loader_table(l, &share->programs, &programs);
 	loader_table(l, &share->framebuffers, &framebuffers);
 	loader_table(l, &share->renderbuffers, &renderbuffers);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS && !loader_is_bad(l); i++)

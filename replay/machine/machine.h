@@ -26,7 +26,7 @@ struct gls_counts {
 	const char **why;                       /* [n_gls_commands] the part that is not done; NULL: all of it */
 	uint32_t *error_code;                   /* [n_gls_commands] the last one */
 	struct table unknown;                   /* name -> count, of calls in no table */
-	uint64_t programs;                      /* draws that use one */
+	uint64_t programs;                      /* draws by one that is not run */
 	uint64_t programs_used;                 /* calls that make one current */
 	uint64_t window;                        /* of the first frame */
 	int several_windows;                    /* 1: another frame ended in another one */

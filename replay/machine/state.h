@@ -18,6 +18,7 @@
 #define GLS_MAX_MATRICES 32
 #define GLS_MAX_TEXTURE_MATRICES 10
 #define GLS_MAX_ATTRIB_DEPTH 16
+#define GLS_MAX_PROGRAM_PARAMETERS 256
 
 /* Vertex attributes; the conventional ones are those of scene_current. */
 enum gls_attribute {
@@ -284,6 +285,7 @@ struct gls_state {
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
+	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* of ARB programs: fragments', vertices' */
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;
 	struct scene_surface surface;  /* what the program said through rtMaterialEXT */
@@ -305,7 +307,7 @@ struct gls_state {
 struct gls_share {
 	unsigned refs;
 	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
-	struct table programs;                 /* ARB program name -> target + 1 */
+	struct table programs;                 /* programs/program.h: key -> struct gls_program */
 	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
 	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
 	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */

@@ -70,7 +70,7 @@ static const struct options_table table = {
 static void print_needs(const struct replay_needs *needs)
 {
 	if (needs->programs)
-		printf("shaders     %" PRIu64 " draws use shaders or programs: rendered as fixed function\n", needs->programs);
+		printf("shaders     %" PRIu64 " draws use shaders or programs that are not run: rendered as fixed function\n", needs->programs);
 	if (needs->several_windows)
 		puts("windows     several: frames are in the order of their swaps");
 	if (needs->single_buffered)

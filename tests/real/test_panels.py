@@ -4,7 +4,7 @@ The modes, functions, operands and terms of the specification's chapters, a pane
 Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
 between two.
 """
-from helpers import check_same_pictures, finish
+from helpers import check_alone, check_same_pictures, finish
 
 PROGRAMS = {
     "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading"),
@@ -13,8 +13,11 @@ PROGRAMS = {
     "fragment": ("blend factors", "more blend factors", "blend equations", "tests", "stencil", "stencil of two sides", "user planes"),
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
+    "program": ("instructions", "bindings", "textures", "fragments"),
 }
 
 for name, frames in PROGRAMS.items():
-    check_same_pictures(f"panels/{name}", frames)
+    trace, _ = check_same_pictures(f"panels/{name}", frames)
+    if name == "program": # objects are in the index
+        check_alone(trace, 1, 3)
 finish()

@@ -1,6 +1,6 @@
 /*
- * Later things that a fixed-function program may use: shaders, several draw buffers. Draws with shaders are rendered as fixed function,
- * and counted.
+ * Later things that a fixed-function program may use: program objects, several draw buffers. Draws with program objects are rendered as fixed
+ * function, and counted.
  */
 #include "gl_tokens.h"
 #include "replay/gl/surface/attachment.h"

@@ -7,6 +7,7 @@
 #include "replay/gl/surface/shown.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "replay/programs/program.h"
 
 /* 1 where an event can change a surface. If its colours go elsewhere, only depth and stencil count. */
 static int is_reached(const struct gls_target *target, const struct gls_event *e)
@@ -22,6 +23,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 {
 	struct gls_target targets[2];
 	struct gls_frame *drawn;
+	const char *lack;
 	unsigned n, added = 0;
 
 	if (!x->want)
@@ -37,9 +39,9 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	}
 	st->dirty = 0;
 	gls_shown_end(x, st, drawn);
-	if (added && (st->program || st->arb_vertex_enabled || st->arb_fragment_enabled)) {
+	if (added && (lack = gls_program_lack(st))) {
 		x->counts.programs++;
-		gls_unsupported(x, gls_programs);
+		gls_unsupported(x, lack);
 	}
 }
 

@@ -21,6 +21,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "replay/programs/program.h"
 
 #define MANY_EVENTS (1u << 16) /* that an object collects before they are written to its attachments */
 
@@ -144,9 +145,11 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing)
 {
+	const struct gls_program *program = gls_program_of_fragments(st);
+
 	for (unsigned u = 0; st->share->framebuffers.n && u < GLS_MAX_UNITS; u++)
 		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
-			if (texturing->units[u].enabled >> target & 1)
+			if (texturing->units[u].enabled >> target & 1 || (program && program->code.targets[u] == target + 1))
 				gls_texture_update(x, st, gls_texture_bound(x, st, u, target));
 }
 

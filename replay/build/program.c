@@ -1,0 +1,157 @@
+#include "replay/build/program.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/mat4.h"
+#include "gl_tokens.h"
+#include "replay/build/intern.h"
+#include "replay/build/material.h"
+#include "replay/programs/program.h"
+
+static void set_four(float out[4], const float *from)
+{
+	memcpy(out, from, 16);
+}
+
+static const float *face_color(const struct scene_face *face, uint32_t part)
+{
+	return part == GLS_AMBIENT ? face->ambient : part == GLS_DIFFUSE ? face->diffuse : part == GLS_SPECULAR ? face->specular : face->emission;
+}
+
+static const float *light_color(const struct scene_light *light, uint32_t part)
+{
+	return part == GLS_AMBIENT ? light->ambient : part == GLS_DIFFUSE ? light->diffuse : light->specular;
+}
+
+/* x y z of length 1. */
+static void normalize(float v[3])
+{
+	const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+
+	for (unsigned i = 0; i < 3 && length > 0; i++)
+		v[i] /= length;
+}
+
+static void fill_light(const struct scene_light *light, uint32_t part, float out[4])
+{
+	switch (part) {
+	case PROGRAM_LIGHT_AMBIENT: set_four(out, light->ambient); break;
+	case PROGRAM_LIGHT_DIFFUSE: set_four(out, light->diffuse); break;
+	case PROGRAM_LIGHT_SPECULAR: set_four(out, light->specular); break;
+	case PROGRAM_LIGHT_POSITION: set_four(out, light->position_eye); break;
+	case PROGRAM_LIGHT_ATTENUATION:
+		memcpy(out, light->attenuation, 12);
+		out[3] = light->spot_exponent;
+		break;
+	case PROGRAM_LIGHT_DIRECTION:
+		memcpy(out, light->spot_direction_eye, 12);
+		normalize(out);
+		out[3] = cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180));
+		break;
+	default: /* half-way between the light and the viewer, both at infinity */
+		memcpy(out, light->position_eye, 12);
+		normalize(out);
+		out[2] += 1;
+		normalize(out);
+		out[3] = 1;
+	}
+}
+
+static void fill_matrix(const struct gls_state *st, const struct program_constant *c, float out[4])
+{
+	const struct gls_matrix_stack *stack = c->index == PROGRAM_MODELVIEW ? &st->modelview : c->index < PROGRAM_TEXTURE_MATRIX ?
+	                                       &st->projection : &st->texture[c->index - PROGRAM_TEXTURE_MATRIX];
+	float m[16], other[16];
+
+	memcpy(m, stack->matrices[stack->depth], sizeof(m));
+	if (c->index == PROGRAM_MVP)
+		mat4_mul(m, st->projection.matrices[st->projection.depth], st->modelview.matrices[st->modelview.depth]);
+	if (c->part & PROGRAM_INVERTED) {
+		mat4_invert(other, m);
+		memcpy(m, other, sizeof(m));
+	}
+	for (uint32_t k = 0; k < 4; k++)
+		out[k] = c->part & PROGRAM_TRANSPOSED ? m[4 * c->row + k] : m[4 * k + c->row];
+}
+
+/* The colour that a face has where no light falls, emission included. */
+static void fill_scene_color(const struct gls_lighting *l, const struct scene_face *face, float out[4])
+{
+	for (unsigned k = 0; k < 3; k++)
+		out[k] = face->emission[k] + l->model_ambient[k] * face->ambient[k];
+	out[3] = face->diffuse[3];
+}
+
+static void fill_fog(const struct gls_fog *fog, float out[4])
+{
+	out[0] = fog->density;
+	out[1] = fog->start;
+	out[2] = fog->end;
+	out[3] = fog->end == fog->start ? 1 : 1 / (fog->end - fog->start);
+}
+
+static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct gls_program *p, const struct program_constant *c,
+                 float out[4])
+{
+	const struct gls_lighting *l = &a->lighting;
+	const struct scene_light *light = &l->lights[c->index % GLS_MAX_LIGHTS].value;
+	const struct scene_face *face = &l->face[(c->source == PROGRAM_LIGHT_PRODUCT ? c->face : c->index) & 1];
+
+	switch (c->source) {
+	case PROGRAM_LITERAL: set_four(out, c->value); break;
+	case PROGRAM_ENV: set_four(out, st->program_env[p->target == GL_VERTEX_PROGRAM_ARB][c->index]); break;
+	case PROGRAM_LOCAL: set_four(out, p->local[c->index]); break;
+	case PROGRAM_MATERIAL:
+		if (c->part == PROGRAM_SHININESS)
+			set_four(out, (const float[4]){ face->shininess, 0, 0, 1 });
+		else
+			set_four(out, face_color(face, c->part));
+		break;
+	case PROGRAM_LIGHT: fill_light(light, c->part, out); break;
+	case PROGRAM_LIGHT_MODEL: set_four(out, l->model_ambient); break;
+	case PROGRAM_SCENE_COLOR: fill_scene_color(l, face, out); break;
+	case PROGRAM_LIGHT_PRODUCT:
+		for (unsigned k = 0; k < 3; k++)
+			out[k] = light_color(light, c->part)[k] * face_color(face, c->part)[k];
+		out[3] = face_color(face, c->part)[3];
+		break;
+	case PROGRAM_ENV_COLOR: set_four(out, a->texturing.units[c->index % GLS_MAX_UNITS].value.env_color); break;
+	case PROGRAM_FOG_COLOR: set_four(out, a->fog.color); break;
+	case PROGRAM_FOG_NUMBERS: fill_fog(&a->fog, out); break;
+	case PROGRAM_DEPTH_RANGE:
+		set_four(out, (const float[4]){ a->viewport.depth_range[0], a->viewport.depth_range[1],
+		                                a->viewport.depth_range[1] - a->viewport.depth_range[0], 1 });
+		break;
+	case PROGRAM_MATRIX: fill_matrix(st, c, out); break;
+	}
+}
+
+uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct gls_program *p)
+{
+	const struct program_code *code = &p->code;
+	const struct scene_program head = { code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs, code->kills,
+		                            code->sets_depth };
+	const size_t instruction_bytes = code->n_instructions * sizeof(struct scene_instruction);
+	const size_t n = (sizeof(head) + instruction_bytes) / 4 + 4 * (size_t)code->n_constants;
+	uint32_t *words = malloc(n * 4), place;
+
+	if (!words) {
+		err_report(ERR_SYSTEM, NULL, "out of memory for a program");
+		return 0;
+	}
+	memcpy(words, &head, sizeof(head));
+	if (instruction_bytes)
+		memcpy((char *)words + sizeof(head), code->instructions, instruction_bytes);
+	for (uint32_t i = 0; i < code->n_constants; i++) {
+		float four[4] = { 0 };
+
+		fill(st, a, p, &code->constants[i], four);
+		memcpy((char *)words + sizeof(head) + instruction_bytes + 16 * i, four, sizeof(four));
+	}
+	place = gls_intern_array(&f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
+	free(words);
+	return place == SCENE_NONE ? 0 : place + 1;
+}

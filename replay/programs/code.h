@@ -1,0 +1,59 @@
+/*
+ * A program translated: instructions for kernels (scene/program.h), and what state their constants are of. The translators write it, and
+ * build.c fills in the numbers when something is drawn.
+ */
+#pragma once
+
+#include <stdint.h>
+
+#include "scene/program.h"
+
+/* Where the four numbers of a constant come from (ARB_fragment_program, tables X.1 to X.5). */
+enum program_source {
+	PROGRAM_LITERAL,       /* value */
+	PROGRAM_ENV,           /* index */
+	PROGRAM_LOCAL,         /* index */
+	PROGRAM_MATERIAL,      /* index: face; part: GLS_AMBIENT ..., PROGRAM_SHININESS */
+	PROGRAM_LIGHT,         /* index: light; part: enum program_light_part */
+	PROGRAM_LIGHT_MODEL,   /* ambient */
+	PROGRAM_SCENE_COLOR,   /* index: face */
+	PROGRAM_LIGHT_PRODUCT, /* index: light; face; part: GLS_AMBIENT ... */
+	PROGRAM_ENV_COLOR,     /* index: unit */
+	PROGRAM_FOG_COLOR,
+	PROGRAM_FOG_NUMBERS,   /* density, start, end, 1 / (end - start) */
+	PROGRAM_DEPTH_RANGE,   /* near, far, far - near, 1 */
+	PROGRAM_MATRIX         /* index: enum program_matrix, texture matrices from PROGRAM_TEXTURE_MATRIX on; part: bits below; row */
+};
+enum program_light_part {
+	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION, PROGRAM_LIGHT_ATTENUATION,
+	PROGRAM_LIGHT_DIRECTION, /* of a spot; the fourth: cosine of its cutoff */
+	PROGRAM_LIGHT_HALF       /* half-way vector of a light at infinity */
+};
+enum program_matrix { PROGRAM_MODELVIEW, PROGRAM_PROJECTION, PROGRAM_MVP, PROGRAM_TEXTURE_MATRIX };
+enum { PROGRAM_SHININESS = 16 };                         /* beside GLS_AMBIENT to GLS_EMISSION */
+enum { PROGRAM_INVERTED = 1, PROGRAM_TRANSPOSED = 2 };   /* of matrices */
+
+struct program_constant {
+	enum program_source source;
+	uint32_t index, part, face, row;
+	float value[4];
+};
+
+struct program_code {
+	struct scene_instruction *instructions; /* owned */
+	struct program_constant *constants;     /* owned */
+	uint32_t n_instructions, n_constants, n_registers;
+	uint32_t instruction_room, constant_room;
+	uint32_t inputs, kills, sets_depth; /* as in struct scene_program */
+	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
+};
+
+/**
+ * Append an instruction. @return 0, or ERR_SYSTEM: out of memory (reported), ERR_INPUT: there are SCENE_PROGRAM_INSTRUCTIONS already
+ */
+int program_append(struct program_code *code, const struct scene_instruction *instruction);
+
+/** The number of a constant, which is added where there is none like it; UINT32_MAX: out of memory (reported). */
+uint32_t program_constant(struct program_code *code, const struct program_constant *constant);
+
+void program_code_free(struct program_code *code);

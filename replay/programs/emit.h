@@ -1,0 +1,49 @@
+/* Instructions on vectors of four, as assembly has them, become instructions on numbers (scene/program.h). */
+#pragma once
+
+#include <stdint.h>
+
+#include "replay/programs/code.h"
+
+/* Four numbers: a register or a constant each. */
+struct emit_source {
+	uint32_t number[4];
+	uint32_t negated; /* bits */
+};
+
+/* Four registers in a row. */
+struct emit_target {
+	uint32_t first;
+	uint32_t mask; /* bits: those that are written */
+	int saturates;
+};
+
+struct emitter {
+	struct program_code *code;
+	uint32_t scratch; /* eight registers that nothing else uses */
+	int err;          /* the first failure of program_append; what follows does nothing */
+};
+
+/** One component of a source as all four. */
+struct emit_source emit_splat(const struct emit_source *from, uint32_t component);
+
+/** Four registers, or four constants, in a row. */
+struct emit_source emit_four(uint32_t first);
+
+/** to = f(a, b, c) for each component that is written; b and c may be NULL. The target may be among the sources. */
+void emit_vector(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
+                 const struct emit_source *b, const struct emit_source *c);
+
+/** All components = f(a.x, b.x). */
+void emit_scalar(struct emitter *e, enum scene_operation operation, const struct emit_target *to, const struct emit_source *a,
+                 const struct emit_source *b);
+
+/** All components = the sum of the first n products; plus b.w where `homogeneous`. */
+void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit_source *a, const struct emit_source *b, uint32_t n,
+              int homogeneous);
+
+/** A sample of a unit. flags: SCENE_TEXTURE_* */
+void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit, uint32_t flags);
+
+/** Discard the fragment where a component is below 0. */
+void emit_kill(struct emitter *e, const struct emit_source *a);

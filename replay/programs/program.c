@@ -1,0 +1,57 @@
+#include "replay/programs/program.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "gl_tokens.h"
+#include "replay/machine/errors.h"
+#include "replay/programs/arb.h"
+
+void gls_program_free(struct gls_program *p)
+{
+	program_code_free(&p->code);
+	free(p->source);
+	free(p);
+}
+
+int gls_program_set(struct gls_program *p, const char *text, size_t n)
+{
+	char *source = malloc(n + 1);
+	int err;
+
+	if (!source)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for a program of %zu bytes", n);
+	memcpy(source, text, n);
+	source[n] = 0;
+	free(p->source);
+	p->source = source;
+	p->source_bytes = n;
+	program_code_free(&p->code);
+	p->why = p->target == GL_FRAGMENT_PROGRAM_ARB ? NULL : gls_programs; /* vertex programs are not run yet */
+	err = p->why ? 0 : program_translate_arb(source, n, &p->code, &p->why);
+	if (err || p->why)
+		program_code_free(&p->code);
+	return err;
+}
+
+struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target)
+{
+	return table_find(&st->share->programs, gls_program_key(target, target == GL_VERTEX_PROGRAM_ARB ? st->arb_vertex : st->arb_fragment));
+}
+
+const char *gls_program_lack(const struct gls_state *st)
+{
+	const struct gls_program *fragments = st->arb_fragment_enabled ? gls_program_bound(st, GL_FRAGMENT_PROGRAM_ARB) : NULL;
+
+	if (st->program || st->arb_vertex_enabled)
+		return gls_programs;
+	if (!st->arb_fragment_enabled)
+		return NULL;
+	return !fragments || !fragments->source ? "draws with a fragment program that has no text" : fragments->why;
+}
+
+const struct gls_program *gls_program_of_fragments(const struct gls_state *st)
+{
+	return st->arb_fragment_enabled && !gls_program_lack(st) ? gls_program_bound(st, GL_FRAGMENT_PROGRAM_ARB) : NULL;
+}

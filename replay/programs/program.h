@@ -1,0 +1,42 @@
+/* Program objects of ARB_fragment_program and ARB_vertex_program, as the state keeps them. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "replay/programs/code.h"
+#include "replay/machine/state.h"
+
+struct gls_exec;
+
+struct gls_program {
+	uint32_t target; /* GL token */
+	char *source;    /* owned, as the program gave it; NULL: it has given none */
+	size_t source_bytes;
+	float local[GLS_MAX_PROGRAM_PARAMETERS][4];
+	struct program_code code; /* empty where there is a reason */
+	const char *why;          /* what stands in the way of running it; a static string, NULL: nothing */
+};
+
+void gls_program_free(struct gls_program *p);
+
+/** Give it a text, of n bytes, and translate it. @return 0, or ERR_SYSTEM (reported) */
+int gls_program_set(struct gls_program *p, const char *text, size_t n);
+
+/** Where an object stands in gls_share.programs; those that nobody has named are one of each target. */
+static inline uint64_t gls_program_key(uint32_t target, uint32_t name)
+{
+	return name ? name : (uint64_t)target << 32;
+}
+
+/** The object bound to a target; NULL: there is none of this name. */
+struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target);
+
+/**
+ * What stands in the way of drawing with the programs that are current: a static string; NULL: nothing.
+ * Draws are then rendered as fixed function.
+ */
+const char *gls_program_lack(const struct gls_state *st);
+
+/** The fragment program that shades what is drawn now; NULL: none. */
+const struct gls_program *gls_program_of_fragments(const struct gls_state *st);

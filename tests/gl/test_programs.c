@@ -1,0 +1,155 @@
+/* Programs in assembly (ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
+#include "replay/programs/program.h"
+#include "scene/program.h"
+#include "tests/gl/gl.h"
+
+static void set_text(struct gl *gl, uint32_t name, const char *text)
+{
+	gl_call(gl, "glBindProgramARB", "eu", GL_FRAGMENT_PROGRAM_ARB, name);
+	gl_call(gl, "glProgramStringARB", "eeus", GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(text), text);
+}
+
+static struct gls_program *bound(struct gl *gl)
+{
+	return gls_program_bound(gl_state(gl), GL_FRAGMENT_PROGRAM_ARB);
+}
+
+/* A name belongs to the target that it was first bound to; parameters are the object's or the context's. */
+START_TEST(test_objects)
+{
+	struct gl gl = gl_open();
+	static const float four[4] = { 1, 2, 3, 4 };
+
+	set_text(&gl, 7, "!!ARBfp1.0 MOV result.color, fragment.color; END");
+	ck_assert_ptr_null(bound(&gl)->why);
+	ck_assert_uint_eq(bound(&gl)->code.n_instructions, 1);
+	gl_call(&gl, "glBindProgramARB", "eu", GL_VERTEX_PROGRAM_ARB, 7u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glBindProgramARB", "eu", GL_TEXTURE_2D, 7u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_ENUM);
+	gl_call(&gl, "glProgramLocalParameter4fvARB", "euF", GL_FRAGMENT_PROGRAM_ARB, 2u, 4, four);
+	gl_call(&gl, "glProgramEnvParameter4dARB", "eudddd", GL_FRAGMENT_PROGRAM_ARB, 3u, 5.0, 6.0, 7.0, 8.0);
+	ck_assert_floats(4, bound(&gl)->local[2], 1, 2, 3, 4);
+	ck_assert_floats(4, gl_state(&gl)->program_env[0][3], 5, 6, 7, 8);
+	gl_call(&gl, "glProgramEnvParameter4fARB", "euffff", GL_FRAGMENT_PROGRAM_ARB, 256u, 0.0, 0.0, 0.0, 0.0);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	gl_call(&gl, "glDeleteProgramsARB", "uU", 1u, 1, (const uint32_t[1]){ 7 });
+	ck_assert_uint_eq(gl_state(&gl)->arb_fragment, 0);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A draw takes the program along, with its constants as they are then; equal ones are there once. */
+START_TEST(test_scene)
+{
+	struct gl gl = gl_open();
+	const struct scene_program *head;
+	const float *constants;
+	struct scene *s;
+
+	set_text(&gl, 1, "!!ARBfp1.0 TEMP r; TEX r, fragment.texcoord[2], texture[1], 2D; MUL result.color, r, program.env[0]; END");
+	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
+	for (int i = 0; i < 3; i++) {
+		gl_call(&gl, "glProgramEnvParameter4fARB", "euffff", GL_FRAGMENT_PROGRAM_ARB, 0u, 0.5, i / 2 * 0.25, 0.0, 1.0);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 3);
+	ck_assert_uint_eq(s->n_materials, 2);
+	head = (const struct scene_program *)(s->programs + s->materials[1].fragment_program - 1);
+	ck_assert_uint_eq(head->inputs, 1u << (SCENE_INPUT_TEXCOORD + 2));
+	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
+	ck_assert_floats(4, constants, 0.5, 0.25, 0, 1);
+	ck_assert_uint_eq(s->materials[0].unit_count, 2); /* what is sampled, and what coordinates are read of */
+	ck_assert_uint_eq(s->units[0].unit, 1);
+	ck_assert_uint_eq(s->units[1].unit, 2);
+	ck_assert_uint_eq(gl.x->counts.programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* What is not translated is drawn as fixed function, and counted with its reason. */
+START_TEST(test_reasons)
+{
+	static const char *const texts[][2] = {
+		{ "!!ARBfp1.0 MOV result.color, fragment.color END", "grammar" }, { "!!ARBvp1.0 END", "does not begin" },
+		{ "!!ARBfp1.0 FOO result.color, fragment.color; END", "instruction" }, { "!!ARBfp1.0 OPTION ARB_made_up; END", "option" },
+		{ "!!ARBfp1.0 MOV result.color, state.light[99].ambient; END", "more than there is" },
+		{ "!!ARBfp1.0 TEMP a, a; END", "grammar" }, { "!!ARBfp1.0 MOV result.color, fragment.color.xyq; END", "grammar" },
+		{ "!!ARBfp1.0 MOV fragment.color, 1; END", "grammar" }, { "!!ARBfp1.0 MOV result.color.yx, 1; END", "grammar" },
+	};
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
+	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
+		set_text(&gl, i + 1, texts[i][0]);
+		ck_assert_ptr_nonnull(bound(&gl)->why);
+		ck_assert_msg(strstr(bound(&gl)->why, texts[i][1]), "%s: %s", texts[i][0], bound(&gl)->why);
+		ck_assert_uint_eq(bound(&gl)->code.n_instructions, 0);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(gl.x->counts.programs, sizeof(texts) / sizeof(texts[0]));
+	ck_assert_uint_eq(s->n_programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* No instruction may name a register or a constant that is not there. */
+static void check_bounds(const struct gls_program *p)
+{
+	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
+		const struct scene_instruction *in = &p->code.instructions[i];
+		const uint32_t operands[3] = { in->a, in->b, in->c }, taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
+		                                                              in->operation == SCENE_OP_KILL ? 1 : in->operation < SCENE_OP_MAD ? 2 : 3;
+		const uint32_t n = in->operation == SCENE_OP_TEXTURE ? 4 : in->n;
+
+		ck_assert_uint_lt(in->operation, N_SCENE_OPERATIONS);
+		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= SCENE_PROGRAM_COLOR && in->to + n <= p->code.n_registers));
+		for (uint32_t k = 0; k < taken; k++)
+			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ? operands[k] - SCENE_PROGRAM_CONSTANT + n <= 4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
+			                                                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
+	}
+	ck_assert_uint_le(p->code.n_registers, SCENE_PROGRAM_REGISTERS);
+}
+
+/* Texts with letters changed, left out and doubled: refused or translated, never beyond what is there. */
+START_TEST(test_damaged_texts)
+{
+	static const char text[] =
+		"!!ARBfp1.0 OPTION ARB_fog_exp; PARAM p[3] = { program.env[0..1], { 1, -2.5e1, .5 } }; PARAM m[4] = { state.matrix.mvp.transpose };\n"
+		"ATTRIB c = fragment.color.secondary; OUTPUT o = result.color; ALIAS q = o; TEMP a, b; # words\n"
+		"DP4 a.x, m[1], fragment.position; LRP_SAT a, -c.wzyx, p[2], state.lightprod[3].back.diffuse; SWZ b, a, 1, -x, 0, w;\n"
+		"TXP a, b, texture[2], CUBE; KIL -a.x; LIT b, a; XPD b.xyz, a, c; POW a.w, b.x, { 2 }.x; MAD q, a, b, 0.25; MOV result.depth.z, a; END";
+	struct gl gl = gl_open();
+	uint32_t seed = 1, translated = 0;
+	char damaged[sizeof(text) + 8];
+
+	set_text(&gl, 1, text);
+	ck_assert_msg(!bound(&gl)->why, "%s", bound(&gl)->why ? bound(&gl)->why : "");
+	for (int i = 0; i < 20000; i++) {
+		size_t n = sizeof(text) - 1;
+
+		memcpy(damaged, text, sizeof(text));
+		for (int k = 0; k < 1 + i % 3; k++) {
+			const size_t at = (seed = seed * 1664525 + 1013904223) >> 8, place = at % n, other = at / n % n;
+
+			if (i % 4 == 0)
+				memmove(damaged + place, damaged + place + 1, n-- - place);
+			else
+				damaged[place] = i % 4 == 1 ? (char)(at >> 12) : text[other];
+		}
+		damaged[n] = 0;
+		set_text(&gl, 1, damaged);
+		translated += !bound(&gl)->why;
+		check_bounds(bound(&gl));
+	}
+	ck_assert_uint_gt(translated, 100);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("programs", test_objects, test_scene, test_reasons, test_damaged_texts)
