@@ -24,6 +24,8 @@ struct replay {
 	char hash[33];
 	struct replay_count *counts; /* what the last query answered */
 	size_t room;
+	struct replay_program *programs; /* the same of replay_programs */
+	size_t programs_room;
 	int lacks_counts; /* 1: some were left out, as memory was short */
 	struct replay_context *contexts;
 	struct index *index; /* once it was needed */
@@ -53,6 +55,7 @@ void replay_close(struct replay **rp)
 	index_close(&(*rp)->index);
 	player_close(&(*rp)->player);
 	free((*rp)->counts);
+	free((*rp)->programs);
 	free((*rp)->contexts);
 	free(*rp);
 	*rp = NULL;
@@ -292,6 +295,38 @@ struct replay_needs replay_needs(const struct replay *rp)
 
 	for (size_t i = 0; i < x->n_contexts; i++)
 		n.single_buffered |= x->contexts[i]->state.ever_current && !x->contexts[i]->state.double_buffered;
+	return n;
+}
+
+static int by_kind_and_name(const void *a, const void *b)
+{
+	const struct replay_program *l = a, *r = b;
+	const int kind = strcmp(l->kind, r->kind);
+
+	return kind ? kind : l->name < r->name ? -1 : l->name > r->name;
+}
+
+size_t replay_programs(struct replay *rp, const struct replay_program **out)
+{
+	const struct table *draws = &rp->player.exec->counts.program_draws;
+	size_t n = 0;
+
+	for (size_t i = 0; i < draws->room; i++) {
+		const uint64_t key = draws->entries[i].key;
+
+		if (!draws->entries[i].value)
+			continue;
+		if (MEMORY_GROW(rp->programs, rp->programs_room, n + 1)) {
+			rp->lacks_counts = 1;
+			break;
+		}
+		rp->programs[n++] = (struct replay_program){
+			key >> 32 == 0 ? "program object" : key >> 32 == GL_VERTEX_PROGRAM_ARB ? "vertex program" : "fragment program", (uint32_t)key,
+			(uintptr_t)draws->entries[i].value };
+	}
+	if (n)
+		qsort(rp->programs, n, sizeof(rp->programs[0]), by_kind_and_name);
+	*out = rp->programs;
 	return n;
 }
 

@@ -126,6 +126,16 @@ int replay_is_rendered(const struct replay_count *count);
 /** All calls met so far by name, most frequent first; as above. */
 size_t replay_calls(struct replay *rp, const struct replay_count **out);
 
+/** One program that draws used. */
+struct replay_program {
+	const char *kind; /* "program object", "fragment program", "vertex program" */
+	uint32_t name;    /* as the recorded program knows it; 0: the one that has no name */
+	uint64_t draws;
+};
+
+/** The programs that draws used so far, of which what is not run is among replay_unsupported. Valid until the next call. @return how many */
+size_t replay_programs(struct replay *rp, const struct replay_program **out);
+
 /** 1 where some list of counts was not whole, as memory was short (reported). */
 int replay_lacks_counts(const struct replay *rp);
 

@@ -175,6 +175,7 @@ void gls_exec_destroy(struct gls_exec **exec)
 	gls_image_cache_free(x);
 	table_free(&x->maps);
 	table_free(&x->counts.unknown);
+	table_free(&x->counts.program_draws);
 	free(x->scratch.bytes);
 	free(x->scratch.elements);
 	free(x->counts.calls);

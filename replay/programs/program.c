@@ -51,6 +51,15 @@ const char *gls_program_lack(const struct gls_state *st)
 	return !fragments || !fragments->source ? "draws with a fragment program that has no text" : fragments->why;
 }
 
+uint64_t gls_program_current(const struct gls_state *st)
+{
+	if (st->program)
+		return st->program;
+	if (st->arb_fragment_enabled)
+		return (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
+	return st->arb_vertex_enabled ? (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex : 0;
+}
+
 const struct gls_program *gls_program_of_fragments(const struct gls_state *st)
 {
 	return st->arb_fragment_enabled && !gls_program_lack(st) ? gls_program_bound(st, GL_FRAGMENT_PROGRAM_ARB) : NULL;

@@ -77,6 +77,14 @@ static void print_needs(const struct replay_needs *needs)
 		puts("buffers     one: frames end where the program flushes");
 }
 
+static void print_programs(const struct replay_program *programs, size_t n)
+{
+	if (n)
+		puts("\nprograms that draws used");
+	for (size_t i = 0; i < n; i++)
+		printf("%12" PRIu64 "  %s %" PRIu32 "\n", programs[i].draws, programs[i].kind, programs[i].name);
+}
+
 static void print_counts(const char *title, const struct replay_count *counts, size_t n, size_t limit)
 {
 	if (!n)
@@ -103,6 +111,7 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 {
 	const struct replay_count *counts;
 	const struct replay_context *contexts;
+	const struct replay_program *programs;
 	struct replay_needs needs;
 	size_t n, n_rendered;
 
@@ -122,6 +131,8 @@ static void print_text(struct replay *rp, const char *path, size_t limit, const 
 	print_needs(&needs);
 	n = replay_calls(rp, &counts);
 	print_counts("calls by name", counts, n, limit);
+	n = replay_programs(rp, &programs);
+	print_programs(programs, n);
 	n = replay_unsupported(rp, &counts);
 	n_rendered = count_rendered(counts, n);
 	if (n == n_rendered)
@@ -151,6 +162,7 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 	struct json j = { .out = stdout };
 	const struct replay_count *counts;
 	const struct replay_context *contexts;
+	const struct replay_program *programs;
 	struct replay_needs needs;
 	size_t n;
 
@@ -187,6 +199,16 @@ static void print_json(struct replay *rp, const char *path, const struct frame_r
 	json_key_uint(&j, "several_windows", (uint64_t)needs.several_windows);
 	json_key_uint(&j, "single_buffered", (uint64_t)needs.single_buffered);
 	json_end(&j, '}');
+	n = replay_programs(rp, &programs);
+	json_key_begin(&j, "programs", '[');
+	for (size_t i = 0; i < n; i++) {
+		json_begin(&j, '{');
+		json_key_string(&j, "kind", programs[i].kind);
+		json_key_uint(&j, "name", programs[i].name);
+		json_key_uint(&j, "draws", programs[i].draws);
+		json_end(&j, '}');
+	}
+	json_end(&j, ']');
 	n = replay_calls(rp, &counts);
 	json_counts(&j, "calls_by_name", counts, n, NULL);
 	n = replay_unsupported(rp, &counts);

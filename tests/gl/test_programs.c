@@ -92,6 +92,7 @@ START_TEST(test_reasons)
 	}
 	s = gl_swap(&gl);
 	ck_assert_uint_eq(gl.x->counts.programs, sizeof(texts) / sizeof(texts[0]));
+	ck_assert_uint_eq(gl.x->counts.program_draws.n, sizeof(texts) / sizeof(texts[0])); /* of as many objects */
 	ck_assert_uint_eq(s->n_programs, 0);
 	scene_release(&s);
 	gl_close(&gl);

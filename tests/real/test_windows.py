@@ -40,6 +40,9 @@ said = record(trace, PROGRAM, "shaders", options=()).stderr
 check("the program uses shaders or programs" in said, f"record says: {said}")
 check("reference" not in said, f"record without references says: {said}")
 
+info = must(relume("info", trace)).stdout
+check("programs that draws used" in info and "  program object " in info, f"info names programs: {info}")
+
 # What is missing is said before the first frame, and the exit code tells it; frames that fail alike share a row.
 to = SCRATCH / "shaders.####.exr"
 done = relume("render", trace, "-o", to, "-f", "0-3", *AS_SHOWN)
