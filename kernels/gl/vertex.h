@@ -144,3 +144,13 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 		v4_store(a->coords + (g->texcoord_first + v * m->unit_count + i) * 4u,
 		         vertex_texcoord(t, g, &t->units[m->unit_first + i], v, obj, eye, normal));
 }
+
+/*
+ * window: where vertex `item` of the frame, as the vertex stage left it, lies in a viewport that has moved since.
+ */
+static inline void window_item(const struct window_arguments *a, uint32_t item)
+{
+	GLOBAL const struct view *view = &a->views[a->geometries[a->owners[item]].view];
+
+	a->windows[item] = clip_window(view, v4_load(a->clips + item * 4u), (float)a->height);
+}

@@ -2,3 +2,4 @@
 #include "kernels/gl/vertex.h"
 
 KERNEL_TWIN(vertex, n)
+KERNEL_TWIN(window, n)

@@ -78,6 +78,7 @@ struct job {
 	float background[4];
 	uint32_t pass, n_passes; /* samples of a pixel; pass 0 is its centre, and the last to be traced */
 	uint32_t is_first;       /* of the passes that are summed up: there are no sums yet */
+	uint32_t is_placed;      /* state, vertices and trees of the pass before are on the device: only the picture is to be moved */
 	uint32_t turn;           /* which pixels take part in the other passes (sample_takes_part) */
 	struct image *image;            /* receive the bands of the last pass: one of the two, the other is NULL */
 	struct scene_picture *picture;

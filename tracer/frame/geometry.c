@@ -266,3 +266,24 @@ int geometry_place(struct job *job)
 		err = expand_all(job);
 	return err ? err : build_trees(job);
 }
+
+int geometry_can_move(const struct job *job)
+{
+	int filled = job->scene->samples <= 1;
+
+	for (uint32_t i = 0; i < job->prepared.n_instances && filled; i++)
+		filled = job->prepared.shapes[i] == PREPARED_FILLED;
+	return filled;
+}
+
+int geometry_move(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	const struct prepared *p = &job->prepared;
+	const struct frame_buffers *b = &tr->buffers;
+	int err = frame_upload(tr, views, p->views, p->n_views);
+
+	return err ? err : launch_window(tr->dev, p->n_vertices, LAUNCH(window, .geometries = b->geometries, .views = b->views,
+	                                                                .owners = b->owners, .clips = b->clips, .height = job->height,
+	                                                                .n = p->n_vertices, .windows = b->windows));
+}

@@ -413,14 +413,19 @@ static uint32_t cut_scene(const struct scene *scene, struct cut *cuts)
 	return n;
 }
 
+static void shift_view(const struct scene_view *from, const float shift[2], struct view *view)
+{
+	view->viewport[0] = from->viewport[0] + shift[0];
+	view->viewport[1] = from->viewport[1] + shift[1];
+}
+
 static void make_view(const struct scene_view *from, const float shift[2], struct view *view)
 {
 	float inverse[16], largest = 0;
 
 	memcpy(view->projection, from->projection, sizeof(view->projection));
 	memcpy(view->viewport, from->viewport, sizeof(view->viewport));
-	view->viewport[0] += shift[0];
-	view->viewport[1] += shift[1];
+	shift_view(from, shift, view);
 	memcpy(view->depth_range, from->depth_range, sizeof(view->depth_range));
 	memcpy(view->scissor, from->scissor, sizeof(view->scissor));
 	if (!mat4_invert(inverse, from->projection))
@@ -485,6 +490,12 @@ fail:
 	free(cuts);
 	prepared_free(out);
 	return err_report(ERR_SYSTEM, NULL, "out of memory for a frame of %u instances", scene->n_instances);
+}
+
+void prepare_shift(struct prepared *p, const float shift[2])
+{
+	for (uint32_t i = 0; i < p->n_views; i++)
+		shift_view(&p->scene_views[i], shift, &p->views[i]);
 }
 
 void prepared_free(struct prepared *p)

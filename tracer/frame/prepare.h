@@ -52,6 +52,9 @@ struct prepared {
  * @return 0 or ERR_SYSTEM (reported)
  */
 int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out);
+
+/** Move the picture of a prepared frame: its views are as prepare_frame would have made them with this shift. */
+void prepare_shift(struct prepared *p, const float shift[2]);
 void prepared_free(struct prepared *p);
 
 /** Where a mesh's arrays lie among the words of its block, in a geometry's fields; relative to `base`. */

@@ -197,23 +197,6 @@ static int trace_bands(struct job *job)
 	return err;
 }
 
-/* Bring what all bands need to the device: state, vertices, trees. */
-static int place_frame(struct job *job, const float shift[2])
-{
-	int err = prepare_frame(job->scene, shift, &job->prepared);
-
-	if (err)
-		return err;
-	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
-	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
-	if (!job->expanded || !job->extra)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	err = upload_state(job);
-	if (!err)
-		err = geometry_place(job);
-	return err ? err : emitters_place(job, secondary_transport(job->options));
-}
-
 static void forget_frame(struct job *job)
 {
 	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
@@ -225,9 +208,36 @@ static void forget_frame(struct job *job)
 	job->extra = NULL;
 	job->emissions = NULL;
 	prepared_free(&job->prepared);
+	job->is_placed = 0;
 }
 
-/* One look at the frame, band by band, top rows first. */
+/* Bring what all bands need to the device: state, vertices, trees. A frame that is there already only moves, where that is enough. */
+static int place_frame(struct job *job, const float shift[2])
+{
+	int err;
+
+	if (job->is_placed && geometry_can_move(job)) {
+		prepare_shift(&job->prepared, shift);
+		return geometry_move(job);
+	}
+	forget_frame(job);
+	err = prepare_frame(job->scene, shift, &job->prepared);
+	if (err)
+		return err;
+	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
+	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
+	if (!job->expanded || !job->extra)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	err = upload_state(job);
+	if (!err)
+		err = geometry_place(job);
+	if (!err)
+		err = emitters_place(job, secondary_transport(job->options));
+	job->is_placed = !err;
+	return err;
+}
+
+/* One look at the frame, band by band, top rows first. It stays on the device for the next; forget_frame ends that. */
 static int trace_pass(struct job *job)
 {
 	float shift[2] = { 0, 0 };
@@ -244,10 +254,7 @@ static int trace_pass(struct job *job)
 		release_band(job->tr);
 		err = place_frame(job, shift);
 	}
-	if (!err)
-		err = trace_bands(job);
-	forget_frame(job);
-	return err;
+	return err ? err : trace_bands(job);
 }
 
 static int check_size(const struct scene *scene)
@@ -273,6 +280,7 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
 		picture->samples[i].unknown = 0;
 	err = trace_pass(&job);
+	forget_frame(&job);
 	count_undrawn(&job);
 	if (!err)
 		picture_keep(&tracer->drawn, scene, picture);
@@ -298,14 +306,17 @@ static int show_all(struct job *job, struct image *img)
 }
 
 /* The picture of the samples so far. It leaves no trace in those to come. */
-static int show_preview(const struct job *job, uint32_t passes)
+static int show_preview(struct job *job, uint32_t passes)
 {
-	struct job so_far = *job;
 	struct image img = { .width = 0 };
+	struct job so_far;
 	int err;
 
+	forget_frame(job);
+	so_far = *job;
 	so_far.n_passes = passes + 1;
 	err = show_all(&so_far, &img);
+	forget_frame(&so_far);
 	if (!err)
 		err = job->options->preview(job->options->preview_user, &img);
 	image_free(&img);
@@ -376,6 +387,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	err = sum_passes(&job);
 	if (!err)
 		err = show_all(&job, img);
+	forget_frame(&job);
 	if (!err && job.n_passes < options->samples)
 		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);
 	count_undrawn(&job);
