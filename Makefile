@@ -39,7 +39,7 @@ COMMAND_GEN := $(BUILD)/gen/kernels.c $(BUILD)/gen/commands.c $(BUILD)/gen/handl
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
 # The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
-OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
+OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \

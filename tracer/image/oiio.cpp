@@ -16,6 +16,7 @@
 
 extern "C" {
 #include "base/err.h"
+#include "tracer/image/heads.h"
 }
 
 namespace {
@@ -135,6 +136,8 @@ int read_image(struct image *img, const char *path)
 {
 	OIIO::ImageSpec config;
 
+	if (int err = heads_check(path))
+		return err;
 	/* Numbers as stored: colour of transparent pixels must not be multiplied down. */
 	config.attribute("oiio:UnassociatedAlpha", 1);
 	auto in = OIIO::ImageInput::open(path, &config);

@@ -1,0 +1,98 @@
+#include "tracer/image/heads.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/err.h"
+
+#define LITTLE_BYTES ((uint64_t)1 << 20) /* nobody minds */
+
+static uint32_t number(const uint8_t b[4], int big)
+{
+	return big ? (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3] :
+	             (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
+}
+
+static int fits(FILE *file, uint64_t file_bytes, uint64_t length)
+{
+	const long at = ftell(file);
+	const uint64_t left = at >= 0 && (uint64_t)at < file_bytes ? file_bytes - (uint64_t)at : 0;
+
+	return length <= left + LITTLE_BYTES;
+}
+
+/* PNG 1.2, sec. 3.2: length, type, data and checksum of each chunk. */
+static int png_fits(FILE *file, uint64_t file_bytes)
+{
+	uint8_t head[8];
+
+	for (int err = fseek(file, 8, SEEK_SET); !err && fread(head, 1, 8, file) == 8; err = fseek(file, (long)number(head, 1) + 4, SEEK_CUR))
+		if (!fits(file, file_bytes, number(head, 1)))
+			return 0;
+	return 1;
+}
+
+/* A text up to its NUL. @return its bytes */
+static size_t pass_text(FILE *file)
+{
+	size_t n = 0;
+
+	for (int c = getc(file); c > 0; c = getc(file))
+		n++;
+	return n;
+}
+
+/* OpenEXR file layout: after magic number and version, headers of attributes (name, type, size, value), an empty name at their end. */
+static int exr_fits(FILE *file, uint64_t file_bytes, int parts)
+{
+	uint8_t size[4];
+
+	if (fseek(file, 8, SEEK_SET))
+		return 1;
+	for (;;) {
+		int attributes = 0;
+
+		for (; pass_text(file); attributes++) {
+			pass_text(file);
+			if (fread(size, 1, 4, file) != 4)
+				return 1;
+			if (!fits(file, file_bytes, number(size, 0)))
+				return 0;
+			if (fseek(file, (long)number(size, 0), SEEK_CUR))
+				return 1;
+		}
+		if (!parts || !attributes || feof(file))
+			return 1;
+	}
+}
+
+/* SMPTE 268M: the bytes of the user's data stand at 32. */
+static int dpx_fits(FILE *file, uint64_t file_bytes, int big)
+{
+	uint8_t size[4];
+
+	return fseek(file, 32, SEEK_SET) || fread(size, 1, 4, file) != 4 || number(size, big) == UINT32_MAX /* undefined */ ||
+	       fits(file, file_bytes, number(size, big));
+}
+
+int heads_check(const char *path)
+{
+	uint8_t head[8] = { 0 };
+	FILE *file = fopen(path, "rb");
+	struct stat info;
+	int good = 1;
+
+	if (file && fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode) && fread(head, 1, 8, file) == 8) {
+		if (memcmp(head, "\x89PNG\r\n\x1a\n", 8) == 0)
+			good = png_fits(file, (uint64_t)info.st_size);
+		else if (memcmp(head, "\x76\x2f\x31\x01", 4) == 0)
+			good = exr_fits(file, (uint64_t)info.st_size, head[5] >> 4 & 1);
+		else if (memcmp(head, "SDPX", 4) == 0 || memcmp(head, "XPDS", 4) == 0)
+			good = dpx_fits(file, (uint64_t)info.st_size, head[0] == 'S');
+	}
+	if (file)
+		fclose(file);
+	return good ? 0 : err_report(ERR_INPUT, path, "is damaged: its head claims more bytes than the file has");
+}

@@ -1,0 +1,12 @@
+/*
+ * What the head of a picture claims to hold. OpenImageIO's readers of PNG, OpenEXR and DPX allocate and clear as many bytes as a length in the
+ * head says, up to 2 GiB, before they find that the file ends.
+ */
+#pragma once
+
+/**
+ * Do all lengths in the head lie within the file? Other formats, and what is no head of these, pass: their reader says what is wrong with them. So
+ * do files that end less than a MiB early.
+ * @return 0, or ERR_INPUT (reported)
+ */
+int heads_check(const char *path);
