@@ -153,6 +153,16 @@ static int client_fits(const struct gls_client_attribs *c)
 	return store_fits(&c->pack) && store_fits(&c->unpack) && c->active_texture < GLS_MAX_UNITS && arrays_fit(c->arrays);
 }
 
+/* Attributes of a context or of its stack: which unit is selected, and each unit's own number. */
+static int attribs_fit(const struct gls_attribs *a)
+{
+	int fits = a->texturing.active < GLS_MAX_UNITS;
+
+	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
+		fits &= a->texturing.units[u].value.unit == u;
+	return fits;
+}
+
 /* Do all numbers fit that are places in arrays? */
 static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 {
@@ -164,7 +174,7 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
 		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
 	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&
-	       raw->a.texturing.active < GLS_MAX_UNITS && client_fits(&raw->client) && !raw->begin_mode;
+	       attribs_fit(&raw->a) && client_fits(&raw->client) && !raw->begin_mode;
 }
 
 void snapshot_get_state(struct loader *l, struct gls_state *st)
@@ -190,7 +200,7 @@ void snapshot_get_state(struct loader *l, struct gls_state *st)
 	cursor_copy(&l->in, st->attrib_stack, st->attrib_depth * sizeof(*st->attrib_stack));
 	cursor_copy(&l->in, st->client_stack, st->client_depth * sizeof(*st->client_stack));
 	for (unsigned i = 0; i < st->attrib_depth; i++)
-		if (st->attrib_stack[i].attribs.texturing.active >= GLS_MAX_UNITS)
+		if (!attribs_fit(&st->attrib_stack[i].attribs))
 			l->in.failed = 1;
 	for (unsigned i = 0; i < st->client_depth; i++) {
 		forget_memory(st->client_stack[i].client.arrays);
