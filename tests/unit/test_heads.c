@@ -52,6 +52,8 @@ START_TEST(lengths_beyond_the_end)
 	memcpy(dpx + 32, GIB, 4);
 	write_file(dpx, sizeof(dpx));
 	check_refused();
+	WRITE("\0\0\1\0\1\0\x10\x10"); /* an icon */
+	check_refused();
 	unlink(path);
 }
 END_TEST

@@ -82,7 +82,7 @@ int heads_check(const char *path)
 	uint8_t head[8] = { 0 };
 	FILE *file = fopen(path, "rb");
 	struct stat info;
-	int good = 1;
+	int good = 1, icon = 0;
 
 	if (file && fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode) && fread(head, 1, 8, file) == 8) {
 		if (memcmp(head, "\x89PNG\r\n\x1a\n", 8) == 0)
@@ -91,8 +91,12 @@ int heads_check(const char *path)
 			good = exr_fits(file, (uint64_t)info.st_size, head[5] >> 4 & 1);
 		else if (memcmp(head, "SDPX", 4) == 0 || memcmp(head, "XPDS", 4) == 0)
 			good = dpx_fits(file, (uint64_t)info.st_size, head[0] == 'S');
+		else
+			icon = memcmp(head, "\0\0\1", 4) == 0;
 	}
 	if (file)
 		fclose(file);
+	if (icon)
+		return err_report(ERR_INPUT, path, "is an icon; pictures of this format are not read");
 	return good ? 0 : err_report(ERR_INPUT, path, "is damaged: its head claims more bytes than the file has");
 }

@@ -5,7 +5,7 @@
 #pragma once
 
 /**
- * Do all lengths in the head lie within the file? Other formats, and what is no head of these, pass: their reader says what is wrong with them. So
+ * Do all lengths in the head lie within the file? Icons (ICO) are refused: OpenImageIO 2.4.7 writes beyond its memory where one is damaged. Other formats, and what is no head of these, pass: their reader says what is wrong with them. So
  * do files that end less than a MiB early.
  * @return 0, or ERR_INPUT (reported)
  */

@@ -34,6 +34,18 @@ bool is_integer(const OIIO::TypeDesc &format)
 	return !format.is_floating_point();
 }
 
+/**
+ * The most pixels that a file of so many bytes may hold, where the format packs runs at most: readers of these give pixels for what is not there.
+ * 128 values a byte, a bit a pixel. Others end where their file does (read_part).
+ */
+int64_t most_pixels(const std::string &format, uint64_t bytes)
+{
+	for (const char *simple : { "bmp", "cineon", "dds", "dpx", "hdr", "pnm", "sgi", "targa" })
+		if (format == simple)
+			return std::min(MAX_PIXELS, int64_t(std::min(bytes, uint64_t(MAX_PIXELS)) * 1024));
+	return MAX_PIXELS;
+}
+
 /** A channel of an image, and which one of a file's it is. */
 struct channel {
 	float *plane;
@@ -144,13 +156,14 @@ int read_image(struct image *img, const char *path)
 	if (!in)
 		return err_report(ERR_INPUT, path, "%s", OIIO::geterror().c_str());
 	const OIIO::ImageSpec first = in->spec();
+	const int64_t most = most_pixels(in->format_name(), OIIO::Filesystem::file_size(path));
 	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are other pictures */
 
 	for (int part = 0; in->seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
 		const OIIO::ImageSpec spec = in->spec();
 
 		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
-		    int64_t(spec.width) * spec.height > MAX_PIXELS)
+		    int64_t(spec.width) * spec.height > most)
 			return err_report(ERR_INPUT, path, "not a picture of sane size: %d x %d x %d, %d channels", spec.width,
 			                  spec.height, spec.depth, spec.nchannels);
 		if (spec.deep)
