@@ -150,6 +150,8 @@ typedef float element_float;
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	IN(uint, first) AND() IN(uint, counts) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
 	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
+	IN(frame_pixel, cleared) AND()      /* one. This and the next: resolve_packet alone, any buffers otherwise */ \
+	OUT(uint, drawn) AND()              /* per row of FRAME_ROW pixels: 0 where they are still to be cleared; read as well */ \
 	OUT(frame_pixel, frame)             /* read as well */
 #define ARGUMENTS_merge_samples(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, first) AND() IN(frame_pixel, second) AND() IN(frame_pixel, third) AND() \
@@ -163,8 +165,9 @@ typedef float element_float;
 	VALUE(uint, n) AND() \
 	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() IN(float, sums) AND() \
-	VALUE(uint, first_pixel) AND()      /* as in add_pass */ \
+	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() \
+	IN(frame_pixel, cleared) AND() IN(uint, drawn) AND() /* as resolve left them; compose_packet alone, any buffers otherwise */ \
+	IN(float, sums) AND() VALUE(uint, first_pixel) AND()      /* as in add_pass */ \
 	VALUE(compose_request, request) AND() \
 	VALUE(uint, n) AND()                /* pixels */ \
 	OUT(half, halves) AND() OUT(float, floats)
@@ -417,13 +420,13 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(dome_light_packet, dome_light) /* the same, a tile of DOME_WIDTH x CAMERA_TILE pixels a work item (CPUs) */ \
 	X(clear, clear)                 /* one pixel a work item: a Clear */ \
 	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
-	X(resolve_packet, resolve)      /* the same, all colours of a pixel at once (CPUs) */ \
+	X(resolve_packet, resolve)      /* the same, FRAME_ROW pixels of a row a work item, all colours of a pixel at once (CPUs) */ \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
-	X(compose_packet, compose)      /* the same, COMPOSE_PACKET pixels of a row a work item (CPUs) */
+	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */
 
 enum kernel {
 #define KERNEL_ENUM(name, list) KERNEL_##name,

@@ -407,8 +407,15 @@ struct compose_request {
 };
 SHARED_SIZE(struct compose_request, 156);
 
-/* Pixels of a row that a work item of compose_packet takes. */
-#define COMPOSE_PACKET 16u
+/* Pixels of a row that a work item of resolve_packet takes; and rows of them that one of compose_packet does. */
+#define FRAME_ROW 16u
+#define COMPOSE_ROWS 8u
+
+/* How many of these a picture's row takes. */
+static inline uint32_t frame_columns(uint32_t width)
+{
+	return (width + FRAME_ROW - 1u) / FRAME_ROW;
+}
 
 /* Fragments of a work item of shade_packet, and rays of one of shadow_ray_packet: where each pixel has one fragment, a block of the
  * list (tracer/frame/segment.c). And triangles that it keeps, by number: neighbours mostly have numbers close together. */

@@ -10,12 +10,6 @@
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
-/** Work items of compose_packet for a row of a picture. */
-static inline uint32_t compose_columns(uint32_t width)
-{
-	return (width + COMPOSE_PACKET - 1u) / COMPOSE_PACKET;
-}
-
 /* --- Numbers ------------------------------------------------------------------------------------------------------ */
 
 /* The bits of the nearest half, ties to even; beyond its range infinity. */
@@ -134,9 +128,9 @@ static inline float compose_part(float display, uint32_t radiant)
 }
 
 /* What is taken from a pixel: all but the colours' encoding and what follows from it. */
-static inline void compose_load(const struct compose_arguments *a, uint32_t number, struct compose_pixel *p)
+static inline void compose_load(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel, uint32_t number,
+                                struct compose_pixel *p)
 {
-	GLOBAL const struct frame_pixel *pixel = &a->frame[number];
 	uint32_t drawn = pixel->id != 0u || pixel->unknown & PIXEL_BEFORE;
 	struct fragment surface = pixel->surface;
 	struct vec3 normal, position;
@@ -195,15 +189,15 @@ static inline void compose_colors(struct compose_pixel *p, const struct compose_
 }
 
 /*
- * A pixel of a->frame to a place in the planes. a->sums: what add_pass left of the parts of all passes but this one; not looked at where
+ * A pixel, by its number in the band, to a place in the planes. a->sums: what add_pass left of the parts of all passes but this one; not looked at where
  * there is but one.
  */
-static inline void compose_one(const struct compose_arguments *a, uint32_t number, uint32_t at)
+static inline void compose_one(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel, uint32_t number, uint32_t at)
 {
 	const struct compose_request *r = &a->request;
 	struct compose_pixel p;
 
-	compose_load(a, number, &p);
+	compose_load(a, pixel, number, &p);
 	compose_colors(&p, r);
 	for (uint32_t i = 0u; i < N_COMPOSE_HALVES; i++)
 		if (r->half_plane[i] != SCENE_NONE)
@@ -213,10 +207,22 @@ static inline void compose_one(const struct compose_arguments *a, uint32_t numbe
 			a->floats[r->float_plane[i] * r->width * r->height + at] = p.floats[i];
 }
 
-/* compose: a pixel, counted from the bottom row, to its place from the top. */
+/** Work items of compose_packet for a band of so many rows. */
+static inline uint32_t compose_items(uint32_t width, uint32_t height)
+{
+	return frame_columns(width) * ((height + COMPOSE_ROWS - 1u) / COMPOSE_ROWS);
+}
+
+/* The place of a pixel of the band, counted from the bottom row, in the planes, which are from the top. */
+static inline uint32_t compose_at(const struct compose_request *r, uint32_t number)
+{
+	return (r->height - 1u - number / r->width) * r->width + number % r->width;
+}
+
+/* compose */
 static inline void compose_item(const struct compose_arguments *a, uint32_t item)
 {
-	compose_one(a, item, (a->request.height - 1u - item / a->request.width) * a->request.width + item % a->request.width);
+	compose_one(a, &a->frame[item], item, compose_at(&a->request, item));
 }
 
 /* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */

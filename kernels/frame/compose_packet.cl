@@ -87,30 +87,38 @@ static inline void find_surfaces(const struct compose_arguments *a, const struct
 	}
 }
 
+/* drawn: 0 where the row's pixels are still as a->cleared */
+static inline void compose_drawn_row(const struct compose_arguments *a, uint x, uint y, uint drawn, const struct pack_planes *to)
+{
+	/* Lanes beyond the row repeat its last pixel. */
+	const packu place = y * a->request.width + min(x + as_uint16(PACK_LANES), a->request.width - 1);
+	struct pack_pixels pixels;
+	struct pack_list list;
+	const uint lanes = load_pixels(drawn ? a->frame : a->cleared, drawn ? place : (packu)(0), &pixels, &list);
+
+	if (a->request.n_passes > 1)
+		add_sums(a->sums, a->first_pixel + place, (float)a->request.n_passes, &pixels);
+	if (pack_wants_surface(&a->request))
+		find_surfaces(a, &list, lanes, &pixels);
+	pack_compose(&pixels, to);
+}
+
 KERNEL_OF(float16) void compose_packet(KERNEL_ARGUMENTS(compose))
 {
 	const struct compose_arguments a = KERNEL_STRUCT(compose);
-	const uint item = (uint)get_global_id(0), columns = compose_columns(request.width);
-	const uint y = item / columns, x = item % columns * COMPOSE_PACKET;
-	struct pack_pixels pixels;
-	struct pack_planes to;
-	struct pack_list list;
-	uint lanes;
-	packu place;
+	const uint columns = frame_columns(request.width), column = (uint)get_global_id(0) % columns, x = column * FRAME_ROW;
+	const uint first = (uint)get_global_id(0) / columns * COMPOSE_ROWS, end = min(first + COMPOSE_ROWS, request.height);
+	uint empty = SCENE_NONE; /* where a row to which nobody drew stands in the planes */
 
-	if (y >= request.height)
-		return;
-	/* Lanes beyond the row repeat its last pixel. */
-	place = y * request.width + min(x + as_uint16(PACK_LANES), request.width - 1);
-	lanes = load_pixels(frame, place, &pixels, &list);
-	if (request.n_passes > 1)
-		add_sums(sums, first_pixel + place, (float)request.n_passes, &pixels);
-	if (pack_wants_surface(&a.request))
-		find_surfaces(&a, &list, lanes, &pixels);
-	to.request = &a.request;
-	to.halves = halves;
-	to.floats = floats;
-	to.at = (request.height - 1 - y) * request.width + x;
-	to.n = min(COMPOSE_PACKET, request.width - x);
-	pack_compose(&pixels, &to);
+	for (uint y = first; y < end; y++) {
+		const struct pack_planes to = pack_planes_of(&a.request, halves, floats, x, y);
+		const uint is_drawn = drawn[y * columns + column];
+
+		if (is_drawn || empty == SCENE_NONE)
+			compose_drawn_row(&a, x, y, is_drawn, &to);
+		else
+			pack_compose_again(empty, &to);
+		if (!is_drawn && to.n == PACK_SIZE && request.n_passes == 1)
+			empty = to.at;
+	}
 }

@@ -33,6 +33,19 @@ struct pack_planes {
 	uint at, n; /* of the first pixel in each plane; how many of the sixteen there are */
 };
 
+/* Those of a row of sixteen pixels, or as many as there are. r: kept. y: from the bottom */
+static inline struct pack_planes pack_planes_of(const struct compose_request *r, __global ushort *halves, __global float *floats, uint x, uint y)
+{
+	struct pack_planes to;
+
+	to.request = r;
+	to.halves = halves;
+	to.floats = floats;
+	to.at = (r->height - 1 - y) * r->width + x;
+	to.n = min(PACK_SIZE, r->width - x);
+	return to;
+}
+
 /* As compose_half. */
 WIDE_VECTORS static inline ushort16 pack_half(packf x)
 {

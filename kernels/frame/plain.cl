@@ -261,18 +261,6 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 	}
 }
 
-static inline struct pack_planes planes_of(const struct plain_arguments *a, const struct plain_row *row)
-{
-	struct pack_planes to;
-
-	to.request = &a->request;
-	to.halves = a->halves;
-	to.floats = a->floats;
-	to.at = (a->request.height - 1 - row->y) * a->width + row->x;
-	to.n = min(PACK_SIZE, a->width - row->x);
-	return to;
-}
-
 static inline void compose_row(struct plain_row *row, const struct pack_planes *to)
 {
 	for (int i = 0; i < 3; i++)
@@ -307,7 +295,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
 		if (row.y >= a->request.height || (s->n_slots && !row.dimmed))
 			continue;
-		to = planes_of(a, &row);
+		to = pack_planes_of(&a->request, a->halves, a->floats, row.x, row.y);
 		if (!lanes && empty != SCENE_NONE) {
 			pack_compose_again(empty, &to);
 			continue;

@@ -118,10 +118,12 @@ static inline void draw(const struct tables *t, __global const struct fragment *
 KERNEL_OF(float16) void resolve_packet(KERNEL_ARGUMENTS(resolve))
 {
 	const struct resolve_arguments a = KERNEL_STRUCT(resolve);
-	const uint item = (uint)get_global_id(0);
+	struct stage_row row;
 
-	if (item >= n)
+	if ((uint)get_global_id(0) >= n)
 		return;
-	for (uint pixel = stage_pixel(rectangle, width, item), i = first[pixel]; i < first[pixel] + counts[pixel]; i++)
-		draw(&a.tables, &fragments[i], &shaded[i], &frame[pixel], bits);
+	row = stage_open_row(&a, (uint)get_global_id(0));
+	for (uint pixel = row.first; pixel < row.end; pixel++)
+		for (uint i = first[pixel]; i < first[pixel] + counts[pixel]; i++)
+			draw(&a.tables, &fragments[i], &shaded[i], &frame[pixel], bits);
 }

@@ -396,15 +396,49 @@ static inline uint32_t stage_draw(const struct tables *t, uint32_t instance, uin
 	return g->draw + (g->primitive_draw != SCENE_NONE ? t->indices[g->primitive_draw + (primitive & ~FRAGMENT_PERSPECTIVE)] : 0u);
 }
 
-/* resolve: a pixel's fragments of the list, in draw order, through the per-fragment operations. */
-static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
+/* A pixel's fragments of the list, in draw order, through the per-fragment operations. */
+static inline void stage_resolve(const struct resolve_arguments *a, uint32_t pixel)
 {
 	const struct tables *t = &a->tables;
-	const uint32_t pixel = stage_pixel(a->rectangle, a->width, item);
 
 	for (uint32_t i = a->first[pixel]; i < a->first[pixel] + a->counts[pixel]; i++) {
 		GLOBAL const struct fragment *f = &a->fragments[i];
 
 		pixel_draw(stage_material(t, f->instance), &a->shaded[i], f, stage_draw(t, f->instance, f->primitive), &a->frame[pixel], a->bits);
 	}
+}
+
+/* resolve */
+static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
+{
+	stage_resolve(a, stage_pixel(a->rectangle, a->width, item));
+}
+
+/* A row of FRAME_ROW pixels that resolve_packet draws to: from first to end, in the rectangle. */
+struct stage_row {
+	uint32_t number; /* among all of the band */
+	uint32_t first, end;
+};
+
+/* The row of a work item; cleared, where the first fragments are to be drawn to it. */
+static inline struct stage_row stage_open_row(const struct resolve_arguments *a, uint32_t item)
+{
+	const uint32_t columns = frame_columns(a->width), y = (uint32_t)a->rectangle.y0 + item / columns, x = item % columns * FRAME_ROW;
+	const uint32_t end = x + FRAME_ROW < a->width ? x + FRAME_ROW : a->width;
+	const uint32_t left = (uint32_t)a->rectangle.x0, right = (uint32_t)a->rectangle.x1;
+	uint32_t n = 0u;
+	struct stage_row row;
+
+	row.number = y * columns + item % columns;
+	row.first = y * a->width + (x > left ? x : left);
+	row.end = y * a->width + (end < right ? end : right);
+	for (uint32_t pixel = row.first; pixel < row.end; pixel++)
+		n += a->counts[pixel];
+	for (uint32_t pixel = y * a->width + x; pixel < y * a->width + end && n && !a->drawn[row.number]; pixel++)
+		a->frame[pixel] = *a->cleared;
+	if (n)
+		a->drawn[row.number] = 1u;
+	else
+		row.end = row.first;
+	return row;
 }

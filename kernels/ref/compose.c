@@ -5,13 +5,15 @@ KERNEL_TWIN(compose, n)
 
 void compose_packet_c(const struct compose_arguments *a, size_t first, size_t last)
 {
-	const uint32_t columns = compose_columns(a->request.width);
+	const struct compose_request *r = &a->request;
+	const uint32_t columns = frame_columns(r->width);
 
-	for (size_t i = first; i < last; i++) {
-		const size_t row = i / columns * a->request.width, x = i % columns * COMPOSE_PACKET;
-		const size_t end = x + COMPOSE_PACKET < a->request.width ? x + COMPOSE_PACKET : a->request.width;
+	for (size_t i = first * COMPOSE_ROWS; i < last * COMPOSE_ROWS; i++) {
+		const uint32_t item = (uint32_t)i / COMPOSE_ROWS, y = item / columns * COMPOSE_ROWS + (uint32_t)i % COMPOSE_ROWS;
+		const uint32_t column = item % columns, x = column * FRAME_ROW, end = x + FRAME_ROW < r->width ? x + FRAME_ROW : r->width;
 
-		compose_c(a, row + x, row + end);
+		for (uint32_t k = y * r->width + x; y < r->height && k < y * r->width + end; k++)
+			compose_one(a, a->drawn[y * columns + column] ? &a->frame[k] : a->cleared, k, compose_at(r, k));
 	}
 }
 

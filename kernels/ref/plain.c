@@ -7,10 +7,10 @@
 static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
 {
 	const struct compose_arguments one = {
-		.tables = a->tables, .windows = a->windows, .frame = pixel, .request = a->request, .halves = a->halves, .floats = a->floats,
+		.tables = a->tables, .windows = a->windows, .request = a->request, .halves = a->halves, .floats = a->floats,
 	};
 
-	compose_one(&one, 0, (a->request.height - 1 - y) * a->width + x);
+	compose_one(&one, pixel, 0, (a->request.height - 1 - y) * a->width + x);
 }
 
 /* s: with visibility where lights have been asked */

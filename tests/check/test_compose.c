@@ -12,9 +12,10 @@
 #include "tests/case.h"
 #include "tracer/device/launch.h"
 
-#define WIDTH 13u
-#define HEIGHT 7u
+#define WIDTH 21u
+#define HEIGHT 21u
 #define PIXELS (WIDTH * HEIGHT)
+#define ROWS (2u * HEIGHT) /* of FRAME_ROW pixels */
 #define GUARD 64u
 #define N_HALVES (N_COMPOSE_HALVES * PIXELS + GUARD)
 #define N_FLOATS (N_COMPOSE_FLOATS * PIXELS + GUARD)
@@ -26,7 +27,10 @@ struct planes {
 
 struct content {
 	uint32_t random;
-	struct frame_pixel frame[PIXELS];
+	struct frame_pixel frame[PIXELS]; /* cleared where nobody drew */
+	struct frame_pixel unwritten[PIXELS]; /* the same where somebody drew */
+	struct frame_pixel cleared;
+	uint32_t drawn[ROWS];
 	float sums[PIXELS * PASS_PARTS];
 	struct geometry geometry;
 	struct scene_material material;
@@ -90,14 +94,30 @@ static struct device_buffer *make_buffer(struct device *dev, const void *data, s
 	return b;
 }
 
+/* Rows to which nobody drew. */
+static void leave_undrawn(struct content *c)
+{
+	c->cleared = c->frame[0];
+	for (uint32_t i = 0; i < ROWS; i++)
+		c->drawn[i] = i % 3 != 0;
+	memcpy(c->unwritten, c->frame, sizeof(c->frame));
+	for (uint32_t i = 0; i < PIXELS; i++) {
+		if (c->drawn[i / WIDTH * frame_columns(WIDTH) + i % WIDTH / FRAME_ROW])
+			continue;
+		c->frame[i] = c->cleared;
+		memset(&c->unwritten[i], 0xee, sizeof(c->unwritten[i]));
+	}
+}
+
 static void run(struct device *dev, const struct content *c, const struct compose_request *request, int packets, struct planes *out)
 {
 	const uint32_t n = PIXELS;
 	struct device_buffer *b[] = {
 		make_buffer(dev, &c->geometry, sizeof(c->geometry)), make_buffer(dev, &c->material, sizeof(c->material)),
 		make_buffer(dev, c->indices, sizeof(c->indices)), make_buffer(dev, c->vertices, sizeof(c->vertices)),
-		make_buffer(dev, c->windows, sizeof(c->windows)), make_buffer(dev, c->frame, sizeof(c->frame)),
-		make_buffer(dev, c->sums, sizeof(c->sums)), NULL, NULL,
+		make_buffer(dev, c->windows, sizeof(c->windows)), make_buffer(dev, packets ? c->unwritten : c->frame, sizeof(c->frame)),
+		make_buffer(dev, c->sums, sizeof(c->sums)), NULL, NULL, make_buffer(dev, &c->cleared, sizeof(c->cleared)),
+		make_buffer(dev, c->drawn, sizeof(c->drawn)),
 	};
 	const struct tables_launch tables = *LAUNCH(tables, .geometries = { b[0] }, .materials = { b[1] }, .lights = { b[0] },
 	                                            .units = { b[0] }, .currents = { b[0] }, .attributes = { b[0] },
@@ -108,10 +128,11 @@ static void run(struct device *dev, const struct content *c, const struct compos
 	memset(out, 0xa5, sizeof(*out));
 	b[7] = make_buffer(dev, out->halves, sizeof(out->halves));
 	b[8] = make_buffer(dev, out->floats, sizeof(out->floats));
-	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] }, .sums = { b[6] }, .first_pixel = 0,
+	a = LAUNCH(compose, .tables = tables, .windows = { b[4] }, .frame = { b[5] },
+	            .cleared = { b[9] }, .drawn = { b[10] }, .sums = { b[6] }, .first_pixel = 0,
 	            .request = *request, .n = n, .halves = { b[7] }, .floats = { b[8] });
 	if (packets)
-		ck_assert_int_eq(launch_compose_packet(dev, compose_columns(request->width) * request->height, a), 0);
+		ck_assert_int_eq(launch_compose_packet(dev, compose_items(request->width, request->height), a), 0);
 	else
 		ck_assert_int_eq(launch_compose(dev, n, a), 0);
 	ck_assert_int_eq(device_read(dev, b[7], 0, out->halves, sizeof(out->halves)), 0);
@@ -149,6 +170,7 @@ START_TEST(test_packets_and_twins)
 
 	ck_assert(c && twin && one && packets);
 	fill(c);
+	leave_undrawn(c);
 	ck_assert_int_eq(device_open("reference", 1, &reference), 0);
 	device_list(&devices, &n);
 	for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {

@@ -1,6 +1,6 @@
 /*
  * resolve_packet against resolve on each device and on the twins, bit by bit: fragments by chance, of materials with all factors,
- * equations and masks, over pixels of chance.
+ * equations and masks, over pixels of chance. Some rows of pixels are still to be cleared, which resolve_packet does before it draws.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +11,10 @@
 #include "tests/case.h"
 #include "tracer/device/launch.h"
 
-#define WIDTH 64u
-#define PIXELS (WIDTH * 48u)
+#define WIDTH 70u /* rows end within a row of FRAME_ROW */
+#define HEIGHT 48u
+#define PIXELS (WIDTH * HEIGHT)
+#define ROWS (5u * HEIGHT)
 #define LAYERS 3u
 #define FRAGMENTS (LAYERS * PIXELS)
 #define MATERIALS 1024u
@@ -23,7 +25,9 @@ struct content {
 	struct fragment fragments[FRAGMENTS];
 	struct shaded shaded[FRAGMENTS];
 	uint32_t first[PIXELS], counts[PIXELS];
-	struct frame_pixel frame[PIXELS];
+	struct frame_pixel frame[PIXELS]; /* cleared where nobody drew */
+	uint32_t drawn[ROWS];
+	struct frame_pixel cleared;
 };
 
 struct result {
@@ -91,6 +95,12 @@ static void fill_numbers(float *numbers, size_t n)
 		numbers[i] = next_number();
 }
 
+/* The row of FRAME_ROW pixels that a pixel lies in. */
+static uint32_t row_of(uint32_t pixel)
+{
+	return pixel / WIDTH * frame_columns(WIDTH) + pixel % WIDTH / FRAME_ROW;
+}
+
 static void fill(struct content *c)
 {
 	memset(c, 0, sizeof(*c));
@@ -109,13 +119,19 @@ static void fill(struct content *c)
 	}
 	for (uint32_t i = 0; i < PIXELS; i++) {
 		c->first[i] = i * LAYERS;
-		c->counts[i] = next_below(LAYERS + 1);
+		c->counts[i] = row_of(i) % 5 ? next_below(LAYERS + 1) : 0;
 		fill_numbers(c->frame[i].gl, 16);
 		fill_numbers(c->frame[i].albedo, 3);
 		c->frame[i].depth_exact = next_number();
 		c->frame[i].depth = next_below(1u << 24);
 		c->frame[i].surface.order = next_below(2) ? SCENE_NONE : 0;
 	}
+	c->cleared = c->frame[0];
+	for (uint32_t i = 0; i < ROWS; i++)
+		c->drawn[i] = next_below(2);
+	for (uint32_t i = 0; i < PIXELS; i++)
+		if (!c->drawn[row_of(i)])
+			c->frame[i] = c->cleared;
 }
 
 static struct device_buffer *make_buffer(struct device *dev, const void *data, size_t bytes)
@@ -127,26 +143,55 @@ static struct device_buffer *make_buffer(struct device *dev, const void *data, s
 	return b;
 }
 
+/* Pixels that are still to be cleared, as memory that nobody wrote: `from` receives them. */
+static void forget_cleared(const struct content *c, struct frame_pixel *from)
+{
+	memcpy(from, c->frame, sizeof(c->frame));
+	for (uint32_t i = 0; i < PIXELS; i++)
+		if (!c->drawn[row_of(i)])
+			memset(&from[i], 0xee, sizeof(from[i]));
+}
+
+/* A packet's rows that are still to be cleared have no fragments, and nobody wrote to them: clear them. */
+static void clear_rest(const struct content *c, const uint32_t *drawn, struct frame_pixel *frame)
+{
+	struct frame_pixel unwritten;
+
+	memset(&unwritten, 0xee, sizeof(unwritten));
+	for (uint32_t i = 0; i < PIXELS; i++) {
+		if (drawn[row_of(i)])
+			continue;
+		ck_assert_msg(c->counts[i] == 0 && memcmp(&frame[i], &unwritten, sizeof(unwritten)) == 0, "row %u is called undrawn", row_of(i));
+		frame[i] = c->cleared;
+	}
+}
+
 static void run(struct device *dev, const struct content *c, uint32_t bits, int packet, struct result *out)
 {
 	struct device_buffer *b[] = {
 		make_buffer(dev, c->geometries, sizeof(c->geometries)), make_buffer(dev, c->materials, sizeof(c->materials)),
 		make_buffer(dev, c->fragments, sizeof(c->fragments)), make_buffer(dev, c->shaded, sizeof(c->shaded)),
 		make_buffer(dev, c->first, sizeof(c->first)), make_buffer(dev, c->counts, sizeof(c->counts)),
-		make_buffer(dev, c->frame, sizeof(c->frame)),
+		make_buffer(dev, packet ? out->frame : c->frame, sizeof(c->frame)), make_buffer(dev, &c->cleared, sizeof(c->cleared)),
+		make_buffer(dev, c->drawn, sizeof(c->drawn)),
 	};
+	uint32_t drawn[ROWS];
 	const struct tables_launch tables = *LAUNCH(tables, .geometries = { b[0] }, .materials = { b[1] }, .lights = { b[0] },
 	                                            .units = { b[0] }, .currents = { b[0] }, .attributes = { b[0] },
 	                                            .indices = { b[0] }, .vertices = { b[0] }, .texcoords = { b[0] },
 	                                            .textures = { b[0] }, .texels = { b[0] }, .stipples = { b[0] });
-	const struct camera_rectangle whole = { 0, 0, WIDTH, PIXELS / WIDTH };
+	const struct camera_rectangle whole = { 0, 0, WIDTH, HEIGHT };
 	const struct resolve_launch *a =
 		LAUNCH(resolve, .tables = tables, .fragments = { b[2] }, .shaded = { b[3] }, .first = { b[4] }, .counts = { b[5] },
-		       .rectangle = whole, .width = WIDTH, .bits = bits, .n = PIXELS, .frame = { b[6] });
+		       .rectangle = whole, .width = WIDTH, .bits = bits,
+		       .n = packet ? ROWS : PIXELS, .cleared = { b[7] }, .drawn = { b[8] }, .frame = { b[6] });
 
-	ck_assert_int_eq(packet ? launch_resolve_packet(dev, PIXELS, a) : launch_resolve(dev, PIXELS, a), 0);
+	ck_assert_int_eq(packet ? launch_resolve_packet(dev, ROWS, a) : launch_resolve(dev, PIXELS, a), 0);
 	ck_assert_int_eq(device_read(dev, b[3], 0, out->shaded, sizeof(out->shaded)), 0);
 	ck_assert_int_eq(device_read(dev, b[6], 0, out->frame, sizeof(out->frame)), 0);
+	ck_assert_int_eq(device_read(dev, b[8], 0, drawn, sizeof(drawn)), 0);
+	if (packet)
+		clear_rest(c, drawn, out->frame);
 	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
 		device_release(dev, &b[i]);
 }
@@ -158,6 +203,7 @@ static void check_device(const char *name, const struct content *c, struct resul
 	ck_assert_int_eq(device_open(name, 1, &dev), 0);
 	for (uint32_t alpha_bits = 0; alpha_bits <= 8; alpha_bits += 8) {
 		run(dev, c, 24 | 8u << 8 | alpha_bits << 16, 0, one);
+		forget_cleared(c, packet->frame);
 		run(dev, c, 24 | 8u << 8 | alpha_bits << 16, 1, packet);
 		ck_assert_msg(memcmp(one->frame, c->frame, sizeof(c->frame)) != 0, "%s draws nothing", device_name(dev));
 		for (uint32_t i = 0; i < PIXELS; i++)

@@ -84,11 +84,11 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows, .frame = b->frame,
-	                                        .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
+	                                        .cleared = b->cleared, .drawn = b->drawn, .sums = b->sums, .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels, .halves = b->halves,
 	                                        .floats = b->floats);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS && !r->radiant)
-		return launch_compose_packet(tr->dev, compose_columns(job->width) * job->n_rows, a);
+		return launch_compose_packet(tr->dev, compose_items(job->width, job->n_rows), a);
 	return launch_compose(tr->dev, job->n_pixels, a);
 }
 

@@ -46,18 +46,6 @@ int plain_suits(const struct job *job)
 	return 1;
 }
 
-/* One pixel as all are before they are drawn. */
-static int clear_pixel(struct job *job)
-{
-	const struct camera_rectangle one = { 0, 0, 1, 1 };
-	struct scene_clear clear;
-	int err = frame_reserve(job->tr, frame, 1);
-
-	segment_whole_clear(job, &clear);
-	return err ? err : launch_clear(job->tr->dev, 1, LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1,
-	                                                        .bits = job->bits, .n = 1, .frame = job->tr->buffers.frame));
-}
-
 /* What kernels leave for n fragments and their rays. */
 static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 {
@@ -90,7 +78,7 @@ static struct plain_launch launch_of(const struct job *job, struct camera_rectan
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
-	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->frame, .request = *request,
+	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
 	               .visibility = b->visibility, .n_slots = n_slots, .n = n, .fragments = b->fragments, .pixels = b->pixels,
 	               .shaded = b->shaded, .rays = b->rays, .halves = b->halves, .floats = b->floats);
 }
@@ -105,7 +93,7 @@ int plain_band(struct job *job)
 	struct compose_request request;
 	struct plain_launch a;
 	/* The top band comes first; a device that lacks memory may have given all away since. */
-	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.frame.buffer ? 0 : clear_pixel(job);
+	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 
 	if (!err)
 		err = reserve(job, n, n_slots);

@@ -97,12 +97,51 @@ uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out)
 	return n;
 }
 
+int segment_clear_one(struct job *job)
+{
+	static const struct frame_pixel nothing;
+	const struct camera_rectangle one = { 0, 0, 1, 1 };
+	struct scene_clear clear;
+	int err = frame_upload(job->tr, cleared, &nothing, 1);
+
+	segment_whole_clear(job, &clear);
+	return err ? err : launch_clear(job->tr->dev, 1, LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1, .bits = job->bits, .n = 1,
+	                                                        .frame = job->tr->buffers.cleared));
+}
+
+/* Whether all pixels begin alike, are drawn to by resolve_packet alone, and go into one picture. n_cleared: clears of all of them */
+static int clears_late(const struct job *job, uint32_t n_cleared)
+{
+	uint32_t n = 0;
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		n += job->prepared.segments[i].clear_count;
+	return device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
+	       secondary_transport(job->options) != TRANSPORT_LINEAR && n == n_cleared;
+}
+
+int segment_say_drawn(struct job *job, int drawn)
+{
+	const uint32_t rows = frame_columns(job->width) * job->n_rows;
+
+	if (device_family(job->tr->dev) != FAMILY_PACKETS)
+		return 0;
+	memset(job->tr->counts, drawn ? 0xff : 0, rows * sizeof(*job->tr->counts));
+	return frame_upload(job->tr, drawn, job->tr->counts, rows);
+}
+
 int segment_clear_all(struct job *job, uint32_t *n_done)
 {
 	struct scene_clear clear;
+	int late, err;
 
 	*n_done = segment_whole_clear(job, &clear);
-	return run_clear(job, &clear);
+	late = clears_late(job, *n_done);
+	memcpy(job->background, clear.color, sizeof(job->background));
+	err = segment_say_drawn(job, !late);
+	if (err)
+		return err;
+	return late ? segment_clear_one(job) : run_clear(job, &clear);
 }
 
 int segment_trace_camera(struct job *job, const struct segment *segment, struct camera_rectangle r)
@@ -198,12 +237,14 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const uint32_t n = rectangle_area(r);
+	const int packets = device_family(tr->dev) == FAMILY_PACKETS;
+	const uint32_t n = packets ? frame_columns(job->width) * (uint32_t)(r.y1 - r.y0) : rectangle_area(r);
 	const struct resolve_launch *a =
 		LAUNCH(resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first, .counts = b->counts,
-		       .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits, .n = n, .frame = *job->frame);
+		       .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits, .n = n, .cleared = b->cleared,
+		       .drawn = b->drawn, .frame = *job->frame);
 
-	return device_family(tr->dev) == FAMILY_PACKETS ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
+	return packets ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
 
 /* The fragments of the list: GL's colours, then what rays from them find. */

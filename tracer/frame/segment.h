@@ -22,6 +22,12 @@ int segment_trace_camera(struct job *job, const struct segment *segment, struct 
 /** The clears of the whole picture that the first segment begins with, as one. @return how many they are */
 uint32_t segment_whole_clear(const struct job *job, struct scene_clear *out);
 
+/** One pixel as all are after these, in buffers.cleared. */
+int segment_clear_one(struct job *job);
+
+/** Say of all pixels of the band, in buffers.drawn, whether they are in the frame (1), or as in buffers.cleared until they are drawn to. */
+int segment_say_drawn(struct job *job, int drawn);
+
 /**
  * What nobody cleared is 0, depth too. Where the first segment begins with clears of the whole picture, as most frames do,
  * theirs is done at once.

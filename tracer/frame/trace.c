@@ -112,6 +112,10 @@ static int reserve_pixels(struct job *job)
 	err = frame_reserve(tr, counts, job->n_pixels);
 	if (!err)
 		err = frame_reserve(tr, frame, job->n_pixels);
+	if (!err)
+		err = frame_reserve(tr, cleared, 1);
+	if (!err)
+		err = frame_reserve(tr, drawn, frame_columns(job->width) * job->n_rows);
 	for (uint32_t i = 0; i < job->n_samples && !err; i++)
 		err = launch_reserve(tr->dev, *frame_sample(job, i), job->n_pixels);
 	if (!err && job->n_passes > 1)
@@ -146,18 +150,30 @@ static uint32_t rows_of_band(const struct job *job)
 	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
 }
 
+/* What pixels are before they are drawn. n_cleared: receives how many of the first segment's clears that takes in */
+static int begin_band(struct job *job, uint32_t *n_cleared)
+{
+	int err;
+
+	*n_cleared = 0;
+	memset(job->background, 0, sizeof(job->background));
+	if (!job->scene->start && !job->scene->needs_previous)
+		return segment_clear_all(job, n_cleared);
+	err = segment_say_drawn(job, 1);
+	return err ? err : picture_upload_start(job);
+}
+
 /* Draw a band, and hand it on. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
 static int trace_band(struct job *job)
 {
-	uint32_t n_cleared = 0;
+	uint32_t n_cleared;
 	int err;
 
 	if (plain_suits(job))
 		return plain_band(job);
 	err = reserve_pixels(job);
-	memset(job->background, 0, sizeof(job->background));
 	if (!err)
-		err = job->scene->start || job->scene->needs_previous ? picture_upload_start(job) : segment_clear_all(job, &n_cleared);
+		err = begin_band(job, &n_cleared);
 	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
 		err = segment_run(job, &job->prepared.segments[i], i == 0 ? n_cleared : 0);
 	segment_draw_to(job, 0, 0);
