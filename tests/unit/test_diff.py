@@ -323,6 +323,17 @@ class Diff(unittest.TestCase):
         self.assertIn("first wrong frame 3", done.stdout)
         self.assertEqual(len(re.findall("^::error ", done.stdout, re.M)), 2)
 
+    def test_annotated_name(self):
+        """What has a meaning in a workflow command is escaped, above all what looks escaped."""
+        odd = self.dir / "50%0A\r\nx"
+        for frame in range(1, 5):
+            write_png(odd / f"b.{frame}.png", picture(9))
+        done = self.diff(self.ref, odd, "--annotations", expect=1)
+        said = [line for line in done.stdout.splitlines() if line.startswith("::error ")]
+        self.assertEqual(len(said), 4)
+        for line in said:
+            self.assertIn(f"::{self.dir}/50%250A%0D%0Ax%0AR1 ", line)
+
     def test_nothing_half_written(self):
         (self.dir / "file").write_text("")
         self.diff(self.ref, self.traced, "--report", self.dir / "file", expect=5)
