@@ -57,14 +57,8 @@ static inline struct pack_color pack_matte_color(const struct tables *t, const s
 {
 	struct pack_color out = pack_current_color(t, list, p, lanes);
 
-	if (p->material->surface.light_unit != SCENE_LIGHT_IN_COLORS)
-		return out;
-	for (uint left = lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-
-		for (int i = 0; i < 3 && t->geometries[list->instance[lane]].attributes & SCENE_HAS_COLOR; i++)
-			LANE(out.c[i], float, lane) = 1.0f;
-	}
+	if (p->material->surface.light_unit == SCENE_LIGHT_IN_COLORS)
+		out.c[0] = out.c[1] = out.c[2] = (packf)(1);
 	return out;
 }
 

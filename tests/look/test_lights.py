@@ -31,25 +31,40 @@ record(SCRATCH / "paint.trace", corpus("rooms"), "--seed", 3, "--lights", 2, "--
 must(relume("look", SCRATCH / "paint.trace", "-o", SCRATCH / "paint.look.yaml"))
 check("vertex colours" not in (SCRATCH / "paint.look.yaml").read_text(), "paint is no light")
 
+
+def walls_alone(cut, *level, frame=0):
+    """A level's picture with its textures alone. cut: "none" for whole walls, "white" for the small triangles that carry light in their colours."""
+    bare, folder = (SCRATCH / f"{cut}{frame}{end}" for end in (".trace", ""))
+    record(bare, corpus("rooms"), *level, "--lighting", cut)
+    drawn = render(bare, folder, "-f", frame, "--aov", "gl,Z", "--encoding", "display")
+    scored = [f for f in diff(bare, folder)[1]["frames"] if f["frame"] == frame]
+    check(scored[0]["gates"]["R1"]["state"] == "passed", f"{cut}, {level}: textures alone are as Mesa draws them")
+    return Image(drawn[0], ["gl.R", "gl.G"]).planes
+
+
+def relit(name, frame=0):
+    return Image(render(SCRATCH / f"{name}.trace", SCRATCH / name, "-f", frame, "--look", SCRATCH / f"{name}.look.yaml", "--aov", "gl,albedo", "--encoding", "display")[0],
+                 ["R", "gl.R", "albedo.R", "albedo.G"])
+
+
+def check_albedo(name, image, texture):
+    off = max(abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
+    check(off < 0.005, f"{name}: the albedo is the texels that the program drew: {off}")
+
+
 # The picture relit equals the program's within what lightmaps leave, and the albedo is the same however the lightmap came.
-albedos = {}
-for lighting in ("multitexture", "pass", "colors"):
-    image = Image(render(SCRATCH / f"{lighting}.trace", SCRATCH / lighting, "--look", SCRATCH / f"{lighting}.look.yaml", "--aov", "gl,albedo",
-                         "--encoding", "display")[0], ["R", "gl.R", "albedo.R", "albedo.G"])
+albedos = {lighting: relit(lighting) for lighting in ("multitexture", "pass", "colors")}
+textures = {cut: walls_alone(cut, "--seed", 3, "--frames", 1) for cut in ("none", "white")}
+for lighting, image in albedos.items():
     off = [abs(a - b) for p, q in zip(image.planes["R"], image.planes["gl.R"]) for a, b in zip(p, q)]
     check(sum(off) / len(off) < 0.03, f"{lighting}: relit as bright as lightmapped: {sum(off) / len(off)}")
-    albedos[lighting] = image
-textures = {}
-for cut in ("none", "white"): # walls whole, and in the small triangles that carry light in their colours
-    bare = SCRATCH / f"{cut}.trace"
-    record(bare, corpus("rooms"), "--seed", 3, "--lights", 2, "--frames", 1, "--lighting", cut)
-    drawn = render(bare, SCRATCH / cut, "--aov", "gl,Z", "--encoding", "display")
-    check(diff(bare, SCRATCH / cut)[1]["frames"][0]["gates"]["R1"]["state"] == "passed", f"{cut}: textures alone are as Mesa draws them")
-    textures[cut] = Image(drawn[0], ["gl.R", "gl.G"]).planes
-for lighting, image in albedos.items():
-    texture = textures["white" if lighting == "colors" else "none"]
-    off = max(abs(a - b) for c in "RG" for p, q in zip(image.planes[f"albedo.{c}"], texture[f"gl.{c}"]) for a, b in zip(p, q))
-    check(off < 0.005, f"{lighting}: the albedo is the texels that the program drew: {off}")
+    check_albedo(lighting, image, textures["white" if lighting == "colors" else "none"])
 off = max(abs(a - b) for c in ("albedo.R", "albedo.G") for p, q in zip(albedos["multitexture"].planes[c], albedos["pass"].planes[c]) for a, b in zip(p, q))
 check(off < 0.01, f"the albedo is the texture's by multitexture as by a pass: {off}")
+
+# A wall that no light reaches has one colour, that of ambient light: it is none of its own.
+level = ("--seed", 6, "--frames", 2, "--animate", "camera") # the second frame sees such walls
+record(SCRATCH / "shade.trace", corpus("rooms"), *level, "--lights", 1, "--lighting", "colors", options=())
+must(relume("look", SCRATCH / "shade.trace", "-o", SCRATCH / "shade.look.yaml"))
+check_albedo("shade", relit("shade", 1), walls_alone("white", *level, frame=1))
 finish()
