@@ -85,6 +85,19 @@ check(pictures.shape[1] > height and strip[:, :200].max() > 200 and strip[:, wid
 check((pictures[1, :height, width + 4:] == traced).all(), "they cover nothing")
 check((SCRATCH / "labels.jpg").stat().st_size > 10000, "a poster")
 
+# What is shown as white: what the frames say, but no less than 1; what the program showed stays, and is white beyond 1.
+said = {}
+for name, change in (("four", ("--sattrib", "relume:white", "4")), ("quarter", ("--sattrib", "relume:white", "0.25")), ("bright", ("--mulc", "2"))):
+    (SCRATCH / name).mkdir()
+    must(run("oiiotool", frames / "s.0001.exr", *change, "-d", "float", "-o", SCRATCH / name / "s.0001.exr"))
+    said[name] = film(f"{name}.webm", "--fps", "25", "--no-labels", of=SCRATCH / name)[0][0]
+asked = film("asked.webm", "--fps", "25", "--no-labels", "-f", "1", "--white", "4")[0][0]
+check((said["four"] == asked).all() and (asked[:, width + 4:] != traced).any(), "frames that say white is at 4 look as with --white 4")
+check((said["quarter"][:, width + 4:] == traced).all(), "white at a quarter is none")
+for what, was, now in (("what the program showed", shown, said["bright"][:, :width]), ("the frame", traced, said["bright"][:, width + 4:])):
+    above = was >= 190  # more than half of white, twice of which is beyond it
+    check(above.any() and (now[above] == 255).all(), f"beyond white is white in {what}")
+
 # Without --fps a frame stands as long as the program showed it: the recording's times.
 pictures, rate = film("times.webm", "--no-labels", "--layout", "raster")
 times = [int(line.split()[1]) for p in sorted(frames.glob("*.exr"))
