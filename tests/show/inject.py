@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "tests/show"))
 from table import Shown  # noqa: E402
 
 CLASSES = ("malloc", "read", "write", "mmap", "open", "thread")
-LIMIT_S = 20
+LIMIT_S = 120  # by the clock, on a machine that does other things as well
 
 
 class Case:
