@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/mat4.h"
+#include "look/crease.h"
 #include "look/film.h"
 #include "look/gloss.h"
 #include "look/modelview.h"
@@ -153,7 +154,7 @@ struct applying {
 	int knows_world;
 	int has_mirror;           /* pictures in mirrors may be left out */
 	uint8_t *in_plane;        /* [instances][surfaces]: whether a rule's plane holds an instance, 1 no, 2 yes; 0: not asked yet */
-	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights, 4 where a unit holds a shadow */
+	int lights_change;        /* bits: 1 of what OpenGL does not light, 2 of what it lights, 4 where a unit holds a shadow, 8 where faces look round */
 };
 
 static int is_in_world(const struct light_rule *r)
@@ -400,8 +401,35 @@ static int is_in_shade(const struct applying *a, const struct scene_instance *in
 	return fabsf(color[0] - ambient[0]) < SHADE && fabsf(color[1] - ambient[1]) < SHADE && fabsf(color[2] - ambient[2]) < SHADE;
 }
 
+/* The angle up to which an instance's faces look round, in degrees. */
+static float crease_of(const struct applying *a, const struct scene_instance *in)
+{
+	float angle = 0;
+
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+		if (a->rules->surfaces[k].crease && applies(a, in, k))
+			angle = *a->rules->surfaces[k].crease;
+	return angle;
+}
+
+/* Give faces that look round a mesh with further normals. m: the instance's material */
+static int smooth_instance(const struct applying *a, uint32_t i, struct scene_material *m)
+{
+	const struct scene_instance *in = &a->scene->instances[i];
+	const float angle = a->lights_change & 8 && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ? crease_of(a, in) : 0;
+	struct scene_mesh *mesh = NULL;
+	int err = angle > 0 ? crease_smooth(a->scene->meshes[in->mesh], m->shade_model == GL_FLAT, angle, &mesh) : 0;
+
+	if (!mesh)
+		return err;
+	m->surface.hidden |= SCENE_CREASED;
+	a->out->instances[i].mesh = a->out->n_meshes;
+	a->out->meshes[a->out->n_meshes++] = mesh;
+	return 0;
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
-static void change_instance(const struct applying *a, uint32_t i)
+static int change_instance(const struct applying *a, uint32_t i)
 {
 	const struct scene *scene = a->scene;
 	const struct scene_instance *in = &scene->instances[i];
@@ -409,6 +437,7 @@ static void change_instance(const struct applying *a, uint32_t i)
 	struct scene *out = a->out;
 	struct scene_material *m = &out->materials[out->n_materials];
 	uint32_t n = 0;
+	int err;
 
 	*m = scene->materials[in->material];
 	if (!a->spare)
@@ -424,7 +453,8 @@ static void change_instance(const struct applying *a, uint32_t i)
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
-	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit : m->surface.relit && a->lights_change & 1;
+	err = smooth_instance(a, i, m);
+	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit || m->surface.hidden & SCENE_CREASED : m->surface.relit && a->lights_change & 1;
 	if (m->surface.hidden & SCENE_UNSHADED) {
 		m->surface.hidden &= ~SCENE_DOME_LIT;
 		m->surface.relit = 0;
@@ -439,10 +469,11 @@ static void change_instance(const struct applying *a, uint32_t i)
 		m->surface.light_first = out->n_lights;
 		m->surface.light_count = n;
 	}
-	if (memcmp(m, &scene->materials[in->material], sizeof(*m)) == 0)
-		return;
+	if (err || memcmp(m, &scene->materials[in->material], sizeof(*m)) == 0)
+		return err;
 	out->instances[i].material = out->n_materials++;
 	out->n_lights += n;
+	return 0;
 }
 
 int look_spares(const struct look *look)
@@ -460,7 +491,9 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
 	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
-	if (!out->instances || !out->materials || !out->lights) {
+	out->meshes = malloc((scene->n_meshes + n + 1) * sizeof(*out->meshes));
+	if (!out->instances || !out->materials || !out->lights || !out->meshes) {
+		out->n_meshes = 0;
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
@@ -468,6 +501,8 @@ static int copy_scene(struct applying *a)
 		memcpy(out->instances, scene->instances, n * sizeof(*out->instances));
 	if (scene->n_materials)
 		memcpy(out->materials, scene->materials, scene->n_materials * sizeof(*out->materials));
+	if (scene->n_meshes)
+		memcpy(out->meshes, scene->meshes, scene->n_meshes * sizeof(*out->meshes));
 	if (scene->n_lights)
 		memcpy(out->lights, scene->lights, scene->n_lights * sizeof(*out->lights));
 	return 0;
@@ -495,7 +530,7 @@ static int prepare(struct applying *a)
 
 	a->rules = a->look ? a->look->rules : &none;
 	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
-		a->lights_change |= a->rules->surfaces[k].shadow_unit ? 4 : 0;
+		a->lights_change |= (a->rules->surfaces[k].shadow_unit ? 4 : 0) | (a->rules->surfaces[k].crease ? 8 : 0);
 	for (uint32_t k = 0; k < a->rules->lights_count; k++) {
 		a->lights_change |= changes_light(&a->rules->lights[k]) ? lit_by(&a->rules->lights[k]) : 0;
 		in_world |= is_in_world(&a->rules->lights[k]);
@@ -529,8 +564,11 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 		size_lights(a.rules, out);
 		set_sky(&a);
 	}
-	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
-		change_instance(&a, i);
+	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
+		err = change_instance(&a, i);
+		if (err)
+			look_release(out);
+	}
 	free(a.in_plane);
 	if (found)
 		*found = spare;
@@ -541,6 +579,10 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 
 void look_release(struct scene *changed)
 {
+	for (uint32_t i = 0; i < changed->n_meshes; i++)
+		if (changed->meshes[i]->crease)
+			free((void *)changed->meshes[i]);
+	free(changed->meshes);
 	free(changed->instances);
 	free(changed->materials);
 	free(changed->lights);

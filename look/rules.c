@@ -44,7 +44,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	REASON(struct surface_rule),
 	CYAML_FIELD_MAPPING_PTR("match", OPTIONAL_POINTER, struct surface_rule, match, match_fields),
 	NUMBER(struct surface_rule, reflect), NUMBER(struct surface_rule, transmit), NUMBER(struct surface_rule, ior),
-	NUMBER(struct surface_rule, roughness), NUMBERS(struct surface_rule, absorb, 3),
+	NUMBER(struct surface_rule, roughness), NUMBER(struct surface_rule, crease), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
 	TRUTH(struct surface_rule, near), TRUTH(struct surface_rule, shaded),
 	TEXT(struct surface_rule, passes),
@@ -138,6 +138,8 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 		err = check_number(path, list, i, "ior", r->ior, 1, 10);
 	if (!err)
 		err = check_number(path, list, i, "roughness", r->roughness, 0, 1);
+	if (!err)
+		err = check_number(path, list, i, "crease", r->crease, 0, 180);
 	for (int c = 0; c < 3 && !err; c++) {
 		err = check_number(path, list, i, "absorb", r->absorb ? r->absorb + c : NULL, 0, 1e30f);
 		if (!err)

@@ -38,6 +38,8 @@
  *         shadow_unit: 0             # of what OpenGL lights: the texture unit that holds a shadow, which traced ones replace
  *         shaded: no                 # nothing shades it: it keeps the light that OpenGL gives it, and takes none of the lights below
  *         lit: yes                   # takes the lights below where OpenGL does not light it
+ *         crease: 40                 # of what OpenGL lights face by face: faces that meet at up to so many degrees look round, sharper
+ *                                    # edges stay; [0,180], default 0. Edges, shadows' outlines and N stay; modes of paths do without
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
  *                                    # frames with a `solid` mirror, if rules have one
@@ -108,7 +110,7 @@ struct rule_reason {
 struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
-	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission;
+	const float *reflect, *transmit, *ior, *roughness, *absorb, *emission, *crease;
 	const uint32_t *lightmap, *shadow_unit;
 	const bool *shadows, *mirrors, *near, *shaded, *lit, *dome, *left_out, *solid, *vertex_light;
 	const char *passes;

@@ -173,8 +173,8 @@ static const struct options_row rows[] = {
 	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
 	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
-	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, lights added, moved, off or with a size (look/rules.h shows all "
-	  "keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), lights added, moved, off or with a "
+	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",

@@ -64,6 +64,7 @@ struct scene_face {
 #define SCENE_NEAR_MIRROR 512u       /* nothing: it mirrors what is there, and keeps its own colour where nothing is */
 #define SCENE_FILM 1024u             /* lights: it is more seen through than seen, and casts no shadow */
 #define SCENE_UNSHADED 2048u         /* nothing: it keeps the light that GL gives it, whatever stands in its way */
+#define SCENE_CREASED 8192u          /* nothing: its mesh has normals beside GL's, scene_mesh.crease */
 #define SCENE_NO_NORMALS 4096u       /* nothing: a near mirror that GL does not light turns rays about its faces */
 
 /* What rules and rtMaterialEXT say about a surface beyond GL. All zero: what GL drew, nothing else. */
@@ -274,6 +275,7 @@ struct scene_mesh {
 	const float *color;                      /* [vertex][4] or NULL */
 	const float *secondary;                  /* [vertex][4] or NULL */
 	const float *fog_coord;                  /* [vertex] or NULL */
+	const float *crease;                     /* [primitive][3][3] or NULL: its corners' normals for light beyond GL's, no part of the hash. Set by rules */
 	const float *texcoord[SCENE_MAX_UNITS];  /* [vertex][4] or NULL */
 	const struct scene_face (*face)[2];      /* [vertex] front and back, or NULL: those of the instance's material */
 	const uint32_t *index;                   /* [primitive][kind] */

@@ -98,7 +98,7 @@ WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_c
 /* Whether pack_light_rays knows all that a material asks for. */
 static inline int pack_knows_rays(__global const struct scene_material *m)
 {
-	return !(m->surface.hidden & SCENE_CARD);
+	return !(m->surface.hidden & (SCENE_CARD | SCENE_CREASED));
 }
 
 /* As point_lights: where a material's lights start. */

@@ -10,7 +10,7 @@
 /* Whether pack_shade knows all that a material asks for. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
+	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !(m->surface.hidden & SCENE_CREASED) &&
 	            (!m->fog || m->fog_mode == GL_LINEAR) &&
 	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
 

@@ -57,16 +57,16 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 /* Whether normals may bend a material's triangles. */
 static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
 {
-	return m->lighting && m->shade_model != GL_FLAT && !(m->surface.hidden & SCENE_FACETED);
+	return m->lighting && (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
 }
 
-static inline struct shadow_curve shadow_curve_of(const struct point *p)
+static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p)
 {
 	struct shadow_curve c;
 	const float side = point_side(p) ? -1.0f : 1.0f;
 
-	for (int i = 0; i < 3; i++)
-		c.normal[i] = v3_scale(v3_normalize(v3_load(p->vertex[i]->normal)), side); /* GL need not have normalised it */
+	for (uint32_t i = 0u; i < 3u; i++)
+		c.normal[i] = v3_scale(v3_normalize(point_corner_normal(t, p, i)), side); /* GL need not have normalised it */
 	c.smooth = shadow_may_curve(p->material) &&
 	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2]));
 	return c;
@@ -179,7 +179,7 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 		kept->primitive = f.primitive;
 		kept->p = point_of_triangle(t, a->windows, &f, kept->w_inv);
 		kept->plane = point_plane_of(&kept->p);
-		kept->curve = shadow_curve_of(&kept->p);
+		kept->curve = shadow_curve_of(t, &kept->p);
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
@@ -213,7 +213,7 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 	p = point_from_hit(t, &hit, v3_load(a->rays[i].d));
 	sample_take(a->frame, stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
 	plane = point_plane_of(&p);
-	curve = shadow_curve_of(&p);
+	curve = shadow_curve_of(t, &p);
 	stage_light_ray(t, &p, &plane, &curve, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
 }
 

@@ -16,6 +16,7 @@ struct point {
 	GLOBAL const struct scene_material *material;
 	GLOBAL const struct shaded_vertex *vertex[3];
 	uint32_t number[3]; /* the vertices in the mesh */
+	uint32_t primitive; /* the triangle in it */
 	float weight[3];    /* of the vertices, in object space: perspective-correct */
 	int front;
 };
@@ -24,6 +25,7 @@ static inline void point_vertices(const struct tables *t, struct point *p, uint3
 {
 	p->geometry = &t->geometries[instance];
 	p->material = &t->materials[p->geometry->material];
+	p->primitive = primitive;
 	for (uint32_t i = 0u; i < 3u; i++) {
 		p->number[i] = t->indices[p->geometry->index + primitive * 3u + i];
 		p->vertex[i] = &t->vertices[p->geometry->vertex_first + p->number[i]];
@@ -327,6 +329,16 @@ static inline int point_takes_light(const struct point *p)
 	       !(p->material->surface.hidden & SCENE_UNSHADED);
 }
 
+/* The normal of a corner, in eye space: the vertex', or a corner's own where rules give it one (scene_surface SCENE_CREASED). */
+static inline struct vec3 point_corner_normal(const struct tables *t, const struct point *p, uint32_t corner)
+{
+	GLOBAL const struct geometry *g = p->geometry;
+
+	if (!(p->material->surface.hidden & SCENE_CREASED) || g->crease == SCENE_NONE || g->flags & GEOMETRY_EXPANDED)
+		return v3_load(p->vertex[corner]->normal);
+	return v3_normalize(vertex_eye_normal(g, p->material, v3_load(t->attributes + g->crease + (p->primitive * 3u + corner) * 3u)));
+}
+
 /* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */
 static inline struct lit point_lit_here(const struct tables *t, const struct point *p, const struct vec3 *seen)
 {
@@ -338,9 +350,9 @@ static inline struct lit point_lit_here(const struct tables *t, const struct poi
 	if (!p->material->lighting)
 		return light_vertex(p->material, t->lights, point_lights(p), 1, v4(at.x, at.y, at.z, 1.0f), point_normal(p),
 		                    tables_face(t, p->geometry, p->number[2], side), point_matte_color(t, p), side, seen);
-	n = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
-	                               v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
-	                        v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
+	n = v3_normalize(v3_add(v3_add(v3_scale(point_corner_normal(t, p, 0u), p->weight[0]),
+	                               v3_scale(point_corner_normal(t, p, 1u), p->weight[1])),
+	                        v3_scale(point_corner_normal(t, p, 2u), p->weight[2])));
 	return light_vertex(p->material, t->lights, point_lights(p), 0, v4(at.x, at.y, at.z, 1.0f),
 	                    side ? v3_scale(n, -1.0f) : n, tables_face(t, p->geometry, p->number[2], side),
 	                    point_current_color(t, p), side, seen);

@@ -64,6 +64,7 @@ static int relocate(struct gls_mesh *mesh, size_t n)
 
 	if (mesh->bytes != n || (m->kind != SCENE_TRIANGLES && m->kind != SCENE_LINES && m->kind != SCENE_POINTS))
 		return 0;
+	m->crease = NULL; /* replays make none */
 	mesh_arrays(m, arrays);
 	for (unsigned i = 0; i < N_MESH_ARRAYS; i++) {
 		uintptr_t distance = (uintptr_t)*arrays[i].at;

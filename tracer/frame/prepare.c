@@ -99,6 +99,8 @@ void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometr
 		at += mesh->texcoord[unit] ? 4 * n : 0;
 	}
 	g->face = at;
+	at += mesh->face ? (uint32_t)FACE_WORDS * n : 0;
+	g->crease = mesh->crease ? at : SCENE_NONE;
 }
 
 size_t prepare_attribute_words(const struct scene_mesh *mesh)
@@ -108,7 +110,7 @@ size_t prepare_attribute_words(const struct scene_mesh *mesh)
 
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		each += mesh->texcoord[unit] ? 4 : 0;
-	return each * mesh->vertex_count;
+	return each * mesh->vertex_count + (mesh->crease ? 9 * (size_t)mesh->primitive_count : 0);
 }
 
 static uint32_t *append(uint32_t *words, const float *values, size_t n)
@@ -131,7 +133,8 @@ void prepare_fill_attributes(const void *object, uint32_t *words)
 	words = append(words, mesh->fog_coord, n);
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		words = append(words, mesh->texcoord[unit], 4 * n);
-	append(words, (const float *)mesh->face, FACE_WORDS * n);
+	words = append(words, (const float *)mesh->face, FACE_WORDS * n);
+	append(words, mesh->crease, 9 * (size_t)mesh->primitive_count);
 }
 
 size_t prepare_index_words(const struct scene_mesh *mesh)
