@@ -2,12 +2,13 @@
 """tests/show/tests.py BUILD [--only WHAT] [--count N] [--seconds S] [--most S] [--again] (as `make show-tests`): which faults `make check` notices.
 
 Mutants of our own sources, drawn by their names' digests (sites.py) in turn from each folder and of each kind: nobody picks places. One
-that compiles to the same objects is no fault. All others are built, one after the other, in a clone of this tree, and the tests of
-`make check` run until one fails; likely ones first: those named like the file, those of its folder, those that noticed others of the folder,
-quick ones. A test counts only where it passes in a second clone that nobody changed.
+that compiles to the same objects is no fault. All others are built, one after the other, in a clone of this tree, and those tests of
+`make check` that run its line (reach.py) until one fails; likely ones first: those named like the file, those of its folder, those that noticed
+others of the folder, quick ones. Kernels run on devices, where nobody counts lines: all tests are theirs. A test counts only where it passes in a
+second clone that nobody changed.
 
-Verdicts are kept in BUILD/show/tests/verdicts.json: a campaign may be stopped at any time, and goes on. What is left either passed all
-tests (or --most seconds of them); tests/show/left.txt gives reasons.
+Verdicts are kept in BUILD/show/tests/verdicts.json: a campaign may be stopped at any time, and goes on. What is left passed all tests that
+run it (or --most seconds of them); tests/show/left.txt gives reasons.
 """
 import argparse
 import json
@@ -23,6 +24,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "tests/show"), str(ROOT / "tests")]
+import reach  # noqa: E402
 import run as runner  # noqa: E402
 import sites  # noqa: E402
 from table import Shown  # noqa: E402
@@ -54,9 +56,9 @@ def spent_s():
 class Clone:
     """A copy of this tree with a build of its own."""
 
-    def __init__(self, folder, build):
-        self.root, self.build = folder, folder / "build"
-        if not self.build.exists():
+    def __init__(self, folder, build, flags=()):
+        self.root, self.build, self.flags = folder, folder / "build", flags
+        if not self.build.exists() and not flags:
             shutil.copytree(build, self.build, symlinks=True, ignore=lambda at, names: ["show", "pocl-cache", "cache"])
         self.restore()
 
@@ -80,7 +82,7 @@ class Clone:
 
     def make(self, *targets):
         """Whether make does it."""
-        done = subprocess.run(["make", "-j2", "-C", self.root, "BUILD=build", *targets], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        done = subprocess.run(["make", "-j2", "-C", self.root, "BUILD=build", *self.flags, *targets], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               env={**os.environ, "MAKELEVEL": "0"}, check=False)
         return done.returncode == 0
 
@@ -105,9 +107,12 @@ class Campaign:
         self.base, self.clone = Clone(folder / "base", build), Clone(folder / "mutant", build)
         self.tests = [t for t in runner.find_tests(self.base.build, []) if not any(part in t.name for part in LEFT_OUT)]
         self.texts = {t.name: next((ROOT / "tests").glob(f"{t.name}.*")).read_text(errors="replace") for t in self.tests}
-        for clone in (self.base, self.clone):
+        counting = Clone(folder / "counting", build, reach.FLAGS)
+        reach.prepare(counting.root)
+        for clone in (self.base, self.clone, counting):
             if not clone.make("all"):
                 sys.exit(f"what nobody changed does not build: {clone.root}")
+        self.reach = reach.Reach(folder, counting, sources())
 
     def save(self):
         part = self.kept.with_suffix(".part")
@@ -167,25 +172,37 @@ class Campaign:
                 kernels = self.kernels(site) if folder == "kernels" else True
                 if kernels is not False:
                     return {**verdict, "verdict": "equivalent" if kernels else "does not compile"}
-            for n, test in enumerate(self.likely_first(site, folder)):
+            n = 0
+            for test in self.likely_first(site, folder):
                 if spent_s() - begin > self.most:
-                    return {**verdict, "verdict": "left", "why": f"{n} of {len(self.tests)} tests pass, {self.most} s"}
+                    return {**verdict, "verdict": "left", "why": f"{n} tests that run it pass, {self.most} s"}
+                before = spent_s()
+                runs_it = folder == "kernels" or self.reach.reaches(test, site.path, site.line)
+                begin += spent_s() - before  # counting is for all mutants
+                if not runs_it:
+                    continue
+                n += 1
                 passed, seconds = self.clone.test(test)
                 if passed:
                     self.times[test.name] = 0.7 * self.times.get(test.name, seconds) + 0.3 * seconds
                 elif self.base.test(test)[0]:
-                    return {**verdict, "verdict": "noticed", "by": test.name, "after": n, "seconds": round(spent_s() - begin)}
-            return {**verdict, "verdict": "left", "why": f"all {len(self.tests)} tests pass"}
+                    return {**verdict, "verdict": "noticed", "by": test.name, "after": n - 1, "seconds": round(spent_s() - begin)}
+            return {**verdict, "verdict": "left", "why": f"all {n} tests that run it pass"}
         finally:
             path.write_text(text)
+
+
+def sources(folders=FOLDERS):
+    """Names of the sources of folders, in order."""
+    return sorted({str(p.relative_to(ROOT)) for folder in folders for pattern in FOLDERS[folder] for p in ROOT.glob(pattern)})
 
 
 def drawn():
     """Sites in turn: folder by folder, kind by kind, the lowest names first."""
     queues = {}
-    for folder, patterns in FOLDERS.items():
-        for path in sorted({p for pattern in patterns for p in ROOT.glob(pattern)}):
-            for site in sites.find(ROOT, str(path.relative_to(ROOT)), SEED):
+    for folder in FOLDERS:
+        for path in sources((folder,)):
+            for site in sites.find(ROOT, path, SEED):
                 queues.setdefault((site.kind, folder), []).append(site)
     queues = {key: sorted(queue, key=lambda s: s.id, reverse=True) for key, queue in queues.items()}
     while any(queues.values()):
