@@ -67,6 +67,14 @@ for name, words in (("AS_MEMORY", "are needed on this device, which has 2"), ("A
     check(done.returncode == 5 and len(lines) == 1 and words in lines[0], f"{name}: exit code {done.returncode}, {done.stderr}")
     check(not files(SCRATCH / "small"), f"{name}: something was written")
 
+# No driver, and one without a device, are told apart.
+(SCRATCH / "vendors").mkdir()
+for name, env, words in (("no driver", {"OCL_ICD_VENDORS": str(SCRATCH / "vendors")}, "there is no driver here (CL_PLATFORM_NOT_FOUND)"),
+                         ("no device", {"POCL_DEVICES": "none"}, "none has a device here (CL_DEVICE_NOT_FOUND)")):
+    done = render("none", "-f", "0", env=dict(os.environ, **env))
+    check(done.returncode == 5 and words in done.stderr, f"{name}: exit code {done.returncode}, {done.stderr}")
+    check(not files(SCRATCH / "none"), f"{name}: something was written")
+
 # One of two devices fails in the middle: the other one takes what it had, and every frame is there.
 must(render("alone"))
 two = fake(POCL_DEVICES="pthread pthread", FAIL_CALL="61", FAIL_NAME="clEnqueueNDRangeKernel", FAIL_GONE="1", FAIL_ONLY="1")

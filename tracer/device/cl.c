@@ -68,7 +68,7 @@ static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
 {
 	cl_platform_id platforms[MAX_PLATFORMS];
 	cl_uint n_platforms = 0, n_found;
-	cl_int code;
+	cl_int code, said = CL_SUCCESS; /* the last refusal of a platform */
 
 	describe_machine();
 	code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &n_platforms);
@@ -80,15 +80,21 @@ static int find_devices(cl_device_id ids[MAX_DEVICES], size_t *n)
 		n_platforms = MAX_PLATFORMS;
 	for (cl_uint i = 0; i < n_platforms; i++) {
 		n_found = 0;
-		if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR,
-		                   (cl_uint)(MAX_DEVICES - *n), ids + *n, &n_found) != CL_SUCCESS)
-			continue;
-		*n = *n + n_found < MAX_DEVICES ? *n + n_found : MAX_DEVICES;
+		code = clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_CPU | CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR,
+		                      (cl_uint)(MAX_DEVICES - *n), ids + *n, &n_found);
+		if (code == CL_SUCCESS)
+			*n = *n + n_found < MAX_DEVICES ? *n + n_found : MAX_DEVICES;
+		else
+			said = code;
 	}
+	if (*n == 0 && n_platforms)
+		return err_report(ERR_SYSTEM, "OpenCL",
+		                  "%u drivers are installed, and none has a device here (%s); repair them, or use --device reference (slow)",
+		                  n_platforms, cl_error_name(said));
 	if (*n == 0)
 		return err_report(ERR_SYSTEM, "OpenCL",
-		                  "there is no OpenCL device here; install the Debian package pocl-opencl-icd (CPU) or your "
-		                  "GPU's OpenCL driver, or use --device reference (slow)");
+		                  "there is no driver here (%s); install the Debian package pocl-opencl-icd (CPU) or your "
+		                  "GPU's OpenCL driver, or use --device reference (slow)", cl_error_name(code));
 	return 0;
 }
 
