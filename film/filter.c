@@ -10,6 +10,7 @@
 
 #define ALBEDO_LEAST 0.02f /* light is what a surface shows over its albedo, at least this */
 #define PASSES 5u
+#define INNER_LEAST 0.1f   /* of same_surface, for pixels that lie within a surface */
 #define GLOSS_PASSES 2u    /* what mirrors show has edges that no guide knows */
 #define SIGMA_LIGHT 1.8f   /* as many standard deviations of the noise */
 #define SIGMA_DEPTH 1.0f
@@ -81,7 +82,8 @@ static int allocate(struct filter_frame *f)
 	f->depth = calloc(n, sizeof(*f->depth));
 	f->motion = calloc(n, sizeof(*f->motion));
 	f->is_there = calloc(n, 1);
-	if (f->light && f->gloss && f->variance && f->guess && f->albedo && f->normal && f->depth && f->motion && f->is_there)
+	f->is_inner = calloc(n, 1);
+	if (f->is_inner && f->light && f->gloss && f->variance && f->guess && f->albedo && f->normal && f->depth && f->motion && f->is_there)
 		return 0;
 	return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", f->width, f->height);
 }
@@ -97,6 +99,7 @@ void filter_free(struct filter_frame *f)
 	free(f->depth);
 	free(f->motion);
 	free(f->is_there);
+	free(f->is_inner);
 	*f = (struct filter_frame){ 0 };
 }
 
@@ -234,6 +237,18 @@ static float noise_about(const struct filter_frame *f, const float (*plane)[3], 
 	return n ? pairs[(size_t)((float)(n - 1) * QUANTILE)] / QUANTILE_SQUARE : 0;
 }
 
+/* Whether all of the eight pixels about one lie on its surface. */
+static int is_inner(const struct filter_frame *f, uint32_t x, uint32_t y, float slope)
+{
+	const size_t i = (size_t)y * f->width + x;
+
+	for (uint32_t v = y ? y - 1 : 0; v <= y + 1 && v < f->height; v++)
+		for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < f->width; u++)
+			if (!(same_surface(f, i, (size_t)v * f->width + u, slope, hypotf((float)u - (float)x, (float)v - (float)y)) > INNER_LEAST))
+				return 0;
+	return 1;
+}
+
 /* The noise of brightness, and its mean over 7 x 7 pixels of the same surface. */
 static void guess_row(const void *user, uint32_t y)
 {
@@ -256,6 +271,7 @@ static void guess_row(const void *user, uint32_t y)
 			}
 		f->guess[i] = weights > 0 ? sum / weights : brightness(f->light[i]);
 		f->variance[i] = noise_about(f, (const float (*)[3])f->light, x, y);
+		f->is_inner[i] = (uint8_t)is_inner(f, x, y, slope);
 	}
 }
 
@@ -316,54 +332,76 @@ struct over_time {
 	struct filter_frame *out;
 };
 
-/* How much of a pixel of another frame counts: the same surface, as bright as it may be. */
+/* How much of a pixel of another frame counts: the same surface, as bright as the noise of both guesses allows. */
 static float same_point(const struct filter_frame *a, size_t i, const struct filter_frame *b, size_t k)
 {
 	const float *n = a->normal[i], *m = b->normal[k], *c = a->albedo[i], *d = b->albedo[k];
-	const float off = a->guess[i] - b->guess[k], scale = 0.1f * (a->guess[i] + b->guess[k]) + 1e-4f;
+	const float off = a->guess[i] - b->guess[k], scale = 0.02f * (a->guess[i] + b->guess[k]) +
+	                                                      0.3f * sqrtf(a->variance[i] + b->variance[k]) + 1e-4f;
 
 	/* the viewer may turn a little from frame to frame, and so do normals in eye space */
-	if (!b->is_there[k] || n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < 0.9f ||
+	if (!b->is_inner[k] || n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < 0.9f ||
 	    fabsf(a->depth[i] - b->depth[k]) > 0.1f * (fabsf(a->depth[i]) + fabsf(b->depth[k])) ||
 	    fabsf(c[0] - d[0]) + fabsf(c[1] - d[1]) + fabsf(c[2] - d[2]) > 0.15f * (c[0] + c[1] + c[2]) + 0.02f)
 		return 0;
 	return expf(-off * off / (scale * scale));
 }
 
+/* What is summed up of a pixel. */
+struct mix {
+	float light[3], gloss[3], weights, squares;
+};
+
+/* Add the four pixels about a place of another frame, as near as they are. @return 0: it lies outside */
+static int mix_place(const struct filter_frame *here, size_t i, const struct filter_frame *there, const float at[2], struct mix *mix)
+{
+	const float x = at[0] - 0.5f, y = at[1] - 0.5f, left = floorf(x), top = floorf(y);
+	size_t inside;
+
+	if (!pixel_at(there, at, &inside))
+		return 0;
+	for (int k = 0; k < 4; k++) {
+		const float px = left + (float)(k & 1), py = top + (float)(k >> 1);
+		float w = (1 - fabsf(x - px)) * (1 - fabsf(y - py));
+		size_t j;
+
+		if (!(w > 0) || !pixel_at(there, (float[2]){ px + 0.5f, py + 0.5f }, &j))
+			continue;
+		w *= same_point(here, i, there, j);
+		for (int c = 0; c < 3 && w > 0; c++) {
+			mix->light[c] += w * there->light[j][c];
+			mix->gloss[c] += w * there->gloss[j][c];
+		}
+		mix->weights += w;
+		mix->squares += w * w;
+	}
+	return 1;
+}
+
 static void mix_pixel(const struct over_time *t, size_t i, uint32_t x, uint32_t y)
 {
 	const struct filter_frame *here = t->frames[t->middle];
-	float light[3], gloss[3], weights = 1, squares = 1;
+	struct mix mix = { .weights = 1, .squares = 1 };
 
-	memcpy(light, here->light[i], sizeof(light));
-	memcpy(gloss, here->gloss[i], sizeof(gloss));
-	for (int forward = 0; forward < 2 && here->is_there[i]; forward++) {
+	memcpy(mix.light, here->light[i], sizeof(mix.light));
+	memcpy(mix.gloss, here->gloss[i], sizeof(mix.gloss));
+	for (int forward = 0; forward < 2 && here->is_inner[i]; forward++) {
 		float at[2] = { (float)x + 0.5f, (float)y + 0.5f };
 		unsigned frame = t->middle;
 
 		while (forward ? frame + 1 < t->n : frame > 0) {
-			size_t k;
-			float w;
-
 			if (!step(t->frames[frame], forward ? (const float (*)[2])t->onwards[frame] : NULL, at))
 				break;
 			frame += forward ? 1u : -1u;
-			if (!pixel_at(t->frames[frame], at, &k))
+			if (!mix_place(here, i, t->frames[frame], at, &mix))
 				break;
-			w = same_point(here, i, t->frames[frame], k);
-			for (int c = 0; c < 3 && w > 0; c++) {
-				light[c] += w * t->frames[frame]->light[k][c];
-				gloss[c] += w * t->frames[frame]->gloss[k][c];
-			}
-			weights += w;
-			squares += w * w;
 		}
 	}
 	for (int c = 0; c < 3; c++) {
-		t->out->light[i][c] = light[c] / weights;
-		t->out->gloss[i][c] = gloss[c] / weights;
+		t->out->light[i][c] = mix.light[c] / mix.weights;
+		t->out->gloss[i][c] = mix.gloss[c] / mix.weights;
 	}
-	t->out->variance[i] = here->variance[i] * squares / (weights * weights);
+	t->out->variance[i] = here->variance[i] * mix.squares / (mix.weights * mix.weights);
 }
 
 static void mix_row(const void *user, uint32_t y)

@@ -22,6 +22,7 @@ struct filter_frame {
 	float (*albedo)[3], (*normal)[3], *depth;
 	float (*motion)[3]; /* pixels right and down since the frame before, and 1 where that is known */
 	uint8_t *is_there;  /* 1: a surface */
+	uint8_t *is_inner;  /* 1: and so are the pixels about it, the same: none of its samples lie elsewhere */
 };
 
 /**
