@@ -284,7 +284,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames mutants replay
@@ -299,6 +299,7 @@ DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-cli
 	geomview g3dviewer
 DEPS_sweep-record := $(DEPS_sweep)
 DEPS_crashes := extremetuxracer foobillardplus
+DEPS_cryptomatte := blender python3-numpy
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
 DEPS_film := ffmpeg chromium
 DEPS_export := blender python3-numpy
