@@ -273,6 +273,7 @@ HARNESS := $(BUILD)/tests/harness/fails $(BUILD)/tests/bench/tiny $(BUILD)/tests
 check: all $(if $(ONLY),$(HARNESS) $(foreach part,$(ONLY),$(foreach t,$(TESTS),$(if $(findstring $(part),$(t:$(BUILD)/tests/%=%)),$t))),$(TESTS)) $(HELPERS) $(addprefix $(BUILD)/tests/bench/,hits build queries)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)
 
+DEPS_demo := ffmpeg
 demo:
 	@corpus/demo.sh $(BUILD)
 

@@ -30,8 +30,8 @@ stage() {
 rm -rf "$out"
 mkdir -p "$out/log" "$out/frames"
 
-stage install "$make" --no-print-directory deps BUILD="$build"
-echo "$(sed -n 's/^installing from Debian: //p' "$out/log/install" | grep . || echo 'nothing, all is there')"
+stage install "$make" --no-print-directory deps "$build/deps.demo" BUILD="$build"
+echo "$(sed -n 's/^installing from Debian: //p' "$out/log/install" | paste -sd " " | grep . || echo 'nothing, all is there')"
 touch "$out/log/begun"
 stage build "$make" --no-print-directory -j"$(nproc)" all BUILD="$build"
 echo "$(find "$build" -name '*.o' -newer "$out/log/begun" | wc -l) files compiled"
@@ -39,12 +39,14 @@ stage record tests/xvfb.sh "$build/relume" record -o "$out/glxgears.trace" --ref
 echo "$frames frames of glxgears, with reference colour and depth"
 stage render "$build/relume" render "$out/glxgears.trace" -o "$out/frames/glxgears.####.exr"
 echo "$(ls "$out/frames" | wc -l) frames ray traced to OpenEXR, on $("$build/relume" devices | head -n 1)"
-stage score "$build/relume" diff "$out/glxgears.trace" "$out/frames" --report "$out/report"
+stage film "$build/relume" film "$out/frames" -o "$out/glxgears.webm" --caption glxgears
+echo "what OpenGL drew beside the traced frames, $(wc -c <"$out/glxgears.webm") bytes"
+stage score "$build/relume" diff "$out/glxgears.trace" "$out/frames" --report "$out/report" --film "$out/glxgears.webm"
 echo "$(tail -n 1 "$out/log/score")"
 
 cat <<END
 
-Raster frame, gl, beauty and difference side by side:
+Raster frame, gl, beauty and difference side by side, and the film:
     $out/report/index.html
     $out/report/sheet.png
 The frames:
