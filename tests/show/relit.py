@@ -5,6 +5,7 @@ frame is darker than its shadows explain. Channels of OpenGL's own picture must 
 twice a whitted one, of these and of all real programs (by name: cost), and a study of 1,000 frames at most what rendering 20 costs
 (study.py; by name: study). Then the same pictures of real programs, with what was seen when
 they were looked at (sheet.py), and of what portal culling leaves out (unseen.py; by name: unseen)."""
+import itertools
 import json
 import pathlib
 import resource
@@ -24,7 +25,8 @@ PROGRAMS = {**{f"tricks-{kind}": ("tricks", kind) for kind in ("planar", "direct
                for lighting in ("multitexture", "pass", "opengl")},
             "spheres": ("spheres",), "still_life": ("still_life",), "closed_hall": ("closed_hall",), "arena": ("arena",), "courtyard": ("courtyard", "--animate", "camera")}
 FRAME = 1
-FEW, RECORDED = 2, 8 # frames
+FEW, RECORDED, MANY = 2, 8, 50 # frames
+QUICK_S = 0.5 # for RECORDED frames: what starting up takes varies by a good part of it
 COST = 2 # times a frame without rules
 
 
@@ -62,12 +64,18 @@ def seconds(build, trace, folder, first, last, *look):
 
 
 def cost(build, trace, folder, first=0):
-    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least of three each."""
+    """A relit frame's processor time over that of one without rules; starting up is taken off, two workers' too. Least of three each, taken
+    in turns. Of quick frames there are more, where the recording has them."""
     rules = folder / "cost.look.yaml"
     run(build / "relume", "look", trace, "-o", rules)
-    more = [min(seconds(build, trace, folder, first, first + RECORDED - 1, *look) for _ in range(3)) -
-             min(seconds(build, trace, folder, first, first + FEW - 1, *look) for _ in range(3))
-             for look in ((), ("--look", rules))]
+    end = json.loads(run(build / "relume", "info", trace, "--json"))["frames"]
+    is_quick = seconds(build, trace, folder, first, first + RECORDED - 1) < QUICK_S
+    n = max(RECORDED, min(MANY, end - first)) if is_quick else RECORDED
+    ways, times = ((), ("--look", rules)), {}
+    for _ in range(3):
+        for way, frames in itertools.product(range(2), (FEW, n)):
+            times.setdefault((way, frames), []).append(seconds(build, trace, folder, first, first + frames - 1, *ways[way]))
+    more = [min(times[way, n]) - min(times[way, FEW]) for way in range(2)]
     return more[1] / max(more[0], 1e-3)
 
 
