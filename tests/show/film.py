@@ -19,15 +19,17 @@ import browser  # noqa: E402
 
 LAYOUTS = ("side", "wipe", "alternate")
 
-# Run in the page by a second script: what the video is, and how much its picture changes while it plays.
+# Run in the page by a second script: what the video is, and how much its picture changes from an eighth to the middle.
 PLAY = """<script>
 addEventListener("load", async () => {
 	const video = document.querySelector("video"), canvas = document.createElement("canvas"), found = {};
 	const look = () => { canvas.width = 160; canvas.height = 60; const c = canvas.getContext("2d"); c.drawImage(video, 0, 0, 160, 60);
 		return [...c.getImageData(0, 0, 160, 60).data]; };
-	const seek = t => new Promise(done => { video.onseeked = done; video.currentTime = t; });
+	const seek = t => new Promise(done => { // until the picture of that time is shown: event seeked may come before, or be an earlier one's
+		const look = (_, frame) => Math.abs(frame.mediaTime - t) < 0.1 ? done() : video.requestVideoFrameCallback(look);
+		video.requestVideoFrameCallback(look); video.currentTime = t; });
 	await new Promise(done => video.readyState >= 2 ? done() : video.addEventListener("loadeddata", done));
-	await seek(0); const first = look();
+	await seek(video.duration / 8); const first = look();
 	await seek(video.duration / 2); const middle = look();
 	found.width = video.videoWidth; found.height = video.videoHeight; found.seconds = video.duration;
 	found.bright = Math.max(...first.filter((v, i) => i % 4 < 3));
@@ -75,7 +77,7 @@ def main(build):
         ("of these not the same from four tasks", sum(a != b for a, b in zip(one, four)) + abs(len(one) - len(four)), 0, one == four),
         ("the film's width in Chromium", found.get("width"), 604, found.get("width") == 604),
         ("its seconds", found.get("seconds"), 2, abs(found.get("seconds", 0) - 2) < 0.1),
-        ("change from the first picture to the middle", found.get("moved"), "above 0.2", found.get("moved", 0) > 0.2),
+        ("change from an eighth of it to the middle", found.get("moved"), "above 0.2", found.get("moved", 0) > 0.2),
         ("largest layout of the film, MB", max((work / f"{name}.webm").stat().st_size for name in LAYOUTS) / 1e6, "below 2",
          max((work / f"{name}.webm").stat().st_size for name in LAYOUTS) < 2e6),
     ]
