@@ -52,6 +52,8 @@ START_TEST(lengths_beyond_the_end)
 	memcpy(dpx + 32, GIB, 4);
 	write_file(dpx, sizeof(dpx));
 	check_refused();
+	WRITE("GIF89a\xff\xff\xff\xff\x80\0\0");
+	check_refused();
 	WRITE("\0\0\1\0\1\0\x10\x10"); /* an icon */
 	check_refused();
 	unlink(path);
@@ -71,6 +73,8 @@ START_TEST(other_files_pass)
 	WRITE(EXR_PARTS EXR_TEXT "\0" EXR_TEXT "\0\0" "a\0b\0" GIB_LITTLE);
 	ck_assert_int_eq(heads_check(path), 0);
 	WRITE("SDPX");
+	ck_assert_int_eq(heads_check(path), 0);
+	WRITE("GIF89a\0\x08\0\x08\x80\0\0"); /* 2048 x 2048 */
 	ck_assert_int_eq(heads_check(path), 0);
 	memcpy(dpx + 32, "\xff\xff\xff\xff", 4);
 	write_file(dpx, sizeof(dpx));

@@ -77,6 +77,18 @@ static int dpx_fits(FILE *file, uint64_t file_bytes, int big)
 	       fits(file, file_bytes, number(size, big));
 }
 
+/* GIF89a, sec. 18: width and height of the screen stand at 6. LZW's longest code of 12 bits stands for less than 4096 pixels. */
+static int gif_fits(FILE *file, uint64_t file_bytes)
+{
+	uint8_t size[4];
+	uint64_t pixels;
+
+	if (fseek(file, 6, SEEK_SET) || fread(size, 1, 4, file) != 4)
+		return 1;
+	pixels = (uint64_t)(size[0] | size[1] << 8) * (uint64_t)(size[2] | size[3] << 8);
+	return pixels <= 16 * LITTLE_BYTES + 4096 * file_bytes;
+}
+
 int heads_check(const char *path)
 {
 	uint8_t head[8] = { 0 };
@@ -91,6 +103,8 @@ int heads_check(const char *path)
 			good = exr_fits(file, (uint64_t)info.st_size, head[5] >> 4 & 1);
 		else if (memcmp(head, "SDPX", 4) == 0 || memcmp(head, "XPDS", 4) == 0)
 			good = dpx_fits(file, (uint64_t)info.st_size, head[0] == 'S');
+		else if (memcmp(head, "GIF8", 4) == 0)
+			good = gif_fits(file, (uint64_t)info.st_size);
 		else
 			icon = memcmp(head, "\0\0\1", 4) == 0;
 	}
