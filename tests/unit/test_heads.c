@@ -45,6 +45,10 @@ START_TEST(lengths_beyond_the_end)
 	check_refused();
 	WRITE(EXR_PARTS EXR_TEXT "\0" EXR_TEXT "second\0string\0" GIB_LITTLE "text");
 	check_refused();
+	WRITE(EXR "lines\0lineOrder\0\x02\0\0\0\0\0" EXR_TEXT "\0"); /* a byte is read, and text follows */
+	check_refused();
+	WRITE(EXR EXR_TEXT "second\0string\0\x05\0\0\0text");
+	check_refused();
 	memcpy(dpx + 32, GIB_LITTLE, 4);
 	write_file(dpx, sizeof(dpx));
 	check_refused();
@@ -68,7 +72,7 @@ START_TEST(other_files_pass)
 	ck_assert_int_eq(heads_check(path), 0);
 	WRITE(PNG PNG_SIZE "\0\0\x10\0IDATcut"); /* libpng says what is wrong */
 	ck_assert_int_eq(heads_check(path), 0);
-	WRITE(EXR EXR_TEXT "\0" GIB_LITTLE GIB_LITTLE GIB_LITTLE); /* offsets of chunks */
+	WRITE(EXR "lines\0lineOrder\0\x01\0\0\0\0" EXR_TEXT "\0" GIB_LITTLE GIB_LITTLE GIB_LITTLE); /* offsets of chunks */
 	ck_assert_int_eq(heads_check(path), 0);
 	WRITE(EXR_PARTS EXR_TEXT "\0" EXR_TEXT "\0\0" "a\0b\0" GIB_LITTLE);
 	ck_assert_int_eq(heads_check(path), 0);

@@ -15,12 +15,16 @@ static uint32_t number(const uint8_t b[4], int big)
 	             (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
 }
 
-static int fits(FILE *file, uint64_t file_bytes, uint64_t length)
+static uint64_t bytes_left(FILE *file, uint64_t file_bytes)
 {
 	const long at = ftell(file);
-	const uint64_t left = at >= 0 && (uint64_t)at < file_bytes ? file_bytes - (uint64_t)at : 0;
 
-	return length <= left + LITTLE_BYTES;
+	return at >= 0 && (uint64_t)at < file_bytes ? file_bytes - (uint64_t)at : 0;
+}
+
+static int fits(FILE *file, uint64_t file_bytes, uint64_t length)
+{
+	return length <= bytes_left(file, file_bytes) + LITTLE_BYTES;
 }
 
 /* PNG 1.2, sec. 3.2: length, type, data and checksum of each chunk. */
@@ -34,31 +38,50 @@ static int png_fits(FILE *file, uint64_t file_bytes)
 	return 1;
 }
 
-/* A text up to its NUL. @return its bytes */
-static size_t pass_text(FILE *file)
+/* A text up to its NUL; its first bytes. @return its bytes */
+static size_t take_text(FILE *file, char first[32])
 {
 	size_t n = 0;
 
-	for (int c = getc(file); c > 0; c = getc(file))
-		n++;
+	for (int c = getc(file); c > 0; c = getc(file), n++)
+		if (n < 31)
+			first[n] = (char)c;
+	first[n < 31 ? n : 31] = '\0';
 	return n;
+}
+
+/* The OpenEXR library takes values of these types without a look at their size, and goes on from there. */
+static int type_has_size(const char *type, uint32_t size)
+{
+	static const struct {
+		const char *name;
+		uint32_t bytes;
+	} fixed[] = { { "box2i", 16 }, { "box2f", 16 }, { "chromaticities", 32 }, { "compression", 1 }, { "double", 8 }, { "envmap", 1 }, { "float", 4 },
+		      { "int", 4 }, { "keycode", 28 }, { "lineOrder", 1 }, { "m33f", 36 }, { "m33d", 72 }, { "m44f", 64 }, { "m44d", 128 }, { "rational", 8 },
+		      { "tiledesc", 9 }, { "timecode", 8 }, { "v2i", 8 }, { "v2f", 8 }, { "v2d", 16 }, { "v3i", 12 }, { "v3f", 12 }, { "v3d", 24 } };
+
+	for (size_t i = 0; i < sizeof(fixed) / sizeof(fixed[0]); i++)
+		if (strcmp(type, fixed[i].name) == 0)
+			return size == fixed[i].bytes;
+	return 1;
 }
 
 /* OpenEXR file layout: after magic number and version, headers of attributes (name, type, size, value), an empty name at their end. */
 static int exr_fits(FILE *file, uint64_t file_bytes, int parts)
 {
 	uint8_t size[4];
+	char text[32];
 
 	if (fseek(file, 8, SEEK_SET))
 		return 1;
 	for (;;) {
 		int attributes = 0;
 
-		for (; pass_text(file); attributes++) {
-			pass_text(file);
+		for (; take_text(file, text); attributes++) {
+			take_text(file, text);
 			if (fread(size, 1, 4, file) != 4)
 				return 1;
-			if (!fits(file, file_bytes, number(size, 0)))
+			if (number(size, 0) > bytes_left(file, file_bytes) || !type_has_size(text, number(size, 0)))
 				return 0;
 			if (fseek(file, (long)number(size, 0), SEEK_CUR))
 				return 1;

@@ -7,7 +7,7 @@
 /**
  * Do all lengths in the head lie within the file, and can it hold so many pixels? Icons (ICO) are refused: OpenImageIO 2.4.7 writes beyond its
  * memory where one is damaged. Other formats, and what is no head of these, pass: their reader says what is wrong with them. So do files that
- * end less than a MiB early.
+ * end less than a MiB early, but for heads of OpenEXR.
  * @return 0, or ERR_INPUT (reported)
  */
 int heads_check(const char *path);
