@@ -126,7 +126,7 @@ int heads_check(const char *path)
 			good = exr_fits(file, (uint64_t)info.st_size, head[5] >> 4 & 1);
 		else if (memcmp(head, "SDPX", 4) == 0 || memcmp(head, "XPDS", 4) == 0)
 			good = dpx_fits(file, (uint64_t)info.st_size, head[0] == 'S');
-		else if (memcmp(head, "GIF8", 4) == 0)
+		else if (memcmp(head, "GIF", 3) == 0) /* giflib looks at no more */
 			good = gif_fits(file, (uint64_t)info.st_size);
 		else
 			icon = memcmp(head, "\0\0\1", 4) == 0;
