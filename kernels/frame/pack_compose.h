@@ -6,6 +6,7 @@
 
 #include "kernels/frame/compose.h"
 #include "kernels/frame/pack.h"
+#include "kernels/frame/pack_encode.h"
 #include "kernels/frame/pack_ray.h"
 
 #if defined(__has_builtin) && !defined(LANES_PORTABLE)
@@ -76,30 +77,6 @@ WIDE_VECTORS static inline packf pack_rounded(packf x)
 	const packu small = as_uint16((as_float16(size) + 0.5f) - 0.5f);
 
 	return as_float16((bits & 0x80000000u) | select(normal, small, size < 0x38800000u));
-}
-
-/* As encode_power. */
-WIDE_VECTORS static inline packf pack_power(packf x)
-{
-	const packu bits = as_uint16(x) - 0x3f3504f3u;
-	const packf m = as_float16((bits & 0x7fffffu) + 0x3f3504f3u), e = convert_float16(as_int16(bits) >> 23);
-	const packf s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
-	const packf log2m = s * (2.885390082f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * 0.412198583f)));
-	const packf up = 2.4f * (e + log2m) + 12582912.0f, whole = up - 12582912.0f;
-	const packf f = (2.4f * e - whole) + 2.4f * log2m;
-	const packf p = 1.0f + f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
-	                f * (0.0013333558f + f * 0.0001540353f)))));
-
-	return p * as_float16((as_uint16(up) - 0x4b400000u + 127u) << 23);
-}
-
-/* As encode_linear. */
-WIDE_VECTORS static inline packf pack_linear(packf display)
-{
-	const packf x = as_float16(as_uint16(display) & 0x7fffffffu), large = select((packf)(1.0e15f), x, x < 1.0e15f);
-	const packf y = select(x * 0.0773993808f, pack_power((large + 0.055f) * 0.9478672986f), x > 0.04045f);
-
-	return as_float16(as_uint16(y) | (as_uint16(display) & 0x80000000u));
 }
 
 /* As compose_nudged. */

@@ -32,6 +32,13 @@ static inline int pack_knows_paths(const struct shade_arguments *s, __global con
 	       (m->surface.hidden & SCENE_NEAR_MIRROR || !(m->surface.roughness > 0.0f));
 }
 
+/* The same where light is followed: what is matte, and shines by itself at most. */
+static inline int pack_knows_bounces(const struct shade_arguments *s, __global const struct scene_material *m)
+{
+	return pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
+	       !(m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS) && !(m->surface.reflect > 0.0f) && !(m->surface.transmit > 0.0f);
+}
+
 /* --- Where they are ------------------------------------------------------------------------------------------------ */
 
 static inline void pack_take_hit(__global const struct hit *hits, uint item, uint lane, struct pack_list *list)
@@ -257,4 +264,95 @@ static inline struct pack_vec pack_tint(const struct tables *t, const struct pac
 WIDE_VECTORS static inline struct pack_vec pack_mul(struct pack_vec a, struct pack_vec b)
 {
 	return pack_vec(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
+/* --- Ways that chance chooses ------------------------------------------------------------------------------------------ */
+
+/* As sample_hash. */
+WIDE_VECTORS static inline packu pack_hash(packu x)
+{
+	x ^= x >> 16;
+	x *= 0x7feb352du;
+	x ^= x >> 15;
+	x *= 0x846ca68bu;
+	return x ^ x >> 16;
+}
+
+/* As sample_reverse. */
+WIDE_VECTORS static inline packu pack_reverse(packu x)
+{
+	x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+	x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+	x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+	x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+	return x >> 16 | x << 16;
+}
+
+/* As sample_mix_upwards. */
+WIDE_VECTORS static inline packu pack_mix_upwards(packu x, packu seed)
+{
+	x ^= x * 0x3d20adeau;
+	x += seed;
+	x *= seed >> 16 | 1u;
+	x ^= x * 0x05526c56u;
+	return x ^ x * 0x53a22864u;
+}
+
+/* As sample_sobol. */
+WIDE_VECTORS static inline void pack_sobol(packu seed, uint index, packf *u, packf *v)
+{
+	const packu hash = pack_hash(seed), place = pack_reverse(pack_mix_upwards((packu)(sample_reverse(index)), hash));
+	packu second = place;
+
+	second ^= second >> 16;
+	second ^= (second & 0xff00ff00u) >> 8;
+	second ^= (second & 0xf0f0f0f0u) >> 4;
+	second ^= (second & 0xccccccccu) >> 2;
+	second ^= (second & 0xaaaaaaaau) >> 1;
+	*u = convert_float16(pack_reverse(pack_mix_upwards(place, pack_hash(hash ^ 0x85ebca6bu))) >> 8) * 5.9604644775390625e-8f;
+	*v = convert_float16(pack_reverse(pack_mix_upwards(second, pack_hash(hash ^ 0xc2b2ae35u))) >> 8) * 5.9604644775390625e-8f;
+}
+
+/* As sample_cosine. */
+static inline struct pack_vec pack_cosine(struct pack_vec n, packf u, packf v, uint lanes)
+{
+	const packf radius = sqrt(u), turn = 6.283185307179586f * v;
+	packf right = 0, up = 0;
+	struct pack_vec across, along;
+
+	for (uint left = lanes; left; left &= left - 1) { /* one by one: vectors of cosines have other last bits */
+		const uint lane = popcount((left & -left) - 1);
+
+		LANE(right, float, lane) = LANE(radius, const float, lane) * M_COS(LANE(turn, const float, lane));
+		LANE(up, float, lane) = LANE(radius, const float, lane) * M_SIN(LANE(turn, const float, lane));
+	}
+	pack_basis(n, &across, &along);
+	return pack_normalize(pack_add(pack_add(pack_scale(across, right), pack_scale(along, up)), pack_scale(n, sqrt(1.0f - u))));
+}
+
+/*
+ * As branch_one, of what is matte. No path is given a density: only surfaces that shine, which packs do not know, ask for it.
+ * seed: of the paths. albedo: as light
+ */
+static inline void pack_branch_scatter(const struct shade_hit_arguments *a, const struct pack_points *q, uint lanes, packu seed,
+                                       const packf *albedo, struct pack_vec weight, packu kind, struct pack_branches *b)
+{
+	const uint frame = sample_hash(a->frame);
+	const struct pack_vec n = pack_normal(&a->tables, &q->p, &q->surface), plane = q->surface.plane;
+	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, q->d) > 0.0f);
+	struct pack_vec on;
+	packf u, v, share;
+	packi goes_on;
+
+	pack_sobol((seed + SAMPLE_CHOICE) ^ frame, a->sample, &u, &v);
+	weight = pack_vec(weight.x * albedo[0], weight.y * albedo[1], weight.z * albedo[2]);
+	share = fmax(fmax(weight.x, weight.y), weight.z) / PATH_ROULETTE;
+	goes_on = ~(share < 1.0f);
+	weight = pack_choose(pack_scale(weight, 1.0f / share), weight, goes_on);
+	lanes &= pack_bits(goes_on | (v < share));
+	if (!lanes)
+		return;
+	pack_sobol((seed + SAMPLE_BOUNCE) ^ frame, a->sample, &u, &v);
+	on = pack_cosine(n, u, v, lanes);
+	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, b->medium, b);
 }

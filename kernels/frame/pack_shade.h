@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "kernels/frame/pack_encode.h"
 #include "kernels/frame/pack_light.h"
 #include "kernels/frame/pack_sample.h"
 
@@ -12,7 +13,7 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 {
 	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped && !(m->surface.hidden & SCENE_CREASED) &&
 	            (!m->fog || m->fog_mode == GL_LINEAR) &&
-	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE);
+	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE || stage_is_path(a->transport));
 
 	for (uint i = 0; i < m->unit_count && plain; i++)
 		plain = pack_knows_texture(&a->tables, &a->tables.units[m->unit_first + i]) &&
@@ -256,6 +257,80 @@ static inline struct pack_color pack_albedo(const struct tables *t, const struct
 	return pack_finish_without(t, p, texturing, &matte, &none, (packf)(1), p->material->surface.light_unit);
 }
 
+/* --- Light that is followed ------------------------------------------------------------------------------------------ */
+
+/* Whether light has a part in the colour of a material's points, whose geometries pack_knows_geometry. */
+static inline int pack_takes_light(__global const struct scene_material *m)
+{
+	return (m->lighting || m->surface.relit) && !(m->surface.hidden & SCENE_UNSHADED);
+}
+
+/* As stage_radiant_lights. */
+static inline packu pack_radiant_lights(const struct tables *t, const struct pack *p, const struct pack_surface *s)
+{
+	__global const struct scene_material *m = p->material;
+	__global const struct scene_light *light = t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
+	const uint count = m->surface.relit ? m->surface.light_count : m->light_count;
+	const struct pack_vec n = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
+	packu lights = 0;
+
+	for (uint i = 0; i < count && pack_takes_light(m); i++) {
+		struct pack_vec to_light;
+		const packf strength = pack_strength(&light[i], at, &to_light);
+
+		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
+	}
+	return lights;
+}
+
+/*
+ * As stage_radiance.
+ * from_vertices, secondary: as they are lit
+ * albedo: receives point_albedo as light, where the material takes any
+ */
+static inline struct pack_vec pack_radiance(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
+                                            const struct pack_surface *s, uint lanes, const struct pack_texturing *texturing,
+                                            const struct pack_color *from_vertices, const struct pack_color *secondary, packf *albedo)
+{
+	const struct tables *t = &a->tables;
+	__global const struct scene_material *m = p->material;
+	__global const struct scene_light *light = t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
+	const uint count = m->surface.relit ? m->surface.light_count : m->light_count;
+	const struct vec3 by_rule = stage_light(a->transport, v3_load(m->surface.emission));
+	const struct vec3 front = stage_light(a->transport, v3_load(m->front.emission)), back = stage_light(a->transport, v3_load(m->back.emission));
+	packf sum[3] = { 0.0f, 0.0f, 0.0f };
+	struct pack_vec n, at;
+	struct pack_color c;
+
+	if (!pack_takes_light(m)) {
+		c = pack_finish(t, p, texturing, from_vertices, secondary);
+		for (int k = 0; k < 3; k++)
+			sum[k] = pack_as_light(a->transport, c.c[k] + m->surface.emission[k]);
+		return pack_vec(sum[0], sum[1], sum[2]);
+	}
+	n = pack_normal(t, p, s);
+	at = pack_place_at(s, p->weight);
+	for (uint i = 0; i < count; i++) {
+		struct pack_vec to_light;
+		const packf strength = pack_strength(&light[i], at, &to_light), cosine = pack_dot(n, to_light);
+		packf share[3];
+
+		pack_seen(a, list, lanes, i, share);
+		for (int k = 0; k < 3; k++)
+			sum[k] = select(sum[k], sum[k] + pack_as_light(a->transport, light[i].diffuse[k] * strength) * cosine * share[k], cosine > 0.0f);
+	}
+	c = pack_albedo(t, list, p, lanes, texturing, from_vertices);
+	for (int k = 0; k < 3; k++)
+		albedo[k] = pack_as_light(a->transport, c.c[k]);
+	sum[0] = sum[0] * albedo[0] + by_rule.x;
+	sum[1] = sum[1] * albedo[1] + by_rule.y;
+	sum[2] = sum[2] * albedo[2] + by_rule.z;
+	if (!m->lighting)
+		return pack_vec(sum[0], sum[1], sum[2]);
+	return pack_add(pack_choose(pack_vec(front.x, front.y, front.z), pack_vec(back.x, back.y, back.z), pack_side(p)),
+	                pack_vec(sum[0], sum[1], sum[2]));
+}
+
 /* As pixel_nudge. */
 WIDE_VECTORS static inline packf pack_nudge(packf x)
 {
@@ -275,6 +350,26 @@ static inline void pack_store_relit(__global struct shaded *out, uint lane, cons
 		out->shadowed[i] = LANE(color->c[i], const float, lane);
 		out->direct[i] = out->mirrored[i] = out->beauty[i] = c;
 	}
+}
+
+/* pack_direct where light is followed. from_vertices, secondary: as they are lit */
+static inline struct pack_color pack_direct_light(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                                  const struct pack_texturing *texturing, const struct pack_color *from_vertices,
+                                                  const struct pack_color *secondary, packu *lights)
+{
+	struct pack_surface s;
+	struct pack_color out;
+	struct pack_vec sum;
+	packf albedo[3];
+
+	pack_surface(&a->tables, p, &s);
+	*lights = pack_radiant_lights(&a->tables, p, &s);
+	sum = pack_radiance(a, list, p, &s, lanes, texturing, from_vertices, secondary, albedo);
+	out.c[0] = pack_as_number(a->transport, sum.x);
+	out.c[1] = pack_as_number(a->transport, sum.y);
+	out.c[2] = pack_as_number(a->transport, sum.z);
+	out.c[3] = 0.0f;
+	return out;
 }
 
 /*
@@ -330,7 +425,8 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	for (int i = 0; i < 3; i++)
 		color.c[i] = pack_nudge(color.c[i]);
 	lights = pack_lights(t, &p);
-	direct = pack_direct(a, list, &p, lanes, &texturing, &color, &lights);
+	direct = stage_is_path(a->transport) ? pack_direct_light(a, list, &p, lanes, &texturing, &from_vertices, &secondary, &lights) :
+	                                       pack_direct(a, list, &p, lanes, &texturing, &color, &lights);
 	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 

@@ -23,7 +23,8 @@ static inline void find_hits(const struct shade_arguments *s, __global const str
 		if (instance == SCENE_NONE)
 			continue;
 		if (g->material != last)
-			known = pack_knows_paths(s, &s->tables.materials[g->material]);
+			known = stage_is_path(s->transport) ? pack_knows_bounces(s, &s->tables.materials[g->material]) :
+			                                      pack_knows_paths(s, &s->tables.materials[g->material]);
 		last = left->material[i] = g->material;
 		if (known && pack_knows_geometry(g))
 			left->packed |= (ulong)1 << i;
@@ -69,6 +70,8 @@ static inline packu lights_at(const struct hit_ray_arguments *a, const struct pa
 	const struct shade_arguments s = { .tables = a->tables };
 	struct pack_lit_here here;
 
+	if (stage_is_path(a->transport))
+		return pack_radiant_lights(&a->tables, &q->p, &q->surface);
 	if (!q->p.material->surface.relit)
 		return pack_lights(&a->tables, &q->p);
 	pack_lit_here(&s, &q->list, &q->p, &q->surface, q->lanes, &here);
@@ -190,6 +193,17 @@ static inline struct pack_vec color_of(const struct shade_arguments *s, const st
 	return pack_vec(color.c[0], color.c[1], color.c[2]);
 }
 
+static inline void store_hits(const struct shade_hit_arguments *a, const struct pack_points *q, const struct pack_vec *out, const struct way *way)
+{
+	for (uint left = q->lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1), item = q->list.item[lane];
+
+		v3_store(a->radiance + item * 3,
+		         v3(LANE(out->x, const float, lane), LANE(out->y, const float, lane), LANE(out->z, const float, lane)));
+		a->counts[item] = way->branches.count[lane];
+	}
+}
+
 static inline void shade_hits(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,
                               __global const struct scene_material *m, struct pack_kept *kept)
 {
@@ -219,12 +233,45 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 		pack_branch_through(&a->tables, q, on, q->d, &split,
 		                    pack_mul(pack_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)), way.kind,
 		                    &way.branches);
-	for (uint left = q->lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1), item = q->list.item[lane];
+	store_hits(a, q, &out, &way);
+}
 
-		v3_store(a->radiance + item * 3, v3(LANE(out.x, float, lane), LANE(out.y, float, lane), LANE(out.z, float, lane)));
-		a->counts[item] = way.branches.count[lane];
+/* As hit_bound. kind: the paths' own */
+static inline struct pack_vec bound(const struct shade_hit_arguments *a, const struct way *way, packu kind, struct pack_vec light)
+{
+	const packf most = fmax(fmax(light.x, light.y), light.z);
+	const packi bounced = (way->branches.depth > 1) | ((way->branches.depth == 1) & (kind == PATH_DIFFUSE));
+
+	return a->most > 0.0f ? pack_choose(light, pack_scale(light, a->most / most), bounced & (most > a->most)) : light;
+}
+
+/* The same where light is followed. */
+static inline void shade_bounces(const struct shade_hit_arguments *a, const struct shade_arguments *s, struct pack_points *q,
+                                 __global const struct scene_material *m)
+{
+	struct pack_texturing texturing;
+	struct pack_color lit, secondary;
+	packf albedo[3] = { 0.0f, 0.0f, 0.0f };
+	packu pixel = 0, kind = 0;
+	struct pack_vec out;
+	struct way way;
+	uint on;
+
+	pack_place_hits(&a->tables, a->rays, m, q);
+	load_paths(a, q, &way);
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		LANE(pixel, uint, lane) = a->pixels[LANE(way.branches.target, uint, lane)];
+		LANE(kind, uint, lane) = a->paths[q->list.item[lane]].kind;
 	}
+	pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);
+	pack_lit_from_vertices(&a->tables, &q->p, &lit, &secondary);
+	out = pack_radiance(s, &q->list, &q->p, &q->surface, q->lanes, &texturing, &lit, &secondary, albedo);
+	absorb(&a->tables, q, &way);
+	out = bound(a, &way, kind, pack_mul(way.weight, out));
+	on = pack_takes_light(m) ? q->lanes & pack_bits(way.branches.depth < a->depth) : 0;
+	if (on)
+		pack_branch_scatter(a, q, on, pack_hash(pack_hash(pixel) + way.branches.depth * 4 + kind), albedo, way.weight, way.kind, &way.branches);
+	store_hits(a, q, &out, &way);
 }
 
 KERNEL_OF(float16) void shade_hit_packet(KERNEL_ARGUMENTS(shade_hit))
@@ -244,11 +291,15 @@ KERNEL_OF(float16) void shade_hit_packet(KERNEL_ARGUMENTS(shade_hit))
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept.lit[i].instance = SCENE_NONE;
 	find_hits(&s, hits, first, n, &left);
+	if (stage_is_path(transport) && a.emission.n_emitters)
+		left.packed = 0;
 	while (left.all) {
 		q.lanes = pack_next(&left, item);
 		for (uint lane = 0; lane < PACK_SIZE && q.lanes; lane++)
 			pack_take_hit(hits, item[lane], lane, &q.list);
-		if (q.lanes)
+		if (q.lanes && stage_is_path(transport))
+			shade_bounces(&a, &s, &q, &a.tables.materials[left.material[item[0] - first]]);
+		else if (q.lanes)
 			shade_hits(&a, &s, &q, &a.tables.materials[left.material[item[0] - first]], &kept);
 		else
 			shade_hit_item(&a, item[0]);
