@@ -40,6 +40,7 @@ static const struct verb {
 	{ "approve", approve_main, "make traced frames the baseline that later ones are compared with" },
 	{ "farm", farm_main, "render on many machines, by array jobs of Slurm or by scripts" },
 	{ "devices", devices_main, "list the OpenCL devices" },
+	{ "hook", hook_main, "try functions of your own for stages of the ray tracer" },
 	{ "query", query_main, "ask what rays hit, how far surfaces are, what moving bodies meet" },
 	{ "bench", bench_main, "measure the tracer's kernels" },
 };

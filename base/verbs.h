@@ -19,6 +19,7 @@ int bisect_main(int argc, char **argv);  /* bisect/bisect.c */
 int export_main(int argc, char **argv);  /* replay/verbs/export.c */
 int look_main(int argc, char **argv);    /* render/look.c */
 int render_main(int argc, char **argv);  /* render/render.c */
+int hook_main(int argc, char **argv);    /* render/hook.c */
 int query_main(int argc, char **argv);  /* query/query.c */
 int farm_main(int argc, char **argv);    /* farm/farm.c */
 int devices_main(int argc, char **argv); /* render/devices.c */

@@ -14,7 +14,7 @@
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
 	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
-	X(query_point) X(query_nearest) X(query_body) X(query_contact)
+	X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -301,6 +301,41 @@ typedef float element_float;
 	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
 
+/* Hooks: kernels/frame/hook.h. */
+#define ARGUMENTS_hook_ray(IN, OUT, VALUE, GROUP, AND) \
+	IN(view, views) AND() VALUE(uint, view_index) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() \
+	VALUE(camera_rectangle, rectangle) AND() /* counted from the band's first row */ \
+	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
+	VALUE(uint, turn) AND()             /* which pixels the pass has (sample_takes_part) */ \
+	VALUE(uint, sample) AND() VALUE(uint, frame_number) AND() \
+	IN(float, parameters) AND() VALUE(uint, row) AND() /* where the frame's own parameters start */ \
+	VALUE(uint, n) AND() \
+	OUT(uint, pixels) AND() OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+#define ARGUMENTS_hook_see(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(path, paths) AND() IN(uint, pixels) AND() VALUE(uint, first_pixel) AND() \
+	VALUE(uint, n) AND() \
+	OUT(frame_pixel, frame)             /* read as well */
+#define ARGUMENTS_hook_store(IN, OUT, VALUE, GROUP, AND) \
+	IN(shaded, shaded) AND() IN(uint, pixels) AND() VALUE(uint, first_pixel) AND() VALUE(uint, n) AND() \
+	OUT(frame_pixel, frame)             /* read as well */
+#define ARGUMENTS_hook_shade(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(float, visibility) AND() VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() /* a row for each material */ \
+	VALUE(uint, n) AND() \
+	OUT(shaded, shaded) AND()           /* read as well */ \
+	OUT(hook_answer, answers)
+#define ARGUMENTS_hook_ways(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(hook_answer, answers) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
+	OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+#define ARGUMENTS_hook_hit(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(float, visibility) AND() \
+	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, depth) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() VALUE(uint, n) AND() \
+	OUT(float, radiance) AND()          /* [3] a path; read as well */ \
+	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+
 /* Prefix sums: kernels/frame/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, counts) AND() VALUE(uint, count_first) AND() VALUE(uint, n) AND() OUT(uint, sums) AND() \
@@ -318,7 +353,8 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose)
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -426,7 +462,13 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
-	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */
+	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
+	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \
+	X(hook_see, hook_see)           /* one such ray a work item: what it hit is the pixel's surface */ \
+	X(hook_store, hook_store)       /* one pixel a work item: what its rays found */ \
+	X(hook_shade, hook_shade)       /* one fragment a work item: its colour by a hook */ \
+	X(hook_ways, hook_ways)         /* the same: its rays */ \
+	X(hook_hit, hook_hit)           /* one path a work item: the light it found and its rays by a hook */
 
 enum kernel {
 #define KERNEL_ENUM(name, list) KERNEL_##name,

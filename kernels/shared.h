@@ -319,6 +319,13 @@ struct query_contact {
 };
 SHARED_SIZE(struct query_contact, 8);
 
+/* What a hook said of a fragment: kernels/frame/hook.h. */
+struct hook_answer {
+	float color[3], direction[3], weight[3]; /* direction, weight: of the ray that goes on */
+	uint32_t what;                           /* bits: RELUME_* */
+};
+SHARED_SIZE(struct hook_answer, 40);
+
 /* A triangle that shines, in a list of all in its space. */
 struct emitter {
 	float end;               /* share of the list's light that is its or comes before: rises to 1 */

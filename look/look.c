@@ -428,6 +428,30 @@ static int smooth_instance(const struct applying *a, uint32_t i, struct scene_ma
 	return 0;
 }
 
+static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
+{
+	struct scene_parameter *to = (struct scene_parameter *)out->parameters + out->n_parameters;
+
+	for (uint32_t i = 0; i < n; i++, out->n_parameters++, to++) {
+		*to = (struct scene_parameter){ .name = list[i].name, .count = list[i].value_count };
+		memcpy(to->value, list[i].value, list[i].value_count * sizeof(*to->value));
+	}
+}
+
+/* What rules say to hooks about an instance. */
+static void list_parameters(const struct applying *a, const struct scene_instance *in, struct scene_surface *s)
+{
+	const uint32_t first = a->out->n_parameters;
+
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+		if (a->rules->surfaces[k].parameters_count && applies(a, in, k))
+			add_parameters(a->out, a->rules->surfaces[k].parameters, a->rules->surfaces[k].parameters_count);
+	if (a->out->n_parameters > first) {
+		s->parameter_first = first;
+		s->parameter_count = a->out->n_parameters - first;
+	}
+}
+
 /* Change the surface of one instance: it gets a material of its own, where anything changes. */
 static int change_instance(const struct applying *a, uint32_t i)
 {
@@ -454,6 +478,7 @@ static int change_instance(const struct applying *a, uint32_t i)
 		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
 	err = smooth_instance(a, i, m);
+	list_parameters(a, in, &m->surface);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit || m->surface.hidden & SCENE_CREASED : m->surface.relit && a->lights_change & 1;
 	if (m->surface.hidden & SCENE_UNSHADED) {
 		m->surface.hidden &= ~SCENE_DOME_LIT;
@@ -485,18 +510,24 @@ static int copy_scene(struct applying *a)
 {
 	const struct scene *scene = a->scene;
 	struct scene *out = a->out;
-	size_t n = scene->n_instances;
+	size_t n = scene->n_instances, parameters = 0;
 
 	*out = *scene;
+	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+		parameters += a->rules->surfaces[k].parameters_count * n;
+	out->parameters = malloc((a->rules->parameters_count + parameters + 1) * sizeof(*out->parameters));
 	out->instances = malloc((n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
 	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
 	out->meshes = malloc((scene->n_meshes + n + 1) * sizeof(*out->meshes));
-	if (!out->instances || !out->materials || !out->lights || !out->meshes) {
+	if (!out->instances || !out->materials || !out->lights || !out->meshes || !out->parameters) {
 		out->n_meshes = 0;
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
+	out->n_parameters = 0;
+	add_parameters(out, a->rules->parameters, a->rules->parameters_count);
+	out->n_shared_parameters = out->n_parameters;
 	if (n)
 		memcpy(out->instances, scene->instances, n * sizeof(*out->instances));
 	if (scene->n_materials)
@@ -586,6 +617,7 @@ void look_release(struct scene *changed)
 	free(changed->instances);
 	free(changed->materials);
 	free(changed->lights);
+	free((void *)changed->parameters);
 	memset(changed, 0, sizeof(*changed));
 }
 

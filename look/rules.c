@@ -40,6 +40,15 @@ static const cyaml_schema_field_t match_fields[] = {
 	CYAML_FIELD_FLOAT_PTR("confidence", OPTIONAL_POINTER, type, reason.confidence), \
 	CYAML_FIELD_SEQUENCE_FIXED("plane", OPTIONAL_POINTER, type, reason.plane, &number, 4)
 
+static const cyaml_schema_field_t parameter_fields[] = {
+	CYAML_FIELD_STRING_PTR("name", CYAML_FLAG_POINTER, struct parameter_rule, name, 1, 47),
+	CYAML_FIELD_SEQUENCE("value", CYAML_FLAG_POINTER, struct parameter_rule, value, &number, 1, 4), CYAML_FIELD_END
+};
+
+static const cyaml_schema_value_t parameter_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct parameter_rule, parameter_fields) };
+
+#define PARAMETERS(type) CYAML_FIELD_SEQUENCE("parameters", OPTIONAL_POINTER, type, parameters, &parameter_schema, 0, CYAML_UNLIMITED)
+
 static const cyaml_schema_field_t surface_fields[] = {
 	REASON(struct surface_rule),
 	CYAML_FIELD_MAPPING_PTR("match", OPTIONAL_POINTER, struct surface_rule, match, match_fields),
@@ -50,7 +59,8 @@ static const cyaml_schema_field_t surface_fields[] = {
 	TEXT(struct surface_rule, passes),
 	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
 	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), COUNT(struct surface_rule, shadow_unit),
-	TRUTH(struct surface_rule, solid), TRUTH(struct surface_rule, vertex_light), CYAML_FIELD_END
+	TRUTH(struct surface_rule, solid), TRUTH(struct surface_rule, vertex_light),
+	PARAMETERS(struct surface_rule), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t spot_fields[] = {
@@ -99,7 +109,7 @@ static const cyaml_schema_field_t rules_fields[] = {
 	CYAML_FIELD_SEQUENCE("unseen", OPTIONAL_POINTER, struct rules, unseen, &unseen_schema, 0, CYAML_UNLIMITED),
 	CYAML_FIELD_MAPPING_PTR("sky", OPTIONAL_POINTER, struct rules, sky, sky_fields),
 	CYAML_FIELD_MAPPING_PTR("gloss", OPTIONAL_POINTER, struct rules, gloss, gloss_fields),
-	TRUTH(struct rules, spare), TRUTH(struct rules, replace),
+	TRUTH(struct rules, spare), TRUTH(struct rules, replace), PARAMETERS(struct rules),
 	CYAML_FIELD_END
 };
 

@@ -43,6 +43,8 @@
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
  *                                    # frames with a `solid` mirror, if rules have one
+ *         parameters:                # of a hook (hooks/README.md), for these surfaces
+ *           - { name: tint, value: [1, 0, 0] }
  *         solid: yes                 # a mirror that is blended over its picture: the traced one is not
  *     world:                         # meshes that stand still, and where: 16 numbers, column by column. A frame that draws
  *       - mesh: 90c2                 # enough of them shows where the viewer is
@@ -72,6 +74,9 @@
  *       unlit: no                  # default yes: what OpenGL does not light takes it
  *
  *     gloss: { share: 1 }            # what is lit with highlights mirrors what is near (look/gloss.h): so much of it; default 0
+ *
+ *     parameters:                    # of a hook, for all surfaces and for rays that meet none
+ *       - { name: bands, value: [4] }
  *
  *     spare: no                      # default yes: what a closed room, a backdrop or crossed cards would shut off from light is
  *                                    # lit as OpenGL lights it (look/spare.h), and what covers the window as
@@ -107,6 +112,12 @@ struct rule_reason {
 	const float *confidence, *plane;
 };
 
+struct parameter_rule {
+	const char *name;
+	const float *value;
+	uint32_t value_count;
+};
+
 struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
@@ -114,6 +125,8 @@ struct surface_rule {
 	const uint32_t *lightmap, *shadow_unit;
 	const bool *shadows, *mirrors, *near, *shaded, *lit, *dome, *left_out, *solid, *vertex_light;
 	const char *passes;
+	struct parameter_rule *parameters;
+	uint32_t parameters_count;
 };
 
 struct spot {
@@ -161,6 +174,8 @@ struct rules {
 	struct gloss_rule *gloss;
 	const bool *spare;
 	const bool *replace;
+	struct parameter_rule *parameters;
+	uint32_t parameters_count;
 	uint32_t surfaces_count, lights_count, world_count, unseen_count; /* libcyaml wants these names */
 };
 

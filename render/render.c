@@ -140,7 +140,7 @@ static int prepare_device(const struct settings *s, struct device *dev)
 		device_keep_programs(dev, s->cache, 0);
 	else if (!s->no_cache && folder_cached("kernels", folder, sizeof(folder)))
 		device_keep_programs(dev, folder, 0);
-	return err;
+	return err ? err : device_take_hook(dev, s->hook);
 }
 
 /* How display pictures came out. */

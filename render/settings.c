@@ -103,6 +103,15 @@ static int take_look(const struct options_row *row, const char *value, void *out
 	return s->look_auto ? 0 : rules_load(value, look);
 }
 
+static int take_hook(const struct options_row *row, const char *value, void *out)
+{
+	struct settings *s = out;
+
+	(void)row;
+	hook_free(&s->hook);
+	return hook_load(value, &s->hook);
+}
+
 static int take_accel(const struct options_row *row, const char *value, void *out)
 {
 	struct tracer_options *tracer = out;
@@ -175,6 +184,9 @@ static const struct options_row rows[] = {
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), lights added, moved, off or with a "
 	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras; modes whitted and path), closest_hit, "
+	  "miss (modes whitted, diffuse and path). 'relume hook --check' tries them; hooks/README.md explains them", take_hook, .at = 0,
+	  .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
@@ -302,6 +314,18 @@ static int check_preview(const struct settings *s)
 	return 0;
 }
 
+/* Whether the mode has the hook's stages. */
+static int check_hook(struct settings *s)
+{
+	const enum tracer_mode mode = s->tracer.mode;
+
+	s->tracer.hook = s->hook;
+	if (!s->hook || mode == TRACER_WHITTED || mode == TRACER_PATH || (mode == TRACER_DIFFUSE && !(s->hook->stages & HOOK_RAY_GENERATION)))
+		return 0;
+	return err_report(ERR_USAGE, NULL, "--hook: mode %s has no stage for %s", settings_mode_names[mode],
+	                  mode == TRACER_DIFFUSE ? "ray_generation" : "hooks");
+}
+
 /* What kind of file is asked for, and whether the other options are for it. */
 static int choose_kind(struct settings *s)
 {
@@ -342,6 +366,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (!s->tracer.samples && (s->tracer.noise > 0 || s->tracer.seconds > 0))
 		s->tracer.samples = MOST_SAMPLES;
 	err = choose_kind(s);
+	if (!err)
+		err = check_hook(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
 	if (!err)
@@ -357,5 +383,6 @@ void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
 	rules_free(&s->look);
+	hook_free(&s->hook);
 	free(s->aov);
 }

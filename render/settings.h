@@ -25,6 +25,7 @@ struct settings {
 	int no_cache;
 	uint64_t cache_bytes;   /* what it may hold; 0: BLAS_STORE_BYTES */
 	struct look *look;
+	struct hook *hook;      /* owned; NULL: none */
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */

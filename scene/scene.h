@@ -79,6 +79,7 @@ struct scene_surface {
 	/* 1: beside GL's picture, which stays, the surface is lit at each pixel by scene.lights[light_first .. +light_count)
 	   instead of GL's own; what GL does not light is then matte, of the colour it shows */
 	uint32_t relit, light_first, light_count;
+	uint32_t parameter_first, parameter_count; /* of hooks: scene.parameters[parameter_first .. +parameter_count), the last one last */
 	uint32_t light_unit; /* of what is relit: 1 + the texture unit that holds light, and is no part of its colour; SCENE_LIGHT_IN_COLORS; 0: none */
 };
 
@@ -315,6 +316,13 @@ struct scene_picture {
 	struct scene_picture *samples;
 };
 
+/* A parameter of a user's hook, as rules set it. */
+struct scene_parameter {
+	const char *name;
+	float value[4];
+	uint32_t count; /* of values */
+};
+
 struct scene {
 	uint64_t frame;         /* number in the trace, from 0 */
 	uint64_t serial;        /* different for each scene of a replay; one that grows keeps it */
@@ -343,6 +351,8 @@ struct scene {
 		n_textures;
 	uint32_t n_primitives; /* in all instances */
 	struct scene_dome dome;
+	const struct scene_parameter *parameters; /* [n_parameters], the rules'; those of all surfaces come first */
+	uint32_t n_parameters, n_shared_parameters;
 	uint32_t kd_tree; /* 1: of what drew here, some program has called rtBuildKdTreeEXT before */
 	uint32_t n_draws;
 	uint64_t time_ns; /* when the program ended the frame, by a clock that never runs backwards; 0: the recording does not tell */

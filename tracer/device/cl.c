@@ -29,6 +29,7 @@ struct cl_common {
 	cl_context context;
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
 	struct cl_keeping keeping;
+	const struct hook *hook; /* or NULL */
 	int said; /* cl_report */
 	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
 };
@@ -428,7 +429,14 @@ int cl_finish(struct cl_device *dev)
 
 static int build_program(struct cl_common *c, size_t file)
 {
-	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, &c->keeping, &c->said, &c->programs[file]);
+	return c->programs[file] ? 0 : cl_program_make(c->context, c->id, file, c->hook, &c->keeping, &c->said, &c->programs[file]);
+}
+
+void cl_take_hook(struct cl_device *dev, const struct hook *hook)
+{
+	pthread_mutex_lock(&dev->common->lock);
+	dev->common->hook = hook;
+	pthread_mutex_unlock(&dev->common->lock);
 }
 
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always)

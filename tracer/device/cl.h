@@ -28,6 +28,7 @@ int cl_share(struct cl_device *dev, struct cl_device **out);
 void cl_choose_family(struct cl_device *dev, enum device_family family);
 
 /* As device_keep_programs and device_programs_found. */
+void cl_take_hook(struct cl_device *dev, const struct hook *hook);
 void cl_keep_programs(struct cl_device *dev, const char *folder, int always);
 unsigned cl_programs_found(struct cl_device *dev);
 

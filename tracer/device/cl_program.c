@@ -12,6 +12,7 @@
 #include "base/kept.h"
 #include "kernels/embed.h"
 #include "tracer/device/cl_error.h"
+#include "tracer/hook/hook.h"
 
 /* In front of every program. The C twins are compiled without contraction too, so that both decide the same. */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n";
@@ -29,6 +30,19 @@ static const char *options_for(cl_device_id device)
 	clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof(rounding), &rounding, NULL);
 	return !(type & CL_DEVICE_TYPE_CPU) && rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
 		       ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt" : "-cl-std=CL1.2";
+}
+
+/* What stands around a file's text: of those that call hooks, the hook's own. */
+struct around {
+	const char *before, *after;
+	const char *name; /* that messages blame */
+};
+
+static struct around around_of(const struct kernel_file *kernels, const struct hook *hook)
+{
+	if (!hook || strcmp(kernels->name, "kernels/frame/hook.cl") != 0)
+		return (struct around){ "", "", kernels->name };
+	return (struct around){ hook->declarations, hook->text, hook->path };
 }
 
 /* --- Keeping ------------------------------------------------------------------------------------------------------- */
@@ -68,7 +82,7 @@ static void mix(uint64_t key[2], const void *bytes, size_t n)
 }
 
 /* All that a compiled program depends on; and a name for the device, so that a new text or driver takes the old file's place. */
-static void name_program(cl_device_id device, const struct kernel_file *kernels, const struct cl_keeping *keeping,
+static void name_program(cl_device_id device, const struct kernel_file *kernels, struct around around, const struct cl_keeping *keeping,
                          char path[PATH_MAX], uint64_t key[2])
 {
 	static const cl_device_info of_device[] = { CL_DEVICE_NAME, CL_DEVICE_VENDOR, CL_DEVICE_VERSION, CL_DRIVER_VERSION };
@@ -81,6 +95,11 @@ static void name_program(cl_device_id device, const struct kernel_file *kernels,
 	key[0] = key[1] = PROGRAM_VERSION;
 	mix(key, prelude, sizeof(prelude));
 	mix(key, kernels->text, strlen(kernels->text) + 1);
+	if (*around.after) {
+		mix(key, around.before, strlen(around.before) + 1);
+		mix(key, around.after, strlen(around.after) + 1);
+		name = XXH3_64bits_withSeed(around.after, strlen(around.after), name);
+	}
 	mix(key, options, strlen(options) + 1);
 	for (size_t i = 0; i < sizeof(of_platform) / sizeof(of_platform[0]); i++) {
 		platform_text(device, of_platform[i], text, sizeof(text));
@@ -137,7 +156,8 @@ static void leave_program(cl_program program, const char *path, const uint64_t k
 
 /* --- Building ------------------------------------------------------------------------------------------------------ */
 
-static void report_build_log(cl_program program, cl_device_id device, const char *name)
+/* is_hook: it is a user's text that fails. @return ERR_INPUT or ERR_SYSTEM */
+static int report_build_log(cl_program program, cl_device_id device, const char *name, int is_hook)
 {
 	size_t bytes = 0;
 	char *log;
@@ -147,7 +167,7 @@ static void report_build_log(cl_program program, cl_device_id device, const char
 	if (log && clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) == CL_SUCCESS)
 		fprintf(stderr, "%s\n", log);
 	free(log);
-	err_report(ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
+	return err_report(is_hook ? ERR_INPUT : ERR_SYSTEM, name, "the device's compiler refuses this file; its words are above");
 }
 
 /* A compilation that somebody waits for. */
@@ -192,24 +212,26 @@ static cl_int compile(cl_program program, cl_device_id device, const char *name)
 	return code;
 }
 
-static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, int *said, cl_program *out)
+static int build_program(cl_context context, cl_device_id device, const struct kernel_file *kernels, struct around around, int *said,
+                         cl_program *out)
 {
-	const char *texts[] = { prelude, kernels->text };
+	const char *texts[] = { prelude, around.before, kernels->text, around.after };
 	cl_int code;
+	int err;
 
-	*out = clCreateProgramWithSource(context, 2, texts, NULL, &code);
+	*out = clCreateProgramWithSource(context, *around.after ? 4 : 3, texts, NULL, &code);
 	if (!*out)
 		return cl_report(said, code, kernels->name);
 	code = compile(*out, device, kernels->name);
 	if (code == CL_SUCCESS)
 		return 0;
 	if (code == CL_BUILD_PROGRAM_FAILURE)
-		report_build_log(*out, device, kernels->name);
+		err = report_build_log(*out, device, around.name, *around.after != '\0');
 	else
-		cl_report(said, code, kernels->name);
+		err = cl_report(said, code, around.name);
 	clReleaseProgram(*out);
 	*out = NULL;
-	return ERR_SYSTEM;
+	return err;
 }
 
 size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum device_family family, const char *kernel)
@@ -232,23 +254,25 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 	return file;
 }
 
-int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, int *said, cl_program *out)
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping, int *said,
+                    cl_program *out)
 {
 	const struct kernel_file *kernels = &kernel_files[file];
+	const struct around around = around_of(kernels, hook);
 	char path[PATH_MAX];
 	uint64_t key[2];
 	int err;
 
 	*out = NULL;
 	if (keeping->folder[0]) {
-		name_program(device, kernels, keeping, path, key);
+		name_program(device, kernels, around, keeping, path, key);
 		*out = find_program(context, device, path, key);
 	}
 	if (*out) {
 		keeping->found++;
 		return 0;
 	}
-	err = build_program(context, device, kernels, said, out);
+	err = build_program(context, device, kernels, around, said, out);
 	if (!err && keeping->folder[0])
 		leave_program(*out, path, key, keeping);
 	return err;

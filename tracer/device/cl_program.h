@@ -33,9 +33,11 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 /**
  * Make the program of one file of kernels.
  * @param file     in kernel_files (kernels/embed.h)
+ * @param hook     whose text the kernels that call hooks need, or NULL
  * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
  * @param said     as for cl_report
  * @param out      to be released by the caller
- * @return 0 or ERR_SYSTEM (reported, after the compiler's own words)
+ * @return 0, ERR_INPUT where it is the hook that does not compile, or ERR_SYSTEM (reported, after the compiler's own words)
  */
-int cl_program_make(cl_context context, cl_device_id device, size_t file, struct cl_keeping *keeping, int *said, cl_program *out);
+int cl_program_make(cl_context context, cl_device_id device, size_t file, const struct hook *hook, struct cl_keeping *keeping, int *said,
+                    cl_program *out);

@@ -266,6 +266,16 @@ void device_keep_programs(struct device *dev, const char *folder, int always)
 		cl_keep_programs(dev->cl, folder, always);
 }
 
+int device_take_hook(struct device *dev, const struct hook *hook)
+{
+	if (!hook)
+		return 0;
+	if (!dev->cl)
+		return err_report(ERR_USAGE, NULL, "the reference device compiles no hooks; choose an OpenCL device");
+	cl_take_hook(dev->cl, hook);
+	return 0;
+}
+
 unsigned device_programs_found(const struct device *dev)
 {
 	return dev->cl ? cl_programs_found(dev->cl) : 0;

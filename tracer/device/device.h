@@ -119,6 +119,15 @@ extern const char *const device_family_names[N_DEVICE_FAMILIES + 1]; /* ended by
  */
 void device_keep_programs(struct device *dev, const char *folder, int always);
 
+struct hook;
+
+/**
+ * Take a hook's text into the kernels that call it; before the device's first kernel runs.
+ * @param hook  kept until device_close of it and all shared from it; NULL: none
+ * @return 0 or ERR_USAGE (reported: the reference device compiles none)
+ */
+int device_take_hook(struct device *dev, const struct hook *hook);
+
 /** How many programs came from there, for this device and all that were shared from it. */
 unsigned device_programs_found(const struct device *dev);
 

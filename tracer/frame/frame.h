@@ -22,7 +22,7 @@
 #define FRAME_WHOLE_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
 	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters)
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters) X(float, parameters)
 #define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
 	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
@@ -30,7 +30,7 @@
 	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
 	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
 	X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
-	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(half, halves) X(float, floats)
+	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(half, halves) X(float, floats) X(hook_answer, answers)
 
 struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;

@@ -31,7 +31,7 @@ int plain_suits(const struct job *job)
 	const struct segment *segment = p->segments;
 	struct scene_clear clear;
 
-	if (device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
+	if (job->options->hook || device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
 	    job->scene->start || job->scene->needs_previous || job->scene->n_programs || !is_lit_simply(job))
 		return 0;
 	if (dome_is_there(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||

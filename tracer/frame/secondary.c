@@ -1,6 +1,7 @@
 #include "tracer/frame/secondary.h"
 
 #include "tracer/frame/emitters.h"
+#include "tracer/frame/hooks.h"
 #include "tracer/frame/scan.h"
 
 /* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
@@ -359,32 +360,32 @@ static int shade_hits(struct job *job, const struct list *list, const struct acc
 	return device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
 }
 
-int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct list list = path_list(job);
-	uint32_t transport = secondary_transport(job->options);
+	const uint32_t transport = secondary_transport(job->options);
 	int err = frame_upload(tr, background, job->background, 4);
 
 	if (!err)
 		err = frame_reserve(tr, visibility, 3);
 	if (!err)
-		err = ask_emitters(job, space, n);
-	if (!err)
-		err = leave(job, &list, space, transport, n);
-	if (!err)
-		err = gather_list(job, &list, PATHS_PER_FRAGMENT, &n);
+		err = gather_list(job, &list, slots, &n);
 	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
 		err = frame_reserve(tr, path_hits, n);
 		if (!err)
 			err = intersect(job, space, *list.rays, b->path_hits, n);
+		if (!err && i == 0 && see)
+			err = hooks_see(job, n);
 		if (!err)
 			err = look_at_sky(job, sky, n);
 		if (!err && (job->prepared.n_light_slots || emitters_of(job, space).n_emitters))
 			err = trace_hit_shadows(job, space, transport, n);
 		if (!err)
 			err = shade_hits(job, &list, space, sky != NULL, transport, n);
+		if (!err && hooks_has(job, HOOK_CLOSEST_HIT | HOOK_MISS))
+			err = hooks_hit(job, transport, n);
 		if (!err)
 			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .transport = transport, .n = n,
 			                                       .shaded = b->shaded));
@@ -392,4 +393,18 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 			err = gather_list(job, &list, PATHS_PER_HIT, &n);
 	}
 	return err;
+}
+
+int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+{
+	const struct list list = path_list(job);
+	int err = frame_reserve(job->tr, visibility, 3);
+
+	if (!err)
+		err = ask_emitters(job, space, n);
+	if (!err)
+		err = leave(job, &list, space, secondary_transport(job->options), n);
+	if (!err && hooks_has(job, HOOK_CLOSEST_HIT))
+		err = hooks_ways(job, secondary_transport(job->options), n);
+	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
 }

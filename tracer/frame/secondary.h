@@ -23,3 +23,10 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 
 /** Follow the mirrored, bent and scattered rays of all n fragments, bounce by bounce, into their parts. */
 int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
+
+/**
+ * Follow paths: the next rays of n items, up to `slots` each (buffers.next_path_rays, next_paths and next_counts), bounce by bounce into the
+ * parts of the fragments that they come from.
+ * @param see  1: what the first of them hit is what their pixels show (hooks_see)
+ */
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see);

@@ -7,6 +7,7 @@
 #include "kernels/gl/pixel.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/dome.h"
+#include "tracer/frame/hooks.h"
 #include "tracer/frame/secondary.h"
 
 struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4])
@@ -109,7 +110,7 @@ int segment_clear_one(struct job *job)
 	                                                        .frame = job->tr->buffers.cleared));
 }
 
-/* Whether all pixels begin alike, are drawn to by resolve_packet alone, and go into one picture. n_cleared: clears of all of them */
+/* Whether all pixels begin alike, are drawn to by resolve_packet alone (not by a hook's rays), and go into one picture. n_cleared: clears of all of them */
 static int clears_late(const struct job *job, uint32_t n_cleared)
 {
 	uint32_t n = 0;
@@ -117,7 +118,8 @@ static int clears_late(const struct job *job, uint32_t n_cleared)
 	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
 		n += job->prepared.segments[i].clear_count;
 	return device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
-	       secondary_transport(job->options) != TRANSPORT_LINEAR && n == n_cleared;
+	       secondary_transport(job->options) != TRANSPORT_LINEAR && n == n_cleared &&
+	       !hooks_has(job, HOOK_RAY_GENERATION);
 }
 
 int segment_say_drawn(struct job *job, int drawn)
@@ -263,7 +265,10 @@ static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r,
 		if (!err)
 			err = run_shade(job, job->prepared.n_light_slots, n);
 	}
-	if (!err && job->options->depth && (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE))
+	if (!err && hooks_has(job, HOOK_CLOSEST_HIT))
+		err = hooks_shade(job, secondary_transport(job->options), n);
+	if (!err && job->options->depth &&
+	    (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE || hooks_has(job, HOOK_CLOSEST_HIT)))
 		err = secondary_paths(job, space, secondary_space(job, view, 1), n);
 	return err || !dome_is_there(job) ? err : dome_light_list(job, space, segment_in_buffers(job, r), n);
 }
@@ -342,13 +347,20 @@ static int look_at_sample(struct job *job, const struct segment *segment, uint32
 	return device_write(job->tr->dev, job->tr->buffers.views.buffer, segment->view * sizeof(*view), view, sizeof(*view));
 }
 
-int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared)
+int segment_clear(struct job *job, const struct segment *segment, uint32_t n_cleared)
 {
-	const int32_t *scissor;
 	int err = 0;
 
 	for (uint32_t i = n_cleared; i < segment->clear_count && !err; i++)
 		err = run_clear(job, &job->scene->clears[segment->clear_first + i]);
+	return err;
+}
+
+int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared)
+{
+	const int32_t *scissor;
+	int err = segment_clear(job, segment, n_cleared);
+
 	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
 		return err;
 	scissor = job->prepared.scene_views[segment->view].scissor;

@@ -35,6 +35,9 @@ int segment_say_drawn(struct job *job, int drawn);
  */
 int segment_clear_all(struct job *job, uint32_t *n_done);
 
+/** A segment's clears. @param n_cleared  how many of them are done */
+int segment_clear(struct job *job, const struct segment *segment, uint32_t n_cleared);
+
 /** Clear and draw. @param n_cleared  how many of its clears are done */
 int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared);
 

@@ -11,6 +11,8 @@
 #include "tracer/frame/emitters.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
+#include "tracer/frame/hook_rays.h"
+#include "tracer/frame/hooks.h"
 #include "tracer/frame/noise.h"
 #include "tracer/frame/picture.h"
 #include "tracer/frame/plain.h"
@@ -174,8 +176,12 @@ static int trace_band(struct job *job)
 	err = reserve_pixels(job);
 	if (!err)
 		err = begin_band(job, &n_cleared);
-	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++)
-		err = segment_run(job, &job->prepared.segments[i], i == 0 ? n_cleared : 0);
+	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++) {
+		const struct segment *segment = &job->prepared.segments[i];
+		const uint32_t done = i == 0 ? n_cleared : 0;
+
+		err = hook_rays_stand_in(job, segment) ? hook_rays_run(job, segment, done) : segment_run(job, segment, done);
+	}
 	segment_draw_to(job, 0, 0);
 	if (!err && job->n_samples > 1)
 		err = segment_merge_samples(job);
@@ -247,6 +253,8 @@ static int place_frame(struct job *job, const float shift[2])
 	err = upload_state(job);
 	if (!err)
 		err = geometry_place(job);
+	if (!err)
+		err = hooks_place(job);
 	if (!err)
 		err = emitters_place(job, secondary_transport(job->options));
 	job->is_placed = !err;

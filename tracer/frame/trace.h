@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "tracer/accel/accel.h"
 #include "tracer/device/device.h"
+#include "tracer/hook/hook.h"
 #include "tracer/image/image.h"
 
 enum tracer_mode {
@@ -42,6 +43,7 @@ struct tracer_options {
 	struct blas_store *store;   /* where these are kept for other runs, or NULL; kept until the last tracer_render returns */
 	unsigned band_rows; /* rows of pixels that are drawn at a time; 0: as suits the device. The picture does not depend on it */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
+	const struct hook *hook; /* a user's functions at its stages, or NULL; the device has taken it (device_take_hook) */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
 

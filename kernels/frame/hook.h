@@ -1,0 +1,501 @@
+/*
+ * Where a user's functions are called (tracer/hook/hook.h reads them, hooks/README.md is for who writes them). Each takes plain structs
+ * and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook is there.
+ *
+ *   hook_ray     ray generation: a pixel's first ray, in place of the camera's
+ *   hook_see     what these rays hit first, for channels Z, N, P and id
+ *   hook_store   what they found, into the frame
+ *   hook_shade   closest hit, of fragments: after they were lit, before their rays leave
+ *   hook_ways    the ways on that hook_shade was told, in place of a fragment's own
+ *   hook_hit     closest hit and miss, of paths: after shade_hit
+ *
+ * The built-in's colour is what the kernels before have left: a hook that gives it back changes no bit. The twins have no hook, so they
+ * are what kernels do where a hook always goes on.
+ */
+#pragma once
+
+#include "kernels/frame/path.h"
+
+/* What a hook asks for: bits of hook_answer.what. The same numbers in the text below. */
+#define RELUME_COLOR 1u
+#define RELUME_RAY 2u
+#define RELUME_IGNORE 4u
+
+/* What functions that a hook may call look at. */
+struct hook_place {
+	const struct tables *tables;
+	const struct point *point;
+	GLOBAL const float *visibility;
+	uint32_t n_slots, n, item, transport;
+};
+
+#ifdef __OPENCL_VERSION__
+
+/* --- For hooks: hooks/README.md ------------------------------------------------------------------------------------------- */
+
+struct relume_ray {
+	float4 origin, direction;
+};
+
+struct relume_pixel {
+	float x, y;
+	uint width, height;
+	float u, v;
+	struct relume_ray ray;
+};
+
+struct relume_hit {
+	float4 position, normal, direction, color;
+	float distance;
+	uint depth, draw, front;
+	const struct hook_place *place;
+};
+
+struct relume_miss {
+	float4 origin, direction, color;
+	uint depth;
+};
+
+struct relume_light {
+	float4 direction, color, arrives;
+};
+
+struct relume_request {
+	uint what;
+	float4 color, direction, weight;
+};
+
+static inline struct relume_request relume_go_on(void)
+{
+	struct relume_request r;
+
+	r.what = 0;
+	r.color = r.direction = r.weight = (float4)(0);
+	return r;
+}
+
+static inline struct relume_request relume_color(float4 color)
+{
+	struct relume_request r = relume_go_on();
+
+	r.what = RELUME_COLOR;
+	r.color = color;
+	return r;
+}
+
+static inline struct relume_request relume_color_and_ray(float4 color, float4 direction, float4 weight)
+{
+	struct relume_request r = relume_color(color);
+
+	r.what = RELUME_COLOR | RELUME_RAY;
+	r.direction = direction;
+	r.weight = weight;
+	return r;
+}
+
+static inline struct relume_request relume_ignore(void)
+{
+	struct relume_request r = relume_go_on();
+
+	r.what = RELUME_IGNORE;
+	return r;
+}
+
+static inline float4 hook_float4(struct vec3 v)
+{
+	return (float4)(v.x, v.y, v.z, 0.0f);
+}
+
+static inline struct vec3 hook_vec3(float4 v)
+{
+	return v3(v.x, v.y, v.z);
+}
+
+static inline float4 relume_albedo(const struct relume_hit *hit)
+{
+	const struct hook_place *at = hit->place;
+	struct texturing texturing;
+	struct vec4 c;
+
+	point_texture(at->tables, at->point, (const struct point_window *)0, &texturing);
+	c = point_albedo(at->tables, at->point, &texturing);
+	return hook_float4(stage_light(at->transport, v3(c.x, c.y, c.z)));
+}
+
+static inline uint relume_lights(const struct relume_hit *hit)
+{
+	return point_takes_light(hit->place->point) ? point_lights(hit->place->point).count : 0u;
+}
+
+static inline struct relume_light relume_light(const struct relume_hit *hit, uint number)
+{
+	const struct hook_place *at = hit->place;
+	GLOBAL const struct scene_light *light = &at->tables->lights[point_lights(at->point).first + number];
+	struct relume_light out;
+	struct vec3 to_light;
+	const float strength = light_strength(light, point_position(at->point), &to_light);
+
+	out.direction = hook_float4(to_light);
+	out.color = hook_float4(stage_light(at->transport, v3_scale(v3_load(light->diffuse), strength)));
+	out.arrives = number < at->n_slots ? hook_float4(v3_load(at->visibility + (number * at->n + at->item) * 3u)) :
+	                                     (float4)(1.0f, 1.0f, 1.0f, 0.0f);
+	return out;
+}
+
+/* The user's, behind all of this. */
+#ifdef HOOK_RAY_GENERATION
+struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters);
+#endif
+#ifdef HOOK_CLOSEST_HIT
+struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters);
+#endif
+#ifdef HOOK_MISS
+struct relume_request miss(struct relume_miss missed, struct relume_parameters parameters);
+#endif
+
+static inline struct hook_answer hook_answer_of(struct relume_request r)
+{
+	struct hook_answer a;
+
+	a.what = r.what;
+	a.color[0] = r.color.x, a.color[1] = r.color.y, a.color[2] = r.color.z;
+	a.direction[0] = r.direction.x, a.direction[1] = r.direction.y, a.direction[2] = r.direction.z;
+	a.weight[0] = r.weight.x, a.weight[1] = r.weight.y, a.weight[2] = r.weight.z;
+	return a;
+}
+
+#endif
+
+/* --- Asking them ------------------------------------------------------------------------------------------------------------ */
+
+static inline struct hook_answer hook_no_answer(void)
+{
+	struct hook_answer a;
+
+	a.what = 0u;
+	for (int i = 0; i < 3; i++)
+		a.color[i] = a.direction[i] = a.weight[i] = 0.0f;
+	return a;
+}
+
+static inline struct vec3 hook_color(const struct hook_answer *a)
+{
+	return v3(a->color[0], a->color[1], a->color[2]);
+}
+
+/* How a ray came to where a hook is asked. */
+struct hook_way {
+	struct vec3 origin, direction; /* unit length */
+	float distance;
+	uint32_t depth;
+	struct vec3 color; /* the built-in's */
+};
+
+static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
+{
+#if defined(__OPENCL_VERSION__) && defined(HOOK_CLOSEST_HIT)
+	struct relume_hit hit;
+
+	hit.position = hook_float4(point_position(at->point));
+	hit.normal = hook_float4(point_normal(at->point));
+	hit.direction = hook_float4(way->direction);
+	hit.color = hook_float4(way->color);
+	hit.distance = way->distance;
+	hit.depth = way->depth;
+	hit.draw = at->point->geometry->draw;
+	hit.front = (uint)at->point->front;
+	hit.place = at;
+	return hook_answer_of(closest_hit(hit, hook_parameters(row)));
+#else
+	(void)at;
+	(void)way;
+	(void)row;
+	return hook_no_answer();
+#endif
+}
+
+static inline struct hook_answer hook_ask_miss(const struct hook_way *way, GLOBAL const float *row)
+{
+#if defined(__OPENCL_VERSION__) && defined(HOOK_MISS)
+	struct relume_miss missed;
+
+	missed.origin = hook_float4(way->origin);
+	missed.direction = hook_float4(way->direction);
+	missed.color = hook_float4(way->color);
+	missed.depth = way->depth;
+	return hook_answer_of(miss(missed, hook_parameters(row)));
+#else
+	(void)way;
+	(void)row;
+	return hook_no_answer();
+#endif
+}
+
+/* --- Ray generation ----------------------------------------------------------------------------------------------------------- */
+
+/* The program's own ray through a pixel, as its view is moved by this pass, becomes the hook's. @return 0: there is none */
+static inline int hook_first_ray(const struct hook_ray_arguments *a, uint32_t number, struct vec3 *o, struct vec3 *d)
+{
+	GLOBAL const struct view *view = &a->views[a->view_index];
+	const uint32_t x = number % a->width, y = number / a->width;
+	const float nx = 2.0f * ((float)x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
+	const float ny = 2.0f * ((float)y + 0.5f - view->viewport[1]) / view->viewport[3] - 1.0f;
+	const struct vec4 near = m4_mul(view->inverse, v4(nx, ny, -1.0f, 1.0f));
+
+	*o = v3_scale(v3(near.x, near.y, near.z), 1.0f / near.w);
+	*d = v3_normalize(stage_view_direction(view, x, y));
+#if defined(__OPENCL_VERSION__) && defined(HOOK_RAY_GENERATION)
+	{
+		struct relume_pixel pixel;
+		struct relume_ray ray;
+		float u = 0.5f, v = 0.5f;
+
+		if (a->sample)
+			sample_take(a->frame_number, sample_hash(number) + SAMPLE_JITTER, a->sample, &u, &v);
+		pixel.x = (float)x + u;
+		pixel.y = (float)(a->height - y) - v;
+		pixel.width = a->width;
+		pixel.height = a->height;
+		sample_take(a->frame_number, sample_hash(number) + SAMPLE_GLOSS, a->sample, &pixel.u, &pixel.v);
+		pixel.ray.origin = hook_float4(*o);
+		pixel.ray.direction = hook_float4(*d);
+		ray = ray_generation(pixel, hook_parameters(a->parameters + a->row));
+		*o = hook_vec3(ray.origin);
+		*d = v3_normalize(hook_vec3(ray.direction));
+	}
+#endif
+	return v3_dot(*d, *d) > 0.0f;
+}
+
+static inline void hook_ray_item(const struct hook_ray_arguments *a, uint32_t item)
+{
+	const uint32_t number = a->first_pixel + stage_pixel(a->rectangle, a->width, item);
+	GLOBAL struct shaded *s = &a->shaded[item];
+	GLOBAL struct path *path = &a->next_paths[item];
+	struct vec3 o, d;
+
+	a->pixels[item] = number;
+	a->counts[item] = 0u;
+	s->flags = 0u;
+	if (!sample_takes_part(number, a->turn))
+		return;
+	s->flags = SHADED_THERE;
+	stage_store_direct(s, v3(0.0f, 0.0f, 0.0f));
+	if (!hook_first_ray(a, number, &o, &d))
+		return;
+	v3_store(a->next_rays[item].o, o);
+	v3_store(a->next_rays[item].d, d);
+	a->next_rays[item].t_min = 0.0f;
+	a->next_rays[item].t_max = 1.0e30f;
+	v3_store(path->weight, v3(1.0f, 1.0f, 1.0f));
+	path->target = item;
+	path->kind = PATH_REFRACT;
+	path->depth = 0u;
+	path->medium = SCENE_NONE;
+	path->density = 0.0f;
+	a->counts[item] = 1u;
+}
+
+static inline void hook_see_item(const struct hook_see_arguments *a, uint32_t item)
+{
+	GLOBAL struct frame_pixel *pixel = &a->frame[a->pixels[a->paths[item].target] - a->first_pixel];
+	const struct hit hit = a->hits[item];
+
+	if (hit.instance == SCENE_NONE)
+		return;
+	pixel->surface.order = 0u;
+	pixel->surface.instance = hit.instance;
+	pixel->surface.primitive = hit.primitive | FRAGMENT_PERSPECTIVE;
+	pixel->surface.b1 = hit.b1;
+	pixel->surface.b2 = hit.b2;
+	pixel->surface.depth = 0.0f;
+	pixel->id = stage_draw(&a->tables, hit.instance, hit.primitive);
+}
+
+static inline void hook_store_item(const struct hook_store_arguments *a, uint32_t item)
+{
+	GLOBAL struct frame_pixel *pixel = &a->frame[a->pixels[item] - a->first_pixel];
+
+	if (!(a->shaded[item].flags & SHADED_THERE))
+		return;
+	for (uint32_t c = 0u; c < 3u; c++)
+		pixel->gl[c] = pixel->shadowed[c] = pixel->direct[c] = pixel->mirrored[c] = pixel->beauty[c] = a->shaded[item].beauty[c];
+	pixel->gl[3] = 1.0f;
+	pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
+}
+
+/* --- Closest hit, and miss ------------------------------------------------------------------------------------------------------ */
+
+static inline int hook_differs(struct vec3 a, struct vec3 b)
+{
+	return a.x != b.x || a.y != b.y || a.z != b.z;
+}
+
+/* A row of parameters: of a material. */
+static inline GLOBAL const float *hook_row(GLOBAL const float *parameters, uint32_t words, const struct point *p)
+{
+	return parameters + (size_t)p->geometry->material * words;
+}
+
+static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_t item)
+{
+	const struct fragment f = a->fragments[item];
+	GLOBAL struct shaded *s = &a->shaded[item];
+	struct hook_place at;
+	struct hook_way way;
+	struct hook_answer answer;
+	struct point p;
+
+	a->answers[item].what = 0u;
+	if (!(s->flags & SHADED_THERE))
+		return;
+	p = point_from_fragment(&a->tables, a->windows, &f);
+	if (p.geometry->flags & GEOMETRY_EXPANDED)
+		return;
+	at.tables = &a->tables;
+	at.point = &p;
+	at.visibility = a->visibility;
+	at.n_slots = a->n_slots;
+	at.n = a->n;
+	at.item = item;
+	at.transport = a->transport;
+	way.origin = v3(0.0f, 0.0f, 0.0f);
+	way.direction = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	way.distance = M_SQRT(v3_dot(point_position(&p), point_position(&p)));
+	way.depth = 0u;
+	way.color = stage_light(a->transport, v3_load(s->direct));
+	answer = hook_ask_hit(&at, &way, hook_row(a->parameters, a->words, &p));
+	if (!answer.what)
+		return;
+	a->answers[item] = answer;
+	if (hook_differs(hook_color(&answer), way.color))
+		stage_store_direct(s, stage_number(a->transport, hook_color(&answer)));
+}
+
+static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t item)
+{
+	const struct fragment f = a->fragments[item];
+	const struct hook_answer answer = a->answers[item];
+	GLOBAL struct shaded *s = &a->shaded[item];
+	GLOBAL struct ray *ray;
+	struct branches b;
+	struct point p;
+	struct vec3 d;
+	int through = (answer.what & RELUME_IGNORE) != 0u;
+
+	if (!(s->flags & SHADED_THERE) || !(answer.what & (RELUME_RAY | RELUME_IGNORE)))
+		return;
+	stage_store_direct(s, stage_number(a->transport, hook_color(&answer)));
+	p = point_from_fragment(&a->tables, a->windows, &f);
+	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
+	b.rays = a->next_rays + item * PATHS_PER_FRAGMENT;
+	b.paths = a->next_paths + item * PATHS_PER_FRAGMENT;
+	b.count = 0u;
+	b.from.target = item;
+	b.from.depth = 0u;
+	b.from.medium = SCENE_NONE;
+	ray = branch(&b, through ? v3(1.0f, 1.0f, 1.0f) : v3(answer.weight[0], answer.weight[1], answer.weight[2]), PATH_REFLECT, SCENE_NONE);
+	if (ray)
+		stage_ray(&p, through ? d : v3_normalize(v3(answer.direction[0], answer.direction[1], answer.direction[2])), d, ray);
+	if (ray && through)
+		b.paths[0].depth = 0u;
+	a->counts[item] = b.count;
+}
+
+/* What is left of the built-in's light per unit of a surface's own colour. */
+static inline struct vec3 hook_share(const struct hook_hit_arguments *a, uint32_t item, const struct point *p, struct vec3 weight)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	struct split split;
+
+	if (!(m->surface.reflect > 0.0f || m->surface.transmit > 0.0f))
+		return weight;
+	split = split_light(p, v3_load(a->rays[item].d));
+	return v3_scale(weight, m->surface.hidden & SCENE_NEAR_MIRROR ? split.base + split.mirrored : split.base);
+}
+
+static inline float hook_part(float light, float share)
+{
+	return share > 0.0f ? light / share : 0.0f;
+}
+
+static inline struct vec3 hook_given(GLOBAL const float *light, struct vec3 share)
+{
+	return v3(hook_part(light[0], share.x), hook_part(light[1], share.y), hook_part(light[2], share.z));
+}
+
+static inline void hook_miss_path(const struct hook_hit_arguments *a, uint32_t item, struct hook_way *way)
+{
+	const struct vec3 weight = v3_load(a->paths[item].weight);
+	struct hook_answer answer;
+
+	if (a->paths[item].kind == PATH_NEAR)
+		return;
+	way->color = hook_given(a->radiance + item * 3u, weight);
+	answer = hook_ask_miss(way, a->parameters + a->row);
+	if (answer.what & RELUME_COLOR && hook_differs(hook_color(&answer), way->color))
+		v3_store(a->radiance + item * 3u, v3_mul(weight, hook_color(&answer)));
+}
+
+/* What a hook said of a hit becomes the path's light and its ways on. */
+static inline void hook_obey(const struct hook_hit_arguments *a, uint32_t item, const struct point *p, const struct hook_answer *answer,
+                             struct vec3 weight)
+{
+	const struct vec3 d = v3_load(a->rays[item].d), on = v3(answer->direction[0], answer->direction[1], answer->direction[2]);
+	GLOBAL struct ray *ray = (GLOBAL struct ray *)0;
+	struct branches b;
+
+	b.from = a->paths[item];
+	b.rays = a->next_rays + item * PATHS_PER_HIT;
+	b.paths = a->next_paths + item * PATHS_PER_HIT;
+	b.count = 0u;
+	v3_store(a->radiance + item * 3u, v3_mul(weight, hook_color(answer)));
+	if (answer->what & RELUME_IGNORE)
+		branch_on(&b, &a->rays[item], a->hits[item].t, weight);
+	else if (b.from.depth < a->depth)
+		ray = branch(&b, v3_mul(weight, v3(answer->weight[0], answer->weight[1], answer->weight[2])),
+		             b.from.kind == PATH_NEAR ? PATH_REFLECT : b.from.kind, b.from.medium);
+	if (ray)
+		stage_ray(p, v3_normalize(on), d, ray);
+	a->counts[item] = b.count;
+}
+
+static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t item)
+{
+	const struct hit hit = a->hits[item];
+	const struct path path = a->paths[item];
+	struct vec3 d = v3_load(a->rays[item].d), weight = path_weight(&path), share;
+	struct hook_place at;
+	struct hook_way way;
+	struct hook_answer answer;
+	struct point p;
+
+	way.origin = v3_load(a->rays[item].o);
+	way.direction = v3_normalize(d);
+	way.depth = path.depth;
+	if (hit.instance == SCENE_NONE) {
+		hook_miss_path(a, item, &way);
+		return;
+	}
+	p = point_from_hit(&a->tables, &hit, d);
+	if (p.geometry->flags & GEOMETRY_EXPANDED || p.material->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || p.material->alpha_test ||
+	    (p.material->blend && !(p.material->surface.hidden & SCENE_SOLID)) || point_clipped(&p))
+		return;
+	if (path.medium != SCENE_NONE)
+		weight = v3_mul(weight, glass_absorb(&a->tables.materials[path.medium], hit.t - a->rays[item].t_min));
+	share = hook_share(a, item, &p, weight);
+	at.tables = &a->tables;
+	at.point = &p;
+	at.visibility = a->visibility;
+	at.n_slots = a->n_slots;
+	at.n = a->n;
+	at.item = item;
+	at.transport = a->transport;
+	way.distance = hit.t * M_SQRT(v3_dot(d, d));
+	way.color = hook_given(a->radiance + item * 3u, share);
+	answer = hook_ask_hit(&at, &way, hook_row(a->parameters, a->words, &p));
+	if (answer.what & (RELUME_RAY | RELUME_IGNORE))
+		hook_obey(a, item, &p, &answer, weight);
+	else if (answer.what && hook_differs(hook_color(&answer), way.color))
+		v3_store(a->radiance + item * 3u, v3_mul(share, hook_color(&answer)));
+}
