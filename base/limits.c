@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/part.h"
+#include "base/progress.h"
 
 #define LOOK_MS 50
 #define STACK_BYTES ((size_t)256 << 10)
@@ -43,14 +44,6 @@ static uint64_t memory_used(void)
 	return n == 3 && resident > shared ? (resident - shared) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
-static double processor_used(void)
-{
-	struct timespec t = { 0 };
-
-	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-	return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
 static void end_now(void)
 {
 	part_drop_all();
@@ -69,7 +62,7 @@ static void *look(void *unused)
 			           (unsigned long long)(l->memory_bytes >> 20));
 			end_now();
 		}
-		if (l->processor_s > 0 && processor_used() > l->processor_s) {
+		if (l->processor_s > 0 && progress_processor_s() > l->processor_s) {
 			err_report(ERR_SYSTEM, watched.recording, "takes more than %.0f s of processor time, the limit for a recording of its size; --no-sandbox lifts it",
 			           l->processor_s);
 			end_now();
