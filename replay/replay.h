@@ -133,7 +133,7 @@ struct replay_program {
 	uint64_t draws;
 };
 
-/** The programs that draws used so far, of which what is not run is among replay_unsupported. Valid until the next call. @return how many */
+/** The programs that draws used so far. Those that are not run are among replay_unsupported, too. Valid until the next call. @return how many */
 size_t replay_programs(struct replay *rp, const struct replay_program **out);
 
 /** 1 where some list of counts was not whole, as memory was short (reported). */

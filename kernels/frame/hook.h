@@ -341,10 +341,10 @@ static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_
 {
 	const struct fragment f = a->fragments[item];
 	GLOBAL struct shaded *s = &a->shaded[item];
-	struct hook_place at;
 	struct hook_way way;
 	struct hook_answer answer;
 	struct point p;
+	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport };
 
 	a->answers[item].what = 0u;
 	if (!(s->flags & SHADED_THERE))
@@ -352,13 +352,6 @@ static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_
 	p = point_from_fragment(&a->tables, a->windows, &f);
 	if (p.geometry->flags & GEOMETRY_EXPANDED)
 		return;
-	at.tables = &a->tables;
-	at.point = &p;
-	at.visibility = a->visibility;
-	at.n_slots = a->n_slots;
-	at.n = a->n;
-	at.item = item;
-	at.transport = a->transport;
 	way.origin = v3(0.0f, 0.0f, 0.0f);
 	way.direction = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	way.distance = M_SQRT(v3_dot(point_position(&p), point_position(&p)));
@@ -388,12 +381,7 @@ static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t 
 	stage_store_direct(s, stage_number(a->transport, hook_color(&answer)));
 	p = point_from_fragment(&a->tables, a->windows, &f);
 	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
-	b.rays = a->next_rays + item * PATHS_PER_FRAGMENT;
-	b.paths = a->next_paths + item * PATHS_PER_FRAGMENT;
-	b.count = 0u;
-	b.from.target = item;
-	b.from.depth = 0u;
-	b.from.medium = SCENE_NONE;
+	b = branches_of_fragment(a->next_rays, a->next_paths, item);
 	ray = branch(&b, through ? v3(1.0f, 1.0f, 1.0f) : v3(answer.weight[0], answer.weight[1], answer.weight[2]), PATH_REFLECT, SCENE_NONE);
 	if (ray)
 		stage_ray(&p, through ? d : v3_normalize(v3(answer.direction[0], answer.direction[1], answer.direction[2])), d, ray);
@@ -445,10 +433,7 @@ static inline void hook_obey(const struct hook_hit_arguments *a, uint32_t item, 
 	GLOBAL struct ray *ray = (GLOBAL struct ray *)0;
 	struct branches b;
 
-	b.from = a->paths[item];
-	b.rays = a->next_rays + item * PATHS_PER_HIT;
-	b.paths = a->next_paths + item * PATHS_PER_HIT;
-	b.count = 0u;
+	b = branches_of_path(a->paths[item], a->next_rays, a->next_paths, item);
 	v3_store(a->radiance + item * 3u, v3_mul(weight, hook_color(answer)));
 	if (answer->what & RELUME_IGNORE)
 		branch_on(&b, &a->rays[item], a->hits[item].t, weight);
@@ -465,10 +450,10 @@ static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t it
 	const struct hit hit = a->hits[item];
 	const struct path path = a->paths[item];
 	struct vec3 d = v3_load(a->rays[item].d), weight = path_weight(&path), share;
-	struct hook_place at;
 	struct hook_way way;
 	struct hook_answer answer;
 	struct point p;
+	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport };
 
 	way.origin = v3_load(a->rays[item].o);
 	way.direction = v3_normalize(d);
@@ -484,13 +469,6 @@ static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t it
 	if (path.medium != SCENE_NONE)
 		weight = v3_mul(weight, glass_absorb(&a->tables.materials[path.medium], hit.t - a->rays[item].t_min));
 	share = hook_share(a, item, &p, weight);
-	at.tables = &a->tables;
-	at.point = &p;
-	at.visibility = a->visibility;
-	at.n_slots = a->n_slots;
-	at.n = a->n;
-	at.item = item;
-	at.transport = a->transport;
 	way.distance = hit.t * M_SQRT(v3_dot(d, d));
 	way.color = hook_given(a->radiance + item * 3u, share);
 	answer = hook_ask_hit(&at, &way, hook_row(a->parameters, a->words, &p));

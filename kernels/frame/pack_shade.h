@@ -259,7 +259,7 @@ static inline struct pack_color pack_albedo(const struct tables *t, const struct
 
 /* --- Light that is followed ------------------------------------------------------------------------------------------ */
 
-/* Whether light has a part in the colour of a material's points, whose geometries pack_knows_geometry. */
+/* Whether light has a part in the colour of a material's points. pack_knows_geometry knows their geometries. */
 static inline int pack_takes_light(__global const struct scene_material *m)
 {
 	return (m->lighting || m->surface.relit) && !(m->surface.hidden & SCENE_UNSHADED);

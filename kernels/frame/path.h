@@ -30,6 +30,32 @@ struct branches {
 	struct path from; /* the path that ends here */
 };
 
+/* The ways on from a fragment: none yet. */
+static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths, uint32_t item)
+{
+	struct branches b;
+
+	b.rays = next_rays + item * PATHS_PER_FRAGMENT;
+	b.paths = next_paths + item * PATHS_PER_FRAGMENT;
+	b.count = 0u;
+	b.from.target = item;
+	b.from.depth = 0u;
+	b.from.medium = SCENE_NONE;
+	return b;
+}
+
+/* The same from where a path ended. */
+static inline struct branches branches_of_path(struct path from, GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths, uint32_t item)
+{
+	struct branches b;
+
+	b.rays = next_rays + item * PATHS_PER_HIT;
+	b.paths = next_paths + item * PATHS_PER_HIT;
+	b.count = 0u;
+	b.from = from;
+	return b;
+}
+
 /* The next place of the list, its ray still to be written, or NULL: too little to be followed. */
 static inline GLOBAL struct ray *branch(struct branches *b, struct vec3 weight, uint32_t kind, uint32_t medium)
 {
@@ -185,12 +211,7 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 		return;
 	if (a->transport < TRANSPORT_DIFFUSE && !(p.material->surface.reflect > 0.0f || p.material->surface.transmit > 0.0f))
 		return;
-	b.rays = a->next_rays + item * PATHS_PER_FRAGMENT;
-	b.paths = a->next_paths + item * PATHS_PER_FRAGMENT;
-	b.count = 0u;
-	b.from.target = item;
-	b.from.depth = 0u;
-	b.from.medium = SCENE_NONE;
+	b = branches_of_fragment(a->next_rays, a->next_paths, item);
 	d = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	split = split_light(&p, d);
 	if (a->emission.n_emitters && v3_most(v3_load(a->visibility + item * 3u)) > 0.0f && point_takes_light(&p)) {
@@ -380,10 +401,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	struct branch_samples at;
 	int dimmed;
 
-	b.from = a->paths[item];
-	b.rays = a->next_rays + item * PATHS_PER_HIT;
-	b.paths = a->next_paths + item * PATHS_PER_HIT;
-	b.count = 0u;
+	b = branches_of_path(a->paths[item], a->next_rays, a->next_paths, item);
 	a->counts[item] = 0u;
 	weight = path_weight(&b.from);
 	if (hit.instance == SCENE_NONE && b.from.kind == PATH_NEAR) {

@@ -63,7 +63,7 @@ static inline struct point program_neighbour(const struct program_run *run, cons
 	return p;
 }
 
-/* Pixel k's value of an input whose first register is `first`. */
+/* Set pixel k's value of an input. */
 static inline void program_set_input(struct program_run *run, uint32_t input, uint32_t k, struct vec4 value)
 {
 	float from[4];
@@ -211,7 +211,7 @@ static inline struct vec4 program_coordinates(const struct program_run *run, GLO
 	          in->c & SCENE_TEXTURE_DIVIDED ? program_of_four(r[3], k) : 1.0f);
 }
 
-/* Slopes whose level is `bias` higher, by llvmpipe's logarithm: straight between powers of two. */
+/* The slopes of a level that is `bias` higher. llvmpipe's logarithm is straight between powers of two. */
 static inline void program_bias(struct texture_slope *slope, float bias)
 {
 	const float rho2 = M_MAX(v4_dot(slope->right, slope->right), v4_dot(slope->down, slope->down));

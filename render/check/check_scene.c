@@ -193,7 +193,7 @@ static void add_lamp(struct made *m)
 	made_add_square(m, lamp, (float[3]){ -1, 2, -8 }, right, (float[3]){ 0, 0, 1 }, 1, 2);
 }
 
-/* A square whose colour a program makes of a texture, by where it is in the window; where that is dark it is cut out. */
+/* A program colours this square by a texture at its place in the window, and cuts out what is dark. */
 static void add_program(struct check_world *w)
 {
 	enum { OWN = SCENE_PROGRAM_FIRST, SAMPLE = OWN + 4, CONSTANTS = SCENE_PROGRAM_CONSTANT };

@@ -164,7 +164,7 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 }
 
 /*
- * A unit whose coordinates or texture a program looks at, although there is no texture or no complete one: what is sampled is black. What
+ * A program samples black from a unit that has no texture, or no complete one. What
  * stands in for the program where it does not run passes the unit by.
  * @return 1; 0: out of memory (reported)
  */

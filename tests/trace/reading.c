@@ -1,5 +1,5 @@
 /*
- * Frames at whose end everything that changes what glReadPixels gives is set oddly, one thing a frame: the recorder reads frames back beside the
+ * Everything that changes what glReadPixels gives is set oddly, one thing at the end of each frame. The recorder reads frames back beside the
  * program, and leaves all of it as it was. With an argument nothing is set: the same pictures.
  */
 #include "window.h"

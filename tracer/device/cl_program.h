@@ -33,7 +33,7 @@ size_t cl_program_of(cl_device_id device, const struct cl_keeping *keeping, enum
 /**
  * Make the program of one file of kernels.
  * @param file     in kernel_files (kernels/embed.h)
- * @param hook     whose text the kernels that call hooks need, or NULL
+ * @param hook     kernels that call hooks need its text; NULL: there is none
  * @param keeping  where it may lie, and is left; where it cannot be written one warning says so, and no more is kept
  * @param said     as for cl_report
  * @param out      to be released by the caller
