@@ -72,10 +72,10 @@ static void init(void)
 
 static void draw(void)
 {
-	float light[4] = { 0, 0, 0, 1 };
+	float light[4] = { 2, 0, 0, 10 }; /* a tenth of that: where the viewer is */
 
 	if (program.animate_light)
-		light[0] = 3 * sinf(0.1f * (float)program_frame);
+		light[0] = 30 * sinf(0.1f * (float)program_frame);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();
 	glLightfv(GL_LIGHT0, GL_POSITION, light);

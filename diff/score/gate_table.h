@@ -29,7 +29,7 @@
 	ROW(E2, "E2", "unexplained", gate_unexplained, 0, { "pixels that differ without a reason", "px", 0, 0, 0, "E2 px" }) \
 	ROW(E3, "E3", "effects", gate_ranges, 0, { "effects outside of their range", "", 0, 0, 0, "E3" }) \
 	ROW(N, "N", "no harm", gate_harm, 0, { "pixels dark without a shadow's edge", "%", 0, 2, 0, "N %" }, \
-	    { "pixels dark by known faults", "%", 0, 0.3, 0, NULL }) \
+	    { "pixels dark by known faults", "%", 0, 0.3, 0, NULL }, { "pixels that light burns out", "%", 0, 1, 0, NULL }) \
 	ROW(P, "P", "perceptual", gate_perceptual, 1, { "FLIP mean", "", 0, 0.005, 0, "P FLIP" }) \
 	ROW(B, "B", "baseline", gate_baseline, 0, { "pixels off from the approved frame", "%", 0, 0.01, 0, "B %" }, \
 	    { "HDR-FLIP mean", "", 0, 0.01, 0, "B FLIP" })

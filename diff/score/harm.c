@@ -1,5 +1,5 @@
 /*
- * Gate N: is a frame darker than its shadows explain? Two figures.
+ * Gate N: is a frame darker than its shadows explain? Two figures; the third is burnt.h's.
  *
  * Dark without an edge. A shadow that something casts ends somewhere: beside it the same surface is lit. Where a light was shut out
  * altogether, the dark ends at outlines, or where OpenGL itself shows no light. Pixels are dark that lose at least DARK_CODES and 30 %
@@ -29,6 +29,7 @@
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "diff/score/burnt.h"
 #include "diff/score/picture.h"
 
 #define DARK_CODES 16    /* a step that one sees at once */
@@ -311,6 +312,7 @@ int gate_harm(struct gate_frame *f)
 		find_dark(&h, n, encoding && strcmp(encoding, "display") == 0);
 		gate_measure(f, GATE_N, 0, 100 * (double)count_unbounded(&h, n) / n);
 		gate_measure(f, GATE_N, 1, 100 * (double)count_faults(&h, n) / n);
+		gate_measure(f, GATE_N, 2, 100 * burnt_share(f));
 	} else {
 		err = err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", h.width, h.height);
 	}

@@ -2,7 +2,8 @@
  * The score of one frame: how well a traced picture agrees with its reference, gate by gate.
  *
  * The gates ask separate questions. Is the geometry right (R4, R5)? Is OpenGL's own shading right (R1 to R3 and P, on the gl
- * channels)? Do the effect channels explain what the beauty adds (E1 to E3), and is nothing darker than its shadows explain (N)?
+ * channels)? Do the effect channels explain what the beauty adds (E1 to E3), and is nothing darker than its shadows explain,
+ * and nothing burnt out (N)?
  * Where there is an approved frame, gate B asks another: is everything as it was when somebody approved it?
  *
  * Conventions
@@ -37,7 +38,7 @@ extern const char *const score_state_names[N_SCORE_STATES];
 
 #define SCORE_CODES 2 /* R1, R2: the largest channel difference that passes, codes */
 
-enum { SCORE_MAX_FIGURES = 2, SCORE_MAX_BLAME = 8, SCORE_MAX_RANGES = 4 };
+enum { SCORE_MAX_FIGURES = 3, SCORE_MAX_BLAME = 8, SCORE_MAX_RANGES = 4 };
 
 /* One gate of one frame; figures are those of gate_table.h. */
 struct score_gate {

@@ -17,9 +17,13 @@
 #define LAMP_DISTANCE 1.6
 /* What of a lamp's light falls off by the square of the distance. */
 #define FALLS_OFF 0.5
-/* What the viewer's own light keeps, and what the lamp beside it has. */
-#define FILL 0.5
-#define KEY 0.85
+/* What the viewer's own light keeps, and what the lamp beside it has. They meet on the side that faces the lamp, which burns out first:
+ * there, where a ball in the box ends, the lamp has its strength. A ball shows 2 / 3 of its light to whence light comes, and to 51 degrees
+ * from there, where the lamp is, (sin 51 + cos 51 * (180 - 51) * pi / 180) * 2 / 3 / pi = 0.47, of which 0.87 is left as the lamp falls
+ * off: both together leave a ball as bright as it was. */
+#define FILL 0.6
+#define KEY 0.66
+#define NEAR_SIDE 0.29
 /* A window that is cleared to more light than this is no dark. */
 #define DARK 0.3f
 /* What is moved farther is another place, as a share of how far off it is. */
@@ -43,23 +47,34 @@ static int has_moved(const float a[4], const float b[4])
 	return off > MOVED * MOVED * far;
 }
 
+/* Where a light stands, with w 1; w 0: a direction towards it. */
+static void place_of(const struct scene_light *l, float out[4])
+{
+	const float w = l->position_eye[3];
+
+	for (int k = 0; k < 4; k++)
+		out[k] = w != 0 ? l->position_eye[k] / w : l->position_eye[k];
+}
+
 /* A light of one draw. now: of the frame's draws so far, by number */
 static void note_light(struct studio *s, const struct scene_light *l, const struct scene_light *now[SCENE_MAX_LIGHTS])
 {
 	struct studio_light *known = &s->lights[l->index];
+	float place[4];
 	const int is_plain = l->attenuation[0] == 1 && l->attenuation[1] == 0 && l->attenuation[2] == 0 && l->spot_cutoff_deg == 180;
 
+	place_of(l, place);
 	known->differs |= !is_plain;
 	if (now[l->index]) {
-		known->differs |= has_moved(now[l->index]->position_eye, l->position_eye) || is_other_light(known, l);
+		known->differs |= has_moved(known->position, place) || is_other_light(known, l);
 		return;
 	}
 	now[l->index] = l;
 	if (known->frames) {
 		known->differs |= is_other_light(known, l);
-		known->moves |= has_moved(known->position, l->position_eye);
+		known->moves |= has_moved(known->position, place);
 	}
-	memcpy(known->position, l->position_eye, sizeof(known->position));
+	memcpy(known->position, place, sizeof(known->position));
 	memcpy(known->diffuse, l->diffuse, sizeof(known->diffuse));
 	memcpy(known->specular, l->specular, sizeof(known->specular));
 	known->frames++;
@@ -123,7 +138,7 @@ void studio_add(struct studio *s, const struct scene *scene, const uint8_t *laye
 		s->middle[k] += middle[k];
 	for (int i = 0; i < SCENE_MAX_LIGHTS; i++)
 		if (now[i])
-			s->lights[i].distance += distance_to(now[i]->position_eye, middle);
+			s->lights[i].distance += distance_to(s->lights[i].position, middle);
 }
 
 /* --- Rules --------------------------------------------------------------------------------------------------------------- */
@@ -149,13 +164,12 @@ static void write_falling(double distance, FILE *out)
 }
 
 /* A lamp at a distance from the middle, in a direction. */
-static void write_lamp(const double middle[3], const double towards[3], double distance, FILE *out)
+static void write_place(const double middle[3], const double towards[3], double distance, FILE *out)
 {
 	const double length = sqrt(matrix_dot3(towards, towards));
 
 	fprintf(out, "    position: [%.5g, %.5g, %.5g, 1]\n", middle[0] + distance * towards[0] / length, middle[1] + distance * towards[1] / length,
 	        middle[2] + distance * towards[2] / length);
-	write_falling(distance, out);
 }
 
 static void write_head(const struct studio_light *l, unsigned number, const double middle[3], double size, FILE *out)
@@ -166,7 +180,8 @@ static void write_head(const struct studio_light *l, unsigned number, const doub
 	write_color("diffuse", l->diffuse, FILL, out);
 	write_color("specular", l->specular, FILL, out);
 	fprintf(out, "  - role: lamp of a studio\n    confidence: 0.5\n    why: \"what the light of the viewer lacks comes from aside\"\n");
-	write_lamp(middle, aside, LAMP_DISTANCE * size, out);
+	write_place(middle, aside, LAMP_DISTANCE * size, out);
+	write_falling((LAMP_DISTANCE - NEAR_SIDE) * size, out);
 	write_color("diffuse", l->diffuse, KEY, out);
 	write_color("specular", l->specular, FILL, out);
 }
@@ -178,9 +193,8 @@ static void write_one(const struct studio_light *l, unsigned number, const doubl
 
 	fprintf(out, "  - role: lamp of a studio\n    confidence: 0.6\n    why: \"it lights things before an empty window, and is as strong far off as near\"\n    light: %u\n", number);
 	if (l->position[3] == 0)
-		write_lamp(middle, towards, LAMP_DISTANCE * size, out);
-	else
-		write_falling(l->distance / l->frames, out);
+		write_place(middle, towards, LAMP_DISTANCE * size, out);
+	write_falling(l->position[3] == 0 ? LAMP_DISTANCE * size : l->distance / l->frames, out);
 }
 
 unsigned studio_write(const struct studio *s, FILE *out)

@@ -34,6 +34,14 @@ check(left > 1.05 * right, f"the lamp is at the upper left: {left:.2f}, {right:.
 check(0.7 < brightness(lit, 40, 20, 160, 130) / brightness(bare, 40, 20, 160, 130) < 1.4, "the picture is about as bright as it was")
 check(diff(trace, SCRATCH / "lit")[1]["frames"][-1]["gates"]["N"]["state"] == "passed", "gate N")
 
+# A lamp that is too strong burns the colour out of the model: gate N says so.
+strong = SCRATCH / "strong.look.yaml"
+strong.write_text(re.sub(r"(role: lamp of a studio[^#]*?diffuse: )\[.*?\]", r"\1[2, 2, 2]", text))
+render(trace, SCRATCH / "strong", "-f", 1, "--look", strong)
+code, score = diff(trace, SCRATCH / "strong")
+harm = score["frames"][-1]["gates"]["N"]
+check(code == 1 and harm["state"] == "failed" and harm["figures"][2]["value"] > 1, f"a lamp that is too strong: {harm}")
+
 trace, text = study("cornell")
 found = re.search(r"role: lamp of a studio\n.*\n.*\n    light: 0\n    attenuation: \[0.5, 0, ([0-9.e-]+)\]", text)
 check(found and 0.01 < float(found[1]) < 10, f"a lamp falls off: {text}")

@@ -619,6 +619,93 @@ START_TEST(named_faults)
 }
 END_TEST
 
+/* Add light, white, where `where` says so, in place of shadows; the channels agree on it. */
+static void brighten(float light, int where(int i))
+{
+	darken(1, on_box);
+	for (int c = 0; c < 3; c++) {
+		char name[16];
+		float *relight;
+
+		snprintf(name, sizeof(name), "relight.%c", "RGB"[c]);
+		relight = add(&traced, name);
+		for (int i = 0; i < N; i++) {
+			relight[i] = where(i) ? light : 0;
+			image_channel(&traced, (const char[]){ "RGB"[c], 0 })[i] += relight[i];
+		}
+	}
+}
+
+/* The box in one colour, as OpenGL shows it and as the surface has it. */
+static void color_box(float red, float other)
+{
+	static const char *const names[3][3] = { { "gl.R", "gl.G", "gl.B" }, { "albedo.R", "albedo.G", "albedo.B" }, { "R", "G", "B" } };
+
+	for (int i = 0; i < N; i++)
+		for (int layer = 0; layer < 3 && on_box(i); layer++)
+			for (int c = 0; c < 3; c++)
+				image_channel(&traced, names[layer][c])[i] = c ? other : red;
+}
+
+static enum score_state harm_of_light(float red, float other, float light, int where(int i))
+{
+	remake_traced(&all);
+	add_surfaces(0);
+	color_box(red, other);
+	brighten(light, where);
+	run();
+	return state(GATE_N);
+}
+
+static int on_corner_of_box(int i)
+{
+	return on_box(i) && i % WIDTH < 30 && i / WIDTH < 35;
+}
+
+static int on_edge_of_box(int i)
+{
+	return on_box(i) && i % WIDTH < 40;
+}
+
+START_TEST(burnt_out)
+{
+	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.45f, on_corner_of_box), SCORE_PASSED); /* a highlight */
+	ck_assert_double_gt(score.gates[GATE_N].value[2], 0);
+	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.45f, on_box), SCORE_FAILED);
+	ck_assert_double_gt(score.gates[GATE_N].value[2], 20);
+	ck_assert_double_eq(score.gates[GATE_N].value[0], 0);
+	ck_assert_int_gt(score.n_blame, 0);
+	ck_assert_uint_eq(score.blame[0].draw, 1);
+	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.3f, on_box), SCORE_PASSED); /* brighter, and no channel is full */
+	ck_assert_int_eq(harm_of_light(0.5f, 0.5f, 0.5f, on_box), SCORE_FAILED); /* grey ends in white */
+	ck_assert_int_eq(harm_of_light(1, 1, 0.5f, on_box), SCORE_PASSED);       /* it was white */
+}
+END_TEST
+
+/* A lamp that moves: what was burnt here is burnt there. Full red is a colour, and not burnt. */
+START_TEST(burnt_elsewhere)
+{
+	static const char *const shadow[3] = { "shadow.R", "shadow.G", "shadow.B" }, *const gl[3] = { "gl.R", "gl.G", "gl.B" };
+
+	ck_assert_int_eq(harm_of_light(0.6f, 0.1f, 0.45f, on_edge_of_box), SCORE_FAILED);
+	for (int i = 0; i < N; i++)
+		for (int c = 0; c < 3 && on_box(i) && !on_edge_of_box(i); c++) {
+			image_channel(&traced, gl[c])[i] = c ? 0.55f : 1.05f;
+			image_channel(&traced, shadow[c])[i] = c ? 0.1f / 0.55f : 0.6f / 1.05f;
+		}
+	run();
+	ck_assert_double_eq(score.gates[GATE_N].value[2], 0);
+	remake_traced(&all);
+	add_surfaces(0);
+	color_box(0.6f, 0.01f);
+	brighten(0, on_box);
+	for (int i = 0; i < N; i++)
+		image_channel(&traced, "relight.R")[i] = on_box(i) ? 0.5f : 0;
+	run();
+	ck_assert_double_eq(score.gates[GATE_N].value[2], 0);
+}
+END_TEST
+
 /* P */
 
 START_TEST(drift_that_no_pixel_shows)
@@ -887,6 +974,8 @@ int main(void)
 	tcase_add_test(tests, dark_below_a_film);
 	tcase_add_test(tests, dark_faces_with_lit_normals);
 	tcase_add_test(tests, named_faults);
+	tcase_add_test(tests, burnt_out);
+	tcase_add_test(tests, burnt_elsewhere);
 	tcase_add_test(tests, drift_that_no_pixel_shows);
 	tcase_add_test(tests, gamma_twice);
 	tcase_add_test(tests, plain_pictures_are_compared_by_colour);
