@@ -116,6 +116,8 @@ typedef float element_float;
 	OUT(window_vertex, windows) AND() \
 	OUT(float, clips) AND()             /* [4] */ \
 	OUT(float, coords)                  /* tables.texcoords */
+#define ARGUMENTS_vertex_program(IN, OUT, VALUE, GROUP, AND) \
+	ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) AND() IN(uint, programs) /* shaded: read as well */
 #define ARGUMENTS_window(IN, OUT, VALUE, GROUP, AND) \
 	IN(geometry, geometries) AND() IN(view, views) AND() IN(uint, owners) AND() IN(float, clips) AND() \
 	VALUE(uint, height) AND() VALUE(uint, n) AND() OUT(window_vertex, windows)
@@ -351,7 +353,7 @@ typedef float element_float;
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
-	X(vertex) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
+	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit)
@@ -423,6 +425,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(query_box, query_box)         /* one moving box a work item: what it meets first */ \
 	X(query_sphere, query_sphere)   /* the same, a sphere */ \
 	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
+	X(vertex_program, vertex_program) /* after it, where vertex programs are: four vertices of an instance a work item */ \
 	X(window, window)               /* one vertex a work item: its place in a window that has moved */ \
 	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \

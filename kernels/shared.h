@@ -236,6 +236,7 @@ struct geometry {
 	uint32_t attributes;     /* as scene_mesh.attributes */
 	uint32_t position, normal, color, secondary, fog_coord; /* where its arrays start in the pool of floats */
 	uint32_t texcoord[SCENE_MAX_UNITS], face;
+	uint32_t generics;        /* those that `attributes` has, one after the other */
 	uint32_t crease;         /* the same; SCENE_NONE: there are none */
 	uint32_t index;          /* where its indices start in the pool of indices, 3 a primitive, relative to vertex_first */
 	uint32_t primitive_draw; /* where its draw numbers start in the pool of indices, or SCENE_NONE: all of one draw */
@@ -244,7 +245,7 @@ struct geometry {
 	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them each vertex */
 	uint32_t material, view, current, draw, flags;
 };
-SHARED_SIZE(struct geometry, 280);
+SHARED_SIZE(struct geometry, 284);
 
 #define TEXTURE_MAX_LEVELS 16
 

@@ -103,7 +103,7 @@ static const struct field material_fields[] = {
 	FIELD(material, blend_equation_rgb), FIELD(material, blend_equation_alpha), FIELD(material, blend_src_rgb),
 	FIELD(material, blend_dst_rgb), FIELD(material, blend_src_alpha), FIELD(material, blend_dst_alpha),
 	FIELD(material, blend_color), FIELD(material, logic_op), FIELD(material, color_mask), FIELD(material, surface),
-	FIELD(material, program), FIELD(material, fragment_program),
+	FIELD(material, program), FIELD(material, fragment_program), FIELD(material, vertex_program),
 	{ 0 },
 };
 

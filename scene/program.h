@@ -1,17 +1,19 @@
 /*
- * Programs of a draw's fragments (ARB_fragment_program), as replay/programs/ translates them and kernels/gl/program.h runs them: instructions
- * on registers of one number each. scene.programs holds them as words: a struct scene_program, its instructions, its constants.
+ * Programs of a draw's vertices and fragments (ARB_vertex_program, ARB_fragment_program), as replay/programs/ translates them and kernels run
+ * them (kernels/gl/instructions.h): instructions on registers of one number each. scene.programs holds them as words: a struct scene_program,
+ * its instructions, its constants. A material names its two, scene_material.vertex_program and .fragment_program.
  *
- * Registers: inputs, four for each of enum scene_program_input; SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH; the program's own. All but inputs
- * begin as 0.
+ * Registers: a stage's inputs, four for each, then its outputs, then the program's own. All but inputs begin as 0.
  */
 #pragma once
 
 #include "scene/scene.h"
 
-#define SCENE_PROGRAM_REGISTERS 256u     /* at most */
+#define SCENE_PROGRAM_REGISTERS 512u     /* at most */
 #define SCENE_PROGRAM_INSTRUCTIONS 4096u /* at most */
 #define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
+
+/* --- Fragments: outputs are SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH, four registers each --------------------------- */
 
 enum scene_program_input {
 	SCENE_INPUT_COLOR, SCENE_INPUT_SECONDARY,
@@ -24,13 +26,37 @@ enum scene_program_input {
 #define SCENE_PROGRAM_DEPTH (SCENE_PROGRAM_COLOR + 4u)
 #define SCENE_PROGRAM_FIRST (SCENE_PROGRAM_DEPTH + 4u) /* of the program's own */
 
+/* --- Vertices: attributes in object space, as the program's calls gave them ---------------------------------------------- */
+
+enum scene_vertex_input {
+	SCENE_VERTEX_POSITION, SCENE_VERTEX_NORMAL, SCENE_VERTEX_COLOR, SCENE_VERTEX_SECONDARY,
+	SCENE_VERTEX_FOG,      /* its coordinate, 0, 0, 1 */
+	SCENE_VERTEX_TEXCOORD, /* of unit 0; others follow */
+	SCENE_VERTEX_GENERIC = SCENE_VERTEX_TEXCOORD + SCENE_MAX_UNITS, /* attribute 1; others follow. 0 is the position */
+	N_SCENE_VERTEX_INPUTS = SCENE_VERTEX_GENERIC + SCENE_MAX_GENERICS
+};
+
+/* What the fragment stage reads, fixed function or a program: TEXCOORD is SCENE_INPUT_TEXCOORD there, whatever it means. */
+enum scene_vertex_output {
+	SCENE_RESULT_POSITION, /* clip coordinates */
+	SCENE_RESULT_COLOR, SCENE_RESULT_SECONDARY, SCENE_RESULT_BACK_COLOR, SCENE_RESULT_BACK_SECONDARY,
+	SCENE_RESULT_FOG, SCENE_RESULT_POINT_SIZE, /* the first of four */
+	SCENE_RESULT_TEXCOORD, /* of unit 0; others follow */
+	N_SCENE_VERTEX_OUTPUTS = SCENE_RESULT_TEXCOORD + SCENE_MAX_UNITS
+};
+#define SCENE_VERTEX_RESULTS (4u * N_SCENE_VERTEX_INPUTS) /* the first output */
+#define SCENE_VERTEX_FIRST (SCENE_VERTEX_RESULTS + 4u * N_SCENE_VERTEX_OUTPUTS) /* of the program's own */
+
+/* --- Both --------------------------------------------------------------------------------------------------------------- */
+
 struct scene_program {
 	uint32_t n_instructions;
 	uint32_t n_constants; /* numbers */
 	uint32_t n_registers;
-	uint32_t inputs;      /* bits 1 << scene_program_input: those that it reads */
+	uint32_t inputs;      /* bits 1 << scene_program_input or scene_vertex_input: those that it reads */
 	uint32_t kills;       /* 1: it may discard fragments */
 	uint32_t sets_depth;  /* 1: register SCENE_PROGRAM_DEPTH is the fragment's depth */
+	uint32_t outputs;     /* bits 1 << scene_vertex_output: those that count. Without a position it is fixed function's */
 };
 
 /* X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. */
@@ -40,12 +66,16 @@ struct scene_program {
 	X(MAD)    /* a b + c */ \
 	X(SELECT) /* a < 0 ? b : c */ \
 	X(KILL)   /* the fragment is discarded where a < 0 */ \
+	X(FETCH)  /* n numbers of an array's element b, a whole number: a is the array's first number, register or constant; c is \
+	             SCENE_ARRAY(elements, numbers of each). Zeros where it has no such element */ \
 	X(TEXTURE) /* four registers from `to` on; the coordinates are four registers from a on, b the unit, c SCENE_TEXTURE_* */
 enum scene_operation {
 #define SCENE_OPERATION(name) SCENE_OP_##name,
 	SCENE_OPERATIONS(SCENE_OPERATION)
 	N_SCENE_OPERATIONS
 };
+
+#define SCENE_ARRAY(elements, numbers) ((elements) << 16 | (numbers))
 
 #define SCENE_TEXTURE_DIVIDED 1u /* coordinates are divided by the fourth */
 #define SCENE_TEXTURE_BIASED 2u  /* the fourth is added to the level */

@@ -27,6 +27,7 @@ typedef uchar uint8_t;
 #endif
 
 #define SCENE_MAX_UNITS 8
+#define SCENE_MAX_GENERICS 15 /* vertex programs' attributes beside the position */
 #define SCENE_MAX_LIGHTS 8
 #define SCENE_MAX_CLIP_PLANES 8 /* GL 2.1 wants six; Mesa has eight */
 #define SCENE_NONE 0xffffffffu
@@ -107,7 +108,8 @@ struct scene_material {
 	uint32_t lighting; /* 0: colours are taken as they are */
 	uint32_t light_first, light_count;
 	float light_model_ambient[4];
-	uint32_t local_viewer, two_side, separate_specular;
+	uint32_t local_viewer, separate_specular;
+	uint32_t two_side; /* 1: back faces have colours of their own, by lighting or a vertex program */
 	struct scene_face front, back;
 	uint32_t color_material;      /* 0, or GL token: FRONT, BACK, FRONT_AND_BACK */
 	uint32_t color_material_mode; /* GL token */
@@ -164,6 +166,8 @@ struct scene_material {
 	struct scene_surface surface;
 	uint32_t program; /* 1: the draw used a program object or ARB program */
 	uint32_t fragment_program; /* 0, or 1 + where in scene.programs the program that shades it begins; else it is rendered as fixed function */
+	uint32_t vertex_program; /* the same of its vertices; `lighting` is 0 then */
+	uint32_t program_normals; /* 1: that one reads normals: its vertices' are the surface's, as those of a lit one are */
 };
 
 /* One enabled texture unit as a draw saw it (GL 2.1 sec. 3.8). */
@@ -197,6 +201,7 @@ struct scene_current {
 	float normal[4]; /* xyz */
 	float texcoord[SCENE_MAX_UNITS][4];
 	float fog_coord;
+	float generics[SCENE_MAX_GENERICS][4]; /* vertex programs' attributes 1 and up */
 };
 
 /* One projection onto one target. */
@@ -252,9 +257,10 @@ struct scene_clear {
 	uint32_t floats;       /* as in the material: the colour may be beyond [0,1] */
 };
 
-enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit */
+enum { /* bits of scene_mesh.attributes; SCENE_HAS_TEXCOORD << unit, SCENE_HAS_GENERIC << (number - 1) */
 	SCENE_HAS_NORMAL = 1, SCENE_HAS_COLOR = 2, SCENE_HAS_SECONDARY = 4, SCENE_HAS_FOG_COORD = 8,
-	SCENE_HAS_TEXCOORD = 16, SCENE_HAS_FACE = SCENE_HAS_TEXCOORD << SCENE_MAX_UNITS
+	SCENE_HAS_TEXCOORD = 16, SCENE_HAS_GENERIC = SCENE_HAS_TEXCOORD << SCENE_MAX_UNITS,
+	SCENE_HAS_FACE = SCENE_HAS_GENERIC << SCENE_MAX_GENERICS
 };
 
 #ifndef __OPENCL_VERSION__
@@ -278,6 +284,7 @@ struct scene_mesh {
 	const float *fog_coord;                  /* [vertex] or NULL */
 	const float *crease;                     /* [primitive][3][3] or NULL: its corners' normals for light beyond GL's, no part of the hash. Set by rules */
 	const float *texcoord[SCENE_MAX_UNITS];  /* [vertex][4] or NULL */
+	const float *generics[SCENE_MAX_GENERICS]; /* [vertex][4] or NULL: vertex programs' attributes 1 and up */
 	const struct scene_face (*face)[2];      /* [vertex] front and back, or NULL: those of the instance's material */
 	const uint32_t *index;                   /* [primitive][kind] */
 	const uint32_t *primitive_draw;          /* [primitive], to be added to instance.draw; NULL: all 0 */

@@ -398,7 +398,7 @@ WIDE_VECTORS static inline packf pack_mix(const struct pack *p, packf a, packf b
 /* All ones where the back's colours count. */
 WIDE_VECTORS static inline packi pack_side(const struct pack *p)
 {
-	return p->material->lighting && p->material->two_side ? ~p->front : (packi)(0);
+	return p->material->two_side ? ~p->front : (packi)(0);
 }
 
 /* The lanes' triangles and the weights of their vertices, for fragments that have been shaded. */

@@ -125,7 +125,7 @@ WIDE_VECTORS static inline struct pack_vec pack_normal(const struct tables *t, c
 	const packi seen = p->material->front_face == GL_CW ? p->front : ~p->front;
 	const struct pack_vec n = pack_scale(s->plane, select((packf)(1), (packf)(-1), seen));
 
-	return p->material->lighting ? pack_smooth_normal(t, p, n) : n;
+	return p->material->lighting || p->material->program_normals ? pack_smooth_normal(t, p, n) : n;
 }
 
 /* As stage_view_direction. */

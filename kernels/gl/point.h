@@ -127,13 +127,13 @@ static inline struct vec3 point_position(const struct point *p)
 	              v3_scale(point_corner(p, 2), p->weight[2]));
 }
 
-/* Unit normal for effects: GL's interpolated one where the draw is lit, else the plane's; on the side that is seen. */
+/* Unit normal for effects: GL's interpolated one where the draw is lit, or its program reads it, else the plane's; on the side that is seen. */
 static inline struct vec3 point_normal(const struct point *p)
 {
 	struct vec3 n = point_plane_normal(p), smooth;
 
 	n = v3_scale(n, (p->material->front_face == GL_CW) == p->front ? -1.0f : 1.0f);
-	if (!p->material->lighting)
+	if (!p->material->lighting && !p->material->program_normals)
 		return n;
 	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
@@ -247,7 +247,7 @@ static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct
 /* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */
 static inline int point_side(const struct point *p)
 {
-	return p->material->lighting && p->material->two_side && !p->front;
+	return p->material->two_side && !p->front;
 }
 
 static inline struct lit point_lit_from_vertices(const struct point *p)

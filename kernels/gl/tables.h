@@ -32,6 +32,17 @@ static inline GLOBAL const struct scene_face *tables_face(const struct tables *t
 	return back ? &m->back : &m->front;
 }
 
+/* The attribute 1 + i of vertex programs. */
+static inline struct vec4 tables_generic(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, uint32_t i)
+{
+	uint32_t before = 0u;
+
+	for (uint32_t k = 0u; k < i; k++)
+		before += g->attributes / SCENE_HAS_GENERIC >> k & 1u;
+	return g->attributes & (SCENE_HAS_GENERIC << i) ? v4_load(t->attributes + g->generics + (before * g->vertex_count + v) * 4u) :
+	                            v4_load(t->currents[g->current].generics[i]);
+}
+
 static inline float tables_fog_coord(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
 	return g->attributes & SCENE_HAS_FOG_COORD ? t->attributes[g->fog_coord + v] : t->currents[g->current].fog_coord;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/err.h"
 #include "gl_tokens.h"
 #include "scene/program.h"
 
@@ -193,8 +194,60 @@ static void add_lamp(struct made *m)
 	made_add_square(m, lamp, (float[3]){ -1, 2, -8 }, right, (float[3]){ 0, 0, 1 }, 1, 2);
 }
 
+/* Put a program behind those that are there. @return what a material calls it */
+static uint32_t put_program(struct check_world *w, const struct scene_program *head, const struct scene_instruction *instructions,
+                            const float *constants)
+{
+	struct scene *s = &w->made.scene;
+	const uint32_t first = s->n_programs, n = (uint32_t)(sizeof(*head) + head->n_instructions * sizeof(*instructions)) / 4;
+
+	if (first + n + head->n_constants > sizeof(w->programs) / 4) {
+		w->made.err = err_report(ERR_SYSTEM, NULL, "no room for the programs of a scene");
+		return 0;
+	}
+	memcpy(w->programs + first, head, sizeof(*head));
+	memcpy(w->programs + first + sizeof(*head) / 4, instructions, head->n_instructions * sizeof(*instructions));
+	memcpy(w->programs + first + n, constants, head->n_constants * sizeof(*constants));
+	s->programs = w->programs;
+	s->n_programs = first + n + head->n_constants;
+	return first + 1;
+}
+
+/* A program moves the middle of this square towards the viewer, and colours it by its normals and a table. */
+static void add_vertex_program(struct check_world *w)
+{
+	enum {
+		OWN = SCENE_VERTEX_FIRST, PLACE = OWN + 4, CONSTANTS = SCENE_PROGRAM_CONSTANT, TABLE = CONSTANTS + 16,
+		POSITION = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_POSITION, COLOR = SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_COLOR,
+		NORMAL = 4 * SCENE_VERTEX_NORMAL
+	};
+	static const struct scene_instruction instructions[] = {
+		{ SCENE_OP_MOVE, 4, SCENE_STEP_A, PLACE, 4 * SCENE_VERTEX_POSITION, 0, 0 },
+		{ SCENE_OP_SINE, 1, 0, OWN, PLACE, 0, 0 },
+		{ SCENE_OP_ADD, 1, 0, PLACE + 2, PLACE + 2, OWN, 0 },
+		{ SCENE_OP_MULTIPLY, 4, SCENE_STEP_B, POSITION, PLACE, CONSTANTS, 0 },
+		{ SCENE_OP_MAD, 4, SCENE_STEP_B | SCENE_STEP_C, POSITION, PLACE + 1, CONSTANTS + 4, POSITION },
+		{ SCENE_OP_MAD, 4, SCENE_STEP_B | SCENE_STEP_C, POSITION, PLACE + 2, CONSTANTS + 8, POSITION },
+		{ SCENE_OP_MAD, 4, SCENE_STEP_B | SCENE_STEP_C, POSITION, PLACE + 3, CONSTANTS + 12, POSITION },
+		{ SCENE_OP_MAD, 1, 0, OWN, PLACE, TABLE + 2, TABLE + 3 },
+		{ SCENE_OP_FLOOR, 1, 0, OWN, OWN, 0, 0 },
+		{ SCENE_OP_FETCH, 1, 0, OWN, TABLE, OWN, SCENE_ARRAY(4, 1) },
+		{ SCENE_OP_MAD, 3, SCENE_STEP_A | SCENE_SATURATE, COLOR, NORMAL, TABLE + 1, OWN },
+	};
+	const uint32_t material = made_add_material(&w->made, 0.7f);
+	const struct scene_program head = { sizeof(instructions) / sizeof(instructions[0]), 20, PLACE + 4, 1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL,
+		                            0, 0, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR };
+	float constants[20] = { [16] = 0.2f, 0.5f, 3, 0.4f };
+
+	memcpy(constants, w->made.view.projection, 64);
+	w->made.materials[material].vertex_program = put_program(w, &head, instructions, constants);
+	w->made.materials[material].program_normals = 1;
+	w->made.materials[material].lighting = 0;
+	made_add_square(&w->made, material, (float[3]){ 1.3f, -0.6f, -6.5f }, right, up, 1.4f, 9);
+}
+
 /* A program colours this square by a texture at its place in the window, and cuts out what is dark. */
-static void add_program(struct check_world *w)
+static void add_fragment_program(struct check_world *w)
 {
 	enum { OWN = SCENE_PROGRAM_FIRST, SAMPLE = OWN + 4, CONSTANTS = SCENE_PROGRAM_CONSTANT };
 	static const struct scene_instruction instructions[] = {
@@ -206,18 +259,12 @@ static void add_program(struct check_world *w)
 		{ SCENE_OP_MAD, 4, SCENE_STEP_A | SCENE_STEP_B | SCENE_STEP_C | SCENE_SATURATE, SCENE_PROGRAM_COLOR, SAMPLE, 4 * SCENE_INPUT_COLOR, OWN },
 		{ SCENE_OP_SELECT, 1, SCENE_NEGATE_A, SCENE_PROGRAM_DEPTH, OWN, 4 * SCENE_INPUT_POSITION + 2, CONSTANTS + 1 },
 	};
-	static const float constants[4] = { 0.01f, 0.3f, 0, 0 };
+	static const float constants[2] = { 0.01f, 0.3f };
 	const uint32_t n = sizeof(instructions) / sizeof(instructions[0]), material = made_add_material(&w->made, 0.7f);
-	const struct scene_program head = { n, 4, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1 };
+	const struct scene_program head = { n, 2, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1, 0 };
 
-	_Static_assert(sizeof(head) + sizeof(instructions) + sizeof(constants) <= sizeof(w->program), "there is room for it");
-	memcpy(w->program, &head, sizeof(head));
-	memcpy((char *)w->program + sizeof(head), instructions, sizeof(instructions));
-	memcpy((char *)w->program + sizeof(head) + sizeof(instructions), constants, sizeof(constants));
-	w->made.scene.programs = w->program;
-	w->made.scene.n_programs = sizeof(w->program) / 4;
 	w->made.materials[material].unit_count = 1;
-	w->made.materials[material].fragment_program = 1;
+	w->made.materials[material].fragment_program = put_program(w, &head, instructions, constants);
 	made_add_square(&w->made, material, (float[3]){ -1.5f, 0.9f, -4.5f }, right, up, 0.9f, 2);
 }
 
@@ -243,7 +290,8 @@ int check_world_make(enum check_scene scene, uint32_t width, uint32_t height, ui
 		relight(&m->materials[floor + 3]); /* the second one */
 	if (scene == CHECK_BLENDED) {
 		add_films(m);
-		add_program(w);
+		add_fragment_program(w);
+		add_vertex_program(w);
 	}
 	if (scene == CHECK_STENCIL)
 		add_stencils(m, rings);

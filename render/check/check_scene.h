@@ -32,7 +32,7 @@ struct check_world {
 	struct scene_texture texture;
 	const struct scene_texture *textures[1];
 	uint8_t texels[4 * (64 + 16 + 4 + 1)]; /* of all levels */
-	uint32_t program[80]; /* words of scene.programs */
+	uint32_t programs[192]; /* scene.programs */
 	struct tracer_options options;
 };
 

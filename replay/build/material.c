@@ -16,6 +16,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/programs/program.h"
+#include "scene/program.h"
 
 void gls_scissor_of(const struct gls_surface *d, const struct gls_scissor *scissor, int32_t out[4])
 {
@@ -189,19 +190,19 @@ static int fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_
 	return out->texture != SCENE_NONE;
 }
 
-/* The units that a draw looks at. program: its fragment program, NULL: none. @return how many */
+/* The units that a draw looks at. program: that shades it, NULL: none. @return how many */
 static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
-                           const struct gls_program *program, struct scene_unit units[GLS_MAX_UNITS])
+                           const struct program_code *program, struct scene_unit units[GLS_MAX_UNITS])
 {
 	uint32_t n = 0;
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
 		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
-		const int target = program ? (int)program->code.targets[u] - 1 : enabled_target(unit);
+		const int target = program ? (int)program->targets[u] - 1 : enabled_target(unit);
 
 		if (fill_unit(x, f, st, unit, target, matrix, &units[n]) ||
-		    (program && (target >= 0 || program->code.inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
+		    (program && (target >= 0 || program->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
 			n++;
 	}
 	return n;
@@ -254,7 +255,7 @@ static void fill_lighting(const struct gls_lighting *l, const float color[4], st
 {
 	memcpy(m->light_model_ambient, l->model_ambient, 16);
 	m->local_viewer = l->local_viewer;
-	m->two_side = l->two_side;
+	m->two_side = l->enabled && l->two_side;
 	m->separate_specular = l->separate_specular;
 	m->front = l->face[0];
 	m->back = l->face[1];
@@ -340,13 +341,26 @@ static void fill_multisample(const struct gls_multisample *a, const struct gls_s
 	}
 }
 
+/* What a vertex program takes the place of. */
+static void fill_vertex_stage(const struct gls_state *st, const struct program_code *code, struct scene_material *m)
+{
+	static const float attenuation[3] = { 1, 0, 0 };
+
+	m->lighting = m->light_first = m->light_count = 0;
+	m->two_side = st->vertex_two_side;
+	m->program_normals = code->inputs >> SCENE_VERTEX_NORMAL & 1;
+	memcpy(m->point_attenuation, attenuation, sizeof(attenuation));
+}
+
 uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target, struct gls_state *st, const struct gls_event *e)
 {
 	struct gls_frame *f = target->surface->frame;
 	struct scene *s = f->out;
 	const struct gls_attribs *a = e->attribs;
 	const uint32_t unclamped = unclamped_by(a, target->surface);
-	const struct gls_program *program = gls_program_of_fragments(st);
+	struct program_stage vertices, fragments;
+	const int runs_fragments = gls_program_runs_fragments(st, &fragments);
+	const int runs_vertices = !e->rectangle && !e->in_window && gls_program_runs_vertices(st, &vertices);
 	struct scene_unit units[GLS_MAX_UNITS];
 	struct scene_material m;
 
@@ -359,7 +373,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
-	m.unit_count = fill_units(x, f, st, e, program, units);
+	m.unit_count = fill_units(x, f, st, e, runs_fragments ? fragments.code : NULL, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
@@ -377,10 +391,16 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
 	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
-	if (program) {
+	if (runs_fragments) {
 		m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for programs' colours, whatever ShadeModel says */
-		m.fragment_program = gls_program_build(f, st, a, program);
+		m.fragment_program = gls_program_build(f, st, a, &fragments);
 		if (!m.fragment_program)
+			return SCENE_NONE;
+	}
+	if (runs_vertices) {
+		fill_vertex_stage(st, vertices.code, &m);
+		m.vertex_program = gls_program_build(f, st, a, &vertices);
+		if (!m.vertex_program)
 			return SCENE_NONE;
 	}
 	return gls_intern(&f->materials, &s->materials, &s->n_materials, &f->room.materials, &m, sizeof(m));
@@ -392,12 +412,14 @@ uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, c
 {
 	static const float white[4] = { 1, 1, 1, 1 }, up[4] = { 0, 0, 1, 0 }, origin[4] = { 0, 0, 0, 1 };
 	struct scene *s = f->out;
+	const uint32_t inputs = m->vertex_program ? ((const struct scene_program *)(s->programs + (m->vertex_program - 1)))->inputs : 0;
 	struct scene_current current;
 	uint32_t varying = mesh->attributes, textured = 0;
 
 	memset(&current, 0, sizeof(current));
 	for (uint32_t i = 0; i < m->unit_count; i++)
 		textured |= 1u << s->units[m->unit_first + i].unit;
+	textured |= inputs >> SCENE_VERTEX_TEXCOORD;
 	memcpy(current.color, varying & SCENE_HAS_COLOR ? white : values[GLS_ATTR_COLOR], 16);
 	memcpy(current.secondary, varying & SCENE_HAS_SECONDARY ? origin : values[GLS_ATTR_SECONDARY], 16);
 	memcpy(current.normal, varying & SCENE_HAS_NORMAL ? up : values[GLS_ATTR_NORMAL], 12);
@@ -405,6 +427,9 @@ uint32_t gls_frame_current(struct gls_frame *f, const struct scene_mesh *mesh, c
 		int is_read = textured >> u & 1 && !(varying >> (GLS_ATTR_TEXCOORD + u) & 1);
 		memcpy(current.texcoord[u], is_read ? values[GLS_ATTR_TEXCOORD + u] : origin, 16);
 	}
+	for (unsigned i = 0; i < SCENE_MAX_GENERICS; i++)
+		memcpy(current.generics[i], inputs >> (SCENE_VERTEX_GENERIC + i) & 1 && !(varying >> (GLS_ATTR_GENERIC + i) & 1) ?
+		       values[GLS_ATTR_GENERIC + i] : origin, 16);
 	current.fog_coord = varying & SCENE_HAS_FOG_COORD ? 0 : values[GLS_ATTR_FOG_COORD][0];
 	return gls_intern(&f->currents, &s->currents, &s->n_currents, &f->room.currents, &current, sizeof(current));
 }

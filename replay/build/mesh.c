@@ -78,6 +78,8 @@ static struct gls_mesh *build(const struct gls_geometry *g, XXH128_hash_t hash)
 	arrays[GLS_ATTR_FOG_COORD] = &mesh->fog_coord;
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		arrays[GLS_ATTR_TEXCOORD + u] = &mesh->texcoord[u];
+	for (unsigned i = 0; i < SCENE_MAX_GENERICS; i++)
+		arrays[GLS_ATTR_GENERIC + i] = &mesh->generics[i];
 	mesh->hash[0] = hash.low64;
 	mesh->hash[1] = hash.high64;
 	mesh->kind = g->kind;

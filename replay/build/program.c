@@ -9,7 +9,7 @@
 #include "gl_tokens.h"
 #include "replay/build/intern.h"
 #include "replay/build/material.h"
-#include "replay/programs/program.h"
+#include "replay/programs/code.h"
 
 static void set_four(float out[4], const float *from)
 {
@@ -62,8 +62,10 @@ static void fill_light(const struct scene_light *light, uint32_t part, float out
 
 static void fill_matrix(const struct gls_state *st, const struct program_constant *c, float out[4])
 {
-	const struct gls_matrix_stack *stack = c->index == PROGRAM_MODELVIEW ? &st->modelview : c->index < PROGRAM_TEXTURE_MATRIX ?
-	                                       &st->projection : &st->texture[c->index - PROGRAM_TEXTURE_MATRIX];
+	const struct gls_matrix_stack *stack = c->index == PROGRAM_MODELVIEW ? &st->modelview :
+	                                       c->index < PROGRAM_TEXTURE_MATRIX ? &st->projection :
+	                                       c->index < PROGRAM_OWN_MATRIX ? &st->texture[c->index - PROGRAM_TEXTURE_MATRIX] :
+	                                                                       &st->program_matrix[c->index - PROGRAM_OWN_MATRIX];
 	float m[16], other[16];
 
 	memcpy(m, stack->matrices[stack->depth], sizeof(m));
@@ -93,17 +95,18 @@ static void fill_fog(const struct gls_fog *fog, float out[4])
 	out[3] = fog->end == fog->start ? 1 : 1 / (fog->end - fog->start);
 }
 
-static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct gls_program *p, const struct program_constant *c,
+static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage, const struct program_constant *c,
                  float out[4])
 {
 	const struct gls_lighting *l = &a->lighting;
 	const struct scene_light *light = &l->lights[c->index % GLS_MAX_LIGHTS].value;
+	const struct scene_unit *unit = &a->texturing.units[c->index % GLS_MAX_UNITS].value;
 	const struct scene_face *face = &l->face[(c->source == PROGRAM_LIGHT_PRODUCT ? c->face : c->index) & 1];
 
 	switch (c->source) {
 	case PROGRAM_LITERAL: set_four(out, c->value); break;
-	case PROGRAM_ENV: set_four(out, st->program_env[p->target == GL_VERTEX_PROGRAM_ARB][c->index]); break;
-	case PROGRAM_LOCAL: set_four(out, p->local[c->index]); break;
+	case PROGRAM_ENV: set_four(out, stage->env[c->index]); break;
+	case PROGRAM_LOCAL: set_four(out, stage->local[c->index]); break;
 	case PROGRAM_MATERIAL:
 		if (c->part == PROGRAM_SHININESS)
 			set_four(out, (const float[4]){ face->shininess, 0, 0, 1 });
@@ -118,7 +121,7 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 			out[k] = light_color(light, c->part)[k] * face_color(face, c->part)[k];
 		out[3] = face_color(face, c->part)[3];
 		break;
-	case PROGRAM_ENV_COLOR: set_four(out, a->texturing.units[c->index % GLS_MAX_UNITS].value.env_color); break;
+	case PROGRAM_ENV_COLOR: set_four(out, unit->env_color); break;
 	case PROGRAM_FOG_COLOR: set_four(out, a->fog.color); break;
 	case PROGRAM_FOG_NUMBERS: fill_fog(&a->fog, out); break;
 	case PROGRAM_DEPTH_RANGE:
@@ -126,14 +129,30 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 		                                a->viewport.depth_range[1] - a->viewport.depth_range[0], 1 });
 		break;
 	case PROGRAM_MATRIX: fill_matrix(st, c, out); break;
+	case PROGRAM_CLIP_PLANE: set_four(out, a->transform.clip_plane_eye[c->index % GLS_MAX_CLIP_PLANES]); break;
+	case PROGRAM_POINT_NUMBERS:
+		set_four(out, (const float[4]){ a->point.size, a->point.size_min, a->point.size_max, a->point.fade_threshold });
+		break;
+	case PROGRAM_POINT_ATTENUATION:
+		set_four(out, (const float[4]){ a->point.attenuation[0], a->point.attenuation[1], a->point.attenuation[2], 1 });
+		break;
+	case PROGRAM_TEXGEN:
+		set_four(out, c->part ? unit->gen_object_plane[c->row & 3] : unit->gen_eye_plane[c->row & 3]);
+		break;
 	}
 }
 
-uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct gls_program *p)
+/* A size of points counts where the state says so. */
+static uint32_t outputs_of(const struct gls_state *st, const struct program_code *code)
 {
-	const struct program_code *code = &p->code;
+	return st->vertex_point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
+}
+
+uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage)
+{
+	const struct program_code *code = stage->code;
 	const struct scene_program head = { code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs, code->kills,
-		                            code->sets_depth };
+		                            code->sets_depth, outputs_of(st, code) };
 	const size_t instruction_bytes = code->n_instructions * sizeof(struct scene_instruction);
 	const size_t n = (sizeof(head) + instruction_bytes) / 4 + 4 * (size_t)code->n_constants;
 	uint32_t *words = malloc(n * 4), place;
@@ -148,7 +167,7 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 	for (uint32_t i = 0; i < code->n_constants; i++) {
 		float four[4] = { 0 };
 
-		fill(st, a, p, &code->constants[i], four);
+		fill(st, a, stage, &code->constants[i], four);
 		memcpy((char *)words + sizeof(head) + instruction_bytes + 16 * i, four, sizeof(four));
 	}
 	place = gls_intern_array(&f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);

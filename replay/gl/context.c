@@ -85,6 +85,8 @@ static void init_attribs(struct gls_attribs *a)
 		a->current.raster_texcoord[u][3] = 1;
 		init_unit(&a->texturing.units[u], u);
 	}
+	for (unsigned i = 0; i < SCENE_MAX_GENERICS; i++)
+		a->current.attribute[GLS_ATTR_GENERIC + i][3] = 1;
 	a->current.edge_flag = 1;
 	a->current.index = 1;
 	a->current.raster_position[3] = 1;
@@ -168,6 +170,8 @@ int gls_state_init(struct gls_state *st)
 	init_stack(&st->modelview, GLS_MAX_MATRICES);
 	init_stack(&st->projection, GLS_MAX_MATRICES);
 	init_stack(&st->color_matrix, 4);
+	for (unsigned i = 0; i < GLS_MAX_PROGRAM_MATRICES; i++)
+		init_stack(&st->program_matrix[i], 4);
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		init_stack(&st->texture[u], GLS_MAX_TEXTURE_MATRICES);
 	gls_arrays_init(st->client.arrays);

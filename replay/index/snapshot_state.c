@@ -123,6 +123,8 @@ void snapshot_put_state(struct saver *s, const struct gls_state *st)
 	clear_unused(&raw.modelview);
 	clear_unused(&raw.projection);
 	clear_unused(&raw.color_matrix);
+	for (unsigned i = 0; i < GLS_MAX_PROGRAM_MATRICES; i++)
+		clear_unused(&raw.program_matrix[i]);
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		clear_unused(&raw.texture[u]);
 	saver_section(s, "struct gls_state of context", context_of(s->x, st));
@@ -171,6 +173,8 @@ static int state_fits(const struct gls_state *raw, const struct gls_state *made)
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++)
 		fits &= depth_fits(&raw->texture[u], &made->texture[u]);
+	for (unsigned i = 0; i < GLS_MAX_PROGRAM_MATRICES; i++)
+		fits &= depth_fits(&raw->program_matrix[i], &made->program_matrix[i]);
 	for (unsigned i = 0; i < N_GLS_PIXEL_MAPS; i++)
 		fits &= raw->pixel_maps[i].size <= GLS_MAX_PIXEL_MAP;
 	return fits && raw->attrib_depth <= GLS_MAX_ATTRIB_DEPTH && raw->client_depth <= GLS_MAX_ATTRIB_DEPTH &&

@@ -6,6 +6,10 @@
 
 struct gls_matrix_stack *gls_current_stack(struct gls_state *st)
 {
+	const uint32_t own = st->a.transform.matrix_mode - GL_MATRIX0_ARB;
+
+	if (own < GLS_MAX_PROGRAM_MATRICES)
+		return &st->program_matrix[own];
 	switch (st->a.transform.matrix_mode) {
 	case GL_PROJECTION: return &st->projection;
 	case GL_TEXTURE: return &st->texture[st->a.texturing.active];

@@ -19,11 +19,13 @@
 #define GLS_MAX_TEXTURE_MATRICES 10
 #define GLS_MAX_ATTRIB_DEPTH 16
 #define GLS_MAX_PROGRAM_PARAMETERS 256
+#define GLS_MAX_PROGRAM_MATRICES 8
 
 /* Vertex attributes; the conventional ones are those of scene_current. */
 enum gls_attribute {
 	GLS_ATTR_NORMAL, GLS_ATTR_COLOR, GLS_ATTR_SECONDARY, GLS_ATTR_FOG_COORD, GLS_ATTR_TEXCOORD,
-	N_GLS_ATTRIBUTES = GLS_ATTR_TEXCOORD + GLS_MAX_UNITS
+	GLS_ATTR_GENERIC = GLS_ATTR_TEXCOORD + GLS_MAX_UNITS, /* attribute 1 of vertex programs; others follow */
+	N_GLS_ATTRIBUTES = GLS_ATTR_GENERIC + SCENE_MAX_GENERICS
 };
 /* The same as bits of scene_mesh.attributes: 1 << attribute. */
 
@@ -286,6 +288,8 @@ struct gls_state {
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
 	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
 	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* of ARB programs: fragments', vertices' */
+	uint32_t vertex_point_size, vertex_two_side;         /* VERTEX_PROGRAM_POINT_SIZE, _TWO_SIDE */
+	struct gls_matrix_stack program_matrix[GLS_MAX_PROGRAM_MATRICES];
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;
 	struct scene_surface surface;  /* what the program said through rtMaterialEXT */

@@ -8,7 +8,7 @@
 
 #include "scene/program.h"
 
-/* Where the four numbers of a constant come from (ARB_fragment_program, tables X.1 to X.5). */
+/* Where the four numbers of a constant come from (ARB_vertex_program and ARB_fragment_program, tables X.1 to X.5). */
 enum program_source {
 	PROGRAM_LITERAL,       /* value */
 	PROGRAM_ENV,           /* index */
@@ -22,14 +22,22 @@ enum program_source {
 	PROGRAM_FOG_COLOR,
 	PROGRAM_FOG_NUMBERS,   /* density, start, end, 1 / (end - start) */
 	PROGRAM_DEPTH_RANGE,   /* near, far, far - near, 1 */
-	PROGRAM_MATRIX         /* index: enum program_matrix, texture matrices from PROGRAM_TEXTURE_MATRIX on; part: bits below; row */
+	PROGRAM_MATRIX,        /* index: enum program_matrix; part: bits below; row */
+	PROGRAM_CLIP_PLANE,    /* index */
+	PROGRAM_POINT_NUMBERS, /* size, least, most, fade threshold */
+	PROGRAM_POINT_ATTENUATION,
+	PROGRAM_TEXGEN         /* index: unit; part: 0 eye plane, 1 object plane; row: s t r q */
 };
 enum program_light_part {
 	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION, PROGRAM_LIGHT_ATTENUATION,
 	PROGRAM_LIGHT_DIRECTION, /* of a spot; the fourth: cosine of its cutoff */
 	PROGRAM_LIGHT_HALF       /* half-way vector of a light at infinity */
 };
-enum program_matrix { PROGRAM_MODELVIEW, PROGRAM_PROJECTION, PROGRAM_MVP, PROGRAM_TEXTURE_MATRIX };
+enum program_matrix {
+	PROGRAM_MODELVIEW, PROGRAM_PROJECTION, PROGRAM_MVP,
+	PROGRAM_TEXTURE_MATRIX,                                          /* of unit 0; others follow */
+	PROGRAM_OWN_MATRIX = PROGRAM_TEXTURE_MATRIX + SCENE_MAX_UNITS    /* GL_MATRIX0_ARB; others follow */
+};
 enum { PROGRAM_SHININESS = 16 };                         /* beside GLS_AMBIENT to GLS_EMISSION */
 enum { PROGRAM_INVERTED = 1, PROGRAM_TRANSPOSED = 2 };   /* of matrices */
 
@@ -44,8 +52,14 @@ struct program_code {
 	struct program_constant *constants;     /* owned */
 	uint32_t n_instructions, n_constants, n_registers;
 	uint32_t instruction_room, constant_room;
-	uint32_t inputs, kills, sets_depth; /* as in struct scene_program */
+	uint32_t inputs, kills, sets_depth, outputs; /* as in struct scene_program */
 	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
+};
+
+/* A stage of the pipeline that a program runs: what it is, and what its parameters hold (PROGRAM_ENV, PROGRAM_LOCAL). Borrowed. */
+struct program_stage {
+	const struct program_code *code;
+	const float (*env)[4], (*local)[4];
 };
 
 /**

@@ -40,15 +40,22 @@ struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t targe
 	return table_find(&st->share->programs, gls_program_key(target, target == GL_VERTEX_PROGRAM_ARB ? st->arb_vertex : st->arb_fragment));
 }
 
+static const char *lack_of(const struct gls_state *st, uint32_t target)
+{
+	const struct gls_program *p = gls_program_bound(st, target);
+
+	return !p || !p->source ? "draws with a program that has no text" : p->why;
+}
+
 const char *gls_program_lack(const struct gls_state *st)
 {
-	const struct gls_program *fragments = st->arb_fragment_enabled ? gls_program_bound(st, GL_FRAGMENT_PROGRAM_ARB) : NULL;
+	const char *lack = st->program ? gls_programs : NULL;
 
-	if (st->program || st->arb_vertex_enabled)
-		return gls_programs;
-	if (!st->arb_fragment_enabled)
-		return NULL;
-	return !fragments || !fragments->source ? "draws with a fragment program that has no text" : fragments->why;
+	if (!lack && st->arb_vertex_enabled)
+		lack = lack_of(st, GL_VERTEX_PROGRAM_ARB);
+	if (!lack && st->arb_fragment_enabled)
+		lack = lack_of(st, GL_FRAGMENT_PROGRAM_ARB);
+	return lack;
 }
 
 uint64_t gls_program_current(const struct gls_state *st)
@@ -60,7 +67,20 @@ uint64_t gls_program_current(const struct gls_state *st)
 	return st->arb_vertex_enabled ? (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex : 0;
 }
 
-const struct gls_program *gls_program_of_fragments(const struct gls_state *st)
+static int runs(const struct gls_state *st, uint32_t target, struct program_stage *stage)
 {
-	return st->arb_fragment_enabled && !gls_program_lack(st) ? gls_program_bound(st, GL_FRAGMENT_PROGRAM_ARB) : NULL;
+	const struct gls_program *p = gls_program_bound(st, target);
+
+	*stage = (struct program_stage){ &p->code, st->program_env[target == GL_VERTEX_PROGRAM_ARB], p->local };
+	return 1;
+}
+
+int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage)
+{
+	return st->arb_vertex_enabled && !gls_program_lack(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
+}
+
+int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage)
+{
+	return st->arb_fragment_enabled && !gls_program_lack(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
 }

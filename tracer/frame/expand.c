@@ -49,7 +49,7 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 {
 	const uint32_t *index = in->mesh->index + 3 * (size_t)primitive;
 	uint32_t flags = in->mesh->edge_flags ? in->mesh->edge_flags[primitive] : 7;
-	int front = is_front(in, index), side = in->material->lighting && in->material->two_side && !front, err = 0, n;
+	int front = is_front(in, index), side = in->material->two_side && !front, err = 0, n;
 	struct expand_end e[EXPAND_CORNERS];
 	float offset;
 

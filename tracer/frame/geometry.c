@@ -1,9 +1,11 @@
 #include "tracer/frame/geometry.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/err.h"
+#include "base/mat4.h"
 #include "base/memory.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/upload.h"
@@ -27,10 +29,16 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 		err = frame_reserve(tr, texcoords, 4 * ((size_t)p->n_texcoords + extra_texcoords));
 	if (err)
 		return err;
-	return launch_vertex(tr->dev, p->n_vertices,
-	                     LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height,
-	                            .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows, .clips = b->clips,
-	                            .coords = b->texcoords));
+	err = launch_vertex(tr->dev, p->n_vertices,
+	                    LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = job->height,
+	                           .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows, .clips = b->clips,
+	                           .coords = b->texcoords));
+	if (err || !p->has_vertex_programs)
+		return err;
+	return launch_vertex_program(tr->dev, p->n_vertices,
+	                             LAUNCH(vertex_program, .tables = frame_tables(tr), .views = b->views, .owners = b->owners,
+	                                    .height = job->height, .n = p->n_vertices, .shaded = b->vertices, .windows = b->windows,
+	                                    .clips = b->clips, .coords = b->texcoords, .programs = b->programs));
 }
 
 static int upload_vertex_stage(struct job *job)
@@ -166,7 +174,34 @@ static int expand_all(struct job *job)
 
 /* --- Trees ------------------------------------------------------------------------------------------------------ */
 
-/* Eye-space positions of baked instances; *out is NULL where there are none. */
+static const struct scene_mesh *mesh_of(const struct job *job, uint32_t i)
+{
+	return job->scene->meshes[job->scene->instances[job->prepared.instances[i].scene_instance].mesh];
+}
+
+/*
+ * 1 where a program has left an instance's vertices where its modelview puts them: then its tree stays the mesh's, whatever the camera does.
+ * eye: where they are
+ */
+static int is_in_place(const struct job *job, uint32_t i, const float (*eye)[4])
+{
+	const struct scene_instance *from = &job->scene->instances[job->prepared.instances[i].scene_instance];
+	const struct scene_mesh *mesh = mesh_of(job, i);
+	float size = 0, at[4];
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int a = 0; a < 4; a++)
+			size = fmaxf(size, fabsf(eye[v][a]));
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		mat4_transform(at, from->modelview, mesh->position + 4 * (size_t)v);
+		for (int a = 0; a < 4; a++)
+			if (!(fabsf(at[a] - eye[v][a]) <= 1e-6f * size))
+				return 0;
+	}
+	return 1;
+}
+
+/* Eye-space positions of baked instances; *out is NULL where there are none. Those that a program left in place are baked no longer. */
 static int read_baked(struct job *job, float (**out)[4])
 {
 	struct prepared *p = &job->prepared;
@@ -191,6 +226,12 @@ static int read_baked(struct job *job, float (**out)[4])
 		for (uint32_t v = 0; v < g->vertex_count; v++)
 			memcpy((*out)[g->vertex_first + v], vertices[v].eye, sizeof(**out));
 		free(vertices);
+		if (err || !prepare_is_displaced(job->scene, &job->scene->instances[p->instances[i].scene_instance]))
+			continue;
+		if (is_in_place(job, i, (const float (*)[4])*out + g->vertex_first))
+			prepare_place(p, job->scene, i);
+		prepare_pad(p, job->scene, i, p->instances[i].flags & INSTANCE_BAKED ? (const float (*)[4])*out + g->vertex_first :
+		                                                                       (const float (*)[4])mesh_of(job, i)->position, g->vertex_count);
 	}
 	return err;
 }

@@ -100,6 +100,9 @@ void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometr
 	}
 	g->face = at;
 	at += mesh->face ? (uint32_t)FACE_WORDS * n : 0;
+	g->generics = at;
+	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
+		at += mesh->generics[i] ? 4 * n : 0;
 	g->crease = mesh->crease ? at : SCENE_NONE;
 }
 
@@ -110,6 +113,8 @@ size_t prepare_attribute_words(const struct scene_mesh *mesh)
 
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		each += mesh->texcoord[unit] ? 4 : 0;
+	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
+		each += mesh->generics[i] ? 4 : 0;
 	return each * mesh->vertex_count + (mesh->crease ? 9 * (size_t)mesh->primitive_count : 0);
 }
 
@@ -134,6 +139,8 @@ void prepare_fill_attributes(const void *object, uint32_t *words)
 	for (int unit = 0; unit < SCENE_MAX_UNITS; unit++)
 		words = append(words, mesh->texcoord[unit], 4 * n);
 	words = append(words, (const float *)mesh->face, FACE_WORDS * n);
+	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
+		words = append(words, mesh->generics[i], 4 * n);
 	append(words, mesh->crease, 9 * (size_t)mesh->primitive_count);
 }
 
@@ -159,23 +166,23 @@ void prepare_fill_indices(const void *object, uint32_t *words)
  * that covers a pixel centre then. The padding is that step at the farthest corner of the mesh's box, in object units, and a little
  * for the rounding of large coordinates.
  */
-static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, const struct instance *instance,
+static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16], const struct instance *instance,
                      const struct view *view)
 {
 	float lo[3] = { INFINITY, INFINITY, INFINITY }, hi[3] = { -INFINITY, -INFINITY, -INFINITY };
 	float farthest = 0, size = 0, eye = 0, shrink = 0;
 
-	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+	for (uint32_t v = 0; v < n; v++)
 		for (int a = 0; a < 3; a++) {
-			lo[a] = fminf(lo[a], mesh->position[4 * v + a]);
-			hi[a] = fmaxf(hi[a], mesh->position[4 * v + a]);
+			lo[a] = fminf(lo[a], positions[v][a]);
+			hi[a] = fmaxf(hi[a], positions[v][a]);
 		}
 	for (int corner = 0; corner < 8; corner++) {
-		float at[3], w = g->clip_from_obj[15];
+		float at[3], w = clip_from_box[15];
 
 		for (int a = 0; a < 3; a++) {
 			at[a] = corner >> a & 1 ? hi[a] : lo[a];
-			w += g->clip_from_obj[4 * a + 3] * at[a];
+			w += clip_from_box[4 * a + 3] * at[a];
 			size = fmaxf(size, fabsf(at[a]));
 		}
 		farthest = fmaxf(farthest, fabsf(w));
@@ -189,6 +196,15 @@ static float box_pad(const struct scene_mesh *mesh, const struct geometry *g, co
 		for (int col = 0; col < 3; col++)
 			shrink += instance->obj_from_eye[row * 4 + col] * instance->obj_from_eye[row * 4 + col];
 	return 2 * farthest * sqrtf(eye) / 256 * sqrtf(shrink) + 4e-6f * size;
+}
+
+void prepare_pad(struct prepared *p, const struct scene *scene, uint32_t i, const float (*positions)[4], uint32_t n)
+{
+	struct instance *instance = &p->instances[i];
+	const struct geometry *g = &p->geometries[i];
+	const float *clip = instance->flags & INSTANCE_BAKED ? scene->views[scene->instances[instance->scene_instance].view].projection : g->clip_from_obj;
+
+	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
 }
 
 /*
@@ -245,6 +261,34 @@ static enum prepared_shape shape_of_mode(uint32_t mode)
 	return mode == GL_LINE ? PREPARED_LINES : mode == GL_POINT ? PREPARED_POINTS : PREPARED_FILLED;
 }
 
+/* Its tree is in eye space. */
+static void bake(struct instance *instance)
+{
+	instance->flags |= INSTANCE_BAKED;
+	identity_rows(instance->eye_from_obj);
+	identity_rows(instance->obj_from_eye);
+}
+
+void prepare_place(struct prepared *p, const struct scene *scene, uint32_t i)
+{
+	struct instance *instance = &p->instances[i];
+	const struct scene_instance *from = &scene->instances[instance->scene_instance];
+
+	if (!invert_affine(from->modelview, instance->obj_from_eye)) {
+		bake(instance);
+		return;
+	}
+	rows_from_columns(from->modelview, instance->eye_from_obj);
+	instance->flags &= ~INSTANCE_BAKED;
+}
+
+int prepare_is_displaced(const struct scene *scene, const struct scene_instance *instance)
+{
+	const uint32_t program = scene->materials[instance->material].vertex_program;
+
+	return program && ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
+}
+
 static void add_instance(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
                          enum prepared_shape shape, uint32_t cull)
 {
@@ -284,29 +328,23 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		identity_rows(instance->eye_from_obj);
 		identity_rows(instance->obj_from_eye);
 		segment->screen_count++;
-	} else if (invert_affine(from->modelview, instance->obj_from_eye)) {
-		rows_from_columns(from->modelview, instance->eye_from_obj);
+	} else if (prepare_is_displaced(scene, from)) {
+		bake(instance);
 	} else {
-		instance->flags |= INSTANCE_BAKED;
-		identity_rows(instance->eye_from_obj);
-		identity_rows(instance->obj_from_eye);
+		prepare_place(p, scene, p->n_instances);
 	}
-	if (shape == PREPARED_FILLED && !(instance->flags & INSTANCE_BAKED))
-		instance->pad = box_pad(mesh, g, instance, &p->views[segment->view]);
-	else if (shape == PREPARED_FILLED) {
-		struct geometry baked = *g;
-
-		memcpy(baked.clip_from_obj, scene->views[from->view].projection, sizeof(baked.clip_from_obj));
-		instance->pad = box_pad(mesh, &baked, instance, &p->views[segment->view]);
-	} else {
+	if (shape == PREPARED_FILLED)
+		prepare_pad(p, scene, p->n_instances, (const float (*)[4])mesh->position, mesh->vertex_count);
+	else
 		instance->pad = 1.0f / 128; /* pixels */
-	}
 	p->n_instances++;
 	segment->instance_count++;
 	if (m->lighting && m->light_count > p->n_light_slots)
 		p->n_light_slots = m->light_count;
 	if (m->surface.relit && m->surface.light_count > p->n_light_slots)
 		p->n_light_slots = m->surface.light_count;
+	p->has_vertex_programs |= m->vertex_program != 0;
+	p->has_fragment_programs |= m->fragment_program != 0;
 	p->has_mirrors |= m->surface.reflect > 0 || m->surface.transmit > 0;
 	if (instance->flags & INSTANCE_SECONDARY)
 		p->has_transparency |= m->blend || m->alpha_test || m->alpha_to_coverage || m->clip_plane_mask || m->surface.transmit > 0 ||

@@ -41,6 +41,7 @@ struct prepared {
 	uint32_t *owner;      /* [n_vertices]: instance */
 	uint8_t *skies;       /* [scene's instances]: 1 where it is a sky */
 	uint32_t n_light_slots; /* most lights in any lit material */
+	int has_vertex_programs, has_fragment_programs;
 	int has_mirrors; /* a surface mirrors or lets light through */
 	int has_transparency;   /* what stops a ray to a light may let some of it pass */
 };
@@ -52,6 +53,15 @@ struct prepared {
  * @return 0 or ERR_SYSTEM (reported)
  */
 int prepare_frame(const struct scene *scene, const float shift[2], struct prepared *out);
+
+/** 1 where a program says where an instance's vertices are. */
+int prepare_is_displaced(const struct scene *scene, const struct scene_instance *instance);
+
+/** Place a filled instance by its modelview; bake it where that has no inverse, or is projective. */
+void prepare_place(struct prepared *p, const struct scene *scene, uint32_t instance);
+
+/** By how much camera rays widen an instance's boxes (struct instance): `positions`, in object space, or in eye space where it is baked. */
+void prepare_pad(struct prepared *p, const struct scene *scene, uint32_t instance, const float (*positions)[4], uint32_t n);
 
 /** Move the picture of a prepared frame: its views are as prepare_frame would have made them with this shift. */
 void prepare_shift(struct prepared *p, const float shift[2]);

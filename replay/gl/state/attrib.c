@@ -85,6 +85,8 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 	switch (cap) {
 	case GL_VERTEX_PROGRAM_ARB: return &st->arb_vertex_enabled;
 	case GL_FRAGMENT_PROGRAM_ARB: return &st->arb_fragment_enabled;
+	case GL_VERTEX_PROGRAM_POINT_SIZE: return &st->vertex_point_size;
+	case GL_VERTEX_PROGRAM_TWO_SIDE: return &st->vertex_two_side;
 	case GL_RASTERIZER_DISCARD: return &st->rasterizer_discard;
 	default: return bit_of(st, cap, bit);
 	}
@@ -95,7 +97,6 @@ static int is_harmless_cap(uint32_t cap)
 {
 	switch (cap) {
 	case GL_DEBUG_OUTPUT: case GL_DEBUG_OUTPUT_SYNCHRONOUS: case GL_TEXTURE_CUBE_MAP_SEAMLESS:
-	case GL_VERTEX_PROGRAM_POINT_SIZE:
 	case GL_FRAMEBUFFER_SRGB: /* the window has no sRGB buffer */
 		return 1;
 	default:

@@ -39,7 +39,8 @@ GLS_HANDLER(glMatrixMode, MATRIX, SELECT)
 {
 	uint32_t mode = arg_u(c, 0);
 
-	if (gls_refuses(x, st, mode != GL_MODELVIEW && mode != GL_PROJECTION && mode != GL_TEXTURE && mode != GL_COLOR, GL_INVALID_ENUM))
+	if (gls_refuses(x, st, mode != GL_MODELVIEW && mode != GL_PROJECTION && mode != GL_TEXTURE && mode != GL_COLOR &&
+	                mode - GL_MATRIX0_ARB >= GLS_MAX_PROGRAM_MATRICES, GL_INVALID_ENUM))
 		return;
 	st->a.transform.matrix_mode = mode;
 }

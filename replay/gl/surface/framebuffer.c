@@ -145,11 +145,12 @@ void gls_texture_update(struct gls_exec *x, const struct gls_state *st, const st
 
 void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing)
 {
-	const struct gls_program *program = gls_program_of_fragments(st);
+	struct program_stage stage;
+	const int runs = gls_program_runs_fragments(st, &stage);
 
 	for (unsigned u = 0; st->share->framebuffers.n && u < GLS_MAX_UNITS; u++)
 		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
-			if (texturing->units[u].enabled >> target & 1 || (program && program->code.targets[u] == target + 1))
+			if (texturing->units[u].enabled >> target & 1 || (runs && stage.code->targets[u] == target + 1))
 				gls_texture_update(x, st, gls_texture_bound(x, st, u, target));
 }
 

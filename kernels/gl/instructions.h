@@ -1,0 +1,196 @@
+/*
+ * Programs of a draw, run instruction by instruction (scene/program.h), for four fragments or vertices at once. This is what both stages share:
+ * program.h runs fragments, vertex_program.h vertices.
+ */
+#pragma once
+
+#include "kernels/common.h"
+#include "scene/program.h"
+
+#ifdef __OPENCL_VERSION__
+#define M_LOG2(x) log2(x)
+#else
+#define M_LOG2(x) log2f(x)
+#endif
+
+/* A program in the words of scene.programs. */
+struct program {
+	GLOBAL const struct scene_program *head;
+	GLOBAL const struct scene_instruction *instructions;
+	GLOBAL const float *constants;
+};
+
+/* One that runs. Registers hold a number for each of the four. */
+struct program_run {
+	uint32_t wanted; /* bits: those of the four whose results count */
+	uint32_t killed; /* bits: those that were discarded */
+	struct vec4 registers[SCENE_PROGRAM_REGISTERS];
+};
+
+static inline struct program program_at(GLOBAL const uint32_t *words)
+{
+	struct program program;
+
+	program.head = (GLOBAL const struct scene_program *)words;
+	program.instructions = (GLOBAL const struct scene_instruction *)(program.head + 1);
+	program.constants = (GLOBAL const float *)(program.instructions + program.head->n_instructions);
+	return program;
+}
+
+static inline float program_of_four(struct vec4 v, uint32_t pixel)
+{
+	return pixel == 0u ? v.x : pixel == 1u ? v.y : pixel == 2u ? v.z : v.w;
+}
+
+static inline struct vec4 program_splat(float x)
+{
+	return v4(x, x, x, x);
+}
+
+static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted)
+{
+	run->wanted = wanted;
+	run->killed = 0u;
+	for (uint32_t i = 0u; i < program->head->n_registers; i++)
+		run->registers[i] = program_splat(0.0f);
+}
+
+/* Set the four registers from `first` on, for number k of the four. */
+static inline void program_set(struct program_run *run, uint32_t first, uint32_t k, struct vec4 value)
+{
+	float from[4];
+
+	from[0] = value.x;
+	from[1] = value.y;
+	from[2] = value.z;
+	from[3] = value.w;
+	for (uint32_t i = 0u; i < 4u; i++) {
+		struct vec4 *r = &run->registers[first + i];
+
+		if (k == 0u)
+			r->x = from[i];
+		else if (k == 1u)
+			r->y = from[i];
+		else if (k == 2u)
+			r->z = from[i];
+		else
+			r->w = from[i];
+	}
+}
+
+/* And read them. */
+static inline struct vec4 program_get(const struct program_run *run, uint32_t first, uint32_t k)
+{
+	const struct vec4 *r = &run->registers[first];
+
+	return v4(program_of_four(r[0], k), program_of_four(r[1], k), program_of_four(r[2], k), program_of_four(r[3], k));
+}
+
+/* Number `place` of an operand for the four. */
+static inline struct vec4 program_operand(const struct program_run *run, const struct program *program, uint32_t operand, uint32_t place,
+                                          uint32_t negate)
+{
+	struct vec4 v = operand >= SCENE_PROGRAM_CONSTANT ? program_splat(program->constants[operand - SCENE_PROGRAM_CONSTANT + place]) :
+	                                                    run->registers[operand + place];
+
+	return negate ? v4_scale(v, -1.0f) : v;
+}
+
+static inline float program_number(uint32_t operation, float a, float b)
+{
+	switch (operation) {
+	case SCENE_OP_ABSOLUTE: return M_ABS(a);
+	case SCENE_OP_FLOOR: return M_FLOOR(a);
+	case SCENE_OP_FRACTION: return a - M_FLOOR(a);
+	case SCENE_OP_RECIPROCAL: return 1.0f / a;
+	case SCENE_OP_INVERSE_ROOT: return 1.0f / M_SQRT(M_ABS(a));
+	case SCENE_OP_EXP2: return M_EXP2(a);
+	case SCENE_OP_LOG2: return M_LOG2(a);
+	case SCENE_OP_SINE: return M_SIN(a);
+	case SCENE_OP_COSINE: return M_COS(a);
+	case SCENE_OP_MINIMUM: return M_MIN(a, b);
+	case SCENE_OP_MAXIMUM: return M_MAX(a, b);
+	case SCENE_OP_LESS: return a < b ? 1.0f : 0.0f;
+	case SCENE_OP_GREATER_EQUAL: return a >= b ? 1.0f : 0.0f;
+	case SCENE_OP_POWER: return M_POW(a, b);
+	default: return a;
+	}
+}
+
+static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c)
+{
+	switch (operation) {
+	case SCENE_OP_MOVE: return a;
+	case SCENE_OP_ADD: return v4_add(a, b);
+	case SCENE_OP_MULTIPLY: return v4_mul(a, b);
+	case SCENE_OP_MAD: return v4_add(v4_mul(a, b), c);
+	case SCENE_OP_SELECT:
+		return v4(a.x < 0.0f ? b.x : c.x, a.y < 0.0f ? b.y : c.y, a.z < 0.0f ? b.z : c.z, a.w < 0.0f ? b.w : c.w);
+	default:
+		return v4(program_number(operation, a.x, b.x), program_number(operation, a.y, b.y), program_number(operation, a.z, b.z),
+		          program_number(operation, a.w, b.w));
+	}
+}
+
+/* One of the four's element of an array. */
+static inline float program_element(const struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in,
+                                    uint32_t i, uint32_t k, float element)
+{
+	const uint32_t elements = in->c >> 16, numbers = in->c & 0xffffu;
+	uint32_t place;
+
+	if (!(element >= 0.0f && element < (float)elements))
+		return 0.0f;
+	place = (uint32_t)element * numbers + i;
+	return in->a >= SCENE_PROGRAM_CONSTANT ? program->constants[in->a - SCENE_PROGRAM_CONSTANT + place] :
+	                                         program_of_four(run->registers[in->a + place], k);
+}
+
+static inline void program_fetch(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+{
+	const struct vec4 at = program_operand(run, program, in->b, 0u, 0u);
+
+	for (uint32_t i = 0u; i < in->n; i++)
+		run->registers[in->to + i] = v4(program_element(run, program, in, i, 0u, at.x), program_element(run, program, in, i, 1u, at.y),
+		                                program_element(run, program, in, i, 2u, at.z), program_element(run, program, in, i, 3u, at.w));
+}
+
+/* An instruction of numbers, each by itself. */
+static inline void program_compute(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+{
+	const uint32_t flags = in->flags;
+
+	for (uint32_t i = 0u; i < in->n; i++) {
+		struct vec4 a = program_operand(run, program, in->a, flags & SCENE_STEP_A ? i : 0u, flags & SCENE_NEGATE_A), b = a, c = a;
+
+		if (in->operation == SCENE_OP_KILL) {
+			run->killed |= (a.x < 0.0f ? 1u : 0u) | (a.y < 0.0f ? 2u : 0u) | (a.z < 0.0f ? 4u : 0u) | (a.w < 0.0f ? 8u : 0u);
+			continue;
+		}
+		if (in->operation >= SCENE_OP_ADD)
+			b = program_operand(run, program, in->b, flags & SCENE_STEP_B ? i : 0u, flags & SCENE_NEGATE_B);
+		if (in->operation >= SCENE_OP_MAD)
+			c = program_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0u, flags & SCENE_NEGATE_C);
+		a = program_result(in->operation, a, b, c);
+		run->registers[in->to + i] = flags & SCENE_SATURATE ? v4_clamp01(a) : a;
+	}
+}
+
+/*
+ * Run instructions from number `at` on, up to one that is the stage's own (TEXTURE), to the end, or until nobody is left whose result counts.
+ * @return the number of that instruction; n_instructions: the program has ended
+ */
+static inline uint32_t program_run_from(struct program_run *run, const struct program *program, uint32_t at)
+{
+	for (; at < program->head->n_instructions && run->wanted & ~run->killed; at++) {
+		GLOBAL const struct scene_instruction *in = &program->instructions[at];
+
+		if (in->operation == SCENE_OP_TEXTURE)
+			return at;
+		if (in->operation == SCENE_OP_FETCH)
+			program_fetch(run, program, in);
+		else
+			program_compute(run, program, in);
+	}
+	return program->head->n_instructions;
+}

@@ -1,0 +1,123 @@
+/*
+ * Vertex programs (ARB_vertex_program): instructions.h runs them, for four vertices at once. What the vertex stage has made of a vertex by fixed
+ * function (vertex.h) gives way to what the program says of it: a clip position, from which its eye position is found again by the
+ * projection; colours, texture coordinates, fog coordinate, size of a point. Its normal stays fixed function's.
+ */
+#pragma once
+
+#include "kernels/gl/instructions.h"
+#include "kernels/gl/vertex.h"
+
+/* One of scene_vertex_input's, of a vertex in the mesh. */
+static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, uint32_t input)
+{
+	struct vec3 normal;
+
+	switch (input) {
+	case SCENE_VERTEX_POSITION: return v4_load(t->attributes + g->position + v * 4u);
+	case SCENE_VERTEX_NORMAL:
+		normal = tables_normal(t, g, v);
+		return v4(normal.x, normal.y, normal.z, 1.0f);
+	case SCENE_VERTEX_COLOR: return tables_color(t, g, v);
+	case SCENE_VERTEX_SECONDARY: return tables_secondary(t, g, v);
+	case SCENE_VERTEX_FOG: return v4(tables_fog_coord(t, g, v), 0.0f, 0.0f, 1.0f);
+	default:
+		return input < SCENE_VERTEX_GENERIC ? tables_texcoord(t, g, v, input - SCENE_VERTEX_TEXCOORD) :
+		                                      tables_generic(t, g, v, input - SCENE_VERTEX_GENERIC);
+	}
+}
+
+/* A row of a projection; w: its last number */
+static inline struct vec3 vertex_row(GLOBAL const float *m, uint32_t row)
+{
+	return v3(m[row], m[4u + row], m[8u + row]);
+}
+
+/*
+ * Where a clip position lies in eye space: under a perspective projection the place that has its x, y and w. Depth has no part in it, of which
+ * a far place would have lost most bits. Else by the inverse, with the w that it finds.
+ */
+static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, struct vec4 clip)
+{
+	GLOBAL const float *m = view->projection;
+	const struct vec3 x = vertex_row(m, 0u), y = vertex_row(m, 1u), w = vertex_row(m, 3u), y_w = v3_cross(y, w);
+	const float determinant = v3_dot(x, y_w);
+	struct vec3 eye;
+
+	if (determinant == 0.0f)
+		return m4_mul(view->inverse, clip);
+	eye = v3_add(v3_add(v3_scale(y_w, clip.x - m[12]), v3_scale(v3_cross(w, x), clip.y - m[13])), v3_scale(v3_cross(x, y), clip.w - m[15]));
+	return v4(eye.x / determinant, eye.y / determinant, eye.z / determinant, 1.0f);
+}
+
+/* 1 where two clip positions are one but for rounding. */
+static inline int vertex_is_same(struct vec4 a, struct vec4 b)
+{
+	const float most = 1.0e-5f * M_MAX(M_MAX(M_ABS(a.x), M_ABS(a.y)), M_MAX(M_ABS(a.z), M_ABS(a.w)));
+
+	return M_ABS(a.x - b.x) <= most && M_ABS(a.y - b.y) <= most && M_ABS(a.z - b.z) <= most && M_ABS(a.w - b.w) <= most;
+}
+
+/* A result of number k of the four. */
+static inline struct vec4 vertex_result(const struct program_run *run, uint32_t output, uint32_t k)
+{
+	return program_get(run, SCENE_VERTEX_RESULTS + 4u * output, k);
+}
+
+static inline struct vec4 vertex_result_color(const struct program_run *run, GLOBAL const struct scene_material *m, uint32_t output, uint32_t k)
+{
+	const struct vec4 color = vertex_result(run, output, k);
+
+	return m->unclamped & 2u ? color : v4_clamp01(color);
+}
+
+/* Keep what the program has made of vertex v, number k of the four. */
+static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL const struct geometry *g, const struct program *program,
+                               const struct program_run *run, uint32_t v, uint32_t k)
+{
+	GLOBAL const struct scene_material *m = &a->tables.materials[g->material];
+	GLOBAL const struct view *view = &a->views[g->view];
+	GLOBAL struct shaded_vertex *out = &a->shaded[g->vertex_first + v];
+	const uint32_t outputs = program->head->outputs;
+
+	if (outputs >> SCENE_RESULT_POSITION & 1u) {
+		const struct vec4 clip = vertex_result(run, SCENE_RESULT_POSITION, k);
+
+		if (!vertex_is_same(v4_load(out->clip), clip)) /* else fixed function's eye position is the better one */
+			v4_store(out->eye, vertex_eye_from_clip(view, clip));
+		v4_store(out->clip, clip);
+		v4_store(a->clips + (g->vertex_first + v) * 4u, clip);
+		a->windows[g->vertex_first + v] = clip_window(view, clip, (float)a->height);
+	}
+	v4_store(out->color[0], vertex_result_color(run, m, SCENE_RESULT_COLOR, k));
+	v4_store(out->color[1], vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
+	v4_store(out->secondary[0], vertex_result_color(run, m, SCENE_RESULT_SECONDARY, k));
+	v4_store(out->secondary[1], vertex_result_color(run, m, SCENE_RESULT_BACK_SECONDARY, k));
+	out->fog_coord = vertex_result(run, SCENE_RESULT_FOG, k).x;
+	if (outputs >> SCENE_RESULT_POINT_SIZE & 1u)
+		out->size[0] = M_MIN(M_MAX(vertex_result(run, SCENE_RESULT_POINT_SIZE, k).x, m->point_size_min), m->point_size_max);
+	for (uint32_t i = 0u; i < m->unit_count; i++)
+		v4_store(a->coords + (g->texcoord_first + v * m->unit_count + i) * 4u,
+		         vertex_result(run, SCENE_RESULT_TEXCOORD + a->tables.units[m->unit_first + i].unit, k));
+}
+
+/* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the first one's item. */
+static inline void vertex_program_item(const struct vertex_program_arguments *a, uint32_t item)
+{
+	GLOBAL const struct geometry *g = &a->tables.geometries[a->owners[item]];
+	GLOBAL const struct scene_material *m = &a->tables.materials[g->material];
+	const uint32_t v = item - g->vertex_first, n = g->vertex_count - v < 4u ? g->vertex_count - v : 4u;
+	struct program program;
+	struct program_run run;
+
+	if (!m->vertex_program || v & 3u)
+		return;
+	program = program_at(a->programs + (m->vertex_program - 1u));
+	program_begin(&run, &program, (1u << n) - 1u);
+	for (uint32_t input = 0u; input < N_SCENE_VERTEX_INPUTS; input++)
+		for (uint32_t k = 0u; k < n && program.head->inputs >> input & 1u; k++)
+			program_set(&run, 4u * input, k, vertex_input(&a->tables, g, v + k, input));
+	program_run_from(&run, &program, 0u);
+	for (uint32_t k = 0u; k < n; k++)
+		vertex_keep(a, g, &program, &run, v + k, k);
+}

@@ -1,0 +1,4 @@
+/* C twin of kernels/frame/vertex_program.cl. */
+#include "kernels/gl/vertex_program.h"
+
+KERNEL_TWIN(vertex_program, n)
