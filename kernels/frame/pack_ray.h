@@ -39,9 +39,10 @@ WIDE_VECTORS static inline packi pack_is_other(struct pack_vec a, struct pack_ve
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
-WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const struct pack *p, struct pack_curve *c)
+WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const struct pack *p, const struct pack_surface *s, struct pack_curve *c)
 {
 	const packf side = select((packf)(1), (packf)(-1), pack_side(p));
+	packf cosine[3];
 
 	c->smooth = 0;
 	if (!shadow_may_curve(p->material))
@@ -51,8 +52,11 @@ WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const stru
 
 		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
 		c->normal[k] = pack_scale(pack_normalize(pack_vec(row[0], row[1], row[2])), side);
+		cosine[k] = pack_dot(s->plane, c->normal[k]);
 	}
-	c->smooth = pack_is_other(c->normal[0], c->normal[1]) | pack_is_other(c->normal[0], c->normal[2]);
+	c->smooth = (pack_is_other(c->normal[0], c->normal[1]) | pack_is_other(c->normal[0], c->normal[2])) &
+	            ~((pack_max(pack_max(cosine[0], cosine[1]), cosine[2]) > SHADOW_BOTH_SIDES) &
+	              (pack_min(pack_min(cosine[0], cosine[1]), cosine[2]) < -SHADOW_BOTH_SIDES));
 }
 
 /* As shadow_lit_weights. @return all ones where a corner faces the light */

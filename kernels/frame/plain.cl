@@ -132,7 +132,7 @@ static inline void send_rays(const struct plain_arguments *a, const struct plain
 	struct pack_curve curve;
 
 	pack_measure(s);
-	pack_curve_of(&a->tables, p, &curve);
+	pack_curve_of(&a->tables, p, s, &curve);
 	for (uint slot = 0; slot < a->n_slots; slot++) {
 		__global struct ray *rays = a->rays + slot * a->n;
 		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);

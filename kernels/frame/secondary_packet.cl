@@ -91,7 +91,7 @@ static inline int send_lanes(const struct hit_ray_arguments *a, struct pack_poin
 			return 0;
 	pack_place_hits(&a->tables, a->rays, m, q);
 	lights = lights_at(a, q) & 255;
-	pack_curve_of(&a->tables, &q->p, &curve);
+	pack_curve_of(&a->tables, &q->p, &q->surface, &curve);
 	for (uint slot = 0; slot < n_slots; slot++) {
 		__global struct ray *rays = a->out + slot * a->n;
 		const uint wanted = q->lanes & pack_bits((lights >> slot & 1) != 0);

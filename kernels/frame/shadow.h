@@ -41,8 +41,9 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
 /* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /*
- * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal or only one counts: then rays start on the
- * triangle itself.
+ * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal, only one counts, or they lie on both sides of the
+ * triangle, as a thin fin's do: then rays start on the triangle itself, on the light's side. A surface above it would lie below it, too, and
+ * the triangle would stop its own light.
  */
 struct shadow_curve {
 	int smooth;
@@ -54,21 +55,29 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
+/* Normals lie on both sides of a triangle from 6 degrees on, as cosines to its own. */
+#define SHADOW_BOTH_SIDES 0.1f
+
 /* Whether normals may bend a material's triangles. */
 static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
 {
 	return m->lighting && (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
 }
 
-static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p)
+static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p, const struct point_plane *plane)
 {
 	struct shadow_curve c;
 	const float side = point_side(p) ? -1.0f : 1.0f;
+	float cosine[3];
 
-	for (uint32_t i = 0u; i < 3u; i++)
+	for (uint32_t i = 0u; i < 3u; i++) {
 		c.normal[i] = v3_scale(v3_normalize(point_corner_normal(t, p, i)), side); /* GL need not have normalised it */
+		cosine[i] = v3_dot(plane->normal, c.normal[i]);
+	}
 	c.smooth = shadow_may_curve(p->material) &&
-	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2]));
+	           (shadow_is_other(c.normal[0], c.normal[1]) || shadow_is_other(c.normal[0], c.normal[2])) &&
+	           !(M_MAX(M_MAX(cosine[0], cosine[1]), cosine[2]) > SHADOW_BOTH_SIDES &&
+	             M_MIN(M_MIN(cosine[0], cosine[1]), cosine[2]) < -SHADOW_BOTH_SIDES);
 	return c;
 }
 
@@ -179,7 +188,7 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 		kept->primitive = f.primitive;
 		kept->p = point_of_triangle(t, a->windows, &f, kept->w_inv);
 		kept->plane = point_plane_of(&kept->p);
-		kept->curve = shadow_curve_of(t, &kept->p);
+		kept->curve = shadow_curve_of(t, &kept->p, &kept->plane);
 	}
 	p = kept->p;
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
@@ -213,7 +222,7 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 	p = point_from_hit(t, &hit, v3_load(a->rays[i].d));
 	sample_take(a->frame, stage_seed(&a->paths[i], a->pixels, SAMPLE_LIGHT + slot), a->sample, &u, &v);
 	plane = point_plane_of(&p);
-	curve = shadow_curve_of(t, &p);
+	curve = shadow_curve_of(t, &p, &plane);
 	stage_light_ray(t, &p, &plane, &curve, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
 }
 

@@ -99,6 +99,35 @@ START_TEST(test_others_shade_it_alike_at_any_scale)
 }
 END_TEST
 
+/* A sheet alone, as fins are drawn: its corners' normals lie on both of its sides. Wherever the light stands, nothing is in its way. */
+START_TEST(test_thin_sheet_shades_nothing_of_itself)
+{
+	static const float corners[3][3] = { { -2, -1.5f, -6 }, { 2, -1, -6 }, { 0, 2, -6 } };
+	static const float normals[4][3][3] = {
+		{ { -0.3f, 0.5f, 0.8f }, { 0.1f, -0.9f, -0.4f }, { 0.5f, -0.4f, -0.8f } },
+		{ { 0, 0.3f, 0.95f }, { 0.9f, 0, -0.4f }, { -0.9f, 0, -0.4f } },
+		{ { 0, 0, 1 }, { 0, 0, -1 }, { 0, 1, 0 } },
+		{ { -0.7f, 0.7f, 0.2f }, { 0.7f, 0.7f, 0.2f }, { 0, -0.9f, -0.4f } },
+	};
+	uint32_t lit, seen = 0;
+
+	for (int i = 0; i < 4; i++)
+		for (int k = 0; k < 16; k++) {
+			struct made t;
+			uint32_t dark;
+
+			made_init(&t, SIZE, SIZE, 0.6f);
+			made_add_light(&t, 5 * cosf(0.2f + 0.4f * (float)k), 3, 5 * sinf(0.2f + 0.4f * (float)k), 0);
+			made_add_triangles(&t, made_add_material(&t, 0.7f), corners, normals[i], 3);
+			dark = shaded_pixels(&t, &lit);
+			ck_assert_msg(dark == 0, "normals %d, light %d: %u of %u lit pixels lie in shadow", i, k, dark, lit);
+			seen += lit;
+			made_free(&t);
+		}
+	ck_assert_uint_gt(seen, 10000);
+}
+END_TEST
+
 int main(void)
 {
 	TCase *tests = tcase_create("terminator");
@@ -106,5 +135,6 @@ int main(void)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_round_shape_shades_nothing_of_itself);
 	tcase_add_test(tests, test_others_shade_it_alike_at_any_scale);
+	tcase_add_test(tests, test_thin_sheet_shades_nothing_of_itself);
 	return run_case(tests, "terminator");
 }
