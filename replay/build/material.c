@@ -347,7 +347,7 @@ static void fill_vertex_stage(const struct gls_state *st, const struct program_c
 	static const float attenuation[3] = { 1, 0, 0 };
 
 	m->lighting = m->light_first = m->light_count = 0;
-	m->two_side = st->vertex_two_side;
+	m->two_side = st->a.programs.two_side;
 	m->program_normals = code->inputs >> SCENE_VERTEX_NORMAL & 1;
 	memcpy(m->point_attenuation, attenuation, sizeof(attenuation));
 }
@@ -390,7 +390,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	fill_fragment_state(a, target, &m);
 	fill_multisample(&a->multisample, target->surface, &m);
 	m.surface = st->surface;
-	m.program = st->program || st->arb_vertex_enabled || st->arb_fragment_enabled;
+	m.program = st->program || st->a.programs.vertex || st->a.programs.fragment;
 	if (runs_fragments) {
 		m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for programs' colours, whatever ShadeModel says */
 		m.fragment_program = gls_program_build(f, st, a, &fragments);

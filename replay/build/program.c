@@ -145,7 +145,7 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 /* A size of points counts where the state says so. */
 static uint32_t outputs_of(const struct gls_state *st, const struct program_code *code)
 {
-	return st->vertex_point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
+	return st->a.programs.point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
 }
 
 uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage)

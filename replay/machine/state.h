@@ -169,6 +169,11 @@ struct gls_evaluator {
 	int32_t grid1_segments, grid2_segments[2];
 };
 
+/* What switches ARB programs on (ARB_vertex_program, table X.6), and what those of vertices may say. */
+struct gls_programs {
+	uint32_t vertex, fragment, point_size, two_side;
+};
+
 struct gls_hint {
 	uint32_t fog, perspective, point, line, polygon, mipmap;
 };
@@ -194,6 +199,7 @@ struct gls_attribs {
 	struct gls_pixel pixel;
 	struct gls_evaluator evaluator;
 	struct gls_hint hint;
+	struct gls_programs programs;
 	uint32_t list_base;
 };
 
@@ -217,7 +223,7 @@ struct gls_array {
 	uint64_t version;  /* changes with the contents of `client` */
 };
 enum gls_array_index {
-	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, GLS_ARRAY_POINT_SIZE, N_GLS_ARRAYS
+	GLS_ARRAY_VERTEX = N_GLS_ATTRIBUTES, GLS_ARRAY_GENERIC0, GLS_ARRAY_EDGE_FLAG, GLS_ARRAY_INDEX, GLS_ARRAY_POINT_SIZE, N_GLS_ARRAYS
 };
 struct gls_client_attribs {
 	struct gls_pixel_store pack, unpack;
@@ -286,9 +292,8 @@ struct gls_state {
 	uint32_t render_mode; /* GL_RENDER, GL_SELECT, GL_FEEDBACK */
 	uint32_t rasterizer_discard; /* GL 3.0 sec. 3.1: nothing is drawn, nor cleared */
 	uint32_t begin_mode;  /* primitive + 1 between Begin and End, else 0 */
-	uint32_t program, arb_vertex_enabled, arb_fragment_enabled, arb_vertex, arb_fragment;
+	uint32_t program, arb_vertex, arb_fragment;
 	float program_env[2][GLS_MAX_PROGRAM_PARAMETERS][4]; /* of ARB programs: fragments', vertices' */
-	uint32_t vertex_point_size, vertex_two_side;         /* VERTEX_PROGRAM_POINT_SIZE, _TWO_SIDE */
 	struct gls_matrix_stack program_matrix[GLS_MAX_PROGRAM_MATRICES];
 	uint32_t draw_framebuffer, read_framebuffer, renderbuffer;
 	struct gls_share *share;

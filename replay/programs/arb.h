@@ -1,4 +1,4 @@
-/* ARB assembly programs, translated: ARB_fragment_program, section 3.11.2. */
+/* ARB assembly programs, translated: ARB_vertex_program, section 2.14.2; ARB_fragment_program, section 3.11.2. */
 #pragma once
 
 #include <stddef.h>
@@ -6,10 +6,11 @@
 struct program_code;
 
 /**
- * Translate the text of a fragment program.
+ * Translate the text of a program.
  * @param text  n bytes; nothing about them is believed
+ * @param is_vertex  1: of vertices; 0: of fragments
  * @param code  all zero; filled, and to be freed with program_code_free whatever is returned
  * @param why   receives NULL, or what stands in the way: a static string
  * @return 0, also where *why is set, or ERR_SYSTEM: out of memory (reported)
  */
-int program_translate_arb(const char *text, size_t n, struct program_code *code, const char **why);
+int program_translate_arb(const char *text, size_t n, int is_vertex, struct program_code *code, const char **why);

@@ -100,7 +100,8 @@ static void take_light_model(struct arb_words *w, struct program_constant *c)
 static uint32_t take_matrix(struct arb_words *w, struct program_constant *to, uint32_t room)
 {
 	static const struct part matrices[] = { { "modelview", PROGRAM_MODELVIEW }, { "projection", PROGRAM_PROJECTION },
-		                                { "mvp", PROGRAM_MVP }, { "texture", PROGRAM_TEXTURE_MATRIX } };
+		                                { "mvp", PROGRAM_MVP }, { "texture", PROGRAM_TEXTURE_MATRIX },
+		                                { "program", PROGRAM_OWN_MATRIX } };
 	static const struct part changes[] = { { "inverse", PROGRAM_INVERTED }, { "transpose", PROGRAM_TRANSPOSED },
 		                               { "invtrans", PROGRAM_INVERTED | PROGRAM_TRANSPOSED } };
 	uint32_t matrix, change = 0, first = 0, n = 4;
@@ -108,7 +109,7 @@ static uint32_t take_matrix(struct arb_words *w, struct program_constant *to, ui
 	arb_expect(w, '.');
 	matrix = TAKE_PART(w, matrices);
 	if (arb_peek(w) == '[')
-		matrix += arb_subscript(w, matrix == PROGRAM_TEXTURE_MATRIX ? GLS_MAX_UNITS : 1);
+		matrix += arb_subscript(w, matrix == PROGRAM_TEXTURE_MATRIX ? GLS_MAX_UNITS : matrix == PROGRAM_OWN_MATRIX ? GLS_MAX_PROGRAM_MATRICES : 1);
 	if (arb_takes(w, '.') && !arb_takes_name(w, "row")) {
 		change = TAKE_PART(w, changes);
 		if (arb_takes(w, '.') && !arb_takes_name(w, "row"))
@@ -142,7 +143,37 @@ static void take_env_color(struct arb_words *w, struct program_constant *c)
 		arb_fail(w, not_known);
 }
 
-uint32_t arb_state(struct arb_words *w, struct program_constant *to, uint32_t room)
+static void take_clip_plane(struct arb_words *w, struct program_constant *c)
+{
+	c->source = PROGRAM_CLIP_PLANE;
+	c->index = arb_subscript(w, GLS_MAX_CLIP_PLANES);
+	arb_expect(w, '.');
+	if (!arb_takes_name(w, "plane"))
+		arb_fail(w, not_known);
+}
+
+static void take_point(struct arb_words *w, struct program_constant *c)
+{
+	static const struct part parts[] = { { "size", PROGRAM_POINT_NUMBERS }, { "attenuation", PROGRAM_POINT_ATTENUATION } };
+
+	arb_expect(w, '.');
+	c->source = TAKE_PART(w, parts);
+}
+
+static void take_generated(struct arb_words *w, struct program_constant *c)
+{
+	static const struct part planes[] = { { "eye", 0 }, { "object", 1 } };
+	static const struct part rows[] = { { "s", 0 }, { "t", 1 }, { "r", 2 }, { "q", 3 } };
+
+	c->source = PROGRAM_TEXGEN;
+	c->index = arb_peek(w) == '[' ? arb_subscript(w, GLS_MAX_UNITS) : 0;
+	arb_expect(w, '.');
+	c->part = TAKE_PART(w, planes);
+	arb_expect(w, '.');
+	c->row = TAKE_PART(w, rows);
+}
+
+uint32_t arb_state(struct arb_words *w, int is_vertex, struct program_constant *to, uint32_t room)
 {
 	*to = (struct program_constant){ 0 };
 	if (arb_takes_name(w, "matrix"))
@@ -158,11 +189,17 @@ uint32_t arb_state(struct arb_words *w, struct program_constant *to, uint32_t ro
 		take_light_model(w, to);
 	} else if (arb_takes_name(w, "lightprod")) {
 		take_light_product(w, to);
-	} else if (arb_takes_name(w, "texenv")) {
+	} else if (is_vertex && arb_takes_name(w, "clip")) {
+		take_clip_plane(w, to);
+	} else if (is_vertex && arb_takes_name(w, "point")) {
+		take_point(w, to);
+	} else if (is_vertex && arb_takes_name(w, "texgen")) {
+		take_generated(w, to);
+	} else if (!is_vertex && arb_takes_name(w, "texenv")) {
 		take_env_color(w, to);
 	} else if (arb_takes_name(w, "fog")) {
 		take_fog(w, to);
-	} else if (arb_takes_name(w, "depth")) {
+	} else if (!is_vertex && arb_takes_name(w, "depth")) {
 		to->source = PROGRAM_DEPTH_RANGE;
 		arb_expect(w, '.');
 		if (!arb_takes_name(w, "range"))

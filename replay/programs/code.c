@@ -27,6 +27,11 @@ uint32_t program_constant(struct program_code *code, const struct program_consta
 	for (uint32_t i = 0; i < code->n_constants; i++)
 		if (is_same(&code->constants[i], constant))
 			return i;
+	return program_constant_append(code, constant);
+}
+
+uint32_t program_constant_append(struct program_code *code, const struct program_constant *constant)
+{
 	if (MEMORY_GROW(code->constants, code->constant_room, code->n_constants + 1))
 		return UINT32_MAX;
 	code->constants[code->n_constants] = *constant;

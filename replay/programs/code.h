@@ -70,4 +70,7 @@ int program_append(struct program_code *code, const struct scene_instruction *in
 /** The number of a constant, which is added where there is none like it; UINT32_MAX: out of memory (reported). */
 uint32_t program_constant(struct program_code *code, const struct program_constant *constant);
 
+/** The same, added in any case: behind the last. */
+uint32_t program_constant_append(struct program_code *code, const struct program_constant *constant);
+
 void program_code_free(struct program_code *code);

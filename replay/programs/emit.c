@@ -129,6 +129,15 @@ void emit_texture(struct emitter *e, const struct emit_target *to, const struct 
 	emit_vector(e, SCENE_OP_MOVE, to, &sample, NULL, NULL);
 }
 
+void emit_fetch(struct emitter *e, uint32_t to, uint32_t array, uint32_t elements, uint32_t address, uint32_t offset)
+{
+	const struct scene_instruction place = { .operation = SCENE_OP_ADD, .n = 1, .to = e->scratch, .a = address, .b = offset };
+	const struct scene_instruction in = { .operation = SCENE_OP_FETCH, .n = 4, .to = to, .a = array, .b = e->scratch, .c = SCENE_ARRAY(elements, 4u) };
+
+	append(e, &place);
+	append(e, &in);
+}
+
 void emit_kill(struct emitter *e, const struct emit_source *a)
 {
 	const struct emit_target all = { 0, 15, 0 };

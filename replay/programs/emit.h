@@ -45,5 +45,8 @@ void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit
 /** A sample of a unit. flags: SCENE_TEXTURE_* */
 void emit_texture(struct emitter *e, const struct emit_target *to, const struct emit_source *coordinates, uint32_t unit, uint32_t flags);
 
+/** Four numbers of an array's element, zeros where there is none: number address + offset, two operands. array: its first constant */
+void emit_fetch(struct emitter *e, uint32_t to, uint32_t array, uint32_t elements, uint32_t address, uint32_t offset);
+
 /** Discard the fragment where a component is below 0. */
 void emit_kill(struct emitter *e, const struct emit_source *a);

@@ -28,8 +28,7 @@ int gls_program_set(struct gls_program *p, const char *text, size_t n)
 	p->source = source;
 	p->source_bytes = n;
 	program_code_free(&p->code);
-	p->why = p->target == GL_FRAGMENT_PROGRAM_ARB ? NULL : gls_programs; /* vertex programs are not run yet */
-	err = p->why ? 0 : program_translate_arb(source, n, &p->code, &p->why);
+	err = program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &p->code, &p->why);
 	if (err || p->why)
 		program_code_free(&p->code);
 	return err;
@@ -51,9 +50,9 @@ const char *gls_program_lack(const struct gls_state *st)
 {
 	const char *lack = st->program ? gls_programs : NULL;
 
-	if (!lack && st->arb_vertex_enabled)
+	if (!lack && st->a.programs.vertex)
 		lack = lack_of(st, GL_VERTEX_PROGRAM_ARB);
-	if (!lack && st->arb_fragment_enabled)
+	if (!lack && st->a.programs.fragment)
 		lack = lack_of(st, GL_FRAGMENT_PROGRAM_ARB);
 	return lack;
 }
@@ -62,9 +61,9 @@ uint64_t gls_program_current(const struct gls_state *st)
 {
 	if (st->program)
 		return st->program;
-	if (st->arb_fragment_enabled)
+	if (st->a.programs.fragment)
 		return (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
-	return st->arb_vertex_enabled ? (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex : 0;
+	return st->a.programs.vertex ? (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex : 0;
 }
 
 static int runs(const struct gls_state *st, uint32_t target, struct program_stage *stage)
@@ -77,10 +76,10 @@ static int runs(const struct gls_state *st, uint32_t target, struct program_stag
 
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage)
 {
-	return st->arb_vertex_enabled && !gls_program_lack(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
+	return st->a.programs.vertex && !gls_program_lack(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
 }
 
 int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage)
 {
-	return st->arb_fragment_enabled && !gls_program_lack(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
+	return st->a.programs.fragment && !gls_program_lack(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
 }

@@ -1,17 +1,35 @@
-/* Programs in assembly (ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
+/* Programs in assembly (ARB_vertex_program, ARB_fragment_program): objects, what is translated, what a draw's scene holds of it. */
 #include "replay/programs/program.h"
 #include "scene/program.h"
 #include "tests/gl/gl.h"
 
+static void set_text_of(struct gl *gl, uint32_t target, uint32_t name, const char *text)
+{
+	gl_call(gl, "glBindProgramARB", "eu", target, name);
+	gl_call(gl, "glProgramStringARB", "eeus", target, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(text), text);
+}
+
 static void set_text(struct gl *gl, uint32_t name, const char *text)
 {
-	gl_call(gl, "glBindProgramARB", "eu", GL_FRAGMENT_PROGRAM_ARB, name);
-	gl_call(gl, "glProgramStringARB", "eeus", GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (unsigned)strlen(text), text);
+	set_text_of(gl, GL_FRAGMENT_PROGRAM_ARB, name, text);
 }
 
 static struct gls_program *bound(struct gl *gl)
 {
 	return gls_program_bound(gl_state(gl), GL_FRAGMENT_PROGRAM_ARB);
+}
+
+static struct gls_program *bound_to_vertices(struct gl *gl)
+{
+	return gls_program_bound(gl_state(gl), GL_VERTEX_PROGRAM_ARB);
+}
+
+static const struct scene_program *vertex_program_of(const struct scene *s, uint32_t instance)
+{
+	const uint32_t program = s->materials[s->instances[instance].material].vertex_program;
+
+	ck_assert_uint_ne(program, 0);
+	return (const struct scene_program *)(s->programs + program - 1);
 }
 
 /* A name belongs to the target that it was first bound to; parameters are the object's or the context's. */
@@ -69,6 +87,105 @@ START_TEST(test_scene)
 }
 END_TEST
 
+/* A draw takes its vertex program along, the attributes that have numbers, and what the state says of sizes and sides. */
+START_TEST(test_vertices)
+{
+	struct gl gl = gl_open();
+	static const char text[] = "!!ARBvp1.0 PARAM m[4] = { state.matrix.program[1] }; DP4 result.position.x, m[0], vertex.position;\n"
+				   "MOV result.color, vertex.attrib[3]; MOV result.color.back, vertex.attrib[5]; MOV result.pointsize.x, vertex.normal.x; END";
+	static const float matrix[16] = { 7, 0, 0, 0, 6, 0, 0, 0, 5, 0, 0, 0, 4, 0, 0, 0 };
+	const struct scene_program *head;
+	const float *constants;
+	struct scene *s;
+
+	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1, text);
+	ck_assert_msg(!bound_to_vertices(&gl)->why, "%s", bound_to_vertices(&gl)->why ? bound_to_vertices(&gl)->why : "");
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_ARB);
+	gl_call(&gl, "glMatrixMode", "e", GL_MATRIX0_ARB + 1);
+	gl_call(&gl, "glLoadMatrixf", "F", 16, matrix);
+	gl_call(&gl, "glVertexAttrib4f", "uffff", 5u, 0.1, 0.2, 0.3, 0.4);
+	gl_call(&gl, "glVertexAttrib4f", "uffff", 16u, 0.1, 0.2, 0.3, 0.4);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	for (int i = 0; i < 2; i++) {
+		gl_call(&gl, "glBegin", "e", GL_TRIANGLES);
+		for (int k = 0; k < 3; k++) {
+			gl_call(&gl, "glVertexAttrib3f", "ufff", 3u, 0.5, 0.25 * k, 1.0);
+			gl_call(&gl, "glVertexAttrib2f", "uff", 0u, 1.0 * k, 2.0);
+		}
+		gl_call(&gl, "glEnd", "");
+		gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_POINT_SIZE);
+		gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_TWO_SIDE);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_uint_eq(s->meshes[0]->attributes, SCENE_HAS_GENERIC << 2);
+	ck_assert_floats(4, s->meshes[0]->generics[2] + 4, 0.5, 0.25, 1, 1);
+	ck_assert_floats(4, s->meshes[0]->position + 8, 2, 2, 0, 1);
+	ck_assert_floats(4, s->currents[s->instances[0].current].generics[4], 0.1, 0.2, 0.3, 0.4);
+	ck_assert_uint_eq(s->materials[s->instances[0].material].two_side, 0);
+	ck_assert_uint_eq(s->materials[s->instances[1].material].two_side, 1);
+	ck_assert_uint_eq(s->materials[s->instances[1].material].program_normals, 1);
+	head = vertex_program_of(s, 0);
+	ck_assert_uint_eq(head->outputs, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR | 1u << SCENE_RESULT_BACK_COLOR);
+	ck_assert_uint_eq(vertex_program_of(s, 1)->outputs, head->outputs | 1u << SCENE_RESULT_POINT_SIZE);
+	ck_assert_uint_eq(head->inputs, 1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL | 5u << (SCENE_VERTEX_GENERIC + 2));
+	constants = (const float *)((const struct scene_instruction *)(head + 1) + head->n_instructions);
+	ck_assert_floats(4, constants, 7, 6, 5, 4);
+	ck_assert_uint_eq(gl.x->counts.programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Arrays of attributes count where a program draws; attribute 0 comes before the conventional one. */
+START_TEST(test_vertex_arrays)
+{
+	struct gl gl = gl_open();
+	static const float positions[6] = { 1, 2, 3, 4, 5, 6 };
+	static const uint8_t colors[12] = { 255, 0, 51, 255, 0, 255, 102, 255, 0, 0, 153, 255 };
+	struct scene *s;
+
+	set_text_of(&gl, GL_VERTEX_PROGRAM_ARB, 1, "!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[2]; END");
+	gl_call(&gl, "glVertexPointer", "ieib", 2, GL_FLOAT, 0, sizeof(colors), colors);
+	gl_call(&gl, "glEnableClientState", "e", GL_VERTEX_ARRAY);
+	gl_call(&gl, "glVertexAttribPointer", "uieuib", 0u, 2, GL_FLOAT, 0u, 0, sizeof(positions), positions);
+	gl_call(&gl, "glVertexAttribPointer", "uieuib", 2u, 4, GL_UNSIGNED_BYTE, 1u, 0, sizeof(colors), colors);
+	gl_call(&gl, "glEnableVertexAttribArray", "u", 0u);
+	gl_call(&gl, "glEnableVertexAttribArray", "u", 2u);
+	for (int i = 0; i < 2; i++) {
+		gl_call(&gl, i ? "glDisable" : "glEnable", "e", GL_VERTEX_PROGRAM_ARB);
+		gl_call(&gl, "glDrawArrays", "eii", GL_TRIANGLES, 0, 3);
+	}
+	gl_call(&gl, "glEnableVertexAttribArray", "u", 16u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_VALUE);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2);
+	ck_assert_uint_eq(s->meshes[0]->attributes, SCENE_HAS_GENERIC << 1);
+	ck_assert_floats(4, s->meshes[0]->generics[1] + 4, 0, 1, 0.4, 1);
+	ck_assert_floats(4, s->meshes[0]->position + 4, 3, 4, 0, 1);
+	ck_assert_uint_eq(s->meshes[1]->attributes, 0);
+	ck_assert_uint_eq(vertex_program_of(s, 0)->outputs, 1u << SCENE_RESULT_COLOR); /* fixed function's position */
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Of its group, ENABLE_BIT brings back what switches programs on. */
+START_TEST(test_enables)
+{
+	struct gl gl = gl_open();
+
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_ARB);
+	gl_call(&gl, "glPushAttrib", "m", GL_ENABLE_BIT);
+	gl_call(&gl, "glDisable", "e", GL_VERTEX_PROGRAM_ARB);
+	gl_call(&gl, "glEnable", "e", GL_VERTEX_PROGRAM_TWO_SIDE);
+	gl_call(&gl, "glPopAttrib", "");
+	ck_assert_uint_eq(gl_state(&gl)->a.programs.vertex, 1);
+	ck_assert_uint_eq(gl_state(&gl)->a.programs.two_side, 0);
+	gl_close(&gl);
+}
+END_TEST
+
 /* What is not translated is drawn as fixed function, and counted with its reason. */
 START_TEST(test_reasons)
 {
@@ -102,19 +219,59 @@ END_TEST
 /* No instruction may name a register or a constant that is not there. */
 static void check_bounds(const struct gls_program *p)
 {
+	const uint32_t first = p->target == GL_VERTEX_PROGRAM_ARB ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR; /* what may be written */
+
 	for (uint32_t i = 0; i < p->code.n_instructions; i++) {
 		const struct scene_instruction *in = &p->code.instructions[i];
+		if (in->operation == SCENE_OP_FETCH) {
+			const uint32_t numbers = (in->c >> 16) * (in->c & 0xffff);
+
+			ck_assert(in->a >= SCENE_PROGRAM_CONSTANT && in->a - SCENE_PROGRAM_CONSTANT + numbers <= 4 * p->code.n_constants);
+			ck_assert(in->n <= (in->c & 0xffff) && in->b < p->code.n_registers && in->to >= first && in->to + in->n <= p->code.n_registers);
+			continue;
+		}
 		const uint32_t operands[3] = { in->a, in->b, in->c }, taken = in->operation == SCENE_OP_TEXTURE || in->operation < SCENE_OP_ADD ||
 		                                                              in->operation == SCENE_OP_KILL ? 1 : in->operation < SCENE_OP_MAD ? 2 : 3;
 		const uint32_t n = in->operation == SCENE_OP_TEXTURE ? 4 : in->n;
 
 		ck_assert_uint_lt(in->operation, N_SCENE_OPERATIONS);
-		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= SCENE_PROGRAM_COLOR && in->to + n <= p->code.n_registers));
+		ck_assert(in->operation == SCENE_OP_KILL || (in->to >= first && in->to + n <= p->code.n_registers));
 		for (uint32_t k = 0; k < taken; k++)
 			ck_assert(operands[k] >= SCENE_PROGRAM_CONSTANT ? operands[k] - SCENE_PROGRAM_CONSTANT + n <= 4 * p->code.n_constants + (in->flags >> k & 1 ? 0 : n) :
 			                                                  operands[k] + (in->flags >> k & 1 ? n : 1) <= p->code.n_registers);
 	}
 	ck_assert_uint_le(p->code.n_registers, SCENE_PROGRAM_REGISTERS);
+}
+
+/* A text with letters changed, left out and doubled. */
+static void check_damaged(struct gl *gl, uint32_t target, const char *text, size_t length)
+{
+	uint32_t seed = 1, translated = 0;
+	const struct gls_program *p;
+	char damaged[1024];
+
+	ck_assert_uint_lt(length, sizeof(damaged));
+	set_text_of(gl, target, target, text);
+	p = gls_program_bound(gl_state(gl), target);
+	ck_assert_msg(!p->why, "%s", p->why ? p->why : "");
+	for (int i = 0; i < 20000; i++) {
+		size_t n = length;
+
+		memcpy(damaged, text, n + 1);
+		for (int k = 0; k < 1 + i % 3; k++) {
+			const size_t at = (seed = seed * 1664525 + 1013904223) >> 8, place = at % n, other = at / n % n;
+
+			if (i % 4 == 0)
+				memmove(damaged + place, damaged + place + 1, n-- - place);
+			else
+				damaged[place] = i % 4 == 1 ? (char)(at >> 12) : text[other];
+		}
+		damaged[n] = 0;
+		set_text_of(gl, target, target, damaged);
+		translated += !p->why;
+		check_bounds(p);
+	}
+	ck_assert_uint_gt(translated, 100);
 }
 
 /* Texts with letters changed, left out and doubled: refused or translated, never beyond what is there. */
@@ -125,32 +282,17 @@ START_TEST(test_damaged_texts)
 		"ATTRIB c = fragment.color.secondary; OUTPUT o = result.color; ALIAS q = o; TEMP a, b; # words\n"
 		"DP4 a.x, m[1], fragment.position; LRP_SAT a, -c.wzyx, p[2], state.lightprod[3].back.diffuse; SWZ b, a, 1, -x, 0, w;\n"
 		"TXP a, b, texture[2], CUBE; KIL -a.x; LIT b, a; XPD b.xyz, a, c; POW a.w, b.x, { 2 }.x; MAD q, a, b, 0.25; MOV result.depth.z, a; END";
+	static const char vertices[] =
+		"!!ARBvp1.0 PARAM p[] = { program.env[0..3], { 1, -2.5e1, .5 } }; PARAM m[4] = { state.matrix.mvp.transpose }; ADDRESS A, B;\n"
+		"ATTRIB c = vertex.color.secondary; OUTPUT o = result.color.back; ALIAS q = o; TEMP a, b; # words\n"
+		"DP4 result.position.x, m[1], vertex.position; ARL A.x, vertex.attrib[9].y; MAD a, -p[A.x + 2].wzyx, p[A.x], m[3]; EXP b.xy, a.w; LOG a, -b.x;\n"
+		"ARL B.x, a.x; SWZ b, p[B.x - 1], 1, -x, 0, w; LIT b, a; XPD b.xyz, a, c; MOV q, state.texgen[1].eye.q; MOV result.pointsize.x, a; END";
 	struct gl gl = gl_open();
-	uint32_t seed = 1, translated = 0;
-	char damaged[sizeof(text) + 8];
 
-	set_text(&gl, 1, text);
-	ck_assert_msg(!bound(&gl)->why, "%s", bound(&gl)->why ? bound(&gl)->why : "");
-	for (int i = 0; i < 20000; i++) {
-		size_t n = sizeof(text) - 1;
-
-		memcpy(damaged, text, sizeof(text));
-		for (int k = 0; k < 1 + i % 3; k++) {
-			const size_t at = (seed = seed * 1664525 + 1013904223) >> 8, place = at % n, other = at / n % n;
-
-			if (i % 4 == 0)
-				memmove(damaged + place, damaged + place + 1, n-- - place);
-			else
-				damaged[place] = i % 4 == 1 ? (char)(at >> 12) : text[other];
-		}
-		damaged[n] = 0;
-		set_text(&gl, 1, damaged);
-		translated += !bound(&gl)->why;
-		check_bounds(bound(&gl));
-	}
-	ck_assert_uint_gt(translated, 100);
+	check_damaged(&gl, GL_FRAGMENT_PROGRAM_ARB, text, sizeof(text) - 1);
+	check_damaged(&gl, GL_VERTEX_PROGRAM_ARB, vertices, sizeof(vertices) - 1);
 	gl_close(&gl);
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_scene, test_reasons, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_damaged_texts)

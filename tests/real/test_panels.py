@@ -14,10 +14,11 @@ PROGRAMS = {
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments"),
+    "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses"),
 }
 
 for name, frames in PROGRAMS.items():
     trace, _ = check_same_pictures(f"panels/{name}", frames)
-    if name == "program": # objects are in the index
+    if "program" in name: # objects are in the index
         check_alone(trace, 1, 3)
 finish()

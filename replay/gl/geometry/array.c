@@ -63,6 +63,35 @@ static void set_pointer(struct gls_exec *x, struct gls_state *st, const struct c
 	}
 }
 
+/* The array of a generic attribute; -1: there is none (the program's error). */
+static int generic_array(struct gls_exec *x, struct gls_state *st, uint32_t number)
+{
+	if (gls_refuses(x, st, number > SCENE_MAX_GENERICS, GL_INVALID_VALUE))
+		return -1;
+	return number ? (int)(GLS_ATTR_GENERIC + number - 1) : GLS_ARRAY_GENERIC0;
+}
+
+static void enable_generic(struct gls_exec *x, struct gls_state *st, const struct call *c, uint32_t on)
+{
+	const int array = generic_array(x, st, arg_u(c, 0));
+
+	if (array >= 0)
+		st->client.arrays[array].enabled = on;
+}
+
+GLS_HANDLER(glEnableVertexAttribArray, CLIENT) { enable_generic(x, st, c, 1); }
+GLS_HANDLER(glDisableVertexAttribArray, CLIENT) { enable_generic(x, st, c, 0); }
+
+GLS_HANDLER(glVertexAttribPointer, CLIENT)
+{
+	const int array = generic_array(x, st, arg_u(c, 0));
+
+	if (array < 0)
+		return;
+	set_pointer(x, st, c, (unsigned)array, (int32_t)arg_i(c, 1), arg_u(c, 2), (int32_t)arg_i(c, 4), 5);
+	st->client.arrays[array].normalized = arg_u(c, 3) != 0;
+}
+
 /* Arguments: size, type, stride, what else there is, and the pointer. */
 static void set_sized(struct gls_exec *x, struct gls_state *st, const struct call *c, unsigned index, unsigned pointer)
 {

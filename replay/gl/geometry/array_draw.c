@@ -363,7 +363,7 @@ GLS_HANDLER(glArrayElement, CLIENT)
 	int has_vertex;
 
 	/* Without positions it sets the current values only. */
-	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled != 0;
+	has_vertex = st->client.arrays[GLS_ARRAY_VERTEX].enabled || st->client.arrays[GLS_ARRAY_GENERIC0].enabled;
 	if (has_vertex ? !gls_sources_open(x, st, &s) : !gls_sources_open_attributes(st, &s))
 		return;
 	args[1] = (struct trace_value){ .type = TRACE_ARRAY, .count = 4, .items = numbers };
@@ -375,9 +375,16 @@ GLS_HANDLER(glArrayElement, CLIENT)
 		for (unsigned i = 0; i < 4; i++)
 			numbers[i] = (struct trace_value){ .type = TRACE_FLOAT, .f = v[i] };
 		args[0] = (struct trace_value){ .type = TRACE_ENUM, .i = GL_TEXTURE0 + a - GLS_ATTR_TEXCOORD };
-		if (is_vertex)
+		if (is_vertex) {
 			put_call(x, st, "glVertex4fv", args + 1, 1);
-		else if (a >= GLS_ATTR_TEXCOORD)
+			continue;
+		}
+		if (a >= GLS_ATTR_GENERIC) {
+			args[0] = (struct trace_value){ .type = TRACE_UINT, .i = 1 + a - GLS_ATTR_GENERIC };
+			put_call(x, st, "glVertexAttrib4fv", args, 2);
+			continue;
+		}
+		if (a >= GLS_ATTR_TEXCOORD)
 			put_call(x, st, "glMultiTexCoord4fv", args, 2);
 		else
 			put_call(x, st, names[a], args + 1, 1);

@@ -125,9 +125,10 @@ void gls_source_read(const struct gls_source *s, uint64_t i, float out[4])
 uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s)
 {
 	const struct gls_array *arrays = st->client.arrays;
+	const unsigned n = st->a.programs.vertex || st->program || st->list ? N_GLS_ATTRIBUTES : GLS_ATTR_GENERIC;
 
 	memset(s, 0, sizeof(*s));
-	for (unsigned a = 0; a < N_GLS_ATTRIBUTES; a++)
+	for (unsigned a = 0; a < n; a++)
 		if (arrays[a].enabled && gls_source_open(st, &arrays[a], &s->attributes[a]))
 			s->present |= 1u << a;
 	return s->present;
@@ -136,14 +137,15 @@ uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s)
 {
 	const struct gls_array *arrays = st->client.arrays;
+	const struct gls_array *vertex = &arrays[arrays[GLS_ARRAY_GENERIC0].enabled ? GLS_ARRAY_GENERIC0 : GLS_ARRAY_VERTEX];
 
 	gls_sources_open_attributes(st, s);
-	if (!arrays[GLS_ARRAY_VERTEX].enabled) {
-		if (st->program || st->arb_vertex_enabled)
+	if (!vertex->enabled) {
+		if (st->program || st->a.programs.vertex)
 			gls_unsupported(x, "draws whose positions only a program can find");
 		return 0; /* nothing is drawn without it (sec. 2.8) */
 	}
-	if (!gls_source_open(st, &arrays[GLS_ARRAY_VERTEX], &s->vertex)) {
+	if (!gls_source_open(st, vertex, &s->vertex)) {
 		gls_unsupported(x, "arrays whose contents the recording does not hold");
 		return 0;
 	}

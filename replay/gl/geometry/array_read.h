@@ -30,7 +30,7 @@ uint64_t gls_source_count(const struct gls_source *s);
 /** Element i as four floats, normalized if the array is. The caller has checked that it is there. */
 void gls_source_read(const struct gls_source *s, uint64_t i, float out[4]);
 
-/** @return the attributes that come from arrays, as in gls_geometry.varying */
+/** Those of vertex programs only where one draws, or a list is made. @return the attributes that come from arrays, as in gls_geometry.varying */
 uint32_t gls_sources_open_attributes(struct gls_state *st, struct gls_sources *s);
 /** Positions and edge flags too. @return 1; 0: there is nothing to draw from (counted) */
 int gls_sources_open(struct gls_exec *x, struct gls_state *st, struct gls_sources *s);

@@ -75,11 +75,11 @@ GLS_FAMILY(glVertexP, VERTEX)
 		gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex, the others feed programs only. */
+/* Generic attribute 0 is the vertex, the others are for vertex programs. */
 GLS_FAMILY(glVertexAttribP, VERTEX)
 {
 	float value[4];
 
-	if (arg_u(c, 0) == 0 && read_packed(x, st, c, 1, 3, arg_u(c, 2), value))
-		gls_vertex(x, st, value);
+	if (read_packed(x, st, c, 1, 3, arg_u(c, 2), value))
+		gls_set_generic(x, st, arg_u(c, 0), value);
 }

@@ -114,6 +114,16 @@ void gls_vertex(struct gls_exec *x, struct gls_state *st, const float position[4
 		add_vertex(x, st, position);
 }
 
+void gls_set_generic(struct gls_exec *x, struct gls_state *st, uint32_t number, const float value[4])
+{
+	if (gls_refuses(x, st, number > SCENE_MAX_GENERICS, GL_INVALID_VALUE))
+		return;
+	if (number)
+		gls_set_attribute(x, st, GLS_ATTR_GENERIC + number - 1, value);
+	else
+		gls_vertex(x, st, value);
+}
+
 /* ---- Begin and End ---- */
 
 void gls_begin(struct gls_exec *x, struct gls_state *st, uint32_t mode)

@@ -107,13 +107,13 @@ GLS_FAMILY(glVertex, VERTEX)
 	gls_vertex(x, st, value);
 }
 
-/* Generic attribute 0 is the vertex (sec. 2.7). The others feed programs only. */
+/* Generic attribute 0 is the vertex (sec. 2.7). The others are for vertex programs. */
 GLS_FAMILY(glVertexAttrib, VERTEX)
 {
 	float value[4];
 
-	if (arg_u(c, 0) != 0 || !gls_takes_vertices(x, st))
+	if (arg_u(c, 0) == 0 && !gls_takes_vertices(x, st))
 		return;
 	read_components(x, c, 1, gls_commands[x->command].suffix.normalized, value);
-	gls_vertex(x, st, value);
+	gls_set_generic(x, st, arg_u(c, 0), value);
 }

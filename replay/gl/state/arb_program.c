@@ -104,6 +104,29 @@ static void set_local(struct gls_exec *x, struct gls_state *st, const struct cal
 		set_parameter(x, st, c, p->local);
 }
 
+/* EXT_gpu_program_parameters: so many, four numbers each. */
+static void set_parameters(struct gls_exec *x, struct gls_state *st, const struct call *c, float (*parameters)[4])
+{
+	const uint32_t index = arg_u(c, 1), n = arg_u(c, 2);
+
+	if (!gls_refuses(x, st, arg_i(c, 2) <= 0 || index > GLS_MAX_PROGRAM_PARAMETERS || n > GLS_MAX_PROGRAM_PARAMETERS - index, GL_INVALID_VALUE))
+		arg_floats(c, 3, parameters[index], 4 * n);
+}
+
+GLS_HANDLER(glProgramEnvParameters4fvEXT, STATE)
+{
+	if (!gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM))
+		set_parameters(x, st, c, st->program_env[arg_u(c, 0) == GL_VERTEX_PROGRAM_ARB]);
+}
+
+GLS_HANDLER(glProgramLocalParameters4fvEXT, STATE)
+{
+	struct gls_program *p;
+
+	if (!gls_refuses(x, st, !is_target(arg_u(c, 0)), GL_INVALID_ENUM) && (p = bound(x, st, arg_u(c, 0))))
+		set_parameters(x, st, c, p->local);
+}
+
 GLS_HANDLER(glProgramEnvParameter4fARB, STATE) { set_env(x, st, c); }
 GLS_HANDLER(glProgramEnvParameter4fvARB, STATE) { set_env(x, st, c); }
 GLS_HANDLER(glProgramEnvParameter4dARB, STATE) { set_env(x, st, c); }

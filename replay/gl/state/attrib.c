@@ -30,7 +30,9 @@ static const struct { uint32_t cap, offset; } capabilities[] = {
 	CAPABILITY(POINT_SPRITE, point.sprite), CAPABILITY(POLYGON_OFFSET_FILL, polygon.offset_fill),
 	CAPABILITY(POLYGON_OFFSET_LINE, polygon.offset_line), CAPABILITY(POLYGON_OFFSET_POINT, polygon.offset_point),
 	CAPABILITY(POLYGON_SMOOTH, polygon.smooth), CAPABILITY(POLYGON_STIPPLE, polygon.stipple),
-	CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side),
+	CAPABILITY(STENCIL_TEST_TWO_SIDE_EXT, stencil.two_side), CAPABILITY(VERTEX_PROGRAM_ARB, programs.vertex),
+	CAPABILITY(FRAGMENT_PROGRAM_ARB, programs.fragment), CAPABILITY(VERTEX_PROGRAM_POINT_SIZE, programs.point_size),
+	CAPABILITY(VERTEX_PROGRAM_TWO_SIDE, programs.two_side),
 #undef CAPABILITY
 };
 #define N_CAPABILITIES (sizeof(capabilities) / sizeof(capabilities[0]))
@@ -83,10 +85,6 @@ static uint32_t *enable_flag(struct gls_state *st, uint32_t cap, uint32_t *bit)
 		if (capabilities[i].cap == cap)
 			return word_at(&st->a, capabilities[i].offset);
 	switch (cap) {
-	case GL_VERTEX_PROGRAM_ARB: return &st->arb_vertex_enabled;
-	case GL_FRAGMENT_PROGRAM_ARB: return &st->arb_fragment_enabled;
-	case GL_VERTEX_PROGRAM_POINT_SIZE: return &st->vertex_point_size;
-	case GL_VERTEX_PROGRAM_TWO_SIDE: return &st->vertex_two_side;
 	case GL_RASTERIZER_DISCARD: return &st->rasterizer_discard;
 	default: return bit_of(st, cap, bit);
 	}

@@ -22,7 +22,7 @@ struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, co
 	const struct gls_texture *t;
 
 	if (st->draw_framebuffer || !st->share->framebuffers.n || e->rectangle || e->mesh->mesh.kind != SCENE_TRIANGLES ||
-	    e->mesh->mesh.primitive_count > 2 || st->program || st->arb_vertex_enabled || st->arb_fragment_enabled ||
+	    e->mesh->mesh.primitive_count > 2 || st->program || st->a.programs.vertex || st->a.programs.fragment ||
 	    !(texturing->units[0].enabled >> GLS_TEXTURE_2D & 1))
 		return NULL;
 	t = gls_texture_bound(x, st, 0, GLS_TEXTURE_2D);
