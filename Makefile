@@ -392,6 +392,10 @@ DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
+# The same of its tests of ARB programs, panels of ours, and what a frame of programs costs.
+show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/deps.piglit
+	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
+
 # Not part of `make show`: faults put into our own sources, one at a time, and the tests run: hours. It goes on where it was stopped.
 TESTS_SECONDS ?=
 show-tests: all $(HELPERS)
@@ -485,7 +489,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-tests show-fresh \
+.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs show-tests show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \

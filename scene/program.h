@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 
 #define SCENE_PROGRAM_REGISTERS 512u     /* at most */
-#define SCENE_PROGRAM_INSTRUCTIONS 4096u /* at most */
+#define SCENE_PROGRAM_INSTRUCTIONS 16384u /* at most */
 #define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
 
 /* --- Fragments: outputs are SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH, four registers each --------------------------- */
@@ -57,6 +57,13 @@ struct scene_program {
 	uint32_t kills;       /* 1: it may discard fragments */
 	uint32_t sets_depth;  /* 1: register SCENE_PROGRAM_DEPTH is the fragment's depth */
 	uint32_t outputs;     /* bits 1 << scene_vertex_output: those that count. Without a position it is fixed function's */
+	uint32_t n_lights;    /* struct scene_program_light, between instructions and constants */
+};
+
+/* Four registers that hold what a light sends, before the first instruction: so a light that does not arrive can be left out. */
+struct scene_program_light {
+	uint32_t to, from; /* the first register; the first number among the constants. The fourth number is left as it is */
+	uint32_t slot;         /* in the material's list of lights */
 };
 
 /* X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. */

@@ -61,7 +61,7 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 /* Whether normals may bend a material's triangles. */
 static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
 {
-	return m->lighting && (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
+	return (m->lighting || m->program_normals) && (m->shade_model != GL_FLAT || m->surface.hidden & SCENE_CREASED) && !(m->surface.hidden & SCENE_FACETED);
 }
 
 static inline struct shadow_curve shadow_curve_of(const struct tables *t, const struct point *p, const struct point_plane *plane)

@@ -17,6 +17,7 @@
 struct program {
 	GLOBAL const struct scene_program *head;
 	GLOBAL const struct scene_instruction *instructions;
+	GLOBAL const struct scene_program_light *lights;
 	GLOBAL const float *constants;
 };
 
@@ -33,7 +34,8 @@ static inline struct program program_at(GLOBAL const uint32_t *words)
 
 	program.head = (GLOBAL const struct scene_program *)words;
 	program.instructions = (GLOBAL const struct scene_instruction *)(program.head + 1);
-	program.constants = (GLOBAL const float *)(program.instructions + program.head->n_instructions);
+	program.lights = (GLOBAL const struct scene_program_light *)(program.instructions + program.head->n_instructions);
+	program.constants = (GLOBAL const float *)(program.lights + program.head->n_lights);
 	return program;
 }
 
@@ -47,12 +49,23 @@ static inline struct vec4 program_splat(float x)
 	return v4(x, x, x, x);
 }
 
-static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted)
+/* seen: NULL, or how much of each light of the material's list arrives */
+static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted, const struct vec3 *seen)
 {
 	run->wanted = wanted;
 	run->killed = 0u;
 	for (uint32_t i = 0u; i < program->head->n_registers; i++)
 		run->registers[i] = program_splat(0.0f);
+	for (uint32_t i = 0u; i < program->head->n_lights; i++) {
+		GLOBAL const struct scene_program_light *light = &program->lights[i];
+		const struct vec3 share = seen ? seen[light->slot] : v3(1.0f, 1.0f, 1.0f);
+		GLOBAL const float *sent = program->constants + light->from;
+
+		run->registers[light->to] = program_splat(sent[0] * share.x);
+		run->registers[light->to + 1u] = program_splat(sent[1] * share.y);
+		run->registers[light->to + 2u] = program_splat(sent[2] * share.z);
+		run->registers[light->to + 3u] = program_splat(sent[3]);
+	}
 }
 
 /* Set the four registers from `first` on, for number k of the four. */

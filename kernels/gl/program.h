@@ -6,6 +6,7 @@
 
 #include "kernels/gl/instructions.h"
 #include "kernels/gl/stages.h"
+#include "kernels/gl/vertex_program.h"
 
 /* A fragment that runs one. The four are the quad's pixels: x y in the upper row, z w in the lower one. */
 struct program_fragment {
@@ -160,18 +161,34 @@ static inline void program_execute(struct program_fragment *f, const struct prog
 
 /* --- Fragments ----------------------------------------------------------------------------------------------------- */
 
+/* As point_light_corners, where a vertex program lights them. run: room */
+static inline void program_light_corners(const struct shade_arguments *s, const struct point *p, const struct vec3 *seen, struct program_run *run,
+                                         struct lit *lit)
+{
+	const struct program program = program_at(s->programs + (p->material->vertex_program - 1u));
+	const uint32_t back = (uint32_t)point_side(p);
+
+	vertex_run(&s->tables, p->geometry, &program, p->number, 3u, seen, run);
+	for (uint32_t k = 0u; k < 3u; k++) {
+		lit[k].color = vertex_result_color(run, p->material, back ? SCENE_RESULT_BACK_COLOR : SCENE_RESULT_COLOR, k);
+		lit[k].secondary = vertex_result_color(run, p->material, back ? SCENE_RESULT_BACK_SECONDARY : SCENE_RESULT_SECONDARY, k);
+		lit[k].lights = p->vertex[k]->lit[back];
+	}
+}
+
 /* What `shade` has left of a fragment: its triangle, weights and colours. @return 0: none that a program shades */
 static inline int program_find(const struct shade_arguments *s, uint32_t item, struct setup_kept *kept, struct program_fragment *f,
-                               struct lit *lit)
+                               struct vec3 *seen, struct lit *lit)
 {
 	GLOBAL const struct shaded *out = &s->shaded[item];
 	const struct fragment from = s->fragments[item];
-	struct vec3 seen[SCENE_MAX_LIGHTS];
+	GLOBAL const struct scene_material *m = &s->tables.materials[s->tables.geometries[from.instance].material];
+	const int is_lit = s->n_slots && m->vertex_program && m->light_count && !m->surface.relit;
 	GLOBAL const uint32_t *group;
 	uint32_t kind = 0u;
 
-	if (!s->tables.materials[s->tables.geometries[from.instance].material].fragment_program || !(out->flags & SHADED_THERE) ||
-	    out->flags & SHADED_STENCIL || (s->n_slots && !stage_dimmed(s->visibility, s->n_slots, s->n, item)))
+	if (!(m->fragment_program || is_lit) || !(out->flags & SHADED_THERE) || out->flags & SHADED_STENCIL ||
+	    (s->n_slots && !stage_dimmed(s->visibility, s->n_slots, s->n, item)))
 		return 0;
 	f->window.x = s->pixels[item] % s->width;
 	f->window.row = s->pixels[item] / s->width;
@@ -185,8 +202,11 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, s
 	f->window.height = s->height;
 	f->own = (f->window.x & 1u) + 2u * ((s->height - 1u - f->window.row) & 1u);
 	*lit = point_lit_from_vertices(&f->p);
-	if (s->n_slots) {
-		stage_seen(s->visibility, s->n_slots, s->n, item, seen);
+	stage_seen(s->visibility, s->n_slots, s->n, item, seen);
+	if (is_lit) {
+		program_light_corners(s, &f->p, seen, &f->run, kept->lit);
+		*lit = point_lit_between(&f->p, kept->lit);
+	} else if (s->n_slots) {
 		setup_keep_lit(&s->tables, seen, 0, kept);
 		*lit = point_lit_between(&f->p, kept->lit);
 	}
@@ -198,28 +218,45 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, s
 	return 1;
 }
 
-/* program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded. */
+/* The colour of a fragment that a program shades. @return 0: it is discarded */
+static inline int program_shade(const struct shade_arguments *a, uint32_t item, const struct vec3 *seen, const struct lit *lit,
+                                struct program_fragment *f, struct vec4 *color)
+{
+	const struct program program = program_at(a->programs + (f->p.material->fragment_program - 1u));
+
+	program_begin(&f->run, &program, 1u << f->own, f->p.material->vertex_program ? seen : (const struct vec3 *)0);
+	program_inputs(f, program.head->inputs, lit, a->fragments[item].depth);
+	program_execute(f, &program);
+	*color = program_get(&f->run, SCENE_PROGRAM_COLOR, f->own);
+	*color = f->p.material->unclamped & 1u ? *color : v4_clamp01(*color);
+	if (program.head->sets_depth && !a->n_slots)
+		a->shaded[item].depth = clamp01(program_of_four(f->run.registers[SCENE_PROGRAM_DEPTH], f->own));
+	return (f->run.wanted & ~f->run.killed) != 0u;
+}
+
+/*
+ * program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded. Where lights of a
+ * vertex program do not arrive, it gets its colour without them, whatever shades it.
+ */
 static inline void program_item(const struct shade_arguments *a, uint32_t item)
 {
 	GLOBAL struct shaded *out = &a->shaded[item];
+	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct setup_kept kept;
-	struct program program;
 	struct program_fragment f;
+	struct texturing texturing;
 	struct vec4 color;
 	struct lit lit;
 
-	if (!program_find(a, item, &kept, &f, &lit))
+	if (!program_find(a, item, &kept, &f, seen, &lit))
 		return;
-	program = program_at(a->programs + (f.p.material->fragment_program - 1u));
-	program_begin(&f.run, &program, 1u << f.own);
-	program_inputs(&f, program.head->inputs, &lit, a->fragments[item].depth);
-	program_execute(&f, &program);
-	if (!(f.run.wanted & ~f.run.killed)) {
+	if (!f.p.material->fragment_program) {
+		point_texture(&a->tables, &f.p, &f.window, &texturing);
+		color = point_finish(&a->tables, &f.p, &texturing, &lit);
+	} else if (!program_shade(a, item, seen, &lit, &f, &color)) {
 		out->flags = 0u;
 		return;
 	}
-	color = program_get(&f.run, SCENE_PROGRAM_COLOR, f.own);
-	color = f.p.material->unclamped & 1u ? color : v4_clamp01(color);
 	color = v4(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);
 	v3_store(out->shadowed, v3(color.x, color.y, color.z));
 	if (!stage_is_path(a->transport) && !f.p.material->surface.relit)
@@ -228,6 +265,4 @@ static inline void program_item(const struct shade_arguments *a, uint32_t item)
 		return;
 	color.w *= stage_coverage(&f.p);
 	v4_store(out->gl, color);
-	if (program.head->sets_depth)
-		out->depth = clamp01(program_of_four(f.run.registers[SCENE_PROGRAM_DEPTH], f.own));
 }

@@ -43,6 +43,12 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	struct vec3 normal = v3_load(vertex->normal);
 	struct lit lit;
 
+	if (m->vertex_program && seen) { /* as it has left them: program.h runs it again */
+		lit.color = v4_load(vertex->color[back]);
+		lit.secondary = v4_load(vertex->secondary[back]);
+		lit.lights = vertex->lit[back];
+		return lit;
+	}
 	if (m->lighting)
 		return light_vertex(m, t->lights, light_list(m->light_first, m->light_count), 0, v4_load(vertex->eye),
 		                    back ? v3_scale(normal, -1.0f) : normal, tables_face(t, g, v, back), tables_color(t, g, v),

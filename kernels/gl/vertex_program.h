@@ -71,6 +71,22 @@ static inline struct vec4 vertex_result_color(const struct program_run *run, GLO
 	return m->unclamped & 2u ? color : v4_clamp01(color);
 }
 
+/* Lights of the material's list that a program can light a vertex by: where it reads normals, those in front of it. */
+static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct scene_material *m, GLOBAL const struct shaded_vertex *vertex)
+{
+	const struct vec3 at = v3_load(vertex->eye), n = v3_load(vertex->normal);
+	uint32_t lights = 0u;
+
+	for (uint32_t i = 0u; i < m->light_count; i++) {
+		struct vec3 to_light;
+		const float strength = light_strength(&t->lights[m->light_first + i], at, &to_light);
+
+		if (!m->program_normals || (strength > 0.0f && (m->two_side || v3_dot(n, to_light) > 0.0f)))
+			lights |= 1u << i;
+	}
+	return m->surface.hidden & SCENE_UNSHADED ? 0u : lights;
+}
+
 /* Keep what the program has made of vertex v, number k of the four. */
 static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL const struct geometry *g, const struct program *program,
                                const struct program_run *run, uint32_t v, uint32_t k)
@@ -89,6 +105,7 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 		v4_store(a->clips + (g->vertex_first + v) * 4u, clip);
 		a->windows[g->vertex_first + v] = clip_window(view, clip, (float)a->height);
 	}
+	out->lit[0] = out->lit[1] = vertex_lights(&a->tables, m, out);
 	v4_store(out->color[0], vertex_result_color(run, m, SCENE_RESULT_COLOR, k));
 	v4_store(out->color[1], vertex_result_color(run, m, SCENE_RESULT_BACK_COLOR, k));
 	v4_store(out->secondary[0], vertex_result_color(run, m, SCENE_RESULT_SECONDARY, k));
@@ -101,23 +118,33 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 		         vertex_result(run, SCENE_RESULT_TEXCOORD + a->tables.units[m->unit_first + i].unit, k));
 }
 
+/* Run it for up to four vertices, number[n] in the mesh. seen: as program_begin takes it */
+static inline void vertex_run(const struct tables *t, GLOBAL const struct geometry *g, const struct program *program, const uint32_t *number,
+                              uint32_t n, const struct vec3 *seen, struct program_run *run)
+{
+	program_begin(run, program, (1u << n) - 1u, seen);
+	for (uint32_t input = 0u; input < N_SCENE_VERTEX_INPUTS; input++)
+		for (uint32_t k = 0u; k < n && program->head->inputs >> input & 1u; k++)
+			program_set(run, 4u * input, k, vertex_input(t, g, number[k], input));
+	program_run_from(run, program, 0u);
+}
+
 /* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the first one's item. */
 static inline void vertex_program_item(const struct vertex_program_arguments *a, uint32_t item)
 {
 	GLOBAL const struct geometry *g = &a->tables.geometries[a->owners[item]];
 	GLOBAL const struct scene_material *m = &a->tables.materials[g->material];
 	const uint32_t v = item - g->vertex_first, n = g->vertex_count - v < 4u ? g->vertex_count - v : 4u;
+	uint32_t number[4];
 	struct program program;
 	struct program_run run;
 
 	if (!m->vertex_program || v & 3u)
 		return;
 	program = program_at(a->programs + (m->vertex_program - 1u));
-	program_begin(&run, &program, (1u << n) - 1u);
-	for (uint32_t input = 0u; input < N_SCENE_VERTEX_INPUTS; input++)
-		for (uint32_t k = 0u; k < n && program.head->inputs >> input & 1u; k++)
-			program_set(&run, 4u * input, k, vertex_input(&a->tables, g, v + k, input));
-	program_run_from(&run, &program, 0u);
+	for (uint32_t k = 0u; k < n; k++)
+		number[k] = v + k;
+	vertex_run(&a->tables, g, &program, number, n, (const struct vec3 *)0, &run);
 	for (uint32_t k = 0u; k < n; k++)
 		vertex_keep(a, g, &program, &run, v + k, k);
 }

@@ -229,16 +229,26 @@ static uint32_t unclamped_by(const struct gls_attribs *a, const struct gls_surfa
 	return fragments | vertices << 1;
 }
 
-static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t *count)
+/* which: 1 << number */
+static uint32_t fill_lights(struct gls_frame *f, const struct gls_lighting *l, uint32_t which, uint32_t *count)
 {
 	struct scene *s = f->out;
 	struct scene_light lights[GLS_MAX_LIGHTS];
 
 	*count = 0;
 	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
-		if (l->lights[i].enabled)
+		if (which >> i & 1)
 			lights[(*count)++] = l->lights[i].value;
 	return gls_intern_array(&f->lights, &s->lights, &s->n_lights, &f->room.lights, lights, *count, sizeof(lights[0]));
+}
+
+static uint32_t enabled_lights(const struct gls_lighting *l)
+{
+	uint32_t lights = 0;
+
+	for (unsigned i = 0; i < GLS_MAX_LIGHTS; i++)
+		lights |= (l->lights[i].enabled ? 1u : 0) << i;
+	return lights;
 }
 
 static uint32_t fill_stipple(struct gls_frame *f, const struct gls_attribs *a)
@@ -346,7 +356,7 @@ static void fill_vertex_stage(const struct gls_state *st, const struct program_c
 {
 	static const float attenuation[3] = { 1, 0, 0 };
 
-	m->lighting = m->light_first = m->light_count = 0;
+	m->lighting = 0;
 	m->two_side = st->a.programs.two_side;
 	m->program_normals = code->inputs >> SCENE_VERTEX_NORMAL & 1;
 	memcpy(m->point_attenuation, attenuation, sizeof(attenuation));
@@ -359,6 +369,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	const struct gls_attribs *a = e->attribs;
 	const uint32_t unclamped = unclamped_by(a, target->surface);
 	struct program_stage vertices, fragments;
+	uint32_t lights;
 	const int runs_fragments = gls_program_runs_fragments(st, &fragments);
 	const int runs_vertices = !e->rectangle && !e->in_window && gls_program_runs_vertices(st, &vertices);
 	struct scene_unit units[GLS_MAX_UNITS];
@@ -367,8 +378,12 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	memset(&m, 0, sizeof(m));
 	m.lighting = a->lighting.enabled;
 	fill_lighting(&a->lighting, e->values[GLS_ATTR_COLOR], &m);
-	if (m.lighting)
-		m.light_first = fill_lights(f, &a->lighting, &m.light_count);
+	if (runs_vertices)
+		fill_vertex_stage(st, vertices.code, &m);
+	lights = runs_vertices ? program_lights(vertices.code) | (runs_fragments ? program_lights(fragments.code) : 0) :
+	                         m.lighting ? enabled_lights(&a->lighting) : 0;
+	if (lights)
+		m.light_first = fill_lights(f, &a->lighting, lights, &m.light_count);
 	m.normalize = a->transform.normalize;
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
@@ -393,13 +408,12 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.program = st->program || st->a.programs.vertex || st->a.programs.fragment;
 	if (runs_fragments) {
 		m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for programs' colours, whatever ShadeModel says */
-		m.fragment_program = gls_program_build(f, st, a, &fragments);
+		m.fragment_program = gls_program_build(f, st, a, &fragments, lights);
 		if (!m.fragment_program)
 			return SCENE_NONE;
 	}
 	if (runs_vertices) {
-		fill_vertex_stage(st, vertices.code, &m);
-		m.vertex_program = gls_program_build(f, st, a, &vertices);
+		m.vertex_program = gls_program_build(f, st, a, &vertices, lights);
 		if (!m.vertex_program)
 			return SCENE_NONE;
 	}

@@ -148,13 +148,15 @@ static uint32_t outputs_of(const struct gls_state *st, const struct program_code
 	return st->a.programs.point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
 }
 
-uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage)
+uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
+                           uint32_t lights)
 {
 	const struct program_code *code = stage->code;
 	const struct scene_program head = { code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs, code->kills,
-		                            code->sets_depth, outputs_of(st, code) };
+		                            code->sets_depth, outputs_of(st, code), code->n_lights };
 	const size_t instruction_bytes = code->n_instructions * sizeof(struct scene_instruction);
-	const size_t n = (sizeof(head) + instruction_bytes) / 4 + 4 * (size_t)code->n_constants;
+	const size_t light_bytes = code->n_lights * sizeof(struct scene_program_light);
+	const size_t n = (sizeof(head) + instruction_bytes + light_bytes) / 4 + 4 * (size_t)code->n_constants;
 	uint32_t *words = malloc(n * 4), place;
 
 	if (!words) {
@@ -164,11 +166,18 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 	memcpy(words, &head, sizeof(head));
 	if (instruction_bytes)
 		memcpy((char *)words + sizeof(head), code->instructions, instruction_bytes);
+	for (uint32_t i = 0; i < code->n_lights; i++) {
+		const struct program_light *from = &code->lights[i];
+		const uint32_t before = lights & ((1u << code->constants[from->constant].index) - 1);
+		const struct scene_program_light light = { from->to, 4 * from->constant, (uint32_t)__builtin_popcount(before) };
+
+		memcpy((char *)words + sizeof(head) + instruction_bytes + i * sizeof(light), &light, sizeof(light));
+	}
 	for (uint32_t i = 0; i < code->n_constants; i++) {
 		float four[4] = { 0 };
 
 		fill(st, a, stage, &code->constants[i], four);
-		memcpy((char *)words + sizeof(head) + instruction_bytes + 16 * i, four, sizeof(four));
+		memcpy((char *)words + sizeof(head) + instruction_bytes + light_bytes + 16 * i, four, sizeof(four));
 	}
 	place = gls_intern_array(&f->programs, &f->out->programs, &f->out->n_programs, &f->room.programs, words, (uint32_t)n, 4);
 	free(words);

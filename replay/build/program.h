@@ -10,6 +10,8 @@ struct gls_state;
 
 /**
  * Put a stage's program into the scene of a frame, with its constants as they are now.
+ * @param lights  1 << number of each in the material's list
  * @return 1 + where it begins in scene.programs; 0: out of memory (reported)
  */
-uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage);
+uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
+                           uint32_t lights);

@@ -77,7 +77,8 @@ static void take_name_for(struct arb_parser *p, char kind)
 
 static void take_option(struct arb_parser *p)
 {
-	static const char *const harmless[] = { "ARB_precision_hint_fastest", "ARB_precision_hint_nicest", "ARB_draw_buffers", "ATI_draw_buffers" };
+	static const char *const harmless[] = { "ARB_precision_hint_fastest", "ARB_precision_hint_nicest", "ARB_draw_buffers", "ATI_draw_buffers",
+		                                "ARB_fragment_program_shadow" };
 	const char *name;
 	const size_t n = arb_name(&p->words, &name);
 
@@ -206,7 +207,7 @@ int program_translate_arb(const char *text, size_t n, int is_vertex, struct prog
 	if (!p->words.why)
 		take_program(p);
 	if (p->emitter.err == ERR_INPUT)
-		arb_fail(&p->words, "an ARB program has more than 4096 instructions");
+		arb_fail(&p->words, "an ARB program has more than 16384 instructions");
 	*why = p->words.why;
 	err = p->emitter.err == ERR_SYSTEM ? ERR_SYSTEM : 0;
 	free(p);

@@ -220,7 +220,8 @@ static void take_texture(struct arb_parser *p, const struct emit_target *to, uin
 		const char *name;
 		enum gls_texture_target target;
 	} targets[] = { { "1D", GLS_TEXTURE_1D }, { "2D", GLS_TEXTURE_2D }, { "3D", GLS_TEXTURE_3D }, { "CUBE", GLS_TEXTURE_CUBE },
-		        { "RECT", GLS_TEXTURE_RECTANGLE } };
+		        { "RECT", GLS_TEXTURE_RECTANGLE }, { "SHADOW1D", GLS_TEXTURE_1D }, { "SHADOW2D", GLS_TEXTURE_2D },
+		        { "SHADOWRECT", GLS_TEXTURE_RECTANGLE } }; /* whether depths are compared, the texture says */
 	struct arb_words *w = &p->words;
 	const struct emit_source at = arb_take_source(p);
 	uint32_t unit, *target;
@@ -232,7 +233,7 @@ static void take_texture(struct arb_parser *p, const struct emit_target *to, uin
 	arb_expect(w, ',');
 	arb_peek(w);
 	target = &p->emitter.code->targets[unit];
-	for (uint32_t i = 0; i < 5; i++) {
+	for (uint32_t i = 0; i < sizeof(targets) / sizeof(targets[0]); i++) {
 		const size_t n = strlen(targets[i].name);
 
 		if ((size_t)(w->end - w->at) <= n || memcmp(w->at, targets[i].name, n) != 0)

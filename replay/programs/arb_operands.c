@@ -24,17 +24,13 @@ uint32_t arb_new_registers(struct arb_parser *p)
 	return code->n_registers - 4;
 }
 
-/* The operand that stands for the first number of a constant. */
-static uint32_t operand_of(struct arb_parser *p, uint32_t number)
-{
-	if (number == UINT32_MAX)
-		p->emitter.err = ERR_SYSTEM;
-	return number == UINT32_MAX ? SCENE_PROGRAM_CONSTANT : SCENE_PROGRAM_CONSTANT + 4 * number;
-}
-
 uint32_t arb_constant(struct arb_parser *p, const struct program_constant *c)
 {
-	return operand_of(p, program_constant(p->emitter.code, c));
+	const uint32_t operand = program_constant_operand(p->emitter.code, c);
+
+	if (operand == UINT32_MAX)
+		p->emitter.err = ERR_SYSTEM;
+	return operand == UINT32_MAX ? SCENE_PROGRAM_CONSTANT : operand;
 }
 
 uint32_t arb_literal(struct arb_parser *p, float x, float y, float z, float w)
@@ -224,6 +220,16 @@ static void take_literal(struct arb_words *w, struct program_constant *to)
 	arb_expect(w, '}');
 }
 
+/* As arb_constant, for an array. */
+static uint32_t element(struct arb_parser *p, const struct program_constant *c)
+{
+	const uint32_t number = program_constant_append(p->emitter.code, c);
+
+	if (number == UINT32_MAX)
+		p->emitter.err = ERR_SYSTEM;
+	return number == UINT32_MAX ? SCENE_PROGRAM_CONSTANT : SCENE_PROGRAM_CONSTANT + 4 * number;
+}
+
 uint32_t arb_take_binding(struct arb_parser *p, int in_array)
 {
 	struct program_constant bound[GLS_MAX_PROGRAM_PARAMETERS];
@@ -242,7 +248,7 @@ uint32_t arb_take_binding(struct arb_parser *p, int in_array)
 	if (p->n_elements + n > ARB_MAX_ELEMENTS)
 		arb_fail(w, "an ARB program has more parameters than are done");
 	for (uint32_t i = 0; i < n && !w->why; i++)
-		p->elements[p->n_elements++] = in_array ? operand_of(p, program_constant_append(p->emitter.code, &bound[i])) : arb_constant(p, &bound[i]);
+		p->elements[p->n_elements++] = in_array ? element(p, &bound[i]) : arb_constant(p, &bound[i]);
 	return w->why ? 0 : n;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
+#include "replay/machine/state.h"
 
 int program_append(struct program_code *code, const struct scene_instruction *instruction)
 {
@@ -38,8 +39,43 @@ uint32_t program_constant_append(struct program_code *code, const struct program
 	return code->n_constants++;
 }
 
+/* 1 where a constant is light that comes from a light itself. */
+static int is_sent(const struct program_constant *c)
+{
+	return (c->source == PROGRAM_LIGHT && (c->part == PROGRAM_LIGHT_DIFFUSE || c->part == PROGRAM_LIGHT_SPECULAR)) ||
+	       (c->source == PROGRAM_LIGHT_PRODUCT && (c->part == GLS_DIFFUSE || c->part == GLS_SPECULAR));
+}
+
+uint32_t program_constant_operand(struct program_code *code, const struct program_constant *constant)
+{
+	const uint32_t number = program_constant(code, constant);
+
+	if (number == UINT32_MAX)
+		return number;
+	for (uint32_t i = 0; i < code->n_lights; i++)
+		if (code->lights[i].constant == number)
+			return code->lights[i].to;
+	if (!is_sent(constant) || code->n_registers + 4 > SCENE_PROGRAM_REGISTERS)
+		return SCENE_PROGRAM_CONSTANT + 4 * number;
+	if (MEMORY_GROW(code->lights, code->light_room, code->n_lights + 1))
+		return UINT32_MAX;
+	code->lights[code->n_lights++] = (struct program_light){ code->n_registers, number };
+	code->n_registers += 4;
+	return code->n_registers - 4;
+}
+
+uint32_t program_lights(const struct program_code *code)
+{
+	uint32_t lights = 0;
+
+	for (uint32_t i = 0; i < code->n_lights; i++)
+		lights |= 1u << code->constants[code->lights[i].constant].index;
+	return lights;
+}
+
 void program_code_free(struct program_code *code)
 {
+	free(code->lights);
 	free(code->instructions);
 	free(code->constants);
 	memset(code, 0, sizeof(*code));

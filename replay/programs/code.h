@@ -47,11 +47,17 @@ struct program_constant {
 	float value[4];
 };
 
+/* Registers that a light's constant is moved to (struct scene_program_light). */
+struct program_light {
+	uint32_t to, constant; /* constant: its number */
+};
+
 struct program_code {
 	struct scene_instruction *instructions; /* owned */
 	struct program_constant *constants;     /* owned */
-	uint32_t n_instructions, n_constants, n_registers;
-	uint32_t instruction_room, constant_room;
+	struct program_light *lights;           /* owned */
+	uint32_t n_instructions, n_constants, n_registers, n_lights;
+	uint32_t instruction_room, constant_room, light_room;
 	uint32_t inputs, kills, sets_depth, outputs; /* as in struct scene_program */
 	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
 };
@@ -72,5 +78,14 @@ uint32_t program_constant(struct program_code *code, const struct program_consta
 
 /** The same, added in any case: behind the last. */
 uint32_t program_constant_append(struct program_code *code, const struct program_constant *constant);
+
+/**
+ * The operand that stands for a constant's first number: the constant, or registers of the program's own where it is what a light sends.
+ * @return it; UINT32_MAX: out of memory (reported)
+ */
+uint32_t program_constant_operand(struct program_code *code, const struct program_constant *constant);
+
+/** Lights that it reads: 1 << number. */
+uint32_t program_lights(const struct program_code *code);
 
 void program_code_free(struct program_code *code);

@@ -42,16 +42,15 @@ BAR_PARITY = 0.9
 PROGRAM_CALLS = {"glLinkProgram", "glLinkProgramARB", "glProgramStringARB", "glEndFragmentShaderATI"}
 
 
-def find_tests(parts):
-    """[(name, command)] of the suite's list, each command once."""
-    root = xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / "opengl.xml.gz")).getroot()
+def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),)):
+    """[(name, command)] of the suite's lists and their kinds of tests, each command once."""
     tests, seen = [], set()
-    for test in root.iter("Test"):
-        name = test.get("name")
-        option = test.find("option[@name='command']")
-        if test.get("type") != "gl" or option is None or not GROUPS.match(name):
+    for name, kind, option in ((test.get("name"), kind, test.find("option[@name='command']")) for file, kind in lists
+                               for test in xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / f"{file}.xml.gz")).getroot().iter("Test")
+                               if test.get("type") == kind):
+        if option is None or not groups.match(name):
             continue
-        command = tuple(ast.literal_eval(option.get("value")))
+        command = tuple(str(PIGLIT / word) if kind == "shader" and "/" in word else word for word in ast.literal_eval(option.get("value")))
         if not (PIGLIT / "bin" / command[0]).exists():
             continue  # the list names one that Debian's package does not have
         if command not in seen and (not parts or any(part in name for part in parts)):

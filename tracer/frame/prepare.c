@@ -339,7 +339,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		instance->pad = 1.0f / 128; /* pixels */
 	p->n_instances++;
 	segment->instance_count++;
-	if (m->lighting && m->light_count > p->n_light_slots)
+	if ((m->lighting || m->vertex_program) && m->light_count > p->n_light_slots)
 		p->n_light_slots = m->light_count;
 	if (m->surface.relit && m->surface.light_count > p->n_light_slots)
 		p->n_light_slots = m->surface.light_count;

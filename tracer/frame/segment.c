@@ -232,7 +232,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	int err = device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a) :
 	                                                     launch_shade(tr->dev, n, a);
 
-	return err || !job->prepared.has_fragment_programs ? err : launch_program(tr->dev, n, a);
+	return err || !(job->prepared.has_fragment_programs || (slots && job->prepared.has_vertex_programs)) ? err : launch_program(tr->dev, n, a);
 }
 
 static int run_resolve(struct job *job, struct camera_rectangle r)

@@ -1,0 +1,118 @@
+/*
+ * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light (--by vertex), or
+ * by a fragment program that lights each fragment with the normal that a vertex program hands on (--by fragment). The floor is fixed
+ * function's in any case.
+ *
+ *   cc -o phong corpus/phong.c -lglut -lGLU -lGL -lm
+ */
+#define GL_GLEXT_PROTOTYPES
+#include "mesh.h"
+#include "program.h"
+#include <GL/glext.h>
+
+static const char eye_space[] =
+	"TEMP e, n, h; PARAM mv[4] = { state.matrix.modelview }; PARAM it[4] = { state.matrix.modelview.invtrans };\n"
+	"DP4 e.x, mv[0], vertex.position; DP4 e.y, mv[1], vertex.position; DP4 e.z, mv[2], vertex.position; MOV e.w, 1;\n"
+	"DP3 n.x, it[0], vertex.normal; DP3 n.y, it[1], vertex.normal; DP3 n.z, it[2], vertex.normal;\n"
+	"DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n";
+
+/* Of a light in e's space and a normal n: colour c. Both stages have these instructions. */
+static const char light[] =
+	"SUB l, state.light[0].position, e; DP3 l.w, l, l; RSQ l.w, l.w; MUL l.xyz, l, l.w; ADD h, l, { 0, 0, 1, 0 };\n"
+	"DP3 h.w, h, h; RSQ h.w, h.w; MUL h.xyz, h, h.w; DP3 l.x, n, l; DP3 l.y, n, h; MOV l.w, state.material.shininess.x; LIT l, l;\n"
+	"MAD c, state.lightprod[0].diffuse, l.y, state.lightmodel.scenecolor; MAD c.xyz, state.lightprod[0].specular, l.z, c;\n";
+
+static struct mesh model;
+static GLuint list;
+
+static int is_by(const char *way)
+{
+	return program.by && strcmp(program.by, way) == 0;
+}
+
+static void set_program(GLenum target, const char *header, const char *first, const char *then, const char *last)
+{
+	char text[4096];
+	GLuint name;
+	GLint at;
+
+	snprintf(text, sizeof(text), "%s\n%s%s%s\nEND\n", header, first, then, last);
+	glGenProgramsARB(1, &name);
+	glBindProgramARB(target, name);
+	glProgramStringARB(target, GL_PROGRAM_FORMAT_ASCII_ARB, (GLsizei)strlen(text), text);
+	glGetIntegerv(GL_PROGRAM_ERROR_POSITION_ARB, &at);
+	if (at >= 0)
+		fprintf(stderr, "phong: %s\n", (const char *)glGetString(GL_PROGRAM_ERROR_STRING_ARB));
+}
+
+static void set_programs(void)
+{
+	if (is_by("vertex"))
+		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;\nTEMP l, c;", eye_space, light, "MOV result.color, c;");
+	if (!is_by("fragment"))
+		return;
+	set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;", eye_space, "",
+	            "MOV result.texcoord[0], e; MOV result.texcoord[1], n; MOV result.texcoord[1].w, 1;");
+	set_program(GL_FRAGMENT_PROGRAM_ARB, "!!ARBfp1.0\nTEMP e, n, h, l, c;",
+	            "MOV e, fragment.texcoord[0]; MOV n, fragment.texcoord[1]; DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n", light,
+	            "MOV result.color, c;");
+}
+
+static void init(void)
+{
+	model = mesh_load(program.model, 256, 24);
+	list = glGenLists(1);
+	glNewList(list, GL_COMPILE);
+	glBegin(GL_TRIANGLES);
+	for (size_t i = 0; i < model.n_triangles; i++)
+		for (int c = 0; c < 3; c++) {
+			glNormal3fv(model.normals[model.triangles[i][c]]);
+			glVertex3fv(model.positions[model.triangles[i][c]]);
+		}
+	glEnd();
+	glEndList();
+	set_programs();
+	glClearColor(0.2f, 0.2f, 0.25f, 1);
+	glEnable(GL_DEPTH_TEST);
+	glEnable(GL_LIGHT0);
+	glEnable(GL_NORMALIZE);
+	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ 0.7f, 0.6f, 0.45f, 1 });
+	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[]){ 0.4f, 0.4f, 0.4f, 1 });
+	glMaterialf(GL_FRONT, GL_SHININESS, 40);
+	program_perspective(40, 1, 20);
+}
+
+static void draw_floor(void)
+{
+	glBegin(GL_QUADS);
+	glNormal3f(0, 1, 0);
+	for (int i = 0; i < 4; i++)
+		glVertex3f(i == 1 || i == 2 ? 3.0f : -3.0f, -1.2f, i >= 2 ? -3.0f : 3.0f);
+	glEnd();
+}
+
+static void draw(void)
+{
+	const GLenum stages[2] = { GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB };
+	const int n = is_by("fragment") ? 2 : is_by("vertex") ? 1 : 0;
+
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	glLoadIdentity();
+	glTranslatef(0, 0, -5);
+	glRotatef(20, 1, 0, 0);
+	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ 2, 5, 3, 1 });
+	glRotatef(program_moved(program.animate_camera, 3), 0, 1, 0);
+	glEnable(GL_LIGHTING);
+	draw_floor();
+	for (int i = 0; i < n; i++)
+		glEnable(stages[i]);
+	glCallList(list);
+	for (int i = 0; i < n; i++)
+		glDisable(stages[i]);
+}
+
+int main(int argc, char **argv)
+{
+	program_run(argc, argv, "phong", init, draw);
+	return 0;
+}

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+"""tests/show/stages.py BUILD [panels|piglit|cost...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
+
+panels: tests/real/panels of programs, each instruction, binding, option and way in a panel: pixels that fail.
+piglit: its tests of ARB_vertex_program and ARB_fragment_program: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
+lie in BUILD/show/stages, every outcome in BUILD/show/stages.tsv.
+cost: a frame of the same knot, lit by fixed function and by programs: processor time, medians of runs side by side.
+Needs a display: run under tests/xvfb.sh.
+"""
+import json
+import os
+import pathlib
+import re
+import resource
+import statistics
+import subprocess
+import sys
+
+import piglit
+
+GROUPS = re.compile(r"spec@arb_(vertex|fragment)_program(_shadow)?@")
+LISTS = (("opengl", "gl"), ("shader", "shader"))
+PANELS = ("program", "vertex_program")
+WAYS = ("fixed", "vertex", "fragment")
+FRAMES = 8
+RUNS = 3
+BAR_PIGLIT = 0.9
+BAR_COST = 2
+
+
+def must(*command, **more):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, **more)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def record(build, trace, *program):
+    for old in trace.parent.glob(f"{trace.stem}.*"):
+        old.unlink()
+    must(build / "relume", "record", "--ref", "color,depth", "-o", trace, "--", *program)
+
+
+def score_panels(build, base):
+    rows = []
+    for name in PANELS:
+        trace, frames = base / f"{name}.trace", base / name
+        record(build, trace, build / "tests/real/panels" / name)
+        must(build / "relume", "render", trace, "--mode", "gl", "--encoding", "display", "--force", "-o", frames / f"{name}.####.exr")
+        done = subprocess.run([build / "relume", "diff", trace, frames, "--json", "-"], capture_output=True, text=True, check=False)
+        failing = [frame["failing_pixels"] for frame in json.loads(done.stdout)["frames"]]
+        rows.append({"what": f"panels/{name}: pixels that fail in {len(failing)} frames", "figure": sum(failing), "bar": "0", "peer": "Mesa llvmpipe",
+                     "passed": not any(failing)})
+    return rows
+
+
+def score_piglit(build, base):
+    tests = piglit.find_tests((), GROUPS, LISTS)
+    ran = piglit.recorded_rows(build, tests, base / "piglit")
+    rows = [row for row in ran if row["bare"].split()[0] == "pass" and row["frames"]]
+    for row in rows:
+        piglit.score(build, base / "piglit" / re.sub(r"\W+", "_", row["name"]), row)
+    piglit.write_table(build / "show" / "stages.tsv", ("name", "command", "frame", "parity", "why", "fidelity", "one_colour", "left_out"), rows)
+    for row in rows:
+        if row["parity"] != "passes":
+            print(f"{row['name']}: {row['parity']} {row['why']} {row.get('left_out', '')}"[:200])
+    good = sum(row["parity"] == "passes" for row in rows)
+    plain = sum(row["parity"] == "passes" and row["one_colour"] for row in rows)
+    share = good / len(rows) if rows else 0
+    return [{"what": f"piglit's tests of ARB programs ({len(tests)} run, {len(rows)} pass on Mesa and read pixels): last frames that pass R1 to R3",
+             "figure": f"{good} of {len(rows)} ({100 * share:.1f} %), {plain} of these of one colour", "bar": f"{100 * BAR_PIGLIT:.0f} %",
+             "peer": "piglit on Mesa llvmpipe", "passed": share >= BAR_PIGLIT}]
+
+
+def processor_s(*command):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    must(*command)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def score_cost(build, base):
+    """What a frame more costs: all frames beside the first alone."""
+    costs = {way: [] for way in WAYS}
+    for way in WAYS:
+        record(build, base / f"{way}.trace", build / "corpus" / "phong", "--frames", FRAMES, "--size", "640x480", "--animate", "camera", "--by", way)
+    for number in range(RUNS + 1): # the first compiles kernels
+        for way in WAYS:
+            def frames(last):
+                return processor_s(build / "relume", "render", base / f"{way}.trace", "-f", f"0-{last}", "--force",
+                                   "-o", base / way / "x.####.exr")
+            took = (frames(FRAMES - 1) - frames(0)) / (FRAMES - 1)
+            if number:
+                costs[way].append(took)
+    median = {way: statistics.median(costs[way]) for way in WAYS}
+    return [{"what": f"a frame of a lit knot by a {way} program, of fixed function's {1000 * median['fixed']:.0f} ms of processor time",
+             "figure": f"{median[way] / median['fixed']:.2f} times", "bar": f"{BAR_COST} times", "peer": "fixed function",
+             "passed": median[way] <= BAR_COST * median["fixed"]} for way in WAYS[1:]]
+
+
+PARTS = {"panels": score_panels, "piglit": score_piglit, "cost": score_cost}
+
+
+def main(build, *parts):
+    build = pathlib.Path(build).resolve()
+    if not (piglit.PIGLIT / "bin").is_dir():
+        sys.exit("piglit is not installed: make build/deps.piglit")
+    os.environ.setdefault("POCL_CACHE_DIR", str(build / "tests/pocl-cache"))
+    base = build / "show" / "stages"
+    base.mkdir(parents=True, exist_ok=True)
+    rows = [row for part in parts or PARTS for row in PARTS[part](build, base)]
+    return piglit.show(build, "programs", rows, "show-programs")
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
