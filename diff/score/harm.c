@@ -13,12 +13,14 @@
  * 82 %, a lit figure between unlit walls 3.4 %.
  *
  * Known faults. Pixels that lost light to what is no shadow: flat faces that stop light which their smooth normals face (the shadow
- * terminator: the normal faces a light, the pixels' own plane turns away), dark ones of crossed cards that shade each other (attribute
- * relume:cards), and lit pictures of framebuffer objects that no ray saw (relume:targets). Bar: 0.3 % of the frame, for shadows of
- * others that fall on such places: up to 0.08 % (the hall). Low-poly blocks took 0.7 %, trees of crossed cards 2 % and more.
+ * terminator: the normal faces a light, the pixels' own plane turns away, and no light from all around that things near by dim explains
+ * it), dark ones of crossed cards that shade each other (attribute relume:cards), and lit pictures of framebuffer objects that no ray saw
+ * (relume:targets). Bar: 0.3 % of the frame, for shadows of others that fall on such places: up to 0.08 % (the hall). Low-poly blocks
+ * took 0.7 %, trees of crossed cards 2 % and more.
  *
- * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:cards and relume:targets, draw
- * numbers, where rules kept these from being spared. Frames without them are judged by what they hold.
+ * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:dimmed, the least share of
+ * display codes that light from all around leaves; relume:cards and relume:targets, draw numbers, where rules kept these from being
+ * spared. Frames without them are judged by what they hold.
  */
 #include "diff/score/measures.h"
 
@@ -47,6 +49,8 @@ struct harm {
 	const float *layers; /* NULL: the frame does not say */
 	float lights[MOST_LIGHTS][4];
 	int n_lights;
+	int is_display;
+	float dimmed; /* 1: there is no light from all around */
 	float *light;  /* [n]: luminance of what no mirror adds to */
 	uint8_t *dark; /* [n]: 1; 2: of a patch that was seen */
 	uint32_t *patch; /* [n]: room for one */
@@ -99,7 +103,7 @@ static int is_lighter(const struct harm *h, size_t i, size_t than)
 	return shade(h, i) > 1.25f * shade(h, than);
 }
 
-static void find_dark(const struct harm *h, size_t n, int is_display)
+static void find_dark(const struct harm *h, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
 		float gl = gl_light(h, i), left;
@@ -108,7 +112,7 @@ static void find_dark(const struct harm *h, size_t n, int is_display)
 		left = luminance(h->gl[0][i] * h->shadow[0][i], h->gl[1][i] * h->shadow[1][i], h->gl[2][i] * h->shadow[2][i]);
 		if (h->relight[0])
 			left += luminance(h->relight[0][i], h->relight[1][i], h->relight[2][i]);
-		lost = is_display ? (int)(255 * (gl - left)) : score_code_from_linear(gl) - score_code_from_linear(left);
+		lost = h->is_display ? (int)(255 * (gl - left)) : score_code_from_linear(gl) - score_code_from_linear(left);
 		h->light[i] = left;
 		h->dark[i] = !score_ignores(h->f->ref, i) && lost >= DARK_CODES && left < DARK_SHARE * gl;
 	}
@@ -241,13 +245,21 @@ static int plane_at(const struct harm *h, uint32_t i, const float normal[3], flo
 	return length > 0 && dot(out, normal) > 0.5f; /* else the neighbours lie on another face */
 }
 
+/* 1 where a pixel is darker than what light from all around leaves, however close things stand. */
+static int is_darker_than_dimmed(const struct harm *h, uint32_t i)
+{
+	if (h->is_display)
+		return h->light[i] < h->dimmed * gl_light(h, i);
+	return score_code_from_linear(h->light[i]) < h->dimmed * score_code_from_linear(gl_light(h, i));
+}
+
 /* 1 where a dark pixel's normal faces a light from which its own plane turns away. */
 static int is_terminator(const struct harm *h, uint32_t i)
 {
 	float normal[3], plane[3];
 
 	normal_at(h, i, normal);
-	if (!h->dark[i] || !plane_at(h, i, normal, plane))
+	if (!h->dark[i] || !is_darker_than_dimmed(h, i) || !plane_at(h, i, normal, plane))
 		return 0;
 	for (int l = 0; l < h->n_lights; l++) {
 		const float *light = h->lights[l];
@@ -296,8 +308,9 @@ static uint64_t count_faults(const struct harm *h, uint32_t n)
 int gate_harm(struct gate_frame *f)
 {
 	const uint32_t n = f->img->width * f->img->height;
-	const char *encoding = image_attribute(f->img, "relume:encoding");
-	struct harm h = { .f = f, .width = f->img->width, .height = f->img->height };
+	const char *encoding = image_attribute(f->img, "relume:encoding"), *dimmed = image_attribute(f->img, "relume:dimmed");
+	struct harm h = { .f = f, .width = f->img->width, .height = f->img->height, .is_display = encoding && strcmp(encoding, "display") == 0,
+		          .dimmed = dimmed ? strtof(dimmed, NULL) : 1 };
 	int err = 0;
 
 	if (!find_all_planes(f->img, &h)) {
@@ -309,7 +322,7 @@ int gate_harm(struct gate_frame *f)
 	h.patch = malloc((n + (size_t)1) * sizeof(*h.patch));
 	if (h.light && h.dark && h.patch) {
 		read_lights(&h);
-		find_dark(&h, n, encoding && strcmp(encoding, "display") == 0);
+		find_dark(&h, n);
 		gate_measure(f, GATE_N, 0, 100 * (double)count_unbounded(&h, n) / n);
 		gate_measure(f, GATE_N, 1, 100 * (double)count_faults(&h, n) / n);
 		gate_measure(f, GATE_N, 2, 100 * burnt_share(f));

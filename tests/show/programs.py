@@ -48,8 +48,9 @@ OPEN = (
             keys=("wait 8", "key Return", "wait 3", "key Return", "wait 3", "key Return", "wait 4", "key Return", "wait 3", "key Return")),
     Program("openarena", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl1", "+set", "r_mode",
                                        "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50),
-    # The mouse is the stick: let go, in the middle of the window, and the glider thrown again before it lands.
-    Program("crrcsim", "crrcsim", ("crrcsim",), seconds=25, keys=("wait 6", "click 320 240", *(8 * ("key r", "wait 2")))),
+    # The mouse is the stick: let go, in the middle of the window, and the glider thrown again before it lands. It asks before it ends.
+    Program("crrcsim", "crrcsim", ("crrcsim",), seconds=40,
+            keys=("wait 6", "click 320 240", *(8 * ("key r", "wait 2")), "key q", "wait 1", "click 359 264")),
     rss_glx("lattice"),
     xscreensaver("queens"),
     xscreensaver("lament", "xscreensaver-gl-extra"),

@@ -601,6 +601,13 @@ START_TEST(dark_faces_with_lit_normals)
 	darken(0.2f, on_half_of_box);
 	expect_failed(GATE_N);
 	ck_assert_double_gt(score.gates[GATE_N].value[1], 10);
+	/* Light from all around may take so much. */
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:dimmed", "%s", "0.51"), 0);
+	run();
+	ck_assert_double_gt(score.gates[GATE_N].value[1], 10);
+	darken(0.4f, on_half_of_box);
+	run();
+	ck_assert_double_eq(score.gates[GATE_N].value[1], 0);
 }
 END_TEST
 

@@ -1,9 +1,12 @@
 #include "tracer/frame/compose.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/err.h"
 #include "kernels/frame/compose.h"
+#include "kernels/frame/dome.h"
+#include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
 #include "tracer/image/pack.h"
 
@@ -140,6 +143,8 @@ static int describe_image(const struct job *job, struct image *img)
 		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
 	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* gate R5 asks (diff/score/depth.c) */
 		err = image_set_attribute(img, "relume:unknown", "depth");
+	if (!err && dome_is_there(job)) /* gate N asks (diff/score/harm.c) */
+		err = image_set_attribute(img, "relume:dimmed", "%.3g", (double)(sqrtf(DOME_LEFT) * job->scene->dome.lit + 1 - job->scene->dome.lit));
 	return err ? err : describe_camera(job, img);
 }
 
