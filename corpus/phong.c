@@ -1,7 +1,7 @@
 /*
  * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light (--by vertex), or
  * by a fragment program that lights each fragment with the normal that a vertex program hands on (--by fragment). The floor is fixed
- * function's in any case.
+ * function's. Engines had matrices of their own: --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
  *
  *   cc -o phong corpus/phong.c -lglut -lGLU -lGL -lm
  */
@@ -14,6 +14,14 @@ static const char eye_space[] =
 	"TEMP e, n, h; PARAM mv[4] = { state.matrix.modelview }; PARAM it[4] = { state.matrix.modelview.invtrans };\n"
 	"DP4 e.x, mv[0], vertex.position; DP4 e.y, mv[1], vertex.position; DP4 e.z, mv[2], vertex.position; MOV e.w, 1;\n"
 	"DP3 n.x, it[0], vertex.normal; DP3 n.y, it[1], vertex.normal; DP3 n.z, it[2], vertex.normal;\n"
+	"DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n";
+
+static const char own_space[] =
+	"TEMP e, n, h; PARAM mvp[4] = { program.env[0..3] }; PARAM mv[4] = { program.env[4..7] };\n"
+	"DP4 result.position.x, mvp[0], vertex.position; DP4 result.position.y, mvp[1], vertex.position;\n"
+	"DP4 result.position.z, mvp[2], vertex.position; DP4 result.position.w, mvp[3], vertex.position;\n"
+	"DP4 e.x, mv[0], vertex.position; DP4 e.y, mv[1], vertex.position; DP4 e.z, mv[2], vertex.position; MOV e.w, 1;\n"
+	"DP3 n.x, mv[0], vertex.normal; DP3 n.y, mv[1], vertex.normal; DP3 n.z, mv[2], vertex.normal;\n"
 	"DP3 n.w, n, n; RSQ n.w, n.w; MUL n.xyz, n, n.w;\n";
 
 /* Of a light in e's space and a normal n: colour c. Both stages have these instructions. */
@@ -49,6 +57,8 @@ static void set_programs(void)
 {
 	if (is_by("vertex"))
 		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;\nTEMP l, c;", eye_space, light, "MOV result.color, c;");
+	if (is_by("own"))
+		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nTEMP l, c;", own_space, light, "MOV result.color, c;");
 	if (!is_by("fragment"))
 		return;
 	set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;", eye_space, "",
@@ -79,7 +89,6 @@ static void init(void)
 	glMaterialfv(GL_FRONT, GL_AMBIENT_AND_DIFFUSE, (const float[]){ 0.7f, 0.6f, 0.45f, 1 });
 	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[]){ 0.4f, 0.4f, 0.4f, 1 });
 	glMaterialf(GL_FRONT, GL_SHININESS, 40);
-	program_perspective(40, 1, 20);
 }
 
 static void draw_floor(void)
@@ -91,11 +100,33 @@ static void draw_floor(void)
 	glEnd();
 }
 
+/* Put OpenGL's matrices into parameters, and the identity in their place. The lamp stays where it is before the eye. */
+static void take_matrices(void)
+{
+	float p[16], m[16];
+
+	glGetFloatv(GL_PROJECTION_MATRIX, p);
+	glGetFloatv(GL_MODELVIEW_MATRIX, m);
+	for (unsigned row = 0; row < 4; row++) {
+		float mvp[4] = { 0 };
+
+		for (int k = 0; k < 16; k++)
+			mvp[k / 4] += p[4 * (k % 4) + (int)row] * m[k];
+		glProgramEnvParameter4fvARB(GL_VERTEX_PROGRAM_ARB, row, mvp);
+		glProgramEnvParameter4fARB(GL_VERTEX_PROGRAM_ARB, 4 + row, m[row], m[4 + row], m[8 + row], m[12 + row]);
+	}
+	glMatrixMode(GL_PROJECTION);
+	glLoadIdentity();
+	glMatrixMode(GL_MODELVIEW);
+	glLoadIdentity();
+}
+
 static void draw(void)
 {
 	const GLenum stages[2] = { GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB };
 	const int n = is_by("fragment") ? 2 : is_by("vertex") ? 1 : 0;
 
+	program_perspective(40, 1, 20);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 	glLoadIdentity();
 	glTranslatef(0, 0, -5);
@@ -103,12 +134,17 @@ static void draw(void)
 	glLightfv(GL_LIGHT0, GL_POSITION, (const float[]){ 2, 5, 3, 1 });
 	glRotatef(program_moved(program.animate_camera, 3), 0, 1, 0);
 	glEnable(GL_LIGHTING);
+	if (is_by("own")) {
+		take_matrices();
+		glEnable(GL_VERTEX_PROGRAM_ARB);
+	}
 	draw_floor();
 	for (int i = 0; i < n; i++)
 		glEnable(stages[i]);
 	glCallList(list);
 	for (int i = 0; i < n; i++)
 		glDisable(stages[i]);
+	glDisable(GL_VERTEX_PROGRAM_ARB);
 }
 
 int main(int argc, char **argv)

@@ -167,7 +167,7 @@ struct scene_material {
 	uint32_t program; /* 1: the draw used a program object or ARB program */
 	uint32_t fragment_program; /* 0, or 1 + where in scene.programs the program that shades it begins; else it is rendered as fixed function */
 	uint32_t vertex_program; /* the same of its vertices; `lighting` is 0 then, and lights are those that its programs read */
-	uint32_t program_normals; /* 1: that one reads normals: its vertices' are the surface's, as those of a lit one are */
+	uint32_t program_normals; /* 1: that one reads normals: those of vertices that it does not move are the surface's, as of a lit one */
 };
 
 /* One enabled texture unit as a draw saw it (GL 2.1 sec. 3.8). */

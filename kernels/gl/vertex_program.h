@@ -1,7 +1,7 @@
 /*
  * Vertex programs (ARB_vertex_program): instructions.h runs them, for four vertices at once. What the vertex stage has made of a vertex by fixed
  * function (vertex.h) gives way to what the program says of it: a clip position, from which its eye position is found again by the
- * projection; colours, texture coordinates, fog coordinate, size of a point. Its normal stays fixed function's.
+ * projection; colours, texture coordinates, fog coordinate, size of a point. Its normal stays fixed function's where its position does.
  */
 #pragma once
 
@@ -71,17 +71,18 @@ static inline struct vec4 vertex_result_color(const struct program_run *run, GLO
 	return m->unclamped & 2u ? color : v4_clamp01(color);
 }
 
-/* Lights of the material's list that a program can light a vertex by: where it reads normals, those in front of it. */
+/* Lights of the material's list that a program can light a vertex by: where it has a normal, those in front of it. */
 static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct scene_material *m, GLOBAL const struct shaded_vertex *vertex)
 {
 	const struct vec3 at = v3_load(vertex->eye), n = v3_load(vertex->normal);
+	const int has_normal = m->program_normals && v3_dot(n, n) > 0.0f;
 	uint32_t lights = 0u;
 
 	for (uint32_t i = 0u; i < m->light_count; i++) {
 		struct vec3 to_light;
 		const float strength = light_strength(&t->lights[m->light_first + i], at, &to_light);
 
-		if (!m->program_normals || (strength > 0.0f && (m->two_side || v3_dot(n, to_light) > 0.0f)))
+		if (!has_normal || (strength > 0.0f && (m->two_side || v3_dot(n, to_light) > 0.0f)))
 			lights |= 1u << i;
 	}
 	return m->surface.hidden & SCENE_UNSHADED ? 0u : lights;
@@ -99,8 +100,10 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 	if (outputs >> SCENE_RESULT_POSITION & 1u) {
 		const struct vec4 clip = vertex_result(run, SCENE_RESULT_POSITION, k);
 
-		if (!vertex_is_same(v4_load(out->clip), clip)) /* else fixed function's eye position is the better one */
+		if (!vertex_is_same(v4_load(out->clip), clip)) { /* else fixed function's eye position is the better one */
 			v4_store(out->eye, vertex_eye_from_clip(view, clip));
+			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* nobody knows how the program turned it: the triangle's counts */
+		}
 		v4_store(out->clip, clip);
 		v4_store(a->clips + (g->vertex_first + v) * 4u, clip);
 		a->windows[g->vertex_first + v] = clip_window(view, clip, (float)a->height);

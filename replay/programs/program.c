@@ -57,13 +57,19 @@ const char *gls_program_lack(const struct gls_state *st)
 	return lack;
 }
 
-uint64_t gls_program_current(const struct gls_state *st)
+unsigned gls_program_current(const struct gls_state *st, uint64_t keys[2])
 {
-	if (st->program)
-		return st->program;
+	unsigned n = 0;
+
+	if (st->program) {
+		keys[n++] = st->program;
+		return n;
+	}
+	if (st->a.programs.vertex)
+		keys[n++] = (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex;
 	if (st->a.programs.fragment)
-		return (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
-	return st->a.programs.vertex ? (uint64_t)GL_VERTEX_PROGRAM_ARB << 32 | st->arb_vertex : 0;
+		keys[n++] = (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
+	return n;
 }
 
 static int runs(const struct gls_state *st, uint32_t target, struct program_stage *stage)

@@ -195,6 +195,22 @@ static struct trace_value value_of(struct calls *c, unsigned i, char letter, uin
 	}
 }
 
+/* Programs in assembly, whole and broken. Random bytes would hardly be one. */
+static struct trace_value program_of(uint32_t v)
+{
+	static const char *const texts[] = {
+		"!!ARBvp1.0 PARAM p[] = { program.env[0..255] }; ADDRESS A; ARL A.x, vertex.attrib[1].x; MOV result.color, p[A.x + 4095]; MOV result.position, p[A.x - 4096]; END",
+		"!!ARBvp1.0 OPTION ARB_position_invariant; MOV result.color, vertex.attrib[15]; MOV result.pointsize.x, state.point.size; END",
+		"!!ARBvp1.0 PARAM m[4] = { state.matrix.program[7].invtrans }; MAD result.position, m[0], vertex.texcoord[7], state.lightprod[7].back.specular; END",
+		"!!ARBvp1.0 PARAM p[] = { }; END", "!!ARBvp1.0", "!!ARBvp1.0 TEMP a; ADDRESS A; MOV a, p[A.x]; END",
+		"!!ARBfp1.0 OPTION ARB_fog_exp2; TEX result.color, fragment.texcoord[7], texture[7], SHADOWRECT; KIL fragment.position; END",
+		"!!ARBfp1.0 MUL result.color, state.light[7].diffuse, state.texenv[7].color; MOV result.depth, program.local[255]; END",
+	};
+	const char *text = texts[v % (sizeof(texts) / sizeof(texts[0]))];
+
+	return (struct trace_value){ .type = TRACE_STRING, .count = strlen(text), .str = text };
+}
+
 static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const uint8_t *slot)
 {
 	const struct calls_command *command = command_at(slot);
@@ -203,6 +219,8 @@ static int execute(struct gls_exec *x, struct calls *c, uint64_t number, const u
 	for (; command->letters[n]; n++)
 		c->args[n] = value_of(c, n, command->letters[n], (uint32_t)(slot[2 + 2 * n] | slot[3 + 2 * n] << 8),
 		                      &calls_groups[command->group[n]]);
+	if (strcmp(command->name, "glProgramStringARB") == 0)
+		c->args[3] = program_of((uint32_t)(slot[8] | slot[9] << 8));
 	c->sig = (struct call_sig){ .name = command->name, .command = gls_command_find(command->name), .n_args = n };
 	c->call = (struct call){ .number = number, .sig = &c->sig, .args = c->args, .n_args = n,
 		                 .ret = { .type = TRACE_OPAQUE, .u = (uint64_t)(slot[CALLS_SLOT - 1] & 3) << 4 } };

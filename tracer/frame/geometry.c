@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "tracer/frame/expand.h"
+#include "tracer/frame/perspective.h"
 #include "tracer/frame/upload.h"
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------- */
@@ -230,7 +231,7 @@ static int read_baked(struct job *job, float (**out)[4])
 			continue;
 		if (is_in_place(job, i, (const float (*)[4])*out + g->vertex_first))
 			prepare_place(p, job->scene, i);
-		prepare_pad(p, job->scene, i, p->instances[i].flags & INSTANCE_BAKED ? (const float (*)[4])*out + g->vertex_first :
+		prepare_pad(p, i, p->instances[i].flags & INSTANCE_BAKED ? (const float (*)[4])*out + g->vertex_first :
 		                                                                       (const float (*)[4])mesh_of(job, i)->position, g->vertex_count);
 	}
 	return err;
@@ -297,12 +298,24 @@ static int build_trees(struct job *job)
 	return err;
 }
 
+/* Where programs have projections of their own, what eye space is is known only when they have run. */
+static int find_perspectives(struct job *job)
+{
+	int changed = 0, err = job->prepared.has_vertex_programs ? perspective_find(job, &changed) : 0;
+
+	if (!err && changed)
+		err = frame_upload(job->tr, views, job->prepared.views, job->prepared.n_views);
+	return err || !changed ? err : run_vertices(job, 0, 0);
+}
+
 int geometry_place(struct job *job)
 {
 	int err = upload_vertex_stage(job);
 
 	if (!err)
 		err = run_vertices(job, 0, 0);
+	if (!err)
+		err = find_perspectives(job);
 	if (!err)
 		err = expand_all(job);
 	return err ? err : build_trees(job);

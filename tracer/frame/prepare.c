@@ -198,11 +198,11 @@ static float box_pad(const float (*positions)[4], uint32_t n, const float clip_f
 	return 2 * farthest * sqrtf(eye) / 256 * sqrtf(shrink) + 4e-6f * size;
 }
 
-void prepare_pad(struct prepared *p, const struct scene *scene, uint32_t i, const float (*positions)[4], uint32_t n)
+void prepare_pad(struct prepared *p, uint32_t i, const float (*positions)[4], uint32_t n)
 {
 	struct instance *instance = &p->instances[i];
 	const struct geometry *g = &p->geometries[i];
-	const float *clip = instance->flags & INSTANCE_BAKED ? scene->views[scene->instances[instance->scene_instance].view].projection : g->clip_from_obj;
+	const float *clip = instance->flags & INSTANCE_BAKED ? p->views[g->view].projection : g->clip_from_obj;
 
 	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
 }
@@ -334,7 +334,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		prepare_place(p, scene, p->n_instances);
 	}
 	if (shape == PREPARED_FILLED)
-		prepare_pad(p, scene, p->n_instances, (const float (*)[4])mesh->position, mesh->vertex_count);
+		prepare_pad(p, p->n_instances, (const float (*)[4])mesh->position, mesh->vertex_count);
 	else
 		instance->pad = 1.0f / 128; /* pixels */
 	p->n_instances++;

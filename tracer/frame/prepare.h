@@ -61,7 +61,7 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 void prepare_place(struct prepared *p, const struct scene *scene, uint32_t instance);
 
 /** By how much camera rays widen an instance's boxes (struct instance): `positions`, in object space, or in eye space where it is baked. */
-void prepare_pad(struct prepared *p, const struct scene *scene, uint32_t instance, const float (*positions)[4], uint32_t n);
+void prepare_pad(struct prepared *p, uint32_t instance, const float (*positions)[4], uint32_t n);
 
 /** Move the picture of a prepared frame: its views are as prepare_frame would have made them with this shift. */
 void prepare_shift(struct prepared *p, const float shift[2]);

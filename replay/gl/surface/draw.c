@@ -24,7 +24,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	struct gls_target targets[2];
 	struct gls_frame *drawn;
 	const char *lack;
-	uint64_t key;
+	uint64_t keys[2];
 	unsigned n, added = 0;
 
 	if (!x->want)
@@ -40,9 +40,10 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	}
 	st->dirty = 0;
 	gls_shown_end(x, st, drawn);
-	if (added && (key = gls_program_current(st)) &&
-	    table_set(&x->counts.program_draws, key, (char *)table_find(&x->counts.program_draws, key) + 1))
-		gls_fail(x);
+	n = added ? gls_program_current(st, keys) : 0;
+	for (unsigned i = 0; i < n; i++)
+		if (table_set(&x->counts.program_draws, keys[i], (char *)table_find(&x->counts.program_draws, keys[i]) + 1))
+			gls_fail(x);
 	if (added && (lack = gls_program_lack(st))) {
 		x->counts.programs++;
 		gls_unsupported(x, lack);

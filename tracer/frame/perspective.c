@@ -1,0 +1,182 @@
+#include "tracer/frame/perspective.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "base/mat4.h"
+#include "tracer/frame/frame.h"
+
+#define LEAST_FACTOR 0.2 /* cotangents of half the angle that a picture spans: 157 degrees, */
+#define MOST_FACTOR 20.0 /* 6 */
+#define USUAL_FACTOR 2.414213562 /* 45 degrees */
+
+/* What the draws of a view of the scene tell. */
+struct found {
+	int perspective; /* 0: the view has a perspective already, or something in it is not displaced */
+	float least_w, most_w; /* those above 0 */
+	double factor[2];      /* of x and y; 0: not known */
+	uint32_t vertices;     /* of the mesh that they are of */
+};
+
+/* Solve a x = b for three right sides. @return 0: there is no solution, or hardly one */
+static int solve(double a[4][4], double b[4][3])
+{
+	for (int col = 0; col < 4; col++) {
+		int pivot = col;
+
+		for (int row = col + 1; row < 4; row++)
+			pivot = fabs(a[row][col]) > fabs(a[pivot][col]) ? row : pivot;
+		if (!(fabs(a[pivot][col]) > 1e-6 * fabs(a[0][0])))
+			return 0;
+		for (int k = 0; k < 4; k++) {
+			const double kept = a[col][k];
+
+			a[col][k] = a[pivot][k];
+			a[pivot][k] = kept;
+		}
+		for (int k = 0; k < 3; k++) {
+			const double kept = b[col][k];
+
+			b[col][k] = b[pivot][k];
+			b[pivot][k] = kept;
+		}
+		for (int row = 0; row < 4; row++) {
+			const double share = row == col ? 0 : a[row][col] / a[col][col];
+
+			for (int k = 0; k < 4; k++)
+				a[row][k] -= share * a[col][k];
+			for (int k = 0; k < 3; k++)
+				b[row][k] -= share * b[col][k];
+		}
+	}
+	for (int row = 0; row < 4; row++)
+		for (int k = 0; k < 3; k++)
+			b[row][k] /= a[row][row];
+	return 1;
+}
+
+static double length_of(const double b[4][3], int k)
+{
+	return sqrt(b[0][k] * b[0][k] + b[1][k] * b[1][k] + b[2][k] * b[2][k]);
+}
+
+/*
+ * The factors of a mesh that one matrix has moved: a turn, one scale and a shift, then the projection. Its rows for x, y and w are then as
+ * long as the factors, and 1, times the scale.
+ */
+static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], struct found *f)
+{
+	static const int parts[3] = { 0, 1, 3 };
+	double a[4][4] = { { 0 } }, b[4][3] = { { 0 } }, x, y;
+
+	if (mesh->vertex_count <= f->vertices)
+		return;
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int row = 0; row < 4; row++) {
+			for (int k = 0; k < 4; k++)
+				a[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] * mesh->position[4 * (size_t)v + (size_t)k];
+			for (int k = 0; k < 3; k++)
+				b[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] * clip[v][parts[k]];
+		}
+	if (!solve(a, b))
+		return; /* flat */
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		for (int k = 0; k < 3; k++) {
+			const float *p = mesh->position + 4 * (size_t)v;
+			const double at = b[0][k] * p[0] + b[1][k] * p[1] + b[2][k] * p[2] + b[3][k] * p[3];
+
+			if (!(fabs(at - clip[v][parts[k]]) <= 1e-3 * (fabs((double)clip[v][3]) + 1e-6)))
+				return; /* it is bent */
+		}
+	x = length_of((const double (*)[3])b, 0) / length_of((const double (*)[3])b, 2);
+	y = length_of((const double (*)[3])b, 1) / length_of((const double (*)[3])b, 2);
+	if (!(x > LEAST_FACTOR && x < MOST_FACTOR && y > LEAST_FACTOR && y < MOST_FACTOR))
+		return;
+	f->factor[0] = x;
+	f->factor[1] = y;
+	f->vertices = mesh->vertex_count;
+}
+
+static int look_at(const struct job *job, uint32_t i, struct found *f)
+{
+	const struct prepared *p = &job->prepared;
+	const struct geometry *g = &p->geometries[i];
+	const struct scene_mesh *mesh = job->scene->meshes[job->scene->instances[p->instances[i].scene_instance].mesh];
+	float (*clip)[4] = calloc((size_t)g->vertex_count + 1, sizeof(*clip));
+	int err;
+
+	if (!clip)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	err = device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(*clip), clip, g->vertex_count * sizeof(*clip));
+	for (uint32_t v = 0; v < g->vertex_count && !err; v++)
+		if (clip[v][3] > 0 && clip[v][3] < FLT_MAX) {
+			f->least_w = fminf(f->least_w, clip[v][3]);
+			f->most_w = fmaxf(f->most_w, clip[v][3]);
+		}
+	if (!err)
+		find_factors(mesh, (const float (*)[4])clip, f);
+	free(clip);
+	return err;
+}
+
+static void make_projection(const struct scene_view *view, const struct found *f, float out[16])
+{
+	const float near = fmaxf(0.5f * f->least_w, 1e-4f * f->most_w), far = 2 * f->most_w;
+	const double width = view->viewport[2], height = view->viewport[3];
+
+	memset(out, 0, 16 * sizeof(*out));
+	out[0] = (float)(f->vertices ? f->factor[0] : USUAL_FACTOR * height / width);
+	out[5] = (float)(f->vertices ? f->factor[1] : USUAL_FACTOR);
+	out[10] = -(far + near) / (far - near);
+	out[11] = -1;
+	out[14] = -2 * far * near / (far - near);
+}
+
+/* Which views of the scene are drawn in by programs alone, and have no perspective. */
+static void find_views(const struct job *job, struct found *found)
+{
+	const struct scene *s = job->scene;
+	const struct prepared *p = &job->prepared;
+
+	for (uint32_t v = 0; v < s->n_views; v++) {
+		const float *m = s->views[v].projection;
+
+		found[v] = (struct found){ .perspective = m[3] == 0 && m[7] == 0 && m[11] == 0 && s->views[v].viewport[2] > 0, .least_w = FLT_MAX };
+	}
+	for (uint32_t i = 0; i < p->n_instances; i++)
+		found[s->instances[p->instances[i].scene_instance].view].perspective &=
+			prepare_is_displaced(s, &s->instances[p->instances[i].scene_instance]);
+}
+
+int perspective_find(struct job *job, int *changed)
+{
+	const struct scene *s = job->scene;
+	struct prepared *p = &job->prepared;
+	struct found *found = calloc((size_t)s->n_views + 1, sizeof(*found));
+	int err = 0;
+
+	*changed = 0;
+	if (!found)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	find_views(job, found);
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		struct found *f = &found[s->instances[p->instances[i].scene_instance].view];
+
+		if (f->perspective)
+			err = look_at(job, i, f);
+	}
+	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
+		const uint32_t from = s->instances[p->instances[i].scene_instance].view, to = p->geometries[i].view;
+
+		if (!found[from].perspective || !(found[from].most_w > 1.001f * found[from].least_w))
+			continue;
+		make_projection(&s->views[from], &found[from], p->views[to].projection);
+		memcpy(p->scene_views[to].projection, p->views[to].projection, sizeof(p->views[to].projection));
+		*changed |= mat4_invert(p->views[to].inverse, p->views[to].projection);
+	}
+	free(found);
+	return err;
+}

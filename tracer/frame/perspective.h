@@ -1,0 +1,14 @@
+/*
+ * Projections of programs' own. A vertex program may take its matrices from its parameters; the recorded projection then says nothing of where
+ * it puts vertices. What it leaves in clip space tells: x, y and w are those of an eye at the origin, but for two factors.
+ */
+#pragma once
+
+struct job;
+
+/**
+ * Give views a perspective that have none, and in which programs alone draw, with different w. After the vertex stage, which is to run
+ * again where *changed is set: eye positions are other ones.
+ * @return 0 or ERR_* (reported, but for ERR_MEMORY)
+ */
+int perspective_find(struct job *job, int *changed);
