@@ -192,6 +192,14 @@ static void turn_spot(const struct applying *a, const struct light_rule *r, floa
 	memcpy(out, towards, 3 * sizeof(*out));
 }
 
+/* How large it is, or that nothing stops it. */
+static void size_light(struct scene_light *l, const struct light_rule *r)
+{
+	set_number(&l->radius, r->radius, 1);
+	if (r->shadows)
+		l->radius = *r->shadows ? fmaxf(l->radius, 0) : -1;
+}
+
 static void set_light(const struct applying *a, struct scene_light *l, const struct light_rule *r)
 {
 	if (r->position)
@@ -200,7 +208,7 @@ static void set_light(const struct applying *a, struct scene_light *l, const str
 	set_number(l->diffuse, r->diffuse, 3);
 	set_number(l->specular, r->specular, 3);
 	set_number(l->attenuation, r->attenuation, 3);
-	set_number(&l->radius, r->radius, 1);
+	size_light(l, r);
 	if (!r->spot)
 		return;
 	if (r->spot->direction)
@@ -306,8 +314,8 @@ static void size_lights(const struct rules *rules, struct scene *s)
 {
 	for (uint32_t i = 0; i < s->n_lights; i++)
 		for (uint32_t k = 0; k < rules->lights_count; k++)
-			if (rules->lights[k].light && rules->lights[k].radius && *rules->lights[k].light == s->lights[i].index)
-				s->lights[i].radius = *rules->lights[k].radius;
+			if (rules->lights[k].light && *rules->lights[k].light == s->lights[i].index)
+				size_light(&s->lights[i], &rules->lights[k]);
 }
 
 /* 1 where a rule replaces a trick, and the file says that tricks stay. */

@@ -76,7 +76,7 @@ static const cyaml_schema_field_t light_fields[] = {
 	COUNT(struct light_rule, light), TRUTH(struct light_rule, off), TEXT(struct light_rule, object),
 	NUMBERS(struct light_rule, position, 4), NUMBERS(struct light_rule, ambient, 3),
 	NUMBERS(struct light_rule, diffuse, 3), NUMBERS(struct light_rule, specular, 3),
-	NUMBERS(struct light_rule, attenuation, 3), NUMBER(struct light_rule, radius),
+	NUMBERS(struct light_rule, attenuation, 3), NUMBER(struct light_rule, radius), TRUTH(struct light_rule, shadows),
 	CYAML_FIELD_MAPPING_PTR("spot", OPTIONAL_POINTER, struct light_rule, spot, spot_fields), CYAML_FIELD_END
 };
 

@@ -63,6 +63,7 @@
  *         attenuation: [1, 0, 0]
  *         spot: { direction: [0, 0, -1], cutoff: 30, exponent: 0 }
  *         radius: 0.3                # soft shadows: of the light's sphere; for a direction, the tangent of half its angle
+ *         shadows: yes               # no: nothing stops it
  *
  *     sky:                           # light from all around on solid things that no light above lights
  *       reach: 20                    # how far off things dim it, in units of eye space; near ones dim it more
@@ -137,6 +138,7 @@ struct light_rule {
 	struct rule_reason reason;
 	const uint32_t *light;
 	const bool *off;
+	const bool *shadows;
 	const char *object, *space, *on;
 	const float *position, *ambient, *diffuse, *specular, *attenuation, *radius;
 	struct spot *spot;

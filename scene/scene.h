@@ -43,7 +43,7 @@ struct scene_light {
 	float spot_cutoff_deg; /* 180: no spot */
 	float attenuation[3];  /* constant, linear, quadratic */
 	uint32_t index;        /* 0..7: which GL_LIGHTi */
-	float radius;          /* of the light's sphere, eye-space units; 0: a point. Set by rules, not by GL */
+	float radius;          /* of the light's sphere, eye-space units; 0: a point; below 0: nothing stops it. Set by rules, not by GL */
 };
 
 /* Material of one side (GL 2.1 table 2.9). */

@@ -10,7 +10,7 @@
 /* What the lights of a list do to points. */
 struct pack_lit_here {
 	struct pack_color color, secondary;
-	packu lights; /* bit i: light i of the list adds diffuse or specular light */
+	packu lights; /* as struct lit has them */
 };
 
 /* The colours of points under white light, and where they look. */
@@ -140,7 +140,8 @@ static inline void pack_add_light(const struct pack_matter *m, __global const st
 		sum += m->diffuse[i] * light->diffuse[i] * matte_share;
 	for (int i = 0; i < 3; i++)
 		sum += m->specular[i] * light->specular[i] * shine;
-	out->lights |= select((packu)(0), bit, is_lit & (sum > 0.0f));
+	if (light->radius >= 0.0f)
+		out->lights |= select((packu)(0), bit, is_lit & (sum > 0.0f));
 	for (int i = 0; i < 3; i++) {
 		packf *gloss_to = apart ? &out->secondary.c[i] : &out->color.c[i];
 		const packf matte = m->diffuse[i] * light->diffuse[i] * matte_share * share[i];

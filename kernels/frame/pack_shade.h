@@ -278,7 +278,8 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
 		struct pack_vec to_light;
 		const packf strength = pack_strength(&light[i], at, &to_light);
 
-		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
+		if (light[i].radius >= 0.0f)
+			lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
 	}
 	return lights;
 }

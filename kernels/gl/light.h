@@ -9,7 +9,7 @@
 
 struct lit {
 	struct vec4 color, secondary; /* clamped; secondary is 0 unless the specular colour is kept apart */
-	uint32_t lights;              /* bit i: light i of the list adds diffuse or specular light */
+	uint32_t lights;              /* bit i: light i of the list adds diffuse or specular light that something may stop */
 };
 
 /* Lights that stand side by side in the frame's. */
@@ -116,7 +116,7 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 			struct vec4 matte = v4_scale(v4_mul(diffuse, v4_load(light->diffuse)), n_l * strength);
 			struct vec4 gloss = v4_scale(v4_mul(specular, v4_load(light->specular)), shine * strength);
 
-			if (matte.x + matte.y + matte.z + gloss.x + gloss.y + gloss.z > 0.0f)
+			if (light->radius >= 0.0f && matte.x + matte.y + matte.z + gloss.x + gloss.y + gloss.z > 0.0f)
 				out.lights |= 1u << i;
 			if (seen) {
 				struct vec4 share = v4(seen[i].x, seen[i].y, seen[i].z, 1.0f);

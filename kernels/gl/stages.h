@@ -125,7 +125,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 	return m->lighting ? v3_add(stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)), sum) : sum;
 }
 
-/* Lights of the list that stage_radiance can be lit by. */
+/* Lights of the list that stage_radiance can be lit by, and that something may stop. */
 static inline uint32_t stage_radiant_lights(const struct tables *t, const struct point *p)
 {
 	struct light_list list = point_lights(p);
@@ -135,7 +135,7 @@ static inline uint32_t stage_radiant_lights(const struct tables *t, const struct
 	if (!point_takes_light(p))
 		return 0u;
 	for (uint32_t i = 0u; i < list.count; i++)
-		if (light_strength(&t->lights[list.first + i], at, &to_light) > 0.0f &&
+		if (t->lights[list.first + i].radius >= 0.0f && light_strength(&t->lights[list.first + i], at, &to_light) > 0.0f &&
 		    v3_dot(n, to_light) > 0.0f)
 			lights |= 1u << i;
 	return lights;

@@ -179,7 +179,7 @@ static void write_head(const struct studio_light *l, unsigned number, const doub
 	fprintf(out, "  - role: light of the viewer\n    confidence: 0.8\n    why: \"it comes from where the viewer is, and shows no shadow\"\n    light: %u\n", number);
 	write_color("diffuse", l->diffuse, FILL, out);
 	write_color("specular", l->specular, FILL, out);
-	fprintf(out, "  - role: lamp of a studio\n    confidence: 0.5\n    why: \"what the light of the viewer lacks comes from aside\"\n");
+	fprintf(out, "    shadows: no\n  - role: lamp of a studio\n    confidence: 0.5\n    why: \"what the light of the viewer lacks comes from aside\"\n");
 	write_place(middle, aside, LAMP_DISTANCE * size, out);
 	write_falling((LAMP_DISTANCE - NEAR_SIDE) * size, out);
 	write_color("diffuse", l->diffuse, KEY, out);

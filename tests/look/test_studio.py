@@ -25,7 +25,7 @@ def brightness(planes, x0, y0, x1, y1):
 
 
 trace, text = study("viewer")
-check("role: light of the viewer" in text and text.count("role: lamp of a studio") == 1, f"a head light and a lamp beside it: {text}")
+check(re.search("role: light of the viewer(?:(?!role).|\n)*shadows: no", text) and text.count("role: lamp of a studio") == 1, f"a head light and a lamp beside it: {text}")
 pictures = {name: Image(render(trace, SCRATCH / name, "-f", 1, *look)[0], SHOWN).planes for name, look in (("bare", ()), ("lit", ("--look", "auto")))}
 bare, lit = pictures["bare"], pictures["lit"]
 check(all(bare[f"gl.{c}"] == lit[f"gl.{c}"] for c in "RGB"), "OpenGL's picture stays")

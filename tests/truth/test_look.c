@@ -167,6 +167,36 @@ START_TEST(test_lights)
 END_TEST
 
 /* A position in an object's space goes where the object was drawn. */
+/* GL's light or an added one, from aside on a wall with a plate before it: the plate throws a shadow, unless nothing stops the light. */
+START_TEST(test_light_that_nothing_stops)
+{
+	static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
+	struct made t;
+
+	made_init(&t, SIZE, SIZE, 0);
+	made_add_light(&t, 0.6f, 0, 1, 0);
+	made_add_square(&t, made_add_material(&t, 0.5f), (float[3]){ 0, 0, -10 }, right, up, 1, 1);
+	made_add_square(&t, 0, (float[3]){ 0, 0, -9 }, right, up, 0.2f, 1);
+	for (int way = 0; way < 4; way++) {
+		const char *const shadows = way & 1 ? "yes" : "no";
+		char text[200];
+		struct image img;
+		int dark = 0;
+
+		if (way & 2)
+			snprintf(text, sizeof(text), "lights:\n- light: 0\n  off: yes\n- position: [0.6, 0, 1, 0]\n  shadows: %s\n", shadows);
+		else
+			snprintf(text, sizeof(text), "lights:\n- light: 0\n  shadows: %s\n", shadows);
+		render_under(&t, text, &img);
+		for (uint32_t i = 0; i < SIZE * SIZE; i++)
+			dark += truth_at(&img, "R", i % SIZE, i / SIZE) < 0.2f;
+		ck_assert_msg(way & 1 ? dark > 10 : dark == 0, "%s: %d pixels lie in shadow", text, dark);
+		image_free(&img);
+	}
+	made_free(&t);
+}
+END_TEST
+
 START_TEST(test_light_of_an_object)
 {
 	struct scene_draw draws[5];
@@ -200,6 +230,7 @@ int main(void)
 	tcase_add_test(tests, test_wrong_files);
 	tcase_add_test(tests, test_matches);
 	tcase_add_test(tests, test_lights);
+	tcase_add_test(tests, test_light_that_nothing_stops);
 	tcase_add_test(tests, test_light_of_an_object);
 	failed = run_case(tests, "look");
 	unlink(path);
