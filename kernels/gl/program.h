@@ -91,7 +91,7 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	program_texcoords(f, inputs, &quad);
 	if (inputs >> SCENE_INPUT_POSITION & 1u)
 		program_position(f, &quad, depth);
-	for (uint32_t k = 0u; k < 4u; k++) {
+	for (uint32_t k = 0u; k < 4u && inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG); k++) {
 		const struct point p = program_neighbour(f, &quad, k);
 		struct lit here = k == f->own ? *lit : point_lit_from_vertices(&p);
 

@@ -14,7 +14,7 @@ PROGRAMS = {
     "pixel": ("formats", "packed types", "storage", "transfer", "indices", "zoom", "depths and stencils", "what rectangles go through",
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments"),
-    "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses"),
+    "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
 }
 
 for name, frames in PROGRAMS.items():

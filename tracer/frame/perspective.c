@@ -11,6 +11,7 @@
 
 #define LEAST_FACTOR 0.2 /* cotangents of half the angle that a picture spans: 157 degrees, */
 #define MOST_FACTOR 20.0 /* 6 */
+#define MOST_W 1e15f /* beyond that nothing is drawn */
 #define USUAL_FACTOR 2.414213562 /* 45 degrees */
 
 /* What the draws of a view of the scene tell. */
@@ -112,7 +113,7 @@ static int look_at(const struct job *job, uint32_t i, struct found *f)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	err = device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(*clip), clip, g->vertex_count * sizeof(*clip));
 	for (uint32_t v = 0; v < g->vertex_count && !err; v++)
-		if (clip[v][3] > 0 && clip[v][3] < FLT_MAX) {
+		if (clip[v][3] > 0 && clip[v][3] < MOST_W) {
 			f->least_w = fminf(f->least_w, clip[v][3]);
 			f->most_w = fmaxf(f->most_w, clip[v][3]);
 		}

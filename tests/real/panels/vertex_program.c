@@ -1,6 +1,6 @@
 /*
  * Vertex programs (ARB_vertex_program): each instruction, binding and result, addresses, attributes by calls, arrays and lists, with fragment
- * programs and with fixed function, over a sheet that leans away.
+ * programs and with fixed function, over a sheet that leans away. At last numbers that are none.
  */
 #include "panels.h"
 
@@ -435,11 +435,46 @@ static void draw_scene(int i)
 	(void)i;
 }
 
+/* --- Numbers that are none ---------------------------------------------------------------------------------------------- */
+
+/* Places, colours and sizes that are infinite, not a number or too large, behind the viewer, with and without matrices; filled, and as points. */
+static void extreme(int i)
+{
+	static const char *const texts[7] = {
+		"RCP a.x, zero.x; MUL result.position, vertex.position, a.x; MOV result.color, a.x;",
+		"RCP a.x, zero.x; SUB a.y, a.x, a.x; MOV result.position, a.y; MOV result.color, a.y;",
+		"MUL a, vertex.position, big; MUL result.position, a, big; MOV result.color, a;",
+		"ARL A.x, big.x; MOV result.position, none[A.x + 3]; MOV result.color, vertex.color;",
+		"MOV result.position, vertex.position; MOV result.position.w, zero; MOV result.color, big; MOV result.fogcoord, big;",
+		"MOV result.position, -vertex.position; MOV result.position.w, -big; MOV result.color, -big;",
+		"LG2 a.x, zero.x; EX2 a.y, big.x; MUL result.position, a.x, a.y; RCP result.color, zero.x; MOV result.pointsize.x, big.x;",
+	};
+	const int text = choose(&i, 7), own = choose(&i, 2), points = choose(&i, 2), flat = choose(&i, 2);
+	char whole[1024];
+
+	glMatrixMode(GL_PROJECTION);
+	if (own)
+		glLoadIdentity();
+	if (flat)
+		glScalef(0, 0, 0);
+	glMatrixMode(GL_MODELVIEW);
+	if (points) {
+		glPolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+		glEnable(GL_VERTEX_PROGRAM_POINT_SIZE);
+	}
+	glEnable(GL_DEPTH_TEST);
+	glEnable(GL_CLIP_PLANE0);
+	snprintf(whole, sizeof(whole),
+	         "PARAM zero = { 0, 0, 0, 0 }; PARAM big = { 3e38, 3e38, 3e38, 3e38 }; PARAM none[5] = { program.env[60..64] }; ADDRESS A; TEMP a;\n"
+	         "MOV a, zero;\n%s", texts[text]);
+	set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0", whole);
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ 128, instruction, draw_sheet }, { 80, binding, draw_sheet }, { 16, address, draw_sheet }, { 192, result, draw_result },
-		{ 24, attribute, draw_ways }, { 16, scene, draw_scene },
+		{ 24, attribute, draw_ways }, { 16, scene, draw_scene }, { 56, extreme, draw_result },
 	};
 
 	DRAW_TABLES(tables, prepare);
