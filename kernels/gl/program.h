@@ -182,8 +182,9 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, s
 {
 	GLOBAL const struct shaded *out = &s->shaded[item];
 	const struct fragment from = s->fragments[item];
-	GLOBAL const struct scene_material *m = &s->tables.materials[s->tables.geometries[from.instance].material];
-	const int is_lit = s->n_slots && m->vertex_program && m->light_count && !m->surface.relit;
+	GLOBAL const struct geometry *g = &s->tables.geometries[from.instance];
+	GLOBAL const struct scene_material *m = &s->tables.materials[g->material];
+	const int is_lit = s->n_slots && m->vertex_program && m->light_count && !m->surface.relit && !(g->flags & GEOMETRY_EXPANDED);
 	GLOBAL const uint32_t *group;
 	uint32_t kind = 0u;
 
