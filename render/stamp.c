@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "base/version.h"
 #include "tracer/image/display.h"
-#include "tracer/image/oiio.h"
+#include "tracer/image/foreign.h"
 
 int stamp_image(const struct stamp *stamp, struct image *img)
 {
@@ -49,7 +49,7 @@ enum stamp_state stamp_check(const struct stamp *stamp, uint64_t frame, const ch
 
 	if (access(path, F_OK) != 0)
 		return STAMP_MISSING;
-	if (is_cut(path) || (display_kind_of(path) == DISPLAY_EXR ? image_read_exr(&img, path) : oiio_read(&img, path)))
+	if (is_cut(path) || (display_kind_of(path) == DISPLAY_EXR ? image_read_exr(&img, path) : foreign_read(&img, path)))
 		return STAMP_DAMAGED;
 	snprintf(number, sizeof(number), "%llu", (unsigned long long)frame);
 	same = says(&img, "relume:trace", stamp->trace) && says(&img, "relume:settings", stamp->settings) &&

@@ -13,7 +13,7 @@
 #include "base/memory.h"
 #include "base/frames.h"
 #include "base/hash.h"
-#include "tracer/image/oiio.h"
+#include "tracer/image/foreign.h"
 
 void set_free(struct set *set)
 {
@@ -309,7 +309,7 @@ static int read_picture(const char *path, struct image *img)
 		return image_read_exr(img, path);
 	if (is_exr)
 		err = image_check_exr(path);
-	return err ? err : oiio_read(img, path);
+	return err ? err : foreign_read(img, path);
 }
 
 int set_read(const struct set *set, const struct set_entry *entry, struct image *img)

@@ -11,7 +11,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "diff/score/gates.h"
-#include "tracer/image/oiio.h"
+#include "tracer/image/foreign.h"
 
 /* As the file has it. */
 
@@ -199,7 +199,7 @@ static int check_rule(const struct score_rules *s, const struct yaml_rule *rule,
 		return err_report(ERR_INPUT, s->path, "codes: %g is not in 0 to 255", rule->codes);
 	if (rule->mask) {
 		char *path = resolve_path(s->path, rule->mask);
-		int err = path ? oiio_read(mask, path) : err_report(ERR_SYSTEM, s->path, "out of memory");
+		int err = path ? foreign_read(mask, path) : err_report(ERR_SYSTEM, s->path, "out of memory");
 
 		if (!err && !image_channel(mask, "R"))
 			err = err_report(ERR_INPUT, path, "a mask needs a channel R");

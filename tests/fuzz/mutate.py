@@ -82,8 +82,8 @@ def pack(stream):
     return out
 
 
-def mutate(stream, rng):
-    data = bytearray(stream)
+def damage(whole, rng):
+    data = bytearray(whole)
     for _ in range(rng.choice((1, 1, 2, 5, 40))):
         at, n = rng.randrange(len(data)), rng.choice((1, 2, 8, 100, 5000))
         other = rng.randrange(len(data))
@@ -102,7 +102,11 @@ def mutate(stream, rng):
             data[at:at + 4] = rng.choice((b"\xff\xff\xff\x7f", b"\xff\xff\xff\xff", b"\0\0\0\0", b"\x80\x80\x80\x80"))
         if not data:
             data = bytearray(b"\0")
-    packed = pack(data)
+    return data
+
+
+def mutate(stream, rng):
+    packed = pack(damage(stream, rng))
     return packed[:rng.randrange(len(packed))] if rng.random() < 0.1 else packed
 
 

@@ -8,6 +8,9 @@ Relume reads, from files as it and others make them (tests/fuzz/seeds.py). What 
 import json
 import os
 import pathlib
+import random
+import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -17,6 +20,7 @@ HEAD = 100_000  # bytes of the unpacked stream: a frame or more of each
 TRACES, COMMANDS, OTHERS = 20_000, 1_000, 5_000
 VERBS = 7       # of tests/fuzz/fuzz_verbs.c
 SEED = 1
+AT_ONCE = 10   # damaged pictures
 
 PROGRAMS = {
     "two_triangles": ["corpus/two_triangles", "--frames", "6"],
@@ -51,6 +55,36 @@ def drive(build, folder, target, count, parts):
     return done.stdout.count(": input ") if done.returncode in (0, 1) else count
 
 
+def compare(build, folder, count, parts, mutate):
+    """
+    How many of so many damaged pictures break `relume diff`, which reads each in a process of its own: exit code 0 (as it was), 1 or 3, within 10 s of
+    processor time and 2 GiB for ten of them at once.
+    """
+    endings = (ROOT / "tests/fuzz/fuzz_oiio.c").read_text().partition("endings[] = {")[2].partition("}")[0].replace('"', "").replace(" ", "").split(",")
+    by_ending = {ending: [part[1:] for part in parts if endings[part[0] % len(endings)] == ending] for ending in endings}
+    by_ending = {ending: wholes for ending, wholes in by_ending.items() if wholes}
+    good, bad = folder / "good", folder / "bad"
+    rng = random.Random(SEED)
+    broken = 0
+    good.mkdir(exist_ok=True)
+    for i in range(AT_ONCE):
+        (good / f"x.{i:04}.png").write_bytes(by_ending["png"][0])
+    for first in range(0, count, AT_ONCE):
+        ending = list(by_ending)[first // AT_ONCE % len(by_ending)]
+        shutil.rmtree(bad, ignore_errors=True)
+        bad.mkdir()
+        for i in range(AT_ONCE):
+            (bad / f"x.{i:04}.{ending}").write_bytes(mutate.damage(rng.choice(by_ending[ending]), rng))
+        begin = resource.getrusage(resource.RUSAGE_CHILDREN)
+        code = subprocess.run([build / "relume", "diff", good, bad], check=False, preexec_fn=mutate.limit_memory, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL).returncode
+        end = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if code not in (0, 1, 3) or end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime > 10:
+            broken += 1
+            print(f"{bad.rename(folder / f'pictures.crash-{first}')}: exit code {code}", flush=True)
+    return broken
+
+
 def main(build):
     os.environ["RELUME"] = str(build / "relume")
     sys.path[:0] = [str(ROOT / "tests/fuzz"), str(ROOT / "tests/real")]
@@ -78,7 +112,9 @@ def main(build):
     seeds.make_seeds(build, build / "fuzz")
     for target in sorted(path.stem[5:] for path in (ROOT / "tests/fuzz").glob("fuzz_*.c")):
         parts = [path.read_bytes() for path in sorted((build / f"fuzz/seeds_{target}").glob("*"))] + seeds.read_pack(ROOT / f"tests/fuzz/kept_{target}")
-        if target not in ("verbs", "replay", "calls"):
+        if target == "oiio":
+            row("pictures, by diff of the command", OTHERS, lambda parts=parts: compare(build, folder, OTHERS, parts, mutate))
+        elif target not in ("verbs", "replay", "calls"):
             row(target, OTHERS, lambda target=target, parts=parts: drive(build, folder, target, OTHERS, parts))
     (build / "show" / "mutants.json").write_text(json.dumps({"name": "mutants", "command": "make show-mutants", "rows": rows}, indent=1))
     return any(not row["passed"] for row in rows)

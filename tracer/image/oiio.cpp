@@ -1,18 +1,25 @@
 #include "tracer/image/oiio.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <mutex>
+#include <new>
+#include <shared_mutex>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/thread.h>
 
 extern "C" {
 #include "base/err.h"
@@ -28,6 +35,9 @@ constexpr int STRIP_ROWS = 64;
 
 /* Debian package fonts-dejavu-core. */
 constexpr const char *FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+/** Held shared by each thread that is within OpenImageIO. */
+std::shared_mutex in_use;
 
 bool is_integer(const OIIO::TypeDesc &format)
 {
@@ -212,8 +222,29 @@ int encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, u
 
 } // namespace
 
+pid_t oiio_fork(void)
+{
+	OIIO::thread_pool *pool = OIIO::default_thread_pool();
+
+	in_use.lock();
+	const int n_threads = pool->size();
+	pool->resize(0); /* a child has none of these threads, and would wait for them */
+	const pid_t process = fork();
+	if (process == 0) {
+		new (&in_use) std::shared_mutex; /* it knows its owner by a number that is another one here */
+		return 0;
+	}
+	pool->resize(n_threads);
+	in_use.unlock();
+	if (process < 0)
+		err_report(ERR_SYSTEM, nullptr, "no process to read pictures in: %s", strerror(errno));
+	return process;
+}
+
 int oiio_read(struct image *img, const char *path)
 {
+	const std::shared_lock<std::shared_mutex> here(in_use);
+
 	try {
 		int err = read_image(img, path);
 
@@ -228,6 +259,8 @@ int oiio_read(struct image *img, const char *path)
 
 int oiio_encode(const struct oiio_pixels *pixels, const struct oiio_coding *coding, uint8_t **out, size_t *out_bytes)
 {
+	const std::shared_lock<std::shared_mutex> here(in_use);
+
 	try {
 		return encode(pixels, coding, out, out_bytes);
 	} catch (const std::exception &e) {
@@ -237,6 +270,8 @@ int oiio_encode(const struct oiio_pixels *pixels, const struct oiio_coding *codi
 
 int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *label)
 {
+	const std::shared_lock<std::shared_mutex> here(in_use);
+
 	try {
 		OIIO::ImageBuf buf(OIIO::ImageSpec(int(pixels->width), int(pixels->height), 3, OIIO::TypeDesc::UINT8), pixels->rgb);
 		const float color[3] = { label->rgb[0] / 255.0f, label->rgb[1] / 255.0f, label->rgb[2] / 255.0f };
@@ -249,6 +284,8 @@ int oiio_draw_text(const struct oiio_pixels *pixels, const struct oiio_label *la
 
 int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_t height, double *count)
 {
+	const std::shared_lock<std::shared_mutex> here(in_use);
+
 	try {
 		const OIIO::ImageSpec codes(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
 		OIIO::ImageBuf pics[2];

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +14,13 @@ extern "C" {
 #include "tracer/image/image.h"
 
 /**
- * Read any image OpenImageIO knows: first level, data window only. OpenEXR gives all its parts, each part's name as the layer of
+ * fork(), while no thread is within OpenImageIO: the child may use it.
+ * @return as fork(); -1 (reported) also where it cannot be loaded
+ */
+pid_t oiio_fork(void);
+
+/**
+ * Read any image OpenImageIO knows, in this process (foreign.h does it in one of its own): first level, data window only. OpenEXR gives all its parts, each part's name as the layer of
  * its channels; other formats give their first picture.
  *
  * @param img  empty; filled on success: channels R G B and A where there are any, others by their own names; a grey

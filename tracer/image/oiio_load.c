@@ -14,6 +14,7 @@
 static struct {
 	pthread_once_t once;
 	int whole; /* all functions are there; else the reason was reported */
+	__typeof__(oiio_fork) *fork;
 	__typeof__(oiio_read) *read;
 	__typeof__(oiio_encode) *encode;
 	__typeof__(oiio_compare_yee) *compare_yee;
@@ -32,11 +33,12 @@ static void load(void)
 		err_report(ERR_SYSTEM, path, "cannot be loaded: %s", dlerror());
 		return;
 	}
+	*(void **)&bridge.fork = dlsym(library, "oiio_fork");
 	*(void **)&bridge.read = dlsym(library, "oiio_read");
 	*(void **)&bridge.encode = dlsym(library, "oiio_encode");
 	*(void **)&bridge.compare_yee = dlsym(library, "oiio_compare_yee");
 	*(void **)&bridge.draw_text = dlsym(library, "oiio_draw_text");
-	bridge.whole = bridge.read && bridge.encode && bridge.compare_yee && bridge.draw_text;
+	bridge.whole = bridge.fork && bridge.read && bridge.encode && bridge.compare_yee && bridge.draw_text;
 	if (!bridge.whole)
 		err_report(ERR_SYSTEM, path, "is of another version of Relume");
 }
@@ -45,6 +47,11 @@ static int loaded(void)
 {
 	pthread_once(&bridge.once, load);
 	return bridge.whole;
+}
+
+pid_t oiio_fork(void)
+{
+	return loaded() ? bridge.fork() : -1;
 }
 
 int oiio_read(struct image *img, const char *path)

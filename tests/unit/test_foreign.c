@@ -1,0 +1,203 @@
+/* Pictures read in a process of their own: as in this one, and whatever becomes of that process. */
+#include <check.h>
+#include <dirent.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/err.h"
+#include "tracer/image/display.h"
+#include "tracer/image/foreign.h"
+#include "tracer/image/oiio.h"
+
+#define WIDTH 61u
+#define HEIGHT 37u
+
+static char folder[] = "/tmp/test_foreign.XXXXXX";
+
+static const char *path_of(const char *name)
+{
+	static _Thread_local char path[64];
+
+	snprintf(path, sizeof(path), "%s/%s", folder, name);
+	return path;
+}
+
+static void setup(void)
+{
+	uint8_t rgb[WIDTH * HEIGHT * 3];
+	const struct oiio_pixels pixels = { rgb, WIDTH, HEIGHT };
+
+	strcpy(folder, "/tmp/test_foreign.XXXXXX");
+	ck_assert_ptr_nonnull(mkdtemp(folder));
+	for (unsigned i = 0; i < sizeof(rgb); i++)
+		rgb[i] = (uint8_t)(i * 7u ^ i >> 5);
+	ck_assert_int_eq(display_save(&pixels, &(struct oiio_coding){ "png", .level = 1, .text = "relume:frame 12\n" }, path_of("good.png")), 0);
+}
+
+static void teardown(void)
+{
+	unlink(path_of("good.png"));
+	unlink(path_of("slow.png"));
+	unlink(path_of("bad.png"));
+	rmdir(folder);
+}
+
+/* A process whose parent is so, or 0. */
+static pid_t child_of(pid_t parent)
+{
+	DIR *all = opendir("/proc");
+	pid_t found = 0;
+
+	for (struct dirent *entry; !found && (entry = readdir(all));) {
+		char path[300];
+		int child, of;
+		FILE *file;
+
+		snprintf(path, sizeof(path), "/proc/%s/stat", entry->d_name);
+		file = fopen(path, "r");
+		if (file && fscanf(file, "%d (%*[^)]) %*c %d", &child, &of) == 2 && of == parent)
+			found = child;
+		if (file)
+			fclose(file);
+	}
+	closedir(all);
+	return found;
+}
+
+static void check_good(void)
+{
+	struct image here = { 0 }, apart = { 0 };
+
+	ck_assert_int_eq(foreign_read(&apart, path_of("good.png")), 0);
+	ck_assert_int_eq(oiio_read(&here, path_of("good.png")), 0);
+	ck_assert_uint_eq(apart.width, WIDTH);
+	ck_assert_uint_eq(apart.height, HEIGHT);
+	ck_assert_uint_eq(apart.n_channels, here.n_channels);
+	for (size_t i = 0; i < here.n_channels; i++) {
+		ck_assert_str_eq(apart.channels[i].name, here.channels[i].name);
+		ck_assert_int_eq(apart.channels[i].full_float, here.channels[i].full_float);
+		ck_assert_mem_eq(apart.channels[i].values, here.channels[i].values, WIDTH * HEIGHT * sizeof(float));
+	}
+	ck_assert_uint_eq(apart.n_attributes, here.n_attributes);
+	for (size_t i = 0; i < here.n_attributes; i++)
+		ck_assert_str_eq(image_attribute(&apart, here.attributes[i].name), here.attributes[i].text);
+	ck_assert_str_eq(image_attribute(&apart, "relume:frame"), "12");
+	image_free(&here);
+	image_free(&apart);
+}
+
+START_TEST(as_here)
+{
+	check_good();
+	check_good();
+}
+END_TEST
+
+/* A pipe is a file that comes to no end; whoever reads it can be ended meanwhile. */
+static void *read_slow(void *code)
+{
+	struct image img = { 0 };
+	const int err = foreign_read(&img, path_of("slow.png"));
+
+	ck_assert_ptr_null(img.channels);
+	__atomic_store_n((int *)code, err, __ATOMIC_RELEASE);
+	return NULL;
+}
+
+START_TEST(reader_ended)
+{
+	pthread_t thread;
+	int code = 1;
+
+	check_good();
+	ck_assert_int_eq(mkfifo(path_of("slow.png"), 0600), 0);
+	ck_assert_int_eq(pthread_create(&thread, NULL, read_slow, &code), 0);
+	while (__atomic_load_n(&code, __ATOMIC_ACQUIRE) > 0) { /* the first that is found may be on its way out with the picture before */
+		const pid_t reader = child_of(child_of(getpid()));
+
+		if (reader)
+			kill(reader, SIGSEGV);
+		usleep(1000);
+	}
+	pthread_join(thread, NULL);
+	ck_assert_int_eq(code, ERR_INPUT);
+	check_good();
+}
+END_TEST
+
+START_TEST(server_ended)
+{
+	pid_t server;
+
+	check_good();
+	server = child_of(getpid());
+	kill(server, SIGKILL);
+	waitpid(server, NULL, 0);
+	check_good();
+}
+END_TEST
+
+START_TEST(not_a_picture)
+{
+	struct image img = { 0 };
+	FILE *file = fopen(path_of("bad.png"), "wb");
+
+	fputs("no picture", file);
+	fclose(file);
+	ck_assert_int_eq(foreign_read(&img, path_of("bad.png")), ERR_INPUT);
+	ck_assert_ptr_null(img.channels);
+	ck_assert_int_eq(foreign_read(&img, path_of("missing.png")), ERR_INPUT);
+	check_good();
+}
+END_TEST
+
+static void *read_many(void *unused)
+{
+	struct image img = { 0 };
+
+	(void)unused;
+	for (int i = 0; i < 20; i++) {
+		ck_assert_int_eq(foreign_read(&img, path_of("good.png")), 0);
+		image_free(&img);
+	}
+	return NULL;
+}
+
+START_TEST(many_at_once)
+{
+	pthread_t threads[8];
+
+	for (int i = 0; i < 8; i++)
+		ck_assert_int_eq(pthread_create(&threads[i], NULL, read_many, NULL), 0);
+	for (int i = 0; i < 8; i++)
+		pthread_join(threads[i], NULL);
+}
+END_TEST
+
+int main(void)
+{
+	Suite *suite = suite_create("foreign");
+	TCase *tests = tcase_create("foreign");
+	SRunner *runner;
+	int failed;
+
+	tcase_add_checked_fixture(tests, setup, teardown);
+	tcase_add_test(tests, as_here);
+	tcase_add_test(tests, reader_ended);
+	tcase_add_test(tests, server_ended);
+	tcase_add_test(tests, not_a_picture);
+	tcase_add_test(tests, many_at_once);
+	suite_add_tcase(suite, tests);
+	runner = srunner_create(suite);
+	srunner_set_fork_status(runner, CK_NOFORK); /* a library behind OpenImageIO waits at exit for a thread that a fork does not have */
+	srunner_run_all(runner, CK_NORMAL);
+	failed = srunner_ntests_failed(runner);
+	srunner_free(runner);
+	return failed != 0;
+}
