@@ -12,6 +12,7 @@
 #define SCENE_PROGRAM_REGISTERS 512u     /* at most */
 #define SCENE_PROGRAM_INSTRUCTIONS 16384u /* at most */
 #define SCENE_PROGRAM_CONSTANT 0x10000u  /* added to a constant's number where an operand is one */
+#define SCENE_PROGRAM_STEPS 0x40000u     /* instructions in loops that a fragment or vertex runs at most; then its program ends */
 
 /* --- Fragments: outputs are SCENE_PROGRAM_COLOR and SCENE_PROGRAM_DEPTH, four registers each --------------------------- */
 
@@ -19,6 +20,7 @@ enum scene_program_input {
 	SCENE_INPUT_COLOR, SCENE_INPUT_SECONDARY,
 	SCENE_INPUT_FOG,      /* its coordinate, 0, 0, 1 */
 	SCENE_INPUT_POSITION, /* in the window; w is 1 / clip w */
+	SCENE_INPUT_FACE,     /* 1 where the front of its triangle shows, 0, 0, 0 */
 	SCENE_INPUT_TEXCOORD, /* of unit 0; others follow */
 	N_SCENE_INPUTS = SCENE_INPUT_TEXCOORD + SCENE_MAX_UNITS
 };
@@ -66,15 +68,27 @@ struct scene_program_light {
 	uint32_t slot;         /* in the material's list of lights */
 };
 
-/* X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. */
+/*
+ * X(enumerator): to = f(a, b, c). Those before ADD take a alone, those before MAD a and b. What is true is 1, what is not is 0; all but 0 counts
+ * as true.
+ *
+ * The four run in step, and those of a mask take part: what they compute is kept, what others would is not. All do until MASK says else.
+ */
 #define SCENE_OPERATIONS(X) \
-	X(MOVE) X(ABSOLUTE) X(FLOOR) X(FRACTION) X(RECIPROCAL) X(INVERSE_ROOT) X(EXP2) X(LOG2) X(SINE) X(COSINE) \
-	X(ADD) X(MULTIPLY) X(MINIMUM) X(MAXIMUM) X(LESS) X(GREATER_EQUAL) X(POWER) \
+	X(MOVE) X(ABSOLUTE) X(FLOOR) X(FRACTION) X(RECIPROCAL) X(INVERSE_ROOT) X(EXP2) X(LOG2) X(SINE) X(COSINE) X(SQUARE_ROOT) X(TRUNCATE) \
+	X(ROUND) /* to the even one where two are as near */ \
+	X(DX) X(DY) /* by how much it is more one pixel to the right, or up */ \
+	X(ADD) X(MULTIPLY) X(MINIMUM) X(MAXIMUM) X(LESS) X(GREATER_EQUAL) X(POWER) X(DIVIDE) X(EQUAL) X(NOT_EQUAL) \
+	X(AND) X(AND_NOT) /* a and not b */ \
 	X(MAD)    /* a b + c */ \
 	X(SELECT) /* a < 0 ? b : c */ \
+	X(CHOOSE) /* a ? b : c */ \
 	X(KILL)   /* the fragment is discarded where a < 0 */ \
 	X(FETCH)  /* n numbers of an array's element b, a whole number: a is the array's first number, register or constant; c is \
 	             SCENE_ARRAY(elements, numbers of each). Zeros where it has no such element */ \
+	X(STORE)  /* a becomes the first number of element b of an array of registers, which begins at `to`; c as above */ \
+	X(MASK)   /* those take part from here on of whom a is true */ \
+	X(JUMP) X(JUMP_NONE) /* to instruction number `to`; where a is true of none of the four */ \
 	X(TEXTURE) /* four registers from `to` on; the coordinates are four registers from a on, b the unit, c SCENE_TEXTURE_* */
 enum scene_operation {
 #define SCENE_OPERATION(name) SCENE_OP_##name,
@@ -86,6 +100,7 @@ enum scene_operation {
 
 #define SCENE_TEXTURE_DIVIDED 1u /* coordinates are divided by the fourth */
 #define SCENE_TEXTURE_BIASED 2u  /* the fourth is added to the level */
+#define SCENE_TEXTURE_LEVEL 4u   /* the fourth is the level */
 
 #define SCENE_STEP_A 1u      /* each of an instruction's numbers has the next a */
 #define SCENE_STEP_B 2u
@@ -94,6 +109,7 @@ enum scene_operation {
 #define SCENE_NEGATE_B 16u
 #define SCENE_NEGATE_C 32u
 #define SCENE_SATURATE 64u   /* results are clamped to [0,1] */
+#define SCENE_UNMASKED 128u  /* all of the four take part */
 
 /* n results, in registers from `to` on. */
 struct scene_instruction {

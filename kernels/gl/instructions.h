@@ -9,8 +9,10 @@
 
 #ifdef __OPENCL_VERSION__
 #define M_LOG2(x) log2(x)
+#define M_ROUND(x) rint(x)
 #else
 #define M_LOG2(x) log2f(x)
+#define M_ROUND(x) rintf(x)
 #endif
 
 /* A program in the words of scene.programs. */
@@ -25,6 +27,8 @@ struct program {
 struct program_run {
 	uint32_t wanted; /* bits: those of the four whose results count */
 	uint32_t killed; /* bits: those that were discarded */
+	uint32_t mask;   /* bits: those that take part */
+	uint32_t steps;  /* of loops that are left to run */
 	struct vec4 registers[SCENE_PROGRAM_REGISTERS];
 };
 
@@ -54,6 +58,8 @@ static inline void program_begin(struct program_run *run, const struct program *
 {
 	run->wanted = wanted;
 	run->killed = 0u;
+	run->mask = 15u;
+	run->steps = SCENE_PROGRAM_STEPS;
 	for (uint32_t i = 0u; i < program->head->n_registers; i++)
 		run->registers[i] = program_splat(0.0f);
 	for (uint32_t i = 0u; i < program->head->n_lights; i++) {
@@ -126,6 +132,14 @@ static inline float program_number(uint32_t operation, float a, float b)
 	case SCENE_OP_LESS: return a < b ? 1.0f : 0.0f;
 	case SCENE_OP_GREATER_EQUAL: return a >= b ? 1.0f : 0.0f;
 	case SCENE_OP_POWER: return M_POW(a, b);
+	case SCENE_OP_SQUARE_ROOT: return M_SQRT(a);
+	case SCENE_OP_TRUNCATE: return a < 0.0f ? -M_FLOOR(-a) : M_FLOOR(a);
+	case SCENE_OP_ROUND: return M_ROUND(a);
+	case SCENE_OP_DIVIDE: return a / b;
+	case SCENE_OP_EQUAL: return a == b ? 1.0f : 0.0f;
+	case SCENE_OP_NOT_EQUAL: return a != b ? 1.0f : 0.0f;
+	case SCENE_OP_AND: return a != 0.0f && b != 0.0f ? 1.0f : 0.0f;
+	case SCENE_OP_AND_NOT: return a != 0.0f && b == 0.0f ? 1.0f : 0.0f;
 	default: return a;
 	}
 }
@@ -139,10 +153,31 @@ static inline struct vec4 program_result(uint32_t operation, struct vec4 a, stru
 	case SCENE_OP_MAD: return v4_add(v4_mul(a, b), c);
 	case SCENE_OP_SELECT:
 		return v4(a.x < 0.0f ? b.x : c.x, a.y < 0.0f ? b.y : c.y, a.z < 0.0f ? b.z : c.z, a.w < 0.0f ? b.w : c.w);
+	case SCENE_OP_CHOOSE:
+		return v4(a.x != 0.0f ? b.x : c.x, a.y != 0.0f ? b.y : c.y, a.z != 0.0f ? b.z : c.z, a.w != 0.0f ? b.w : c.w);
+	case SCENE_OP_DX: return v4(a.y - a.x, a.y - a.x, a.w - a.z, a.w - a.z);
+	case SCENE_OP_DY: return v4(a.x - a.z, a.y - a.w, a.x - a.z, a.y - a.w);
 	default:
 		return v4(program_number(operation, a.x, b.x), program_number(operation, a.y, b.y), program_number(operation, a.z, b.z),
 		          program_number(operation, a.w, b.w));
 	}
+}
+
+/* Keep a result for those that take part. */
+static inline void program_keep(struct program_run *run, uint32_t place, struct vec4 v, uint32_t mask)
+{
+	struct vec4 *r = &run->registers[place];
+
+	if (mask == 15u)
+		*r = v;
+	else
+		*r = v4(mask & 1u ? v.x : r->x, mask & 2u ? v.y : r->y, mask & 4u ? v.z : r->z, mask & 8u ? v.w : r->w);
+}
+
+/* Of whom a number is true, a bit each. */
+static inline uint32_t program_true(struct vec4 a)
+{
+	return (a.x != 0.0f ? 1u : 0u) | (a.y != 0.0f ? 2u : 0u) | (a.z != 0.0f ? 4u : 0u) | (a.w != 0.0f ? 8u : 0u);
 }
 
 /* One of the four's element of an array. */
@@ -164,8 +199,41 @@ static inline void program_fetch(struct program_run *run, const struct program *
 	const struct vec4 at = program_operand(run, program, in->b, 0u, 0u);
 
 	for (uint32_t i = 0u; i < in->n; i++)
-		run->registers[in->to + i] = v4(program_element(run, program, in, i, 0u, at.x), program_element(run, program, in, i, 1u, at.y),
-		                                program_element(run, program, in, i, 2u, at.z), program_element(run, program, in, i, 3u, at.w));
+		program_keep(run, in->to + i, v4(program_element(run, program, in, i, 0u, at.x), program_element(run, program, in, i, 1u, at.y),
+		                                 program_element(run, program, in, i, 2u, at.z), program_element(run, program, in, i, 3u, at.w)), run->mask);
+}
+
+static inline void program_store(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in)
+{
+	const struct vec4 value = program_operand(run, program, in->a, 0u, 0u), at = program_operand(run, program, in->b, 0u, 0u);
+
+	for (uint32_t k = 0u; k < 4u; k++) {
+		const float element = program_of_four(at, k);
+
+		if (element >= 0.0f && element < (float)(in->c >> 16))
+			program_keep(run, in->to + (uint32_t)element * (in->c & 0xffffu), value, run->mask & 1u << k);
+	}
+}
+
+/* MASK, JUMP, JUMP_NONE. @return the number of the instruction before the next one */
+static inline uint32_t program_turn(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in, uint32_t at)
+{
+	const uint32_t is_true = in->operation == SCENE_OP_JUMP ? 0u : program_true(program_operand(run, program, in->a, 0u, 0u));
+
+	if (in->operation == SCENE_OP_MASK) {
+		run->mask = is_true;
+		return at;
+	}
+	if (is_true)
+		return at;
+	if (in->to <= at) {
+		const uint32_t back = at - in->to + 1u;
+
+		if (run->steps < back)
+			return program->head->n_instructions;
+		run->steps -= back;
+	}
+	return in->to - 1u;
 }
 
 /* An instruction of numbers, each by itself. */
@@ -177,7 +245,7 @@ static inline void program_compute(struct program_run *run, const struct program
 		struct vec4 a = program_operand(run, program, in->a, flags & SCENE_STEP_A ? i : 0u, flags & SCENE_NEGATE_A), b = a, c = a;
 
 		if (in->operation == SCENE_OP_KILL) {
-			run->killed |= (a.x < 0.0f ? 1u : 0u) | (a.y < 0.0f ? 2u : 0u) | (a.z < 0.0f ? 4u : 0u) | (a.w < 0.0f ? 8u : 0u);
+			run->killed |= run->mask & ((a.x < 0.0f ? 1u : 0u) | (a.y < 0.0f ? 2u : 0u) | (a.z < 0.0f ? 4u : 0u) | (a.w < 0.0f ? 8u : 0u));
 			continue;
 		}
 		if (in->operation >= SCENE_OP_ADD)
@@ -185,7 +253,7 @@ static inline void program_compute(struct program_run *run, const struct program
 		if (in->operation >= SCENE_OP_MAD)
 			c = program_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0u, flags & SCENE_NEGATE_C);
 		a = program_result(in->operation, a, b, c);
-		run->registers[in->to + i] = flags & SCENE_SATURATE ? v4_clamp01(a) : a;
+		program_keep(run, in->to + i, flags & SCENE_SATURATE ? v4_clamp01(a) : a, flags & SCENE_UNMASKED ? 15u : run->mask);
 	}
 }
 
@@ -202,6 +270,10 @@ static inline uint32_t program_run_from(struct program_run *run, const struct pr
 			return at;
 		if (in->operation == SCENE_OP_FETCH)
 			program_fetch(run, program, in);
+		else if (in->operation == SCENE_OP_STORE)
+			program_store(run, program, in);
+		else if (in->operation >= SCENE_OP_MASK)
+			at = program_turn(run, program, in, at);
 		else
 			program_compute(run, program, in);
 	}

@@ -91,6 +91,7 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	program_texcoords(f, inputs, &quad);
 	if (inputs >> SCENE_INPUT_POSITION & 1u)
 		program_position(f, &quad, depth);
+	f->run.registers[4u * SCENE_INPUT_FACE] = program_splat(f->p.front ? 1.0f : 0.0f);
 	for (uint32_t k = 0u; k < 4u && inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG); k++) {
 		const struct point p = program_neighbour(f, &quad, k);
 		struct lit here = k == f->own ? *lit : point_lit_from_vertices(&p);
@@ -141,16 +142,18 @@ static inline void program_sample(struct program_fragment *f, GLOBAL const struc
 		const int slopes = texture_needs_slope(t, unit);
 		struct texture_slope slope;
 
-		if (slopes)
+		slope.right = v4(1.0f, 0.0f, 0.0f, 0.0f);
+		slope.down = v4(0.0f, 1.0f, 0.0f, 0.0f);
+		if (slopes && !(in->c & SCENE_TEXTURE_LEVEL))
 			slope = texture_slope(&t->textures[unit->texture], c[k], c[0], c[1], c[2]);
-		if (slopes && in->c & SCENE_TEXTURE_BIASED)
+		if (slopes && in->c & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))
 			program_bias(&slope, program_of_four(f->run.registers[in->a + 3u], k));
 		sample[k] = texture_sample(t, unit, c[k], slopes ? &slope : (const struct texture_slope *)0);
 	}
-	f->run.registers[in->to] = v4(sample[0].x, sample[1].x, sample[2].x, sample[3].x);
-	f->run.registers[in->to + 1u] = v4(sample[0].y, sample[1].y, sample[2].y, sample[3].y);
-	f->run.registers[in->to + 2u] = v4(sample[0].z, sample[1].z, sample[2].z, sample[3].z);
-	f->run.registers[in->to + 3u] = v4(sample[0].w, sample[1].w, sample[2].w, sample[3].w);
+	program_keep(&f->run, in->to, v4(sample[0].x, sample[1].x, sample[2].x, sample[3].x), f->run.mask);
+	program_keep(&f->run, in->to + 1u, v4(sample[0].y, sample[1].y, sample[2].y, sample[3].y), f->run.mask);
+	program_keep(&f->run, in->to + 2u, v4(sample[0].z, sample[1].z, sample[2].z, sample[3].z), f->run.mask);
+	program_keep(&f->run, in->to + 3u, v4(sample[0].w, sample[1].w, sample[2].w, sample[3].w), f->run.mask);
 }
 
 static inline void program_execute(struct program_fragment *f, const struct program *program)
