@@ -41,9 +41,13 @@ COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 # The bridge to OpenImageIO, which the command loads when a picture needs it, and what of the command it calls.
 OIIO_OBJ := $(addprefix $(BUILD)/,$(addprefix tracer/image/,oiio.o heads.o image.o pack.o exr_pack.o) base/err.o base/memory.o)
 
+# The same for glslang, which the command loads when a recording has GLSL.
+LIBS_GLSL := -Wl,--as-needed -Wl,--start-group -l:libglslang.a -l:libMachineIndependent.a -l:libGenericCodeGen.a -l:libOGLCompiler.a -l:libOSDependent.a -Wl,--end-group
+GLSL_OBJ := $(BUILD)/replay/glsl/bridge.o $(BUILD)/base/err.o
+
 # What must be installed: to build, to run, to test.
 DEPS := gcc g++ libc6-dev python3 khronos-api \
-	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev libseccomp-dev \
+	libsnappy-dev libbrotli-dev zlib1g-dev libdeflate-dev libisal-dev glslang-dev libxxhash-dev libopenexr-dev libopenimageio-dev libpng-dev libcyaml-dev libseccomp-dev \
 	ocl-icd-opencl-dev opencl-headers libgl-dev libegl-dev libgles-dev libwayland-dev libosmesa6-dev libx11-dev \
 	pocl-opencl-icd apitrace \
 	check clang xvfb weston xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
@@ -56,7 +60,7 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
-all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
+all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/relume-glsl.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
 
 # Snappy and its C++ inside, as in the recorder: the loader takes a third of a start to find the symbols of C++.
 $(BUILD)/relume: $(COMMAND_OBJ)
@@ -78,6 +82,9 @@ $(BUILD)/%.o: %.cpp $(BUILD)/flags
 
 $(BUILD)/relume-oiio.so: $(OIIO_OBJ)
 	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -o $@ $^ $(LIBS_OIIO) $(LIBS)
+
+$(BUILD)/relume-glsl.so: $(GLSL_OBJ)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) -shared -Wl,-Bsymbolic -Wl,--exclude-libs,ALL -o $@ $^ $(LIBS_GLSL) $(LIBS)
 
 # Stands before libGL, under its name, for glretrace.
 $(BUILD)/visual/libGL.so.1: $(VISUAL_SRC) $(BUILD)/flags
@@ -242,14 +249,15 @@ $(BUILD)/corpus/rooms: $(wildcard corpus/rooms/*.[ch]) corpus/program.h $(BUILD)
 	$(Q)$(CC) -std=c11 $(WARNINGS) -O2 -o $@ $(filter %.c,$^) -lglut -lGLU -lGL -lm
 
 # Tests are linked with everything of the command but its main function, and with the bridge itself.
-$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o
+$(BUILD)/parts.a: $(filter-out $(BUILD)/relume.o $(BUILD)/tracer/image/oiio_load.o $(BUILD)/replay/glsl/load.o,$(COMMAND_OBJ)) $(BUILD)/tracer/image/oiio.o \
+		$(BUILD)/replay/glsl/bridge.o
 	@rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/stream.o
 $(BUILD)/tests/fuzz/test_calls $(BUILD)/tests/fuzz/test_pictures $(BUILD)/tests/fuzz/test_stream: $(BUILD)/tests/fuzz/calls.o $(BUILD)/gen/fuzz_commands.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS) -lOSMesa -lcheck -lsubunit -lm
 
 # What tests preload or record: programs that are not linked with anything of ours.
 HELPERS := $(patsubst %.c,$(BUILD)/%.so,$(wildcard tests/real/*_shim.c) tests/real/failing_cl.c tests/check/host_cl.c) \
@@ -340,7 +348,7 @@ $(addprefix $(BUILD)/tests/bench/,embree.o frame_rays.o): private ALL_CFLAGS += 
 $(BUILD)/tests/bench/build: $(BUILD)/tests/bench/embree_build.o
 $(BUILD)/tests/bench/queries: $(BUILD)/tests/bench/brute.o
 $(BENCHES): %: %.o $(BUILD)/parts.a
-	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS)
+	$(Q)$(CXX) $(ALL_CXXFLAGS) -o $@ $(filter %.o,$^) $(BUILD)/parts.a -lembree3 $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
 
 bench: $(BUILD)/tests/bench/embree
 	@$< --models $(MODELS) --json $(BUILD)/bench.json --command "make bench"
@@ -413,10 +421,10 @@ FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_SRC := $(filter-out tracer/image/oiio_load.c,$(wildcard $(patsubst %,%/*.c,base capture/format scene look farm $(addprefix diff/,rules baseline score pictures) \
-	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) render/stamp.c \
+	$(addprefix tracer/,image device) kernels/ref))) $(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(filter-out replay/glsl/load.c,$(REPLAY_SRC)) render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
 FUZZ_GEN := $(patsubst $(BUILD)/%.c,$(BUILD)/fuzz/objects/%.o,$(filter-out %/page.c,$(COMMAND_GEN)) $(BUILD)/gen/fuzz_commands.c) $(BUILD)/fuzz/objects/gen/enums.o
-FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(FUZZ_GEN)
+FUZZ_OBJ := $(FUZZ_SRC:%.c=$(BUILD)/fuzz/objects/%.o) $(BUILD)/fuzz/objects/tracer/image/oiio.o $(BUILD)/fuzz/objects/replay/glsl/bridge.o $(FUZZ_GEN)
 FUZZ_SAN := -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
 FUZZ_CFLAGS := $(CPPFLAGS) -I$(BUILD)/recorder/gen -O1 -g -ffp-contract=off -pthread -MMD -MP $(FUZZ_SAN)
 $(BUILD)/fuzz/objects/%.o: %.c | $(GENERATED_H) $(BUILD)/deps.fuzz
@@ -440,7 +448,7 @@ $(BUILD)/fuzz/parts.a: $(FUZZ_OBJ)
 	$(Q)$(AR) rcs $@ $^
 
 $(FUZZ_TARGETS:%=$(BUILD)/fuzz/%): $(BUILD)/fuzz/%: $(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.o $(BUILD)/fuzz/parts.a
-	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS)
+	$(Q)$(FUZZ_CXX) -fsanitize=fuzzer,address,undefined -pthread -o $@ $^ $(LIBS_OIIO) $(LIBS_GLSL) $(LIBS)
 
 # The same targets in one program, without libFuzzer: what was kept, and mutants. Each is named anew for that.
 DRIVE_OBJ := $(patsubst %,$(BUILD)/tests/fuzz/targets/%.o,$(filter-out calls replay,$(FUZZ_TARGETS)))
@@ -492,5 +500,5 @@ FORCE:
 .PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs show-tests show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
--include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
+-include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(GLSL_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \
 	$(BUILD)/tests/fuzz/calls.d $(BUILD)/tests/fuzz/stream.d $(BUILD)/gen/fuzz_commands.d $(FUZZ_OBJ:.o=.d) $(DRIVE_OBJ:.o=.d) $(FUZZ_TARGETS:%=$(BUILD)/fuzz/objects/tests/fuzz/fuzz_%.d)

@@ -29,6 +29,7 @@ place 755 "$build/relume" bin/relume
 place 644 "$build/visual/libGL.so.1" lib/relume/visual/libGL.so.1 # before its neighbours, whose folder goes with the last of them
 place 644 "$build/librelume.so" lib/relume/librelume.so
 place 644 "$build/relume-oiio.so" lib/relume/relume-oiio.so
+place 644 "$build/relume-glsl.so" lib/relume/relume-glsl.so
 place 644 "$build/librelume-rays.so" lib/relume/librelume-rays.so
 place 644 capture/relume.h include/relume.h
 place 644 query/relume-rays.h include/relume-rays.h

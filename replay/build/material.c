@@ -192,17 +192,17 @@ static int fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_
 
 /* The units that a draw looks at. program: that shades it, NULL: none. @return how many */
 static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
-                           const struct program_code *program, struct scene_unit units[GLS_MAX_UNITS])
+                           const struct program_stage *program, struct scene_unit units[GLS_MAX_UNITS])
 {
 	uint32_t n = 0;
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
 		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
-		const int target = program ? (int)program->targets[u] - 1 : enabled_target(unit);
+		const int target = program ? (int)program_target(program, u) - 1 : enabled_target(unit);
 
 		if (fill_unit(x, f, st, unit, target, matrix, &units[n]) ||
-		    (program && (target >= 0 || program->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
+		    (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
 			n++;
 	}
 	return n;
@@ -388,7 +388,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
-	m.unit_count = fill_units(x, f, st, e, runs_fragments ? fragments.code : NULL, units);
+	m.unit_count = fill_units(x, f, st, e, runs_fragments ? &fragments : NULL, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));
@@ -407,7 +407,8 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.surface = st->surface;
 	m.program = st->program || st->a.programs.vertex || st->a.programs.fragment;
 	if (runs_fragments) {
-		m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for programs' colours, whatever ShadeModel says */
+		if (!st->program)
+			m.shade_model = GL_SMOOTH; /* as Mesa (22.3.6) has it for colours of programs in assembly, whatever ShadeModel says */
 		m.fragment_program = gls_program_build(f, st, a, &fragments, lights);
 		if (!m.fragment_program)
 			return SCENE_NONE;

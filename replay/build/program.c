@@ -49,8 +49,9 @@ static void fill_light(const struct scene_light *light, uint32_t part, float out
 	case PROGRAM_LIGHT_DIRECTION:
 		memcpy(out, light->spot_direction_eye, 12);
 		normalize(out);
-		out[3] = cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180));
+		out[3] = fmaxf(cosf(light->spot_cutoff_deg * (float)(3.14159265358979323846 / 180)), 0); /* as Mesa (22.3.6) has it */
 		break;
+	case PROGRAM_LIGHT_CUTOFF: out[0] = light->spot_cutoff_deg; break;
 	default: /* half-way between the light and the viewer, both at infinity */
 		memcpy(out, light->position_eye, 12);
 		normalize(out);
@@ -95,6 +96,15 @@ static void fill_fog(const struct gls_fog *fog, float out[4])
 	out[3] = fog->end == fog->start ? 1 : 1 / (fog->end - fog->start);
 }
 
+/* 1 / the length of the third row of the inverse (GL 2.1 sec. 2.11.3). */
+static void fill_normal_scale(const struct gls_state *st, float out[4])
+{
+	float inverse[16];
+
+	mat4_invert(inverse, st->modelview.matrices[st->modelview.depth]);
+	out[0] = 1 / sqrtf(inverse[2] * inverse[2] + inverse[6] * inverse[6] + inverse[10] * inverse[10]);
+}
+
 static void fill(const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage, const struct program_constant *c,
                  float out[4])
 {
@@ -136,6 +146,7 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 	case PROGRAM_POINT_ATTENUATION:
 		set_four(out, (const float[4]){ a->point.attenuation[0], a->point.attenuation[1], a->point.attenuation[2], 1 });
 		break;
+	case PROGRAM_NORMAL_SCALE: fill_normal_scale(st, out); break;
 	case PROGRAM_TEXGEN:
 		set_four(out, c->part ? unit->gen_object_plane[c->row & 3] : unit->gen_eye_plane[c->row & 3]);
 		break;
@@ -146,6 +157,14 @@ static void fill(const struct gls_state *st, const struct gls_attribs *a, const 
 static uint32_t outputs_of(const struct gls_state *st, const struct program_code *code)
 {
 	return st->a.programs.point_size ? code->outputs : code->outputs & ~(1u << SCENE_RESULT_POINT_SIZE);
+}
+
+/* Textures are looked up by their units, which samplers hold. */
+static void name_units(const struct program_stage *stage, struct scene_instruction *instructions)
+{
+	for (uint32_t i = 0; i < stage->code->n_instructions; i++)
+		if (instructions[i].operation == SCENE_OP_TEXTURE)
+			instructions[i].b = program_unit_of(stage, instructions[i].b);
 }
 
 uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, const struct gls_attribs *a, const struct program_stage *stage,
@@ -166,6 +185,8 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 	memcpy(words, &head, sizeof(head));
 	if (instruction_bytes)
 		memcpy((char *)words + sizeof(head), code->instructions, instruction_bytes);
+	if (code->n_samplers)
+		name_units(stage, (struct scene_instruction *)((char *)words + sizeof(head)));
 	for (uint32_t i = 0; i < code->n_lights; i++) {
 		const struct program_light *from = &code->lights[i];
 		const uint32_t before = lights & ((1u << code->constants[from->constant].index) - 1);

@@ -17,6 +17,7 @@
 #include "replay/machine/buffer.h"
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
+#include "replay/glsl/object.h"
 #include "replay/programs/program.h"
 
 #define MAX_CONTEXTS 4096
@@ -154,6 +155,7 @@ static void release_share(struct gls_share *share)
 	TABLE_DROP(&share->framebuffers, gls_framebuffer_free);
 	TABLE_DROP(&share->renderbuffers, gls_renderbuffer_free);
 	TABLE_DROP(&share->programs, gls_program_free);
+	TABLE_DROP(&share->shaders, gls_shader_free);
 	free(share);
 }
 

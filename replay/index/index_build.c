@@ -99,15 +99,20 @@ static int note_lack(struct index *index, const char *name, const char *why, uin
 	return 0;
 }
 
-/* What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL: nothing. */
-static const char *program_lack(const struct gls_exec *x)
+/*
+ * What is missing of draws by a program that is not run and may draw, as it stays current from frame to frame; NULL: nothing.
+ * command: receives the call that made it so
+ */
+static const char *program_lack(const struct gls_exec *x, const char **command)
 {
 	for (size_t i = 0; i < x->n_contexts; i++) {
 		const char *lack = gls_program_lack(&x->contexts[i]->state);
 
+		*command = x->contexts[i]->state.program ? "glUseProgram" : "glProgramStringARB";
 		if (lack)
 			return lack;
 	}
+	*command = "glUseProgram";
 	return NULL;
 }
 
@@ -115,12 +120,11 @@ static const char *program_lack(const struct gls_exec *x)
 static int note_lacks(struct index *index, const struct gls_exec *x, uint64_t *programs)
 {
 	const struct gls_counts *counts = &x->counts;
-	const char *lack = program_lack(x);
+	const char *command, *lack = program_lack(x, &command);
 	int rc = 0;
 
 	if (lack || counts->programs_used != *programs)
-		rc = note_lack(index, lack && lack != gls_programs ? "glProgramStringARB" : "glUseProgram", lack ? lack : gls_programs,
-		               index->n_frames, 0);
+		rc = note_lack(index, command, lack ? lack : counts->programs_why, index->n_frames, 0);
 	*programs = counts->programs_used;
 	for (unsigned i = 0; i < n_gls_commands && !rc; i++) {
 		const uint32_t kind = gls_commands[i].kind;

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "replay/gl/texture/texformat.h"
 #include "replay/index/snapshot_lists.h"
+#include "replay/index/snapshot_shaders.h"
 
 /* ---- textures ---- */
 
@@ -244,6 +245,7 @@ void snapshot_put_share(struct saver *s, const struct gls_share *share)
 	saver_table(s, &share->textures, &textures);
 	saver_table(s, &share->buffers, &buffers);
 	saver_table(s, &share->programs, &programs);
+	snapshot_put_shaders(s, &share->shaders);
 	saver_table(s, &share->framebuffers, &framebuffers);
 	saver_table(s, &share->renderbuffers, &renderbuffers);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS; i++) {
@@ -259,6 +261,7 @@ void snapshot_get_share(struct loader *l, struct gls_share *share)
 	loader_table(l, &share->textures, &textures);
 	loader_table(l, &share->buffers, &buffers);
 	loader_table(l, &share->programs, &programs);
+	snapshot_get_shaders(l, &share->shaders);
 	loader_table(l, &share->framebuffers, &framebuffers);
 	loader_table(l, &share->renderbuffers, &renderbuffers);
 	for (unsigned i = 0; i < N_GLS_TEXTURE_TARGETS && !loader_is_bad(l); i++)

@@ -12,6 +12,7 @@
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/index/snapshot.h"
+#include "replay/glsl/object.h"
 #include "replay/programs/program.h"
 
 /* ---- saving ---- */

@@ -28,7 +28,8 @@ struct gls_counts {
 	struct table unknown;                   /* name -> count, of calls in no table */
 	uint64_t programs;                      /* draws by one that is not run */
 	struct table program_draws;             /* gls_program_current -> draws, of all that are used */
-	uint64_t programs_used;                 /* calls that make one current */
+	uint64_t programs_used;                 /* calls that make a program object current that is not run */
+	const char *programs_why;               /* what stood in the way of the last one; a static string */
 	uint64_t window;                        /* of the first frame */
 	int several_windows;                    /* 1: another frame ended in another one */
 };

@@ -317,6 +317,7 @@ struct gls_share {
 	unsigned refs;
 	struct table lists, textures, buffers; /* name -> struct gls_list, gls_texture, gls_buffer */
 	struct table programs;                 /* programs/program.h: key -> struct gls_program */
+	struct table shaders;                  /* programs/glsl/object.h: name -> struct gls_shader, shaders and programs of GLSL */
 	struct table framebuffers, renderbuffers; /* name (0: the window) -> struct gls_framebuffer, gls_renderbuffer */
 	struct gls_texture *defaults[N_GLS_TEXTURE_TARGETS];
 	uint64_t epoch; /* changes when a texture goes, or a list that another one's effect was made of */

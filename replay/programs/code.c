@@ -39,6 +39,28 @@ uint32_t program_constant_append(struct program_code *code, const struct program
 	return code->n_constants++;
 }
 
+uint32_t program_target(const struct program_stage *stage, uint32_t unit)
+{
+	for (uint32_t i = 0; i < stage->code->n_samplers; i++)
+		if (program_unit_of(stage, i) == unit)
+			return stage->code->samplers[i].target + 1;
+	return stage->code->targets[unit];
+}
+
+uint32_t program_operands(uint32_t operation)
+{
+	switch (operation) {
+	case SCENE_OP_FETCH:
+	case SCENE_OP_STORE: return 2;
+	case SCENE_OP_JUMP: return 0;
+	case SCENE_OP_KILL:
+	case SCENE_OP_MASK:
+	case SCENE_OP_JUMP_NONE:
+	case SCENE_OP_TEXTURE: return 1;
+	default: return operation < SCENE_OP_ADD ? 1 : operation < SCENE_OP_MAD ? 2 : 3;
+	}
+}
+
 /* 1 where a constant is light that comes from a light itself. */
 static int is_sent(const struct program_constant *c)
 {

@@ -26,12 +26,14 @@ enum program_source {
 	PROGRAM_CLIP_PLANE,    /* index */
 	PROGRAM_POINT_NUMBERS, /* size, least, most, fade threshold */
 	PROGRAM_POINT_ATTENUATION,
-	PROGRAM_TEXGEN         /* index: unit; part: 0 eye plane, 1 object plane; row: s t r q */
+	PROGRAM_TEXGEN,        /* index: unit; part: 0 eye plane, 1 object plane; row: s t r q */
+	PROGRAM_NORMAL_SCALE   /* the factor of RESCALE_NORMAL */
 };
 enum program_light_part {
 	PROGRAM_LIGHT_AMBIENT, PROGRAM_LIGHT_DIFFUSE, PROGRAM_LIGHT_SPECULAR, PROGRAM_LIGHT_POSITION, PROGRAM_LIGHT_ATTENUATION,
 	PROGRAM_LIGHT_DIRECTION, /* of a spot; the fourth: cosine of its cutoff */
-	PROGRAM_LIGHT_HALF       /* half-way vector of a light at infinity */
+	PROGRAM_LIGHT_HALF,      /* half-way vector of a light at infinity */
+	PROGRAM_LIGHT_CUTOFF     /* of a spot, degrees */
 };
 enum program_matrix {
 	PROGRAM_MODELVIEW, PROGRAM_PROJECTION, PROGRAM_MVP,
@@ -52,6 +54,13 @@ struct program_light {
 	uint32_t to, constant; /* constant: its number */
 };
 
+/* What GLSL samples: a uniform says of which unit. */
+struct program_sampler {
+	uint32_t uniform; /* number in stage.local, counted by single ones */
+	uint32_t target;  /* enum gls_texture_target */
+};
+#define PROGRAM_MAX_SAMPLERS 32u
+
 struct program_code {
 	struct scene_instruction *instructions; /* owned */
 	struct program_constant *constants;     /* owned */
@@ -60,6 +69,8 @@ struct program_code {
 	uint32_t instruction_room, constant_room, light_room;
 	uint32_t inputs, kills, sets_depth, outputs; /* as in struct scene_program */
 	uint32_t targets[SCENE_MAX_UNITS];  /* 1 + enum gls_texture_target of what it samples of each unit; 0: nothing */
+	struct program_sampler samplers[PROGRAM_MAX_SAMPLERS]; /* where there are some, TEXTURE names one of them in place of its unit */
+	uint32_t n_samplers;
 };
 
 /* A stage of the pipeline that a program runs: what it is, and what its parameters hold (PROGRAM_ENV, PROGRAM_LOCAL). Borrowed. */
@@ -68,6 +79,18 @@ struct program_stage {
 	const float (*env)[4], (*local)[4];
 };
 
+/** The unit of one of the samplers of a stage's code. */
+static inline uint32_t program_unit_of(const struct program_stage *stage, uint32_t sampler)
+{
+	const uint32_t number = stage->code->samplers[sampler].uniform;
+	const float unit = stage->local[number / 4][number % 4];
+
+	return unit >= 0 && unit < 255 ? (uint32_t)unit : 255;
+}
+
+/** 1 + enum gls_texture_target of what a stage samples of a unit; 0: nothing */
+uint32_t program_target(const struct program_stage *stage, uint32_t unit);
+
 /**
  * Append an instruction. @return 0, or ERR_SYSTEM: out of memory (reported), ERR_INPUT: there are SCENE_PROGRAM_INSTRUCTIONS already
  */
@@ -75,6 +98,9 @@ int program_append(struct program_code *code, const struct scene_instruction *in
 
 /** The number of a constant, which is added where there is none like it; UINT32_MAX: out of memory (reported). */
 uint32_t program_constant(struct program_code *code, const struct program_constant *constant);
+
+/** How many of an instruction's a, b and c are operands. */
+uint32_t program_operands(uint32_t operation);
 
 /** The same, added in any case: behind the last. */
 uint32_t program_constant_append(struct program_code *code, const struct program_constant *constant);

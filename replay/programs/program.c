@@ -7,6 +7,7 @@
 #include "gl_tokens.h"
 #include "replay/machine/errors.h"
 #include "replay/programs/arb.h"
+#include "replay/programs/stages.h"
 
 void gls_program_free(struct gls_program *p)
 {
@@ -46,10 +47,32 @@ static const char *lack_of(const struct gls_state *st, uint32_t target)
 	return !p || !p->source ? "draws with a program that has no text" : p->why;
 }
 
+static const struct gls_stages *linked(const struct gls_state *st)
+{
+	return table_find(&st->share->shaders, st->program);
+}
+
+/* What stands in the way of the program object that is used. */
+static const char *lack_of_shaders(const struct gls_state *st)
+{
+	const struct gls_stages *p = linked(st);
+	struct program_stage stage;
+
+	if (!p || !p->linked || p->why)
+		return p && p->linked ? p->why : "draws with a program object that was not linked";
+	stage = (struct program_stage){ &p->code[GLS_FRAGMENT_STAGE], NULL, p->uniforms };
+	for (uint32_t i = 0; i < stage.code->n_samplers; i++)
+		if (program_unit_of(&stage, i) >= GLS_MAX_UNITS)
+			return "a shader samples texture units from 8 on";
+	return stage.code->n_instructions && st->a.color.also_drawn ? "a shader draws to several buffers at once" : NULL;
+}
+
 const char *gls_program_lack(const struct gls_state *st)
 {
-	const char *lack = st->program ? gls_programs : NULL;
+	const char *lack = NULL;
 
+	if (st->program)
+		return lack_of_shaders(st);
 	if (!lack && st->a.programs.vertex)
 		lack = lack_of(st, GL_VERTEX_PROGRAM_ARB);
 	if (!lack && st->a.programs.fragment)
@@ -80,12 +103,26 @@ static int runs(const struct gls_state *st, uint32_t target, struct program_stag
 	return 1;
 }
 
+static int runs_shaders(const struct gls_state *st, enum gls_stage which, struct program_stage *stage)
+{
+	const struct gls_stages *p = linked(st);
+
+	if (!p || !p->runs[which] || lack_of_shaders(st))
+		return 0;
+	*stage = (struct program_stage){ &p->code[which], st->program_env[0], p->uniforms };
+	return 1;
+}
+
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage)
 {
+	if (st->program)
+		return runs_shaders(st, GLS_VERTEX_STAGE, stage);
 	return st->a.programs.vertex && !gls_program_lack(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
 }
 
 int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage)
 {
+	if (st->program)
+		return runs_shaders(st, GLS_FRAGMENT_STAGE, stage);
 	return st->a.programs.fragment && !gls_program_lack(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
 }

@@ -7,7 +7,7 @@
  *     gl_close(&gl);
  *
  * Letters of a call's arguments: f float, d double, i signed, u unsigned, e enum, m bitmask, p address (uint64_t; 0 is
- * NULL), s string, F n floats (int, const float *), D n doubles, U n unsigned (int, const uint32_t *), b bytes (size_t,
+ * NULL), s string, S an array of one string, F n floats (int, const float *), D n doubles, U n unsigned (int, const uint32_t *), b bytes (size_t,
  * const void *).
  */
 #pragma once
@@ -69,6 +69,10 @@ static inline void gl_value(struct trace_value *v, char letter, va_list *args)
 		v->str = va_arg(*args, const char *);
 		v->count = strlen(v->str);
 		break;
+	case 'S':
+		*v = (struct trace_value){ .type = TRACE_ARRAY, .count = 1, .items = items[next % GL_MAX_ARGS] };
+		gl_value(items[next++ % GL_MAX_ARGS], 's', args);
+		break;
 	case 'b':
 		v->type = TRACE_BLOB;
 		v->count = va_arg(*args, size_t);
@@ -122,6 +126,16 @@ static inline void gl_call_address(struct gl *gl, uint64_t ret, const char *name
 
 	va_start(args, letters);
 	gl_call_ret(gl, (struct trace_value){ .type = TRACE_OPAQUE, .u = ret }, name, letters, &args);
+	va_end(args);
+}
+
+/** As gl_call, for calls that return a number. */
+static inline void gl_answered(struct gl *gl, uint32_t ret, const char *name, const char *letters, ...)
+{
+	va_list args;
+
+	va_start(args, letters);
+	gl_call_ret(gl, (struct trace_value){ .type = TRACE_UINT, .u = ret }, name, letters, &args);
 	va_end(args);
 }
 

@@ -15,10 +15,11 @@ PROGRAMS = {
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
+    "shader": ("functions", "statements", "state", "textures", "vertices"),
 }
 
 for name, frames in PROGRAMS.items():
     trace, _ = check_same_pictures(f"panels/{name}", frames)
-    if "program" in name: # objects are in the index
+    if "program" in name or name == "shader": # objects are in the index
         check_alone(trace, 1, 3)
 finish()

@@ -1,7 +1,4 @@
-/*
- * Later things that a fixed-function program may use: program objects, several draw buffers. Draws with program objects are rendered as fixed
- * function, and counted.
- */
+/* Later things that a fixed-function program may use: several draw buffers. */
 #include "gl_tokens.h"
 #include "replay/gl/surface/attachment.h"
 #include "replay/machine/args.h"
@@ -9,15 +6,6 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
-
-static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t program)
-{
-	st->program = program;
-	x->counts.programs_used += program != 0;
-}
-
-GLS_HANDLER(glUseProgram, STATE) { use_program(x, st, arg_u(c, 0)); }
-GLS_HANDLER(glUseProgramObjectARB, STATE) { use_program(x, st, arg_u(c, 0)); }
 
 /* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
 GLS_HANDLER(glDrawBuffers, STATE)

@@ -150,7 +150,7 @@ void gls_units_update(struct gls_exec *x, struct gls_state *st, const struct gls
 
 	for (unsigned u = 0; st->share->framebuffers.n && u < GLS_MAX_UNITS; u++)
 		for (unsigned target = 0; target < N_GLS_TEXTURE_TARGETS; target++)
-			if (texturing->units[u].enabled >> target & 1 || (runs && stage.code->targets[u] == target + 1))
+			if (texturing->units[u].enabled >> target & 1 || (runs && program_target(&stage, u) == target + 1))
 				gls_texture_update(x, st, gls_texture_bound(x, st, u, target));
 }
 

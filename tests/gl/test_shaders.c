@@ -1,0 +1,172 @@
+/* Programs of GLSL (GL 2.1 sec. 2.15): objects, locations, uniforms, what a draw's scene holds of them. */
+#include "replay/glsl/object.h"
+#include "replay/programs/program.h"
+#include "scene/program.h"
+#include "tests/gl/gl.h"
+
+#define FRAGMENTS "void main() { gl_FragColor = gl_Color; }"
+
+static struct gls_shader *object(struct gl *gl, uint32_t name)
+{
+	return table_find(&gl_state(gl)->share->shaders, name);
+}
+
+static void make_shader(struct gl *gl, uint32_t name, uint32_t type, const char *text)
+{
+	gl_answered(gl, name, "glCreateShader", "e", type);
+	gl_call(gl, "glShaderSource", "uuSp", name, 1u, text, (uint64_t)0);
+	gl_call(gl, "glCompileShader", "u", name);
+}
+
+/* A program of one fragment shader, whose names are `name` and `name` + 100, and used from here on. */
+static struct gls_shader *make_program(struct gl *gl, uint32_t name, const char *text)
+{
+	make_shader(gl, name + 100, GL_FRAGMENT_SHADER, text);
+	gl_answered(gl, name, "glCreateProgram", "");
+	gl_call(gl, "glAttachShader", "uu", name, name + 100);
+	gl_call(gl, "glLinkProgram", "u", name);
+	gl_call(gl, "glUseProgram", "u", name);
+	return object(gl, name);
+}
+
+/* A shader lives as long as a program has it; a program as long as it is used; what was linked stays when sources change. */
+START_TEST(test_objects)
+{
+	struct gl gl = gl_open();
+	const struct gls_shader *program = make_program(&gl, 1, FRAGMENTS);
+
+	ck_assert_ptr_null(program->stages.why);
+	gl_call(&gl, "glDeleteShader", "u", 101u);
+	ck_assert_ptr_nonnull(object(&gl, 101));
+	gl_call(&gl, "glShaderSource", "uuSp", 101u, 1u, "void main() { gl_FragColor = nothing; }", (uint64_t)0);
+	gl_call(&gl, "glCompileShader", "u", 101u);
+	ck_assert_ptr_null(program->stages.why);
+	gl_call(&gl, "glLinkProgram", "u", 1u);
+	ck_assert_ptr_nonnull(program->stages.why);
+	gl_call(&gl, "glDetachShader", "uu", 1u, 101u);
+	ck_assert_ptr_null(object(&gl, 101));
+	gl_call(&gl, "glDeleteProgram", "u", 1u);
+	ck_assert_ptr_nonnull(object(&gl, 1));
+	gl_call(&gl, "glUseProgram", "u", 0u);
+	ck_assert_ptr_null(object(&gl, 1));
+	gl_close(&gl);
+}
+END_TEST
+
+/* Locations are what the recording was told; arrays, matrices, structures, and those that are none. */
+START_TEST(test_uniforms)
+{
+	struct gl gl = gl_open();
+	static const float numbers[8] = { 1, 2, 3, 4, 5, 6, 7, 8 };
+	const struct gls_shader *p = make_program(&gl, 1,
+		"uniform vec2 a[3]; uniform mat2 m; uniform bool b; struct S { float x; vec3 y; }; uniform S s[2];\n"
+		"void main() { gl_FragColor = vec4(a[0] + a[1] + a[2], m[0].x, b) + vec4(s[1].y, s[0].x); }");
+
+	ck_assert_msg(!p->stages.why, "%s", p->stages.why);
+	gl_answered(&gl, 7, "glGetUniformLocation", "us", 1u, "a");
+	gl_answered(&gl, 20, "glGetUniformLocation", "us", 1u, "m");
+	gl_answered(&gl, 21, "glGetUniformLocation", "us", 1u, "b");
+	gl_answered(&gl, 30, "glGetUniformLocation", "us", 1u, "s[1].y");
+	gl_answered(&gl, 31, "glGetUniformLocation", "us", 1u, "nothing");
+	gl_call(&gl, "glUniform2fv", "iuF", 8, 9u, 8, numbers); /* more than there are */
+	gl_call(&gl, "glUniformMatrix2fv", "iuuF", 20, 1u, 1u, 4, numbers);
+	gl_call(&gl, "glUniform1i", "ii", 21, 5);
+	gl_call(&gl, "glUniform3f", "ifff", 30, 9.0, 8.0, 7.0);
+	gl_call(&gl, "glUniform4f", "iffff", 30, 1.0, 1.0, 1.0, 1.0); /* of another size */
+	gl_call(&gl, "glUniform1f", "if", 31, 3.0);
+	ck_assert_floats(8, p->uniforms.values, 0, 0, 1, 2, 3, 4, 0, 0);
+	ck_assert_floats(4, p->uniforms.values + 8, 1, 3, 2, 4);
+	ck_assert_float_eq(p->uniforms.values[12], 1);
+	ck_assert_floats(8, p->uniforms.values + 16, 0, 0, 0, 0, 0, 9, 8, 7);
+	gl_call(&gl, "glLinkProgram", "u", 1u); /* locations and values go */
+	ck_assert_float_eq(p->uniforms.values[12], 0);
+	gl_call(&gl, "glUniform1i", "ii", 21, 5);
+	ck_assert_float_eq(p->uniforms.values[12], 0);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A draw takes the program along, with its uniforms and the units that its samplers name then. */
+START_TEST(test_scene)
+{
+	struct gl gl = gl_open();
+	const struct scene_program *head;
+	const struct scene_instruction *instructions;
+	uint32_t sampled = 0;
+	struct scene *s;
+
+	make_program(&gl, 1, "uniform sampler2D t; uniform vec4 c; void main() { gl_FragColor = texture2D(t, gl_TexCoord[3].xy) * c; }");
+	gl_answered(&gl, 0, "glGetUniformLocation", "us", 1u, "t");
+	gl_answered(&gl, 1, "glGetUniformLocation", "us", 1u, "c");
+	for (int i = 0; i < 3; i++) {
+		gl_call(&gl, "glUniform1i", "ii", 0, 5);
+		gl_call(&gl, "glUniform4f", "iffff", 1, 0.5, i / 2 * 0.25, 0.0, 1.0);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 3);
+	ck_assert_uint_eq(s->n_materials, 2);
+	head = (const struct scene_program *)(s->programs + s->materials[1].fragment_program - 1);
+	ck_assert_uint_eq(head->inputs, 1u << (SCENE_INPUT_TEXCOORD + 3));
+	instructions = (const struct scene_instruction *)(head + 1);
+	for (uint32_t i = 0; i < head->n_instructions; i++)
+		if (instructions[i].operation == SCENE_OP_TEXTURE)
+			sampled |= 1u << instructions[i].b;
+	ck_assert_uint_eq(sampled, 1u << 5);
+	ck_assert_floats(4, (const float *)(instructions + head->n_instructions) + 4, 0.5, 0.25, 0, 1);
+	ck_assert_uint_eq(gl.x->counts.programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* What is not translated is drawn as fixed function, and counted with its reason. */
+START_TEST(test_reasons)
+{
+	static const char *const texts[][2] = {
+		{ "void main() { gl_FragColor = nothing; }", "compile" }, { "float f(float x) { return f(x); } void main() { gl_FragColor = vec4(f(1.0)); }", "link" },
+		{ "#version 130\nuniform usampler2D t; void main() { gl_FragColor = vec4(texture(t, gl_TexCoord[0].xy)); }", "texture" },
+		{ "uniform float a[60000]; void main() { float b[600]; b[int(a[3])] = a[2]; gl_FragColor = vec4(b[1]); }", "at once" },
+		{ "uniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "compile" },
+		{ "#version 130\nuniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "not done" },
+		{ "uniform sampler2D t[2]; uniform int k; void main() { gl_FragColor = texture2D(t[k], gl_TexCoord[0].xy); }", "sampler" },
+	};
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
+		const struct gls_shader *p = make_program(&gl, i + 1, texts[i][0]);
+
+		ck_assert_msg(p->stages.why && strstr(p->stages.why, texts[i][1]), "%s: %s", texts[i][0], p->stages.why ? p->stages.why : "no reason");
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(gl.x->counts.programs, sizeof(texts) / sizeof(texts[0]));
+	ck_assert_uint_eq(s->n_programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* Attributes lie where the program has bound them, or was told that they are; fixed function's position stays its own. */
+START_TEST(test_attributes)
+{
+	struct gl gl = gl_open();
+	const struct gls_shader *p;
+
+	make_shader(&gl, 200, GL_VERTEX_SHADER, "attribute vec4 a, b; void main() { gl_Position = ftransform(); gl_FrontColor = a + b; }");
+	gl_answered(&gl, 1, "glCreateProgram", "");
+	gl_call(&gl, "glAttachShader", "uu", 1u, 200u);
+	gl_call(&gl, "glBindAttribLocation", "uus", 1u, 4u, "a");
+	gl_call(&gl, "glLinkProgram", "u", 1u);
+	p = object(&gl, 1);
+	ck_assert_msg(!p->stages.why, "%s", p->stages.why);
+	ck_assert_uint_eq(p->stages.code[GLSL_VERTEX_STAGE].inputs >> SCENE_VERTEX_GENERIC, 1u << 3);
+	ck_assert_uint_eq(p->stages.code[GLSL_VERTEX_STAGE].outputs >> SCENE_RESULT_POSITION & 1, 0);
+	gl_answered(&gl, 7, "glGetAttribLocation", "us", 1u, "b");
+	ck_assert_uint_eq(p->stages.code[GLSL_VERTEX_STAGE].inputs >> SCENE_VERTEX_GENERIC, 1u << 3 | 1u << 6);
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_attributes)

@@ -1,0 +1,375 @@
+/*
+ * GLSL 1.10 and 1.20: each built-in function, operator, statement, state variable and kind of texture, over a square that leans away; vertex
+ * shaders with varyings, attributes and what fixed function reads of them.
+ */
+#include "panels.h"
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static GLuint images[6]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths */
+
+static void fill(unsigned char *texels, unsigned n, unsigned seed)
+{
+	for (unsigned i = 0; i < n; i++)
+		texels[i] = (unsigned char)(255.9f * noise(i + seed));
+}
+
+static void set_filter(GLenum target, GLint filter)
+{
+	glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+	glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+}
+
+static void prepare(void)
+{
+	unsigned char texels[32 * 32 * 4];
+
+	fill(texels, sizeof(texels), 7);
+	glGenTextures(6, images);
+	glBindTexture(GL_TEXTURE_2D, images[0]);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+	for (int level = 0; level < 6; level++)
+		glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA, 32 >> level, 32 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glBindTexture(GL_TEXTURE_2D, images[1]);
+	set_filter(GL_TEXTURE_2D, GL_NEAREST);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, images[2]);
+	set_filter(GL_TEXTURE_CUBE_MAP, GL_NEAREST);
+	for (unsigned face = 0; face < 6; face++)
+		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
+	glBindTexture(GL_TEXTURE_1D, images[3]);
+	glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+	glTexImage1D(GL_TEXTURE_1D, 0, GL_RGBA, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glBindTexture(GL_TEXTURE_3D, images[4]);
+	set_filter(GL_TEXTURE_3D, GL_NEAREST);
+	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA, 4, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+	glBindTexture(GL_TEXTURE_2D, images[5]);
+	set_filter(GL_TEXTURE_2D, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_R_TO_TEXTURE);
+	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 8, 8, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_BYTE, texels);
+}
+
+static GLuint compile(GLenum type, const char *text)
+{
+	const GLuint shader = glCreateShader(type);
+	char log[1024];
+	GLint good;
+
+	glShaderSource(shader, 1, &text, NULL);
+	glCompileShader(shader);
+	glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+	glGetShaderInfoLog(shader, sizeof(log), NULL, log);
+	if (!good)
+		fprintf(stderr, "%s\n%s\n", text, log);
+	expect(good, "a shader compiles");
+	return shader;
+}
+
+static GLuint current; /* the program that is used */
+
+static void set_float(const char *name, float value)
+{
+	glUniform1f(glGetUniformLocation(current, name), value);
+}
+static void set_int(const char *name, int value)
+{
+	glUniform1i(glGetUniformLocation(current, name), value);
+}
+
+/* Shade what follows; vertices: NULL leaves them to fixed function. */
+static void shade(const char *vertices, const char *fragments)
+{
+	GLint good;
+
+	current = glCreateProgram();
+	for (int i = 0; i < 2; i++) {
+		const char *text = i ? fragments : vertices;
+		GLuint shader = text ? compile(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER, text) : 0;
+
+		if (shader) {
+			glAttachShader(current, shader);
+			glDeleteShader(shader);
+		}
+	}
+	glBindAttribLocation(current, 3, "bound");
+	glLinkProgram(current);
+	glGetProgramiv(current, GL_LINK_STATUS, &good);
+	expect(good, "a program links");
+	glUseProgram(current);
+}
+
+static void draw_square(int i)
+{
+	(void)i;
+	glBegin(GL_QUADS);
+	for (int k = 0; k < 4; k++) {
+		const float u = k == 1 || k == 2, v = k >= 2;
+
+		glColor4f(0.2f + 0.7f * u, 0.9f - 0.6f * v, 0.5f, 0.3f + 0.6f * u);
+		glSecondaryColor3f(0.5f * v, 0.1f, 0.3f * u);
+		glFogCoordf(0.5f + 2 * v);
+		glNormal3f(u - 0.5f, v - 0.5f, 1);
+		glMultiTexCoord4f(GL_TEXTURE0, 3.1f * u - 1.33f, 2.6f * v - 1.2f, u - v + 0.03f, 1 + 0.5f * v);
+		glMultiTexCoord4f(GL_TEXTURE1, 0.6f - v, 1.3f - 2 * u, 0.7f, u + 0.1f);
+		glMultiTexCoord4f(GL_TEXTURE2, 2 * u - 1.1f, 0.9f - 2 * v, 0.3f, 1);
+		glVertex3f(2 * u - 1, 2 * v - 1, -v);
+	}
+	glEnd();
+	glUseProgram(0);
+	glDeleteProgram(current);
+}
+
+/* --- Functions ---------------------------------------------------------------------------------------------------------- */
+
+/* `r` of a, b and p (above 0), of any signs. */
+static const char *const functions[] = {
+	"radians(a * 90.0)", "degrees(a * 0.03)", "sin(a * 3.0)", "cos(a * 3.0)", "tan(a * 0.5)", "asin(clamp(a, -1.0, 1.0))", "acos(clamp(a, -1.0, 1.0))",
+	"atan(a * 3.0)", "atan(a, b)", "atan(b, a * 0.2)", "pow(p, b)", "exp(a)", "log(p)", "exp2(a)", "log2(p)", "sqrt(p)", "inversesqrt(p)",
+	"abs(a)", "sign(a)", "floor(a * 2.0)", "ceil(a * 2.0)", "fract(a * 2.0)", "mod(a, 0.7)", "mod(a, p)", "min(a, b)", "min(a, 0.3)", "max(a, b)",
+	"max(a, 0.3)", "clamp(a, -0.3, 0.6)", "clamp(a, b - 0.5, b + 0.5)", "mix(a, b, 0.3)", "mix(a, b, p)", "step(a, b)", "step(0.2, a)",
+	"smoothstep(-0.5, 0.6, a)", "smoothstep(b - 0.6, b + 0.6, a)", "vec4(length(a), length(a.xy), length(a.xyz), length(a.x))",
+	"vec4(distance(a, b), distance(a.xy, b.yx), 0.2, distance(a.x, b.x))", "vec4(dot(a, b), dot(a.xy, b.xy), dot(a.xyz, b.xyz), dot(a.x, b.x))",
+	"vec4(cross(a.xyz, b.xyz), 1.0)", "normalize(a)", "vec4(normalize(a.xyz), normalize(a.w))", "faceforward(a, b, p)", "reflect(a, normalize(b))",
+	"refract(normalize(a), normalize(b), 0.7)", "refract(normalize(a), normalize(b), 1.6)",
+	"vec4(matrixCompMult(mat2(a), mat2(b)))", "vec4(lessThan(a, b))", "vec4(lessThanEqual(a, b))", "vec4(greaterThan(a, b))",
+	"vec4(greaterThanEqual(a, b))", "vec4(equal(sign(a), sign(b)))", "vec4(notEqual(sign(a), sign(b)))",
+	"vec4(any(lessThan(a, b)), all(lessThan(a, b)), any(lessThan(a.xy, b.xy)), all(lessThan(a.xy, b.xy)))", "vec4(not(lessThan(a, b)))",
+	"dFdx(a * 3.0)", "dFdy(a * 3.0)", "fwidth(a * 3.0)", "dFdx(a * a)", "vec4(dFdy(sin(a.xy)), fwidth(b.xy))", "noise4(a)",
+	"a + b", "a - b", "a * b", "a / p", "-a", "a * 2.0 + vec4(1.0, 0.5, 0.25, 0.0)", "2.0 - a", "1.0 / p",
+	"mat4(a, b, p, a) * b", "b * mat4(a, b, p, a)", "vec4(mat3(a.xyz, b.xyz, p.xyz) * a.xyz, 1.0)", "vec4(mat2(a) * b.xy, a.xy * mat2(b))",
+	"(mat4(a, b, p, a) * mat4(b, a, b, p))[1]", "mat4(0.5)[2]", "vec4(a.x)", "vec4(a.xy, b.zw)", "vec4(a.wzyx)", "vec4(a.rg, a.pq)",
+	"vec4(int(a.x * 3.0), int(a.y * 3.0), bool(a.z), float(a.w > 1.2))", "vec4(ivec4(a * 4.0))", "vec4(bvec4(floor(a)))",
+	"a.x > 0.0 ? a : b", "vec4(a.x > b.x && a.y > b.y, a.x > b.x || a.y > b.y, a.x > b.x ^^ a.y > b.y, !(a.x > b.x))",
+	"vec4(float(int(a.x * 7.0) / 2), float(7 / int(1.0 + p.x)), float(int(a.y * 9.0) * 2 - 3), 0.5)", "vec4(floor(a) == floor(b), floor(a.xy) != floor(b.xy), a.x == a.x, false)",
+	"float(true) * a", "clamp(p, 0.3, 1.0) * sign(b)",
+};
+
+static void function(int i)
+{
+	char text[1024];
+
+	snprintf(text, sizeof(text),
+	         "void main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1], p = abs(a) + 0.1; vec4 r = vec4(%s); gl_FragColor = r * 0.25 + vec4(0.4, 0.5, 0.45, 0.5); }",
+	         functions[i]);
+	glActiveTexture(GL_TEXTURE0);
+	shade(NULL, text);
+}
+
+/* --- Statements --------------------------------------------------------------------------------------------------------- */
+
+/* What main does with r, of a, b and p; `before` it, functions and variables. */
+static const char *const statements[][2] = {
+	{ "", "if (a.x > 0.2) r = b;" }, { "", "if (a.x > 0.2) r = b; else r = p * 0.5;" },
+	{ "", "if (a.x > 0.2) { if (a.y > 0.1) r = b; else r.x = 1.0; } else if (b.x < 0.0) r.yz = a.xy; r.w = 0.7;" },
+	{ "", "for (int i = 0; i < 4; i++) r += a * 0.2;" }, { "", "for (int i = 0; i < 9; i++) { if (float(i) > p.x * 4.0) break; r.x += 0.1; } r.y = 0.3;" },
+	{ "", "for (int i = 0; i < 9; i++) { if (mod(float(i), 2.0) < p.x) continue; r += 0.05 * a; }" },
+	{ "", "int n = int(p.x * 6.0); while (n > 0) { r.z += 0.1; n--; }" }, { "", "float x = p.y; do { x *= 0.7; r.x += 0.1; } while (x > 0.3);" },
+	{ "", "for (int i = 0; i < 3; i++) for (int k = 0; k < 5; k++) { if (k > int(p.y * 3.0)) break; if (i == k) continue; r.xy += 0.06; }" },
+	{ "", "if (a.x > 0.9) discard; r = b;" }, { "", "if (length(a.xy) > 1.0) discard; r = p;" },
+	{ "", "if (a.y > 0.6) return; r = b;" }, { "", "for (int i = 0; i < 5; i++) { r.y += 0.1; if (r.y > p.x) return; } r.x = 0.9;" },
+	{ "float f(float x) { return x * x; }", "r = vec4(f(a.x), f(a.y), f(f(b.x)), 0.5);" },
+	{ "float f(float x) { if (x > 0.5) return 1.0; if (x > 0.0) return 0.4; return x; }", "r = vec4(f(a.x), f(a.y), f(b.x), f(b.y));" },
+	{ "void f(in vec2 x, out vec2 y, inout float z) { y = x.yx * 2.0; x *= 3.0; z += x.x; }", "vec2 y; float z = b.x; f(a.xy, y, z); r = vec4(y, z, a.x);" },
+	{ "vec4 f(vec4 x) { for (int i = 0; i < 4; i++) { if (x.x > 1.0) return x; x += 0.3; } return x * 0.5; }", "r = f(a) - f(b);" },
+	{ "float g = 0.3; float f() { g += 0.2; return g; }", "r.x = f(); r.y = f() + g; r.z = g;" },
+	{ "struct S { vec3 v; float w[2]; };", "S s; s.v = a.xyz; s.w[0] = b.x; s.w[1] = b.y; S t = s; t.w[1] *= 2.0; r = vec4(t.v.xy, t.w[0], t.w[1]);" },
+	{ "struct S { vec2 v; float w; }; S f(vec2 x) { return S(x, 0.4); }", "S s = f(a.xy); r = vec4(s.v, s.w, s == S(a.xy, 0.4) ? 1.0 : 0.0);" },
+	{ "", "float w[5]; for (int i = 0; i < 5; i++) w[i] = float(i) * 0.2; r = vec4(w[int(p.x * 4.0)], w[int(p.y * 3.0)], w[0], w[4]);" },
+	{ "", "vec3 w[3]; w[0] = a.xyz; w[1] = b.xyz; w[2] = p.xyz; int k = int(mod(p.x * 5.0, 3.0)); r = vec4(w[k], w[k][k]);" },
+	{ "", "mat3 m = mat3(1.0); int k = int(mod(p.x * 5.0, 3.0)); m[k] = a.xyz; m[2][k] = 0.3; r.xyz = m * b.xyz;" },
+	{ "", "r[int(mod(p.x * 7.0, 4.0))] = 0.9;" }, { "", "int i = 3; r.x = float(i++) * 0.2; r.y = float(i--) * 0.2; r.z = float(++i) * 0.1; r.w = float(--i) * 0.1;" },
+	{ "", "r.xy = r.yx = a.xy; r.zw += r.xy *= 0.5;" }, { "", "r = a; r.zyxw = r; r.xy = r.yx; r *= b; r -= 0.1; r /= p + 1.0;" },
+	{ "", "mat2 m = mat2(a); m *= mat2(b); vec2 v = a.xy; v *= m; r = vec4(v, m[0]);" },
+	{ "bool f(inout float x) { x += 0.4; return x > 0.5; }", "float x = a.x; bool y = a.y > 0.0 && f(x); r = vec4(x, y, 0.3, 0.5);" },
+	{ "bool f(inout float x) { x += 0.4; return x > 0.5; }", "float x = a.x; bool y = a.y > 0.0 || f(x); r = vec4(x, y, 0.3, 0.5);" },
+	{ "float f(inout float x) { x += 0.4; return x * 0.5; }", "float x = a.x; r.y = a.y > 0.0 ? f(x) : f(x) + f(x); r.x = x;" },
+	{ "", "float x = 1.0, y = (x = a.x, x * 2.0); r = vec4(x, y, x, y);" }, { "const vec4 c = vec4(0.1, 0.4, 0.7, 1.0);", "r = c * a + c.wzyx;" },
+	{ "const float c[3] = float[3](0.2, 0.5, 0.9);", "r = vec4(c[1], c[int(mod(p.x * 5.0, 3.0))], float(c.length()) * 0.1, 0.4);" },
+	{ "uniform vec4 u[3]; uniform mat2 m; uniform bool t; uniform ivec2 n; uniform struct { float x; vec2 y[2]; } s;",
+	  "r = u[1] + u[int(mod(p.x * 5.0, 3.0))] * 0.3; r.xy = m * r.xy; if (t) r.z = float(n.y) * 0.1; r.w = s.x + s.y[1].y;" },
+	{ "uniform float w = 0.7; uniform vec2 x[2];", "r = vec4(w, x[0], x[1].x);" },
+	{ "", "vec2 z = vec2(0.0); int n = 0; for (int i = 0; i < 24; i++) { z = vec2(z.x * z.x - z.y * z.y, 2.0 * z.x * z.y) + a.xy; if (dot(z, z) > 4.0) break; n++; } r = vec4(float(n) / 24.0);" },
+	{ "", "gl_FragData[0] = a * 0.3 + 0.5; return;" }, { "", "gl_FragDepth = 0.3 + 0.2 * p.x; r = b;" }, { "", "r = vec4(gl_FragCoord.xy * 0.004, gl_FragCoord.zw);" },
+	{ "", "r = gl_FrontFacing ? a : b;" }, { "", "r = gl_Color;" }, { "", "r = gl_SecondaryColor + gl_Color * 0.5;" }, { "", "r = vec4(gl_FogFragCoord * 0.3);" },
+	{ "varying vec4 gl_TexCoord[3];", "for (int i = 0; i < 3; i++) r += gl_TexCoord[i] * 0.3;" },
+};
+
+static void statement(int i)
+{
+	char text[2048];
+
+	snprintf(text, sizeof(text),
+	         "#version 120\n%s\nvoid run(vec4 a, vec4 b, vec4 p, inout vec4 r) { %s }\nvoid main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1], p = abs(a) + 0.1, r = vec4(0.2, 0.1, 0.4, 0.6); "
+	         "run(a, b, p, r); %s }", statements[i][0], statements[i][1], strstr(statements[i][1], "gl_FragData") ? "" : "gl_FragColor = r * 0.5 + 0.3;");
+	glEnable(GL_DEPTH_TEST);
+	shade(NULL, text);
+	glUniform4fv(glGetUniformLocation(current, "u"), 2, (const float[8]){ 0.1f, 0.5f, 0.3f, 0.9f, 0.6f, 0.2f, 0.8f, 0.4f });
+	glUniform4f(glGetUniformLocation(current, "u[2]"), 0.9f, 0.8f, 0.7f, 0.6f);
+	glUniformMatrix2fv(glGetUniformLocation(current, "m"), 1, i & 1, (const float[4]){ 0.4f, 0.7f, -0.3f, 0.9f });
+	set_int("t", 1);
+	glUniform2i(glGetUniformLocation(current, "n"), 3, 7);
+	set_float("s.x", 0.2f);
+	glUniform2fv(glGetUniformLocation(current, "s.y"), 2, (const float[4]){ 0.1f, 0.2f, 0.3f, 0.4f });
+	glUniform2f(glGetUniformLocation(current, "x[1]"), 0.8f, 0.3f);
+}
+
+/* --- State -------------------------------------------------------------------------------------------------------------- */
+
+static void set_state(void)
+{
+	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[4]){ 0.9f, 0.4f, 0.1f, 0.7f });
+	glMaterialfv(GL_FRONT, GL_EMISSION, (const float[4]){ 0.1f, 0.2f, 0, 0.4f });
+	glMaterialfv(GL_BACK, GL_DIFFUSE, (const float[4]){ 0.1f, 0.6f, 0.3f, 0.2f });
+	glMaterialf(GL_FRONT, GL_SHININESS, 1.5f);
+	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[4]){ 0.5f, 0.7f, 1, 0.3f });
+	glLightfv(GL_LIGHT1, GL_POSITION, (const float[4]){ 0.5f, 0.7f, 1, 1 });
+	glLightf(GL_LIGHT1, GL_LINEAR_ATTENUATION, 0.35f);
+	glLightf(GL_LIGHT1, GL_SPOT_CUTOFF, 40);
+	glLightf(GL_LIGHT1, GL_SPOT_EXPONENT, 0.8f);
+	glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, (const float[4]){ 0.2f, 0.7f, 0.4f, 0.3f });
+	glTexGenfv(GL_S, GL_OBJECT_PLANE, (const float[4]){ 0.2f, 0.7f, 0.4f, 0.3f });
+	glTexGenfv(GL_R, GL_EYE_PLANE, (const float[4]){ 0.3f, 0.1f, 0.9f, 0.6f });
+	glFogfv(GL_FOG_COLOR, (const float[4]){ 0.8f, 0.2f, 0.4f, 0.3f });
+	glFogf(GL_FOG_END, 3);
+	glPointSize(0.7f);
+	glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, (const float[3]){ 0.3f, 0.6f, 0.9f });
+	glClipPlane(GL_CLIP_PLANE1, (const double[4]){ 0.2, 0.4, 0.6, 0.8 });
+	glMatrixMode(GL_TEXTURE);
+	glActiveTexture(GL_TEXTURE1);
+	glLoadIdentity();
+	glRotatef(30, 0, 0, 1);
+	glActiveTexture(GL_TEXTURE0);
+	glMatrixMode(GL_MODELVIEW);
+}
+
+static const char *const states[] = {
+	"gl_ModelViewMatrix * a", "gl_ProjectionMatrix * a", "gl_ModelViewProjectionMatrix * a", "gl_TextureMatrix[1] * a", "gl_TextureMatrix[k] * a",
+	"vec4(gl_NormalMatrix * a.xyz, 1.0)", "gl_ModelViewMatrixInverse * a", "gl_ProjectionMatrixInverse * a", "gl_ModelViewProjectionMatrixInverse * a",
+	"gl_TextureMatrixInverse[1] * a", "gl_ModelViewMatrixTranspose * a", "gl_ProjectionMatrixTranspose * a", "gl_ModelViewMatrixInverseTranspose * a",
+	"gl_ProjectionMatrixInverseTranspose[1]", "gl_ModelViewProjectionMatrixInverseTranspose[2]", "gl_TextureMatrixTranspose[1][0]", "vec4(gl_NormalScale)",
+	"vec4(gl_DepthRange.near, gl_DepthRange.far, gl_DepthRange.diff, 1.0)", "gl_ClipPlane[1]",
+	"vec4(gl_Point.size, gl_Point.sizeMin, gl_Point.sizeMax * 0.001, gl_Point.fadeThresholdSize)",
+	"vec4(gl_Point.distanceConstantAttenuation, gl_Point.distanceLinearAttenuation, gl_Point.distanceQuadraticAttenuation, 1.0)",
+	"gl_FrontMaterial.emission", "gl_FrontMaterial.ambient", "gl_FrontMaterial.diffuse", "gl_FrontMaterial.specular", "vec4(gl_FrontMaterial.shininess)",
+	"gl_BackMaterial.diffuse", "gl_LightSource[0].ambient", "gl_LightSource[1].diffuse", "gl_LightSource[1].specular", "gl_LightSource[1].position",
+	"gl_LightSource[1].halfVector", "vec4(gl_LightSource[1].spotDirection, gl_LightSource[1].spotExponent)",
+	"vec4(gl_LightSource[1].spotCutoff * 0.01, gl_LightSource[1].spotCosCutoff, gl_LightSource[0].spotCosCutoff, 0.0)",
+	"vec4(gl_LightSource[1].constantAttenuation, gl_LightSource[1].linearAttenuation, gl_LightSource[1].quadraticAttenuation, 0.0)",
+	"gl_LightSource[k].diffuse * 0.5 + gl_LightSource[k].position * 0.2", "gl_LightModel.ambient", "gl_FrontLightModelProduct.sceneColor",
+	"gl_BackLightModelProduct.sceneColor", "gl_FrontLightProduct[1].ambient", "gl_FrontLightProduct[1].diffuse", "gl_BackLightProduct[1].specular",
+	"gl_FrontLightProduct[k].specular", "gl_TextureEnvColor[0]", "gl_EyePlaneR[0]", "gl_ObjectPlaneS[0]", "gl_ObjectPlaneT[1]", "gl_Fog.color",
+	"vec4(gl_Fog.density, gl_Fog.start, gl_Fog.end, gl_Fog.scale)", "vec4(float(gl_MaxLights) * 0.1, float(gl_MaxTextureUnits) * 0.1, 0.3, 0.0)",
+};
+
+/* Each state variable, for fragments and for vertices. Half-way vectors of lights that were never placed are 0 in Mesa (22.3.6). */
+static void state(int i)
+{
+	const int of_vertices = i / (int)COUNT(states);
+	char text[1024];
+
+	set_state();
+	snprintf(text, sizeof(text), "%s { %s; int k = int(mod(abs(a.x) * 5.0, 2.0)); %s = %s * 0.4 + 0.3; %s }",
+	         of_vertices ? "varying vec4 r;\nvoid main()" : "void main()", of_vertices ? "vec4 a = gl_MultiTexCoord0" : "vec4 a = gl_TexCoord[0]",
+	         of_vertices ? "r" : "gl_FragColor", states[i % (int)COUNT(states)], of_vertices ? "gl_Position = ftransform();" : "");
+	shade(of_vertices ? text : NULL, of_vertices ? "varying vec4 r;\nvoid main() { gl_FragColor = r; }" : text);
+}
+
+/* --- Textures ----------------------------------------------------------------------------------------------------------- */
+
+static const char *const textures[] = {
+	"texture2D(t0, a.xy)", "texture2D(t0, a.xy, 1.5)", "texture2D(t0, a.xy, -1.0)", "texture2DProj(t0, a.xyw)", "texture2DProj(t0, a)",
+	"texture2DProj(t0, a, 1.0)", "texture2DProj(t0, a.xyw, 0.5)", "texture2D(t1, a.xy)", "texture2DProj(t1, a)", "textureCube(c, a.xyz)",
+	"textureCube(c, b.xyz)", "texture1D(d, a.x)", "texture1DProj(d, a.xw)", "texture1DProj(d, a)", "texture3D(e, a.xyz)", "texture3DProj(e, a)",
+	"shadow2D(s, vec3(a.xy, 0.5))", "shadow2D(s, abs(a.xyz))", "shadow2DProj(s, abs(a))", "texture2D(t0, texture2D(t0, b.xy).xy)",
+	"texture2D(t0, a.xy * a.xy)", "texture2D(t0, gl_FragCoord.xy * 0.03)", "a.x > 0.2 ? texture2D(t0, a.xy) : texture2D(t1, b.xy)",
+	"mix(texture2D(t0, a.xy), texture2D(t1, b.xy), a.z)", "pick(t0, a.xy)", "pick(t1, b.yx)", "texture2D(many[1], a.xy) + texture2D(many[0], a.xy) * 0.5",
+	"vec4(texture2D(t0, a.xy).aaa, 1.0)",
+};
+
+static void texture(int i)
+{
+	char text[1024];
+
+	snprintf(text, sizeof(text),
+	         "#version 120\nuniform sampler2D t0, t1, many[2]; uniform samplerCube c; uniform sampler1D d; uniform sampler3D e; uniform sampler2DShadow s;\n"
+	         "vec4 pick(sampler2D t, vec2 x) { return texture2D(t, x * 0.5).bgra; }\n"
+	         "void main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1]; gl_FragColor = %s; }", textures[i]);
+	shade(NULL, text);
+	set_int("t0", 0);
+	set_int("t1", 1);
+	glUniform1iv(glGetUniformLocation(current, "many"), 2, (const int[2]){ 1, 0 });
+	set_int("c", 2);
+	set_int("d", 3);
+	set_int("e", 4);
+	set_int("s", 5);
+	for (int unit = 0; unit < 6; unit++) {
+		static const GLenum targets[6] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_2D };
+
+		glActiveTexture(GL_TEXTURE0 + unit);
+		glBindTexture(targets[unit], images[unit]);
+	}
+	glActiveTexture(GL_TEXTURE0);
+}
+
+/* --- Vertices ----------------------------------------------------------------------------------------------------------- */
+
+static const char *const vertices[][2] = { /* of vertices, of fragments; NULL: fixed function */
+	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color.bgra; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord1; }", NULL },
+	{ "void main() { vec4 v = gl_Vertex; v.xy *= 0.7; v.z += 0.3 * sin(v.x * 4.0); gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(gl_Normal * 0.5 + 0.5, 1.0); gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "void main() { gl_Position = gl_ProjectionMatrix * (gl_ModelViewMatrix * gl_Vertex); gl_FrontColor = gl_SecondaryColor; gl_FogFragCoord = gl_FogCoord; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "varying vec3 n; void main() { n = gl_NormalMatrix * gl_Normal; gl_Position = ftransform(); }", "varying vec3 n; void main() { gl_FragColor = vec4(normalize(n) * 0.5 + 0.5, 1.0); }" },
+	{ "varying vec3 n, v; void main() { n = gl_NormalMatrix * gl_Normal; v = vec3(gl_ModelViewMatrix * gl_Vertex); gl_Position = ftransform(); }",
+	  "varying vec3 n, v; void main() { vec3 l = normalize(gl_LightSource[0].position.xyz), e = normalize(-v), m = normalize(n); float d = max(dot(m, l), 0.0), "
+	  "s = pow(max(dot(reflect(-l, m), e), 0.0), 8.0); gl_FragColor = gl_FrontLightProduct[0].ambient + gl_FrontLightProduct[0].diffuse * d + vec4(s); }" },
+	{ "varying vec3 n; void main() { n = gl_NormalMatrix * gl_Normal; gl_Position = ftransform(); }",
+	  "varying vec3 n; void main() { float d = dot(normalize(n), normalize(vec3(0.3, 0.4, 1.0))); gl_FragColor = d > 0.95 ? vec4(1.0, 0.5, 0.5, 1.0) : d > 0.8 ? vec4(0.6, 0.3, 0.3, 1.0) : vec4(0.4, 0.2, 0.2, 1.0); }" },
+	{ "attribute vec4 bound; varying vec4 c; void main() { c = bound; gl_Position = ftransform(); }", "varying vec4 c; void main() { gl_FragColor = c; }" },
+	{ "uniform mat4 bones[3]; void main() { int k = int(gl_MultiTexCoord2.x + 1.2); vec4 v = mix(gl_Vertex, bones[k] * gl_Vertex, 0.7); gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "varying vec2 t[3]; varying float f; void main() { for (int i = 0; i < 3; i++) t[i] = gl_MultiTexCoord0.xy * float(i + 1); f = gl_Vertex.z; gl_TexCoord[2] = gl_MultiTexCoord1; gl_Position = ftransform(); }",
+	  "varying vec2 t[3]; varying float f; void main() { gl_FragColor = vec4(t[0].x, t[1].y, t[2].x + f, 1.0) * 0.3 + 0.4 + gl_TexCoord[2] * 0.1; }" },
+	{ "varying mat3 m; void main() { m = gl_NormalMatrix; m[2] = gl_Normal; gl_Position = ftransform(); }", "varying mat3 m; void main() { gl_FragColor = vec4(m * vec3(0.3, 0.5, 0.7), 1.0) * 0.5 + 0.3; }" },
+	{ "void main() { gl_Position = ftransform(); gl_FrontColor = vec4(1.7, -0.4, 0.5, 1.0) * gl_Color; }", "void main() { gl_FragColor = gl_Color; }" },
+	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color; gl_BackColor = vec4(0.9, 0.2, 0.1, 1.0); }", "void main() { gl_FragColor = gl_Color; }" },
+	{ "void main() { vec4 v = gl_Vertex * vec4(0.7, 0.7, 1.0, 1.0); if (v.y > 0.0) v.x *= 0.5; for (int i = 0; i < 3; i++) if (v.x > 0.0) v.z += 0.1; gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz, 1.0); gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "varying float c; void main() { c = gl_FrontMaterial.diffuse.r; gl_Position = vec4(gl_Vertex.xy * 0.8, 0.2, 1.0); }", "varying float c; void main() { gl_FragColor = vec4(c, 0.4, 0.7, 1.0); }" },
+	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0; }", "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, gl_TexCoord[0].st) * gl_Color; }" },
+};
+
+static void vertex(int i)
+{
+	float bones[48] = { 0 };
+
+	for (int k = 0; k < 3; k++)
+		for (int c = 0; c < 4; c++)
+			bones[16 * k + 5 * c] = c < 3 ? 0.6f + 0.2f * (float)k : 1;
+	bones[12] = 0.3f;
+	bones[16 + 13] = -0.2f;
+	if (i / (int)COUNT(vertices) == 1) {
+		glFrontFace(GL_CW);
+		glEnable(GL_VERTEX_PROGRAM_TWO_SIDE);
+		glShadeModel(GL_FLAT);
+	}
+	glEnable(GL_TEXTURE_2D);
+	glBindTexture(GL_TEXTURE_2D, images[0]);
+	shade(vertices[i % (int)COUNT(vertices)][0], vertices[i % (int)COUNT(vertices)][1]);
+	glUniformMatrix4fv(glGetUniformLocation(current, "bones"), 3, GL_FALSE, bones);
+	glVertexAttrib4f(3, 0.3f, 0.8f, 0.4f, 1);
+}
+
+static void draw_vertices(int i)
+{
+	draw_square(i);
+	glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
+}
+
+int main(void)
+{
+	static const struct table tables[] = {
+		{ COUNT(functions), function, draw_square }, { COUNT(statements), statement, draw_square }, { 2 * COUNT(states), state, draw_square },
+		{ COUNT(textures), texture, draw_square }, { 2 * COUNT(vertices), vertex, draw_vertices },
+	};
+
+	DRAW_TABLES(tables, prepare);
+	return 0;
+}
