@@ -3,14 +3,17 @@
  *
  *   cc -o board_fbo corpus/board_fbo.c -lglut -lGLU -lGL -lm
  *
- * --by quad (default): one textured quad that covers the window; blit: glBlitFramebuffer; copy: the board is drawn in the window's
+ * --by quad (default): one textured quad that covers the window; shader: the same as toolkits compose their windows, by a trivial program
+ * from arrays; blit: glBlitFramebuffer; copy: the board is drawn in the window's
  * back buffer, copied by glCopyTexSubImage2D, and comes back as the quad after a clear.
  */
 #include <math.h>
 
+#define GL_GLEXT_PROTOTYPES
 #include "program.h"
+#include <GL/glext.h>
 
-static GLuint target, picture, depth;
+static GLuint target, picture, depth, composer;
 
 static int is_by(const char *way)
 {
@@ -37,9 +40,55 @@ static void make_target(void)
 		exit(1);
 }
 
+static const char *const composing[] = {
+	"#define highp\nattribute highp vec3 vertexCoord; attribute highp vec2 textureCoord; varying highp vec2 uv;\n"
+	"uniform highp mat4 vertexTransform; uniform highp mat3 textureTransform;\n"
+	"void main() { uv = (textureTransform * vec3(textureCoord, 1.0)).xy; gl_Position = vertexTransform * vec4(vertexCoord, 1.0); }",
+	"#define highp\nvarying highp vec2 uv; uniform sampler2D textureSampler; uniform bool swizzle; uniform highp float opacity;\n"
+	"void main() { highp vec4 c = texture2D(textureSampler, uv); c.a *= opacity; gl_FragColor = swizzle ? c.bgra : c; }",
+};
+
+static void make_composer(void)
+{
+	static const float vertex[16] = { 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1 }, texture[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+
+	composer = glCreateProgram();
+	for (int i = 0; i < 2; i++) {
+		GLuint shader = glCreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
+
+		glShaderSource(shader, 1, &composing[i], NULL);
+		glCompileShader(shader);
+		glAttachShader(composer, shader);
+	}
+	glBindAttribLocation(composer, 0, "vertexCoord");
+	glBindAttribLocation(composer, 1, "textureCoord");
+	glLinkProgram(composer);
+	glUseProgram(composer);
+	glUniformMatrix4fv(glGetUniformLocation(composer, "vertexTransform"), 1, GL_FALSE, vertex);
+	glUniformMatrix3fv(glGetUniformLocation(composer, "textureTransform"), 1, GL_FALSE, texture);
+	glUniform1f(glGetUniformLocation(composer, "opacity"), 1);
+	glUseProgram(0);
+}
+
+static void compose(void)
+{
+	static const float corners[12] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, texels[8] = { 0, 0, 1, 0, 1, 1, 0, 1 };
+
+	glUseProgram(composer);
+	glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, corners);
+	glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, 0, texels);
+	glEnableVertexAttribArray(0);
+	glEnableVertexAttribArray(1);
+	glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+	glDisableVertexAttribArray(0);
+	glDisableVertexAttribArray(1);
+	glUseProgram(0);
+}
+
 static void init(void)
 {
 	make_target();
+	make_composer();
 	glEnable(GL_NORMALIZE);
 	glEnable(GL_LIGHT0);
 	program_perspective(40, 1, 50);
@@ -108,6 +157,10 @@ static void show_picture(void)
 	else
 		glBindFramebuffer(GL_FRAMEBUFFER, 0);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	if (is_by("shader")) {
+		compose();
+		return;
+	}
 	glEnable(GL_TEXTURE_2D);
 	glColor3f(1, 1, 1);
 	draw_rectangle(-1, -1, 1, 1);

@@ -10,6 +10,7 @@ OFF.write_text("spare: no\n")
 PROGRAMS = {
     "closed_hall": ["closed_hall"], "arena": ["arena"], "blocks": ["blocks"], "tree_cards": ["tree_cards"],
     "board_quad": ["board_fbo"], "board_blit": ["board_fbo", "--by", "blit"],
+    "board_shader": ["board_fbo", "--by", "shader"],
 }
 
 for name, (program, *options) in PROGRAMS.items():
@@ -28,8 +29,9 @@ for name, (program, *options) in PROGRAMS.items():
     check(failed == ["N"], f"{name}, not spared: fails {failed}")
 
 # What covers the window as a framebuffer object's picture is traced: pieces throw shadows on the board.
-board = {shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"] for shown in ("board_quad", "board_blit")}
+board = {shown: Image(SCRATCH / shown / f"{shown}.0000.exr", {"shadow.G"}).planes["shadow.G"] for shown in ("board_quad", "board_blit", "board_shader")}
 dark = sum(share < 0.9 for row in board["board_quad"] for share in row)
 check(5000 < dark < 50000, f"{dark} pixels of the board lie in shadow")
-check(board["board_quad"] == board["board_blit"], "by a quad and by a blit the board is the same")
+for way in ("board_blit", "board_shader"):
+    check(board["board_quad"] == board[way], f"by a quad and by {way[6:]} the board is the same")
 finish()

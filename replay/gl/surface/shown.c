@@ -8,13 +8,33 @@
 #include "replay/build/mesh.h"
 #include "replay/gl/surface/framebuffer.h"
 #include "replay/gl/surface/screen.h"
+#include "replay/gl/surface/shown_program.h"
 #include "replay/gl/texture/texture.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
+#include "replay/programs/program.h"
 
 #define PIXEL_SLACK 0.01f /* of a pixel, by which a corner may be off */
 
 /* --- Taking ---------------------------------------------------------------------------------------------------------------- */
+
+/* The texture that a draw may show: unit 0's of two dimensions, or the only one that its program samples. */
+static const struct gls_texture *texture_of(struct gls_exec *x, struct gls_state *st, const struct gls_texturing *texturing)
+{
+	struct program_stage stage;
+	uint32_t unit = GLS_MAX_UNITS;
+
+	if (!gls_program_runs_fragments(st, &stage))
+		return !st->program && !st->a.programs.vertex && !st->a.programs.fragment && texturing->units[0].enabled >> GLS_TEXTURE_2D & 1 ?
+		       gls_texture_bound(x, st, 0, GLS_TEXTURE_2D) : NULL;
+	for (uint32_t u = 0; u < GLS_MAX_UNITS; u++)
+		if (program_target(&stage, u)) {
+			if (unit < GLS_MAX_UNITS || program_target(&stage, u) != GLS_TEXTURE_2D + 1)
+				return NULL;
+			unit = u;
+		}
+	return unit < GLS_MAX_UNITS ? gls_texture_bound(x, st, unit, GLS_TEXTURE_2D) : NULL;
+}
 
 struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, const struct gls_event *e)
 {
@@ -22,10 +42,9 @@ struct gls_frame *gls_shown_by_draw(struct gls_exec *x, struct gls_state *st, co
 	const struct gls_texture *t;
 
 	if (st->draw_framebuffer || !st->share->framebuffers.n || e->rectangle || e->mesh->mesh.kind != SCENE_TRIANGLES ||
-	    e->mesh->mesh.primitive_count > 2 || st->program || st->a.programs.vertex || st->a.programs.fragment ||
-	    !(texturing->units[0].enabled >> GLS_TEXTURE_2D & 1))
+	    e->mesh->mesh.primitive_count > 2)
 		return NULL;
-	t = gls_texture_bound(x, st, 0, GLS_TEXTURE_2D);
+	t = texture_of(x, st, texturing);
 	return t && t->attached ? gls_framebuffer_take_drawn(x, st, t->name, 0) : NULL;
 }
 
@@ -65,15 +84,11 @@ static int suits(const struct scene *s, const struct gls_surface *window)
 }
 
 /* 1 where fragments land as they are. */
-static int passes_through(const struct scene *s, const struct scene_material *m)
+static int passes_through(const struct scene_material *m)
 {
-	const struct scene_unit *u = &s->units[m->unit_first];
-
-	return !m->lighting && !m->fog && !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 &&
-	       !m->program && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->color_sum && m->polygon_mode_front == GL_FILL &&
-	       m->polygon_mode_back == GL_FILL && (!m->depth_test || m->depth_func == GL_ALWAYS || m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL) &&
-	       m->unit_count == 1 && (u->env_mode == GL_REPLACE || u->env_mode == GL_MODULATE) && !u->swizzle && !u->compare_mode &&
-	       (u->min_filter == GL_NEAREST || u->min_filter == GL_LINEAR) && !u->gen_mode[0] && !u->gen_mode[1];
+	return !m->alpha_test && !m->stencil_test && !m->blend && !m->logic_op && (m->color_mask & 7) == 7 && !m->clip_plane_mask &&
+	       m->polygon_stipple == SCENE_NONE && m->polygon_mode_front == GL_FILL && m->polygon_mode_back == GL_FILL &&
+	       (!m->depth_test || m->depth_func == GL_ALWAYS || m->depth_func == GL_LESS || m->depth_func == GL_LEQUAL);
 }
 
 /* 1 where a quad's colour leaves texels as they are. */
@@ -91,24 +106,80 @@ static int is_white(const struct scene *s, const struct scene_instance *in, cons
 	return mesh->color || (color[0] == 1 && color[1] == 1 && color[2] == 1);
 }
 
-/* Where a corner lies in the window. @return 0: its texel lies elsewhere, or its depth is out of range */
-static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v, float out[2])
+/* The same by fixed function, of its only unit. */
+static int shows_fixed(const struct scene *s, const struct scene_instance *in, const struct scene_material *m, struct shown_program *out)
+{
+	const struct scene_unit *u = &s->units[m->unit_first];
+
+	if (m->program || m->lighting || m->fog || m->color_sum || m->unit_count != 1 || (u->env_mode != GL_REPLACE && u->env_mode != GL_MODULATE))
+		return 0;
+	*out = (struct shown_program){ u->unit, { 4 * u->unit, 4 * u->unit + 1 } };
+	return is_white(s, in, m);
+}
+
+static const struct scene_unit *unit_of(const struct scene *s, const struct scene_material *m, uint32_t unit)
+{
+	for (uint32_t i = 0; i < m->unit_count; i++)
+		if (s->units[m->unit_first + i].unit == unit)
+			return &s->units[m->unit_first + i];
+	return NULL;
+}
+
+/* 1 where fragments have the colours of texels, of *unit at coordinates that `out` receives. */
+static int shows_texels(const struct scene *s, const struct scene_instance *in, const struct scene_material *m, struct shown_program *out,
+                        const struct scene_unit **unit)
+{
+	if (m->fragment_program ? !shown_program_of(s, m, out) : !shows_fixed(s, in, m, out))
+		return 0;
+	*unit = unit_of(s, m, out->unit);
+	return *unit && !(*unit)->swizzle && !(*unit)->compare_mode && ((*unit)->min_filter == GL_NEAREST || (*unit)->min_filter == GL_LINEAR);
+}
+
+/* Where a vertex is, in clip coordinates; all: [4 * SCENE_MAX_UNITS], the texture coordinates that a vertex program gives it. */
+static void place_of(const struct scene *s, const struct scene_instance *in, uint32_t v, float clip[4], float *all)
+{
+	float eye[4];
+
+	if (s->materials[in->material].vertex_program && shown_program_vertex(s, in, v, clip, all))
+		return;
+	mat4_transform(eye, in->modelview, s->meshes[in->mesh]->position + 4 * (size_t)v);
+	mat4_transform(clip, s->views[in->view].projection, eye);
+}
+
+/* The texel that a vertex' coordinates by fixed function name. @return 0: they are generated, or of several units */
+static int texel_of(const struct scene *s, const struct scene_instance *in, uint32_t v, const struct shown_program *shown, float texel[2])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
-	const struct scene_view *view = &s->views[in->view];
-	const struct scene_unit *u = &s->units[s->materials[in->material].unit_first];
-	const float *given = mesh->texcoord[0] ? mesh->texcoord[0] + 4 * (size_t)v : s->currents[in->current].texcoord[0];
-	float eye[4], clip[4], texel[4];
-	const float size[2] = { (float)s->width, (float)s->height };
+	const struct scene_material *m = &s->materials[in->material];
+	const uint32_t n = shown->coordinates[0] / 4;
+	const struct scene_unit *u = unit_of(s, m, n);
+	const float *given = mesh->texcoord[n] ? mesh->texcoord[n] + 4 * (size_t)v : s->currents[in->current].texcoord[n];
+	float at[4];
 
-	mat4_transform(eye, in->modelview, mesh->position + 4 * (size_t)v);
-	mat4_transform(clip, view->projection, eye);
-	mat4_transform(texel, u->matrix, given);
-	if (!(clip[3] > 0) || clip[2] < -clip[3] || clip[2] >= clip[3] || texel[3] == 0)
+	if (!u || u->gen_mode[0] || u->gen_mode[1] || shown->coordinates[0] != 4 * n || shown->coordinates[1] != 4 * n + 1)
+		return 0;
+	mat4_transform(at, u->matrix, given);
+	for (int k = 0; k < 2; k++)
+		texel[k] = m->fragment_program ? at[k] : at[k] / at[3];
+	return m->fragment_program || at[3] != 0;
+}
+
+/* Where a corner lies in the window. @return 0: its texel lies elsewhere, or its depth is out of range */
+static int corner_at(const struct scene *s, const struct scene_instance *in, uint32_t v, const struct shown_program *shown, float out[2])
+{
+	const float size[2] = { (float)s->width, (float)s->height };
+	float clip[4], texel[2], all[4 * SCENE_MAX_UNITS];
+
+	place_of(s, in, v, clip, all);
+	if (!(clip[3] > 0) || clip[2] < -clip[3] || clip[2] >= clip[3])
+		return 0;
+	for (int k = 0; k < 2 && s->materials[in->material].vertex_program; k++)
+		texel[k] = all[shown->coordinates[k]];
+	if (!s->materials[in->material].vertex_program && !texel_of(s, in, v, shown, texel))
 		return 0;
 	for (int k = 0; k < 2; k++) {
 		out[k] = (clip[k] / clip[3] * 0.5f + 0.5f) * size[k];
-		if (!(fabsf(out[k] - texel[k] / texel[3] * size[k]) < PIXEL_SLACK))
+		if (!(fabsf(out[k] - texel[k] * size[k]) < PIXEL_SLACK))
 			return 0;
 	}
 	return 1;
@@ -122,11 +193,10 @@ static int covers_window(const struct scene *s, const struct scene_view *view)
 }
 
 /* 1 where triangles bring each texel to its pixel, in all of the window. */
-static int is_whole_quad(const struct scene *s, const struct scene_instance *in)
+static int is_whole_quad(const struct scene *s, const struct scene_instance *in, const struct shown_program *shown, const struct scene_texture *t)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
 	const struct scene_material *m = &s->materials[in->material];
-	const struct scene_texture *t = s->textures[s->units[m->unit_first].texture];
 	const float right = (float)s->width + PIXEL_SLACK, top = (float)s->height + PIXEL_SLACK;
 	float area = 0, corner[3][2];
 
@@ -136,7 +206,7 @@ static int is_whole_quad(const struct scene *s, const struct scene_instance *in)
 		float twice;
 
 		for (uint32_t c = 0; c < 3; c++)
-			if (!corner_at(s, in, mesh->index[3 * p + c], corner[c]) || corner[c][0] < -PIXEL_SLACK || corner[c][0] > right ||
+			if (!corner_at(s, in, mesh->index[3 * p + c], shown, corner[c]) || corner[c][0] < -PIXEL_SLACK || corner[c][0] > right ||
 			    corner[c][1] < -PIXEL_SLACK || corner[c][1] > top)
 				return 0;
 		twice = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) - (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
@@ -155,10 +225,9 @@ static int left_depth(const struct scene *s, const struct scene_instance *in, fl
 	int same = 1;
 
 	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		float eye[4], clip[4], z;
+		float clip[4], all[4 * SCENE_MAX_UNITS], z;
 
-		mat4_transform(eye, in->modelview, mesh->position + 4 * (size_t)v);
-		mat4_transform(clip, view->projection, eye);
+		place_of(s, in, v, clip, all);
 		z = view->depth_range[0] + (clip[2] / clip[3] * 0.5f + 0.5f) * (view->depth_range[1] - view->depth_range[0]);
 		same &= v == 0 || z == *depth;
 		*depth = z;
@@ -202,9 +271,12 @@ void gls_shown_end(struct gls_exec *x, struct gls_state *st, struct gls_frame *d
 	const struct scene_instance *in = s && s->n_instances == 1 ? &s->instances[0] : NULL;
 	const struct scene_material *m = in ? &s->materials[in->material] : NULL;
 	int leaves_depth = m && m->depth_test && m->depth_write, whole = m && suits(drawn->out, window);
+	const struct scene_unit *unit = NULL;
+	struct shown_program shown = { 0 };
 	float depth = 1;
 
-	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) : passes_through(s, m) && is_white(s, in, m) && is_whole_quad(s, in));
+	whole = whole && (in->rectangle ? is_whole_rectangle(s, in) : passes_through(m) && shows_texels(s, in, m, &shown, &unit) &&
+	                                                               is_whole_quad(s, in, &shown, s->textures[unit->texture]));
 	whole = whole && (!leaves_depth || left_depth(s, in, &depth));
 	if (whole && x->feedback.keeps_targets)
 		s->untraced_draw = is_lit(drawn->out) ? in->draw : 0;
