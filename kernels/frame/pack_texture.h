@@ -132,7 +132,8 @@ WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *
 	if (wrap == GL_REPEAT) {
 		const packi inside = select(place, place + n, place < 0);
 
-		*i0 = select(select(inside, inside - n, inside >= n), place & (n - 1), power_of_two);
+		/* clamped: coordinates may be no numbers */
+		*i0 = clamp(select(select(inside, inside - n, inside >= n), place & (n - 1), power_of_two), (packi)(0), n - 1);
 		*i1 = select((packi)(0), *i0 + 1, *i0 + 1 < n);
 	} else {
 		*i0 = clamp(place, (packi)(0), n - 1);
@@ -153,7 +154,7 @@ WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
 	if (!(n & (n - 1)))
 		return place & (n - 1);
 	place = select(place, place + n, place < 0);
-	return select(place, place - n, place >= n);
+	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* coordinates may be no numbers */
 }
 
 /* As texture_mix_8. */
