@@ -431,6 +431,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
 	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
 	X(program, shade)               /* after either, where fragment programs are: one fragment a work item, coloured by its program */ \
+	X(program_packet, shade)        /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
 	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
 	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
 	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \

@@ -59,6 +59,7 @@ struct scene_program {
 	uint32_t kills;       /* 1: it may discard fragments */
 	uint32_t sets_depth;  /* 1: register SCENE_PROGRAM_DEPTH is the fragment's depth */
 	uint32_t outputs;     /* bits 1 << scene_vertex_output: those that count. Without a position it is fixed function's */
+	uint32_t across;      /* 1: it asks how numbers change from pixel to pixel: all four count. Else each by itself */
 	uint32_t n_lights;    /* struct scene_program_light, between instructions and constants */
 };
 

@@ -27,7 +27,8 @@ struct program {
 struct program_run {
 	uint32_t wanted; /* bits: those of the four whose results count */
 	uint32_t killed; /* bits: those that were discarded */
-	uint32_t mask;   /* bits: those that take part */
+	uint32_t lanes;  /* bits: those that are computed; numbers of the others mean nothing */
+	uint32_t mask;   /* bits, of `lanes`: those that take part */
 	uint32_t steps;  /* of loops that are left to run */
 	struct vec4 registers[SCENE_PROGRAM_REGISTERS];
 };
@@ -58,7 +59,7 @@ static inline void program_begin(struct program_run *run, const struct program *
 {
 	run->wanted = wanted;
 	run->killed = 0u;
-	run->mask = 15u;
+	run->lanes = run->mask = program->head->across ? 15u : wanted;
 	run->steps = SCENE_PROGRAM_STEPS;
 	for (uint32_t i = 0u; i < program->head->n_registers; i++)
 		run->registers[i] = program_splat(0.0f);
@@ -144,7 +145,8 @@ static inline float program_number(uint32_t operation, float a, float b)
 	}
 }
 
-static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c)
+/* lanes: as of struct program_run */
+static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c, uint32_t lanes)
 {
 	switch (operation) {
 	case SCENE_OP_MOVE: return a;
@@ -158,8 +160,8 @@ static inline struct vec4 program_result(uint32_t operation, struct vec4 a, stru
 	case SCENE_OP_DX: return v4(a.y - a.x, a.y - a.x, a.w - a.z, a.w - a.z);
 	case SCENE_OP_DY: return v4(a.x - a.z, a.y - a.w, a.x - a.z, a.y - a.w);
 	default:
-		return v4(program_number(operation, a.x, b.x), program_number(operation, a.y, b.y), program_number(operation, a.z, b.z),
-		          program_number(operation, a.w, b.w));
+		return v4(lanes & 1u ? program_number(operation, a.x, b.x) : 0.0f, lanes & 2u ? program_number(operation, a.y, b.y) : 0.0f,
+		          lanes & 4u ? program_number(operation, a.z, b.z) : 0.0f, lanes & 8u ? program_number(operation, a.w, b.w) : 0.0f);
 	}
 }
 
@@ -168,7 +170,7 @@ static inline void program_keep(struct program_run *run, uint32_t place, struct 
 {
 	struct vec4 *r = &run->registers[place];
 
-	if (mask == 15u)
+	if (mask == run->lanes)
 		*r = v;
 	else
 		*r = v4(mask & 1u ? v.x : r->x, mask & 2u ? v.y : r->y, mask & 4u ? v.z : r->z, mask & 8u ? v.w : r->w);
@@ -218,7 +220,7 @@ static inline void program_store(struct program_run *run, const struct program *
 /* MASK, JUMP, JUMP_NONE. @return the number of the instruction before the next one */
 static inline uint32_t program_turn(struct program_run *run, const struct program *program, GLOBAL const struct scene_instruction *in, uint32_t at)
 {
-	const uint32_t is_true = in->operation == SCENE_OP_JUMP ? 0u : program_true(program_operand(run, program, in->a, 0u, 0u));
+	const uint32_t is_true = in->operation == SCENE_OP_JUMP ? 0u : run->lanes & program_true(program_operand(run, program, in->a, 0u, 0u));
 
 	if (in->operation == SCENE_OP_MASK) {
 		run->mask = is_true;
@@ -252,8 +254,8 @@ static inline void program_compute(struct program_run *run, const struct program
 			b = program_operand(run, program, in->b, flags & SCENE_STEP_B ? i : 0u, flags & SCENE_NEGATE_B);
 		if (in->operation >= SCENE_OP_MAD)
 			c = program_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0u, flags & SCENE_NEGATE_C);
-		a = program_result(in->operation, a, b, c);
-		program_keep(run, in->to + i, flags & SCENE_SATURATE ? v4_clamp01(a) : a, flags & SCENE_UNMASKED ? 15u : run->mask);
+		a = program_result(in->operation, a, b, c, run->lanes);
+		program_keep(run, in->to + i, flags & SCENE_SATURATE ? v4_clamp01(a) : a, flags & SCENE_UNMASKED ? run->lanes : run->mask);
 	}
 }
 

@@ -17,6 +17,11 @@ struct program_fragment {
 	struct program_run run;
 };
 
+static inline uint32_t program_computes(const struct program_fragment *f, uint32_t k)
+{
+	return f->run.lanes >> k & 1u;
+}
+
 /* --- Inputs -------------------------------------------------------------------------------------------------------- */
 
 /* The same point of the triangle's plane as pixel `k` of the quad sees it. */
@@ -49,14 +54,16 @@ static inline void program_texcoord(struct program_fragment *f, uint32_t unit, u
 		for (uint32_t k = 0u; k < 4u; k++) {
 			const struct point p = program_neighbour(f, quad, k);
 
-			program_set(&f->run, 4u * (SCENE_INPUT_TEXCOORD + unit), k, point_texcoord(t, &p, i, p.weight));
+			if (program_computes(f, k))
+				program_set(&f->run, 4u * (SCENE_INPUT_TEXCOORD + unit), k, point_texcoord(t, &p, i, p.weight));
 		}
 		return;
 	}
 	point_texcoord_planes(t, &f->p, i, f->window.setup, &planes);
 	for (uint32_t k = 0u; k < 4u; k++)
-		program_set(&f->run, 4u * (SCENE_INPUT_TEXCOORD + unit), k,
-		            point_texcoord_at(&planes, quad->x + (float)(k & 1u) + quad->middle, quad->y + (float)(k >> 1u) + quad->middle));
+		if (program_computes(f, k))
+			program_set(&f->run, 4u * (SCENE_INPUT_TEXCOORD + unit), k,
+			            point_texcoord_at(&planes, quad->x + (float)(k & 1u) + quad->middle, quad->y + (float)(k >> 1u) + quad->middle));
 }
 
 static inline void program_texcoords(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
@@ -94,8 +101,11 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	f->run.registers[4u * SCENE_INPUT_FACE] = program_splat(f->p.front ? 1.0f : 0.0f);
 	for (uint32_t k = 0u; k < 4u && inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG); k++) {
 		const struct point p = program_neighbour(f, &quad, k);
-		struct lit here = k == f->own ? *lit : point_lit_from_vertices(&p);
+		struct lit here;
 
+		if (!program_computes(f, k))
+			continue;
+		here = k == f->own ? *lit : point_lit_from_vertices(&p);
 		if (p.material->lighting)
 			here.secondary.w = 1.0f; /* as Mesa's fixed function leaves it */
 		program_set(&f->run, 4u * SCENE_INPUT_COLOR, k, here.color);
@@ -179,8 +189,8 @@ static inline void program_light_corners(const struct shade_arguments *s, const 
 	}
 }
 
-/* What `shade` has left of a fragment: its triangle, weights and colours. @return 0: none that a program shades */
-static inline int program_find(const struct shade_arguments *s, uint32_t item, struct setup_kept *kept, struct program_fragment *f,
+/* What `shade` has left of a fragment: its triangle, weights and colours. keeps, kept: as for shade_item. @return 0: none that a program shades */
+static inline int program_find(const struct shade_arguments *s, uint32_t item, int keeps, struct setup_kept *kept, struct program_fragment *f,
                                struct vec3 *seen, struct lit *lit)
 {
 	GLOBAL const struct shaded *out = &s->shaded[item];
@@ -196,7 +206,7 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, s
 		return 0;
 	f->window.x = s->pixels[item] % s->width;
 	f->window.row = s->pixels[item] / s->width;
-	setup_keep(s, f->window.x, f->window.row, &from, 0, kept);
+	setup_keep(s, f->window.x, f->window.row, &from, keeps, kept);
 	f->a = s;
 	f->p = kept->p;
 	fragment_weights(from, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], f->p.weight);
@@ -208,10 +218,11 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, s
 	*lit = point_lit_from_vertices(&f->p);
 	stage_seen(s->visibility, s->n_slots, s->n, item, seen);
 	if (is_lit) {
-		program_light_corners(s, &f->p, seen, &f->run, kept->lit);
+		if (!setup_keeps_seen(seen, keeps, kept))
+			program_light_corners(s, &f->p, seen, &f->run, kept->lit);
 		*lit = point_lit_between(&f->p, kept->lit);
 	} else if (s->n_slots) {
-		setup_keep_lit(&s->tables, seen, 0, kept);
+		setup_keep_lit(&s->tables, seen, keeps, kept);
 		*lit = point_lit_between(&f->p, kept->lit);
 	}
 	if (f->p.geometry->flags & GEOMETRY_PIXELS) {
@@ -240,19 +251,18 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 
 /*
  * program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded. Where lights of a
- * vertex program do not arrive, it gets its colour without them, whatever shades it.
+ * vertex program do not arrive, it gets its colour without them, whatever shades it. keeps, kept: as for shade_item.
  */
-static inline void program_item(const struct shade_arguments *a, uint32_t item)
+static inline void program_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {
 	GLOBAL struct shaded *out = &a->shaded[item];
 	struct vec3 seen[SCENE_MAX_LIGHTS];
-	struct setup_kept kept;
 	struct program_fragment f;
 	struct texturing texturing;
 	struct vec4 color;
 	struct lit lit;
 
-	if (!program_find(a, item, &kept, &f, seen, &lit))
+	if (!program_find(a, item, keeps, kept, &f, seen, &lit))
 		return;
 	if (!f.p.material->fragment_program) {
 		point_texture(&a->tables, &f.p, &f.window, &texturing);

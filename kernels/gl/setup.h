@@ -177,8 +177,8 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	}
 }
 
-/* The vertices lit again; what lights show to a fragment they mostly show to the next one too. */
-static inline void setup_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct setup_kept *kept)
+/* Whether the vertices were lit by what is seen here: what lights show to a fragment they mostly show to the next one too. From now on they are. */
+static inline int setup_keeps_seen(const struct vec3 *seen, int keeps, struct setup_kept *kept)
 {
 	int same = keeps && kept->have_lit;
 
@@ -186,9 +186,15 @@ static inline void setup_keep_lit(const struct tables *t, const struct vec3 *see
 		same &= seen[i].x == kept->seen[i].x && seen[i].y == kept->seen[i].y && seen[i].z == kept->seen[i].z;
 		kept->seen[i] = seen[i];
 	}
-	if (!same)
-		point_light_corners(t, &kept->p, seen, kept->lit);
 	kept->have_lit = 1;
+	return same;
+}
+
+/* The vertices lit again. */
+static inline void setup_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct setup_kept *kept)
+{
+	if (!setup_keeps_seen(seen, keeps, kept))
+		point_light_corners(t, &kept->p, seen, kept->lit);
 }
 
 /*

@@ -13,6 +13,7 @@ int program_append(struct program_code *code, const struct scene_instruction *in
 		return ERR_INPUT;
 	if (MEMORY_GROW(code->instructions, code->instruction_room, code->n_instructions + 1))
 		return ERR_SYSTEM;
+	code->across |= instruction->operation == SCENE_OP_TEXTURE || instruction->operation == SCENE_OP_DX || instruction->operation == SCENE_OP_DY;
 	code->instructions[code->n_instructions++] = *instruction;
 	return 0;
 }

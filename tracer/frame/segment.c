@@ -229,10 +229,13 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
 		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs,
 		       .shaded = b->shaded);
-	int err = device_family(tr->dev) == FAMILY_PACKETS ? launch_shade_packet(tr->dev, (n + SHADE_PACKET - 1) / SHADE_PACKET, a) :
-	                                                     launch_shade(tr->dev, n, a);
+	const int in_packets = device_family(tr->dev) == FAMILY_PACKETS;
+	const uint32_t packets = (n + SHADE_PACKET - 1) / SHADE_PACKET;
+	int err = in_packets ? launch_shade_packet(tr->dev, packets, a) : launch_shade(tr->dev, n, a);
 
-	return err || !(job->prepared.has_fragment_programs || (slots && job->prepared.has_vertex_programs)) ? err : launch_program(tr->dev, n, a);
+	if (err || !(job->prepared.has_fragment_programs || (slots && job->prepared.has_vertex_programs)))
+		return err;
+	return in_packets ? launch_program_packet(tr->dev, packets, a) : launch_program(tr->dev, n, a);
 }
 
 static int run_resolve(struct job *job, struct camera_rectangle r)
