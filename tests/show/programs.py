@@ -23,11 +23,10 @@ class Program:
     files: tuple = ()  # (name below the home folder, text) that must be there before the start
     group: str = ""  # what the sweep counts it under
     environment: tuple = ()
-    why_not: str = ""  # why no bar can stand on it
 
 
-def xscreensaver(name, package="xscreensaver-gl", group="xscreensaver, fixed function", why_not=""):
-    return Program(name, package, (name, "-geometry", "640x480"), group=group, why_not=why_not)
+def xscreensaver(name, package="xscreensaver-gl", group="xscreensaver, fixed function"):
+    return Program(name, package, (name, "-geometry", "640x480"), group=group)
 
 
 def rss_glx(name):
@@ -60,7 +59,7 @@ OPEN = (
     xscreensaver("noof", "xscreensaver-gl-extra"),
 )
 
-# Hacks that bring shaders of their own: drawn as fixed function, and told apart in the count.
+# Hacks that bring shaders of their own (GLSL): told apart in the count.
 WITH_SHADERS = {"etruscanvenus", "hypertorus", "klein", "projectiveplane", "romanboy", "sphereeversion"}
 # Installed beside the hacks and no hacks: a helper, and two that need the network.
 NO_HACKS = {"xscreensaver-gl-visual", "mapscroller", "mapscroller.pl"}
@@ -77,9 +76,7 @@ def sweep():
     programs = []
     for package in ("xscreensaver-gl", "xscreensaver-gl-extra"):
         for name in installed(package, "/usr/libexec/xscreensaver", NO_HACKS):
-            shaders = name in WITH_SHADERS
-            programs.append(xscreensaver(name, package, "xscreensaver, GLSL" if shaders else "xscreensaver, fixed function",
-                                         "draws with shaders of its own" if shaders else ""))
+            programs.append(xscreensaver(name, package, "xscreensaver, GLSL" if name in WITH_SHADERS else "xscreensaver, fixed function"))
     for name in installed("rss-glx", "/usr/libexec/xscreensaver"):
         if name != "drempels":  # ends by itself, recorded or not
             programs.append(rss_glx(name))
