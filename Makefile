@@ -52,7 +52,7 @@ DEPS := gcc g++ libc6-dev python3 khronos-api \
 	pocl-opencl-icd apitrace \
 	check clang xvfb weston xfonts-base mesa-utils libgl1-mesa-dri libegl1 libglu1-mesa-dev freeglut3-dev libembree-dev xscreensaver-gl xscreensaver-gl-extra \
 	fonts-dejavu-core python3-numpy python3-jsonschema openimageio-tools xdotool pkg-config zsh fish man-db \
-	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel
+	slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge parallel oclgrind
 
 DEPS_deb := debhelper dpkg-dev fakeroot lintian
 

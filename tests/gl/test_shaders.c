@@ -148,6 +148,29 @@ START_TEST(test_reasons)
 }
 END_TEST
 
+/* A program that was never linked is not used. */
+START_TEST(test_unlinked)
+{
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	make_program(&gl, 1, "void main() { gl_FragColor = vec4(1.0); }");
+	gl_answered(&gl, 2, "glCreateProgram", "");
+	gl_call(&gl, "glUseProgram", "u", 2u);
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	gl_call(&gl, "glUseProgram", "u", 0u);
+	gl_call(&gl, "glUseProgram", "u", 2u);
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(gl.x->counts.programs, 0);
+	ck_assert_uint_eq(s->n_materials, 2);
+	ck_assert(s->materials[0].fragment_program && !s->materials[1].fragment_program);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* Attributes lie where the program has bound them, or was told that they are; fixed function's position stays its own. */
 START_TEST(test_attributes)
 {
@@ -169,4 +192,4 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_attributes)
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_unlinked, test_attributes)

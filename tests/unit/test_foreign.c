@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,26 +158,33 @@ START_TEST(not_a_picture)
 }
 END_TEST
 
-static void *read_many(void *unused)
+static void *read_many(void *count)
 {
 	struct image img = { 0 };
 
-	(void)unused;
-	for (int i = 0; i < 20; i++) {
+	for (intptr_t i = 0; i < (intptr_t)count; i++) {
 		ck_assert_int_eq(foreign_read(&img, path_of("good.png")), 0);
 		image_free(&img);
 	}
 	return NULL;
 }
 
+/* Threads come and go, the one that started the server among them. */
 START_TEST(many_at_once)
 {
+	const pid_t before = child_of(getpid());
 	pthread_t threads[8];
 
-	for (int i = 0; i < 8; i++)
-		ck_assert_int_eq(pthread_create(&threads[i], NULL, read_many, NULL), 0);
-	for (int i = 0; i < 8; i++)
-		pthread_join(threads[i], NULL);
+	if (before) {
+		kill(before, SIGKILL);
+		waitpid(before, NULL, 0);
+	}
+	for (int round = 0; round < 3; round++) {
+		for (int i = 0; i < 8; i++)
+			ck_assert_int_eq(pthread_create(&threads[i], NULL, read_many, (void *)(intptr_t)(i + 1)), 0);
+		for (int i = 0; i < 8; i++)
+			pthread_join(threads[i], NULL);
+	}
 }
 END_TEST
 

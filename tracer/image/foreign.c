@@ -112,13 +112,13 @@ static void serve(int channel)
 	/* Files of the command, pipes to its other children among them, are not kept open here. */
 	dup2(channel, STDERR_FILENO + 1);
 	close_range(STDERR_FILENO + 2, ~0u, 0);
-	prctl(PR_SET_PDEATHSIG, SIGKILL);
 	signal(SIGCHLD, SIG_IGN);
 	signal(SIGPIPE, SIG_IGN);
 	signal(SIGINT, SIG_DFL);
 	signal(SIGTERM, SIG_DFL);
 	while (take_request(STDERR_FILENO + 1, path, &pipe)) {
 		if (fork() == 0) {
+			prctl(PR_SET_PDEATHSIG, SIGKILL); /* the server goes with the command, whose end closes the channel */
 			close(STDERR_FILENO + 1);
 			answer(path, pipe);
 			_exit(0);

@@ -80,9 +80,12 @@ GLS_HANDLER(glDeleteObjectARB, OBJECT) { delete(st, arg_u(c, 0)); }
 static void use_program(struct gls_exec *x, struct gls_state *st, uint32_t program)
 {
 	const uint32_t before = st->program;
+	const struct gls_shader *used = find(st, program, 1);
 	const char *lack;
 	const struct gls_shader *old = before != program ? find(st, before, 1) : NULL;
 
+	if (gls_refuses(x, st, used && !used->stages.linked, GL_INVALID_OPERATION))
+		return;
 	st->program = program;
 	lack = program ? gls_program_lack(st) : NULL;
 	if (lack) {
