@@ -476,20 +476,43 @@ char *spare_tell_lights(const struct spare *spare)
 	return text;
 }
 
-char *spare_tell_cards(const struct spare *spare, const struct scene *scene)
+/* Draw numbers of instances that `is` names. */
+static char *tell_draws(const struct spare *spare, const struct scene *scene, int is(const struct spare *spare, const struct scene *scene, uint32_t i))
 {
 	char *text = NULL;
 	size_t size;
 	FILE *out = open_memstream(&text, &size);
 	int any = 0;
 
-	for (uint32_t i = 0; out && spare->bits && spare->kept && i < scene->n_instances; i++) {
+	for (uint32_t i = 0; out && i < scene->n_instances; i++) {
 		uint32_t first = scene->instances[i].draw, end = i + 1 < scene->n_instances ? scene->instances[i + 1].draw : scene->n_draws + 1;
 
-		if (spare->bits[i] & SCENE_CARD)
+		if (is(spare, scene, i))
 			fprintf(out, "%s%u-%u", any++ ? "," : "", first, end > first ? end - 1 : first);
 	}
 	if (out)
 		fclose(out);
 	return text;
+}
+
+static int is_card(const struct spare *spare, const struct scene *scene, uint32_t i)
+{
+	(void)scene;
+	return spare->bits && spare->kept && spare->bits[i] & SCENE_CARD;
+}
+
+static int is_left_out(const struct spare *spare, const struct scene *scene, uint32_t i)
+{
+	(void)spare;
+	return (scene->materials[scene->instances[i].material].surface.hidden & SCENE_LEFT_OUT) != 0;
+}
+
+char *spare_tell_cards(const struct spare *spare, const struct scene *scene)
+{
+	return tell_draws(spare, scene, is_card);
+}
+
+char *spare_tell_left_out(const struct scene *scene)
+{
+	return tell_draws(NULL, scene, is_left_out);
 }

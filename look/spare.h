@@ -52,8 +52,9 @@ int spare_find(const struct scene *scene, int cards_alone, struct spare *out);
 void spare_free(struct spare *spare);
 
 /**
- * What diff's gate N wants to know: places of lights ("x y z w,..."), draw numbers of cards that shade each other ("3-7,12"). To be
- * freed; NULL: out of memory.
+ * What diff's gate N wants to know: places of lights ("x y z w,..."), draw numbers of cards that shade each other ("3-7,12"), of tricks that
+ * traced light takes the place of. To be freed; NULL: out of memory.
  */
 char *spare_tell_lights(const struct spare *spare);
 char *spare_tell_cards(const struct spare *spare, const struct scene *scene);
+char *spare_tell_left_out(const struct scene *scene);

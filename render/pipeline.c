@@ -272,20 +272,23 @@ static int start_tracer(const struct worker *w, struct tracer **out)
 	return err;
 }
 
-/* What gate N (diff/score/harm.c) wants to know of a frame. */
-static int tell_harm(const struct spare *found, const struct scene *scene, struct image *img)
+/* What gate N (diff/score/harm.c) wants to know of a frame. changed: the scene under the rules */
+static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed, struct image *img)
 {
-	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene);
-	int err = lights && cards ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene), *left_out = spare_tell_left_out(changed);
+	int err = lights && cards && left_out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	if (!err && *lights)
 		err = image_set_attribute(img, "relume:lights", "%s", lights);
 	if (!err && *cards)
 		err = image_set_attribute(img, "relume:cards", "%s", cards);
+	if (!err && *left_out)
+		err = image_set_attribute(img, "relume:left-out", "%s", left_out);
 	if (!err && scene->untraced_draw)
 		err = image_set_attribute(img, "relume:targets", "%u", scene->untraced_draw);
 	free(lights);
 	free(cards);
+	free(left_out);
 	return err;
 }
 
@@ -325,7 +328,7 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 	if (!err && settings->denoise)
 		err = filter_alone(img);
 	if (!err)
-		err = tell_harm(&found, scene, img);
+		err = tell_harm(&found, scene, &changed, img);
 	if (!err && settings->look)
 		err = look_tell(settings->look, scene, tell_role, &(struct telling){ img, 0 });
 	if (changed.instances)

@@ -20,7 +20,7 @@
  *
  * The renderer says in attributes what a picture cannot show: relume:lights, places in eye space; relume:dimmed, the least share of
  * display codes that light from all around leaves; relume:cards and relume:targets, draw numbers, where rules kept these from being
- * spared. Frames without them are judged by what they hold.
+ * spared; relume:left-out, draws of tricks that traced light takes the place of: what lies below them is the surface. Frames without them are judged by what they hold.
  */
 #include "diff/score/measures.h"
 
@@ -47,6 +47,7 @@ struct harm {
 	const float *gl[3], *shadow[3], *albedo[3], *normal[3], *place[3], *id;
 	const float *relight[3]; /* [0] NULL: nothing is lit anew */
 	const float *layers; /* NULL: the frame does not say */
+	struct frame_list left_out; /* draws that are no surface */
 	float lights[MOST_LIGHTS][4];
 	int n_lights;
 	int is_display;
@@ -135,11 +136,19 @@ static void normal_at(const struct harm *h, size_t i, float out[3])
 		out[k] = h->normal[k][i];
 }
 
+/* 1 where a pixel's place and normal are a trick's: where it was drawn says nothing of what lies below. */
+static int is_left_out(const struct harm *h, size_t i)
+{
+	return h->left_out.n_ranges && h->id[i] >= 1 && frame_list_contains(&h->left_out, (uint64_t)h->id[i]);
+}
+
 /* 1 where two pixels beside each other show one surface. */
 static int is_same_surface(const struct harm *h, size_t i, size_t other)
 {
 	float apart[3], normal[3], normal_there[3];
 
+	if (is_left_out(h, i) || is_left_out(h, other))
+		return 1;
 	subtract(h, other, i, apart);
 	normal_at(h, i, normal);
 	normal_at(h, other, normal_there);
@@ -309,6 +318,7 @@ int gate_harm(struct gate_frame *f)
 {
 	const uint32_t n = f->img->width * f->img->height;
 	const char *encoding = image_attribute(f->img, "relume:encoding"), *dimmed = image_attribute(f->img, "relume:dimmed");
+	const char *left_out = image_attribute(f->img, "relume:left-out");
 	struct harm h = { .f = f, .width = f->img->width, .height = f->img->height, .is_display = encoding && strcmp(encoding, "display") == 0,
 		          .dimmed = dimmed ? strtof(dimmed, NULL) : 1 };
 	int err = 0;
@@ -317,6 +327,8 @@ int gate_harm(struct gate_frame *f)
 		gate_note(f, GATE_N, "the frame has no gl, shadow, albedo, N, P and id channels");
 		return 0;
 	}
+	if (left_out && *left_out)
+		frame_list_parse(left_out, &h.left_out);
 	h.light = malloc((n + (size_t)1) * sizeof(*h.light));
 	h.dark = malloc(n + (size_t)1);
 	h.patch = malloc((n + (size_t)1) * sizeof(*h.patch));
@@ -329,6 +341,7 @@ int gate_harm(struct gate_frame *f)
 	} else {
 		err = err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", h.width, h.height);
 	}
+	frame_list_free(&h.left_out);
 	free(h.light);
 	free(h.dark);
 	free(h.patch);

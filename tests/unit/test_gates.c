@@ -595,6 +595,26 @@ START_TEST(dark_below_a_film)
 }
 END_TEST
 
+/* A drawn shadow that the traced one takes the place of is of another place and normal; both end where the floor is lit. */
+START_TEST(dark_in_place_of_a_trick)
+{
+	static const char *const place[3] = { "P.X", "P.Y", "P.Z" };
+
+	add_surfaces(0);
+	darken(0.2f, on_half_of_box);
+	for (int i = 0; i < N; i++)
+		if (on_half_of_box(i)) {
+			image_channel(&traced, place[2])[i] -= 5 + (float)(i % 7);
+			image_channel(&traced, "id")[i] = 2;
+		}
+	expect_failed(GATE_N);
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:left-out", "%s", "2"), 0);
+	expect_all_passed();
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:left-out", "%s", "3-9"), 0);
+	expect_failed(GATE_N);
+}
+END_TEST
+
 START_TEST(dark_faces_with_lit_normals)
 {
 	add_surfaces(1);
@@ -979,6 +999,7 @@ int main(void)
 	tcase_add_test(tests, effects_within_their_range);
 	tcase_add_test(tests, dark_without_an_edge);
 	tcase_add_test(tests, dark_below_a_film);
+	tcase_add_test(tests, dark_in_place_of_a_trick);
 	tcase_add_test(tests, dark_faces_with_lit_normals);
 	tcase_add_test(tests, named_faults);
 	tcase_add_test(tests, burnt_out);
