@@ -17,7 +17,7 @@
 
 #include "base/confine.h"
 
-enum { OPTIONS_MAX_ROWS = 40 };
+enum { OPTIONS_MAX_ROWS = 48 };
 
 struct options_row {
 	const char *name;     /* long name; NULL: a heading, with `help` as its text */

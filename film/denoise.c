@@ -13,6 +13,7 @@
 #include "base/verbs.h"
 #include "diff/pictures/set.h"
 #include "film/filter.h"
+#include "film/oidn.h"
 
 #define MOST_REACH 8u
 
@@ -20,7 +21,7 @@ struct asked {
 	const char *frames_of, *output;
 	struct frame_list frames;
 	unsigned reach;
-	int no_time;
+	int no_time, oidn;
 };
 
 static const struct options_row rows[] = {
@@ -31,6 +32,8 @@ static const struct options_row rows[] = {
 	{ "reach", 0, "N", "frames before and after that help, where channels motion.* tell what moved where (default 3)", options_number,
 	  .at = offsetof(struct asked, reach), .most = MOST_REACH },
 	{ "no-time", 0, NULL, "each frame by itself", options_flag, .at = offsetof(struct asked, no_time) },
+	{ "oidn", 0, NULL, "each frame by itself, by Intel's Open Image Denoise 2, where it is installed", options_flag,
+	  .at = offsetof(struct asked, oidn) },
 };
 
 static const struct options_table table = {
@@ -137,36 +140,44 @@ static int gather(struct denoising *d, uint64_t frame, unsigned reach, const str
 	return err;
 }
 
-static int denoise_frame(struct denoising *d, const struct set_entry *entry)
+/* By frames before and after, and over the picture. where: its name, for messages */
+static int filter(struct denoising *d, uint64_t frame, const char *where, struct image *img)
 {
 	const unsigned reach = d->asked->no_time ? 0 : d->asked->reach;
-	const char *where = entry->path ? entry->path : d->set.name;
 	const struct filter_frame *around[2 * MOST_REACH + 1];
 	struct filter_frame work = { .width = 0 };
-	struct image img = { .width = 0 };
 	unsigned n, middle;
-	char path[4096];
 	int err;
 
-	forget(d, entry->frame > reach ? entry->frame - reach : 0);
-	err = gather(d, entry->frame, reach, around, &n, &middle);
+	forget(d, frame > reach ? frame - reach : 0);
+	err = gather(d, frame, reach, around, &n, &middle);
 	if (!err)
-		err = set_read(&d->set, entry, &img);
-	if (!err)
-		err = filter_take(&img, where, &work);
+		err = filter_take(img, where, &work);
 	if (!err)
 		err = filter_time(around, n, middle, &work);
 	if (!err)
 		err = filter_space(&work);
 	if (!err)
-		err = filter_put(&work, &img);
+		err = filter_put(&work, img);
+	filter_free(&work);
+	return err;
+}
+
+static int denoise_frame(struct denoising *d, const struct set_entry *entry)
+{
+	const char *where = entry->path ? entry->path : d->set.name;
+	struct image img = { .width = 0 };
+	char path[4096];
+	int err = set_read(&d->set, entry, &img);
+
+	if (!err)
+		err = d->asked->oidn ? oidn_denoise(&img, where) : filter(d, entry->frame, where, &img);
 	if (!err)
 		err = frame_pattern_expand(d->asked->output, entry->frame, path, sizeof(path));
 	if (!err)
 		err = folder_make_for(path);
 	if (!err)
 		err = image_write_exr(&img, path);
-	filter_free(&work);
 	image_free(&img);
 	return err;
 }
@@ -207,6 +218,8 @@ int denoise_main(int argc, char **argv)
 
 	if (!err && (strlen(asked.output) < 4 || strcmp(asked.output + strlen(asked.output) - 4, ".exr") != 0))
 		err = err_report(ERR_USAGE, asked.output, "denoised frames are OpenEXR files: the name must end in .exr");
+	if (!err && asked.oidn)
+		err = oidn_open();
 	if (!err)
 		err = set_open(line.words[0], &d.set);
 	if (!err)

@@ -568,10 +568,9 @@ static void forget_halves(struct image *img, const float *plane)
 		}
 }
 
-int filter_put(const struct filter_frame *f, struct image *img)
+int filter_beauty(struct image *img, float *to[3])
 {
 	static const char *const effects[] = { "shadow.", "relight.", "reflect.", "refract." };
-	float *to[3];
 
 	for (int c = 0; c < 3; c++) {
 		const char name[2] = { "RGB"[c], '\0' };
@@ -581,9 +580,6 @@ int filter_put(const struct filter_frame *f, struct image *img)
 			return ERR_SYSTEM;
 		forget_halves(img, to[c]);
 	}
-	for (size_t i = 0; i < (size_t)f->width * f->height; i++)
-		for (int c = 0; c < 3; c++)
-			to[c][i] = f->is_there[i] ? f->light[i][c] * f->albedo[i][c] + f->gloss[i][c] : to[c][i];
 	for (size_t i = img->n_channels; i-- > 0;)
 		for (int k = 0; k < 4; k++)
 			if (strncmp(img->channels[i].name, effects[k], strlen(effects[k])) == 0) {
@@ -591,6 +587,17 @@ int filter_put(const struct filter_frame *f, struct image *img)
 				break;
 			}
 	return image_set_attribute(img, "relume:denoised", "1");
+}
+
+int filter_put(const struct filter_frame *f, struct image *img)
+{
+	float *to[3];
+	const int err = filter_beauty(img, to);
+
+	for (size_t i = 0; i < (size_t)f->width * f->height && !err; i++)
+		for (int c = 0; c < 3; c++)
+			to[c][i] = f->is_there[i] ? f->light[i][c] * f->albedo[i][c] + f->gloss[i][c] : to[c][i];
+	return err;
 }
 
 int filter_alone(struct image *img)

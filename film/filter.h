@@ -47,7 +47,13 @@ int filter_time(const struct filter_frame *const *frames, unsigned n, unsigned m
 /** Over the picture. @return 0 or ERR_SYSTEM (reported) */
 int filter_space(struct filter_frame *frame);
 
-/** Into R, G and B; effect channels, which no longer add up to them, go. @return 0 or ERR_SYSTEM (reported) */
+/**
+ * The planes of R, G and B, to be written; effect channels, which will no longer add up to them, go.
+ * @return 0 or ERR_SYSTEM (reported)
+ */
+int filter_beauty(struct image *img, float *to[3]);
+
+/** Into R, G and B, as filter_beauty. @return 0 or ERR_SYSTEM (reported) */
 int filter_put(const struct filter_frame *frame, struct image *img);
 
 /**

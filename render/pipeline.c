@@ -10,7 +10,6 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/queue.h"
-#include "film/filter.h"
 #include "look/look.h"
 #include "look/unseen.h"
 #include "render/cryptomatte.h"
@@ -325,8 +324,8 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
 	if (!err)
 		err = tracer_render(tracer, &changed, &options, img);
-	if (!err && settings->denoise)
-		err = filter_alone(img);
+	if (!err)
+		err = settings_denoise(settings, img);
 	if (!err)
 		err = tell_harm(&found, scene, &changed, img);
 	if (!err && settings->look)

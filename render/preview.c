@@ -1,7 +1,6 @@
 #include "render/preview.h"
 
 #include "base/folder.h"
-#include "film/filter.h"
 
 #define MAX_PATH_BYTES 4096
 
@@ -11,7 +10,7 @@ int preview_show(void *user, struct image *img)
 	const struct settings *s = p->settings;
 	struct display *display = NULL;
 	char path[MAX_PATH_BYTES];
-	int err = s->denoise ? filter_alone(img) : 0;
+	int err = settings_denoise(s, img);
 
 	if (!err)
 		err = frame_pattern_expand(s->preview, p->frame, path, sizeof(path));

@@ -9,6 +9,7 @@
 #include "base/err.h"
 #include "base/options.h"
 #include "film/filter.h"
+#include "film/oidn.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
 
@@ -177,6 +178,7 @@ static const struct options_row rows[] = {
 	  "attribute relume:samples, and another run may take more or fewer; with --noise, whichever stops first", take_seconds, AT(tracer.seconds) },
 	{ "denoise", 0, NULL, "take the noise out of each frame by itself; relume denoise does better where several frames are there",
 	  options_flag, AT(denoise) },
+	{ "oidn", 0, NULL, "--denoise by Intel's Open Image Denoise 2, where it is installed", options_flag, AT(oidn) },
 	{ "rays", 0, "N", "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .most = 4096 },
 	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
@@ -365,11 +367,14 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		                  s->output);
 	if (!s->tracer.samples && (s->tracer.noise > 0 || s->tracer.seconds > 0))
 		s->tracer.samples = MOST_SAMPLES;
+	s->denoise |= s->oidn;
 	err = choose_kind(s);
 	if (!err)
 		err = check_hook(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
+	if (!err && s->oidn)
+		err = oidn_open();
 	if (!err)
 		err = check_preview(s);
 	if (!err)
@@ -377,6 +382,13 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (!err)
 		options_confine(&table, &line, CONFINE_TRACER, NULL);
 	return err;
+}
+
+int settings_denoise(const struct settings *s, struct image *img)
+{
+	if (!s->denoise)
+		return 0;
+	return s->oidn ? oidn_denoise(img, NULL) : filter_alone(img);
 }
 
 void settings_free(struct settings *s)

@@ -30,7 +30,8 @@ struct settings {
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */
-	int denoise;                    /* 1: noise is taken out of each frame by itself (film/filter.h) */
+	int denoise;                    /* 1: noise is taken out of each frame by itself (settings_denoise) */
+	int oidn;                       /* 1: by Open Image Denoise */
 	const char *preview;            /* file names of pictures of the samples so far; NULL: none */
 	int cryptomatte;                /* 1: channels that render/cryptomatte.h adds */
 	enum display_kind kind;         /* of the files */
@@ -45,6 +46,9 @@ struct settings {
  */
 int settings_parse(struct settings *s, int argc, char **argv);
 void settings_free(struct settings *s);
+
+/** Take the noise out of a frame, where that is asked for. @return 0 or ERR_SYSTEM (reported) */
+int settings_denoise(const struct settings *s, struct image *img);
 
 /** What --mode takes, by enum tracer_mode; ended by NULL. */
 extern const char *const settings_mode_names[];

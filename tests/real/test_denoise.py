@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """relume denoise on frames of known light: how much noise goes, what stays sharp, what moves along, and what it refuses."""
+import os
 import random
 import struct
+import subprocess
 
 from exr import Image
 from helpers import SCRATCH, check, finish, must, relume
@@ -107,4 +109,15 @@ check(poor.returncode == 3 and "albedo.G" in poor.stderr and not list(SCRATCH.gl
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.png").returncode == 2, "no PNG")
 check(relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "x.exr").returncode == 2, "five frames need five names")
 check(relume("denoise", SCRATCH / "none", "-o", SCRATCH / "x.####.exr").returncode == 3, "a folder that is not there")
+
+# Open Image Denoise itself is asked in make show-denoise
+with_oidn = relume("denoise", SCRATCH / "noisy", "-o", SCRATCH / "oidn.####.exr", "--oidn")
+check(with_oidn.returncode == 0 or with_oidn.returncode == 5 and "not installed" in with_oidn.stderr, f"--oidn: {with_oidn.returncode} {with_oidn.stderr}")
+(SCRATCH / "lib").mkdir()
+(SCRATCH / "empty.c").write_text("int nothing;\n")
+subprocess.run(["cc", "-shared", "-fPIC", "-o", SCRATCH / "lib/libOpenImageDenoise.so.2", SCRATCH / "empty.c"], check=True)
+for words in (("denoise", SCRATCH / "noisy"), ("render", SCRATCH / "none.trace", "-f", "1-2", "--mode", "path")):
+    other = relume(*words, "-o", SCRATCH / "other.####.exr", "--oidn", env=os.environ | {"LD_LIBRARY_PATH": str(SCRATCH / "lib")})
+    check(other.returncode == 5 and "has no oidnNewDevice" in other.stderr and not list(SCRATCH.glob("other.*")),
+          f"{words[0]} with another library: {other.returncode} {other.stderr}")
 finish()
