@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -205,4 +207,21 @@ static inline struct mesh mesh_load(const char *path, unsigned along, unsigned a
 	mesh_fit(&m);
 	mesh_add_normals(&m);
 	return m;
+}
+
+/** A display list that draws it by glVertex calls. */
+static inline GLuint mesh_compile(const struct mesh *m)
+{
+	const GLuint list = glGenLists(1);
+
+	glNewList(list, GL_COMPILE);
+	glBegin(GL_TRIANGLES);
+	for (size_t i = 0; i < m->n_triangles; i++)
+		for (int c = 0; c < 3; c++) {
+			glNormal3fv(m->normals[m->triangles[i][c]]);
+			glVertex3fv(m->positions[m->triangles[i][c]]);
+		}
+	glEnd();
+	glEndList();
+	return list;
 }

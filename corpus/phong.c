@@ -1,7 +1,7 @@
 /*
  * A knot above a floor, lit by a lamp: by fixed function (--by fixed), by a vertex program that computes the same light (--by vertex), or
- * by a fragment program that lights each fragment with the normal that a vertex program hands on (--by fragment). The floor is fixed
- * function's. Engines had matrices of their own: --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
+ * by a fragment program that lights each fragment with the normal that a vertex program hands on (--by fragment; --by glsl: the same in
+ * GLSL 1.10). The floor is fixed function's. Engines had matrices of their own: --by own draws all by a vertex program whose parameters hold them, under OpenGL's identity.
  *
  *   cc -o phong corpus/phong.c -lglut -lGLU -lGL -lm
  */
@@ -30,7 +30,25 @@ static const char light[] =
 	"DP3 h.w, h, h; RSQ h.w, h.w; MUL h.xyz, h, h.w; DP3 l.x, n, l; DP3 l.y, n, h; MOV l.w, state.material.shininess.x; LIT l, l;\n"
 	"MAD c, state.lightprod[0].diffuse, l.y, state.lightmodel.scenecolor; MAD c.xyz, state.lightprod[0].specular, l.z, c;\n";
 
+static const char vertex_shader[] =
+	"varying vec3 eye, normal;\n"
+	"void main() {\n"
+	"	eye = vec3(gl_ModelViewMatrix * gl_Vertex);\n"
+	"	normal = normalize(gl_NormalMatrix * gl_Normal);\n"
+	"	gl_Position = ftransform();\n"
+	"}\n";
+
+static const char fragment_shader[] =
+	"varying vec3 eye, normal;\n"
+	"void main() {\n"
+	"	vec3 n = normalize(normal), l = normalize(gl_LightSource[0].position.xyz - eye), h = normalize(l + vec3(0.0, 0.0, 1.0));\n"
+	"	float facing = dot(n, l), shine = facing > 0.0 ? pow(max(dot(n, h), 0.0), gl_FrontMaterial.shininess) : 0.0;\n"
+	"	gl_FragColor = gl_FrontLightModelProduct.sceneColor + max(facing, 0.0) * gl_FrontLightProduct[0].diffuse +\n"
+	"	               shine * vec4(gl_FrontLightProduct[0].specular.rgb, 0.0);\n"
+	"}\n";
+
 static struct mesh model;
+static GLuint shaders; /* the program object of --by glsl */
 static GLuint list;
 
 static int is_by(const char *way)
@@ -53,8 +71,26 @@ static void set_program(GLenum target, const char *header, const char *first, co
 		fprintf(stderr, "phong: %s\n", (const char *)glGetString(GL_PROGRAM_ERROR_STRING_ARB));
 }
 
+static void add_shader(GLenum stage, const char *text)
+{
+	const GLuint shader = glCreateShader(stage);
+	char said[1024] = "";
+
+	glShaderSource(shader, 1, &text, NULL);
+	glCompileShader(shader);
+	glGetShaderInfoLog(shader, sizeof(said), NULL, said);
+	fputs(said, stderr);
+	glAttachShader(shaders, shader);
+}
+
 static void set_programs(void)
 {
+	if (is_by("glsl")) {
+		shaders = glCreateProgram();
+		add_shader(GL_VERTEX_SHADER, vertex_shader);
+		add_shader(GL_FRAGMENT_SHADER, fragment_shader);
+		glLinkProgram(shaders);
+	}
 	if (is_by("vertex"))
 		set_program(GL_VERTEX_PROGRAM_ARB, "!!ARBvp1.0\nOPTION ARB_position_invariant;\nTEMP l, c;", eye_space, light, "MOV result.color, c;");
 	if (is_by("own"))
@@ -71,16 +107,7 @@ static void set_programs(void)
 static void init(void)
 {
 	model = mesh_load(program.model, 256, 24);
-	list = glGenLists(1);
-	glNewList(list, GL_COMPILE);
-	glBegin(GL_TRIANGLES);
-	for (size_t i = 0; i < model.n_triangles; i++)
-		for (int c = 0; c < 3; c++) {
-			glNormal3fv(model.normals[model.triangles[i][c]]);
-			glVertex3fv(model.positions[model.triangles[i][c]]);
-		}
-	glEnd();
-	glEndList();
+	list = mesh_compile(&model);
 	set_programs();
 	glClearColor(0.2f, 0.2f, 0.25f, 1);
 	glEnable(GL_DEPTH_TEST);
@@ -141,7 +168,11 @@ static void draw(void)
 	draw_floor();
 	for (int i = 0; i < n; i++)
 		glEnable(stages[i]);
+	if (shaders)
+		glUseProgram(shaders);
 	glCallList(list);
+	if (shaders)
+		glUseProgram(0);
 	for (int i = 0; i < n; i++)
 		glDisable(stages[i]);
 	glDisable(GL_VERTEX_PROGRAM_ARB);

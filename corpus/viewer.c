@@ -10,20 +10,6 @@
 static struct mesh model;
 static GLuint list;
 
-static void compile_list(void)
-{
-	list = glGenLists(1);
-	glNewList(list, GL_COMPILE);
-	glBegin(GL_TRIANGLES);
-	for (size_t i = 0; i < model.n_triangles; i++)
-		for (int c = 0; c < 3; c++) {
-			glNormal3fv(model.normals[model.triangles[i][c]]);
-			glVertex3fv(model.positions[model.triangles[i][c]]);
-		}
-	glEnd();
-	glEndList();
-}
-
 static void fill_buffers(void)
 {
 	GLsizeiptr bytes = (GLsizeiptr)(model.n_vertices * sizeof(*model.positions));
@@ -51,7 +37,7 @@ static void init(void)
 	if (program.vbo)
 		fill_buffers();
 	else
-		compile_list();
+		list = mesh_compile(&model);
 
 	glClearColor(0.2f, 0.2f, 0.25f, 1);
 	glEnable(GL_DEPTH_TEST);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """
-A lit knot by fixed function, by a vertex program and by a fragment program (corpus/phong.c): all gates, and the same beauty: where surfaces
+A lit knot by fixed function, by a vertex program, a fragment program and GLSL (corpus/phong.c): all gates, and the same beauty: where surfaces
 are and what their normals are, shadows of the knot on the floor and on itself. A program with matrices of its own has the same shadows.
 """
 from exr import Image
@@ -10,7 +10,7 @@ FRAMES = 2
 SAME = ("Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z")  # to the bit
 NEAR = ("R", "G", "B", "shadow.R")
 NEAR_BY = 0.02  # most pixels; at the borders of shadows rays go either way
-ODD_PIXELS = {"vertex": 100, "fragment": 1200, "own": 200}  # of 43,200. Light between vertices is not light at a fragment: highlights differ
+ODD_PIXELS = {"vertex": 100, "fragment": 1200, "glsl": 1200, "own": 200}  # of 43,200. Light between vertices is not light at a fragment: highlights differ
 
 
 def picture(way):
