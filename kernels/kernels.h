@@ -185,10 +185,11 @@ typedef float element_float;
 	IN(frame_pixel, cleared) AND()      /* one: what a pixel is before it is drawn */ \
 	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
 	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
-	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none */ \
+	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none. plain_program before plain: 0 */ \
 	VALUE(uint, n) AND()                /* places of rays a slot: the blocks' pixels */ \
-	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one; read as well */ \
+	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
+	IN(uint, programs) AND()            /* plain_program alone */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
@@ -463,6 +464,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(resolve_packet, resolve)      /* the same, FRAME_ROW pixels of a row a work item, all colours of a pixel at once (CPUs) */ \
 	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
+	X(plain_program, plain)         /* before either of the next two, where programs are: colours by them */ \
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \

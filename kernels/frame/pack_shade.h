@@ -67,9 +67,9 @@ WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struc
 	return lights;
 }
 
-/* The vertices' lights seen as they are: one lane's triangle lit again, as setup_keep_lit does it. */
-static inline const struct lit *pack_relight(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lane,
-                                             const struct vec3 *seen, struct pack_kept *kept)
+/* A lane's triangle among those that are kept lit. is_lit: receives 1 where it has been lit by what is seen there */
+static inline struct pack_lit *pack_keep_lit(const struct tables *t, const struct pack_list *list, const struct pack *p, uint lane,
+                                             const struct vec3 *seen, struct pack_kept *kept, int *is_lit)
 {
 	struct pack_lit *l = &kept->lit[list->primitive[lane] % SHADE_TRIANGLES];
 	const int front = LANE(p->front, const int, lane) != 0;
@@ -85,42 +85,60 @@ static inline const struct lit *pack_relight(const struct tables *t, const struc
 		same = same && seen[i].x == l->seen[i].x && seen[i].y == l->seen[i].y && seen[i].z == l->seen[i].z;
 		l->seen[i] = seen[i];
 	}
-	if (!same)
-		point_light_corners(t, &l->p, seen, l->lit);
-	return l->lit;
+	*is_lit = same;
+	return l;
 }
 
-/* Colours by the lights' visibility. */
+/* The lanes' vertices, lit one by one: colour, secondary colour. */
+struct pack_corners_lit {
+	packf v[3][8];
+};
+
+static inline void pack_take_lit(const struct lit *lit, int flat, uint lane, struct pack_corners_lit *to)
+{
+	for (uint k = flat ? 2 : 0; k < 3; k++) {
+		LANE(to->v[k][0], float, lane) = lit[k].color.x;
+		LANE(to->v[k][1], float, lane) = lit[k].color.y;
+		LANE(to->v[k][2], float, lane) = lit[k].color.z;
+		LANE(to->v[k][3], float, lane) = lit[k].color.w;
+		LANE(to->v[k][4], float, lane) = lit[k].secondary.x;
+		LANE(to->v[k][5], float, lane) = lit[k].secondary.y;
+		LANE(to->v[k][6], float, lane) = lit[k].secondary.z;
+	}
+}
+
+/* As point_lit_between. */
+static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct pack_color *color, struct pack_color *secondary)
+{
+	const int flat = p->material->shade_model == GL_FLAT;
+
+	for (uint i = 0; i < 4; i++) {
+		color->c[i] = flat ? lit->v[2][i] : pack_mix(p, lit->v[0][i], lit->v[1][i], lit->v[2][i]);
+		secondary->c[i] = flat ? lit->v[2][4 + i] : pack_mix(p, lit->v[0][4 + i], lit->v[1][4 + i], lit->v[2][4 + i]);
+	}
+}
+
+/* Colours by the lights' visibility: each lane's triangle lit again, as setup_keep_lit does it. */
 static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
                                       struct pack_kept *kept, struct pack_color *color, struct pack_color *secondary)
 {
-	const int flat = p->material->shade_model == GL_FLAT;
-	packf v[3][8];
+	struct pack_corners_lit lit;
 
-	for (uint k = 0; k < 3; k++)
-		for (uint i = 0; i < 8; i++)
-			v[k][i] = 0.0f;
+	for (uint i = 0; i < 24; i++)
+		lit.v[i / 8][i % 8] = 0.0f;
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		struct vec3 seen[SCENE_MAX_LIGHTS];
-		const struct lit *lit;
+		struct pack_lit *l;
+		int is_lit;
 
 		stage_seen(a->visibility, a->n_slots, a->n, list->item[lane], seen);
-		lit = pack_relight(&a->tables, list, p, lane, seen, kept);
-		for (uint k = flat ? 2 : 0; k < 3; k++) {
-			LANE(v[k][0], float, lane) = lit[k].color.x;
-			LANE(v[k][1], float, lane) = lit[k].color.y;
-			LANE(v[k][2], float, lane) = lit[k].color.z;
-			LANE(v[k][3], float, lane) = lit[k].color.w;
-			LANE(v[k][4], float, lane) = lit[k].secondary.x;
-			LANE(v[k][5], float, lane) = lit[k].secondary.y;
-			LANE(v[k][6], float, lane) = lit[k].secondary.z;
-		}
+		l = pack_keep_lit(&a->tables, list, p, lane, seen, kept, &is_lit);
+		if (!is_lit)
+			point_light_corners(&a->tables, &l->p, seen, l->lit);
+		pack_take_lit(l->lit, p->material->shade_model == GL_FLAT, lane, &lit);
 	}
-	for (uint i = 0; i < 4; i++) {
-		color->c[i] = flat ? v[2][i] : pack_mix(p, v[0][i], v[1][i], v[2][i]);
-		secondary->c[i] = flat ? v[2][4 + i] : pack_mix(p, v[0][4 + i], v[1][4 + i], v[2][4 + i]);
-	}
+	pack_lit_between(p, &lit, color, secondary);
 }
 
 /* Textures at the fragments, and fog. */
@@ -156,26 +174,32 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	return pack_clamp01((m->fog_end - c) / (m->fog_end - m->fog_start));
 }
 
+/* Texture coordinates of the material's unit i at the corners. first: pack_texcoord_first; texcoord: [3][4] */
+WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p, uint lanes,
+                                               packu first, uint i, struct pack_kept *kept, packf (*texcoord)[4])
+{
+	for (int k = 0; k < 3; k++)
+		pack_row(a->tables.texcoords, p, first + p->number[k] * p->material->unit_count + i, texcoord[k]);
+	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
+		const uint lane = popcount((left & -left) - 1);
+
+		same = pack_same_part(list, p, left);
+		pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, texcoord);
+	}
+}
+
 WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
                                              struct pack_kept *kept, struct pack_texturing *out)
 {
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
 	const float middle = 0.5f - clip_origin(p->view);
-	const uint cut = lanes & pack_bits(p->cut);
 	const packu first = pack_texcoord_first(t, list, m, lanes);
 
 	for (uint i = 0; i < m->unit_count; i++) {
 		packf texcoord[3][4];
 
-		for (int k = 0; k < 3; k++)
-			pack_row(t->texcoords, p, first + p->number[k] * m->unit_count + i, texcoord[k]);
-		for (uint left = cut, same; left; left &= ~same) {
-			const uint lane = popcount((left & -left) - 1);
-
-			same = pack_same_part(list, p, left);
-			pack_cut_texcoord(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, texcoord);
-		}
+		pack_texcoords(a, list, p, lanes, first, i, kept, texcoord);
 		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
 		            out->sample[i]);
 	}

@@ -2,18 +2,7 @@
  * plain, plain_shadow: see kernels/frame/plain.h. A row of sixteen pixels at once, its fragments material by material
  * (kernels/frame/pack_shade.h); those that packs do not know one by one.
  */
-#include "kernels/frame/pack_compose.h"
-#include "kernels/frame/pack_ray.h"
-#include "kernels/frame/pack_shade.h"
-#include "kernels/frame/plain.h"
-
-/* A row of sixteen pixels on its way. */
-struct plain_row {
-	struct pack_list list;
-	struct pack_pixels pixels;
-	uint x, y, base; /* of the first pixel in the band; of its place among the rays */
-	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
-};
+#include "kernels/frame/plain_row.h"
 
 /* What is kept from one fragment to the next. */
 struct plain_kept {
@@ -21,48 +10,6 @@ struct plain_kept {
 	struct setup_kept one;
 	struct shadow_kept ray;
 };
-
-/* The fragments of a row that lies in the rectangle, from records to rows. @return a bit for each pixel that has one */
-WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at, struct pack_list *list)
-{
-	__global const float *words = (__global const float *)(a->sparse + at->y * a->width + at->x);
-	const packu place = as_uint16(PACK_LANES) * 6;
-	packf first[4], last[4];
-
-	pack_gather_from(words, place, first);
-	pack_gather_from(words, place + 2, last);
-	vstore16(as_uint16(first[1]), 0, list->instance);
-	vstore16(as_uint16(first[2]), 0, list->primitive);
-	vstore16(first[3], 0, list->b1);
-	vstore16(last[2], 0, list->b2);
-	vstore16(last[3], 0, list->depth);
-	return pack_bits(as_uint16(first[0]) != SCENE_NONE);
-}
-
-/* The fragments of a row. @return a bit for each pixel that has one */
-static inline uint load_row(const struct plain_arguments *a, struct plain_row *row)
-{
-	const struct camera_rectangle r = a->rectangle;
-	uint lanes = 0;
-
-	row->dimmed = 0;
-	vstore16(row->base + as_uint16(PACK_LANES), 0, row->list.item);
-	vstore16(a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES), 0, row->list.pixel);
-	if ((int)row->y >= r.y0 && (int)row->y < r.y1 && (int)row->x >= r.x0 && (int)(row->x + PACK_SIZE) <= r.x1)
-		return load_whole_row(a, row, &row->list);
-	for (uint lane = 0; lane < PACK_SIZE; lane++) {
-		const struct fragment f = plain_fragment(a, row->x + lane, row->y);
-		const uint there = f.order != SCENE_NONE;
-
-		row->list.instance[lane] = f.instance;
-		row->list.primitive[lane] = f.primitive;
-		row->list.b1[lane] = f.b1;
-		row->list.b2[lane] = f.b2;
-		row->list.depth[lane] = f.depth;
-		lanes |= there << lane;
-	}
-	return lanes;
-}
 
 /* All pixels as they were cleared. */
 WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct pack_pixels *p)
@@ -144,6 +91,19 @@ static inline void send_rays(const struct plain_arguments *a, const struct plain
 	}
 }
 
+/* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
+static inline void take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
+{
+	const uint step = sizeof(struct shaded) / sizeof(float);
+
+	for (uint left = lanes; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		for (int i = 0; i < n; i++)
+			LANE(to->c[i], float, lane) = from[lane * step + i];
+	}
+}
+
 /* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
 static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct plain_row *row, uint lanes,
                                struct pack_kept *kept)
@@ -165,9 +125,13 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	show = pack_mask(lanes) & shows(a, p.material, p.depth);
 	pack_texture(s, &row->list, &p, lanes, kept, &texturing);
 	pack_lit_from_vertices(t, &p, &lit, &secondary);
-	color = pack_finish(t, &p, &texturing, &lit, &secondary);
-	for (int i = 0; i < 3; i++)
-		color.c[i] = pack_nudge(color.c[i]);
+	if (p.material->fragment_program) {
+		take_color(a->shaded[row->base].gl, 4, lanes, &color);
+	} else {
+		color = pack_finish(t, &p, &texturing, &lit, &secondary);
+		for (int i = 0; i < 3; i++)
+			color.c[i] = pack_nudge(color.c[i]);
+	}
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE) {
 		const struct pack_color albedo = pack_albedo(t, &row->list, &p, lanes, &texturing, &lit);
 
@@ -175,7 +139,9 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 			pack_put(&row->pixels.albedo[i], albedo.c[i], show);
 	}
 	shadowed = color;
-	if (lanes & row->dimmed && !p.material->surface.relit) {
+	if (stage_is_by_program(s, p.material, g->flags)) {
+		take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &shadowed);
+	} else if (lanes & row->dimmed && !p.material->surface.relit) {
 		pack_between_relit(s, &row->list, &p, lanes & row->dimmed, kept, &lit, &secondary);
 		lit = pack_finish(t, &p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
@@ -222,19 +188,18 @@ static inline void shade_one(const struct plain_arguments *a, const struct shade
                              struct plain_kept *kept)
 {
 	const uint item = row->base + lane;
+	__global const struct geometry *g = &a->tables.geometries[row->list.instance[lane]];
+	const int is_done = stage_is_by_program(s, &a->tables.materials[g->material], g->flags);
+	const struct shadow_ray_arguments r = plain_rays(a);
 
-	if (!s->n_slots) {
-		const struct shadow_ray_arguments r = plain_rays(a);
-		struct fragment f = plain_fragment(a, row->x + lane, row->y);
-
-		a->fragments[item] = f;
+	if (!s->n_slots && !is_done) {
+		a->fragments[item] = plain_fragment(a, row->x + lane, row->y);
 		a->pixels[item] = row->list.pixel[lane];
-		shade_item(s, item, 0, &kept->one);
-		for (uint slot = 0; slot < a->n_slots; slot++)
-			shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
-	} else {
-		shade_item(s, item, 0, &kept->one);
 	}
+	if (!is_done)
+		shade_item(s, item, 0, &kept->one);
+	for (uint slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+		shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
 	put_one(a, row, lane);
 }
 
@@ -251,7 +216,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 		uint done = 0;
 
 		m = &a->tables.materials[material];
-		if (same & bit && pack_is_plain(s, m) && pack_knows_rays(m))
+		if (same & bit && plain_knows(s, m))
 			done = shade_lanes(a, s, row, same, &kept->pack);
 		if (!(done & bit)) {
 			shade_one(a, s, row, popcount(bit - 1), kept);
@@ -279,17 +244,10 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		kept.pack.lit[i].instance = SCENE_NONE;
 	for (uint i = 0; i < PACK_CUTS; i++)
 		kept.pack.cuts[i].instance = SCENE_NONE;
-	row.x = item % plain_columns(a->width) * PLAIN_WIDTH;
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
+		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row);
 		struct pack_planes to;
-		uint lanes;
 
-		row.y = item / plain_columns(a->width) * PLAIN_ROWS + k;
-		row.base = (item * PLAIN_ROWS + k) * PLAIN_WIDTH;
-		lanes = row.y < a->request.height ? load_row(a, &row) : 0;
-		for (uint lane = 0; lane < PACK_SIZE && s->n_slots; lane++)
-			if (lanes >> lane & 1 && stage_dimmed(a->visibility, s->n_slots, a->n, row.base + lane))
-				row.dimmed |= 1u << lane;
 		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots; i++)
 			if (!(lanes >> i % PACK_SIZE & 1))
 				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);

@@ -1,9 +1,11 @@
 /*
- * plain, plain_shadow: frames that are cleared and drawn once, each pixel showing its nearest fragment as it is: no blending, no mirrors,
+ * plain, plain_shadow, plain_program: frames that are cleared and drawn once, each pixel showing its nearest fragment as it is: no blending, no mirrors,
  * no pixels from before. Their pixels go from what the camera found to the planes of the picture in one step.
  *
  * plain makes all planes without shadows, and a ray to each light that a fragment wants. plain_shadow makes planes again where a light
  * is dimmed. What they compute is what shade, resolve and compose do one after the other, to the bit.
+ *
+ * plain_program runs before each of them where programs have a say: it leaves their fragments' colours in a->shaded.
  *
  * Rays, and what is kept of fragments that are shaded one by one, stand block by block: PLAIN_WIDTH pixels of PLAIN_ROWS rows of the band
  * a work item.
@@ -36,7 +38,7 @@ static inline struct shade_arguments plain_shading(const struct plain_arguments 
 	const struct shade_arguments s = {
 		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
 		.height = a->height, .bits = a->bits, .visibility = a->visibility, .n_slots = n_slots, .transport = TRANSPORT_GL,
-		.albedo = a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE, .n = a->n, .shaded = a->shaded,
+		.albedo = a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE, .n = a->n, .programs = a->programs, .shaded = a->shaded,
 	};
 
 	return s;

@@ -136,6 +136,27 @@ static inline void program_bias(struct texture_slope *slope, float bias)
 	slope->down = v4_scale(slope->down, scale);
 }
 
+/*
+ * A texture where one of the four looks at it.
+ * @param quad   coordinates of all four. k: the one
+ * @param level  its fourth number, where the instruction has it as a level or what is added to one
+ */
+static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags, const struct vec4 *quad,
+                                        uint32_t k, float level)
+{
+	struct texture_slope slope;
+
+	if (!texture_needs_slope(t, unit))
+		return texture_sample(t, unit, quad[k], (const struct texture_slope *)0);
+	slope.right = v4(1.0f, 0.0f, 0.0f, 0.0f);
+	slope.down = v4(0.0f, 1.0f, 0.0f, 0.0f);
+	if (!(flags & SCENE_TEXTURE_LEVEL))
+		slope = texture_slope(&t->textures[unit->texture], quad[k], quad[0], quad[1], quad[2]);
+	if (flags & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))
+		program_bias(&slope, level);
+	return texture_sample(t, unit, quad[k], &slope);
+}
+
 /* A texture that is not there, or not complete, is black. */
 static inline void program_sample(struct program_fragment *f, GLOBAL const struct scene_instruction *in)
 {
@@ -148,18 +169,8 @@ static inline void program_sample(struct program_fragment *f, GLOBAL const struc
 		c[k] = program_coordinates(f, in, k);
 		sample[k] = v4(0.0f, 0.0f, 0.0f, 1.0f);
 	}
-	for (uint32_t k = 0u; k < 4u && place != SCENE_NONE; k++) {
-		const int slopes = texture_needs_slope(t, unit);
-		struct texture_slope slope;
-
-		slope.right = v4(1.0f, 0.0f, 0.0f, 0.0f);
-		slope.down = v4(0.0f, 1.0f, 0.0f, 0.0f);
-		if (slopes && !(in->c & SCENE_TEXTURE_LEVEL))
-			slope = texture_slope(&t->textures[unit->texture], c[k], c[0], c[1], c[2]);
-		if (slopes && in->c & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))
-			program_bias(&slope, program_of_four(f->run.registers[in->a + 3u], k));
-		sample[k] = texture_sample(t, unit, c[k], slopes ? &slope : (const struct texture_slope *)0);
-	}
+	for (uint32_t k = 0u; k < 4u && place != SCENE_NONE; k++)
+		sample[k] = program_texel(t, unit, in->c, c, k, program_of_four(f->run.registers[in->a + 3u], k));
 	program_keep(&f->run, in->to, v4(sample[0].x, sample[1].x, sample[2].x, sample[3].x), f->run.mask);
 	program_keep(&f->run, in->to + 1u, v4(sample[0].y, sample[1].y, sample[2].y, sample[3].y), f->run.mask);
 	program_keep(&f->run, in->to + 2u, v4(sample[0].z, sample[1].z, sample[2].z, sample[3].z), f->run.mask);
@@ -197,11 +208,11 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, i
 	const struct fragment from = s->fragments[item];
 	GLOBAL const struct geometry *g = &s->tables.geometries[from.instance];
 	GLOBAL const struct scene_material *m = &s->tables.materials[g->material];
-	const int is_lit = s->n_slots && m->vertex_program && m->light_count && !m->surface.relit && !(g->flags & GEOMETRY_EXPANDED);
+	const int is_lit = stage_is_lit_by_program(s, m, g->flags);
 	GLOBAL const uint32_t *group;
 	uint32_t kind = 0u;
 
-	if (!(m->fragment_program || is_lit) || !(out->flags & SHADED_THERE) || out->flags & SHADED_STENCIL ||
+	if (!stage_is_by_program(s, m, g->flags) || !(out->flags & SHADED_THERE) || out->flags & SHADED_STENCIL ||
 	    (s->n_slots && !stage_dimmed(s->visibility, s->n_slots, s->n, item)))
 		return 0;
 	f->window.x = s->pixels[item] % s->width;

@@ -59,6 +59,18 @@ static inline uint32_t stage_wanted(const struct point *p, uint32_t lights)
 	return p->geometry->flags & GEOMETRY_EXPANDED ? 0u : (lights & 255u) * SHADED_WANTS(0);
 }
 
+/* Whether a vertex program lights fragments of a material anew, with the lights' visibility. flags: of its geometry */
+static inline int stage_is_lit_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m, uint32_t flags)
+{
+	return a->n_slots && m->vertex_program && m->light_count && !m->surface.relit && !(flags & GEOMETRY_EXPANDED);
+}
+
+/* Whether program_item has a say in the colour of its fragments. */
+static inline int stage_is_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m, uint32_t flags)
+{
+	return m->fragment_program || stage_is_lit_by_program(a, m, flags);
+}
+
 static inline int stage_stippled_away(const struct tables *t, const struct point *p, uint32_t x, uint32_t y)
 {
 	uint32_t stipple = p->material->polygon_stipple;

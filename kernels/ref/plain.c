@@ -2,6 +2,7 @@
 #include "kernels/frame/plain.h"
 
 #include "kernels/frame/compose.h"
+#include "kernels/gl/program.h"
 
 /* Compose a pixel of the band. */
 static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
@@ -13,6 +14,26 @@ static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t 
 	compose_one(&one, pixel, 0, (a->request.height - 1 - y) * a->width + x);
 }
 
+/* Whether a program has a say in a fragment's colour. */
+static int is_by_program(const struct shade_arguments *s, struct fragment f)
+{
+	const struct geometry *g = &s->tables.geometries[f.instance];
+
+	return stage_is_by_program(s, &s->tables.materials[g->material], g->flags);
+}
+
+/* A fragment as fixed function has it. s: as of do_pixel */
+static void shade_fixed(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	struct setup_kept kept;
+
+	if (!s->n_slots) {
+		a->fragments[item] = plain_fragment(a, x, y);
+		a->pixels[item] = a->first_pixel + y * a->width + x;
+	}
+	shade_item(s, item, 0, &kept);
+}
+
 /* s: with visibility where lights have been asked */
 static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
 {
@@ -20,29 +41,37 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 	const struct fragment f = plain_fragment(a, x, y);
 	struct frame_pixel pixel = *a->cleared;
 	struct shadow_kept shadow_kept;
-	struct setup_kept kept;
 
 	for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
 		stage_no_ray(&a->rays[slot * a->n + item]);
 	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE))
 		return;
 	if (f.order != SCENE_NONE) {
-		const struct shade_arguments first = plain_shading(a, 0);
-
-		a->fragments[item] = f;
-		a->pixels[item] = a->first_pixel + y * a->width + x;
-		shade_item(&first, item, 0, &kept);
+		if (!is_by_program(s, f)) /* else plain_program has */
+			shade_fixed(a, s, x, y, item);
 		for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
 			shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
-		if (s->n_slots)
-			shade_item(s, item, 0, &kept);
 		pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
 		           stage_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
 	}
 	compose_pixel(a, x, y, &pixel);
 }
 
-static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last)
+/* What plain_program leaves for do_pixel. */
+static void run_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	const struct fragment f = plain_fragment(a, x, y);
+	struct setup_kept kept;
+
+	if (x >= a->width || y >= a->request.height || f.order == SCENE_NONE || !is_by_program(s, f))
+		return;
+	shade_fixed(a, s, x, y, item);
+	program_item(s, item, 0, &kept);
+}
+
+/* Each pixel of blocks first .. last-1 by one of the two above. */
+static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last,
+                      void (*one)(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t))
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
 	const uint32_t columns = plain_columns(a->width);
@@ -50,17 +79,22 @@ static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t 
 	for (size_t i = first * PLAIN_WIDTH * PLAIN_ROWS; i < last * PLAIN_WIDTH * PLAIN_ROWS && i < a->n; i++) {
 		const uint32_t block = (uint32_t)i / (PLAIN_WIDTH * PLAIN_ROWS), place = (uint32_t)i % (PLAIN_WIDTH * PLAIN_ROWS);
 
-		do_pixel(a, &s, block % columns * PLAIN_WIDTH + place % PLAIN_WIDTH, block / columns * PLAIN_ROWS + place / PLAIN_WIDTH,
-		         (uint32_t)i);
+		one(a, &s, block % columns * PLAIN_WIDTH + place % PLAIN_WIDTH, block / columns * PLAIN_ROWS + place / PLAIN_WIDTH,
+		    (uint32_t)i);
 	}
 }
 
 void plain_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_blocks(a, 0, first, last);
+	do_blocks(a, 0, first, last, do_pixel);
 }
 
 void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 {
-	do_blocks(a, a->n_slots, first, last);
+	do_blocks(a, a->n_slots, first, last, do_pixel);
+}
+
+void plain_program_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, a->n_slots, first, last, run_pixel);
 }

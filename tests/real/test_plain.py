@@ -13,6 +13,9 @@ PROGRAMS = {  # and whether their frames are plain
     "box": (True, ["cornell", "--size", "317x203", "--animate", "light"]),
     "arena": (True, ["arena"]),
     "blocks": (True, ["blocks"]),
+    "vertex": (True, ["phong", "--size", "201x150", "--by", "vertex"]),
+    "fragment": (True, ["phong", "--size", "201x150", "--by", "fragment"]),
+    "glsl": (True, ["phong", "--size", "201x150", "--by", "glsl"]),
     "spheres": (False, ["spheres", "--size", "320x240"]),
     "still_life": (False, ["still_life", "--size", "320x240"]),
 }

@@ -32,7 +32,7 @@ int plain_suits(const struct job *job)
 	struct scene_clear clear;
 
 	if (job->options->hook || device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
-	    job->scene->start || job->scene->needs_previous || job->scene->n_programs || !is_lit_simply(job))
+	    job->scene->start || job->scene->needs_previous || !is_lit_simply(job))
 		return 0;
 	if (dome_is_there(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
 	    segment_whole_clear(job, &clear) != segment->clear_count)
@@ -80,7 +80,16 @@ static struct plain_launch launch_of(const struct job *job, struct camera_rectan
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
 	               .visibility = b->visibility, .n_slots = n_slots, .n = n, .fragments = b->fragments, .pixels = b->pixels,
-	               .shaded = b->shaded, .rays = b->rays, .halves = b->halves, .floats = b->floats);
+	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs, .halves = b->halves, .floats = b->floats);
+}
+
+/* Colours by programs, for plain without lights that have been asked (0) or for plain_shadow. */
+static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks, uint32_t n_slots)
+{
+	if (!(job->prepared.has_fragment_programs || (n_slots && job->prepared.has_vertex_programs)))
+		return 0;
+	a.n_slots = n_slots;
+	return launch_plain_program(job->tr->dev, blocks, &a);
 }
 
 int plain_band(struct job *job)
@@ -104,9 +113,13 @@ int plain_band(struct job *job)
 	if (err)
 		return err;
 	a = launch_of(job, r, n, n_slots, &request);
-	err = launch_plain(job->tr->dev, blocks, &a);
+	err = run_programs(job, a, blocks, 0);
+	if (!err)
+		err = launch_plain(job->tr->dev, blocks, &a);
 	if (!err && n_slots)
 		err = secondary_ask(job, space, 1, n * n_slots);
+	if (!err && n_slots)
+		err = run_programs(job, a, blocks, n_slots);
 	if (!err && n_slots) {
 		a.request = shadow_request(request);
 		err = launch_plain_shadow(job->tr->dev, blocks, &a);

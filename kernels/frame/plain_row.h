@@ -1,0 +1,84 @@
+/* Rows of sixteen pixels of a plain frame (kernels/frame/plain.h), as its kernels go through them. OpenCL C only. */
+#pragma once
+
+#include "kernels/frame/pack_compose.h"
+#include "kernels/frame/pack_ray.h"
+#include "kernels/frame/pack_shade.h"
+#include "kernels/frame/plain.h"
+
+/* A row of sixteen pixels on its way. */
+struct plain_row {
+	struct pack_list list;
+	struct pack_pixels pixels;
+	uint x, y, base; /* of the first pixel in the band; of its place among the rays */
+	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
+};
+
+/* Whether packs know all that a material asks for; what they do not goes one by one. */
+static inline int plain_knows(const struct shade_arguments *s, __global const struct scene_material *m)
+{
+	return pack_is_plain(s, m) && pack_knows_rays(m);
+}
+
+/* The fragments of a row that lies in the rectangle, from records to rows. @return a bit for each pixel that has one */
+WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at, struct pack_list *list)
+{
+	__global const float *words = (__global const float *)(a->sparse + at->y * a->width + at->x);
+	const packu place = as_uint16(PACK_LANES) * 6;
+	packf first[4], last[4];
+
+	pack_gather_from(words, place, first);
+	pack_gather_from(words, place + 2, last);
+	vstore16(as_uint16(first[1]), 0, list->instance);
+	vstore16(as_uint16(first[2]), 0, list->primitive);
+	vstore16(first[3], 0, list->b1);
+	vstore16(last[2], 0, list->b2);
+	vstore16(last[3], 0, list->depth);
+	return pack_bits(as_uint16(first[0]) != SCENE_NONE);
+}
+
+static inline uint load_row(const struct plain_arguments *a, struct plain_row *row)
+{
+	const struct camera_rectangle r = a->rectangle;
+	uint lanes = 0;
+
+	vstore16(row->base + as_uint16(PACK_LANES), 0, row->list.item);
+	vstore16(a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES), 0, row->list.pixel);
+	if ((int)row->y >= r.y0 && (int)row->y < r.y1 && (int)row->x >= r.x0 && (int)(row->x + PACK_SIZE) <= r.x1)
+		return load_whole_row(a, row, &row->list);
+	for (uint lane = 0; lane < PACK_SIZE; lane++) {
+		const struct fragment f = plain_fragment(a, row->x + lane, row->y);
+		const uint there = f.order != SCENE_NONE;
+
+		row->list.instance[lane] = f.instance;
+		row->list.primitive[lane] = f.primitive;
+		row->list.b1[lane] = f.b1;
+		row->list.b2[lane] = f.b2;
+		row->list.depth[lane] = f.depth;
+		lanes |= there << lane;
+	}
+	return lanes;
+}
+
+/*
+ * Row k of a block, but for its pixels.
+ * n_slots: of lights whose visibility is there; 0: nothing is dimmed
+ * @return a bit for each pixel that has a fragment
+ */
+static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots, uint block, uint k, struct plain_row *row)
+{
+	uint lanes;
+
+	row->x = block % plain_columns(a->width) * PLAIN_WIDTH;
+	row->y = block / plain_columns(a->width) * PLAIN_ROWS + k;
+	row->base = (block * PLAIN_ROWS + k) * PLAIN_WIDTH;
+	row->dimmed = 0;
+	lanes = row->y < a->request.height ? load_row(a, row) : 0;
+	for (uint left = n_slots ? lanes : 0; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		if (stage_dimmed(a->visibility, n_slots, a->n, row->base + lane))
+			row->dimmed |= 1u << lane;
+	}
+	return lanes;
+}
