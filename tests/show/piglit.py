@@ -42,15 +42,18 @@ BAR_PARITY = 0.9
 PROGRAM_CALLS = {"glLinkProgram", "glLinkProgramARB", "glProgramStringARB", "glEndFragmentShaderATI"}
 
 
-def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),)):
-    """[(name, command)] of the suite's lists and their kinds of tests, each command once."""
+def find_tests(parts, groups=GROUPS, lists=(("opengl", "gl"),), versions=None):
+    """[(name, command)] of the suite's lists and their kinds of tests, each command once. versions: of GLSL, of the compatibility profile alone."""
     tests, seen = [], set()
-    for name, kind, option in ((test.get("name"), kind, test.find("option[@name='command']")) for file, kind in lists
-                               for test in xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / f"{file}.xml.gz")).getroot().iter("Test")
-                               if test.get("type") == kind):
-        if option is None or not groups.match(name):
+    for test, kind in ((test, kind) for file, kind in lists
+                       for test in xml.etree.ElementTree.parse(gzip.open(PIGLIT / "tests" / f"{file}.xml.gz")).getroot().iter("Test")
+                       if test.get("type") == kind):
+        name, options = test.get("name"), {option.get("name"): option.get("value") for option in test}
+        if "command" not in options or not groups.match(name):
             continue
-        command = tuple(str(PIGLIT / word) if kind == "shader" and "/" in word else word for word in ast.literal_eval(option.get("value")))
+        if versions and (options.get("api") != "'compat'" or options.get("shader_version") not in versions):
+            continue
+        command = tuple(str(PIGLIT / word) if kind == "shader" and "/" in word else word for word in ast.literal_eval(options["command"]))
         if not (PIGLIT / "bin" / command[0]).exists():
             continue  # the list names one that Debian's package does not have
         if command not in seen and (not parts or any(part in name for part in parts)):

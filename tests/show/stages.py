@@ -15,11 +15,15 @@ import resource
 import statistics
 import subprocess
 import sys
+import zlib
 
 import piglit
 
 GROUPS = re.compile(r"spec@arb_(vertex|fragment)_program(_shadow)?@")
 LISTS = (("opengl", "gl"), ("shader", "shader"))
+GLSL_GROUPS = re.compile(r"(?!glslparsertest)")
+GLSL_VERSIONS = ("1.1", "1.2")
+GLSL_EVERY = 10
 PANELS = ("program", "vertex_program")
 WAYS = {"fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"}
 FRAMES = 8
@@ -54,22 +58,36 @@ def score_panels(build, base):
     return rows
 
 
-def score_piglit(build, base):
-    tests = piglit.find_tests((), GROUPS, LISTS)
-    ran = piglit.recorded_rows(build, tests, base / "piglit")
+def score_tests(build, folder, tests, title):
+    """The last frames of piglit's tests."""
+    ran = piglit.recorded_rows(build, tests, folder)
     rows = [row for row in ran if row["bare"].split()[0] == "pass" and row["frames"]]
     for row in rows:
-        piglit.score(build, base / "piglit" / re.sub(r"\W+", "_", row["name"]), row)
-    piglit.write_table(build / "show" / "stages.tsv", ("name", "command", "frame", "parity", "why", "fidelity", "one_colour", "left_out"), rows)
+        piglit.score(build, folder / re.sub(r"\W+", "_", row["name"]), row)
+    piglit.write_table(build / "show" / f"stages-{folder.name}.tsv",
+                       ("name", "command", "frame", "parity", "why", "fidelity", "one_colour", "left_out"), rows)
     for row in rows:
         if row["parity"] != "passes":
             print(f"{row['name']}: {row['parity']} {row['why']} {row.get('left_out', '')}"[:200])
     good = sum(row["parity"] == "passes" for row in rows)
     plain = sum(row["parity"] == "passes" and row["one_colour"] for row in rows)
     share = good / len(rows) if rows else 0
-    return [{"what": f"piglit's tests of ARB programs ({len(tests)} run, {len(rows)} pass on Mesa and read pixels): last frames that pass R1 to R3",
+    return [{"what": f"piglit's tests of {title} ({len(tests)} run, {len(rows)} pass on Mesa and read pixels): last frames that pass R1 to R3",
              "figure": f"{good} of {len(rows)} ({100 * share:.1f} %), {plain} of these of one colour", "bar": f"{100 * BAR_PIGLIT:.0f} %",
              "peer": "piglit on Mesa llvmpipe", "passed": share >= BAR_PIGLIT}]
+
+
+def score_piglit(build, base):
+    return score_tests(build, base / "piglit", piglit.find_tests((), GROUPS, LISTS), "ARB programs")
+
+
+def score_glsl(build, base, every=GLSL_EVERY):
+    tests = [test for test in piglit.find_tests((), GLSL_GROUPS, LISTS[1:], GLSL_VERSIONS) if zlib.crc32(test[0].encode()) % every == 0]
+    return score_tests(build, base / "glsl", tests, f"GLSL 1.10 and 1.20, one of {every} by their names' CRC-32")
+
+
+def score_all_glsl(build, base):
+    return score_glsl(build, base, 1)
 
 
 def processor_s(*command):
@@ -98,7 +116,8 @@ def score_cost(build, base):
              "passed": median[way] <= BAR_COST * median["fixed"]} for way in WAYS if way != "fixed"]
 
 
-PARTS = {"panels": score_panels, "piglit": score_piglit, "cost": score_cost}
+PARTS = {"panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost}
+MORE_PARTS = {"glsl-all": score_all_glsl}  # told apart: an hour
 
 
 def main(build, *parts):
@@ -108,7 +127,7 @@ def main(build, *parts):
     os.environ.setdefault("POCL_CACHE_DIR", str(build / "tests/pocl-cache"))
     base = build / "show" / "stages"
     base.mkdir(parents=True, exist_ok=True)
-    rows = [row for part in parts or PARTS for row in PARTS[part](build, base)]
+    rows = [row for part in parts or PARTS for row in (PARTS | MORE_PARTS)[part](build, base)]
     return piglit.show(build, "programs", rows, "show-programs")
 
 
