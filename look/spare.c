@@ -9,6 +9,7 @@
 #include "base/mat4.h"
 #include "look/blockers.h"
 #include "look/cards.h"
+#include "scene/draw_list.h"
 
 /* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches a few hundredths. */
 #define REACHED_LEAST 0.1f
@@ -476,43 +477,26 @@ char *spare_tell_lights(const struct spare *spare)
 	return text;
 }
 
-/* Draw numbers of instances that `is` names. */
-static char *tell_draws(const struct spare *spare, const struct scene *scene, int is(const struct spare *spare, const struct scene *scene, uint32_t i))
+static int is_card(const void *user, const struct scene *scene, uint32_t i)
 {
-	char *text = NULL;
-	size_t size;
-	FILE *out = open_memstream(&text, &size);
-	int any = 0;
+	const struct spare *spare = user;
 
-	for (uint32_t i = 0; out && i < scene->n_instances; i++) {
-		uint32_t first = scene->instances[i].draw, end = i + 1 < scene->n_instances ? scene->instances[i + 1].draw : scene->n_draws + 1;
-
-		if (is(spare, scene, i))
-			fprintf(out, "%s%u-%u", any++ ? "," : "", first, end > first ? end - 1 : first);
-	}
-	if (out)
-		fclose(out);
-	return text;
-}
-
-static int is_card(const struct spare *spare, const struct scene *scene, uint32_t i)
-{
 	(void)scene;
 	return spare->bits && spare->kept && spare->bits[i] & SCENE_CARD;
 }
 
-static int is_left_out(const struct spare *spare, const struct scene *scene, uint32_t i)
+static int is_left_out(const void *user, const struct scene *scene, uint32_t i)
 {
-	(void)spare;
+	(void)user;
 	return (scene->materials[scene->instances[i].material].surface.hidden & SCENE_LEFT_OUT) != 0;
 }
 
 char *spare_tell_cards(const struct spare *spare, const struct scene *scene)
 {
-	return tell_draws(spare, scene, is_card);
+	return scene_draw_list(scene, is_card, spare);
 }
 
 char *spare_tell_left_out(const struct scene *scene)
 {
-	return tell_draws(NULL, scene, is_left_out);
+	return scene_draw_list(scene, is_left_out, NULL);
 }

@@ -14,6 +14,7 @@
 #include "look/unseen.h"
 #include "render/cryptomatte.h"
 #include "render/preview.h"
+#include "render/programs.h"
 #include "render/supply.h"
 #include "render/vectors.h"
 #include "scene/release.h"
@@ -374,6 +375,8 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	err = render_scene(settings, tracer, scene, &picture->img);
 	if (!err)
 		err = tell_time(scene, &picture->img);
+	if (!err)
+		err = programs_tell(scene, &picture->img);
 	if (!err && settings->motion)
 		err = vectors_add(scene, earlier_of(w->state, scene->frame), &picture->img);
 	if (!err && settings->cryptomatte)

@@ -15,6 +15,7 @@
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
 #include "replay/play/player.h"
+#include "replay/programs/program.h"
 #include "scene/release.h"
 
 #define FEW_FRAMES 8 /* a way so short is executed, without the index */
@@ -321,8 +322,7 @@ size_t replay_programs(struct replay *rp, const struct replay_program **out)
 			break;
 		}
 		rp->programs[n++] = (struct replay_program){
-			key >> 32 == 0 ? "program object" : key >> 32 == GL_VERTEX_PROGRAM_ARB ? "vertex program" : "fragment program", (uint32_t)key,
-			(uintptr_t)draws->entries[i].value };
+			gls_program_kind(key), (uint32_t)key, (uintptr_t)draws->entries[i].value };
 	}
 	if (n)
 		qsort(rp->programs, n, sizeof(rp->programs[0]), by_kind_and_name);

@@ -29,6 +29,7 @@ typedef uchar uint8_t;
 #define SCENE_MAX_UNITS 8
 #define SCENE_MAX_GENERICS 15 /* vertex programs' attributes beside the position */
 #define SCENE_MAX_LIGHTS 8
+#define SCENE_DRAW_PROGRAMS 2 /* of vertices and of fragments */
 #define SCENE_MAX_CLIP_PLANES 8 /* GL 2.1 wants six; Mesa has eight */
 #define SCENE_NONE 0xffffffffu
 #define SCENE_SWIZZLED 0x1000u
@@ -375,6 +376,10 @@ struct scene {
 		const char *call; /* a static string */
 		uint64_t call_number;
 		uint32_t list; /* the display list that it came from, as the program called it; 0: none */
+		struct scene_draw_program {
+			const char *kind; /* "program object", "vertex program", "fragment program": a static string; NULL: there is none, nor another */
+			uint32_t name;
+		} programs[SCENE_DRAW_PROGRAMS]; /* that it ran */
 	} *draws;
 
 	void (*release)(struct scene *scene); /* how its maker takes a reference back (release.h); NULL: nobody counts */

@@ -119,6 +119,44 @@ static void print_columns(const struct score *s, FILE *out)
 		}
 }
 
+static int compare_names(const void *a, const void *b)
+{
+	return strverscmp(((const struct score_program *)a)->name, ((const struct score_program *)b)->name);
+}
+
+/* A line for each of the application's own programs: pixels of all frames. */
+static void print_programs(const struct output_run *run, FILE *out)
+{
+	struct score_program *all;
+	size_t n = 0;
+
+	for (size_t i = 0; i < run->n_scores; i++)
+		n += run->scores[i].n_programs;
+	if (!n)
+		return;
+	all = malloc(n * sizeof(*all));
+	if (!all) {
+		err_report(ERR_SYSTEM, NULL, "out of memory");
+		return;
+	}
+	n = 0;
+	for (size_t i = 0; i < run->n_scores; i++) {
+		memcpy(all + n, run->scores[i].programs, run->scores[i].n_programs * sizeof(*all));
+		n += run->scores[i].n_programs;
+	}
+	qsort(all, n, sizeof(*all), compare_names);
+	for (size_t i = 0, end; i < n; i = end) {
+		struct score_program sum = all[i];
+
+		for (end = i + 1; end < n && strcmp(all[end].name, sum.name) == 0; end++) {
+			sum.pixels += all[end].pixels;
+			sum.failing += all[end].failing;
+		}
+		fprintf(out, "%s: %.3f %% of %" PRIu64 " px\n", sum.name, 100 * (1 - (double)sum.failing / (double)sum.pixels), sum.pixels);
+	}
+	free(all);
+}
+
 /* One line: counts by outcome and the worst frame. */
 static void print_summary(const struct output_run *run, FILE *out)
 {
@@ -235,6 +273,7 @@ void output_table(const struct output_run *run, FILE *out)
 			fprintf(out, "R4 %s: %s\n", score_gates[GATE_R4].title, s->gates[GATE_R4].note);
 		break;
 	}
+	print_programs(run, out);
 	print_summary(run, out);
 }
 
@@ -336,6 +375,13 @@ static void json_score(const struct score *s, FILE *out)
 	for (uint32_t b = 0; b < s->n_blame; b++) {
 		fputs(b ? ", " : "", out);
 		json_blame(&s->blame[b], out);
+	}
+	if (s->n_programs)
+		fputs("], \"programs\": [", out);
+	for (uint32_t i = 0; i < s->n_programs; i++) {
+		fputs(i ? ", {\"name\": " : "{\"name\": ", out);
+		json_string(s->programs[i].name, out);
+		fprintf(out, ", \"pixels\": %" PRIu64 ", \"failing\": %" PRIu64 "}", s->programs[i].pixels, s->programs[i].failing);
 	}
 	fputs("]}", out);
 }

@@ -102,6 +102,8 @@ static int measure_frame(struct gate_frame *f)
 		err = measure_info(f);
 	if (!err)
 		err = gate_blame(f);
+	if (!err)
+		err = gate_programs(f);
 	free(f->blamed);
 	score_maps_free(&f->maps);
 	score_picture_free(&f->traced);

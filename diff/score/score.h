@@ -38,6 +38,9 @@ extern const char *const score_state_names[N_SCORE_STATES];
 
 #define SCORE_CODES 2 /* R1, R2: the largest channel difference that passes, codes */
 
+#define SCORE_MAX_PROGRAMS 64
+#define SCORE_PROGRAM_NAME 32
+
 enum { SCORE_MAX_FIGURES = 3, SCORE_MAX_BLAME = 8, SCORE_MAX_RANGES = 4 };
 
 /* One gate of one frame; figures are those of gate_table.h. */
@@ -81,6 +84,12 @@ struct score_blame {
 	uint32_t x0, y0, x1, y1; /* box around its failing pixels, the last ones included */
 };
 
+/* One of the recorded application's own programs. */
+struct score_program {
+	char name[SCORE_PROGRAM_NAME]; /* "program object 7" */
+	uint64_t pixels, failing;      /* that its draws show; of these, those that fail R1, R1b or R2 */
+};
+
 struct score {
 	uint64_t frame;
 	enum score_outcome outcome;
@@ -94,6 +103,8 @@ struct score {
 	struct score_info info;
 	uint32_t n_blame;
 	struct score_blame blame[SCORE_MAX_BLAME]; /* draws by blamed pixels, most first; none without ids */
+	uint32_t n_programs;
+	struct score_program programs[SCORE_MAX_PROGRAMS]; /* that show somewhere; where there are more, the first */
 	const char *flaky_reason; /* borrowed from the configuration; NULL where nothing is flaky */
 };
 

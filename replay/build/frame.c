@@ -15,6 +15,7 @@
 #include "replay/gl/texture/image.h"
 #include "replay/machine/commands.h"
 #include "replay/machine/errors.h"
+#include "replay/programs/program.h"
 #include "scene/release.h"
 
 /* The caller of replay_next_frame and surfaces hold references. */
@@ -39,14 +40,20 @@ static uint32_t mesh_slot(struct gls_exec *x, struct gls_frame *f, struct gls_me
 	return mesh->slot;
 }
 
-static int name_draws(const struct gls_exec *x, struct gls_frame *f, uint32_t command, uint64_t call_number, uint32_t n)
+/* st: its programs run the draws; NULL: they are no draws that programs run */
+static int name_draws(const struct gls_exec *x, struct gls_frame *f, const struct gls_state *st, uint32_t command, uint64_t call_number, uint32_t n)
 {
+	struct scene_draw named = { .call = gls_commands[command].name, .call_number = call_number, .list = x->drawn_list };
 	struct scene *s = f->out;
+	uint64_t keys[SCENE_DRAW_PROGRAMS];
+	const unsigned n_keys = st ? gls_program_current(st, keys) : 0;
 
+	for (unsigned i = 0; i < n_keys; i++)
+		named.programs[i] = (struct scene_draw_program){ gls_program_kind(keys[i]), (uint32_t)keys[i] };
 	for (uint32_t i = 0; i < n; i++) {
 		if (MEMORY_GROW(s->draws, f->room.draws, f->next_draw + 1))
 			return ERR_SYSTEM;
-		s->draws[f->next_draw++] = (struct scene_draw){ gls_commands[command].name, call_number, x->drawn_list };
+		s->draws[f->next_draw++] = named;
 	}
 	return 0;
 }
@@ -166,7 +173,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		return 0;
 	s = f->out;
 	first_draw = f->next_draw;
-	if (name_draws(x, f, e->command, e->call_number, mesh->n_draws) ||
+	if (name_draws(x, f, st, e->command, e->call_number, mesh->n_draws) ||
 	    MEMORY_GROW(s->instances, f->room.instances, s->n_instances + 1))
 		goto fail;
 	if (f->last != st || st->dirty & GLS_DIRTY_VIEW)
@@ -238,7 +245,7 @@ void gls_frame_clear(struct gls_exec *x, const struct gls_target *target, const 
 	s = f->out;
 	clear.before_instance = s->n_instances;
 	clear.draw = f->next_draw;
-	if (name_draws(x, f, x->command, x->call->number, 1) ||
+	if (name_draws(x, f, NULL, x->command, x->call->number, 1) ||
 	    MEMORY_GROW(s->clears, f->room.clears, s->n_clears + 1)) {
 		gls_fail(x);
 		return;
@@ -302,7 +309,7 @@ static struct gls_frame *make_frame(struct gls_exec *x)
 	f->serial = ++x->serial;
 	if (MEMORY_GROW(f->out->draws, f->room.draws, 1u))
 		goto fail;
-	f->out->draws[0] = (struct scene_draw){ "", 0, 0 };
+	f->out->draws[0] = (struct scene_draw){ .call = "" };
 	return f;
 fail:
 	free(scene);

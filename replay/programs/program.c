@@ -80,7 +80,7 @@ const char *gls_program_lack(const struct gls_state *st)
 	return lack;
 }
 
-unsigned gls_program_current(const struct gls_state *st, uint64_t keys[2])
+unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS])
 {
 	unsigned n = 0;
 
@@ -93,6 +93,11 @@ unsigned gls_program_current(const struct gls_state *st, uint64_t keys[2])
 	if (st->a.programs.fragment)
 		keys[n++] = (uint64_t)GL_FRAGMENT_PROGRAM_ARB << 32 | st->arb_fragment;
 	return n;
+}
+
+const char *gls_program_kind(uint64_t key)
+{
+	return key >> 32 == 0 ? "program object" : key >> 32 == GL_VERTEX_PROGRAM_ARB ? "vertex program" : "fragment program";
 }
 
 static int runs(const struct gls_state *st, uint32_t target, struct program_stage *stage)

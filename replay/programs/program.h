@@ -39,7 +39,10 @@ struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t targe
 const char *gls_program_lack(const struct gls_state *st);
 
 /** Which programs draw, as numbers: the kind (0: a program object of GLSL, else the target of one in assembly) << 32 | its name. @return how many */
-unsigned gls_program_current(const struct gls_state *st, uint64_t keys[2]);
+unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS]);
+
+/** What such a number is of, in words: a static string. */
+const char *gls_program_kind(uint64_t key);
 
 /** The programs that run a stage of what is drawn now. @return 1; 0: fixed function runs it */
 int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *stage);

@@ -944,6 +944,26 @@ START_TEST(baseline_sees_lost_shadows_and_names_the_draw)
 }
 END_TEST
 
+START_TEST(pixels_of_programs_are_counted)
+{
+	struct drawing d = all;
+
+	d.other_texture = 1;
+	remake_traced(&d);
+	ck_assert_int_eq(image_set_attribute(&traced, "relume:programs", "%s",
+	                                     "program object 7=1-1;vertex program 3=2-2;program object 9=1-2;odd;none=900-901;fragment program 1="), 0);
+	run();
+	ck_assert_uint_eq(score.n_programs, 3);
+	ck_assert_str_eq(score.programs[0].name, "program object 7");
+	ck_assert_str_eq(score.programs[1].name, "vertex program 3");
+	ck_assert_uint_gt(score.programs[0].failing, score.programs[0].pixels / 2);
+	ck_assert_uint_eq(score.programs[1].failing, 0);
+	ck_assert_uint_gt(score.programs[1].pixels, 0);
+	ck_assert_uint_eq(score.programs[2].pixels, score.programs[0].pixels + score.programs[1].pixels);
+	ck_assert_uint_eq(score.programs[2].failing, score.programs[0].failing);
+}
+END_TEST
+
 START_TEST(blame_of_a_missing_draw_by_the_approved_frame)
 {
 	struct score_approved approved;
@@ -1014,6 +1034,7 @@ int main(void)
 	tcase_add_test(tests, baseline_by_hash);
 	tcase_add_test(tests, baseline_of_another_device);
 	tcase_add_test(tests, baseline_sees_lost_shadows_and_names_the_draw);
+	tcase_add_test(tests, pixels_of_programs_are_counted);
 	tcase_add_test(tests, blame_of_a_missing_draw_by_the_approved_frame);
 	tcase_add_test(tests, codes_round_trip);
 	return run_case(tests, "gates");

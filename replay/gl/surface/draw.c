@@ -24,7 +24,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	struct gls_target targets[2];
 	struct gls_frame *drawn;
 	const char *lack;
-	uint64_t keys[2];
+	uint64_t keys[SCENE_DRAW_PROGRAMS];
 	unsigned n, added = 0;
 
 	if (!x->want)
