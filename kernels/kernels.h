@@ -117,7 +117,7 @@ typedef float element_float;
 	OUT(float, clips) AND()             /* [4] */ \
 	OUT(float, coords)                  /* tables.texcoords */
 #define ARGUMENTS_vertex_program(IN, OUT, VALUE, GROUP, AND) \
-	ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) AND() IN(uint, programs) /* shaded: read as well */
+	ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) AND() OUT(uint, programs) /* these and shaded: read as well */
 #define ARGUMENTS_window(IN, OUT, VALUE, GROUP, AND) \
 	IN(geometry, geometries) AND() IN(view, views) AND() IN(uint, owners) AND() IN(float, clips) AND() \
 	VALUE(uint, height) AND() VALUE(uint, n) AND() OUT(window_vertex, windows)
@@ -141,7 +141,7 @@ typedef float element_float;
 	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
 	VALUE(uint, albedo) AND()           /* 0: nobody asks for albedo, which stays 0 */ \
 	VALUE(uint, n) AND()                /* fragments */ \
-	IN(uint, programs) AND()            /* scene.programs: `program` alone reads them */ \
+	OUT(uint, programs) AND()           /* scene.programs: `program` alone reads them, and says which were ended */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(scene_clear, clear) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
@@ -189,7 +189,7 @@ typedef float element_float;
 	VALUE(uint, n) AND()                /* places of rays a slot: the blocks' pixels */ \
 	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
-	IN(uint, programs) AND()            /* plain_program alone */ \
+	OUT(uint, programs) AND()           /* plain_program alone; read as well */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */

@@ -426,6 +426,7 @@ static void add_undrawn(struct pipeline_state *state, const struct tracer *trace
 
 	pthread_mutex_lock(&state->lock);
 	state->p->undrawn.targets += u->targets;
+	state->p->undrawn.ended += u->ended;
 	pthread_mutex_unlock(&state->lock);
 }
 

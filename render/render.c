@@ -10,6 +10,7 @@
 #include "base/verbs.h"
 #include "render/look.h"
 #include "render/pipeline.h"
+#include "scene/program.h"
 #include "tracer/device/outcome.h"
 
 #define MAX_PATH_BYTES 4096
@@ -125,7 +126,10 @@ static void report(const struct pipeline *p, struct missing *m)
 			err_warn(trace, "%s, %llu times: %s", counts[i].name, (unsigned long long)counts[i].count,
 			         counts[i].why ? counts[i].why : "not done yet");
 	}
-	m->any |= u->targets != 0;
+	m->any |= u->targets != 0 || u->ended != 0;
+	if (u->ended)
+		err_warn(trace, "ended: programs of %llu draws, after %u instructions in loops; what they drew is wrong (frames say which: relume:ended)",
+		         (unsigned long long)u->ended, SCENE_PROGRAM_STEPS);
 	if (u->targets)
 		err_warn(trace, "not drawn yet: %llu draws to other targets than the window", (unsigned long long)u->targets);
 }

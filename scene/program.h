@@ -61,6 +61,7 @@ struct scene_program {
 	uint32_t outputs;     /* bits 1 << scene_vertex_output: those that count. Without a position it is fixed function's */
 	uint32_t across;      /* 1: it asks how numbers change from pixel to pixel: all four count. Else each by itself */
 	uint32_t n_lights;    /* struct scene_program_light, between instructions and constants */
+	uint32_t ended;       /* 0; kernels set it to 1 where the program reached SCENE_PROGRAM_STEPS: what it made is not what it means */
 };
 
 /* Four registers that hold what a light sends, before the first instruction: so a light that does not arrive can be left out. */

@@ -11,7 +11,7 @@
 
 /* As struct program_run, for sixteen. */
 struct pack_run {
-	uint wanted, killed, lanes, mask, steps; /* bits: as there, a lane each */
+	uint wanted, killed, lanes, mask, steps, ended; /* bits: as there, a lane each */
 	packf registers[SCENE_PROGRAM_REGISTERS];
 };
 
@@ -137,8 +137,10 @@ static inline uint pack_turn(struct pack_run *run, const struct program *program
 	if (in->to <= at) {
 		const uint back = at - in->to + 1;
 
-		if (run->steps < back)
+		if (run->steps < back) {
+			run->ended = 1;
 			return program->head->n_instructions;
+		}
 		run->steps -= back;
 	}
 	return in->to - 1;
@@ -375,6 +377,7 @@ static inline void pack_begin(const struct shade_arguments *a, const struct pack
 	run->mask = run->lanes;
 	run->killed = 0;
 	run->steps = SCENE_PROGRAM_STEPS;
+	run->ended = 0;
 	for (uint i = 0; i < program->head->n_registers; i++)
 		run->registers[i] = 0.0f;
 	for (uint i = 0; i < program->head->n_lights; i++) {
@@ -450,6 +453,7 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	run->registers[4 * SCENE_INPUT_FACE] = pack_truth(p->front);
 	pack_input_texcoords(a, list, p, run->lanes, kept, inputs, run);
 	pack_execute(&a->tables, p, program, run);
+	program_note_ended(a->programs + (p->material->fragment_program - 1), run->ended);
 	for (int i = 0; i < 4; i++) {
 		const packf c = run->registers[SCENE_PROGRAM_COLOR + i];
 

@@ -10,9 +10,11 @@
 #ifdef __OPENCL_VERSION__
 #define M_LOG2(x) log2(x)
 #define M_ROUND(x) rint(x)
+#define M_STORE_ONE(place) (void)atomic_xchg((volatile __global uint *)(place), 1u)
 #else
 #define M_LOG2(x) log2f(x)
 #define M_ROUND(x) rintf(x)
+#define M_STORE_ONE(place) __atomic_store_n(place, 1u, __ATOMIC_RELAXED)
 #endif
 
 /* A program in the words of scene.programs. */
@@ -30,6 +32,7 @@ struct program_run {
 	uint32_t lanes;  /* bits: those that are computed; numbers of the others mean nothing */
 	uint32_t mask;   /* bits, of `lanes`: those that take part */
 	uint32_t steps;  /* of loops that are left to run */
+	uint32_t ended;  /* 1: there were none left */
 	struct vec4 registers[SCENE_PROGRAM_REGISTERS];
 };
 
@@ -42,6 +45,13 @@ static inline struct program program_at(GLOBAL const uint32_t *words)
 	program.lights = (GLOBAL const struct scene_program_light *)(program.instructions + program.head->n_instructions);
 	program.constants = (GLOBAL const float *)(program.lights + program.head->n_lights);
 	return program;
+}
+
+/* Say of a program that a run of it was ended, where that is so. words: its own */
+static inline void program_note_ended(GLOBAL uint32_t *words, uint32_t ended)
+{
+	if (ended)
+		M_STORE_ONE(&((GLOBAL struct scene_program *)words)->ended);
 }
 
 static inline float program_of_four(struct vec4 v, uint32_t pixel)
@@ -61,6 +71,7 @@ static inline void program_begin(struct program_run *run, const struct program *
 	run->killed = 0u;
 	run->lanes = run->mask = program->head->across ? 15u : wanted;
 	run->steps = SCENE_PROGRAM_STEPS;
+	run->ended = 0u;
 	for (uint32_t i = 0u; i < program->head->n_registers; i++)
 		run->registers[i] = program_splat(0.0f);
 	for (uint32_t i = 0u; i < program->head->n_lights; i++) {
@@ -231,8 +242,10 @@ static inline uint32_t program_turn(struct program_run *run, const struct progra
 	if (in->to <= at) {
 		const uint32_t back = at - in->to + 1u;
 
-		if (run->steps < back)
+		if (run->steps < back) {
+			run->ended = 1u;
 			return program->head->n_instructions;
+		}
 		run->steps -= back;
 	}
 	return in->to - 1u;

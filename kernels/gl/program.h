@@ -253,6 +253,7 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 	program_begin(&f->run, &program, 1u << f->own, f->p.material->vertex_program ? seen : (const struct vec3 *)0);
 	program_inputs(f, program.head->inputs, lit, a->fragments[item].depth);
 	program_execute(f, &program);
+	program_note_ended(a->programs + (f->p.material->fragment_program - 1u), f->run.ended);
 	*color = program_get(&f->run, SCENE_PROGRAM_COLOR, f->own);
 	*color = f->p.material->unclamped & 1u ? *color : v4_clamp01(*color);
 	if (program.head->sets_depth && !a->n_slots)

@@ -148,6 +148,7 @@ static inline void vertex_program_item(const struct vertex_program_arguments *a,
 	for (uint32_t k = 0u; k < n; k++)
 		number[k] = v + k;
 	vertex_run(&a->tables, g, &program, number, n, (const struct vec3 *)0, &run);
+	program_note_ended(a->programs + (m->vertex_program - 1u), run.ended);
 	for (uint32_t k = 0u; k < n; k++)
 		vertex_keep(a, g, &program, &run, v + k, k);
 }

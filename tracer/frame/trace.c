@@ -9,6 +9,7 @@
 #include "kernels/frame/sample.h"
 #include "tracer/frame/compose.h"
 #include "tracer/frame/emitters.h"
+#include "tracer/frame/ended.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
 #include "tracer/frame/hook_rays.h"
@@ -304,6 +305,8 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	for (int i = 0; i < SCENE_SAMPLES && picture->samples; i++)
 		picture->samples[i].unknown = 0;
 	err = trace_pass(&job);
+	if (!err)
+		err = ended_count(&job, NULL);
 	forget_frame(&job);
 	count_undrawn(&job);
 	if (!err)
@@ -411,6 +414,8 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 	err = sum_passes(&job);
 	if (!err)
 		err = show_all(&job, img);
+	if (!err)
+		err = ended_count(&job, img);
 	forget_frame(&job);
 	if (!err && job.n_passes < options->samples)
 		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);

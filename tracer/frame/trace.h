@@ -78,5 +78,6 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 /** What was met so far that the tracer does not draw; all 0 where everything is drawn. */
 struct tracer_undrawn {
 	uint64_t targets; /* instances that drew to a target other than the window */
+	uint64_t ended;   /* instances whose programs were ended (SCENE_PROGRAM_STEPS) */
 };
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer);
