@@ -232,6 +232,7 @@ void glsl_store(struct glsl_writer *w, const struct glsl_place *p, const struct 
 	}
 	if (p->offset == GLSL_NONE) {
 		glsl_copy(w, p->value.at, v->at, v->n);
+		w->barrier = w->code->n_instructions; /* what comes next may read the variable, which must not go elsewhere */
 		return;
 	}
 	for (uint32_t i = 0; i < v->n; i++)
@@ -359,7 +360,8 @@ static struct glsl_value choice(struct glsl_writer *w, const struct glsl_node *n
 /* What has its children's values for arguments. */
 static struct glsl_value of_children(struct glsl_writer *w, const struct glsl_node *n)
 {
-	struct glsl_value *a = glsl_alloc(w, (n->count + 1) * sizeof(*a)), none = { n->type, 0, NULL };
+	struct glsl_value *a = glsl_alloc(w, (n->count + 1) * sizeof(*a)), none = { n->type, 0, NULL }, v;
+	const uint32_t top = w->top;
 	uint32_t zero;
 
 	if (n->count > 65536 || !a)
@@ -392,8 +394,12 @@ static struct glsl_value of_children(struct glsl_writer *w, const struct glsl_no
 	case GLSL_TEXTURE_PROJ_LOD: return glsl_sample(w, n, a, n->count);
 	default: break;
 	}
-	if (n->operation >= GLSL_ADD && n->operation <= GLSL_AND && n->count == 2)
-		return glsl_binary(w, n->operation, n->type, &a[0], &a[1]);
+	if (n->operation >= GLSL_ADD && n->operation <= GLSL_AND && n->count == 2) {
+		v = glsl_binary(w, n->operation, n->type, &a[0], &a[1]);
+		if (!glsl_has_effects(w, child(w, n, 0)) && !glsl_has_effects(w, child(w, n, 1)))
+			glsl_settle(w, top, &v);
+		return v;
+	}
 	return glsl_call_builtin(w, n, a, n->count);
 }
 

@@ -209,6 +209,16 @@ static int is_last_made(const struct glsl_writer *w, uint32_t to, const uint32_t
 	return 1;
 }
 
+void glsl_settle(struct glsl_writer *w, uint32_t top, struct glsl_value *v)
+{
+	if (glsl_stopped(w) || !v->n || v->at[0] <= top || v->at[0] >= SCENE_PROGRAM_CONSTANT || !is_last_made(w, top, v->at, v->n))
+		return;
+	w->code->instructions[w->code->n_instructions - 1].to = top;
+	for (uint32_t i = 0; i < v->n; i++)
+		v->at[i] = top + i;
+	w->top = top + v->n;
+}
+
 void glsl_copy(struct glsl_writer *w, const uint32_t *to, const uint32_t *from, uint32_t n)
 {
 	uint32_t aside = 0;

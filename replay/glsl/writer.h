@@ -45,7 +45,7 @@ struct glsl_writer {
 	const char *why; /* what stands in the way: a static string */
 	int err;         /* ERR_SYSTEM: out of memory (reported) */
 	uint32_t top;    /* first free register */
-	uint32_t barrier; /* instructions before this number are not changed any more: something jumps behind them */
+	uint32_t barrier; /* instructions before this number are not changed any more: something jumps behind them, or they set variables */
 	struct glsl_value *variables; /* [n_symbols]; at NULL: it has no place yet */
 	uint8_t *written;             /* [n_symbols] 1: something assigns it */
 	uint8_t *running;             /* [n_functions] 1: it is being written */
@@ -98,5 +98,7 @@ void glsl_write(struct glsl_writer *w, enum scene_operation operation, uint32_t 
 uint32_t glsl_one(struct glsl_writer *w, enum scene_operation operation, uint32_t a, uint32_t b, uint32_t c);
 /** An instruction as it stands. @return its number */
 uint32_t glsl_append(struct glsl_writer *w, const struct scene_instruction *in);
+/** Where the last instruction has made a value, have it made in registers from `top` on, what lay there being of no use any more. */
+void glsl_settle(struct glsl_writer *w, uint32_t top, struct glsl_value *v);
 /** to = from, whatever they share. `to`: registers */
 void glsl_copy(struct glsl_writer *w, const uint32_t *to, const uint32_t *from, uint32_t n);
