@@ -8,7 +8,6 @@
 
 #define ARB_MAX_OFFSET 4096u /* of an address, as in Mesa */
 
-const char arb_bad_grammar[] = "an ARB program breaks the grammar";
 
 /* --- Registers and constants ----------------------------------------------------------------------------------------- */
 

@@ -60,6 +60,3 @@ int arb_component_of(const struct arb_parser *p, char c);
 
 /** An instruction whose name has been taken. */
 void arb_take_instruction(struct arb_parser *p, const char *name, size_t n);
-
-/** What OpenGL refuses, too. */
-extern const char arb_bad_grammar[];

@@ -35,7 +35,7 @@ static uint32_t take_range(struct arb_words *w, uint32_t limit, uint32_t *first)
 	}
 	arb_expect(w, ']');
 	if (last < *first)
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 	return w->why ? 0 : last - *first + 1;
 }
 
@@ -113,12 +113,12 @@ static uint32_t take_matrix(struct arb_words *w, struct program_constant *to, ui
 	if (arb_takes(w, '.') && !arb_takes_name(w, "row")) {
 		change = TAKE_PART(w, changes);
 		if (arb_takes(w, '.') && !arb_takes_name(w, "row"))
-			arb_fail(w, "an ARB program breaks the grammar");
+			arb_fail(w, arb_bad_grammar);
 	}
 	if (arb_peek(w) == '[')
 		n = take_range(w, 4, &first);
 	if (n > room) {
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 		return 0;
 	}
 	for (uint32_t i = 0; i < n; i++)
@@ -216,10 +216,10 @@ uint32_t arb_parameters(struct arb_words *w, struct program_constant *to, uint32
 	uint32_t first = 0, n;
 
 	if (source == PROGRAM_LOCAL && !arb_takes_name(w, "local"))
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 	n = take_range(w, GLS_MAX_PROGRAM_PARAMETERS, &first);
 	if (n > room) {
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 		return 0;
 	}
 	for (uint32_t i = 0; i < n; i++)

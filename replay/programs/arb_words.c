@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char arb_bad_grammar[] = "an ARB program breaks the grammar", arb_too_much[] = "an ARB program uses more than there is";
+
 void arb_fail(struct arb_words *w, const char *why)
 {
 	if (!w->why)
@@ -34,7 +36,7 @@ bool arb_takes(struct arb_words *w, char c)
 void arb_expect(struct arb_words *w, char c)
 {
 	if (!arb_takes(w, c))
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 }
 
 static size_t name_at(struct arb_words *w)
@@ -85,7 +87,7 @@ uint32_t arb_index(struct arb_words *w, uint32_t limit)
 	}
 	if (any && value < limit)
 		return value;
-	arb_fail(w, any ? "an ARB program uses more than there is" : "an ARB program breaks the grammar");
+	arb_fail(w, any ? arb_too_much : arb_bad_grammar);
 	return 0;
 }
 
@@ -115,7 +117,7 @@ float arb_number(struct arb_words *w)
 	text[n] = 0;
 	value = strtof(text, &stop);
 	if (stop == text)
-		arb_fail(w, "an ARB program breaks the grammar");
+		arb_fail(w, arb_bad_grammar);
 	else
 		w->at += stop - text;
 	return sign * value;

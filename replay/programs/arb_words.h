@@ -5,6 +5,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Failures that are OpenGL's errors, too: the text is wrong. */
+extern const char arb_bad_grammar[], arb_too_much[];
+
 struct arb_words {
 	const char *at, *end;
 	const char *why; /* the first failure, a static string; NULL: none yet */

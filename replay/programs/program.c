@@ -7,6 +7,7 @@
 #include "gl_tokens.h"
 #include "replay/machine/errors.h"
 #include "replay/programs/arb.h"
+#include "replay/programs/arb_words.h"
 #include "replay/programs/stages.h"
 
 void gls_program_free(struct gls_program *p)
@@ -19,20 +20,29 @@ void gls_program_free(struct gls_program *p)
 int gls_program_set(struct gls_program *p, const char *text, size_t n)
 {
 	char *source = malloc(n + 1);
-	int err;
+	struct program_code code = { .n_instructions = 0 };
+	const char *why;
+	int err, refused;
 
 	if (!source)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a program of %zu bytes", n);
 	memcpy(source, text, n);
 	source[n] = 0;
+	err = program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
+	refused = !err && (why == arb_bad_grammar || why == arb_too_much);
+	if (err || why)
+		program_code_free(&code);
+	if (refused && p->source && !p->why) {
+		free(source);
+		return 1;
+	}
 	free(p->source);
 	p->source = source;
 	p->source_bytes = n;
 	program_code_free(&p->code);
-	err = program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &p->code, &p->why);
-	if (err || p->why)
-		program_code_free(&p->code);
-	return err;
+	p->code = code;
+	p->why = why;
+	return err ? err : refused;
 }
 
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target)

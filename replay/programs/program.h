@@ -20,7 +20,10 @@ struct gls_program {
 
 void gls_program_free(struct gls_program *p);
 
-/** Give it a text, of n bytes, and translate it. @return 0, or ERR_SYSTEM (reported) */
+/**
+ * Give it a text, of n bytes, and translate it.
+ * @return 0; 1: the text is wrong, which is an error; a good one before it stays, as in Mesa (22.3.6); or ERR_SYSTEM (reported)
+ */
 int gls_program_set(struct gls_program *p, const char *text, size_t n);
 
 /** Where an object stands in gls_share.programs; those that nobody has named are one of each target. */

@@ -202,6 +202,7 @@ START_TEST(test_reasons)
 	gl_call(&gl, "glEnable", "e", GL_FRAGMENT_PROGRAM_ARB);
 	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
 		set_text(&gl, i + 1, texts[i][0]);
+		ck_assert_uint_eq(gl_error(&gl), strstr(texts[i][1], "grammar") || strstr(texts[i][1], "more than") ? GL_INVALID_OPERATION : GL_NO_ERROR);
 		ck_assert_ptr_nonnull(bound(&gl)->why);
 		ck_assert_msg(strstr(bound(&gl)->why, texts[i][1]), "%s: %s", texts[i][0], bound(&gl)->why);
 		ck_assert_uint_eq(bound(&gl)->code.n_instructions, 0);
@@ -212,6 +213,24 @@ START_TEST(test_reasons)
 	ck_assert_uint_eq(gl.x->counts.program_draws.n, sizeof(texts) / sizeof(texts[0])); /* of as many objects */
 	ck_assert_uint_eq(s->n_programs, 0);
 	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
+/* A wrong text is an error, and leaves the one that was there. */
+START_TEST(test_wrong_texts)
+{
+	struct gl gl = gl_open();
+
+	set_text(&gl, 1, "!!ARBfp1.0 MOV result.color, fragment.color; END");
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	set_text(&gl, 1, "!!ARBfp1.0 MOV result.color, fragment.color; MOV result.color, fragment.color END");
+	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	ck_assert_ptr_null(bound(&gl)->why);
+	ck_assert_uint_eq(bound(&gl)->code.n_instructions, 1);
+	set_text(&gl, 1, "!!ARBfp1.0 OPTION ARB_made_up; END"); /* may well be right: nobody knows here */
+	ck_assert_uint_eq(gl_error(&gl), GL_NO_ERROR);
+	ck_assert_ptr_nonnull(bound(&gl)->why);
 	gl_close(&gl);
 }
 END_TEST
@@ -268,7 +287,7 @@ static void check_damaged(struct gl *gl, uint32_t target, const char *text, size
 		}
 		damaged[n] = 0;
 		set_text_of(gl, target, target, damaged);
-		translated += !p->why;
+		translated += gl_error(gl) == GL_NO_ERROR && !p->why;
 		check_bounds(p);
 	}
 	ck_assert_uint_gt(translated, 100);
@@ -295,4 +314,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_wrong_texts, test_damaged_texts)

@@ -65,12 +65,15 @@ GLS_HANDLER(glProgramStringARB, OBJECT)
 	const struct trace_value *text = arg(c, 3);
 	const char *bytes = text->type == TRACE_STRING ? text->str : text->type == TRACE_BLOB ? (const char *)text->blob : "";
 	struct gls_program *p;
+	int refused;
 
 	if (gls_refuses(x, st, !is_target(target) || arg_u(c, 1) != GL_PROGRAM_FORMAT_ASCII_ARB, GL_INVALID_ENUM))
 		return;
 	p = bound(x, st, target);
-	if (p && gls_program_set(p, bytes, *bytes ? text->count : 0))
+	refused = p ? gls_program_set(p, bytes, *bytes ? text->count : 0) : 0;
+	if (refused < 0)
 		gls_fail(x);
+	gls_refuses(x, st, refused > 0, GL_INVALID_OPERATION);
 }
 
 /* Four numbers for a parameter, as floats of their own or as an array. */
