@@ -6,6 +6,7 @@ keyboard's focus follows it). A program with keys, or one that is said to take `
 its last frames are scored; the others are recorded for a number of frames, and frames spread over these are scored.
 """
 import dataclasses
+import math
 import pathlib
 import subprocess
 
@@ -87,13 +88,54 @@ def sweep():
     programs.append(Program("iv-ivview", "inventor-clients", ("ivview", WINDMILL), seconds=10,
                             ref_every=1, group="Inventor"))
     for name in OSG_EXAMPLES:
-        programs.append(Program(name, "openscenegraph", (name,), seconds=15, ref_every=5, group="OpenSceneGraph",
+        programs.append(Program(name, "openscenegraph", (name,), seconds=8, ref_every=5, group="OpenSceneGraph",
                                 environment=(("OSG_WINDOW", "100 100 640 480"), ("OSG_SCREEN", "0"))))
-    programs.append(Program("geomview", "geomview", ("geomview", "-wpos", "640,480@100,100", "/usr/share/geomview/geom/dodec.off"),
+    programs += VIEWERS + GAMES
+    programs.append(Program("geomview", "geomview", ("geomview", "-wpos", "640,480@100,100", DODECAHEDRON),
                             seconds=15, ref_every=1, group="others"))
     programs.append(Program("g3dviewer", "g3dviewer", ("g3dviewer",), seconds=15, ref_every=1, group="others"))
     return sorted(programs, key=lambda p: GROUPS.index(p.group))
 
 
-GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "others"]
-OSG_EXAMPLES = ()
+def knot(along=96, around=16):
+    """A trefoil knot as an OBJ file's text."""
+    lines = []
+    for i in range(along):
+        t = 2 * math.pi * i / along
+        r, x, y = 2 + math.cos(3 * t), math.cos(2 * t), math.sin(2 * t)
+        for j in range(around):
+            u = 2 * math.pi * j / around
+            wide = r + 0.4 * math.cos(u)
+            lines.append(f"v {wide * x:.6f} {wide * y:.6f} {math.sin(3 * t) + 0.4 * math.sin(u):.6f}")
+    for i in range(along):
+        for j in range(around):
+            a, b = (1 + k % along * around + j for k in (i, i + 1))
+            c, d = (1 + k % along * around + (j + 1) % around for k in (i, i + 1))
+            lines += [f"f {a} {b} {c}", f"f {c} {b} {d}"]
+    return "\n".join(lines) + "\n"
+
+
+DODECAHEDRON = "/usr/share/geomview/geom/dodec.off"
+METHANE = "5\nmethane\nC 0 0 0\nH .63 .63 .63\nH -.63 -.63 .63\nH -.63 .63 -.63\nH .63 -.63 -.63\n"
+WORLD = "gameid = minetest\nbackend = sqlite3\nplayer_backend = sqlite3\nauth_backend = sqlite3\n"
+MINETEST = "screen_w = 640\nscreen_h = 480\nenable_sound = false\nenable_shaders = true\nfixed_map_seed = 7\nfps_max = 10\nviewing_range = 40\n"
+
+# Qt 5 composes their windows with a program; Avogadro and PyMOL draw with programs of their own, too.
+VIEWERS = [
+    Program("openscad", "openscad", ("openscad", "--viewall", "/usr/share/openscad/examples/Basics/CSG.scad"), seconds=12, ref_every=1,
+            group="Qt 5 viewers"),
+    Program("mm3d", "mm3d", ("mm3d", "knot.obj"), seconds=10, ref_every=1, files=(("knot.obj", knot()),), group="Qt 5 viewers"),
+    Program("meshlab", "meshlab", ("meshlab", DODECAHEDRON), seconds=12, ref_every=1, group="Qt 5 viewers"),
+    Program("avogadro2", "avogadro", ("avogadro2", "methane.xyz"), seconds=12, ref_every=1, files=(("methane.xyz", METHANE),),
+            group="Qt 5 viewers"),
+    Program("pymol", "pymol", ("pymol", "-d", "fragment ala; show spheres; rock"), seconds=12, ref_every=1, group="Qt 5 viewers",
+            environment=(("PATH", "/usr/bin:/bin"),)),  # it asks for the python3 that Debian's modules belong to
+]
+GAMES = [
+    Program("minetest", "minetest", ("minetest", "--go", "--name", "player", "--worldname", "world"), seconds=45, ref_every=5,
+            files=((".minetest/worlds/world/world.mt", WORLD), (".minetest/minetest.conf", MINETEST)), group="games, GLSL"),
+]
+GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL", "others"]
+# Those with shaders that need no model files.
+OSG_EXAMPLES = ("osgforest", "osgparametric", "osgparticleshader", "osgshaders", "osgshaderterrain", "osgshadow", "osgsimpleshaders",
+                "osgvertexprogram", "osgwidgetshader")
