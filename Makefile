@@ -404,7 +404,7 @@ DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
-# The same of its tests of ARB programs, panels of ours, and what a frame of programs costs.
+# The same of its tests of ARB programs and of GLSL, panels of ours, and what a frame of programs costs.
 show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 

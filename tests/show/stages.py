@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""tests/show/stages.py BUILD [panels|piglit|cost...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
+"""tests/show/stages.py BUILD [panels|piglit|glsl|glsl-all|cost...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
 
 panels: tests/real/panels of programs, each instruction, binding, option and way in a panel: pixels that fail.
 piglit: its tests of ARB_vertex_program and ARB_fragment_program: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
-lie in BUILD/show/stages, every outcome in BUILD/show/stages.tsv.
+lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
+glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be named: all 3,287.
 cost: a frame of the same knot, lit by fixed function and by programs: processor time, medians of runs side by side.
 Needs a display: run under tests/xvfb.sh.
 """
@@ -21,10 +22,9 @@ import piglit
 
 GROUPS = re.compile(r"spec@arb_(vertex|fragment)_program(_shadow)?@")
 LISTS = (("opengl", "gl"), ("shader", "shader"))
-GLSL_GROUPS = re.compile(r"(?!glslparsertest)")
 GLSL_VERSIONS = ("1.1", "1.2")
 GLSL_EVERY = 10
-PANELS = ("program", "vertex_program")
+PANELS = ("program", "vertex_program", "shader")
 WAYS = {"fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"}
 FRAMES = 8
 RUNS = 3
@@ -82,7 +82,7 @@ def score_piglit(build, base):
 
 
 def score_glsl(build, base, every=GLSL_EVERY):
-    tests = [test for test in piglit.find_tests((), GLSL_GROUPS, LISTS[1:], GLSL_VERSIONS) if zlib.crc32(test[0].encode()) % every == 0]
+    tests = [test for test in piglit.find_tests((), re.compile(""), LISTS[1:], GLSL_VERSIONS) if zlib.crc32(test[0].encode()) % every == 0]
     return score_tests(build, base / "glsl", tests, f"GLSL 1.10 and 1.20, one of {every} by their names' CRC-32")
 
 
