@@ -35,15 +35,6 @@ static inline struct point program_neighbour(const struct program_fragment *f, c
 	return p;
 }
 
-/* The unit's place among those of the material; SCENE_NONE: it is none of them. */
-static inline uint32_t program_unit(const struct tables *t, GLOBAL const struct scene_material *m, uint32_t unit)
-{
-	for (uint32_t i = 0u; i < m->unit_count; i++)
-		if (t->units[m->unit_first + i].unit == unit)
-			return i;
-	return SCENE_NONE;
-}
-
 /* Texture coordinates of the material's unit i. */
 static inline void program_texcoord(struct program_fragment *f, uint32_t unit, uint32_t i, const struct point_quad *quad)
 {
@@ -116,73 +107,6 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	}
 }
 
-/* One pixel's coordinates as textures take them: divided by the fourth. */
-static inline struct vec4 program_coordinates(const struct program_fragment *f, GLOBAL const struct scene_instruction *in, uint32_t k)
-{
-	const struct vec4 *r = &f->run.registers[in->a];
-
-	return v4(program_of_four(r[0], k), program_of_four(r[1], k), program_of_four(r[2], k),
-	          in->c & SCENE_TEXTURE_DIVIDED ? program_of_four(r[3], k) : 1.0f);
-}
-
-/* The slopes of a level that is `bias` higher. llvmpipe's logarithm is straight between powers of two. */
-static inline void program_bias(struct texture_slope *slope, float bias)
-{
-	const float rho2 = M_MAX(v4_dot(slope->right, slope->right), v4_dot(slope->down, slope->down));
-	const float wanted = 2.0f * (texture_half_log2(rho2) + bias), whole = M_FLOOR(wanted);
-	const float scale = rho2 > 1.0e-30f ? M_SQRT(M_EXP2(whole) * (1.0f + (wanted - whole)) / rho2) : 1.0f;
-
-	slope->right = v4_scale(slope->right, scale);
-	slope->down = v4_scale(slope->down, scale);
-}
-
-/*
- * A texture where one of the four looks at it.
- * @param quad   coordinates of all four. k: the one
- * @param level  its fourth number, where the instruction has it as a level or what is added to one
- */
-static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags, const struct vec4 *quad,
-                                        uint32_t k, float level)
-{
-	struct texture_slope slope;
-
-	if (!texture_needs_slope(t, unit))
-		return texture_sample(t, unit, quad[k], (const struct texture_slope *)0);
-	slope.right = v4(1.0f, 0.0f, 0.0f, 0.0f);
-	slope.down = v4(0.0f, 1.0f, 0.0f, 0.0f);
-	if (!(flags & SCENE_TEXTURE_LEVEL))
-		slope = texture_slope(&t->textures[unit->texture], quad[k], quad[0], quad[1], quad[2]);
-	if (flags & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))
-		program_bias(&slope, level);
-	return texture_sample(t, unit, quad[k], &slope);
-}
-
-/* A texture that is not there, or not complete, is black. */
-static inline void program_sample(struct program_fragment *f, GLOBAL const struct scene_instruction *in)
-{
-	const struct tables *t = &f->a->tables;
-	const uint32_t place = program_unit(t, f->p.material, in->b);
-	GLOBAL const struct scene_unit *unit = &t->units[f->p.material->unit_first + (place == SCENE_NONE ? 0u : place)];
-	struct vec4 c[4], sample[4];
-
-	for (uint32_t k = 0u; k < 4u; k++) {
-		c[k] = program_coordinates(f, in, k);
-		sample[k] = v4(0.0f, 0.0f, 0.0f, 1.0f);
-	}
-	for (uint32_t k = 0u; k < 4u && place != SCENE_NONE; k++)
-		sample[k] = program_texel(t, unit, in->c, c, k, program_of_four(f->run.registers[in->a + 3u], k));
-	program_keep(&f->run, in->to, v4(sample[0].x, sample[1].x, sample[2].x, sample[3].x), f->run.mask);
-	program_keep(&f->run, in->to + 1u, v4(sample[0].y, sample[1].y, sample[2].y, sample[3].y), f->run.mask);
-	program_keep(&f->run, in->to + 2u, v4(sample[0].z, sample[1].z, sample[2].z, sample[3].z), f->run.mask);
-	program_keep(&f->run, in->to + 3u, v4(sample[0].w, sample[1].w, sample[2].w, sample[3].w), f->run.mask);
-}
-
-static inline void program_execute(struct program_fragment *f, const struct program *program)
-{
-	for (uint32_t at = 0u; (at = program_run_from(&f->run, program, at)) < program->head->n_instructions; at++)
-		program_sample(f, &program->instructions[at]);
-}
-
 /* --- Fragments ----------------------------------------------------------------------------------------------------- */
 
 /* As point_light_corners, where a vertex program lights them. run: room */
@@ -252,7 +176,7 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 
 	program_begin(&f->run, &program, 1u << f->own, f->p.material->vertex_program ? seen : (const struct vec3 *)0);
 	program_inputs(f, program.head->inputs, lit, a->fragments[item].depth);
-	program_execute(f, &program);
+	program_execute(&a->tables, f->p.material, &program, &f->run);
 	program_note_ended(a->programs + (f->p.material->fragment_program - 1u), f->run.ended);
 	*color = program_get(&f->run, SCENE_PROGRAM_COLOR, f->own);
 	*color = f->p.material->unclamped & 1u ? *color : v4_clamp01(*color);

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "kernels/gl/instructions.h"
+#include "kernels/gl/program_texture.h"
 #include "kernels/gl/vertex.h"
 
 /* One of scene_vertex_input's, of a vertex in the mesh. */
@@ -129,7 +129,7 @@ static inline void vertex_run(const struct tables *t, GLOBAL const struct geomet
 	for (uint32_t input = 0u; input < N_SCENE_VERTEX_INPUTS; input++)
 		for (uint32_t k = 0u; k < n && program->head->inputs >> input & 1u; k++)
 			program_set(run, 4u * input, k, vertex_input(t, g, number[k], input));
-	program_run_from(run, program, 0u);
+	program_execute(t, &t->materials[g->material], program, run);
 }
 
 /* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the first one's item. */

@@ -164,6 +164,16 @@ static int fill_unit(struct gls_exec *x, struct gls_frame *f, struct gls_state *
 	return 1;
 }
 
+/* Let fixed function pass a unit by. */
+static void pass_by(struct scene_unit *unit)
+{
+	unit->env_mode = GL_COMBINE;
+	unit->combine_rgb = unit->combine_alpha = GL_REPLACE;
+	unit->source_rgb[0] = unit->source_alpha[0] = GL_PREVIOUS;
+	unit->operand_rgb[0] = GL_SRC_COLOR;
+	unit->operand_alpha[0] = GL_SRC_ALPHA;
+}
+
 /*
  * A program samples black from a unit that has no texture, or no complete one. What
  * stands in for the program where it does not run passes the unit by.
@@ -181,29 +191,33 @@ static int fill_black(struct gls_exec *x, struct gls_frame *f, const struct gls_
 	gls_texture_image_release(image);
 	out->wrap_s = out->wrap_t = out->wrap_r = GL_REPEAT;
 	out->min_filter = out->mag_filter = GL_NEAREST;
-	out->env_mode = GL_COMBINE;
-	out->combine_rgb = out->combine_alpha = GL_REPLACE;
-	out->source_rgb[0] = out->source_alpha[0] = GL_PREVIOUS;
-	out->operand_rgb[0] = GL_SRC_COLOR;
-	out->operand_alpha[0] = GL_SRC_ALPHA;
+	pass_by(out);
 	fill_coordinates(unit, matrix, out);
 	return out->texture != SCENE_NONE;
 }
 
-/* The units that a draw looks at. program: that shades it, NULL: none. @return how many */
+/*
+ * The units that a draw looks at.
+ * program: that shades it; vertices: that places it; NULL: none
+ * @return how many
+ */
 static uint32_t fill_units(struct gls_exec *x, struct gls_frame *f, struct gls_state *st, const struct gls_event *e,
-                           const struct program_stage *program, struct scene_unit units[GLS_MAX_UNITS])
+                           const struct program_stage *program, const struct program_stage *vertices, struct scene_unit units[GLS_MAX_UNITS])
 {
 	uint32_t n = 0;
 
 	for (unsigned u = 0; u < GLS_MAX_UNITS; u++) {
 		const struct gls_unit *unit = &e->attribs->texturing.units[u];
 		const float *matrix = e->in_window ? mat4_identity : st->texture[u].matrices[st->texture[u].depth];
-		const int target = program ? (int)program_target(program, u) - 1 : enabled_target(unit);
+		const int of_fragments = program ? (int)program_target(program, u) - 1 : enabled_target(unit);
+		const int target = of_fragments >= 0 || !vertices ? of_fragments : (int)program_target(vertices, u) - 1;
+		const int counts = target > of_fragments || (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1));
 
-		if (fill_unit(x, f, st, unit, target, matrix, &units[n]) ||
-		    (program && (target >= 0 || program->code->inputs >> (SCENE_INPUT_TEXCOORD + u) & 1) && fill_black(x, f, unit, matrix, &units[n])))
-			n++;
+		if (!fill_unit(x, f, st, unit, target, matrix, &units[n]) && !(counts && fill_black(x, f, unit, matrix, &units[n])))
+			continue;
+		if (!program && target > of_fragments)
+			pass_by(&units[n]);
+		n++;
 	}
 	return n;
 }
@@ -388,7 +402,7 @@ uint32_t gls_frame_material(struct gls_exec *x, const struct gls_target *target,
 	m.rescale_normal = a->transform.rescale_normal;
 	m.shade_model = a->lighting.shade_model;
 	m.first_provokes = a->lighting.first_provokes;
-	m.unit_count = fill_units(x, f, st, e, runs_fragments ? &fragments : NULL, units);
+	m.unit_count = fill_units(x, f, st, e, runs_fragments ? &fragments : NULL, runs_vertices ? &vertices : NULL, units);
 	for (unsigned i = 0; i < m.unit_count; i++)
 		gls_color_of(units[i].env_color, units[i].env_color, unclamped & 1);
 	m.unit_first = gls_intern_array(&f->units, &s->units, &s->n_units, &f->room.units, units, m.unit_count, sizeof(units[0]));

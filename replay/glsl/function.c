@@ -404,14 +404,14 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 	static const uint32_t dimensions[] = { [GLSL_TEXTURE_1D] = 1, [GLSL_TEXTURE_2D] = 2, [GLSL_TEXTURE_3D] = 3, [GLSL_TEXTURE_CUBE] = 3,
 		                               [GLSL_TEXTURE_RECTANGLE] = 2 };
 	const bool divided = node->operation == GLSL_TEXTURE_PROJ || node->operation == GLSL_TEXTURE_PROJ_LOD;
-	const bool levelled = node->operation == GLSL_TEXTURE_LOD || node->operation == GLSL_TEXTURE_PROJ_LOD;
+	const bool of_vertices = w->stage == GLSL_VERTEX_STAGE; /* they have no neighbours: level 0, unless they name one */
+	const bool levelled = of_vertices || node->operation == GLSL_TEXTURE_LOD || node->operation == GLSL_TEXTURE_PROJ_LOD;
+	const bool fourth = n > 2 || of_vertices; /* is the level's */
 	struct glsl_value v = glsl_value_of(w, node->type, glsl_type_of(w, node->type)->numbers);
 	struct scene_instruction in = { .operation = SCENE_OP_TEXTURE, .n = 1 };
 	const uint32_t zero = glsl_number(w, 0);
 	uint32_t from[4] = { zero, zero, zero, zero }, factor;
 
-	if (w->stage == GLSL_VERTEX_STAGE)
-		glsl_fail(w, "a shader samples textures for vertices");
 	if (glsl_stopped(w) || n < 2)
 		return v;
 	in.b = sampler_of(w, &a[0]);
@@ -420,7 +420,7 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 	for (uint32_t i = 0; i < 3 && i < a[1].n - divided; i++)
 		if (i < dimensions[glsl_type_of(w, a[0].type)->texture] || (i == 2 && glsl_type_of(w, a[0].type)->columns == 0))
 			from[i] = a[1].at[i];
-	if (divided && n > 2) { /* the fourth is the level's */
+	if (divided && fourth) {
 		factor = one(w, SCENE_OP_RECIPROCAL, a[1].at[a[1].n - 1]);
 		for (uint32_t i = 0; i < 3; i++)
 			from[i] = from[i] == zero ? zero : mul(w, from[i], factor);
@@ -428,10 +428,10 @@ struct glsl_value glsl_sample(struct glsl_writer *w, const struct glsl_node *nod
 		from[3] = a[1].at[a[1].n - 1];
 		in.c |= SCENE_TEXTURE_DIVIDED;
 	}
-	if (n > 2) {
+	if (n > 2)
 		from[3] = a[2].at[0];
+	if (fourth)
 		in.c |= levelled ? SCENE_TEXTURE_LEVEL : SCENE_TEXTURE_BIASED;
-	}
 	in.a = glsl_registers(w, 4);
 	in.to = glsl_registers(w, 4);
 	glsl_write(w, SCENE_OP_MOVE, 0, in.a, 4, from, NULL, NULL);

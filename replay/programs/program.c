@@ -66,15 +66,17 @@ static const struct gls_stages *linked(const struct gls_state *st)
 static const char *lack_of_shaders(const struct gls_state *st)
 {
 	const struct gls_stages *p = linked(st);
-	struct program_stage stage;
 
 	if (!p || !p->linked || p->why)
 		return p && p->linked ? p->why : "draws with a program object that was not linked";
-	stage = (struct program_stage){ &p->code[GLS_FRAGMENT_STAGE], NULL, p->uniforms };
-	for (uint32_t i = 0; i < stage.code->n_samplers; i++)
-		if (program_unit_of(&stage, i) >= GLS_MAX_UNITS)
-			return "a shader samples texture units from 8 on";
-	return stage.code->n_instructions && st->a.color.also_drawn ? "a shader draws to several buffers at once" : NULL;
+	for (int which = 0; which < 2; which++) {
+		const struct program_stage stage = { &p->code[which], NULL, p->uniforms };
+
+		for (uint32_t i = 0; i < stage.code->n_samplers; i++)
+			if (program_unit_of(&stage, i) >= GLS_MAX_UNITS)
+				return "a shader samples texture units from 8 on";
+	}
+	return p->code[GLS_FRAGMENT_STAGE].n_instructions && st->a.color.also_drawn ? "a shader draws to several buffers at once" : NULL;
 }
 
 const char *gls_program_lack(const struct gls_state *st)

@@ -15,7 +15,7 @@ PROGRAMS = {
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
-    "shader": ("functions", "statements", "state", "textures", "vertices"),
+    "shader": ("functions", "statements", "state", "textures", "vertices", "scenes"),
 }
 
 for name, frames in PROGRAMS.items():

@@ -1,79 +1,18 @@
 /*
  * Fragment programs (ARB_fragment_program): each instruction, operand, binding and option, over a square that leans away.
  */
-#include "panels.h"
+#include "programs.h"
 
-static GLuint images[4]; /* of two dimensions with all levels, nearest, a cube, of one dimension */
-
-static void fill(unsigned char *texels, unsigned n, unsigned seed)
-{
-	for (unsigned i = 0; i < n; i++)
-		texels[i] = (unsigned char)(255.9f * noise(i + seed));
-}
-
-static void prepare(void)
-{
-	unsigned char texels[32 * 32 * 4];
-
-	fill(texels, sizeof(texels), 7);
-	glGenTextures(4, images);
-	glBindTexture(GL_TEXTURE_2D, images[0]);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-	for (int level = 0; level < 6; level++)
-		glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA, 32 >> level, 32 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_2D, images[1]);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_CUBE_MAP, images[2]);
-	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-	for (unsigned face = 0; face < 6; face++)
-		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
-	glBindTexture(GL_TEXTURE_1D, images[3]);
-	glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-	glTexImage1D(GL_TEXTURE_1D, 0, GL_RGBA, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-}
-
-/* Shade what follows by the text between the header and END. */
+/* Shade what follows by the text. */
 static void shade(const char *text)
 {
-	char whole[4096];
-	GLuint program;
-	GLint at;
-
-	snprintf(whole, sizeof(whole), "!!ARBfp1.0\n%s\nEND\n", text);
-	glGenProgramsARB(1, &program);
-	glBindProgramARB(GL_FRAGMENT_PROGRAM_ARB, program);
-	glProgramStringARB(GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB, (GLsizei)strlen(whole), whole);
-	glGetIntegerv(GL_PROGRAM_ERROR_POSITION_ARB, &at);
-	if (at >= 0)
-		fprintf(stderr, "%s: %s\n", text, (const char *)glGetString(GL_PROGRAM_ERROR_STRING_ARB));
-	glEnable(GL_FRAGMENT_PROGRAM_ARB);
+	set_program(GL_FRAGMENT_PROGRAM_ARB, "!!ARBfp1.0", text);
 	glBindTexture(GL_TEXTURE_2D, images[0]);
 	glActiveTexture(GL_TEXTURE1);
 	glBindTexture(GL_TEXTURE_2D, images[1]);
 	glBindTexture(GL_TEXTURE_CUBE_MAP, images[2]);
 	glBindTexture(GL_TEXTURE_1D, images[3]);
 	glActiveTexture(GL_TEXTURE0);
-}
-
-static void draw_square(int i)
-{
-	(void)i;
-	glBegin(GL_QUADS);
-	for (int k = 0; k < 4; k++) {
-		const float u = k == 1 || k == 2, v = k >= 2;
-
-		glColor4f(0.2f + 0.7f * u, 0.9f - 0.6f * v, 0.5f, 0.3f + 0.6f * u);
-		glSecondaryColor3f(0.5f * v, 0.1f, 0.3f * u);
-		glFogCoordf(0.5f + 2 * v);
-		glMultiTexCoord4f(GL_TEXTURE0, 3.1f * u - 1.33f, 2.6f * v - 1.2f, u - v + 0.03f, 1 + 0.5f * v);
-		glMultiTexCoord4f(GL_TEXTURE1, 0.6f - v, 1.3f - 2 * u, 0.7f, u + 0.1f);
-		glMultiTexCoord4f(GL_TEXTURE2, 2 * u - 1.1f, 0.9f - 2 * v, 0.3f, 1);
-		glVertex3f(2 * u - 1, 2 * v - 1, -v);
-	}
-	glEnd();
 }
 
 /* Each instruction, of inputs that are below 0 and above 1 as well; saturated or not, to all components or two. */
@@ -117,23 +56,7 @@ static void binding(int i)
 	};
 	char text[512];
 
-	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[4]){ 0.9f, 0.4f, 0.1f, 0.7f });
-	glMaterialfv(GL_FRONT, GL_EMISSION, (const float[4]){ 0.1f, 0.2f, 0, 0.4f });
-	glMaterialfv(GL_BACK, GL_DIFFUSE, (const float[4]){ 0.1f, 0.6f, 0.3f, 0.2f });
-	glMaterialf(GL_FRONT, GL_SHININESS, 1.5f);
-	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[4]){ 0.5f, 0.7f, 1, 0.3f });
-	glLightfv(GL_LIGHT1, GL_POSITION, (const float[4]){ 0.5f, 0.7f, 1, 1 });
-	glLightf(GL_LIGHT1, GL_LINEAR_ATTENUATION, 0.35f);
-	glLightf(GL_LIGHT1, GL_SPOT_CUTOFF, 40);
-	glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, (const float[4]){ 0.2f, 0.7f, 0.4f, 0.3f });
-	glFogfv(GL_FOG_COLOR, (const float[4]){ 0.8f, 0.2f, 0.4f, 0.3f });
-	glFogf(GL_FOG_END, 3);
-	glMatrixMode(GL_TEXTURE);
-	glActiveTexture(GL_TEXTURE1);
-	glLoadIdentity();
-	glRotatef(30, 0, 0, 1);
-	glActiveTexture(GL_TEXTURE0);
-	glMatrixMode(GL_MODELVIEW);
+	set_state();
 	glProgramEnvParameter4fARB(GL_FRAGMENT_PROGRAM_ARB, 3, 0.1f, 0.9f, (float)i / 48, 0.5f);
 	snprintf(text, sizeof(text),
 	         "PARAM array[3] = { program.env[3], 0.7, { 0.2, 0.4, 0.6, 0.8 } };\nPARAM other = program.local[5]; # a comment\n"
@@ -235,6 +158,6 @@ int main(void)
 		{ 120, instruction, draw_square }, { 48, binding, draw_square }, { 64, texture, draw_textured }, { 128, fragment, draw_fragments },
 	};
 
-	DRAW_TABLES(tables, prepare);
+	DRAW_TABLES(tables, make_images);
 	return 0;
 }

@@ -2,52 +2,9 @@
  * GLSL 1.10 and 1.20: each built-in function, operator, statement, state variable and kind of texture, over a square that leans away; vertex
  * shaders with varyings, attributes and what fixed function reads of them.
  */
-#include "panels.h"
+#include "programs.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
-
-static GLuint images[6]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths */
-
-static void fill(unsigned char *texels, unsigned n, unsigned seed)
-{
-	for (unsigned i = 0; i < n; i++)
-		texels[i] = (unsigned char)(255.9f * noise(i + seed));
-}
-
-static void set_filter(GLenum target, GLint filter)
-{
-	glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
-	glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
-}
-
-static void prepare(void)
-{
-	unsigned char texels[32 * 32 * 4];
-
-	fill(texels, sizeof(texels), 7);
-	glGenTextures(6, images);
-	glBindTexture(GL_TEXTURE_2D, images[0]);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-	for (int level = 0; level < 6; level++)
-		glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA, 32 >> level, 32 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_2D, images[1]);
-	set_filter(GL_TEXTURE_2D, GL_NEAREST);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 8, 8, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_CUBE_MAP, images[2]);
-	set_filter(GL_TEXTURE_CUBE_MAP, GL_NEAREST);
-	for (unsigned face = 0; face < 6; face++)
-		glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
-	glBindTexture(GL_TEXTURE_1D, images[3]);
-	glTexParameteri(GL_TEXTURE_1D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-	glTexImage1D(GL_TEXTURE_1D, 0, GL_RGBA, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_3D, images[4]);
-	set_filter(GL_TEXTURE_3D, GL_NEAREST);
-	glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA, 4, 4, 4, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-	glBindTexture(GL_TEXTURE_2D, images[5]);
-	set_filter(GL_TEXTURE_2D, GL_NEAREST);
-	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_R_TO_TEXTURE);
-	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 8, 8, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_BYTE, texels);
-}
 
 static GLuint compile(GLenum type, const char *text)
 {
@@ -66,6 +23,7 @@ static GLuint compile(GLenum type, const char *text)
 }
 
 static GLuint current; /* the program that is used */
+static GLuint shadow_map;
 
 static void set_float(const char *name, float value)
 {
@@ -98,23 +56,10 @@ static void shade(const char *vertices, const char *fragments)
 	glUseProgram(current);
 }
 
-static void draw_square(int i)
+/* The square that all programs are tried on. */
+static void draw(int i)
 {
-	(void)i;
-	glBegin(GL_QUADS);
-	for (int k = 0; k < 4; k++) {
-		const float u = k == 1 || k == 2, v = k >= 2;
-
-		glColor4f(0.2f + 0.7f * u, 0.9f - 0.6f * v, 0.5f, 0.3f + 0.6f * u);
-		glSecondaryColor3f(0.5f * v, 0.1f, 0.3f * u);
-		glFogCoordf(0.5f + 2 * v);
-		glNormal3f(u - 0.5f, v - 0.5f, 1);
-		glMultiTexCoord4f(GL_TEXTURE0, 3.1f * u - 1.33f, 2.6f * v - 1.2f, u - v + 0.03f, 1 + 0.5f * v);
-		glMultiTexCoord4f(GL_TEXTURE1, 0.6f - v, 1.3f - 2 * u, 0.7f, u + 0.1f);
-		glMultiTexCoord4f(GL_TEXTURE2, 2 * u - 1.1f, 0.9f - 2 * v, 0.3f, 1);
-		glVertex3f(2 * u - 1, 2 * v - 1, -v);
-	}
-	glEnd();
+	draw_square(i);
 	glUseProgram(0);
 	glDeleteProgram(current);
 }
@@ -218,33 +163,6 @@ static void statement(int i)
 
 /* --- State -------------------------------------------------------------------------------------------------------------- */
 
-static void set_state(void)
-{
-	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[4]){ 0.9f, 0.4f, 0.1f, 0.7f });
-	glMaterialfv(GL_FRONT, GL_EMISSION, (const float[4]){ 0.1f, 0.2f, 0, 0.4f });
-	glMaterialfv(GL_BACK, GL_DIFFUSE, (const float[4]){ 0.1f, 0.6f, 0.3f, 0.2f });
-	glMaterialf(GL_FRONT, GL_SHININESS, 1.5f);
-	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[4]){ 0.5f, 0.7f, 1, 0.3f });
-	glLightfv(GL_LIGHT1, GL_POSITION, (const float[4]){ 0.5f, 0.7f, 1, 1 });
-	glLightf(GL_LIGHT1, GL_LINEAR_ATTENUATION, 0.35f);
-	glLightf(GL_LIGHT1, GL_SPOT_CUTOFF, 40);
-	glLightf(GL_LIGHT1, GL_SPOT_EXPONENT, 0.8f);
-	glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, (const float[4]){ 0.2f, 0.7f, 0.4f, 0.3f });
-	glTexGenfv(GL_S, GL_OBJECT_PLANE, (const float[4]){ 0.2f, 0.7f, 0.4f, 0.3f });
-	glTexGenfv(GL_R, GL_EYE_PLANE, (const float[4]){ 0.3f, 0.1f, 0.9f, 0.6f });
-	glFogfv(GL_FOG_COLOR, (const float[4]){ 0.8f, 0.2f, 0.4f, 0.3f });
-	glFogf(GL_FOG_END, 3);
-	glPointSize(0.7f);
-	glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, (const float[3]){ 0.3f, 0.6f, 0.9f });
-	glClipPlane(GL_CLIP_PLANE1, (const double[4]){ 0.2, 0.4, 0.6, 0.8 });
-	glMatrixMode(GL_TEXTURE);
-	glActiveTexture(GL_TEXTURE1);
-	glLoadIdentity();
-	glRotatef(30, 0, 0, 1);
-	glActiveTexture(GL_TEXTURE0);
-	glMatrixMode(GL_MODELVIEW);
-}
-
 static const char *const states[] = {
 	"gl_ModelViewMatrix * a", "gl_ProjectionMatrix * a", "gl_ModelViewProjectionMatrix * a", "gl_TextureMatrix[1] * a", "gl_TextureMatrix[k] * a",
 	"vec4(gl_NormalMatrix * a.xyz, 1.0)", "gl_ModelViewMatrixInverse * a", "gl_ProjectionMatrixInverse * a", "gl_ModelViewProjectionMatrixInverse * a",
@@ -289,6 +207,27 @@ static const char *const textures[] = {
 	"vec4(texture2D(t0, a.xy).aaa, 1.0)",
 };
 
+/* Each unit has its image, and each sampler its unit. */
+static void bind_images(void)
+{
+	static const GLenum targets[6] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_2D };
+
+	for (int unit = 0; unit < 6; unit++) {
+		glActiveTexture(GL_TEXTURE0 + unit);
+		glBindTexture(targets[unit], images[unit]);
+	}
+	glActiveTexture(GL_TEXTURE0);
+}
+
+static void name_images(void)
+{
+	static const char *const names[6] = { "t0", "t1", "c", "d", "e", "s" };
+
+	for (int unit = 0; unit < 6; unit++)
+		set_int(names[unit], unit);
+	glUniform1iv(glGetUniformLocation(current, "many"), 2, (const int[2]){ 1, 0 });
+}
+
 static void texture(int i)
 {
 	char text[1024];
@@ -298,20 +237,8 @@ static void texture(int i)
 	         "vec4 pick(sampler2D t, vec2 x) { return texture2D(t, x * 0.5).bgra; }\n"
 	         "void main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1]; gl_FragColor = %s; }", textures[i]);
 	shade(NULL, text);
-	set_int("t0", 0);
-	set_int("t1", 1);
-	glUniform1iv(glGetUniformLocation(current, "many"), 2, (const int[2]){ 1, 0 });
-	set_int("c", 2);
-	set_int("d", 3);
-	set_int("e", 4);
-	set_int("s", 5);
-	for (int unit = 0; unit < 6; unit++) {
-		static const GLenum targets[6] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_2D };
-
-		glActiveTexture(GL_TEXTURE0 + unit);
-		glBindTexture(targets[unit], images[unit]);
-	}
-	glActiveTexture(GL_TEXTURE0);
+	name_images();
+	bind_images();
 }
 
 /* --- Vertices ----------------------------------------------------------------------------------------------------------- */
@@ -362,17 +289,123 @@ static void vertex(int i)
 
 static void draw_vertices(int i)
 {
-	draw_square(i);
+	draw(i);
 	glDisable(GL_VERTEX_PROGRAM_TWO_SIDE);
+}
+
+/* --- What programs were written for ------------------------------------------------------------------------------------ */
+
+#define EYE "varying vec3 e; varying vec2 t; void main() { vec3 v = vec3(gl_ModelViewMatrix * gl_Vertex), n = gl_NormalMatrix * vec3(0.0, 0.0, 1.0), " \
+	"a = gl_NormalMatrix * vec3(1.0, 0.0, 0.0); e = vec3(dot(-v, a), dot(-v, cross(n, a)), dot(-v, n)); t = gl_MultiTexCoord2.xy * 0.4 + 0.5; gl_Position = ftransform(); }"
+#define LAMP "varying vec4 p; void main() { p = gl_TextureMatrix[1] * gl_Vertex; gl_FrontColor = gl_Color; gl_Position = ftransform(); }"
+#define PLACE "gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz * 0.4 + 0.5, 1.0); gl_TexCoord[0] = gl_MultiTexCoord0; "
+#define SHADOWS 4 /* the first of them have a shadow map */
+
+static const char *const scenes[][2] = { /* of vertices, of fragments; NULL: fixed function */
+	{ LAMP, "uniform sampler2DShadow s; varying vec4 p; void main() { gl_FragColor = gl_Color * (0.3 + 0.7 * shadow2DProj(s, p).r); }" },
+	{ LAMP, "uniform sampler2DShadow s; varying vec4 p; void main() { vec3 q = p.xyz / p.w; gl_FragColor = vec4(shadow2D(s, q + vec3(0.0, 0.0, 0.02)).rgb, 1.0) * gl_Color; }" },
+	{ LAMP, "uniform sampler2D s; varying vec4 p; void main() { gl_FragColor = texture2DProj(s, p).r < p.z / p.w ? gl_Color * 0.3 : gl_Color; }" },
+	{ LAMP, "uniform sampler2D s; varying vec4 p; void main() { vec3 q = p.xyz / p.w; float lit = 0.0; for (int i = 0; i < 4; i++) "
+	        "lit += step(q.z, texture2D(s, q.xy + vec2(mod(float(i), 2.0), floor(float(i) * 0.5)) * 0.06).r); gl_FragColor = gl_Color * (0.2 + 0.2 * lit); }" },
+	{ EYE, "uniform sampler2D t0; varying vec3 e; varying vec2 t; void main() { vec3 d = normalize(e); gl_FragColor = texture2D(t0, t + (texture2D(t0, t).a * 0.2 - 0.1) * d.xy); }" },
+	{ EYE, "uniform sampler2D t0, t1; varying vec3 e; varying vec2 t; void main() { vec2 by = e.xy / e.z * 0.03, at = t; float high = 1.0; for (int i = 0; i < 8; i++) "
+	       "if (texture2D(t1, at).r < high) { at -= by; high -= 0.125; } gl_FragColor = vec4(texture2D(t0, at).rgb, 1.0) * (0.5 + 0.5 * high); }" },
+	{ EYE, "uniform sampler2D t1; varying vec3 e; varying vec2 t; void main() { vec3 n = normalize(texture2D(t1, t).xyz - 0.5), d = normalize(e), l = normalize(vec3(0.4, 0.5, 0.7)); "
+	       "float s = pow(max(dot(n, normalize(l + d)), 0.0), 12.0); gl_FragColor = vec4(vec3(0.2, 0.3, 0.6) * max(dot(n, l), 0.0) + s, 1.0); }" },
+	{ "varying vec3 n, v; void main() { n = gl_NormalMatrix * gl_Normal; v = vec3(gl_ModelViewMatrix * gl_Vertex); gl_Position = ftransform(); }",
+	  "uniform sampler1D d; varying vec3 n, v; void main() { vec3 m = normalize(n); float k = max(dot(m, normalize(vec3(0.2, 0.3, 1.0))), 0.0); "
+	  "gl_FragColor = dot(m, normalize(-v)) < 0.8 ? vec4(0.0, 0.0, 0.0, 1.0) : texture1D(d, k) * 0.5 + 0.5 * floor(k * 4.0) / 4.0; }" },
+	{ "uniform sampler2D t0; void main() { vec4 v = gl_Vertex * vec4(0.7, 0.7, 1.0, 1.0); v.z += texture2D(t0, gl_MultiTexCoord0.xy).r * 0.6; " PLACE "}", NULL },
+	{ "uniform sampler2D t1; void main() { vec4 v = gl_Vertex; v.xy *= 0.6 + 0.4 * texture2DLod(t1, gl_MultiTexCoord0.xy, 0.0).g; " PLACE "}", "void main() { gl_FragColor = gl_Color; }" },
+	{ "uniform sampler2D t0; void main() { vec4 v = gl_Vertex; v.z += texture2DLod(t0, gl_MultiTexCoord1.xy, 2.3).r * 0.8; " PLACE "}",
+	  "uniform sampler2D t1; void main() { gl_FragColor = texture2D(t1, gl_TexCoord[0].xy) * gl_Color; }" },
+	{ "uniform sampler2D t0; void main() { vec4 v = gl_Vertex; v.x += texture2DProj(t0, gl_MultiTexCoord0).b * 0.3 - texture2DProjLod(t0, gl_MultiTexCoord0.xyw, 1.0).a * 0.2; " PLACE "}",
+	  "uniform sampler2D t0; void main() { gl_FragColor = texture2D(t0, gl_TexCoord[0].xy) + gl_Color * 0.3; }" },
+	{ "uniform samplerCube c; uniform sampler3D e; void main() { vec4 v = gl_Vertex; " PLACE "gl_FrontColor = textureCube(c, gl_MultiTexCoord0.xyz) * 0.6 + texture3D(e, gl_MultiTexCoord1.xyz) * 0.4; }", NULL },
+	{ "uniform sampler1D d; void main() { vec4 v = gl_Vertex; for (int i = 0; i < 3; i++) v.xy += texture1D(d, v.x + float(i) * 0.3).rg * 0.2 - 0.1; " PLACE "}", "void main() { gl_FragColor = gl_Color.bgra; }" },
+	{ "uniform sampler2D t1; varying vec4 r; void main() { vec4 v = gl_Vertex; " PLACE "r = v.x > 0.0 ? texture2D(t1, gl_MultiTexCoord1.xy) : vec4(0.2, 0.4, 0.1, 1.0); }", "varying vec4 r; void main() { gl_FragColor = r; }" },
+	{ "uniform sampler2DShadow s; void main() { vec4 v = gl_Vertex; " PLACE "gl_FrontColor.rg *= shadow2D(s, vec3(gl_MultiTexCoord1.xy, 0.5)).rg; }", NULL },
+};
+
+/* Something before the square, and the square. */
+static void put_scene(void)
+{
+	glBegin(GL_TRIANGLES);
+	for (int k = 0; k < 3; k++) {
+		set_corner(0.3f * (float)k, 0.8f - 0.2f * (float)k);
+		glVertex3f(0.5f * (float)k - 0.7f, k == 1 ? 0.6f : -0.3f, 0.6f);
+	}
+	glEnd();
+	draw_square(0);
+}
+
+/* The depths that a lamp sees, as a texture, and the matrix that leads there. */
+static void make_shadow_map(int compares)
+{
+	static const float to_texture[16] = { 0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.49f, 1 };
+	GLint at[4];
+
+	glGetIntegerv(GL_VIEWPORT, at);
+	glEnable(GL_DEPTH_TEST);
+	for (int i = 0; i < 2; i++) { /* the lamp's view; the matrix */
+		glMatrixMode(i ? GL_TEXTURE : GL_PROJECTION);
+		glActiveTexture(i ? GL_TEXTURE1 : GL_TEXTURE0);
+		if (!i)
+			glPushMatrix();
+		glLoadIdentity();
+		if (i)
+			glMultMatrixf(to_texture);
+		glFrustum(-0.6, 0.6, -0.6, 0.6, 1, 6);
+		glTranslatef(0.5f, -0.2f, -3);
+		glRotatef(25, 0.3f, 1, 0);
+		if (i)
+			continue;
+		glMatrixMode(GL_MODELVIEW);
+		glPushMatrix();
+		glLoadIdentity();
+		put_scene();
+		glPopMatrix();
+		glMatrixMode(GL_PROJECTION);
+		glPopMatrix();
+	}
+	glMatrixMode(GL_MODELVIEW);
+	glActiveTexture(GL_TEXTURE5);
+	if (!shadow_map)
+		glGenTextures(1, &shadow_map);
+	glBindTexture(GL_TEXTURE_2D, shadow_map);
+	set_filter(GL_TEXTURE_2D, GL_NEAREST);
+	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, compares ? GL_COMPARE_R_TO_TEXTURE : GL_NONE);
+	glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, at[0] + 2, at[1] + 2, 16, 16, 0);
+	glActiveTexture(GL_TEXTURE0);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static void scene(int i)
+{
+	const char *const *texts = scenes[i];
+
+	bind_images();
+	if (i < SHADOWS)
+		make_shadow_map(i < 2);
+	glEnable(GL_DEPTH_TEST);
+	shade(texts[0], texts[1]);
+	name_images();
+}
+
+static void draw_scene(int i)
+{
+	put_scene();
+	draw(i);
 }
 
 int main(void)
 {
 	static const struct table tables[] = {
-		{ COUNT(functions), function, draw_square }, { COUNT(statements), statement, draw_square }, { 2 * COUNT(states), state, draw_square },
-		{ COUNT(textures), texture, draw_square }, { 2 * COUNT(vertices), vertex, draw_vertices },
+		{ COUNT(functions), function, draw }, { COUNT(statements), statement, draw }, { 2 * COUNT(states), state, draw },
+		{ COUNT(textures), texture, draw }, { 2 * COUNT(vertices), vertex, draw_vertices },
+		{ COUNT(scenes), scene, draw_scene },
 	};
 
-	DRAW_TABLES(tables, prepare);
+	DRAW_TABLES(tables, make_images);
 	return 0;
 }

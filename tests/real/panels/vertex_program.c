@@ -2,7 +2,7 @@
  * Vertex programs (ARB_vertex_program): each instruction, binding and result, addresses, attributes by calls, arrays and lists, with fragment
  * programs and with fixed function, over a sheet that leans away. At last numbers that are none.
  */
-#include "panels.h"
+#include "programs.h"
 
 #define PLACED "DP4 result.position.x, m[0], vertex.position; DP4 result.position.y, m[1], vertex.position;\n" \
 	"DP4 result.position.z, m[2], vertex.position; DP4 result.position.w, m[3], vertex.position;\n"
@@ -13,30 +13,13 @@ static void prepare(void)
 {
 	unsigned char texels[16 * 16 * 4];
 
-	for (unsigned i = 0; i < sizeof(texels); i++)
-		texels[i] = (unsigned char)(255.9f * noise(i + 3));
+	fill(texels, sizeof(texels), 3);
 	glGenTextures(1, &image);
 	glBindTexture(GL_TEXTURE_2D, image);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
 	glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 	glBindTexture(GL_TEXTURE_2D, 0);
 	glGenBuffers(2, buffers);
-}
-
-static void set_program(GLenum target, const char *header, const char *text)
-{
-	char whole[4096];
-	GLuint program;
-	GLint at;
-
-	snprintf(whole, sizeof(whole), "%s\n%s\nEND\n", header, text);
-	glGenProgramsARB(1, &program);
-	glBindProgramARB(target, program);
-	glProgramStringARB(target, GL_PROGRAM_FORMAT_ASCII_ARB, (GLsizei)strlen(whole), whole);
-	glGetIntegerv(GL_PROGRAM_ERROR_POSITION_ARB, &at);
-	if (at >= 0)
-		fprintf(stderr, "%s: %s\n", text, (const char *)glGetString(GL_PROGRAM_ERROR_STRING_ARB));
-	glEnable(target);
 }
 
 /* Place what follows by the matrices, and all else by the text. */
@@ -55,12 +38,7 @@ static void put_vertex(int x, int y, int by_number)
 {
 	const float u = (float)x / CELLS, v = (float)y / CELLS;
 
-	glColor4f(0.2f + 0.7f * u, 0.9f - 0.6f * v, 0.5f, 0.3f + 0.6f * u);
-	glSecondaryColor3f(0.5f * v, 0.1f, 0.3f * u);
-	glFogCoordf(0.5f + 2 * v);
-	glNormal3f(u - 0.5f, v - 0.5f, 0.7f);
-	glMultiTexCoord4f(GL_TEXTURE0, 3.1f * u - 1.33f, 2.6f * v - 1.2f, u - v + 0.03f, 1 + 0.5f * v);
-	glMultiTexCoord4f(GL_TEXTURE1, 0.6f - v, 1.3f - 2 * u, 0.7f, u + 0.1f);
+	set_corner(u, v);
 	if (by_number) {
 		glVertexAttrib4f(9, 0.9f * u, 1 - v, u * v, 1);
 		glVertexAttrib2f(14, 5 * u, 4 * v);
@@ -126,11 +104,6 @@ static void load_own_matrices(void)
 		glRotatef(20.0f * (float)k, 0.3f, 0.5f, 1);
 		glScalef(0.7f, 1 + 0.1f * (float)k, 0.5f);
 	}
-	glActiveTexture(GL_TEXTURE1);
-	glMatrixMode(GL_TEXTURE);
-	glLoadIdentity();
-	glRotatef(30, 0, 0, 1);
-	glActiveTexture(GL_TEXTURE0);
 	glMatrixMode(GL_MODELVIEW);
 }
 
@@ -156,23 +129,7 @@ static void binding(int i)
 	};
 	char text[2048];
 
-	glMaterialfv(GL_FRONT, GL_SPECULAR, (const float[4]){ 0.9f, 0.4f, 0.1f, 0.7f });
-	glMaterialfv(GL_FRONT, GL_EMISSION, (const float[4]){ 0.1f, 0.2f, 0, 0.4f });
-	glMaterialfv(GL_BACK, GL_DIFFUSE, (const float[4]){ 0.1f, 0.6f, 0.3f, 0.2f });
-	glMaterialf(GL_FRONT, GL_SHININESS, 1.5f);
-	glLightfv(GL_LIGHT1, GL_DIFFUSE, (const float[4]){ 0.5f, 0.7f, 1, 0.3f });
-	glLightfv(GL_LIGHT1, GL_POSITION, (const float[4]){ 0.5f, 0.7f, 1, 1 });
-	glLightf(GL_LIGHT1, GL_LINEAR_ATTENUATION, 0.35f);
-	glLightf(GL_LIGHT1, GL_SPOT_CUTOFF, 40);
-	glFogfv(GL_FOG_COLOR, (const float[4]){ 0.8f, 0.2f, 0.4f, 0.3f });
-	glFogf(GL_FOG_END, 3);
-	glClipPlane(GL_CLIP_PLANE1, (const double[4]){ 0.4, 0.8, 0.2, 0.6 });
-	glPointSize(1.5f);
-	glPointParameterfv(GL_POINT_DISTANCE_ATTENUATION, (const float[3]){ 0.3f, 0.6f, 0.1f });
-	glTexGenfv(GL_T, GL_OBJECT_PLANE, (const float[4]){ 0.1f, 0.4f, 0.9f, 0.2f });
-	glActiveTexture(GL_TEXTURE1);
-	glTexGenfv(GL_S, GL_EYE_PLANE, (const float[4]){ 0.6f, 0.3f, 0.1f, 0.5f });
-	glActiveTexture(GL_TEXTURE0);
+	set_state();
 	load_own_matrices();
 	glProgramEnvParameter4fARB(GL_VERTEX_PROGRAM_ARB, 3, 0.1f, 0.9f, (float)i / 80, 0.5f);
 	glProgramEnvParameter4dARB(GL_VERTEX_PROGRAM_ARB, 4, 0.8, 0.3, 0.2, 1);
