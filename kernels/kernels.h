@@ -142,6 +142,7 @@ typedef float element_float;
 	VALUE(uint, albedo) AND()           /* 0: nobody asks for albedo, which stays 0 */ \
 	VALUE(uint, n) AND()                /* fragments */ \
 	OUT(uint, programs) AND()           /* scene.programs: `program` alone reads them, and says which were ended */ \
+	VALUE(uint, output) AND()           /* scene.output */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(scene_clear, clear) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \

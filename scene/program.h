@@ -62,6 +62,7 @@ struct scene_program {
 	uint32_t across;      /* 1: it asks how numbers change from pixel to pixel: all four count. Else each by itself */
 	uint32_t n_lights;    /* struct scene_program_light, between instructions and constants */
 	uint32_t ended;       /* 0; kernels set it to 1 where the program reached SCENE_PROGRAM_STEPS: what it made is not what it means */
+	uint32_t data, n_data; /* gl_FragData: its first register, how many colours it is; 0: all buffers have SCENE_PROGRAM_COLOR */
 };
 
 /* Four registers that hold what a light sends, before the first instruction: so a light that does not arrive can be left out. */

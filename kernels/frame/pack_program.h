@@ -455,7 +455,7 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	pack_execute(&a->tables, p, program, run);
 	program_note_ended(a->programs + (p->material->fragment_program - 1), run->ended);
 	for (int i = 0; i < 4; i++) {
-		const packf c = run->registers[SCENE_PROGRAM_COLOR + i];
+		const packf c = run->registers[program_color(program, a->output) + i];
 
 		color.c[i] = p->material->unclamped & 1 ? c : pack_clamp01(c);
 	}

@@ -54,6 +54,12 @@ static inline void program_note_ended(GLOBAL uint32_t *words, uint32_t ended)
 		M_STORE_ONE(&((GLOBAL struct scene_program *)words)->ended);
 }
 
+/* The registers of a fragment's colour. output: scene.output */
+static inline uint32_t program_color(const struct program *program, uint32_t output)
+{
+	return output < program->head->n_data ? program->head->data + 4u * output : SCENE_PROGRAM_COLOR;
+}
+
 static inline float program_of_four(struct vec4 v, uint32_t pixel)
 {
 	return pixel == 0u ? v.x : pixel == 1u ? v.y : pixel == 2u ? v.z : v.w;

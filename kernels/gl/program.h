@@ -178,7 +178,7 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 	program_inputs(f, program.head->inputs, lit, a->fragments[item].depth);
 	program_execute(&a->tables, f->p.material, &program, &f->run);
 	program_note_ended(a->programs + (f->p.material->fragment_program - 1u), f->run.ended);
-	*color = program_get(&f->run, SCENE_PROGRAM_COLOR, f->own);
+	*color = program_get(&f->run, program_color(&program, a->output), f->own);
 	*color = f->p.material->unclamped & 1u ? *color : v4_clamp01(*color);
 	if (program.head->sets_depth && !a->n_slots)
 		a->shaded[item].depth = clamp01(program_of_four(f->run.registers[SCENE_PROGRAM_DEPTH], f->own));

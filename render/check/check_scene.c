@@ -236,7 +236,7 @@ static void add_vertex_program(struct check_world *w)
 	};
 	const uint32_t material = made_add_material(&w->made, 0.7f);
 	const struct scene_program head = { sizeof(instructions) / sizeof(instructions[0]), 20, PLACE + 4, 1u << SCENE_VERTEX_POSITION | 1u << SCENE_VERTEX_NORMAL,
-		                            0, 0, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR, 0, 0, 0 };
+		                            0, 0, 1u << SCENE_RESULT_POSITION | 1u << SCENE_RESULT_COLOR, 0, 0, 0, 0, 0 };
 	float constants[20] = { [16] = 0.2f, 0.5f, 3, 0.4f };
 
 	memcpy(constants, w->made.view.projection, 64);
@@ -261,7 +261,7 @@ static void add_fragment_program(struct check_world *w)
 	};
 	static const float constants[2] = { 0.01f, 0.3f };
 	const uint32_t n = sizeof(instructions) / sizeof(instructions[0]), material = made_add_material(&w->made, 0.7f);
-	const struct scene_program head = { n, 2, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1, 0, 1, 0, 0 };
+	const struct scene_program head = { n, 2, SAMPLE + 4, 1u << SCENE_INPUT_POSITION | 1u << SCENE_INPUT_COLOR, 1, 1, 0, 1, 0, 0, 0, 0 };
 
 	w->made.materials[material].unit_count = 1;
 	w->made.materials[material].fragment_program = put_program(w, &head, instructions, constants);

@@ -172,7 +172,8 @@ uint32_t gls_program_build(struct gls_frame *f, const struct gls_state *st, cons
 {
 	const struct program_code *code = stage->code;
 	const struct scene_program head = { code->n_instructions, 4 * code->n_constants, code->n_registers, code->inputs, code->kills,
-		                            code->sets_depth, outputs_of(st, code), code->across, code->n_lights, 0 };
+		                            code->sets_depth, outputs_of(st, code), code->across, code->n_lights, 0, code->data,
+		                            code->n_data };
 	const size_t instruction_bytes = code->n_instructions * sizeof(struct scene_instruction);
 	const size_t light_bytes = code->n_lights * sizeof(struct scene_program_light);
 	const size_t n = (sizeof(head) + instruction_bytes + light_bytes) / 4 + 4 * (size_t)code->n_constants;

@@ -149,15 +149,16 @@ static uint32_t place_of(const struct glsl_writer *w, const char *name)
 	return GLSL_NONE;
 }
 
-/* The first buffer's colour is the fragment's; those of others lead nowhere. */
+/* A colour for each buffer. */
 static struct glsl_value data(struct glsl_writer *w, const struct glsl_symbol *s)
 {
-	struct glsl_value v = glsl_value_of(w, s->type, glsl_type_of(w, s->type)->numbers);
-	const uint32_t nowhere = glsl_registers(w, 4);
+	const uint32_t n = glsl_type_of(w, s->type)->numbers;
 
-	for (uint32_t i = 0; i < v.n && v.at; i++)
-		v.at[i] = i < 4 ? SCENE_PROGRAM_COLOR + i : nowhere + i % 4;
-	return v;
+	if (!w->code->n_data) {
+		w->code->data = glsl_registers(w, n);
+		w->code->n_data = n / 4;
+	}
+	return glsl_row(w, s->type, w->code->data);
 }
 
 struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *s)

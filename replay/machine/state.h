@@ -114,6 +114,9 @@ struct gls_texturing {
 	struct gls_unit units[GLS_MAX_UNITS];
 };
 
+/* Buffers that are drawn to do not stand in the list one after the other by their numbers. */
+#define GLS_OUT_OF_ORDER (1u << 31)
+
 /* Tables 6.19 - 6.21: per-fragment operations and the framebuffer. */
 struct gls_scissor {
 	uint32_t enabled;
@@ -137,7 +140,7 @@ struct gls_color_buffer {
 	uint32_t dither;
 	uint32_t mask; /* bits: 1 red, 2 green, 4 blue, 8 alpha */
 	uint32_t draw_buffer;
-	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number */
+	uint32_t also_drawn; /* of a framebuffer object's colours, beside it: 1 << number, or GLS_OUT_OF_ORDER */
 	uint32_t clamp; /* of fragments' colours, as gls_lighting.clamp */
 	float clear[4];
 };

@@ -76,7 +76,8 @@ static const char *lack_of_shaders(const struct gls_state *st)
 			if (program_unit_of(&stage, i) >= GLS_MAX_UNITS)
 				return "a shader samples texture units from 8 on";
 	}
-	return p->code[GLS_FRAGMENT_STAGE].n_instructions && st->a.color.also_drawn ? "a shader draws to several buffers at once" : NULL;
+	return p->code[GLS_FRAGMENT_STAGE].n_data && st->a.color.also_drawn & GLS_OUT_OF_ORDER ? "a shader draws to several buffers, not in the order of their numbers" :
+	                                                                                        NULL;
 }
 
 const char *gls_program_lack(const struct gls_state *st)

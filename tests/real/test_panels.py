@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# limit: 300 s
 """
 The modes, functions, operands and terms of the specification's chapters, a panel each, are drawn as Mesa draws them: tests/real/panels/.
 Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
@@ -15,7 +16,7 @@ PROGRAMS = {
               "transfer to textures", "indices to textures"),
     "program": ("instructions", "bindings", "textures", "fragments"),
     "vertex_program": ("instructions", "bindings", "addresses", "results", "attributes", "uses", "extremes"),
-    "shader": ("functions", "statements", "state", "textures", "vertices", "scenes"),
+    "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
 }
 
 for name, frames in PROGRAMS.items():

@@ -227,7 +227,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	const struct shade_launch *a =
 		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
 		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits, .visibility = b->visibility,
-		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs,
+		       .n_slots = slots, .transport = transport, .albedo = albedo, .n = n, .programs = b->programs, .output = job->scene->output,
 		       .shaded = b->shaded);
 	const int in_packets = device_family(tr->dev) == FAMILY_PACKETS;
 	const uint32_t packets = (n + SHADE_PACKET - 1) / SHADE_PACKET;

@@ -7,12 +7,15 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/state.h"
 
-/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1). */
+/* Fixed function gives every buffer the same colour (GL 2.1 sec. 3.11.2, 4.2.1); a shader's are in the order of the list. */
 GLS_HANDLER(glDrawBuffers, STATE)
 {
 	uint32_t list[16] = { GL_NONE }, buffer = GL_NONE, also = 0;
 	unsigned n = arg_uints(c, 1, list, 16);
 
+	for (unsigned i = 1; i < n; i++)
+		if (list[i] != GL_NONE && (list[i - 1] == GL_NONE || list[i] <= list[i - 1]))
+			also |= GLS_OUT_OF_ORDER;
 	for (unsigned i = 0; i < n; i++) {
 		int is_pair = (buffer == GL_BACK_LEFT && list[i] == GL_FRONT_LEFT) || (buffer == GL_FRONT_LEFT && list[i] == GL_BACK_LEFT);
 

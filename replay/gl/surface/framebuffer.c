@@ -34,7 +34,7 @@ static uint32_t colors_of(uint32_t buffer, uint32_t others)
 {
 	int color = gls_attachment_color(buffer);
 
-	return others | (color >= 0 ? 1u << color : 0);
+	return (others & ~GLS_OUT_OF_ORDER) | (color >= 0 ? 1u << color : 0);
 }
 
 /* Those that the collected events draw to. */
@@ -45,8 +45,8 @@ static uint32_t drawn_colors(const struct gls_framebuffer *fb)
 
 /*
  * Render the events, and write the result to the attachments. Fixed function sends the same fragments to all colours (GL 2.1 sec.
- * 3.11.2). They differ only in what was there before: where that shows, the events are rendered once for each colour. Depth and stencil
- * are the same each time.
+ * 3.11.2), shaders may send others. Where these, or what was there before, show, the events are rendered once for each colour. Depth and
+ * stencil are the same each time.
  */
 static void update_colors(struct gls_exec *x, const struct gls_share *share, struct gls_framebuffer *fb)
 {

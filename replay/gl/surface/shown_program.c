@@ -130,13 +130,15 @@ static int follow(struct shading *s)
 int shown_program_of(const struct scene *s, const struct scene_material *m, struct shown_program *out)
 {
 	struct shading shading = { .program = program_at(s->programs + (m->fragment_program - 1)), .out = out };
+	const struct value *color;
 
 	for (uint32_t i = 0; i < 4 * N_SCENE_INPUTS; i++)
 		shading.registers[i] = (struct value){ INPUT, i, 0 };
 	if (shading.program.head->sets_depth || shading.program.head->n_lights || !follow(&shading) || !shading.samples)
 		return 0;
+	color = &shading.registers[program_color(&shading.program, 0)];
 	for (uint32_t i = 0; i < 3; i++)
-		if (shading.registers[SCENE_PROGRAM_COLOR + i].held != TEXEL || shading.registers[SCENE_PROGRAM_COLOR + i].which != i)
+		if (color[i].held != TEXEL || color[i].which != i)
 			return 0;
 	return 1;
 }

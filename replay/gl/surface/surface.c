@@ -11,6 +11,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
+#include "scene/program.h"
 #include "scene/release.h"
 
 /* Buffers that a scene need not have set everywhere: what it does not show may be from before it. */
@@ -156,11 +157,22 @@ const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surf
 	return snapshot ? &snapshot->picture : NULL;
 }
 
+/* Whether programs have colours of their own for buffers beside the first. */
+static int has_outputs(const struct scene *s)
+{
+	for (uint32_t i = 0; i < s->n_materials; i++)
+		if (s->materials[i].fragment_program && ((const struct scene_program *)(s->programs + (s->materials[i].fragment_program - 1)))->n_data)
+			return 1;
+	return 0;
+}
+
 int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture)
 {
 	struct scene *s = gls_frame_scene(x, surface);
 
-	if (!s || !s->needs_previous) {
+	if (s)
+		s->output++;
+	if (!s || (!s->needs_previous && !has_outputs(s))) {
 		gls_picture_release(picture);
 		return 0;
 	}

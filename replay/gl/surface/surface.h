@@ -14,7 +14,10 @@
  */
 const struct scene_picture *gls_surface_read(struct gls_exec *x, struct gls_surface *surface, const struct gls_area *area);
 
-/** Let the same events begin from another picture (takes the reference). @return 1; 0: what was there before does not show */
+/**
+ * Let the same events begin from another picture (takes the reference), and draw the next of several buffers.
+ * @return 1; 0: what was there before does not show, and no program has another colour for another buffer
+ */
 int gls_surface_restart(struct gls_exec *x, struct gls_surface *surface, struct gls_picture *picture);
 
 /** End the surface's scene: what comes next begins from what it shows. @return a reference for the caller; NULL: as gls_surface_read */

@@ -398,12 +398,84 @@ static void draw_scene(int i)
 	draw(i);
 }
 
+/* --- Several buffers ------------------------------------------------------------------------------------------------------ */
+
+enum { BUFFERS = 3, BUFFER = 32 };
+
+static const char *const targets[] = { /* of fragments that go to three buffers */
+	"void main() { gl_FragData[0] = gl_Color; gl_FragData[1] = gl_Color.bgra; gl_FragData[2] = vec4(gl_FragCoord.xy * 0.03, 0.5, 0.7); }",
+	"void main() { gl_FragData[2] = gl_SecondaryColor; gl_FragData[1] = vec4(0.3); for (int i = 0; i < 2; i++) gl_FragData[i] = gl_Color * (0.4 + 0.5 * float(i)); }",
+	"void main() { gl_FragColor = gl_Color.gbra; }",
+	"uniform sampler2D t1; void main() { vec4 c = texture2D(t1, gl_TexCoord[0].xy); if (gl_FragCoord.x > 20.0) discard; gl_FragData[0] = c; gl_FragData[1] = gl_Color; gl_FragData[2] = c * gl_Color; }",
+	"void main() { gl_FragData[1] = gl_Color * 0.5; gl_FragData[2] = gl_Color.brga; gl_FragData[0] = 1.0 - gl_Color; if (gl_Color.r > 0.5) gl_FragData[2].g = 0.9; }",
+};
+
+static void several(int i)
+{
+	const int text = choose(&i, COUNT(targets)), blends = choose(&i, 2);
+
+	if (blends) {
+		glEnable(GL_BLEND);
+		glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	}
+	bind_images();
+	shade(NULL, targets[text]);
+	name_images();
+}
+
+/* The square into three textures, and these side by side. */
+static void draw_several(int i)
+{
+	static const GLenum all[BUFFERS] = { GL_COLOR_ATTACHMENT0_EXT, GL_COLOR_ATTACHMENT1_EXT, GL_COLOR_ATTACHMENT2_EXT };
+	GLuint object, textures_of[BUFFERS];
+	GLint at[4];
+
+	glGetIntegerv(GL_VIEWPORT, at);
+	glGenTextures(BUFFERS, textures_of);
+	glGenFramebuffersEXT(1, &object);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, object);
+	for (int k = 0; k < BUFFERS; k++) {
+		glBindTexture(GL_TEXTURE_2D, textures_of[k]);
+		set_filter(GL_TEXTURE_2D, GL_NEAREST);
+		glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, BUFFER, BUFFER, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+		glFramebufferTexture2DEXT(GL_FRAMEBUFFER_EXT, all[k], GL_TEXTURE_2D, textures_of[k], 0);
+	}
+	glBindTexture(GL_TEXTURE_2D, images[0]);
+	glViewport(0, 0, BUFFER, BUFFER);
+	glDisable(GL_SCISSOR_TEST);
+	for (int k = 0; k < BUFFERS; k++) { /* each begins otherwise */
+		glDrawBuffer(all[k]);
+		glClearColor(0.3f * (float)k, 0.5f, 0.9f - 0.4f * (float)k, 1);
+		glClear(GL_COLOR_BUFFER_BIT);
+	}
+	glDrawBuffers(BUFFERS, all);
+	draw(i);
+	glBindFramebufferEXT(GL_FRAMEBUFFER_EXT, 0);
+	glDisable(GL_BLEND);
+	glViewport(at[0], at[1], at[2], at[3]);
+	glEnable(GL_TEXTURE_2D);
+	glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+	for (int k = 0; k < BUFFERS; k++) {
+		glBindTexture(GL_TEXTURE_2D, textures_of[k]);
+		glBegin(GL_QUADS);
+		for (int c = 0; c < 4; c++) {
+			const int right = c == 1 || c == 2, up = c >= 2;
+
+			glTexCoord2i(right, up);
+			glVertex2f(-1 + 0.66f * (float)(k + right), up ? 0.9f : -0.9f);
+		}
+		glEnd();
+	}
+	glDeleteFramebuffersEXT(1, &object);
+	glDeleteTextures(BUFFERS, textures_of);
+}
+
 int main(void)
 {
 	static const struct table tables[] = {
 		{ COUNT(functions), function, draw }, { COUNT(statements), statement, draw }, { 2 * COUNT(states), state, draw },
 		{ COUNT(textures), texture, draw }, { 2 * COUNT(vertices), vertex, draw_vertices },
-		{ COUNT(scenes), scene, draw_scene },
+		{ COUNT(scenes), scene, draw_scene }, { 2 * COUNT(targets), several, draw_several },
 	};
 
 	DRAW_TABLES(tables, make_images);
