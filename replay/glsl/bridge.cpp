@@ -100,7 +100,7 @@ public:
 private:
 	int depth = 0;
 	std::map<long long, uint32_t> symbol_of;
-	std::map<std::string, uint32_t> function_of;
+	std::map<std::string, uint32_t> function_of, member_of;
 	std::map<std::vector<uint32_t>, uint32_t> type_numbers;
 	std::map<const TTypeList *, uint32_t> struct_of;
 
@@ -265,8 +265,29 @@ private:
 		return add(GLSL_OTHER, type, own);
 	}
 
+	/* From GLSL 1.50 on what a vertex shader hands on is a member of gl_PerVertex: a variable of its own, as before. */
+	uint32_t of_block(const TIntermBinary &b)
+	{
+		const TType &block = b.getLeft()->getType();
+		const size_t number = size_t(b.getRight()->getAsConstantUnion()->getConstArray()[0].getIConst());
+		const std::string name = (*block.getStruct())[number].type->getFieldName().c_str();
+		const auto found = member_of.find(name);
+
+		if (block.getQualifier().storage != EvqVaryingOut || name.compare(0, 3, "gl_") != 0)
+			throw refused{ "a shader has blocks of uniforms or of inputs, which are not done" };
+		const uint32_t type = type_of(b.getType());
+
+		if (found != member_of.end())
+			return add(GLSL_SYMBOL, type, {}, found->second);
+		symbols.push_back({ add_name(name), type, uint32_t(GLSL_OUTPUT), GLSL_NONE, 0, 0 });
+		member_of[name] = uint32_t(symbols.size() - 1);
+		return add(GLSL_SYMBOL, type, {}, member_of[name]);
+	}
+
 	uint32_t flatten_binary(TIntermBinary &b)
 	{
+		if (b.getOp() == EOpIndexDirectStruct && b.getLeft()->getBasicType() == EbtBlock)
+			return of_block(b);
 		const uint32_t left = flatten(b.getLeft()), type = type_of(b.getType());
 
 		if (b.getOp() == EOpIndexDirectStruct)

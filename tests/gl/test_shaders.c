@@ -192,4 +192,31 @@ START_TEST(test_attributes)
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_unlinked, test_attributes)
+/* From GLSL 1.50 on the vertex stage's results are members of a block. */
+START_TEST(test_results_in_blocks)
+{
+	static const char vertex[] = "#version 150 compatibility\nin vec4 a; out vec2 b; void main() { b = a.xy; gl_FrontColor = a; gl_Position = a * 0.5; gl_Position.w = 1.0; }";
+	static const char fragment[] = "#version 150 compatibility\nin vec2 b; out vec4 c; void main() { c = vec4(b, 0.0, 1.0); }";
+	static const char blocks[] = "#version 150 compatibility\nout pair { vec4 x, y; } p; void main() { p.x = gl_Vertex; gl_Position = gl_Vertex; }";
+	struct gl gl = gl_open();
+	const struct gls_shader *p;
+
+	make_shader(&gl, 200, GL_VERTEX_SHADER, vertex);
+	make_shader(&gl, 201, GL_FRAGMENT_SHADER, fragment);
+	make_shader(&gl, 202, GL_VERTEX_SHADER, blocks);
+	gl_answered(&gl, 1, "glCreateProgram", "");
+	gl_call(&gl, "glAttachShader", "uu", 1u, 200u);
+	gl_call(&gl, "glAttachShader", "uu", 1u, 201u);
+	gl_call(&gl, "glLinkProgram", "u", 1u);
+	p = object(&gl, 1);
+	ck_assert_msg(!p->stages.why, "%s", p->stages.why);
+	ck_assert_uint_eq(p->stages.code[GLSL_VERTEX_STAGE].outputs >> SCENE_RESULT_POSITION & 1, 1);
+	gl_answered(&gl, 2, "glCreateProgram", "");
+	gl_call(&gl, "glAttachShader", "uu", 2u, 202u);
+	gl_call(&gl, "glLinkProgram", "u", 2u);
+	ck_assert_msg(object(&gl, 2)->stages.why && strstr(object(&gl, 2)->stages.why, "blocks"), "blocks of a shader's own are not done");
+	gl_close(&gl);
+}
+END_TEST
+
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_unlinked, test_attributes, test_results_in_blocks)
