@@ -191,6 +191,11 @@ typedef float element_float;
 	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
 	OUT(uint, programs) AND()           /* plain_program alone; read as well */ \
+	VALUE(scene_dome, dome) AND()       /* reach 0: there is none. The next four: any buffers then */ \
+	IN(float, directions) AND() VALUE(uint, samples) AND() /* as in dome_find. This and the next two: plain_dome alone */ \
+	OUT(dome_place, places) AND()       /* [n]; read as well */ \
+	OUT(ray, looks) AND()               /* [sample][n] */ \
+	IN(float, factors) AND()            /* as dome_light leaves them: plain_shadow alone */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
 /* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
@@ -251,8 +256,11 @@ typedef float element_float;
 	VALUE(camera_rectangle, rectangle) AND() /* in which these hold, counted from the band's first row */ \
 	VALUE(uint, width) AND() \
 	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
-	VALUE(scene_dome, dome) AND() VALUE(uint, n) AND() \
-	OUT(shaded, shaded)                 /* read as well */
+	VALUE(scene_dome, dome) AND() \
+	VALUE(uint, in_blocks) AND()        /* 1: fragments are a plain frame's, and the next three any buffers; 0: factors is */ \
+	VALUE(uint, n) AND() \
+	OUT(shaded, shaded) AND()           /* read as well */ \
+	OUT(float, factors)                 /* [3][n] of their colours, 1 where no such light falls */
 
 /* Surfaces that shine: kernels/frame/emitter.h. */
 #define ARGUMENTS_emission(IN, OUT, VALUE, GROUP, AND) \
@@ -467,6 +475,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
 	X(plain_program, plain)         /* before either of the next two, where programs are: colours by them */ \
 	X(plain, plain)                 /* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
+	X(plain_dome, plain)            /* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
 	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
 	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
 	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \

@@ -355,8 +355,9 @@ struct dome_place {
 	float from[3];   /* rays start here, eye space */
 	float strength;  /* share of its colour that is not fog's; 0: nothing there is lit so */
 	float normal[3]; /* on the side that is seen */
+	float padding;   /* to the size of a ray */
 };
-SHARED_SIZE(struct dome_place, 28);
+SHARED_SIZE(struct dome_place, 32);
 
 /* A rectangle of pixels: x0 <= x < x1, y0 <= y < y1; empty ones have x0 == x1. */
 struct camera_rectangle {

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "kernels/camera/camera.h"
-#include "kernels/frame/shadow.h"
+#include "kernels/frame/plain.h"
 
 /* Blocks of pixels, across and down. */
 #define DOME_BLOCK 4u
@@ -114,9 +114,11 @@ static inline void dome_sum_item(const struct dome_sum_arguments *a, uint32_t it
 	GLOBAL float *sums = a->sums + item * 4u;
 	float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 
+	if (!(a->places[item].strength > 0.0f))
+		return;
 	for (uint32_t k = 0u; k < 4u && !a->is_first; k++)
 		sum[k] = sums[k];
-	for (uint32_t i = item; i < a->samples * a->n && a->places[item].strength > 0.0f; i += a->n) {
+	for (uint32_t i = item; i < a->samples * a->n; i += a->n) {
 		const float height = same ? 1.0f : dome_height(dome, v3_load(a->rays[i].d));
 
 		for (uint32_t c = 0u; c < 3u; c++)
@@ -207,11 +209,17 @@ static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, u
 	*bottom = dome_most((uint32_t)a->rectangle.y0, low);
 }
 
-/* The light of the block about a fragment, into sum[4]: column by column. */
-static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, float *sum)
+/* The fragments of a pixel of the band. @return the first of them */
+static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t x, uint32_t y, uint32_t *count)
 {
-	const uint32_t pixel = a->pixels[item] - a->first_pixel, y = pixel / a->width;
-	const uint32_t x0 = dome_first(pixel % a->width, (uint32_t)a->rectangle.x0, (uint32_t)a->rectangle.x1);
+	*count = a->in_blocks ? 1u : a->counts[y * a->width + x];
+	return a->in_blocks ? plain_item(a->width, x, y) : a->first[y * a->width + x];
+}
+
+/* The light of the block about a fragment, into sum[4]: column by column. x, y: its pixel in the band */
+static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y, float *sum)
+{
+	const uint32_t x0 = dome_first(x, (uint32_t)a->rectangle.x0, (uint32_t)a->rectangle.x1);
 	uint32_t bottom, top, y0;
 
 	dome_rows(a, y, &bottom, &top);
@@ -220,9 +228,10 @@ static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t
 		float column[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 
 		for (uint32_t by = y0; by < y0 + DOME_BLOCK && by < top; by++) {
-			const uint32_t begin = a->first[by * a->width + bx], end = begin + a->counts[by * a->width + bx];
+			uint32_t count;
+			const uint32_t begin = dome_items(a, bx, by, &count);
 
-			for (uint32_t other = begin; other < end; other++)
+			for (uint32_t other = begin; other < begin + count; other++)
 				if (other == item || dome_is_same(&a->places[item], &a->places[other]))
 					for (uint32_t k = 0u; k < 4u; k++)
 						column[k] += a->sums[other * 4u + k];
@@ -232,15 +241,31 @@ static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t
 	}
 }
 
-/* dome_light: colours are GL's numbers, which are about the roots of light. */
-static inline void dome_light_item(const struct dome_light_arguments *a, uint32_t item)
+/* A fragment's light, in the frame or to a->factors. Colours are GL's numbers, which are about the roots of light. */
+static inline void dome_light_at(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y)
 {
 	const float strength = a->places[item].strength;
 	float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+	struct vec3 factor = v3(1.0f, 1.0f, 1.0f);
 
-	if (!(strength > 0.0f))
-		return;
-	dome_add_block(a, item, sum);
-	if (sum[3] > 0.0f)
-		dome_apply(&a->shaded[item], dome_factor(&a->dome, sum, strength));
+	if (strength > 0.0f) {
+		dome_add_block(a, item, x, y, sum);
+		if (sum[3] > 0.0f)
+			factor = dome_factor(&a->dome, sum, strength);
+	}
+	if (a->in_blocks) {
+		a->factors[item] = factor.x;
+		a->factors[a->n + item] = factor.y;
+		a->factors[2u * a->n + item] = factor.z;
+	} else if (sum[3] > 0.0f) {
+		dome_apply(&a->shaded[item], factor);
+	}
+}
+
+/* dome_light */
+static inline void dome_light_item(const struct dome_light_arguments *a, uint32_t item)
+{
+	const uint32_t pixel = a->pixels[item] - a->first_pixel;
+
+	dome_light_at(a, item, pixel % a->width, pixel / a->width);
 }

@@ -1,12 +1,12 @@
 /*
- * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once and to the same bits.
+ * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once and to the same bits. plain_dome: what
+ * rays a plain frame sends there (kernels/frame/plain.h).
  *
  * dome_light_packet lays the fragments of a tile out as rows first: a pixel's neighbours are its own row and others, moved by some
  * places. Where pixels have several lit fragments, there are several layers of rows.
  */
 #include "kernels/frame/dome.h"
-#include "kernels/frame/pack_ray.h"
-#include "kernels/frame/pack_shade.h"
+#include "kernels/frame/plain_row.h"
 
 /* --- Looks around ---------------------------------------------------------------------------------------------------- */
 
@@ -36,58 +36,80 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 	}
 }
 
-/* A ray of each of some lanes: its sample's direction turned to the surface. */
-WIDE_VECTORS static inline void send_rays(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes, uint sample,
-                                          packu part, struct pack_vec o, const struct pack_vec *axes)
+/* Where sixteen fragments take light from all around. */
+struct looks {
+	struct pack_vec o, axes[3]; /* axes[2]: the normal */
+	packf strength;             /* 0: none takes any */
+	packu part;                 /* of their blocks' directions */
+};
+
+/* Fragments of one material that takes such light. height: as they were located for */
+WIDE_VECTORS static inline void look_around(const struct dome_find_arguments *a, const struct pack *p, uint height,
+                                            const struct pack_surface *surface, struct looks *l)
 {
-	__global float *rays = (__global float *)(a->rays + sample * a->n);
-	struct pack_vec d;
+	const struct pack_vec from = pack_view_direction(p, height), back = pack_scale(pack_normalize(from), (packf)(-1));
+	const packf strength = pack_fog(&a->tables, p) * (p->material->lighting ? a->dome.lit : 1.0f);
+
+	l->part = as_uint16((int)height - 1 - p->row) % DOME_BLOCK * DOME_BLOCK + as_uint16(p->x) % DOME_BLOCK;
+	l->axes[2] = pack_choose(surface->plane, pack_scale(surface->plane, (packf)(-1)), pack_dot(surface->plane, from) > 0.0f);
+	l->o = pack_ray_origin(p->weight, surface, l->axes[2], back);
+	l->strength = select((packf)(0), strength, (pack_dot(l->axes[2], l->axes[2]) > 0.0f) & (strength > 0.0f));
+	pack_basis(l->axes[2], &l->axes[0], &l->axes[1]);
+}
+
+/* The directions of a sample, and how far they look. */
+WIDE_VECTORS static inline struct pack_vec look_along(const struct dome_find_arguments *a, const struct looks *l, uint sample, packf *reach)
+{
 	packf row[4];
 
-	pack_gather(a->directions + sample * DOME_BLOCK * DOME_BLOCK * 4, part, row);
-	d = pack_add(pack_add(pack_scale(axes[0], row[0]), pack_scale(axes[1], row[1])), pack_scale(axes[2], row[2]));
-	for (; lanes; lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1);
+	pack_gather(a->directions + sample * DOME_BLOCK * DOME_BLOCK * 4, l->part, row);
+	*reach = row[3];
+	return pack_add(pack_add(pack_scale(l->axes[0], row[0]), pack_scale(l->axes[1], row[1])), pack_scale(l->axes[2], row[2]));
+}
 
-		vstore8((float8)(LANE(o.x, float, lane), LANE(o.y, float, lane), LANE(o.z, float, lane), 0, LANE(d.x, float, lane),
-		                 LANE(d.y, float, lane), LANE(d.z, float, lane), LANE(row[3], float, lane)), list->item[lane], rays);
+/* Some lanes' place and rays, to where they stand in the list. */
+static inline void store_looks(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes, const struct looks *l)
+{
+	const uint lit = lanes & pack_bits(l->strength > 0.0f);
+
+	for (uint left = lanes & ~lit; left; left &= left - 1)
+		dome_find_none(a, list->item[popcount((left & -left) - 1)]);
+	for (uint left = lit; left; left &= left - 1) {
+		const uint lane = popcount((left & -left) - 1);
+
+		vstore8((float8)(LANE(l->o.x, const float, lane), LANE(l->o.y, const float, lane), LANE(l->o.z, const float, lane),
+		                 LANE(l->strength, const float, lane), LANE(l->axes[2].x, const float, lane),
+		                 LANE(l->axes[2].y, const float, lane), LANE(l->axes[2].z, const float, lane), 0),
+		        list->item[lane], (__global float *)a->places);
+	}
+	for (uint sample = 0; sample < a->samples; sample++) {
+		packf reach;
+		const struct pack_vec d = look_along(a, l, sample, &reach);
+
+		for (uint left = lit; left; left &= left - 1) {
+			const uint lane = popcount((left & -left) - 1);
+
+			vstore8((float8)(LANE(l->o.x, const float, lane), LANE(l->o.y, const float, lane), LANE(l->o.z, const float, lane), 0,
+			                 LANE(d.x, const float, lane), LANE(d.y, const float, lane), LANE(d.z, const float, lane),
+			                 LANE(reach, const float, lane)), list->item[lane], (__global float *)(a->rays + sample * a->n));
+		}
 	}
 }
 
 static inline void find_lanes(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes)
 {
 	__global const struct geometry *g = &a->tables.geometries[list->instance[0]];
-	struct pack_vec from, axes[3], o;
 	struct pack_surface surface;
-	packf strength;
+	struct looks looks;
 	struct pack p;
-	packu part;
-	uint lit;
 
 	p.material = &a->tables.materials[g->material];
 	p.view = &a->views[g->view];
 	pack_locate(&a->tables, a->windows, a->width, 1, list, lanes, &p);
 	pack_surface(&a->tables, &p, &surface);
 	pack_measure(&surface);
-	from = pack_view_direction(&p, 1);
-	axes[2] = pack_choose(surface.plane, pack_scale(surface.plane, (packf)(-1)), pack_dot(surface.plane, from) > 0.0f);
-	o = pack_ray_origin(p.weight, &surface, axes[2], pack_scale(pack_normalize(from), (packf)(-1)));
-	strength = pack_fog(&a->tables, &p) * (p.material->lighting ? a->dome.lit : 1.0f);
-	pack_basis(axes[2], &axes[0], &axes[1]);
-	part = as_uint16(-p.row) % DOME_BLOCK * DOME_BLOCK + as_uint16(p.x) % DOME_BLOCK;
-	lit = lanes & pack_bits((pack_dot(axes[2], axes[2]) > 0.0f) & (strength > 0.0f));
-	for (uint left = lanes & ~lit; left; left &= left - 1)
-		dome_find_item(a, list->item[popcount((left & -left) - 1)]);
-	for (uint left = lit; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-		__global struct dome_place *place = &a->places[list->item[lane]];
-
-		v3_store(place->from, v3(LANE(o.x, float, lane), LANE(o.y, float, lane), LANE(o.z, float, lane)));
-		v3_store(place->normal, v3(LANE(axes[2].x, float, lane), LANE(axes[2].y, float, lane), LANE(axes[2].z, float, lane)));
-		place->strength = LANE(strength, float, lane);
-	}
-	for (uint sample = 0; sample < a->samples; sample++)
-		send_rays(a, list, lit, sample, part, o, axes);
+	look_around(a, &p, 1, &surface, &looks);
+	store_looks(a, list, lanes, &looks);
 }
 
 KERNEL_OF(float16) void dome_find_packet(KERNEL_ARGUMENTS(dome_find))
@@ -109,6 +131,169 @@ KERNEL_OF(float16) void dome_find_packet(KERNEL_ARGUMENTS(dome_find))
 			find_lanes(&a, &list, lanes);
 		else
 			dome_find_item(&a, item[0]);
+	}
+}
+
+/* --- Plain frames ---------------------------------------------------------------------------------------------------- */
+
+/* What is kept from one fragment to the next. */
+struct dome_kept {
+	struct pack_kept pack;
+	struct setup_kept one;
+	struct shadow_kept ray;
+};
+
+/* What dome_find_item takes, for fragments of a->fragments. */
+static inline struct dome_find_arguments looks_of(const struct plain_arguments *a)
+{
+	const struct dome_find_arguments d = {
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
+		.shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples, .n = a->n, .places = a->places,
+		.rays = a->looks,
+	};
+
+	return d;
+}
+
+/* Those of one material: the rays to lights, as plain sends them, and the rest to their lanes of `looks`. @return those that are done */
+static inline uint look_lanes(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
+                              struct pack_kept *kept, struct looks *looks)
+{
+	const struct tables *t = &a->tables;
+	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
+	const struct dome_find_arguments d = looks_of(a);
+	struct pack_lit_here here;
+	struct pack_surface surface;
+	struct looks own;
+	struct pack p;
+	packi done;
+
+	p.material = &t->materials[g->material];
+	p.view = &a->views[g->view];
+	lanes = pack_place(s, &row->list, lanes, 1, kept, &p);
+	if (!lanes)
+		return 0;
+	pack_surface(t, &p, &surface);
+	if (a->n_slots && p.material->surface.relit)
+		pack_lit_here(s, &row->list, &p, &surface, lanes, &here);
+	if (a->n_slots)
+		plain_send_rays(a, row, &p, &surface, p.material->surface.relit ? here.lights : pack_lights(t, &p), lanes);
+	else
+		pack_measure(&surface);
+	if (!(p.material->surface.hidden & SCENE_DOME_LIT))
+		return lanes;
+	look_around(&d, &p, a->height, &surface, &own);
+	done = pack_mask(lanes);
+	looks->o = pack_choose(looks->o, own.o, done);
+	for (uint i = 0; i < 3; i++)
+		looks->axes[i] = pack_choose(looks->axes[i], own.axes[i], done);
+	looks->strength = select(looks->strength, own.strength, done);
+	looks->part = select(looks->part, own.part, done);
+	return lanes;
+}
+
+/* Four numbers of sixteen records, those of four records together. */
+WIDE_VECTORS static inline void turn(packf x, packf y, packf z, packf w, packf *out)
+{
+	out[0] = (packf)(x.s0, y.s0, z.s0, w.s0, x.s1, y.s1, z.s1, w.s1, x.s2, y.s2, z.s2, w.s2, x.s3, y.s3, z.s3, w.s3);
+	out[1] = (packf)(x.s4, y.s4, z.s4, w.s4, x.s5, y.s5, z.s5, w.s5, x.s6, y.s6, z.s6, w.s6, x.s7, y.s7, z.s7, w.s7);
+	out[2] = (packf)(x.s8, y.s8, z.s8, w.s8, x.s9, y.s9, z.s9, w.s9, x.sa, y.sa, z.sa, w.sa, x.sb, y.sb, z.sb, w.sb);
+	out[3] = (packf)(x.sc, y.sc, z.sc, w.sc, x.sd, y.sd, z.sd, w.sd, x.se, y.se, z.se, w.se, x.sf, y.sf, z.sf, w.sf);
+}
+
+/* Sixteen records of eight numbers one after the other, from rows of each number. */
+WIDE_VECTORS static inline void store_records(const packf *row, __global float *to)
+{
+	packf first[4], last[4];
+
+	turn(row[0], row[1], row[2], row[3], first);
+	turn(row[4], row[5], row[6], row[7], last);
+	for (uint i = 0; i < 4; i++) {
+		*(__global pack_loose_floats *)(to + 32 * i) = (packf)(first[i].s0123, last[i].s0123, first[i].s4567, last[i].s4567);
+		*(__global pack_loose_floats *)(to + 32 * i + 16) = (packf)(first[i].s89ab, last[i].s89ab, first[i].scdef, last[i].scdef);
+	}
+}
+
+/* The places and rays of a row. */
+WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_arguments *a, uint base, const struct looks *l)
+{
+	const packi lit = l->strength > 0.0f;
+	packf row[8] = { l->o.x, l->o.y, l->o.z, l->strength, l->axes[2].x, l->axes[2].y, l->axes[2].z, 0 };
+
+	store_records(row, (__global float *)(a->places + base));
+	for (uint sample = 0; sample < a->samples; sample++) {
+		packf reach;
+		const struct pack_vec d = look_along(a, l, sample, &reach);
+
+		row[3] = 0;
+		row[4] = select((packf)(0), d.x, lit);
+		row[5] = select((packf)(0), d.y, lit);
+		row[6] = select((packf)(0), d.z, lit);
+		row[7] = select((packf)(-INFINITY), reach, lit);
+		store_records(row, (__global float *)(a->rays + sample * a->n + base));
+	}
+}
+
+static inline void look_alone(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lane,
+                              struct dome_kept *kept)
+{
+	const struct shadow_ray_arguments r = plain_rays(a);
+	const struct dome_find_arguments d = looks_of(a);
+	const uint item = row->base + lane;
+
+	a->fragments[item] = plain_fragment(a, row->x + lane, row->y);
+	a->pixels[item] = row->list.pixel[lane];
+	shade_item(s, item, 0, &kept->one);
+	for (uint slot = 0; slot < a->n_slots; slot++)
+		shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
+	dome_find_item(&d, item);
+}
+
+static inline void look_row(const struct plain_arguments *a, const struct shade_arguments *s, const struct plain_row *row, uint lanes,
+                            struct dome_kept *kept)
+{
+	const struct dome_find_arguments d = looks_of(a);
+	uint material, alone = 0;
+	struct looks looks;
+
+	looks.o = looks.axes[0] = looks.axes[1] = looks.axes[2] = pack_vec(0, 0, 0);
+	looks.strength = 0;
+	looks.part = 0;
+	for (uint left = a->n_slots ? ~lanes & 0xffffu : 0; left; left &= left - 1)
+		for (uint slot = 0; slot < a->n_slots; slot++)
+			stage_no_ray(&a->rays[slot * a->n + row->base + popcount((left & -left) - 1)]);
+	while (lanes) {
+		const uint bit = lanes & -lanes, same = pack_same_kind(&a->tables, &row->list, lanes, &material);
+		uint done = 0;
+
+		if (same & bit && plain_knows(s, &a->tables.materials[material]))
+			done = look_lanes(a, s, row, same, &kept->pack, &looks);
+		alone |= bit & ~done;
+		lanes &= ~(done | bit);
+	}
+	store_row_of_looks(&d, row->base, &looks);
+	for (; alone; alone &= alone - 1)
+		look_alone(a, s, row, popcount((alone & -alone) - 1), kept);
+}
+
+KERNEL_OF(float16) void plain_dome(KERNEL_ARGUMENTS(plain))
+{
+	const struct plain_arguments a = KERNEL_STRUCT(plain);
+	const struct shade_arguments s = plain_shading(&a, 0);
+	const uint item = (uint)get_global_id(0);
+	struct dome_kept kept;
+	struct plain_row row;
+
+	if (item >= n / (PLAIN_WIDTH * PLAIN_ROWS))
+		return;
+	for (uint i = 0; i < SHADE_TRIANGLES; i++)
+		kept.pack.lit[i].instance = SCENE_NONE;
+	for (uint i = 0; i < PACK_CUTS; i++)
+		kept.pack.cuts[i].instance = SCENE_NONE;
+	for (uint k = 0; k < PLAIN_ROWS; k++) {
+		const uint lanes = plain_load_row(&a, 0, item, k, &row);
+
+		look_row(&a, &s, &row, lanes, &kept);
 	}
 }
 
@@ -141,8 +326,8 @@ WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *
 	const packu index = select((packu)(0), item, there);
 	packf place[4], rest[4], sum[4];
 
-	pack_gather_from((__global const float *)a->places, index * 7, place);
-	pack_gather_from((__global const float *)a->places, index * 7 + 3, rest);
+	pack_gather_from((__global const float *)a->places, index * 8, place);
+	pack_gather_from((__global const float *)a->places, index * 8 + 3, rest);
 	pack_gather(a->sums, index, sum);
 	for (uint k = 0; k < 3; k++) {
 		*(pack_loose_floats *)(to->from[k][row] + column) = place[k];
@@ -159,7 +344,7 @@ static inline int list_pixel(const struct dome_light_arguments *a, uint begin, u
 	uint n = 0;
 
 	for (uint item = begin; item < begin + count; item++) {
-		if (count > 1 && !(a->places[item].strength > 0.0f))
+		if (!(a->places[item].strength > 0.0f))
 			continue;
 		if (n == LAYERS)
 			return 0;
@@ -187,16 +372,35 @@ static inline int list_row(const struct dome_light_arguments *a, uint y, struct 
 	return few;
 }
 
-static inline int load_row(const struct dome_light_arguments *a, uint y, struct field *f)
+/* Those of a row of a plain frame's pixels, which have one at most. */
+WIDE_VECTORS static inline void list_plain_row(const struct dome_light_arguments *a, uint y, uint column, struct field *f)
+{
+	const packi x = (int)f->x - (int)LEFT + (int)column + PACK_LANES;
+	const packu item = plain_item(a->width, 0, y) + as_uint16(x) / PLAIN_WIDTH * (PLAIN_WIDTH * PLAIN_ROWS) + as_uint16(x) % PLAIN_WIDTH;
+
+	*(pack_loose_uints *)(f->layer[0].item[y - f->low] + column) =
+		select((packu)(SCENE_NONE), item, (x >= a->rectangle.x0) & (x < a->rectangle.x1));
+}
+
+/* @return 0: there are too many */
+static inline int fill_row(const struct dome_light_arguments *a, uint y, struct field *f)
 {
 	const uint row = y - f->low;
 
-	if (!list_row(a, y, f))
+	if (a->in_blocks) {
+		list_plain_row(a, y, 0, f);
+		list_plain_row(a, y, COLUMNS - PACK_SIZE, f);
+		f->layers[row] = 1;
+	} else if (!list_row(a, y, f)) {
 		return 0;
+	}
 	for (uint i = 0; i < f->layers[row]; i++) {
 		load_sixteen(a, row, 0, &f->layer[i]);
 		load_sixteen(a, row, COLUMNS - PACK_SIZE, &f->layer[i]);
 	}
+	if (a->in_blocks)
+		f->layers[row] = any_pack((*(const pack_loose_floats *)f->layer[0].strength[row] > 0.0f) |
+		                          (*(const pack_loose_floats *)(f->layer[0].strength[row] + COLUMNS - PACK_SIZE) > 0.0f)) ? 1 : 0;
 	return 1;
 }
 
@@ -256,6 +460,15 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 	}
 }
 
+/* Factors of the pixels of a row of a plain frame, to where plain_shadow finds them. */
+WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, const struct field *f, uint row, const packf *factor)
+{
+	const uint item = plain_item(a->width, f->x, f->low + row);
+
+	for (uint c = 0; c < 3; c++)
+		*(__global pack_loose_floats *)(a->factors + c * a->n + item) = factor[c];
+}
+
 /* A layer of the pixels of a row. */
 WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, const struct field *f, uint row, uint layer)
 {
@@ -263,13 +476,18 @@ WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, 
 	uint lanes = pack_bits(strength > 0.0f);
 	packf sum[4] = { 0, 0, 0, 0 }, factor[3], whole;
 
-	if (!lanes)
+	if (!lanes && !a->in_blocks)
 		return;
 	add_blocks(f, row, layer, sum);
 	whole = sum[3] * dome_open(&a->dome);
 	for (uint c = 0; c < 3; c++)
 		factor[c] = sqrt(DOME_LEFT + (1.0f - DOME_LEFT) * sum[c] / whole) * strength + (1.0f - strength);
-	for (lanes &= pack_bits(sum[3] > 0.0f); lanes; lanes &= lanes - 1) {
+	lanes &= pack_bits(sum[3] > 0.0f);
+	for (uint c = 0; c < 3; c++)
+		factor[c] = select((packf)(1), factor[c], pack_mask(lanes));
+	if (a->in_blocks)
+		store_row(a, f, row, factor);
+	for (lanes = a->in_blocks ? 0 : lanes; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 
 		dome_apply(&a->shaded[f->layer[layer].item[row][LEFT + lane]],
@@ -277,15 +495,25 @@ WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, 
 	}
 }
 
+/* A row that takes no light. */
+static inline void leave_row(const struct dome_light_arguments *a, const struct field *f, uint row)
+{
+	const packf none[3] = { 1, 1, 1 };
+
+	if (a->in_blocks)
+		store_row(a, f, row, none);
+}
+
 /* A tile with too many fragments in a pixel. */
 static inline void light_one_by_one(const struct dome_light_arguments *a, const struct field *f)
 {
 	for (uint y = f->bottom; y < f->top; y++)
 		for (uint x = max(f->x, (uint)a->rectangle.x0); x < min(f->x + DOME_WIDTH, (uint)a->rectangle.x1); x++) {
-			const uint begin = a->first[y * a->width + x], end = begin + a->counts[y * a->width + x];
+			uint count;
+			const uint begin = dome_items(a, x, y, &count);
 
-			for (uint item = begin; item < end; item++)
-				dome_light_item(a, item);
+			for (uint item = begin; item < begin + count; item++)
+				dome_light_at(a, item, x, y);
 		}
 }
 
@@ -309,12 +537,15 @@ KERNEL_OF(float16) void dome_light_packet(KERNEL_ARGUMENTS(dome_light))
 		f.even &= f.first[lane] == (int)(lane + LEFT - DOME_BLOCK / 2);
 	}
 	for (uint y = f.bottom; y < f.top && alone; y++)
-		alone = load_row(&a, y, &f);
+		alone = fill_row(&a, y, &f);
 	if (!alone) {
 		light_one_by_one(&a, &f);
 		return;
 	}
-	for (uint y = f.bottom; y < f.top; y++)
+	for (uint y = f.bottom; y < f.top; y++) {
+		if (f.layers[y - f.low] == 0)
+			leave_row(&a, &f, y - f.low);
 		for (uint layer = 0; layer < f.layers[y - f.low]; layer++)
 			light_row(&a, &f, y - f.low, layer);
+	}
 }

@@ -70,27 +70,6 @@ static inline void put_surface(const struct plain_arguments *a, struct plain_row
 	}
 }
 
-/* Rays to the lights that light them. lights: a bit for each that does */
-static inline void send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p, struct pack_surface *s,
-                             packu lights, uint lanes)
-{
-	__global const struct scene_light *light = pack_lights_of(&a->tables, p->material);
-	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
-	struct pack_curve curve;
-
-	pack_measure(s);
-	pack_curve_of(&a->tables, p, s, &curve);
-	for (uint slot = 0; slot < a->n_slots; slot++) {
-		__global struct ray *rays = a->rays + slot * a->n;
-		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);
-
-		if (wanted)
-			pack_light_rays(p, s, &curve, back, &light[slot], wanted, row->list.item, rays);
-		for (uint left = lanes & ~wanted; left; left &= left - 1)
-			stage_no_ray(&rays[row->list.item[popcount((left & -left) - 1)]]);
-	}
-}
-
 /* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
 static inline void take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
 {
@@ -154,7 +133,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 		pack_surface(t, &p, &surface);
 	put_surface(a, row, &p, &surface, show);
 	if (a->n_slots && !s->n_slots)
-		send_rays(a, row, &p, &surface, lights, lanes);
+		plain_send_rays(a, row, &p, &surface, lights, lanes);
 	return lanes;
 }
 
@@ -226,8 +205,31 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 	}
 }
 
-static inline void compose_row(struct plain_row *row, const struct pack_planes *to)
+/* As dome_apply, to what is drawn of a row. */
+WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struct pack_pixels *p, uint base)
 {
+	const packi drawn = p->drawn > 0.0f;
+	packf factor[3], lit[3], was, brightest, share;
+
+	for (uint c = 0; c < 3; c++) {
+		factor[c] = select((packf)(1), *(__global const pack_loose_floats *)(a->factors + c * a->n + base), drawn);
+		lit[c] = p->direct[c] * factor[c];
+	}
+	was = fmax(fmax(p->direct[0], p->direct[1]), p->direct[2]);
+	brightest = fmax(fmax(lit[0], lit[1]), lit[2]);
+	share = fmax(was, 1.0f) / brightest;
+	for (uint c = 0; c < 3; c++) {
+		const packf f = select(factor[c], factor[c] * share, brightest > 1.0f);
+
+		p->shadowed[c] *= fmin(f, 1.0f);
+		p->direct[c] += p->direct[c] * (f - 1.0f);
+	}
+}
+
+static inline void compose_row(const struct plain_arguments *a, struct plain_row *row, int is_in_dome, const struct pack_planes *to)
+{
+	if (is_in_dome)
+		light_row(a, &row->pixels, row->base);
 	for (int i = 0; i < 3; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
 	pack_compose(&row->pixels, to);
@@ -238,6 +240,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 {
 	struct plain_kept kept;
 	struct plain_row row;
+	const int is_in_dome = a->dome.reach > 0;
 	uint empty = SCENE_NONE; /* where a row without fragments stands in the planes */
 
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
@@ -251,7 +254,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots; i++)
 			if (!(lanes >> i % PACK_SIZE & 1))
 				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
-		if (row.y >= a->request.height || (s->n_slots && !row.dimmed))
+		if (row.y >= a->request.height || (s->n_slots && !row.dimmed && !is_in_dome))
 			continue;
 		to = pack_planes_of(&a->request, a->halves, a->floats, row.x, row.y);
 		if (!lanes && empty != SCENE_NONE) {
@@ -260,7 +263,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		}
 		clear_row(a->cleared, &row.pixels);
 		shade_row(a, s, &row, lanes, &kept);
-		compose_row(&row, &to);
+		compose_row(a, &row, is_in_dome, &to);
 		if (!lanes && to.n == PACK_SIZE)
 			empty = to.at;
 	}

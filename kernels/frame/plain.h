@@ -5,6 +5,8 @@
  * plain makes all planes without shadows, and a ray to each light that a fragment wants. plain_shadow makes planes again where a light
  * is dimmed. What they compute is what shade, resolve and compose do one after the other, to the bit.
  *
+ * Where light comes from all around (kernels/frame/dome.h), plain_dome sends all rays, and plain_shadow makes all planes.
+ *
  * plain_program runs before each of them where programs have a say: it leaves their fragments' colours in a->shaded.
  *
  * Rays, and what is kept of fragments that are shaded one by one, stand block by block: PLAIN_WIDTH pixels of PLAIN_ROWS rows of the band
@@ -18,6 +20,14 @@
 static inline uint32_t plain_columns(uint32_t width)
 {
 	return (width + PLAIN_WIDTH - 1u) / PLAIN_WIDTH;
+}
+
+/* The place of a pixel of the band among rays, and among what else stands block by block. */
+static inline uint32_t plain_item(uint32_t width, uint32_t x, uint32_t y)
+{
+	const uint32_t block = y / PLAIN_ROWS * plain_columns(width) + x / PLAIN_WIDTH;
+
+	return (block * PLAIN_ROWS + y % PLAIN_ROWS) * PLAIN_WIDTH + x % PLAIN_WIDTH;
 }
 
 /* The fragment of a pixel of the band; its order is SCENE_NONE where there is none. */

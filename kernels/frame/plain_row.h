@@ -82,3 +82,24 @@ static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots,
 	}
 	return lanes;
 }
+
+/* Rays to the lights that light them. lights: a bit for each that does */
+static inline void plain_send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p, struct pack_surface *s,
+                                   packu lights, uint lanes)
+{
+	__global const struct scene_light *light = pack_lights_of(&a->tables, p->material);
+	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
+	struct pack_curve curve;
+
+	pack_measure(s);
+	pack_curve_of(&a->tables, p, s, &curve);
+	for (uint slot = 0; slot < a->n_slots; slot++) {
+		__global struct ray *rays = a->rays + slot * a->n;
+		const uint wanted = lanes & pack_bits((lights >> slot & 1) != 0);
+
+		if (wanted)
+			pack_light_rays(p, s, &curve, back, &light[slot], wanted, row->list.item, rays);
+		for (uint left = lanes & ~wanted; left; left &= left - 1)
+			stage_no_ray(&rays[row->list.item[popcount((left & -left) - 1)]]);
+	}
+}

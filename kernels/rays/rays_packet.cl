@@ -387,7 +387,8 @@ KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 	if (first >= n_rays)
 		return;
 	lanes = load_packets(p, rays, first, n_rays);
-	walk_top(p, nothing, 1, top + top_first, instance_list, instances, nodes, triangles);
+	if (lanes)
+		walk_top(p, nothing, 1, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)

@@ -13,10 +13,11 @@ void dome_find_packet_c(const struct dome_find_arguments *a, size_t first, size_
 /* The fragments of a pixel of the band. */
 static void light_pixel(const struct dome_light_arguments *a, uint32_t x, uint32_t y)
 {
-	const uint32_t pixel = y * a->width + x;
+	uint32_t count;
+	const uint32_t begin = dome_items(a, x, y, &count);
 
-	for (uint32_t i = a->first[pixel]; i < a->first[pixel] + a->counts[pixel]; i++)
-		dome_light_item(a, i);
+	for (uint32_t i = begin; i < begin + count; i++)
+		dome_light_at(a, i, x, y);
 }
 
 void dome_light_packet_c(const struct dome_light_arguments *a, size_t first, size_t last)

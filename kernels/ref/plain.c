@@ -2,6 +2,7 @@
 #include "kernels/frame/plain.h"
 
 #include "kernels/frame/compose.h"
+#include "kernels/frame/dome.h"
 #include "kernels/gl/program.h"
 
 /* Compose a pixel of the band. */
@@ -39,18 +40,21 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 {
 	const struct shadow_ray_arguments rays = plain_rays(a);
 	const struct fragment f = plain_fragment(a, x, y);
+	const int is_in_dome = a->dome.reach > 0;
 	struct frame_pixel pixel = *a->cleared;
 	struct shadow_kept shadow_kept;
 
 	for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
 		stage_no_ray(&a->rays[slot * a->n + item]);
-	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE))
+	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE && !is_in_dome))
 		return;
 	if (f.order != SCENE_NONE) {
 		if (!is_by_program(s, f)) /* else plain_program has */
 			shade_fixed(a, s, x, y, item);
 		for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
 			shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
+		if (is_in_dome)
+			dome_apply(&a->shaded[item], v3(a->factors[item], a->factors[a->n + item], a->factors[2 * a->n + item]));
 		pixel_draw(&a->tables.materials[a->tables.geometries[f.instance].material], &a->shaded[item], &a->fragments[item],
 		           stage_draw(&a->tables, f.instance, f.primitive), &pixel, a->bits);
 	}
@@ -69,7 +73,29 @@ static void run_pixel(const struct plain_arguments *a, const struct shade_argume
 	program_item(s, item, 0, &kept);
 }
 
-/* Each pixel of blocks first .. last-1 by one of the two above. */
+/* What plain_dome leaves for it. */
+static void look_from_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y, uint32_t item)
+{
+	const struct dome_find_arguments d = {
+		.tables = a->tables, .views = a->views, .windows = a->windows, .fragments = a->fragments, .pixels = a->pixels, .width = a->width,
+		.shaded = a->shaded, .dome = a->dome, .directions = a->directions, .samples = a->samples, .n = a->n, .places = a->places,
+		.rays = a->looks,
+	};
+	const struct shadow_ray_arguments rays = plain_rays(a);
+	struct shadow_kept kept;
+
+	dome_find_none(&d, item);
+	for (uint32_t slot = 0; slot < a->n_slots; slot++)
+		stage_no_ray(&a->rays[slot * a->n + item]);
+	if (x >= a->width || y >= a->request.height || plain_fragment(a, x, y).order == SCENE_NONE)
+		return;
+	shade_fixed(a, s, x, y, item);
+	for (uint32_t slot = 0; slot < a->n_slots; slot++)
+		shadow_ray_item(&rays, slot * a->n + item, 0, &kept);
+	dome_find_item(&d, item);
+}
+
+/* Each pixel of blocks first .. last-1 by one of the three above. */
 static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last,
                       void (*one)(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t))
 {
@@ -97,4 +123,9 @@ void plain_shadow_c(const struct plain_arguments *a, size_t first, size_t last)
 void plain_program_c(const struct plain_arguments *a, size_t first, size_t last)
 {
 	do_blocks(a, a->n_slots, first, last, run_pixel);
+}
+
+void plain_dome_c(const struct plain_arguments *a, size_t first, size_t last)
+{
+	do_blocks(a, 0, first, last, look_from_pixel);
 }

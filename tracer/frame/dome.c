@@ -45,45 +45,83 @@ static int find(struct job *job, uint32_t samples, uint32_t n)
 	return launch_dome_find(tr->dev, n, a);
 }
 
-/* Some rays of each fragment, and their light to what others brought. first: which of them */
-static int look_around(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples, uint32_t n)
+/* What some rays of each of n fragments saw, to what others brought. first: which of them */
+static int look_around(struct job *job, const struct accel_space *space, union buffer_ray rays, uint32_t first, uint32_t samples, uint32_t n)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
+	int err = secondary_ask(job, space, 0, rays, samples * n);
+
+	return err ? err : launch_dome_sum(job->tr->dev, n, LAUNCH(dome_sum, .places = b->dome_places, .rays = rays, .visibility = b->visibility, .dome = job->scene->dome,
+	                                                           .samples = samples, .is_first = first == 0, .n = n, .sums = b->dome_sums));
+}
+
+/* Some rays of each fragment of the list. */
+static int look_from_list(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples, uint32_t n)
+{
 	int err = upload_directions(job, job->pass * rays_of(job) + first, samples);
 
 	if (!err)
 		err = find(job, samples, n);
-	if (!err)
-		err = secondary_ask(job, space, 0, samples * n);
-	return err ? err : launch_dome_sum(job->tr->dev, n, LAUNCH(dome_sum, .places = b->dome_places, .rays = b->rays, .visibility = b->visibility, .dome = job->scene->dome,
-	                                                           .samples = samples, .is_first = first == 0, .n = n, .sums = b->dome_sums));
+	return err ? err : look_around(job, space, job->tr->buffers.rays, first, samples, n);
 }
 
-static int light(struct job *job, struct camera_rectangle rectangle, uint32_t n)
+/* in_blocks: as kernels.h has it */
+static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in_blocks, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct dome_light_launch *a =
-		LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = b->first, .counts = b->counts,
-		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome, .n = n,
-		       .shaded = b->shaded);
+		LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = in_blocks ? b->pixels : b->first, .counts = b->counts,
+		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome,
+		       .in_blocks = in_blocks, .n = n, .shaded = b->shaded, .factors = in_blocks ? b->dome_factors : b->dome_sums);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS)
 		return launch_dome_light_packet(tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);
 	return launch_dome_light(tr->dev, n, a);
 }
 
+/* What the kernels leave for n fragments. */
+static int reserve(struct job *job, uint32_t n)
+{
+	int err = frame_reserve(job->tr, dome_places, n);
+
+	return err ? err : frame_reserve(job->tr, dome_sums, 4 * (size_t)n);
+}
+
 int dome_light_list(struct job *job, const struct accel_space *space, struct camera_rectangle rectangle, uint32_t n)
 {
-	struct tracer *tr = job->tr;
 	const uint32_t rays = rays_of(job), most = rays < RAYS_AT_ONCE ? rays : RAYS_AT_ONCE;
 	int err = secondary_reserve_rays(job, (size_t)most * n);
 
 	if (!err)
-		err = frame_reserve(tr, dome_places, n);
-	if (!err)
-		err = frame_reserve(tr, dome_sums, 4 * (size_t)n);
+		err = reserve(job, n);
 	for (uint32_t i = 0; i < rays && !err; i += most)
-		err = look_around(job, space, i, rays - i < most ? rays - i : most, n);
-	return err ? err : light(job, rectangle, n);
+		err = look_from_list(job, space, i, rays - i < most ? rays - i : most, n);
+	return err ? err : light(job, rectangle, 0, n);
+}
+
+int dome_suits_plain(const struct job *job)
+{
+	return !dome_is_there(job) || (rays_of(job) <= RAYS_AT_ONCE && !job->scene->n_programs);
+}
+
+int dome_prepare_plain(struct job *job, uint32_t n, uint32_t *samples)
+{
+	int err = reserve(job, n);
+
+	*samples = rays_of(job);
+	if (!err)
+		err = frame_reserve(job->tr, dome_rays, (size_t)*samples * n);
+	if (!err)
+		err = frame_reserve(job->tr, dome_factors, 3 * (size_t)n);
+	if (!err)
+		err = secondary_reserve_rays(job, (size_t)*samples * n);
+	return err ? err : upload_directions(job, 0, *samples);
+}
+
+int dome_light_plain(struct job *job, const struct accel_space *space, const struct plain_launch *a)
+{
+	int err = look_around(job, space, a->looks, 0, a->samples, a->n);
+
+	return err ? err : light(job, a->rectangle, 1, a->n);
 }

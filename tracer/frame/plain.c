@@ -34,7 +34,7 @@ int plain_suits(const struct job *job)
 	if (job->options->hook || device_family(job->tr->dev) != FAMILY_PACKETS || !job->image || job->n_passes > 1 || job->n_samples > 1 ||
 	    job->scene->start || job->scene->needs_previous || !is_lit_simply(job))
 		return 0;
-	if (dome_is_there(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
+	if (!dome_suits_plain(job) || p->n_segments != 1 || segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN ||
 	    segment_whole_clear(job, &clear) != segment->clear_count)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++) {
@@ -58,6 +58,8 @@ static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 		err = frame_reserve(tr, pixels, n);
 	if (!err)
 		err = frame_reserve(tr, shaded, n);
+	if (!err)
+		err = frame_reserve(tr, dome_places, 1);
 	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
@@ -72,15 +74,19 @@ static struct compose_request shadow_request(struct compose_request r)
 }
 
 static struct plain_launch launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                     const struct compose_request *request)
+                                     uint32_t samples, const struct compose_request *request)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
+	const struct scene_dome none = { .reach = 0 };
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
 	               .visibility = b->visibility, .n_slots = n_slots, .n = n, .fragments = b->fragments, .pixels = b->pixels,
-	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs, .halves = b->halves, .floats = b->floats);
+	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs,
+	               .dome = samples ? job->scene->dome : none, .directions = samples ? b->dome_directions : b->visibility,
+	               .samples = samples, .places = b->dome_places, .looks = samples ? b->dome_rays : b->rays,
+	               .factors = samples ? b->dome_factors : b->visibility, .halves = b->halves, .floats = b->floats);
 }
 
 /* Colours by programs, for plain without lights that have been asked (0) or for plain_shadow. */
@@ -92,6 +98,36 @@ static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks,
 	return launch_plain_program(job->tr->dev, blocks, &a);
 }
 
+/* All but what light from elsewhere does, and rays to lights; then what it does. */
+static int draw_lit(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
+{
+	const uint32_t n_slots = a.n_slots;
+	int err = run_programs(job, a, blocks, 0);
+
+	if (!err)
+		err = launch_plain(job->tr->dev, blocks, &a);
+	if (!err && n_slots)
+		err = secondary_ask(job, space, 1, a.rays, a.n * n_slots);
+	if (!err && n_slots)
+		err = run_programs(job, a, blocks, n_slots);
+	if (err || !n_slots)
+		return err;
+	a.request = shadow_request(a.request);
+	return launch_plain_shadow(job->tr->dev, blocks, &a);
+}
+
+/* The same where light comes from all around, too: all planes at the end. */
+static int draw_in_dome(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
+{
+	int err = launch_plain_dome(job->tr->dev, blocks, &a);
+
+	if (!err)
+		err = dome_light_plain(job, space, &a);
+	if (!err && a.n_slots)
+		err = secondary_ask(job, space, 1, a.rays, a.n * a.n_slots);
+	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
+}
+
 int plain_band(struct job *job)
 {
 	const struct segment *segment = job->prepared.segments;
@@ -101,28 +137,21 @@ int plain_band(struct job *job)
 	const uint32_t n = blocks * PLAIN_WIDTH * PLAIN_ROWS, n_slots = space ? job->prepared.n_light_slots : 0;
 	struct compose_request request;
 	struct plain_launch a;
+	uint32_t samples = 0; /* looks around of a pixel */
 	/* The top band comes first; a device that lacks memory may have given all away since. */
 	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 
 	if (!err)
 		err = reserve(job, n, n_slots);
+	if (!err && space && dome_is_there(job))
+		err = dome_prepare_plain(job, n, &samples);
 	if (!err)
 		err = compose_reserve(job, &request);
 	if (!err && r.x0 < r.x1)
 		err = segment_trace_camera(job, segment, r);
 	if (err)
 		return err;
-	a = launch_of(job, r, n, n_slots, &request);
-	err = run_programs(job, a, blocks, 0);
-	if (!err)
-		err = launch_plain(job->tr->dev, blocks, &a);
-	if (!err && n_slots)
-		err = secondary_ask(job, space, 1, n * n_slots);
-	if (!err && n_slots)
-		err = run_programs(job, a, blocks, n_slots);
-	if (!err && n_slots) {
-		a.request = shadow_request(request);
-		err = launch_plain_shadow(job->tr->dev, blocks, &a);
-	}
+	a = launch_of(job, r, n, n_slots, samples, &request);
+	err = samples ? draw_in_dome(job, space, a, blocks) : draw_lit(job, space, a, blocks);
 	return err ? err : compose_fetch(job, &request, job->image);
 }

@@ -120,7 +120,7 @@ static int gather_list(struct job *job, const struct list *list, uint32_t slots,
 
 /* --- Rays to lights ----------------------------------------------------------------------------------------------- */
 
-static int start_walk(struct job *job, const struct list *list, uint32_t n_rays, float weight, uint32_t *n)
+static int start_walk(struct job *job, const struct list *list, union buffer_ray rays, uint32_t n_rays, float weight, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -137,19 +137,19 @@ static int start_walk(struct job *job, const struct list *list, uint32_t n_rays,
 		err = frame_reserve(tr, next_counts, *n);
 	if (err)
 		return err;
-	return launch_shadow_start(tr->dev, n_rays, LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = b->rays,
+	return launch_shadow_start(tr->dev, n_rays, LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = rays,
 	                                                   .weight = weight, .n = n_rays, .shadow_rays = *list->rays,
 	                                                   .shadow_paths = *list->paths));
 }
 
 /* The stopped ones of n_rays rays go on through what lets light pass, from surface to surface. */
-static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays, float weight)
+static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays, float weight)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct list list = shadow_list(job);
 	uint32_t n;
-	int err = start_walk(job, &list, n_rays, weight, &n);
+	int err = start_walk(job, &list, rays, n_rays, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
 		err = intersect(job, space, *list.rays, b->shadow_hits, n);
@@ -166,17 +166,17 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 }
 
 /* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0: they look around */
-static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays, uint32_t sample,
-               uint32_t samples)
+static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays,
+               uint32_t sample, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	float weight = 1.0f / (float)samples;
-	int err = occlude(job, space, b->rays, b->occluded, n_rays);
+	int err = occlude(job, space, rays, b->occluded, n_rays);
 
 	if (!err)
 		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .occluded = b->occluded, .weight = weight,
 		                                                     .first = sample == 0, .n = n_rays, .visibility = b->visibility));
-	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, to_lights, n_rays, weight);
+	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
 }
 
 int secondary_reserve_rays(struct job *job, size_t n_rays)
@@ -191,9 +191,9 @@ int secondary_reserve_rays(struct job *job, size_t n_rays)
 	return err;
 }
 
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays)
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays)
 {
-	return ask(job, space, to_lights, n_rays, 0, 1);
+	return ask(job, space, to_lights, rays, n_rays, 0, 1);
 }
 
 /* Rays to each light a pass. */
@@ -225,7 +225,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
-			err = ask(job, space, 1, n_rays, i, samples);
+			err = ask(job, space, 1, b->rays, n_rays, i, samples);
 	}
 	return err;
 }
@@ -258,7 +258,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 			                                           .frame = frame_number(job), .depth = job->options->depth, .first = n_rays, .n = n,
 			                                           .out = b->rays));
 		if (!err)
-			err = ask(job, space, 1, all, i, samples);
+			err = ask(job, space, 1, b->rays, all, i, samples);
 	}
 	return err;
 }
@@ -279,7 +279,7 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
 		                                       .rays = b->rays));
 		if (!err)
-			err = ask(job, space, 0, n, i, samples);
+			err = ask(job, space, 0, b->rays, n, i, samples);
 	}
 	if (err)
 		return err;
@@ -303,7 +303,7 @@ static int ask_emitters(struct job *job, const struct accel_space *space, uint32
 	                                          .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
 	                                          .emission = emission, .sample = job->pass, .frame = frame_number(job), .n = n,
 	                                          .rays = b->rays));
-	return err ? err : secondary_ask(job, space, 1, n);
+	return err ? err : secondary_ask(job, space, 1, b->rays, n);
 }
 
 static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport, uint32_t n)

@@ -15,8 +15,8 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 /** Make room for rays to lights in buffers.rays, and for what becomes of them. */
 int secondary_reserve_rays(struct job *job, size_t n_rays);
 
-/** The same with one ray a light, and the rays in buffers.rays already. to_lights: 0: they look around instead */
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, uint32_t n_rays);
+/** What becomes of rays that are there already, into buffers.visibility[ray]. to_lights: 0: they look around instead */
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays, uint32_t n_rays);
 
 /** How open the surroundings of all n fragments are, in place of their colours or over them. */
 int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n);
