@@ -187,7 +187,8 @@ typedef float element_float;
 	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
 	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
 	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none. plain_program before plain: 0 */ \
-	VALUE(uint, n) AND()                /* places of rays a slot: the blocks' pixels */ \
+	IN(uint, blocks) AND()              /* per block: which place it has; SCENE_NONE: none, it has no fragments */ \
+	VALUE(uint, n) AND()                /* places of rays a slot: the pixels of blocks that have one */ \
 	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() /* [n]: of what is shaded one by one or by programs; read as well */ \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
 	OUT(uint, programs) AND()           /* plain_program alone; read as well */ \
@@ -257,7 +258,8 @@ typedef float element_float;
 	VALUE(uint, width) AND() \
 	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
 	VALUE(scene_dome, dome) AND() \
-	VALUE(uint, in_blocks) AND()        /* 1: fragments are a plain frame's, and the next three any buffers; 0: factors is */ \
+	VALUE(uint, in_blocks) AND()        /* 1: fragments are a plain frame's; pixels, first, counts and shaded are any buffers; 0: blocks and factors are */ \
+	IN(uint, blocks) AND()              /* as in plain */ \
 	VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(float, factors)                 /* [3][n] of their colours, 1 where no such light falls */

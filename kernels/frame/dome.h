@@ -212,8 +212,15 @@ static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, u
 /* The fragments of a pixel of the band. @return the first of them */
 static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t x, uint32_t y, uint32_t *count)
 {
-	*count = a->in_blocks ? 1u : a->counts[y * a->width + x];
-	return a->in_blocks ? plain_item(a->width, x, y) : a->first[y * a->width + x];
+	uint32_t base;
+
+	if (!a->in_blocks) {
+		*count = a->counts[y * a->width + x];
+		return a->first[y * a->width + x];
+	}
+	base = plain_base(plain_place(a->blocks, a->width, x, y), y);
+	*count = base != SCENE_NONE;
+	return base + x % PLAIN_WIDTH;
 }
 
 /* The light of the block about a fragment, into sum[4]: column by column. x, y: its pixel in the band */

@@ -284,7 +284,7 @@ KERNEL_OF(float16) void plain_dome(KERNEL_ARGUMENTS(plain))
 	struct dome_kept kept;
 	struct plain_row row;
 
-	if (item >= n / (PLAIN_WIDTH * PLAIN_ROWS))
+	if (item >= plain_blocks(width, request.height) || blocks[item] == SCENE_NONE)
 		return;
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept.pack.lit[i].instance = SCENE_NONE;
@@ -372,14 +372,17 @@ static inline int list_row(const struct dome_light_arguments *a, uint y, struct 
 	return few;
 }
 
-/* Those of a row of a plain frame's pixels, which have one at most. */
+/* Those of a row of a plain frame's pixels, which have one at most: sixteen columns of the field. */
 WIDE_VECTORS static inline void list_plain_row(const struct dome_light_arguments *a, uint y, uint column, struct field *f)
 {
+	const uint own = plain_base(plain_place(a->blocks, a->width, f->x, y), y);
+	const uint before = f->x ? plain_base(plain_place(a->blocks, a->width, f->x - 1, y), y) : SCENE_NONE;
+	const uint after = f->x + DOME_WIDTH < a->width ? plain_base(plain_place(a->blocks, a->width, f->x + DOME_WIDTH, y), y) : SCENE_NONE;
 	const packi x = (int)f->x - (int)LEFT + (int)column + PACK_LANES;
-	const packu item = plain_item(a->width, 0, y) + as_uint16(x) / PLAIN_WIDTH * (PLAIN_WIDTH * PLAIN_ROWS) + as_uint16(x) % PLAIN_WIDTH;
+	const packu base = select(select((packu)(own), (packu)(before), x < (int)f->x), (packu)(after), x >= (int)(f->x + DOME_WIDTH));
 
 	*(pack_loose_uints *)(f->layer[0].item[y - f->low] + column) =
-		select((packu)(SCENE_NONE), item, (x >= a->rectangle.x0) & (x < a->rectangle.x1));
+		select((packu)(SCENE_NONE), base + as_uint16(x) % PLAIN_WIDTH, (x >= a->rectangle.x0) & (x < a->rectangle.x1) & (base != SCENE_NONE));
 }
 
 /* @return 0: there are too many */
@@ -463,9 +466,9 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 /* Factors of the pixels of a row of a plain frame, to where plain_shadow finds them. */
 WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, const struct field *f, uint row, const packf *factor)
 {
-	const uint item = plain_item(a->width, f->x, f->low + row);
+	const uint item = plain_base(plain_place(a->blocks, a->width, f->x, f->low + row), f->low + row);
 
-	for (uint c = 0; c < 3; c++)
+	for (uint c = 0; c < 3 && item != SCENE_NONE; c++)
 		*(__global pack_loose_floats *)(a->factors + c * a->n + item) = factor[c];
 }
 

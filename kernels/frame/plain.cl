@@ -226,9 +226,10 @@ WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struc
 	}
 }
 
-static inline void compose_row(const struct plain_arguments *a, struct plain_row *row, int is_in_dome, const struct pack_planes *to)
+/* is_lit: from all around */
+static inline void compose_row(const struct plain_arguments *a, struct plain_row *row, int is_lit, const struct pack_planes *to)
 {
-	if (is_in_dome)
+	if (is_lit)
 		light_row(a, &row->pixels, row->base);
 	for (int i = 0; i < 3; i++)
 		row->pixels.mirrored[i] = row->pixels.beauty[i] = row->pixels.direct[i];
@@ -251,7 +252,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row);
 		struct pack_planes to;
 
-		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots; i++)
+		for (uint i = 0; i < PACK_SIZE * a->n_slots && !s->n_slots && row.base != SCENE_NONE; i++)
 			if (!(lanes >> i % PACK_SIZE & 1))
 				stage_no_ray(&a->rays[i / PACK_SIZE * a->n + row.base + i % PACK_SIZE]);
 		if (row.y >= a->request.height || (s->n_slots && !row.dimmed && !is_in_dome))
@@ -263,7 +264,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 		}
 		clear_row(a->cleared, &row.pixels);
 		shade_row(a, s, &row, lanes, &kept);
-		compose_row(a, &row, is_in_dome, &to);
+		compose_row(a, &row, is_in_dome && lanes, &to);
 		if (!lanes && to.n == PACK_SIZE)
 			empty = to.at;
 	}
@@ -274,7 +275,7 @@ KERNEL_OF(float16) void plain(KERNEL_ARGUMENTS(plain))
 	const struct plain_arguments a = KERNEL_STRUCT(plain);
 	const struct shade_arguments s = plain_shading(&a, 0);
 
-	if ((uint)get_global_id(0) < n / (PLAIN_WIDTH * PLAIN_ROWS))
+	if ((uint)get_global_id(0) < plain_blocks(width, request.height))
 		do_block(&a, &s, (uint)get_global_id(0));
 }
 
@@ -283,6 +284,6 @@ KERNEL_OF(float16) void plain_shadow(KERNEL_ARGUMENTS(plain))
 	const struct plain_arguments a = KERNEL_STRUCT(plain);
 	const struct shade_arguments s = plain_shading(&a, n_slots);
 
-	if ((uint)get_global_id(0) < n / (PLAIN_WIDTH * PLAIN_ROWS))
+	if ((uint)get_global_id(0) < plain_blocks(width, request.height))
 		do_block(&a, &s, (uint)get_global_id(0));
 }

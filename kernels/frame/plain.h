@@ -16,18 +16,28 @@
 
 #include "kernels/frame/shadow.h"
 
-/** How many blocks a band takes. */
+/** How many blocks stand side by side. */
 static inline uint32_t plain_columns(uint32_t width)
 {
 	return (width + PLAIN_WIDTH - 1u) / PLAIN_WIDTH;
 }
 
-/* The place of a pixel of the band among rays, and among what else stands block by block. */
-static inline uint32_t plain_item(uint32_t width, uint32_t x, uint32_t y)
+/* Where the pixels of a row of a block stand among rays, and what else stands block by block. place: the block's, or SCENE_NONE */
+static inline uint32_t plain_base(uint32_t place, uint32_t y)
 {
-	const uint32_t block = y / PLAIN_ROWS * plain_columns(width) + x / PLAIN_WIDTH;
+	return place == SCENE_NONE ? SCENE_NONE : (place * PLAIN_ROWS + y % PLAIN_ROWS) * PLAIN_WIDTH;
+}
 
-	return (block * PLAIN_ROWS + y % PLAIN_ROWS) * PLAIN_WIDTH + x % PLAIN_WIDTH;
+/* The place of a block, by a pixel of the band that lies in it. */
+static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width, uint32_t x, uint32_t y)
+{
+	return blocks[y / PLAIN_ROWS * plain_columns(width) + x / PLAIN_WIDTH];
+}
+
+/* How many blocks a band has. */
+static inline uint32_t plain_blocks(uint32_t width, uint32_t height)
+{
+	return plain_columns(width) * ((height + PLAIN_ROWS - 1u) / PLAIN_ROWS);
 }
 
 /* The fragment of a pixel of the band; its order is SCENE_NONE where there is none. */

@@ -10,7 +10,7 @@
 struct plain_row {
 	struct pack_list list;
 	struct pack_pixels pixels;
-	uint x, y, base; /* of the first pixel in the band; of its place among the rays */
+	uint x, y, base; /* of the first pixel in the band; of its place among the rays, SCENE_NONE where the block has none */
 	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
 };
 
@@ -71,9 +71,9 @@ static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots,
 
 	row->x = block % plain_columns(a->width) * PLAIN_WIDTH;
 	row->y = block / plain_columns(a->width) * PLAIN_ROWS + k;
-	row->base = (block * PLAIN_ROWS + k) * PLAIN_WIDTH;
+	row->base = plain_base(a->blocks[block], k);
 	row->dimmed = 0;
-	lanes = row->y < a->request.height ? load_row(a, row) : 0;
+	lanes = row->base != SCENE_NONE && row->y < a->request.height ? load_row(a, row) : 0;
 	for (uint left = n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 

@@ -118,7 +118,7 @@ KERNEL_OF(float16) void plain_program(KERNEL_ARGUMENTS(plain))
 	struct program_kept kept;
 	struct plain_row row;
 
-	if (item >= n / (PLAIN_WIDTH * PLAIN_ROWS))
+	if (item >= plain_blocks(width, request.height))
 		return;
 	keep_nothing(&kept);
 	for (uint k = 0; k < PLAIN_ROWS; k++) {

@@ -44,7 +44,7 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 	struct frame_pixel pixel = *a->cleared;
 	struct shadow_kept shadow_kept;
 
-	for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
+	for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots && item != SCENE_NONE; slot++)
 		stage_no_ray(&a->rays[slot * a->n + item]);
 	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE && !is_in_dome))
 		return;
@@ -84,6 +84,8 @@ static void look_from_pixel(const struct plain_arguments *a, const struct shade_
 	const struct shadow_ray_arguments rays = plain_rays(a);
 	struct shadow_kept kept;
 
+	if (item == SCENE_NONE)
+		return;
 	dome_find_none(&d, item);
 	for (uint32_t slot = 0; slot < a->n_slots; slot++)
 		stage_no_ray(&a->rays[slot * a->n + item]);
@@ -102,12 +104,13 @@ static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t 
 	const struct shade_arguments s = plain_shading(a, n_slots);
 	const uint32_t columns = plain_columns(a->width);
 
-	for (size_t i = first * PLAIN_WIDTH * PLAIN_ROWS; i < last * PLAIN_WIDTH * PLAIN_ROWS && i < a->n; i++) {
-		const uint32_t block = (uint32_t)i / (PLAIN_WIDTH * PLAIN_ROWS), place = (uint32_t)i % (PLAIN_WIDTH * PLAIN_ROWS);
+	for (size_t block = first; block < last && block < plain_blocks(a->width, a->request.height); block++)
+		for (uint32_t i = 0; i < PLAIN_WIDTH * PLAIN_ROWS; i++) {
+			const uint32_t x = (uint32_t)block % columns * PLAIN_WIDTH + i % PLAIN_WIDTH;
+			const uint32_t y = (uint32_t)block / columns * PLAIN_ROWS + i / PLAIN_WIDTH, base = plain_base(a->blocks[block], y);
 
-		one(a, &s, block % columns * PLAIN_WIDTH + place % PLAIN_WIDTH, block / columns * PLAIN_ROWS + place / PLAIN_WIDTH,
-		    (uint32_t)i);
-	}
+			one(a, &s, x, y, base == SCENE_NONE ? base : base + i % PLAIN_WIDTH);
+		}
 }
 
 void plain_c(const struct plain_arguments *a, size_t first, size_t last)

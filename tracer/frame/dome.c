@@ -73,7 +73,7 @@ static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in
 	const struct dome_light_launch *a =
 		LAUNCH(dome_light, .places = b->dome_places, .sums = b->dome_sums, .pixels = b->pixels, .first = in_blocks ? b->pixels : b->first, .counts = b->counts,
 		       .rectangle = rectangle, .width = job->width, .first_pixel = frame_first_pixel(job), .dome = job->scene->dome,
-		       .in_blocks = in_blocks, .n = n, .shaded = b->shaded, .factors = in_blocks ? b->dome_factors : b->dome_sums);
+		       .in_blocks = in_blocks, .blocks = in_blocks ? b->blocks : b->counts, .n = n, .shaded = b->shaded, .factors = in_blocks ? b->dome_factors : b->dome_sums);
 
 	if (device_family(tr->dev) == FAMILY_PACKETS)
 		return launch_dome_light_packet(tr->dev, dome_columns(job->width) * ((job->n_rows + CAMERA_TILE - 1) / CAMERA_TILE), a);

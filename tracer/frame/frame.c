@@ -1,5 +1,9 @@
 #include "tracer/frame/frame.h"
 
+#include <stdlib.h>
+
+#include "base/err.h"
+
 struct tables_launch frame_tables(const struct tracer *tr)
 {
 	const struct frame_buffers *b = &tr->buffers;
@@ -18,4 +22,21 @@ uint32_t frame_first_pixel(const struct job *job)
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample)
 {
 	return job->n_samples == 1 ? &job->tr->buffers.frame : &job->tr->buffers.samples[sample];
+}
+
+int frame_reserve_counts(struct job *job)
+{
+	struct tracer *tr = job->tr;
+
+	if (job->n_pixels <= tr->n_counted)
+		return 0;
+	free(tr->counts);
+	free(tr->first);
+	tr->n_counted = 0;
+	tr->counts = malloc(job->n_pixels * sizeof(*tr->counts));
+	tr->first = malloc(job->n_pixels * sizeof(*tr->first));
+	if (!tr->counts || !tr->first)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
+	tr->n_counted = job->n_pixels;
+	return 0;
 }

@@ -30,7 +30,7 @@
 	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
 	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
 	X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
-	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(ray, dome_rays) X(float, dome_factors) X(half, halves) X(float, floats) X(hook_answer, answers)
+	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) X(half, halves) X(float, floats) X(hook_answer, answers)
 
 struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;
@@ -96,3 +96,6 @@ uint32_t frame_first_pixel(const struct job *job);
 
 /** The buffer of one of the pixels' samples; where they have but one, the frame itself. */
 union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
+
+/** Make room for a word a pixel of the band in tracer.counts and tracer.first. @return 0 or ERR_SYSTEM (reported) */
+int frame_reserve_counts(struct job *job);

@@ -46,14 +46,41 @@ int plain_suits(const struct job *job)
 	return 1;
 }
 
+/* Whether a pixel of a block has a fragment. x, y: the block's first */
+static int has_fragment(const struct job *job, struct camera_rectangle r, uint32_t x, uint32_t y)
+{
+	const int32_t x1 = r.x1 < (int32_t)(x + PLAIN_WIDTH) ? r.x1 : (int32_t)(x + PLAIN_WIDTH);
+	const int32_t y1 = r.y1 < (int32_t)(y + PLAIN_ROWS) ? r.y1 : (int32_t)(y + PLAIN_ROWS);
+	uint32_t n = 0;
+
+	for (int32_t row = r.y0 > (int32_t)y ? r.y0 : (int32_t)y; row < y1 && !n; row++)
+		for (int32_t i = r.x0 > (int32_t)x ? r.x0 : (int32_t)x; i < x1; i++)
+			n |= job->tr->counts[(uint32_t)row * job->width + (uint32_t)i];
+	return n != 0;
+}
+
+/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives the pixels of these blocks */
+static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t columns = plain_columns(job->width), blocks = plain_blocks(job->width, job->n_rows);
+	int err = frame_reserve_counts(job);
+	uint32_t next = 0;
+
+	if (!err && r.x0 < r.x1)
+		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
+	for (uint32_t i = 0; i < blocks && !err; i++)
+		tr->first[i] = has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
+	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
+	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
+}
+
 /* What kernels leave for n fragments and their rays. */
 static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 {
 	struct tracer *tr = job->tr;
-	int err = segment_reserve(job, 1);
+	int err = frame_reserve(tr, fragments, n);
 
-	if (!err)
-		err = frame_reserve(tr, fragments, n);
 	if (!err)
 		err = frame_reserve(tr, pixels, n);
 	if (!err)
@@ -82,7 +109,7 @@ static struct plain_launch launch_of(const struct job *job, struct camera_rectan
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
-	               .visibility = b->visibility, .n_slots = n_slots, .n = n, .fragments = b->fragments, .pixels = b->pixels,
+	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels,
 	               .shaded = b->shaded, .rays = b->rays, .programs = b->programs,
 	               .dome = samples ? job->scene->dome : none, .directions = samples ? b->dome_directions : b->visibility,
 	               .samples = samples, .places = b->dome_places, .looks = samples ? b->dome_rays : b->rays,
@@ -133,22 +160,25 @@ int plain_band(struct job *job)
 	const struct segment *segment = job->prepared.segments;
 	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
 	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
-	const uint32_t blocks = plain_columns(job->width) * ((job->n_rows + PLAIN_ROWS - 1) / PLAIN_ROWS);
-	const uint32_t n = blocks * PLAIN_WIDTH * PLAIN_ROWS, n_slots = space ? job->prepared.n_light_slots : 0;
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows), n_slots = space ? job->prepared.n_light_slots : 0;
 	struct compose_request request;
+	uint32_t n, samples = 0; /* places of pixels; looks around of each */
 	struct plain_launch a;
-	uint32_t samples = 0; /* looks around of a pixel */
 	/* The top band comes first; a device that lacks memory may have given all away since. */
 	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 
 	if (!err)
-		err = reserve(job, n, n_slots);
-	if (!err && space && dome_is_there(job))
-		err = dome_prepare_plain(job, n, &samples);
+		err = segment_reserve(job, 1);
 	if (!err)
 		err = compose_reserve(job, &request);
 	if (!err && r.x0 < r.x1)
 		err = segment_trace_camera(job, segment, r);
+	if (!err)
+		err = place_blocks(job, segment_in_buffers(job, r), &n);
+	if (!err)
+		err = reserve(job, n, n_slots);
+	if (!err && space && dome_is_there(job))
+		err = dome_prepare_plain(job, n, &samples);
 	if (err)
 		return err;
 	a = launch_of(job, r, n, n_slots, samples, &request);

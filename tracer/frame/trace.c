@@ -100,19 +100,10 @@ int tracer_check_aov(const char *aov)
 static int reserve_pixels(struct job *job)
 {
 	struct tracer *tr = job->tr;
-	int err = 0;
+	int err = frame_reserve_counts(job);
 
-	if (job->n_pixels > tr->n_counted) {
-		free(tr->counts);
-		free(tr->first);
-		tr->n_counted = 0;
-		tr->counts = malloc(job->n_pixels * sizeof(*tr->counts));
-		tr->first = malloc(job->n_pixels * sizeof(*tr->first));
-		if (!tr->counts || !tr->first)
-			return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
-		tr->n_counted = job->n_pixels;
-	}
-	err = frame_reserve(tr, counts, job->n_pixels);
+	if (!err)
+		err = frame_reserve(tr, counts, job->n_pixels);
 	if (!err)
 		err = frame_reserve(tr, frame, job->n_pixels);
 	if (!err)
