@@ -297,7 +297,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames mutants replay
@@ -316,6 +316,7 @@ DEPS_cryptomatte := blender python3-numpy
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl
 DEPS_film := ffmpeg chromium
 DEPS_export := blender python3-numpy
+DEPS_hooks := python3-numpy oclgrind
 DEPS_look := python3-yaml
 DEPS_metrics := python3-venv
 DEPS_oclgrind := oclgrind valgrind

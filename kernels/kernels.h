@@ -14,7 +14,7 @@
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
 	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
-	X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer)
+	X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -316,6 +316,9 @@ typedef float element_float;
 	OUT(shaded, shaded)                 /* read as well */
 
 /* Hooks: kernels/frame/hook.h. */
+#define ARGUMENTS_hook_trees(IN, OUT, VALUE, GROUP, AND) /* binary ones, of an eye space */ \
+	VALUE(uint, top_first) AND()        /* accel_space.top2_first; SCENE_NONE: nothing is in it */ \
+	IN(node2, top) AND() IN(uint, instance_list) AND() IN(instance, instances) AND() IN(node2, nodes)
 #define ARGUMENTS_hook_ray(IN, OUT, VALUE, GROUP, AND) \
 	IN(view, views) AND() VALUE(uint, view_index) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() \
 	VALUE(camera_rectangle, rectangle) AND() /* counted from the band's first row */ \
@@ -336,7 +339,7 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(float, visibility) AND() VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() /* a row for each material */ \
-	VALUE(uint, n) AND() \
+	GROUP(hook_trees, trees) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded) AND()           /* read as well */ \
 	OUT(hook_answer, answers)
 #define ARGUMENTS_hook_ways(IN, OUT, VALUE, GROUP, AND) \
@@ -346,9 +349,40 @@ typedef float element_float;
 #define ARGUMENTS_hook_hit(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(float, visibility) AND() \
 	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, depth) AND() \
-	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() VALUE(uint, n) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() GROUP(hook_trees, trees) AND() VALUE(uint, n) AND() \
 	OUT(float, radiance) AND()          /* [3] a path; read as well */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+#define ARGUMENTS_hook_walk(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() VALUE(uint, transport) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
+	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
+#define ARGUMENTS_hook_light(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
+	IN(ray, rays) AND()                 /* those that went to the lights */ \
+	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
+	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
+	OUT(float, visibility)              /* read as well */
+#define ARGUMENTS_hook_light_hit(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, path_rays) AND() IN(ray, rays) AND() \
+	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() VALUE(uint, n_rays) AND() \
+	OUT(float, visibility)              /* read as well */
+#define ARGUMENTS_hook_bounds(IN, OUT, VALUE, GROUP, AND) \
+	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
+	OUT(hook_object, objects)           /* read as well */
+#define ARGUMENTS_hook_intersect(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(view, views) AND() IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() \
+	IN(float, parameters) AND() VALUE(uint, words) AND() \
+	VALUE(uint, alone) AND()            /* 1: there are no triangles, and no hits yet */ \
+	VALUE(uint, first_slot) AND()       /* where the triangles begin that stand for what these rays hit */ \
+	VALUE(uint, n) AND() \
+	OUT(hit, hits) AND()                /* read as well */ \
+	OUT(shaded_vertex, made) AND()      /* tables.vertices; read as well */ \
+	OUT(float, made_coords) AND()       /* tables.texcoords */ \
+	OUT(window_vertex, windows)
+#define ARGUMENTS_hook_occlude(IN, OUT, VALUE, GROUP, AND) \
+	IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() IN(float, parameters) AND() VALUE(uint, words) AND() \
+	VALUE(uint, alone) AND() VALUE(uint, n) AND() \
+	OUT(uint, occluded)                 /* read as well */
 
 /* Prefix sums: kernels/frame/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
@@ -361,14 +395,15 @@ typedef float element_float;
 	VALUE(uint, place_first)
 
 /* X(list): lists that are part of others, and those of kernels. */
-#define KERNEL_GROUPS(X) X(tables) X(camera_pass) X(emission)
+#define KERNEL_GROUPS(X) X(tables) X(camera_pass) X(emission) X(hook_trees)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
-	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit)
+	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit) X(hook_walk) X(hook_light) X(hook_light_hit) \
+	X(hook_bounds) X(hook_intersect) X(hook_occlude)
 
 /* --- Structs and signatures ----------------------------------------------------------------------------------------- */
 
@@ -486,7 +521,13 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(hook_store, hook_store)       /* one pixel a work item: what its rays found */ \
 	X(hook_shade, hook_shade)       /* one fragment a work item: its colour by a hook */ \
 	X(hook_ways, hook_ways)         /* the same: its rays */ \
-	X(hook_hit, hook_hit)           /* one path a work item: the light it found and its rays by a hook */
+	X(hook_hit, hook_hit)           /* one path a work item: the light it found and its rays by a hook */ \
+	X(hook_walk, hook_walk)         /* one stopped ray to a light a work item: it goes on where a hook says so */ \
+	X(hook_light, hook_light)       /* one fragment's ray to a light a work item: how much of the light a hook lets arrive */ \
+	X(hook_light_hit, hook_light_hit) /* the same of a hit */ \
+	X(hook_bounds, hook_bounds)     /* one object of a hook a work item: its box */ \
+	X(hook_intersect, hook_intersect) /* one ray a work item: what it meets of these objects */ \
+	X(hook_occlude, hook_occlude)   /* the same, where any hit will do */
 
 enum kernel {
 #define KERNEL_ENUM(name, list) KERNEL_##name,

@@ -142,6 +142,7 @@ SHARED_SIZE(struct face8, 128);
 #define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
                                     pixels, camera rays meet it as points; never secondary */
 #define INSTANCE_SKY 128u        /* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
+#define INSTANCE_PROCEDURAL 256u /* a hook's intersection stands for it: rays do not meet its triangles */
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
 
 /* One instance as the kernels see it. */
@@ -326,6 +327,14 @@ struct hook_answer {
 	uint32_t what;                           /* bits: RELUME_* */
 };
 SHARED_SIZE(struct hook_answer, 40);
+
+/* What a hook's intersection stands for: an instance whose triangles no ray meets. */
+struct hook_object {
+	float obj_from_eye[12];    /* 3 rows of 4 */
+	float lower[3], upper[3];  /* its box, object space */
+	uint32_t instance, material, draw;
+};
+SHARED_SIZE(struct hook_object, 84);
 
 /* A triangle that shines, in a list of all in its space. */
 struct emitter {

@@ -38,9 +38,13 @@ static const struct options_table table = {
 	OPTIONS_ROWS(rows),
 	.notes = "The stages that there are:\n"
 	         "  struct relume_ray ray_generation(struct relume_pixel, struct relume_parameters)    a pixel's first ray\n"
+	         "  struct relume_box bounds(struct relume_object, struct relume_parameters)           where another shape takes a draw's place\n"
+	         "  struct relume_request intersection(struct relume_crossing, struct relume_parameters)  where a ray meets that shape\n"
+	         "  struct relume_request any_hit(struct relume_hit, struct relume_parameters)         whether what a ray meets counts\n"
 	         "  struct relume_request closest_hit(struct relume_hit, struct relume_parameters)     what a ray hit first\n"
 	         "  struct relume_request miss(struct relume_miss, struct relume_parameters)           a ray that hit nothing\n"
-	         "There are none for intersection, any hit and light. hooks/README.md has the structs, and examples.\n"
+	         "  struct relume_request light(struct relume_beam, struct relume_parameters)          how much of a light arrives\n"
+	         "hooks/README.md has the structs, and examples.\n"
 	         "Errors have the file's own lines. hooks/README.md tells how Oclgrind finds accesses out of bounds.\n"
 	         "Exit codes: 0 it runs, 2 wrong usage, 3 it does not compile, does not end or ends the process, 5 the device failed.\n",
 	.takes = "--check and one FILE.cl", .least = 1, .most = 1, .words_use = CONFINE_READS,
@@ -54,14 +58,30 @@ struct trial {
 	int step, err;
 };
 
-static int draw(struct tracer *tracer, const struct hook *hook, enum check_scene scene)
+/* Whole numbers that are 0 where no rule says otherwise turn things on: all of them as 1. @return how many */
+static uint32_t turn_on(const struct hook *hook, struct scene_parameter list[HOOK_MAX_PARAMETERS])
 {
+	uint32_t n = 0;
+
+	for (unsigned i = 0; i < hook->n_parameters; i++)
+		if (hook->parameters[i].type == HOOK_INT && hook->parameters[i].initial[0] == 0)
+			list[n++] = (struct scene_parameter){ .name = hook->parameters[i].name, .value = { 1 }, .count = 1 };
+	return n;
+}
+
+/* is_on: with what its parameters turn on */
+static int draw(struct tracer *tracer, const struct hook *hook, enum check_scene scene, int is_on)
+{
+	struct scene_parameter list[HOOK_MAX_PARAMETERS];
+	const uint32_t n = is_on ? turn_on(hook, list) : 0;
 	struct check_world *world = malloc(sizeof(*world));
 	struct image img = { .width = 0 };
 	int err = world ? check_world_make(scene, WIDTH, HEIGHT, RINGS, world) : err_report(ERR_SYSTEM, NULL, "out of memory");
 
 	if (!err) {
 		world->options.hook = hook;
+		world->made.scene.parameters = list;
+		world->made.scene.n_parameters = world->made.scene.n_shared_parameters = n;
 		err = tracer_render(tracer, &world->made.scene, &world->options, &img);
 		image_free(&img);
 		check_world_free(world);
@@ -84,10 +104,10 @@ static void try_apart(void *user)
 	if (!err)
 		err = tracer_create(&tracer, dev);
 	if (!err)
-		err = draw(tracer, t->hook, CHECK_OPAQUE);
+		err = draw(tracer, t->hook, CHECK_OPAQUE, 0);
 	t->step = 1;
 	if (!err)
-		err = draw(tracer, t->hook, CHECK_MIRROR);
+		err = draw(tracer, t->hook, CHECK_MIRROR, 1);
 	t->err = err;
 	t->step = 2;
 	tracer_destroy(&tracer);

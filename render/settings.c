@@ -186,8 +186,9 @@ static const struct options_row rows[] = {
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
 	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), lights added, moved, off or with a "
 	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
-	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras; modes whitted and path), closest_hit, "
-	  "miss (modes whitted, diffuse and path). 'relume hook --check' tries them; hooks/README.md explains them", take_hook, .at = 0,
+	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection (other shapes; "
+	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
+	  "hooks/README.md explains them", take_hook, .at = 0,
 	  .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
@@ -322,10 +323,11 @@ static int check_hook(struct settings *s)
 	const enum tracer_mode mode = s->tracer.mode;
 
 	s->tracer.hook = s->hook;
-	if (!s->hook || mode == TRACER_WHITTED || mode == TRACER_PATH || (mode == TRACER_DIFFUSE && !(s->hook->stages & HOOK_RAY_GENERATION)))
+	if (!s->hook || mode == TRACER_WHITTED || mode == TRACER_PATH ||
+	    (mode == TRACER_DIFFUSE && !(s->hook->stages & (HOOK_RAY_GENERATION | HOOK_INTERSECTION))))
 		return 0;
 	return err_report(ERR_USAGE, NULL, "--hook: mode %s has no stage for %s", settings_mode_names[mode],
-	                  mode == TRACER_DIFFUSE ? "ray_generation" : "hooks");
+	                  mode == TRACER_DIFFUSE ? "ray_generation and intersection" : "hooks");
 }
 
 /* What kind of file is asked for, and whether the other options are for it. */

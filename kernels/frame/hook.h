@@ -2,169 +2,22 @@
  * Where a user's functions are called (tracer/hook/hook.h reads them, hooks/README.md is for who writes them). Each takes plain structs
  * and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook is there.
  *
- *   hook_ray     ray generation: a pixel's first ray, in place of the camera's
- *   hook_see     what these rays hit first, for channels Z, N, P and id
- *   hook_store   what they found, into the frame
- *   hook_shade   closest hit, of fragments: after they were lit, before their rays leave
- *   hook_ways    the ways on that hook_shade was told, in place of a fragment's own
- *   hook_hit     closest hit and miss, of paths: after shade_hit
+ *   hook_ray        ray generation: a pixel's first ray, in place of the camera's
+ *   hook_see        what these rays hit first, for channels Z, N, P and id
+ *   hook_store      what they found, into the frame
+ *   hook_shade      any hit and closest hit, of fragments: after they were lit, before their rays leave
+ *   hook_ways       the ways on that hook_shade was told, in place of a fragment's own
+ *   hook_hit        any hit, closest hit and miss, of paths: after shade_hit
+ *   hook_walk       any hit, of rays to lights: after shadow_walk
+ *   hook_light      light, of fragments: after their rays to lights
+ *   hook_light_hit  the same, of hits
  *
  * The built-in's colour is what the kernels before have left: a hook that gives it back changes no bit. The twins have no hook, so they
  * are what kernels do where a hook always goes on.
  */
 #pragma once
 
-#include "kernels/frame/path.h"
-
-/* What a hook asks for: bits of hook_answer.what. The same numbers in the text below. */
-#define RELUME_COLOR 1u
-#define RELUME_RAY 2u
-#define RELUME_IGNORE 4u
-
-/* What functions that a hook may call look at. */
-struct hook_place {
-	const struct tables *tables;
-	const struct point *point;
-	GLOBAL const float *visibility;
-	uint32_t n_slots, n, item, transport;
-};
-
-#ifdef __OPENCL_VERSION__
-
-/* --- For hooks: hooks/README.md ------------------------------------------------------------------------------------------- */
-
-struct relume_ray {
-	float4 origin, direction;
-};
-
-struct relume_pixel {
-	float x, y;
-	uint width, height;
-	float u, v;
-	struct relume_ray ray;
-};
-
-struct relume_hit {
-	float4 position, normal, direction, color;
-	float distance;
-	uint depth, draw, front;
-	const struct hook_place *place;
-};
-
-struct relume_miss {
-	float4 origin, direction, color;
-	uint depth;
-};
-
-struct relume_light {
-	float4 direction, color, arrives;
-};
-
-struct relume_request {
-	uint what;
-	float4 color, direction, weight;
-};
-
-static inline struct relume_request relume_go_on(void)
-{
-	struct relume_request r;
-
-	r.what = 0;
-	r.color = r.direction = r.weight = (float4)(0);
-	return r;
-}
-
-static inline struct relume_request relume_color(float4 color)
-{
-	struct relume_request r = relume_go_on();
-
-	r.what = RELUME_COLOR;
-	r.color = color;
-	return r;
-}
-
-static inline struct relume_request relume_color_and_ray(float4 color, float4 direction, float4 weight)
-{
-	struct relume_request r = relume_color(color);
-
-	r.what = RELUME_COLOR | RELUME_RAY;
-	r.direction = direction;
-	r.weight = weight;
-	return r;
-}
-
-static inline struct relume_request relume_ignore(void)
-{
-	struct relume_request r = relume_go_on();
-
-	r.what = RELUME_IGNORE;
-	return r;
-}
-
-static inline float4 hook_float4(struct vec3 v)
-{
-	return (float4)(v.x, v.y, v.z, 0.0f);
-}
-
-static inline struct vec3 hook_vec3(float4 v)
-{
-	return v3(v.x, v.y, v.z);
-}
-
-static inline float4 relume_albedo(const struct relume_hit *hit)
-{
-	const struct hook_place *at = hit->place;
-	struct texturing texturing;
-	struct vec4 c;
-
-	point_texture(at->tables, at->point, (const struct point_window *)0, &texturing);
-	c = point_albedo(at->tables, at->point, &texturing);
-	return hook_float4(stage_light(at->transport, v3(c.x, c.y, c.z)));
-}
-
-static inline uint relume_lights(const struct relume_hit *hit)
-{
-	return point_takes_light(hit->place->point) ? point_lights(hit->place->point).count : 0u;
-}
-
-static inline struct relume_light relume_light(const struct relume_hit *hit, uint number)
-{
-	const struct hook_place *at = hit->place;
-	GLOBAL const struct scene_light *light = &at->tables->lights[point_lights(at->point).first + number];
-	struct relume_light out;
-	struct vec3 to_light;
-	const float strength = light_strength(light, point_position(at->point), &to_light);
-
-	out.direction = hook_float4(to_light);
-	out.color = hook_float4(stage_light(at->transport, v3_scale(v3_load(light->diffuse), strength)));
-	out.arrives = number < at->n_slots ? hook_float4(v3_load(at->visibility + (number * at->n + at->item) * 3u)) :
-	                                     (float4)(1.0f, 1.0f, 1.0f, 0.0f);
-	return out;
-}
-
-/* The user's, behind all of this. */
-#ifdef HOOK_RAY_GENERATION
-struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters);
-#endif
-#ifdef HOOK_CLOSEST_HIT
-struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters);
-#endif
-#ifdef HOOK_MISS
-struct relume_request miss(struct relume_miss missed, struct relume_parameters parameters);
-#endif
-
-static inline struct hook_answer hook_answer_of(struct relume_request r)
-{
-	struct hook_answer a;
-
-	a.what = r.what;
-	a.color[0] = r.color.x, a.color[1] = r.color.y, a.color[2] = r.color.z;
-	a.direction[0] = r.direction.x, a.direction[1] = r.direction.y, a.direction[2] = r.direction.z;
-	a.weight[0] = r.weight.x, a.weight[1] = r.weight.y, a.weight[2] = r.weight.z;
-	return a;
-}
-
-#endif
+#include "kernels/frame/hook_text.h"
 
 /* --- Asking them ------------------------------------------------------------------------------------------------------------ */
 
@@ -187,13 +40,13 @@ static inline struct vec3 hook_color(const struct hook_answer *a)
 struct hook_way {
 	struct vec3 origin, direction; /* unit length */
 	float distance;
-	uint32_t depth;
+	uint32_t depth, shadow; /* shadow: 1: it goes to a light */
 	struct vec3 color; /* the built-in's */
 };
 
-static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
+#ifdef __OPENCL_VERSION__
+static inline struct relume_hit hook_hit_of(const struct hook_place *at, const struct hook_way *way)
 {
-#if defined(__OPENCL_VERSION__) && defined(HOOK_CLOSEST_HIT)
 	struct relume_hit hit;
 
 	hit.position = hook_float4(point_position(at->point));
@@ -204,8 +57,29 @@ static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const
 	hit.depth = way->depth;
 	hit.draw = at->point->geometry->draw;
 	hit.front = (uint)at->point->front;
+	hit.shadow = way->shadow;
 	hit.place = at;
-	return hook_answer_of(closest_hit(hit, hook_parameters(row)));
+	return hit;
+}
+#endif
+
+/* 1 where a surface is none for a ray. */
+static inline int hook_ignores(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
+{
+#if defined(__OPENCL_VERSION__) && defined(HOOK_ANY_HIT)
+	return (any_hit(hook_hit_of(at, way), hook_parameters(row)).what & RELUME_IGNORE) != 0u;
+#else
+	(void)at;
+	(void)way;
+	(void)row;
+	return 0;
+#endif
+}
+
+static inline struct hook_answer hook_ask_hit(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
+{
+#if defined(__OPENCL_VERSION__) && defined(HOOK_CLOSEST_HIT)
+	return hook_answer_of(closest_hit(hook_hit_of(at, way), hook_parameters(row)));
 #else
 	(void)at;
 	(void)way;
@@ -337,6 +211,18 @@ static inline GLOBAL const float *hook_row(GLOBAL const float *parameters, uint3
 	return parameters + (size_t)p->geometry->material * words;
 }
 
+/* Any hit, then closest hit. in_part: 1: the surface is one that only any hit is asked about */
+static inline struct hook_answer hook_ask(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row, int in_part)
+{
+	struct hook_answer answer = hook_no_answer();
+
+	if (hook_ignores(at, way, row))
+		answer.what = RELUME_IGNORE;
+	else if (!in_part)
+		answer = hook_ask_hit(at, way, row);
+	return answer;
+}
+
 static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_t item)
 {
 	const struct fragment f = a->fragments[item];
@@ -344,7 +230,7 @@ static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_
 	struct hook_way way;
 	struct hook_answer answer;
 	struct point p;
-	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport };
+	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport, &a->trees };
 
 	a->answers[item].what = 0u;
 	if (!(s->flags & SHADED_THERE))
@@ -355,9 +241,9 @@ static inline void hook_shade_item(const struct hook_shade_arguments *a, uint32_
 	way.origin = v3(0.0f, 0.0f, 0.0f);
 	way.direction = v3_normalize(stage_view_direction(&a->views[p.geometry->view], a->pixels[item] % a->width, a->pixels[item] / a->width));
 	way.distance = M_SQRT(v3_dot(point_position(&p), point_position(&p)));
-	way.depth = 0u;
+	way.depth = way.shadow = 0u;
 	way.color = stage_light(a->transport, v3_load(s->direct));
-	answer = hook_ask_hit(&at, &way, hook_row(a->parameters, a->words, &p));
+	answer = hook_ask(&at, &way, hook_row(a->parameters, a->words, &p), 0);
 	if (!answer.what)
 		return;
 	a->answers[item] = answer;
@@ -453,27 +339,116 @@ static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t it
 	struct hook_way way;
 	struct hook_answer answer;
 	struct point p;
-	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport };
+	const struct hook_place at = { &a->tables, &p, a->visibility, a->n_slots, a->n, item, a->transport, &a->trees };
 
 	way.origin = v3_load(a->rays[item].o);
 	way.direction = v3_normalize(d);
 	way.depth = path.depth;
+	way.shadow = 0u;
 	if (hit.instance == SCENE_NONE) {
 		hook_miss_path(a, item, &way);
 		return;
 	}
 	p = point_from_hit(&a->tables, &hit, d);
-	if (p.geometry->flags & GEOMETRY_EXPANDED || p.material->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || p.material->alpha_test ||
-	    (p.material->blend && !(p.material->surface.hidden & SCENE_SOLID)) || point_clipped(&p))
-		return;
+	way.distance = hit.t * M_SQRT(v3_dot(d, d));
 	if (path.medium != SCENE_NONE)
 		weight = v3_mul(weight, glass_absorb(&a->tables.materials[path.medium], hit.t - a->rays[item].t_min));
 	share = hook_share(a, item, &p, weight);
-	way.distance = hit.t * M_SQRT(v3_dot(d, d));
 	way.color = hook_given(a->radiance + item * 3u, share);
-	answer = hook_ask_hit(&at, &way, hook_row(a->parameters, a->words, &p));
+	answer = hook_ask(&at, &way, hook_row(a->parameters, a->words, &p),
+	                  p.geometry->flags & GEOMETRY_EXPANDED || p.material->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || p.material->alpha_test ||
+	                  (p.material->blend && !(p.material->surface.hidden & SCENE_SOLID)) || point_clipped(&p));
 	if (answer.what & (RELUME_RAY | RELUME_IGNORE))
 		hook_obey(a, item, &p, &answer, weight);
 	else if (answer.what && hook_differs(hook_color(&answer), way.color))
 		v3_store(a->radiance + item * 3u, v3_mul(share, hook_color(&answer)));
+}
+
+/* A ray to a light goes on behind what is no surface for it, whatever shadow_walk made of that. */
+static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t item)
+{
+	const struct hit hit = a->hits[item];
+	const struct vec3 d = v3_load(a->rays[item].d);
+	struct hook_way way;
+	struct point p;
+	const struct hook_place at = { &a->tables, &p, a->parameters, 0u, 0u, 0u, a->transport, (const struct hook_trees *)0 };
+
+	if (hit.instance == SCENE_NONE)
+		return;
+	p = point_from_hit(&a->tables, &hit, d);
+	way.origin = v3_load(a->rays[item].o);
+	way.direction = v3_normalize(d);
+	way.distance = hit.t * M_SQRT(v3_dot(d, d));
+	way.depth = 0u;
+	way.shadow = 1u;
+	way.color = v3(0.0f, 0.0f, 0.0f);
+	if (!hook_ignores(&at, &way, hook_row(a->parameters, a->words, &p)))
+		return;
+	a->next_rays[item] = a->rays[item];
+	a->next_rays[item].t_min = ray_beyond(hit.t);
+	a->next_paths[item] = a->paths[item];
+	a->counts[item] = 1u;
+}
+
+/* --- Light -------------------------------------------------------------------------------------------------------------------- */
+
+/* What of a light arrives at a point, by the hook's factor. number: of the light among the point's */
+static inline void hook_dim(const struct tables *t, const struct point *p, uint32_t number, uint32_t transport, GLOBAL const float *row,
+                            GLOBAL float *visibility)
+{
+#if defined(__OPENCL_VERSION__) && defined(HOOK_LIGHT)
+	GLOBAL const struct scene_light *source = &t->lights[point_lights(p).first + number];
+	const struct vec3 at = point_position(p);
+	struct vec3 to_light;
+	const float strength = light_strength(source, at, &to_light), w = source->position_eye[3];
+	struct relume_beam beam;
+	struct relume_request r;
+
+	beam.position = hook_float4(at);
+	beam.normal = hook_float4(point_normal(p));
+	beam.direction = hook_float4(to_light);
+	beam.color = hook_float4(stage_light(transport, v3_scale(v3_load(source->diffuse), strength)));
+	beam.axis = hook_float4(source->spot_cutoff_deg == 180.0f ? v3(0.0f, 0.0f, 0.0f) : v3_normalize(v3_load(source->spot_direction_eye)));
+	beam.distance = w != 0.0f ? length(hook_float4(v3_load(source->position_eye)) / w - beam.position) : INFINITY;
+	beam.number = source->index;
+	beam.draw = p->geometry->draw;
+	r = light(beam, hook_parameters(row));
+	if (r.what & RELUME_COLOR)
+		v3_store(visibility, v3_mul(v3_load(visibility), v3(clamp01(r.color.x), clamp01(r.color.y), clamp01(r.color.z))));
+#else
+	(void)t;
+	(void)p;
+	(void)number;
+	(void)transport;
+	(void)row;
+	(void)visibility;
+#endif
+}
+
+/* Whether a ray to a light was sent, and some of it arrived. */
+static inline int hook_is_lit(GLOBAL const struct ray *ray, GLOBAL const float *visibility)
+{
+	return ray->t_min <= ray->t_max && v3_most(v3_load(visibility)) > 0.0f;
+}
+
+static inline void hook_light_item(const struct hook_light_arguments *a, uint32_t item)
+{
+	const struct fragment f = a->fragments[item % a->n];
+	struct point p;
+
+	if (!hook_is_lit(&a->rays[item], a->visibility + item * 3u))
+		return;
+	p = point_from_fragment(&a->tables, a->windows, &f);
+	hook_dim(&a->tables, &p, item / a->n, a->transport, hook_row(a->parameters, a->words, &p), a->visibility + item * 3u);
+}
+
+static inline void hook_light_hit_item(const struct hook_light_hit_arguments *a, uint32_t item)
+{
+	const struct hit hit = a->hits[item % a->n];
+	struct point p;
+
+	if (!hook_is_lit(&a->rays[item], a->visibility + item * 3u))
+		return;
+	p = point_from_hit(&a->tables, &hit, v3_load(a->path_rays[item % a->n].d));
+	hook_dim(&a->tables, &p, item / a->n, a->transport, hook_row(a->parameters, a->words, &p), a->visibility + item * 3u);
 }

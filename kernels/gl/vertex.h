@@ -87,17 +87,22 @@ static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32
 	}
 }
 
-static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const struct geometry *g,
-                                          GLOBAL const struct scene_unit *unit, uint32_t v, struct vec4 obj,
-                                          struct vec4 eye, struct vec3 n)
+/* Coordinates c as the unit generates and transforms them. */
+static inline struct vec4 vertex_generated(GLOBAL const struct scene_unit *unit, struct vec4 c, struct vec4 obj, struct vec4 eye, struct vec3 n)
 {
-	struct vec4 c = tables_texcoord(t, g, v, unit->unit);
 	struct vec3 u = v3_normalize(eye.w == 1.0f ? v3(eye.x, eye.y, eye.z) :
 	                                             v3_scale(v3(eye.x, eye.y, eye.z), 1.0f / eye.w));
 
 	c = v4(vertex_generate(unit, 0u, c.x, obj, eye, u, n), vertex_generate(unit, 1u, c.y, obj, eye, u, n),
 	       vertex_generate(unit, 2u, c.z, obj, eye, u, n), vertex_generate(unit, 3u, c.w, obj, eye, u, n));
 	return m4_mul(unit->matrix, c);
+}
+
+static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const struct geometry *g,
+                                          GLOBAL const struct scene_unit *unit, uint32_t v, struct vec4 obj,
+                                          struct vec4 eye, struct vec3 n)
+{
+	return vertex_generated(unit, tables_texcoord(t, g, v, unit->unit), obj, eye, n);
 }
 
 /* Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. */

@@ -22,7 +22,7 @@
 #define FRAME_WHOLE_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) X(scene_current, currents) \
 	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters) X(float, parameters)
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) X(float, sums) X(emitter, emitters) X(float, parameters) X(hook_object, objects)
 #define FRAME_BAND_BUFFERS(X) \
 	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
 	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
@@ -69,6 +69,14 @@ struct job {
 		uint32_t first, n;
 		float emitted; /* as in kernels.h */
 	} *emissions; /* [n_spaces] in mode path, else NULL */
+	struct job_objects { /* what a hook's intersection stands for: hook_objects.h */
+		struct hook_object *list;
+		uint32_t n, space;     /* the eye space that they are in */
+		uint32_t room;         /* rays of one kind that may hit them */
+		uint32_t vertex_first, texcoord_first; /* where room for the triangles is that stand for hits */
+		uint32_t *index;       /* of these triangles */
+		struct scene_mesh mesh;
+	} objects;
 	uint32_t width, height;
 	uint32_t row_first, n_rows; /* the band that is drawn; buffers of pixels hold its pixels, bottom row first */
 	uint32_t n_pixels;          /* of the band */

@@ -8,6 +8,7 @@
 #include "base/mat4.h"
 #include "base/memory.h"
 #include "tracer/frame/expand.h"
+#include "tracer/frame/hook_objects.h"
 #include "tracer/frame/perspective.h"
 #include "tracer/frame/upload.h"
 
@@ -19,15 +20,17 @@ static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra
 	struct tracer *tr = job->tr;
 	struct prepared *p = &job->prepared;
 	const struct frame_buffers *b = &tr->buffers;
-	size_t n = (size_t)p->n_vertices + extra_vertices;
+	size_t n = (size_t)p->n_vertices + extra_vertices + hook_objects_vertices(job), coords = (size_t)p->n_texcoords + extra_texcoords;
 	int err = frame_reserve(tr, vertices, n);
 
+	job->objects.vertex_first = p->n_vertices + extra_vertices;
+	job->objects.texcoord_first = p->n_texcoords + extra_texcoords;
 	if (!err)
 		err = frame_reserve(tr, windows, n);
 	if (!err)
 		err = frame_reserve(tr, clips, 4 * n);
 	if (!err)
-		err = frame_reserve(tr, texcoords, 4 * ((size_t)p->n_texcoords + extra_texcoords));
+		err = frame_reserve(tr, texcoords, 4 * (coords + hook_objects_texcoords(job)));
 	if (err)
 		return err;
 	err = launch_vertex(tr->dev, p->n_vertices,

@@ -5,43 +5,12 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* Instances of a segment's eye space in all segments. */
-static uint32_t instances_in(const struct job *job, uint32_t space)
-{
-	uint32_t n = 0;
-
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++) {
-		const struct segment *s = &job->prepared.segments[i];
-
-		if (s->view != SCENE_NONE && job->prepared.scene_views[s->view].space == space && secondary_space(job, s->view, 0))
-			n += s->instance_count;
-	}
-	return n;
-}
-
-/* The first segment of the space that most instances are in; NULL: rays hit nothing in any. */
-static const struct segment *main_segment(const struct job *job)
-{
-	const struct segment *best = NULL;
-	uint32_t most = 0;
-
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++) {
-		const struct segment *s = &job->prepared.segments[i];
-		const uint32_t n = s->view == SCENE_NONE ? 0 : instances_in(job, job->prepared.scene_views[s->view].space);
-
-		if (n > most && secondary_space(job, s->view, 0)) {
-			most = n;
-			best = s;
-		}
-	}
-	return best;
-}
-
 int hook_rays_stand_in(const struct job *job, const struct segment *segment)
 {
-	const struct segment *best = hooks_has(job, HOOK_RAY_GENERATION) ? main_segment(job) : NULL;
+	const struct segment *best = hooks_has(job, HOOK_RAY_GENERATION) || job->objects.n ? hooks_main_segment(job) : NULL;
 
-	return best && segment->view != SCENE_NONE && job->prepared.scene_views[best->view].space == job->prepared.scene_views[segment->view].space;
+	return best && secondary_space(job, best->view, 0) && segment->view != SCENE_NONE &&
+	       job->prepared.scene_views[best->view].space == job->prepared.scene_views[segment->view].space;
 }
 
 static int reserve(struct job *job, uint32_t n)
@@ -86,5 +55,5 @@ int hook_rays_run(struct job *job, const struct segment *segment, uint32_t n_cle
 	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	int err = segment_clear(job, segment, n_cleared);
 
-	return err || r.x1 == r.x0 || segment != main_segment(job) ? err : trace(job, segment, r);
+	return err || r.x1 == r.x0 || segment != hooks_main_segment(job) ? err : trace(job, segment, r);
 }

@@ -9,6 +9,38 @@ int hooks_has(const struct job *job, unsigned stages)
 	return job->options->hook && job->options->hook->stages & stages;
 }
 
+/* Instances of segments of an eye space; 0: secondary rays meet none of them. */
+static uint32_t instances_in(const struct job *job, uint32_t space)
+{
+	const struct prepared *p = &job->prepared;
+	uint32_t n = 0, met = 0;
+
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		const int is_in = p->scene_views[p->instances[i].view].space == space;
+
+		n += is_in;
+		met |= is_in && p->instances[i].flags & (INSTANCE_SECONDARY | INSTANCE_PROCEDURAL);
+	}
+	return met ? n : 0;
+}
+
+const struct segment *hooks_main_segment(const struct job *job)
+{
+	const struct segment *best = NULL;
+	uint32_t most = 0;
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++) {
+		const struct segment *s = &job->prepared.segments[i];
+		const uint32_t n = s->view == SCENE_NONE ? 0 : instances_in(job, job->prepared.scene_views[s->view].space);
+
+		if (n > most) {
+			most = n;
+			best = s;
+		}
+	}
+	return best;
+}
+
 uint32_t hooks_row(const struct job *job)
 {
 	return job->scene->n_materials * job->options->hook->words;
@@ -44,7 +76,15 @@ int hooks_place(struct job *job)
 
 /* --- Closest hit and miss ---------------------------------------------------------------------------------------------------- */
 
-int hooks_shade(struct job *job, uint32_t transport, uint32_t n)
+static struct hook_trees_launch trees_of(const struct job *job, const struct accel_space *space)
+{
+	const struct traverse_trees *t = &job->tr->trees;
+
+	return (struct hook_trees_launch){ .top_first = space->n_nodes ? space->top2_first : SCENE_NONE, .top = t->top2, .instance_list = t->instance_list,
+		                           .instances = t->instances, .nodes = job->options->hook->asks_boxes ? t->nodes2 : t->top2 };
+}
+
+int hooks_shade(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -56,7 +96,8 @@ int hooks_shade(struct job *job, uint32_t transport, uint32_t n)
 	                                            .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
 	                                            .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
 	                                            .transport = transport, .parameters = b->parameters,
-	                                            .words = job->options->hook->words, .n = n, .shaded = b->shaded, .answers = tr->buffers.answers));
+	                                            .words = job->options->hook->words, .trees = trees_of(job, space), .n = n, .shaded = b->shaded,
+	                                            .answers = b->answers));
 }
 
 int hooks_ways(struct job *job, uint32_t transport, uint32_t n)
@@ -70,7 +111,7 @@ int hooks_ways(struct job *job, uint32_t transport, uint32_t n)
 	                                           .next_rays = b->next_path_rays, .next_paths = b->next_paths, .counts = b->next_counts));
 }
 
-int hooks_hit(struct job *job, uint32_t transport, uint32_t n)
+int hooks_hit(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -79,9 +120,46 @@ int hooks_hit(struct job *job, uint32_t transport, uint32_t n)
 	                                          .paths = b->paths, .visibility = b->visibility, .n_slots = job->prepared.n_light_slots,
 	                                          .transport = transport, .depth = job->options->depth,
 	                                          .parameters = b->parameters, .words = job->options->hook->words, .row = hooks_row(job),
-	                                          .n = n, .radiance = b->radiance, .next_rays = b->next_path_rays,
+	                                          .trees = trees_of(job, space), .n = n, .radiance = b->radiance, .next_rays = b->next_path_rays,
 	                                          .next_paths = b->next_paths, .counts = b->next_counts));
 }
+
+int hooks_walk(struct job *job, uint32_t transport, uint32_t n)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return launch_hook_walk(job->tr->dev, n, LAUNCH(hook_walk, .tables = frame_tables(job->tr), .hits = b->shadow_hits, .rays = b->shadow_rays,
+	                                                .paths = b->shadow_paths, .transport = transport,
+	                                                .parameters = b->parameters, .words = job->options->hook->words, .n = n,
+	                                                .next_rays = b->next_shadow_rays, .next_paths = b->next_shadow_paths,
+	                                                .counts = b->next_counts));
+}
+
+/* --- Light ------------------------------------------------------------------------------------------------------------------- */
+
+int hooks_light(struct job *job, uint32_t transport, uint32_t n)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	const uint32_t n_rays = job->prepared.n_light_slots * n;
+
+	return launch_hook_light(job->tr->dev, n_rays, LAUNCH(hook_light, .tables = frame_tables(job->tr), .windows = b->windows,
+	                                                      .fragments = b->fragments, .rays = b->rays, .transport = transport,
+	                                                      .parameters = b->parameters, .words = job->options->hook->words, .n = n,
+	                                                      .n_rays = n_rays, .visibility = b->visibility));
+}
+
+int hooks_light_hits(struct job *job, uint32_t transport, uint32_t n)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	const uint32_t n_rays = job->prepared.n_light_slots * n;
+
+	return launch_hook_light_hit(job->tr->dev, n_rays, LAUNCH(hook_light_hit, .tables = frame_tables(job->tr), .hits = b->path_hits,
+	                                                          .path_rays = b->path_rays, .rays = b->rays, .transport = transport,
+	                                                          .parameters = b->parameters, .words = job->options->hook->words, .n = n,
+	                                                          .n_rays = n_rays, .visibility = b->visibility));
+}
+
+/* --- Rays in place of a camera's ---------------------------------------------------------------------------------------------- */
 
 int hooks_see(struct job *job, uint32_t n)
 {

@@ -12,14 +12,24 @@ int hooks_place(struct job *job);
 /** Where the row of parameters starts that rays have which meet no material. */
 uint32_t hooks_row(const struct job *job);
 
-/** Closest hit of all n fragments of the list: after their lights were asked. transport: TRANSPORT_*, here and below */
-int hooks_shade(struct job *job, uint32_t transport, uint32_t n);
+/** Any hit and closest hit of all n fragments of the list: after their lights were asked. transport: TRANSPORT_*, here and below */
+int hooks_shade(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n);
 
 /** The rays that it asked for, in place of those that leave the fragments: before they are gathered. */
 int hooks_ways(struct job *job, uint32_t transport, uint32_t n);
 
-/** Closest hit and miss of all n paths: after they were shaded. */
-int hooks_hit(struct job *job, uint32_t transport, uint32_t n);
+/** Any hit, closest hit and miss of all n paths: after they were shaded. */
+int hooks_hit(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n);
+
+/** Any hit of n rays to lights that were stopped: after shadow_walk. */
+int hooks_walk(struct job *job, uint32_t transport, uint32_t n);
+
+/** Light: of all n fragments, and of n hits of paths, to buffers.visibility: after their lights were asked. */
+int hooks_light(struct job *job, uint32_t transport, uint32_t n);
+int hooks_light_hits(struct job *job, uint32_t transport, uint32_t n);
+
+/** The first segment of the eye space that rays of hooks are in: that of most instances; NULL: rays hit nothing in any. */
+const struct segment *hooks_main_segment(const struct job *job);
 
 /** What n rays of hook_rays.h hit becomes their pixels' surface. */
 int hooks_see(struct job *job, uint32_t n);

@@ -1,6 +1,7 @@
 #include "tracer/frame/secondary.h"
 
 #include "tracer/frame/emitters.h"
+#include "tracer/frame/hook_objects.h"
 #include "tracer/frame/hooks.h"
 #include "tracer/frame/scan.h"
 
@@ -11,7 +12,7 @@ const struct accel_space *secondary_space(const struct job *job, uint32_t view, 
 {
 	for (uint32_t i = 0; i < job->n_spaces; i++)
 		if (job->spaces[i].space == job->prepared.scene_views[view].space && job->spaces[i].sky == sky &&
-		    job->spaces[i].n_nodes)
+		    (job->spaces[i].n_nodes || hook_objects_in(job, &job->spaces[i])))
 			return &job->spaces[i];
 	return NULL;
 }
@@ -42,17 +43,20 @@ static int occlude(struct job *job, const struct accel_space *space, union buffe
 {
 	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .occluded = occluded };
 	struct device *dev = job->tr->dev;
+	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r) : 0;
 
-	return traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r);
+	return err || !hook_objects_in(job, space) ? err : hook_objects_occlude(job, &r);
 }
 
-/* Their nearest hits. */
-static int intersect(struct job *job, const struct accel_space *space, union buffer_ray rays, union buffer_hit hits, uint32_t n)
+/* Their nearest hits. whose: which rays they are */
+static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays, union buffer_hit hits,
+                     uint32_t n)
 {
 	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
 	struct device *dev = job->tr->dev;
+	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) : 0;
 
-	return traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r);
+	return err || !hook_objects_in(job, space) ? err : hook_objects_intersect(job, &r, whose);
 }
 
 /* --- Lists -------------------------------------------------------------------------------------------------------- */
@@ -152,13 +156,15 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 	int err = start_walk(job, &list, rays, n_rays, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
-		err = intersect(job, space, *list.rays, b->shadow_hits, n);
+		err = intersect(job, space, HOOK_RAYS_TO_LIGHTS, *list.rays, b->shadow_hits, n);
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
 			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights, .n = n,
 			                                .visibility = b->visibility, .next_rays = *list.next_rays,
 			                                .next_paths = *list.next_paths, .counts = b->next_counts));
+		if (!err && hooks_has(job, HOOK_ANY_HIT))
+			err = hooks_walk(job, secondary_transport(job->options), n);
 		if (!err)
 			err = gather_list(job, &list, 1, &n);
 	}
@@ -176,7 +182,7 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
 	if (!err)
 		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .occluded = b->occluded, .weight = weight,
 		                                                     .first = sample == 0, .n = n_rays, .visibility = b->visibility));
-	return err || !job->prepared.has_transparency ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
+	return err || !(job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT)) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
 }
 
 int secondary_reserve_rays(struct job *job, size_t n_rays)
@@ -227,7 +233,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 		if (!err)
 			err = ask(job, space, 1, b->rays, n_rays, i, samples);
 	}
-	return err;
+	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light(job, secondary_transport(job->options), n);
 }
 
 /* The same from what n paths hit. */
@@ -260,7 +266,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 		if (!err)
 			err = ask(job, space, 1, b->rays, all, i, samples);
 	}
-	return err;
+	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light_hits(job, transport, n);
 }
 
 /* --- Openness ------------------------------------------------------------------------------------------------------ */
@@ -335,7 +341,7 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 	err = frame_reserve(tr, sky_rays, n);
 	if (!err)
 		err = launch_sky_ray(tr->dev, n, LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
-	return err ? err : intersect(job, sky, b->sky_rays, b->sky_hits, n);
+	return err ? err : intersect(job, sky, HOOK_RAYS_ON, b->sky_rays, b->sky_hits, n);
 }
 
 static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky, uint32_t transport,
@@ -375,7 +381,7 @@ int secondary_follow(struct job *job, const struct accel_space *space, const str
 	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
 		err = frame_reserve(tr, path_hits, n);
 		if (!err)
-			err = intersect(job, space, *list.rays, b->path_hits, n);
+			err = intersect(job, space, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON, *list.rays, b->path_hits, n);
 		if (!err && i == 0 && see)
 			err = hooks_see(job, n);
 		if (!err)
@@ -384,8 +390,8 @@ int secondary_follow(struct job *job, const struct accel_space *space, const str
 			err = trace_hit_shadows(job, space, transport, n);
 		if (!err)
 			err = shade_hits(job, &list, space, sky != NULL, transport, n);
-		if (!err && hooks_has(job, HOOK_CLOSEST_HIT | HOOK_MISS))
-			err = hooks_hit(job, transport, n);
+		if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
+			err = hooks_hit(job, space, transport, n);
 		if (!err)
 			err = launch_credit(tr->dev, n, LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance, .transport = transport, .n = n,
 			                                       .shaded = b->shaded));
@@ -404,7 +410,7 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 		err = ask_emitters(job, space, n);
 	if (!err)
 		err = leave(job, &list, space, secondary_transport(job->options), n);
-	if (!err && hooks_has(job, HOOK_CLOSEST_HIT))
+	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
 		err = hooks_ways(job, secondary_transport(job->options), n);
 	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
 }

@@ -119,7 +119,7 @@ static int clears_late(const struct job *job, uint32_t n_cleared)
 		n += job->prepared.segments[i].clear_count;
 	return device_family(job->tr->dev) == FAMILY_PACKETS && job->image && job->n_passes == 1 && job->n_samples == 1 &&
 	       secondary_transport(job->options) != TRANSPORT_LINEAR && n == n_cleared &&
-	       !hooks_has(job, HOOK_RAY_GENERATION);
+	       !hooks_has(job, HOOK_RAY_GENERATION | HOOK_INTERSECTION);
 }
 
 int segment_say_drawn(struct job *job, int drawn)
@@ -268,10 +268,11 @@ static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r,
 		if (!err)
 			err = run_shade(job, job->prepared.n_light_slots, n);
 	}
-	if (!err && hooks_has(job, HOOK_CLOSEST_HIT))
-		err = hooks_shade(job, secondary_transport(job->options), n);
+	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
+		err = hooks_shade(job, space, secondary_transport(job->options), n);
 	if (!err && job->options->depth &&
-	    (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE || hooks_has(job, HOOK_CLOSEST_HIT)))
+	    (job->prepared.has_mirrors || secondary_transport(job->options) >= TRANSPORT_DIFFUSE ||
+	     hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT)))
 		err = secondary_paths(job, space, secondary_space(job, view, 1), n);
 	return err || !dome_is_there(job) ? err : dome_light_list(job, space, segment_in_buffers(job, r), n);
 }

@@ -12,6 +12,7 @@
 #include "tracer/frame/ended.h"
 #include "tracer/frame/expand.h"
 #include "tracer/frame/geometry.h"
+#include "tracer/frame/hook_objects.h"
 #include "tracer/frame/hook_rays.h"
 #include "tracer/frame/hooks.h"
 #include "tracer/frame/noise.h"
@@ -136,7 +137,7 @@ static void count_undrawn(struct job *job)
 
 static uint32_t rows_of_band(const struct job *job)
 {
-	const uint32_t pixels = device_family(job->tr->dev) == FAMILY_PACKETS ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
+	const uint32_t pixels = device_family(job->tr->dev) == FAMILY_PACKETS || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
 	uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
 
 	if (job->tr->most_rows && rows > job->tr->most_rows)
@@ -218,6 +219,7 @@ static void forget_frame(struct job *job)
 	free(job->expanded);
 	free(job->extra);
 	free(job->emissions);
+	hook_objects_forget(job);
 	job->expanded = NULL;
 	job->extra = NULL;
 	job->emissions = NULL;
@@ -244,9 +246,11 @@ static int place_frame(struct job *job, const float shift[2])
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	err = upload_state(job);
 	if (!err)
-		err = geometry_place(job);
-	if (!err)
 		err = hooks_place(job);
+	if (!err)
+		err = hook_objects_find(job);
+	if (!err)
+		err = geometry_place(job);
 	if (!err)
 		err = emitters_place(job, secondary_transport(job->options));
 	job->is_placed = !err;

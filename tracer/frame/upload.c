@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "gl_tokens.h"
+#include "tracer/frame/hook_objects.h"
 
 int upload_attributes(struct job *job)
 {
@@ -32,8 +33,8 @@ int upload_indices(struct job *job)
 {
 	const struct scene *scene = job->scene;
 	struct prepared *p = &job->prepared;
-	struct pool_item *items = calloc((size_t)scene->n_meshes + p->n_instances + 1, sizeof(*items));
-	size_t n = scene->n_meshes;
+	struct pool_item *items = calloc((size_t)scene->n_meshes + p->n_instances + 2, sizeof(*items));
+	size_t n = scene->n_meshes, of_objects;
 	int err;
 
 	if (!items)
@@ -45,6 +46,10 @@ int upload_indices(struct job *job)
 		if (job->extra[i])
 			items[n++] = (struct pool_item){ { job->extra[i]->hash[0], job->extra[i]->hash[1] },
 				                         prepare_index_words(job->extra[i]), job->extra[i], 0 };
+	of_objects = n;
+	if (job->objects.n)
+		items[n++] = (struct pool_item){ { job->objects.mesh.hash[0], job->objects.mesh.hash[1] },
+			                         prepare_index_words(&job->objects.mesh), &job->objects.mesh, 0 };
 	err = pool_place(&job->tr->indices, job->tr->dev, items, n, prepare_fill_indices);
 	n = scene->n_meshes;
 	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
@@ -56,6 +61,8 @@ int upload_indices(struct job *job)
 		p->geometries[i].primitive_draw =
 			from->primitive_draw ? item->place + from->primitive_count * (uint32_t)from->kind : SCENE_NONE;
 	}
+	for (uint32_t i = 0; i < job->objects.n && !err; i++)
+		hook_objects_stand(job, i, items[of_objects].place);
 	free(items);
 	return err;
 }
@@ -166,8 +173,8 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	return err;
 }
 
-/* The pools that the device's kernels walk. */
-static int upload_mesh_trees(struct tracer *tr)
+/* The pools that the device's kernels walk. asks_boxes: a hook walks binary trees, too */
+static int upload_mesh_trees(struct tracer *tr, int asks_boxes)
 {
 	struct traverse_trees *t = &tr->trees;
 	const struct {
@@ -185,9 +192,14 @@ static int upload_mesh_trees(struct tracer *tr)
 	};
 	int err = 0;
 
-	for (size_t i = 0; i < sizeof(pools) / sizeof(pools[0]) && !err; i++)
-		if (pools[i].families >> device_family(tr->dev) & 1)
+	for (size_t i = 0; i < sizeof(pools) / sizeof(pools[0]) && !err; i++) {
+		const int walks = pools[i].families >> device_family(tr->dev) & 1;
+
+		if (!walks)
+			tr->tree_room[pools[i].part] = 0; /* frames without the hook do not keep it up to date */
+		if (walks || (asks_boxes && pools[i].part == BLAS_NODES2))
 			err = upload_pool(tr, pools[i].part, pools[i].buffer);
+	}
 	if (!err)
 		accel_copied(tr->accel);
 	return err;
@@ -196,7 +208,7 @@ static int upload_mesh_trees(struct tracer *tr)
 int upload_trees(struct job *job)
 {
 	struct tracer *tr = job->tr;
-	int err = upload_mesh_trees(tr);
+	int err = upload_mesh_trees(tr, job->options->hook && job->options->hook->asks_boxes);
 
 	return err ? err : traverse_upload_tlases(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances, &tr->trees);
 }

@@ -219,7 +219,13 @@ int hook_load(const char *path, struct hook **out)
 	for (int i = 0; i < N_HOOK_STAGES && !err; i++)
 		h->stages |= (unsigned)defines(bare, hook_stage_names[i]) << i;
 	if (!err && !h->stages)
-		err = err_report(ERR_INPUT, path, "defines none of the functions of a hook: ray_generation, closest_hit, miss");
+		err = err_report(ERR_INPUT, path, "defines none of the functions of a hook: ray_generation, bounds and intersection, any_hit, "
+		                 "closest_hit, miss, light");
+	if (!err && !(h->stages & HOOK_BOUNDS) != !(h->stages & HOOK_INTERSECTION))
+		err = err_report(ERR_INPUT, path, "defines %s without %s: there must be both", hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_BOUNDS :
+		                 HOOK_NUMBER_INTERSECTION], hook_stage_names[h->stages & HOOK_BOUNDS ? HOOK_NUMBER_INTERSECTION : HOOK_NUMBER_BOUNDS]);
+	if (!err)
+		h->asks_boxes = strstr(bare, "relume_box_tests") != NULL;
 	if (!err)
 		err = read_parameters(h, bare);
 	if (!err)

@@ -15,7 +15,9 @@
 #include "scene/scene.h"
 
 /* X(NAME, function): stages that a hook may have; bits of hook.stages. */
-#define HOOK_STAGES(X) X(RAY_GENERATION, ray_generation) X(CLOSEST_HIT, closest_hit) X(MISS, miss)
+#define HOOK_STAGES(X) \
+	X(RAY_GENERATION, ray_generation) X(BOUNDS, bounds) X(INTERSECTION, intersection) X(ANY_HIT, any_hit) X(CLOSEST_HIT, closest_hit) \
+	X(MISS, miss) X(LIGHT, light)
 
 enum {
 #define HOOK_STAGE_NUMBER(name, function) HOOK_NUMBER_##name,
@@ -43,6 +45,7 @@ struct hook {
 	char *text;         /* its own, behind a #line */
 	char *declarations; /* to stand before the kernels: which stages there are, and the struct of parameters */
 	unsigned stages;    /* HOOK_* */
+	int asks_boxes;     /* it calls relume_box_tests */
 	struct hook_parameter parameters[HOOK_MAX_PARAMETERS];
 	unsigned n_parameters, words; /* words: of a row of all parameters */
 };

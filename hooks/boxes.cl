@@ -1,0 +1,12 @@
+/*
+ * A heat map of what rays cost: how many boxes of the binary trees a ray asks on its way to the surface, from blue over green and yellow to red at
+ * `most`. Trees of other builders (--accel) can be looked at beside each other.
+ */
+#pragma relume parameter float most = 200
+
+struct relume_request closest_hit(struct relume_hit hit, struct relume_parameters parameters)
+{
+	const float x = clamp(relume_box_tests(&hit) / parameters.most, 0.0f, 1.0f) * 4.0f;
+
+	return relume_color(clamp((float4)(x - 2.0f, min(x, 4.0f - x), 2.0f - x, 0.0f), 0.0f, 1.0f));
+}
