@@ -196,9 +196,10 @@ $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 
 # Kernels travel as text inside the command.
 KERNELS := $(wildcard kernels/*/*.cl)
-$(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) | $(GENERATED_H)
+HOST_TEXTS := kernels/ref/host_builtins.h kernels/ref/hook_host.h # hooks of the reference device: tracer/hook/host.h
+$(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) $(HOST_TEXTS) | $(GENERATED_H)
 	@mkdir -p $(@D)
-	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS)
+	$(Q)$(PYTHON) kernels/embed.py $@ $(@:.c=.dep) . $(BUILD)/gen -- $(KERNELS) $(HOST_TEXTS)
 -include $(BUILD)/gen/kernels.dep
 
 # The report's page, as one string of C.

@@ -8,6 +8,7 @@
 #include "base/verbs.h"
 #include "render/check/apart.h"
 #include "render/check/check_scene.h"
+#include "tracer/hook/host.h"
 
 #define WIDTH 48u
 #define HEIGHT 36u
@@ -158,6 +159,8 @@ int hook_main(int argc, char **argv)
 
 	if (!err)
 		err = hook_load(line.words[0], &hook);
+	if (!err && device_is_reference(o.device))
+		err = hook_compile_host(hook);
 	if (!err)
 		err = check(&o, &line, hook);
 	hook_free(&hook);

@@ -12,6 +12,7 @@
 #include "film/oidn.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
+#include "tracer/hook/host.h"
 
 /* What an option decides about. A row that says nothing decides about the picture. */
 enum effect {
@@ -325,7 +326,7 @@ static int check_hook(struct settings *s)
 	s->tracer.hook = s->hook;
 	if (!s->hook || mode == TRACER_WHITTED || mode == TRACER_PATH ||
 	    (mode == TRACER_DIFFUSE && !(s->hook->stages & (HOOK_RAY_GENERATION | HOOK_INTERSECTION))))
-		return 0;
+		return s->hook && device_is_reference(s->device) ? hook_compile_host(s->hook) : 0;
 	return err_report(ERR_USAGE, NULL, "--hook: mode %s has no stage for %s", settings_mode_names[mode],
 	                  mode == TRACER_DIFFUSE ? "ray_generation and intersection" : "hooks");
 }

@@ -362,7 +362,7 @@ static int compile(const cl_program program, const char *compiler, const char *t
 	file = fopen(source, "w");
 	if (!file)
 		fail("cannot write ", source);
-	fprintf(file, "#include \"tests/check/host_builtins.h\"\n%s%s", program->text, program->entries);
+	fprintf(file, "#include \"kernels/ref/host_builtins.h\"\n%s%s", program->text, program->entries);
 	fclose(file);
 	snprintf(command, sizeof(command), "s='%s'; %s -o \"$s.so\" \"$s\" && mv \"$s.so\" '%s'", source, compiler, to);
 	unsetenv("LD_PRELOAD");

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# limit: 300 s: a compilation for each hook
 """Hooks that say what rays meet and what light arrives: any_hit, bounds with intersection, light; each against a picture made without it."""
 import pathlib
 import sys
@@ -94,11 +95,20 @@ CHOSEN.write_text(CHOSEN.read_text().replace("chosen", "sphere"))
 ball = picture("ball", None, "--hook", ROOT / "hooks/sphere.cl", "--look", CHOSEN)
 check(differing(ball, traced, most=0.03) < PIXELS / 50, f"a sphere in place of a ball of many faces: {differing(ball, traced, most=0.03)} pixels differ")
 
+# The reference device compiles the same text.
+for name in ("cutout", "distance", "gobo"):
+    rules = ROOT / f"hooks/{name}.look.yaml"
+    options = ("--hook", ROOT / f"hooks/{name}.cl", *(("--look", rules) if rules.exists() else ()))
+    pair = [picture(f"{name}_{device}", None, *options, "--device", device, channels="RGBZ") for device in ("cpu", "reference")]
+    check(differing(*pair, "RGBZ", most=0.004) < PIXELS / 1000, f"{name}: {differing(*pair, 'RGBZ', most=0.004)} pixels differ from the reference device's")
+
 # What is refused.
 for name, functions, words in (("lone", {"bounds": "return object.box;"}, "defines bounds without intersection"),
                                ("other", {"intersection": "return relume_ignore();"}, "defines intersection without bounds")):
     done = relume("hook", "--check", hook(name, functions))
     check(done.returncode == 3 and words in done.stderr, f"{name}: {done.returncode}, {done.stderr}")
+done = relume("hook", "--check", "--device", "reference", hook("member", {"any_hit": "\n\treturn hit.colour;"}))
+check(done.returncode == 3 and "member.cl:4:" in done.stderr, f"the reference device names the line: {done.returncode}, {done.stderr}")
 for example in ("cutout", "gobo", "sphere", "distance", "boxes"):
     done = relume("hook", "--check", ROOT / f"hooks/{example}.cl")
     check(done.returncode == 0 and "it runs" in done.stdout, f"{example}: {done.stdout}{done.stderr}")

@@ -1,6 +1,7 @@
 #include "tracer/device/device.h"
 
 #include <ctype.h>
+#include <dlfcn.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -12,12 +13,14 @@
 
 #include "base/err.h"
 #include "tracer/device/cl.h"
+#include "tracer/hook/hook.h"
 
 #define MAX_THREADS 64
 
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
 	unsigned threads;     /* of the reference device */
+	const struct hook *hook; /* its; or NULL */
 	enum device_family family;
 	atomic_int interrupted;
 	struct device_profile *profile; /* or NULL */
@@ -111,6 +114,11 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 	return err;
 }
 
+int device_is_reference(const char *choice)
+{
+	return choice && strcmp(choice, "reference") == 0;
+}
+
 static void open_reference(struct device *dev, unsigned threads)
 {
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -129,7 +137,7 @@ int device_open(const char *choice, unsigned threads, struct device **out)
 
 	if (!dev)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (choice && strcmp(choice, "reference") == 0)
+	if (device_is_reference(choice))
 		open_reference(dev, threads);
 	else
 		err = open_cl(dev, choice, threads);
@@ -270,9 +278,12 @@ int device_take_hook(struct device *dev, const struct hook *hook)
 {
 	if (!hook)
 		return 0;
-	if (!dev->cl)
-		return err_report(ERR_USAGE, NULL, "the reference device compiles no hooks; choose an OpenCL device");
-	cl_take_hook(dev->cl, hook);
+	if (dev->cl)
+		cl_take_hook(dev->cl, hook);
+	else if (!hook->library)
+		return err_report(ERR_SYSTEM, hook->path, "was not compiled for the reference device");
+	else
+		dev->hook = hook;
 	return 0;
 }
 
@@ -414,8 +425,22 @@ static void *run_share(void *arg)
 	return NULL;
 }
 
+/* A hook's own, where it has one. */
+static kernel_twin *twin_of(const struct device *dev, enum kernel kernel)
+{
+	char name[64];
+	void *own = NULL;
+
+	if (dev->hook) {
+		snprintf(name, sizeof(name), "host_%s", kernel_entries[kernel].name);
+		own = dlsym(dev->hook->library, name);
+	}
+	return own ? (kernel_twin *)own : kernel_entries[kernel].twin;
+}
+
 static int run_reference(struct device *dev, enum kernel kernel, size_t n_items, const struct device_arg *args, size_t n_args)
 {
+	kernel_twin *twin = twin_of(dev, kernel);
 	void *pointers[DEVICE_MAX_ARGS];
 	struct share shares[MAX_THREADS];
 	unsigned n_started = 0;
@@ -423,7 +448,7 @@ static int run_reference(struct device *dev, enum kernel kernel, size_t n_items,
 	for (size_t i = 0; i < n_args; i++)
 		pointers[i] = args[i].buffer ? args[i].buffer->memory : (void *)args[i].value;
 	for (unsigned i = 0; i < dev->threads; i++) {
-		shares[i] = (struct share){ kernel_entries[kernel].twin, pointers, n_items * i / dev->threads,
+		shares[i] = (struct share){ twin, pointers, n_items * i / dev->threads,
 			                    n_items * (i + 1) / dev->threads, 0 };
 		/* The last share, and any that gets no thread, runs here. */
 		if (i + 1 < dev->threads && pthread_create(&shares[n_started].thread, NULL, run_share, &shares[i]) == 0)

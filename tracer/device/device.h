@@ -121,9 +121,12 @@ void device_keep_programs(struct device *dev, const char *folder, int always);
 
 struct hook;
 
+/** 1 where device_open would open the reference device. choice: or NULL */
+int device_is_reference(const char *choice);
+
 /**
  * Take a hook's text into the kernels that call it; before the device's first kernel runs.
- * @param hook  kept until device_close of it and all shared from it; NULL: none
+ * @param hook  kept until device_close of it and all shared from it; the reference device's is compiled (tracer/hook/host.h); NULL: none
  * @return 0 or ERR_USAGE (reported: the reference device compiles none)
  */
 int device_take_hook(struct device *dev, const struct hook *hook);

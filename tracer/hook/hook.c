@@ -1,6 +1,7 @@
 #include "tracer/hook/hook.h"
 
 #include <ctype.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -246,5 +247,7 @@ void hook_free(struct hook **hook)
 		return;
 	free(h->text);
 	free(h->declarations);
+	if (h->library)
+		dlclose(h->library);
 	free(h);
 }

@@ -46,6 +46,7 @@ struct hook {
 	char *declarations; /* to stand before the kernels: which stages there are, and the struct of parameters */
 	unsigned stages;    /* HOOK_* */
 	int asks_boxes;     /* it calls relume_box_tests */
+	void *library;      /* of host.h, for the reference device; or NULL */
 	struct hook_parameter parameters[HOOK_MAX_PARAMETERS];
 	unsigned n_parameters, words; /* words: of a row of all parameters */
 };

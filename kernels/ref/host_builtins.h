@@ -1,9 +1,9 @@
 /*
- * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels use, and how
- * host_cl.c starts kernels. It promises no more than the specification. HOST_OTHERWISE picks another answer wherever the specification leaves one open.
+ * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels and hooks use (hook_host.h), and how
+ * tests/check/host_cl.c starts kernels. It promises no more than the specification. HOST_OTHERWISE picks another answer wherever the specification leaves one open.
  */
-#ifndef TESTS_CHECK_HOST_BUILTINS_H
-#define TESTS_CHECK_HOST_BUILTINS_H
+#ifndef KERNELS_REF_HOST_BUILTINS_H
+#define KERNELS_REF_HOST_BUILTINS_H
 
 typedef unsigned char uchar;
 typedef unsigned short ushort;
@@ -40,6 +40,8 @@ HOST_VECTORS(float)
 
 /* --- One number ---------------------------------------------------------------------------------------------------- */
 
+float logf(float), log2f(float), tanf(float), asinf(float), acosf(float), atanf(float), atan2f(float, float), fmodf(float, float), roundf(float), truncf(float),
+	hypotf(float, float);
 float sqrtf(float), floorf(float), ceilf(float), rintf(float), powf(float, float), expf(float), exp2f(float), cosf(float), sinf(float);
 ulong host_item(void); /* host_cl.c */
 
@@ -337,6 +339,133 @@ HOST_WIDTHS(HOST_TRUTH, int)
 #define as_ushort8(x) __builtin_astype((x), ushort8)
 #define as_short16(x) __builtin_astype((x), short16)
 #define as_ushort16(x) __builtin_astype((x), ushort16)
+
+/* --- For hooks --------------------------------------------------------------------------------------------------------- */
+
+#define HOST_CALL(name, called) \
+	HOST_OVER float name(float x) \
+	{ \
+		return host_off(called(x)); \
+	}
+HOST_CALL(log, logf)
+HOST_CALL(log2, log2f)
+HOST_CALL(tan, tanf)
+HOST_CALL(asin, asinf)
+HOST_CALL(acos, acosf)
+HOST_CALL(atan, atanf)
+HOST_CALL(round, roundf)
+HOST_CALL(trunc, truncf)
+
+HOST_OVER float atan2(float y, float x)
+{
+	return host_off(atan2f(y, x));
+}
+
+HOST_OVER float fmod(float x, float y)
+{
+	return fmodf(x, y);
+}
+
+HOST_OVER float hypot(float x, float y)
+{
+	return host_off(hypotf(x, y));
+}
+
+HOST_OVER float mad(float x, float y, float z)
+{
+	return x * y + z;
+}
+
+HOST_OVER float mix(float x, float y, float share)
+{
+	return x + (y - x) * share;
+}
+
+HOST_OVER float step(float edge, float x)
+{
+	return x < edge ? 0.0f : 1.0f;
+}
+
+HOST_OVER float smoothstep(float from, float to, float x)
+{
+	const float t = clamp((x - from) / (to - from), 0.0f, 1.0f);
+
+	return t * t * (3.0f - 2.0f * t);
+}
+
+HOST_OVER float sign(float x)
+{
+	return x > 0.0f ? 1.0f : x < 0.0f ? -1.0f : x == x ? x : 0.0f;
+}
+
+HOST_OVER float radians(float degrees)
+{
+	return degrees * 0.017453293f;
+}
+
+HOST_OVER float degrees(float radians)
+{
+	return radians * 57.29578f;
+}
+
+HOST_OVER int isinf(float x)
+{
+	return __builtin_isinf(x);
+}
+
+HOST_OVER int isnan(float x)
+{
+	return x != x;
+}
+
+HOST_OVER uint abs(int x)
+{
+	return x < 0 ? 0u - (uint)x : (uint)x;
+}
+
+#define HOST_SPACE(T, n) \
+	HOST_OVER T dot(T##n x, T##n y) \
+	{ \
+		T sum = 0; \
+\
+		for (int i = 0; i < n; i++) \
+			sum += x[i] * y[i]; \
+		return sum; \
+	} \
+	HOST_OVER T length(T##n x) \
+	{ \
+		return sqrt(dot(x, x)); \
+	} \
+	HOST_OVER T distance(T##n x, T##n y) \
+	{ \
+		return length(x - y); \
+	} \
+	HOST_OVER T##n normalize(T##n x) \
+	{ \
+		const T size = length(x); \
+\
+		return size > 0 ? x / size : x; \
+	} \
+	HOST_OVER T##n sin(T##n x) HOST_LANES(T, n, sin(x[i])) \
+	HOST_OVER T##n cos(T##n x) HOST_LANES(T, n, cos(x[i])) \
+	HOST_OVER T##n log(T##n x) HOST_LANES(T, n, log(x[i])) \
+	HOST_OVER T##n sign(T##n x) HOST_LANES(T, n, sign(x[i])) \
+	HOST_OVER T##n fmod(T##n x, T##n y) HOST_LANES(T, n, fmod(x[i], y[i])) \
+	HOST_OVER T##n mad(T##n x, T##n y, T##n z) HOST_LANES(T, n, mad(x[i], y[i], z[i])) \
+	HOST_OVER T##n mix(T##n x, T##n y, T##n share) HOST_LANES(T, n, mix(x[i], y[i], share[i])) \
+	HOST_OVER T##n mix(T##n x, T##n y, T share) HOST_LANES(T, n, mix(x[i], y[i], share)) \
+	HOST_OVER T##n step(T##n edge, T##n x) HOST_LANES(T, n, step(edge[i], x[i])) \
+	HOST_OVER T##n step(T edge, T##n x) HOST_LANES(T, n, step(edge, x[i])) \
+	HOST_OVER T##n smoothstep(T from, T to, T##n x) HOST_LANES(T, n, smoothstep(from, to, x[i])) \
+	HOST_OVER int##n convert_int##n##_rtn(T##n x) HOST_LANES(int, n, (int)floor(x[i])) \
+	HOST_OVER int##n convert_int##n##_rte(T##n x) HOST_LANES(int, n, (int)rint(x[i]))
+HOST_SPACE(float, 2)
+HOST_SPACE(float, 4)
+
+HOST_OVER float4 cross(float4 x, float4 y)
+{
+	return (float4)(x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x, 0.0f);
+}
 
 /* --- Starting kernels ---------------------------------------------------------------------------------------------- */
 
