@@ -26,7 +26,7 @@ def hook(name, functions, parameters=""):
 def picture(name, functions=None, *options, parameters="", channels="RGB"):
     """Rendered with such a hook, in OpenGL's numbers."""
     given = ("--hook", hook(name, functions, parameters)) if functions else ()
-    must(relume("render", TRACE, "-f", 1, "-o", SCRATCH / f"{name}.####.exr", "--encoding", "display", *given, *options))
+    must(relume("render", TRACE, "-f", 1, "-o", SCRATCH / f"{name}.####.exr", "--encoding", "display", *given, *options, timeout=280))
     return exr.Image(SCRATCH / f"{name}.0001.exr", list(channels))
 
 

@@ -25,7 +25,7 @@ def hook(name, text):
 
 def picture(name, *options, wanted=("R", "G", "B")):
     """Rendered; without channels where none are wanted."""
-    must(relume("render", CORNELL, "-f", 1, "-o", SCRATCH / f"{name}.####.exr", *options))
+    must(relume("render", CORNELL, "-f", 1, "-o", SCRATCH / f"{name}.####.exr", *options, timeout=280))
     return exr.Image(SCRATCH / f"{name}.0001.exr", wanted) if wanted else None
 
 
