@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """tests/show/path.py BUILD [--many N] (as `make show-path`): error against time of mode path, beside Blender's Cycles, on five scenes.
 
-Cycles renders the frame that `relume export` writes, with OpenGL's physics: lights as strong at any distance, the clear colour as sky, no
+Cycles renders the frame that `relume export` writes, with OpenGL's physics: lights that weaken as it has them, the clear colour as sky, no
 ambient light, surfaces as Lambert has them but for mirrors, glass and what blends. So both renderers look for the same picture. Bounces (4), the bound on fireflies
 (off) and the pixel's filter (a box) are the same. Each is compared with itself at MANY samples: the mean squared error over the squared
 mean. MANY is 65,536 where somebody has the hours (--many 65536); by default it is what ten minutes allow, and the references' own noise,

@@ -32,6 +32,26 @@ def light_at(place):
     return min(told["lights"], key=lambda l: (mathutils.Vector((l["position_eye"][0], -l["position_eye"][2], l["position_eye"][1])) - place).length)
 
 
+def light_nodes(tree, strong):
+    """What a light sends, as OpenGL weakens its colour by the distance, the product in light's own numbers. Blender's light is white."""
+    def math_node(operation, *inputs):
+        made = tree.nodes.new("ShaderNodeMath")
+        made.operation = operation
+        for socket, value in zip(made.inputs, inputs):
+            if isinstance(value, (int, float)):
+                socket.default_value = value
+            else:
+                tree.links.new(value, socket)
+        return made.outputs[0]
+    constant, linearly, squared = strong["attenuation"]
+    distance, together = tree.nodes.new("ShaderNodeLightPath").outputs["Ray Length"], tree.nodes.new("ShaderNodeCombineRGB")
+    sums = math_node("MULTIPLY_ADD", math_node("MULTIPLY_ADD", distance, squared, linearly), distance, constant)
+    for color, channel in zip(strong["diffuse"], together.inputs):  # sRGB's curve above its foot, where all of these lights are
+        shown = math_node("ADD", math_node("DIVIDE", color / 1.055, sums), 0.055 / 1.055)
+        tree.links.new(math_node("POWER", shown, 2.4), channel)
+    return together.outputs[0]
+
+
 world = bpy.data.worlds.new("cleared")
 world.use_nodes = True
 world.node_tree.nodes["Background"].inputs["Color"].default_value = [*(linear(c) for c in told["clears"][0]["color"][:3]), 1]
@@ -45,7 +65,8 @@ for item in [o for o in bpy.data.objects if o.type == "LIGHT"]:
         falloff = nodes.new("ShaderNodeLightFalloff")
         falloff.inputs["Strength"].default_value = 1
         light.node_tree.links.new(falloff.outputs["Constant"], nodes["Emission"].inputs["Strength"])
-        light.energy = 4 * math.pi ** 2 * linear(max(strong["diffuse"][:3]) / strong["attenuation"][0])  # a white surface that faces it shows the light's colour, however far it is
+        light.node_tree.links.new(light_nodes(light.node_tree, strong), nodes["Emission"].inputs["Color"])
+        light.color, light.energy = (1, 1, 1), 4 * math.pi ** 2  # a white surface that faces it shows the light's colour
         if light.type == "SPOT":
             light.spot_blend = 0
 for material in bpy.data.materials:
