@@ -298,7 +298,7 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path photons reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames mutants replay
@@ -332,6 +332,7 @@ NEEDS_inject = $(HELPERS)
 NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)
+NEEDS_photons := $(BUILD)/tests/truth/test_caustics
 NEEDS_sandbox = $(HELPERS)
 NEEDS_mutants = $(HELPERS) $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds
 NEEDS_soak = $(HELPERS)

@@ -14,7 +14,7 @@
 	X(ray) X(hit) X(path) X(fragment) X(shaded) X(frame_pixel) X(view) X(instance) X(geometry) X(texture_image) \
 	X(scene_material) X(scene_light) X(scene_unit) X(scene_current) X(shaded_vertex) X(window_vertex) \
 	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
-	X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
+	X(photon) X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
 
 /* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
@@ -314,6 +314,13 @@ typedef float element_float;
 #define ARGUMENTS_credit(IN, OUT, VALUE, GROUP, AND) \
 	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* read as well */
+#define ARGUMENTS_photon(IN, OUT, VALUE, GROUP, AND) \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
+	VALUE(uint, depth) AND()            /* mirrors and bends at most */ \
+	VALUE(uint, pass) AND() VALUE(uint, n) AND() \
+	OUT(photon, photons) AND() \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
+	OUT(path, next_paths) AND() OUT(uint, counts)
 
 /* Hooks: kernels/frame/hook.h. */
 #define ARGUMENTS_hook_trees(IN, OUT, VALUE, GROUP, AND) /* binary ones, of an eye space */ \
@@ -401,7 +408,7 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
 	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) X(want_lights) \
-	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
+	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	HOOK_LISTS(X)
 
 /* Those of hooks. Each has a kernel of its name, whose body is KERNEL_ITEMS. */
@@ -503,6 +510,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(leave_ray, leave_ray)         /* one fragment a work item: its ray to a surface that shines */ \
 	X(bounce_ray, bounce_ray)       /* one hit of a path a work item: the same */ \
 	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
+	X(photon, photon)               /* one photon a work item: where it came to, and its way on */ \
 	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
 	X(dome_find, dome_find)         /* one fragment a work item: where it takes light from all around, and its looks around */ \
 	X(dome_find_packet, dome_find)  /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \

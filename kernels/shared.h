@@ -292,6 +292,16 @@ struct path {
 };
 SHARED_SIZE(struct path, 32);
 
+/* Where light that mirrors and glass sent met a surface that takes it (kernels/frame/photon.h). */
+struct photon {
+	float position[3], length;    /* eye space; of its whole way from the light */
+	float direction[3];           /* that it came along, of length 1 */
+	uint32_t number;              /* which of the photons that were sent; SCENE_NONE: none came here */
+	float weight[3];              /* what of its light is left for the surface to scatter */
+	uint32_t material;            /* of the surface */
+};
+SHARED_SIZE(struct photon, 48);
+
 /* Queries: kernels/rays/query.h. A point, and how far from it things count. */
 struct query_point {
 	float p[3], most;

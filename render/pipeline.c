@@ -371,7 +371,7 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 	}
 	watch_begin(w->state->p->watch, w->seat, scene->frame);
 	/* some need the whole planes */
-	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->denoise ? 0 : packer_count(w->state);
+	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
 	err = render_scene(settings, tracer, scene, &picture->img);
 	if (!err)
 		err = tell_time(scene, &picture->img);

@@ -51,24 +51,27 @@ static int take_aov(const struct options_row *row, const char *value, void *out)
 
 	(void)row;
 	free(s->aov);
-	s->cryptomatte = s->motion = 0;
-	s->aov = malloc(strlen(value) + sizeof(",id,P"));
+	s->cryptomatte = s->motion = s->caustics = 0;
+	s->aov = malloc(strlen(value) + sizeof(",id,P,N,P,albedo"));
 	if (!s->aov)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	for (const char *at = value; *at; at += *at == ',') {
 		const size_t length = strcspn(at, ",");
-		const int is_ours = take_word(at, length, "cryptomatte", &s->cryptomatte) || take_word(at, length, "motion", &s->motion);
+		const int is_ours = take_word(at, length, "cryptomatte", &s->cryptomatte) || take_word(at, length, "motion", &s->motion) ||
+		                    take_word(at, length, "caustics", &s->caustics);
 
 		if (!is_ours)
 			n += (size_t)sprintf(s->aov + n, "%s%.*s", groups++ ? "," : "", (int)length, at);
 		at += length;
 	}
 	s->aov[n] = '\0';
-	s->tracer.aov = groups || !(s->cryptomatte || s->motion) ? s->aov : NULL;
+	s->tracer.aov = groups || !(s->cryptomatte || s->motion || s->caustics) ? s->aov : NULL;
 	if (tracer_check_aov(s->aov))
 		return ERR_USAGE;
 	if (groups && (s->cryptomatte || s->motion))
 		strcat(s->aov, s->motion ? ",id,P" : ",id");
+	if (groups && s->caustics)
+		strcat(s->aov, ",N,P,albedo");
 	return 0;
 }
 
@@ -169,7 +172,9 @@ static const struct options_row rows[] = {
 	{ "encoding", 0, "E", "linear (default) or display (GL's own numbers)", options_word, AT(tracer.display), .words = encoding_names },
 	{ "aov", 0, "LIST", "channel groups beside R G B A: gl,shadow,relight,reflect,refract,Z,N,P,albedo,id,layers (default: all; "
 	  "gl is enough for scratch frames); with cryptomatte, which draw, mesh and texture a pixel shows, as compositors read it; with motion, by how many "
-	  "pixels right and down what a pixel shows has moved since the frame before", take_aov, .at = 0 },
+	  "pixels right and down what a pixel shows has moved since the frame before; with caustics, the light that mirrors and glass send to matte "
+	  "surfaces (modes whitted, diffuse and path; no part of R G B)", take_aov, .at = 0 },
+	{ "photons", 0, "N", "how many find --aov caustics (default 1048576)", options_number, AT(photons), .most = 1u << 30 },
 	{ "depth", 0, "N", "bounces at most (default 4)", options_number, AT(tracer.depth), .most = 64 },
 	{ "samples", 0, "N", "samples of a pixel, each spread differently; the pixel is their mean (default 1); gl, Z, N, P, albedo "
 	  "and id stay those of pixel centres", options_number, AT(tracer.samples), .most = MOST_SAMPLES },
@@ -288,6 +293,16 @@ static const char *next_word(const char *list)
 	return list + (*list == ',');
 }
 
+static int check_caustics(struct settings *s)
+{
+	if (!s->caustics)
+		return s->photons ? err_report(ERR_USAGE, NULL, "--photons is for --aov caustics") : 0;
+	if (s->tracer.mode != TRACER_WHITTED && s->tracer.mode != TRACER_DIFFUSE && s->tracer.mode != TRACER_PATH)
+		return err_report(ERR_USAGE, NULL, "--aov caustics: mode %s follows no light", settings_mode_names[s->tracer.mode]);
+	s->tracer.photons = s->photons ? s->photons : 1u << 20;
+	return 0;
+}
+
 /* Whether what is to be denoised is there. */
 static int check_denoised(struct settings *s)
 {
@@ -374,6 +389,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	err = choose_kind(s);
 	if (!err)
 		err = check_hook(s);
+	if (!err)
+		err = check_caustics(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
 	if (!err && s->oidn)

@@ -30,6 +30,8 @@ struct settings {
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */
+	int caustics;                   /* 1: channels that tracer/frame/photons.h adds */
+	unsigned photons;               /* for them; 0: as many as by default */
 	int denoise;                    /* 1: noise is taken out of each frame by itself (settings_denoise) */
 	int oidn;                       /* 1: by Open Image Denoise */
 	const char *preview;            /* file names of pictures of the samples so far; NULL: none */

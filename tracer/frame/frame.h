@@ -29,7 +29,7 @@
 	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) X(uint, scan) \
 	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
 	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
-	X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
+	X(photon, photons) X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) X(ray, next_shadow_rays) \
 	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) X(half, halves) X(float, floats) X(hook_answer, answers)
 
 struct frame_buffers {

@@ -1,5 +1,8 @@
 #include "tracer/frame/secondary.h"
 
+#include <stdlib.h>
+
+#include "base/err.h"
 #include "tracer/frame/emitters.h"
 #include "tracer/frame/hook_objects.h"
 #include "tracer/frame/hooks.h"
@@ -413,4 +416,41 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
 		err = hooks_ways(job, secondary_transport(job->options), n);
 	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
+}
+
+/* --- Photons ------------------------------------------------------------------------------------------------------- */
+
+/* One way of n photons: to what they meet. photons: room for n */
+static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n, struct photon *photons)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	int err;
+
+	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) || (err = frame_reserve(tr, next_counts, n)) ||
+	    (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) || (err = intersect(job, space, HOOK_RAYS_ON, *list->rays, b->path_hits, n)) ||
+	    (err = launch_photon(tr->dev, n, LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
+	                                            .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,
+	                                            .photons = b->photons, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	                                            .counts = b->next_counts))))
+		return err;
+	return device_read(tr->dev, b->photons.buffer, 0, photons, n * sizeof(*photons));
+}
+
+int secondary_photons(struct job *job, const struct accel_space *space, uint32_t pass, uint32_t n,
+                      void (*take)(void *user, const struct photon *photons, uint32_t n), void *user)
+{
+	const struct list list = path_list(job);
+	struct photon *photons = malloc(((size_t)n + 1) * sizeof(*photons));
+	int err = photons ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory for %u photons", n);
+
+	while (n && !err) {
+		err = send(job, &list, space, pass, n, photons);
+		if (err)
+			break;
+		take(user, photons, n);
+		err = gather_list(job, &list, PATHS_PER_HIT, &n);
+	}
+	free(photons);
+	return err;
 }

@@ -30,3 +30,11 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
  * @param see  1: what the first of them hit is what their pixels show (hooks_see)
  */
 int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots, uint32_t n, int see);
+
+/**
+ * Follow n photons, whose rays and paths stand in buffers.path_rays and paths (kernels/frame/photon.h).
+ * @param pass  what chances are drawn by
+ * @param take  gets them after each way: those whose number is SCENE_NONE came nowhere
+ */
+int secondary_photons(struct job *job, const struct accel_space *space, uint32_t pass, uint32_t n,
+                      void (*take)(void *user, const struct photon *photons, uint32_t n), void *user);

@@ -16,6 +16,7 @@
 #include "tracer/frame/hook_rays.h"
 #include "tracer/frame/hooks.h"
 #include "tracer/frame/noise.h"
+#include "tracer/frame/photons.h"
 #include "tracer/frame/picture.h"
 #include "tracer/frame/plain.h"
 #include "tracer/frame/secondary.h"
@@ -411,6 +412,8 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 		err = show_all(&job, img);
 	if (!err)
 		err = ended_count(&job, img);
+	if (!err && known.photons)
+		err = photons_add(&job, img);
 	forget_frame(&job);
 	if (!err && job.n_passes < options->samples)
 		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);

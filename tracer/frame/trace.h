@@ -44,6 +44,7 @@ struct tracer_options {
 	unsigned band_rows; /* rows of pixels that are drawn at a time; 0: as suits the device. The picture does not depend on it */
 	int relight;      /* 1: lit at each pixel (Phong), not between vertices */
 	const struct hook *hook; /* a user's functions at its stages, or NULL; the device has taken it (device_take_hook) */
+	unsigned photons; /* sent for channels caustics.*, whatever aov lists (photons.h); 0: there are none */
 	const char *aov;  /* channel groups to store, with commas ("gl,shadow,N"); NULL: all. R G B A always are */
 };
 

@@ -1,0 +1,462 @@
+#include "tracer/frame/photons.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "kernels/frame/sample.h"
+#include "kernels/gl/light.h"
+#include "tracer/frame/secondary.h"
+
+#define PHOTONS_OF_PASS (1u << 17)
+#define RADIUS_FIRST 0.08f    /* of the smallest thing's that photons are sent to */
+#define RADIUS_SHRINKS 0.667f /* alpha of the paper, sec. 4 */
+#define FLATNESS 0.3f         /* photons off a pixel's plane by more than this of the radius are another surface's */
+
+/* From one light to one instance that mirrors or bends, within a ball about it. */
+struct beam {
+	const struct scene_light *light;
+	uint32_t instance;
+	float centre[3], radius;
+};
+
+/* A photon's share of the light, for what is found of its way: its beam, and steradians or areas that it stands for. */
+struct sent {
+	uint32_t beam;
+	float share;
+};
+
+struct photons {
+	struct job *job;
+	const struct accel_space *space;
+	struct beam *beams;
+	uint32_t n_beams;
+	float far; /* from the viewer, beyond all surfaces */
+	float smallest;
+
+	/* of a pass */
+	struct ray *rays;
+	struct path *paths;
+	struct sent *sent;
+	struct photon *found; /* weight: the light that it brings; number: the next one in its cell of the grid */
+	uint32_t n_found, room;
+	uint32_t *cells; /* [CELLS] the first of each; SCENE_NONE: none */
+	int lacks_memory;
+};
+#define CELLS (1u << 18)
+
+/* --- Beams --------------------------------------------------------------------------------------------------------- */
+
+static void eye_position(const struct instance *instance, const float o[4], float out[3])
+{
+	const float *m = instance->eye_from_obj;
+
+	for (int i = 0; i < 3; i++)
+		out[i] = (m[4 * i] * o[0] + m[4 * i + 1] * o[1] + m[4 * i + 2] * o[2]) / o[3] + m[4 * i + 3];
+}
+
+static float distance2(const float a[3], const float b[3])
+{
+	return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+/* The ball about an instance's vertices whose centre is that of their box. radius: receives 0 where there is none */
+static void ball_about(const struct scene_mesh *mesh, const struct instance *instance, float centre[3], float *radius)
+{
+	float lo[3] = { FLT_MAX, FLT_MAX, FLT_MAX }, hi[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX }, at[3], most = 0;
+
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		eye_position(instance, mesh->position + 4 * (size_t)v, at);
+		for (int i = 0; i < 3; i++) {
+			lo[i] = fminf(lo[i], at[i]);
+			hi[i] = fmaxf(hi[i], at[i]);
+		}
+	}
+	for (int i = 0; i < 3; i++)
+		centre[i] = (lo[i] + hi[i]) / 2;
+	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+		eye_position(instance, mesh->position + 4 * (size_t)v, at);
+		most = fmaxf(most, distance2(at, centre));
+	}
+	*radius = isfinite(most) ? sqrtf(most) : 0;
+}
+
+static int is_same_light(const struct scene_light *a, const struct scene_light *b)
+{
+	return memcmp(a, b, sizeof(*a)) == 0;
+}
+
+/* A light that shines, and none of those before it in the list again. */
+static int is_asked(const struct scene *scene, uint32_t light)
+{
+	const struct scene_light *l = &scene->lights[light];
+
+	for (uint32_t i = 0; i < light; i++)
+		if (is_same_light(l, &scene->lights[i]))
+			return 0;
+	return l->diffuse[0] > 0 || l->diffuse[1] > 0 || l->diffuse[2] > 0;
+}
+
+/* Whether photons are sent to an instance: it mirrors or bends light, in this space. */
+static int is_sent_to(const struct photons *p, const struct instance *instance)
+{
+	const struct scene_surface *s = &p->job->scene->materials[instance->material].surface;
+
+	return instance->flags & INSTANCE_SECONDARY && p->job->prepared.scene_views[instance->view].space == p->space->space &&
+	       (s->reflect > 0 || s->transmit > 0) && !(s->hidden & SCENE_NEAR_MIRROR);
+}
+
+static int add_beams(struct photons *p, uint32_t number, const float centre[3], float radius)
+{
+	const struct scene *scene = p->job->scene;
+
+	for (uint32_t i = 0; i < scene->n_lights; i++) {
+		struct beam *grown;
+
+		if (!is_asked(scene, i))
+			continue;
+		grown = realloc(p->beams, (p->n_beams + 1) * sizeof(*p->beams));
+		if (!grown)
+			return err_report(ERR_SYSTEM, NULL, "out of memory");
+		p->beams = grown;
+		p->beams[p->n_beams++] = (struct beam){ &scene->lights[i], number, { centre[0], centre[1], centre[2] }, radius };
+	}
+	return 0;
+}
+
+static int find_beams(struct photons *p)
+{
+	const struct prepared *prepared = &p->job->prepared;
+	int err = 0;
+
+	p->smallest = FLT_MAX;
+	for (uint32_t i = 0; i < prepared->n_instances && !err; i++) {
+		const struct instance *instance = &prepared->instances[i];
+		const struct scene_mesh *mesh = p->job->scene->meshes[p->job->scene->instances[instance->scene_instance].mesh];
+		float centre[3], radius;
+
+		if (!(instance->flags & INSTANCE_SECONDARY))
+			continue;
+		ball_about(mesh, instance, centre, &radius);
+		p->far = fmaxf(p->far, sqrtf(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]) + radius);
+		if (!is_sent_to(p, instance) || !(radius > 0))
+			continue;
+		p->smallest = fminf(p->smallest, radius);
+		err = add_beams(p, i, centre, radius);
+	}
+	return err;
+}
+
+/* --- Sending ------------------------------------------------------------------------------------------------------- */
+
+/* Two directions across a third. */
+static void across(const float d[3], float u[3], float v[3])
+{
+	const float helper[3] = { fabsf(d[0]) < 0.5f, fabsf(d[0]) >= 0.5f, 0 };
+	float length;
+
+	for (int i = 0; i < 3; i++)
+		u[i] = d[(i + 1) % 3] * helper[(i + 2) % 3] - d[(i + 2) % 3] * helper[(i + 1) % 3];
+	length = sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+	for (int i = 0; i < 3; i++)
+		u[i] /= length;
+	for (int i = 0; i < 3; i++)
+		v[i] = d[(i + 1) % 3] * u[(i + 2) % 3] - d[(i + 2) % 3] * u[(i + 1) % 3];
+}
+
+/* a + x u + y v */
+static void move_across(const float a[3], const float u[3], float x, const float v[3], float y, float out[3])
+{
+	for (int i = 0; i < 3; i++)
+		out[i] = a[i] + x * u[i] + y * v[i];
+}
+
+/* Parallel light: from beyond all surfaces, evenly over the ball's disk. @return the area that all photons of the beam share */
+static float send_parallel(const struct photons *p, const struct beam *b, float s, float t, struct ray *ray)
+{
+	const float *to = b->light->position_eye, length = sqrtf(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+	const float r = b->radius * sqrtf(s), angle = 2 * (float)M_PI * t, back = 2 * p->far + b->radius;
+	float u[3], v[3], from[3];
+
+	for (int i = 0; i < 3; i++) {
+		ray->d[i] = -to[i] / length;
+		from[i] = b->centre[i] - back * ray->d[i];
+	}
+	across(ray->d, u, v);
+	move_across(from, u, r * cosf(angle), v, r * sinf(angle), ray->o);
+	return (float)M_PI * b->radius * b->radius;
+}
+
+/* From a place, or a disk of the light's radius: evenly over the cone about the ball. @return its solid angle, weakened as a spot is */
+static float send_from_place(const struct beam *b, const float at[2][2], struct ray *ray)
+{
+	const float *l = b->light->position_eye, disk = fmaxf(b->light->radius, 0) * sqrtf(at[1][0]), turn = 2 * (float)M_PI * at[1][1];
+	float axis[3], u[3], v[3], distance, cosine, least, angle = 2 * (float)M_PI * at[0][1], sine;
+
+	for (int i = 0; i < 3; i++) {
+		ray->o[i] = l[i] / l[3];
+		axis[i] = b->centre[i] - ray->o[i];
+	}
+	distance = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+	for (int i = 0; i < 3; i++)
+		axis[i] /= fmaxf(distance, FLT_MIN);
+	across(axis, u, v);
+	move_across(ray->o, u, disk * cosf(turn), v, disk * sinf(turn), ray->o);
+	distance = sqrtf(distance2(ray->o, b->centre));
+	for (int i = 0; i < 3; i++)
+		axis[i] = (b->centre[i] - ray->o[i]) / fmaxf(distance, FLT_MIN);
+	across(axis, u, v);
+	least = b->radius < distance ? sqrtf(1 - b->radius * b->radius / (distance * distance)) : -1; /* within it: all around */
+	cosine = 1 - at[0][0] * (1 - least);
+	sine = sqrtf(fmaxf(1 - cosine * cosine, 0));
+	for (int i = 0; i < 3; i++)
+		ray->d[i] = cosine * axis[i];
+	move_across(ray->d, u, sine * cosf(angle), v, sine * sinf(angle), ray->d);
+	return 2 * (float)M_PI * (1 - least) * light_spot(b->light, v3(-ray->d[0], -ray->d[1], -ray->d[2]));
+}
+
+/* The photons of a pass, as many for each beam. */
+static uint32_t make_photons(struct photons *p, uint32_t pass)
+{
+	const uint32_t each = PHOTONS_OF_PASS / p->n_beams ? PHOTONS_OF_PASS / p->n_beams : 1;
+	uint32_t n = 0;
+
+	for (uint32_t b = 0; b < p->n_beams && n < PHOTONS_OF_PASS; b++)
+		for (uint32_t i = 0; i < each; i++, n++) {
+			const struct beam *beam = &p->beams[b];
+			struct ray *ray = &p->rays[n];
+			float at[2][2];
+
+			sample_sobol(sample_hash(2 * b), pass * each + i, &at[0][0], &at[0][1]);
+			sample_sobol(sample_hash(2 * b + 1), pass * each + i, &at[1][0], &at[1][1]);
+			*ray = (struct ray){ .t_max = 1e30f };
+			p->sent[n].beam = b;
+			p->sent[n].share = (beam->light->position_eye[3] != 0 ? send_from_place(beam, (const float (*)[2])at, ray) :
+			                                                         send_parallel(p, beam, at[0][0], at[0][1], ray)) / (float)each;
+			p->paths[n] = (struct path){ .weight = { 1, 1, 1 }, .target = n, .kind = beam->instance, .medium = SCENE_NONE };
+		}
+	return n;
+}
+
+/* --- Finding ------------------------------------------------------------------------------------------------------- */
+
+static int is_lit_by(const struct scene *scene, const struct scene_material *m, const struct scene_light *light)
+{
+	for (uint32_t i = 0; i < m->light_count; i++)
+		if (is_same_light(&scene->lights[m->light_first + i], light))
+			return 1;
+	return 0;
+}
+
+/* The light that a photon brings a white surface, all of it in one point. */
+static void brightness(const struct photons *p, const struct photon *photon, float out[3])
+{
+	const struct sent *sent = &p->sent[photon->number];
+	const struct scene_light *l = p->beams[sent->beam].light;
+	const float d = photon->length, is_placed = l->position_eye[3] != 0;
+	const float weakened = is_placed ? 1 / (l->attenuation[0] + d * (l->attenuation[1] + d * l->attenuation[2])) : 1;
+
+	for (int c = 0; c < 3; c++) {
+		const float shown = l->diffuse[c] * weakened, light = p->job->options->display ? shown : image_linear_from_display(shown);
+
+		out[c] = photon->weight[c] * light * sent->share * (is_placed ? d * d : 1);
+	}
+}
+
+static void take(void *user, const struct photon *photons, uint32_t n)
+{
+	struct photons *p = user;
+	const struct scene *scene = p->job->scene;
+
+	for (uint32_t i = 0; i < n && !p->lacks_memory; i++) {
+		struct photon *found;
+
+		if (photons[i].number == SCENE_NONE ||
+		    !is_lit_by(scene, &scene->materials[photons[i].material], p->beams[p->sent[photons[i].number].beam].light))
+			continue;
+		if (p->n_found == p->room) {
+			found = realloc(p->found, 2 * ((size_t)p->room + 1024) * sizeof(*found));
+			p->lacks_memory = !found;
+			if (!found)
+				break;
+			p->found = found;
+			p->room = 2 * (p->room + 1024);
+		}
+		found = &p->found[p->n_found++];
+		*found = photons[i];
+		brightness(p, &photons[i], found->weight);
+	}
+}
+
+static uint32_t cell_of(int32_t x, int32_t y, int32_t z)
+{
+	return sample_hash((uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ (uint32_t)z * 83492791u) % CELLS;
+}
+
+static int32_t cell_along(float x, float size)
+{
+	return (int32_t)fmaxf(fminf(floorf(x / size), 1e9f), -1e9f);
+}
+
+/* Lists of the photons in each cell, of twice the radius. */
+static void sort_into_cells(struct photons *p, float radius)
+{
+	memset(p->cells, 0xff, CELLS * sizeof(*p->cells));
+	for (uint32_t i = 0; i < p->n_found; i++) {
+		const float *at = p->found[i].position;
+		uint32_t *first = &p->cells[cell_of(cell_along(at[0], 2 * radius), cell_along(at[1], 2 * radius), cell_along(at[2], 2 * radius))];
+
+		p->found[i].number = *first;
+		*first = i;
+	}
+}
+
+/* The cells about a point within a radius: two along each axis. A cell that is one of several, by its hash, is named once. */
+static uint32_t cells_about(const float at[3], float radius, uint32_t out[8])
+{
+	int32_t base[3];
+	uint32_t n = 0;
+
+	for (int i = 0; i < 3; i++)
+		base[i] = cell_along(at[i] - radius, 2 * radius);
+	for (int k = 0; k < 8; k++) {
+		const uint32_t cell = cell_of(base[0] + (k & 1), base[1] + (k >> 1 & 1), base[2] + (k >> 2));
+		int is_new = 1;
+
+		for (uint32_t i = 0; i < n; i++)
+			is_new &= out[i] != cell;
+		if (is_new)
+			out[n++] = cell;
+	}
+	return n;
+}
+
+/* A photon's light, where it came to a point's surface within the radius. */
+static void gather_photon(const struct photon *photon, const float at[3], const float normal[3], float radius, float sum[3])
+{
+	float square = 0, height = 0, cosine = 0;
+
+	for (int i = 0; i < 3; i++) {
+		const float off = photon->position[i] - at[i];
+
+		square += off * off;
+		height += off * normal[i];
+		cosine -= photon->direction[i] * normal[i];
+	}
+	if (square > radius * radius || fabsf(height) > FLATNESS * radius || cosine <= 0)
+		return;
+	for (int i = 0; i < 3; i++)
+		sum[i] += photon->weight[i];
+}
+
+static void gather(const struct photons *p, const float *const planes[9], float radius, float share, float *const out[3])
+{
+	const float scale = share / ((float)M_PI * radius * radius);
+
+	for (size_t i = 0; i < (size_t)p->job->width * p->job->height; i++) {
+		const float normal[3] = { planes[0][i], planes[1][i], planes[2][i] }, at[3] = { planes[3][i], planes[4][i], planes[5][i] };
+		uint32_t cells[8], n;
+		float sum[3] = { 0, 0, 0 };
+
+		if (!(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] > 0.25f))
+			continue;
+		n = cells_about(at, radius, cells);
+		for (uint32_t k = 0; k < n; k++)
+			for (uint32_t photon = p->cells[cells[k]]; photon != SCENE_NONE; photon = p->found[photon].number)
+				gather_photon(&p->found[photon], at, normal, radius, sum);
+		for (int c = 0; c < 3; c++)
+			out[c][i] += sum[c] * scale * planes[6 + c][i];
+	}
+}
+
+/* --- A frame ------------------------------------------------------------------------------------------------------- */
+
+/* The space of surfaces that most instances are in; NULL: there is none. */
+static const struct accel_space *main_space(const struct job *job)
+{
+	const struct accel_space *best = NULL;
+	uint32_t most = 0;
+
+	for (uint32_t s = 0; s < job->n_spaces; s++) {
+		uint32_t n = 0;
+
+		for (uint32_t i = 0; i < job->prepared.n_instances; i++)
+			n += job->prepared.instances[i].flags & INSTANCE_SECONDARY &&
+			     job->prepared.scene_views[job->prepared.instances[i].view].space == job->spaces[s].space;
+		if (n > most && !job->spaces[s].sky && job->spaces[s].n_nodes) {
+			most = n;
+			best = &job->spaces[s];
+		}
+	}
+	return best;
+}
+
+static int run_pass(struct photons *p, uint32_t pass)
+{
+	struct tracer *tr = p->job->tr;
+	const uint32_t n = make_photons(p, pass);
+	int err = frame_upload(tr, path_rays, p->rays, n);
+
+	p->n_found = 0;
+	if (!err)
+		err = frame_upload(tr, paths, p->paths, n);
+	if (!err)
+		err = secondary_photons(p->job, p->space, pass, n, take, p);
+	return err || !p->lacks_memory ? err : err_report(ERR_SYSTEM, NULL, "out of memory");
+}
+
+static int run(struct photons *p, const float *const planes[9], float *const out[3])
+{
+	const uint32_t passes = (p->job->options->photons + PHOTONS_OF_PASS - 1) / PHOTONS_OF_PASS;
+	float radius = RADIUS_FIRST * p->smallest * sqrtf((float)(p->n_beams < 16 ? p->n_beams : 16));
+	int err = 0;
+
+	p->rays = malloc(PHOTONS_OF_PASS * sizeof(*p->rays));
+	p->paths = malloc(PHOTONS_OF_PASS * sizeof(*p->paths));
+	p->sent = malloc(PHOTONS_OF_PASS * sizeof(*p->sent));
+	p->cells = malloc(CELLS * sizeof(*p->cells));
+	if (!p->rays || !p->paths || !p->sent || !p->cells)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t pass = 0; pass < passes && !err; pass++) {
+		err = run_pass(p, pass);
+		if (err)
+			break;
+		sort_into_cells(p, radius);
+		gather(p, planes, radius, 1 / (float)passes, out);
+		radius *= sqrtf(((float)pass + 1 + RADIUS_SHRINKS) / ((float)pass + 2));
+	}
+	free(p->rays);
+	free(p->paths);
+	free(p->sent);
+	free(p->cells);
+	free(p->found);
+	return err;
+}
+
+int photons_add(struct job *job, struct image *img)
+{
+	static const char *const needed[9] = { "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B" };
+	static const char *const added[3] = { "caustics.R", "caustics.G", "caustics.B" };
+	struct photons p = { .job = job, .space = main_space(job) };
+	const float *planes[9];
+	float *out[3];
+	int err = 0;
+
+	for (int c = 0; c < 3; c++) {
+		out[c] = image_add_channel(img, added[c], 0);
+		if (!out[c])
+			return ERR_SYSTEM;
+	}
+	for (int i = 0; i < 9; i++) {
+		planes[i] = image_channel(img, needed[i]);
+		if (!planes[i])
+			return ERR_SYSTEM;
+	}
+	err = p.space ? find_beams(&p) : 0;
+	if (!err && p.n_beams)
+		err = run(&p, planes, out);
+	free(p.beams);
+	return err;
+}
