@@ -166,6 +166,10 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	const char *name = w->tree->names + s->name;
 	const uint32_t place = place_of(w, name);
 
+	if (place != GLSL_NONE && glsl_type_of(w, s->type)->numbers > (strcmp(name, "gl_TexCoord") == 0 ? 4 * SCENE_MAX_UNITS : 4)) {
+		glsl_fail(w, "a shader has more texture coordinates than there are");
+		return (struct glsl_value){ 0 };
+	}
 	if (place != GLSL_NONE)
 		return glsl_row(w, s->type, place);
 	if (strcmp(name, "gl_ClipVertex") == 0) /* planes clip by the position in eye space that the clip position stands for */

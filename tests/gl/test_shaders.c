@@ -129,6 +129,7 @@ START_TEST(test_reasons)
 		{ "uniform float a[60000]; void main() { float b[600]; b[int(a[3])] = a[2]; gl_FragColor = vec4(b[1]); }", "at once" },
 		{ "uniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "compile" },
 		{ "#version 130\nuniform int k; void main() { int i = k; gl_FragColor = vec4(float(i << 2)); }", "not done" },
+		{ "void main() { gl_FragColor = gl_TexCoord[9]; }", "texture coordinates" },
 		{ "uniform sampler2D t[2]; uniform int k; void main() { gl_FragColor = texture2D(t[k], gl_TexCoord[0].xy); }", "sampler" },
 	};
 	struct gl gl = gl_open();
