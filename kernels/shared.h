@@ -142,7 +142,6 @@ SHARED_SIZE(struct face8, 128);
 #define INSTANCE_SCREEN 32u      /* geometry in window space (lines, points, pixel rectangles): the BLAS bounds x y in
                                     pixels, camera rays meet it as points; never secondary */
 #define INSTANCE_SKY 128u        /* drawn before all depth, around the viewer: seen by secondary rays that hit nothing */
-#define INSTANCE_PROCEDURAL 256u /* a hook's intersection stands for it: rays do not meet its triangles */
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
 
 /* One instance as the kernels see it. */

@@ -69,6 +69,7 @@ struct job {
 		uint32_t first, n;
 		float emitted; /* as in kernels.h */
 	} *emissions; /* [n_spaces] in mode path, else NULL */
+	const struct segment *hooked; /* the first of the eye space that rays of hooks are in; NULL: none is */
 	struct job_objects { /* what a hook's intersection stands for: hook_objects.h */
 		struct hook_object *list;
 		uint32_t n, space;     /* the eye space that they are in */

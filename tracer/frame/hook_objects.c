@@ -68,7 +68,6 @@ static void keep_bounded(struct job *job)
 		if (!is_there)
 			continue;
 		job->prepared.instances[object.instance].flags &= ~INSTANCE_SECONDARY;
-		job->prepared.instances[object.instance].flags |= INSTANCE_PROCEDURAL;
 		o->list[o->n++] = object;
 	}
 }
@@ -118,7 +117,7 @@ static int upload_currents(struct job *job)
 
 int hook_objects_find(struct job *job)
 {
-	const struct segment *segment = hooks_has(job, HOOK_INTERSECTION) ? hooks_main_segment(job) : NULL;
+	const struct segment *segment = hooks_has(job, HOOK_INTERSECTION) ? job->hooked : NULL;
 	struct job_objects *o = &job->objects;
 	int err;
 

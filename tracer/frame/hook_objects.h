@@ -1,6 +1,6 @@
 /*
  * What a user's functions `bounds` and `intersection` stand for: instances whose triangles no ray meets, and whose shape the hook says
- * instead (kernels/frame/hook.h). They lie in the eye space of hooks_main_segment; all its pixels are traced (hook_rays.h).
+ * instead (kernels/frame/hook.h). They lie in the eye space of job.hooked; all its pixels are traced (hook_rays.h).
  *
  * Shading knows triangles alone. So a small triangle stands for each place that a ray hit, with the normal that the hook told: three
  * vertices behind the frame's own, in a slot of the ray. Rays of different kinds have slots apart.

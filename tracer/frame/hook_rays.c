@@ -7,7 +7,7 @@
 
 int hook_rays_stand_in(const struct job *job, const struct segment *segment)
 {
-	const struct segment *best = hooks_has(job, HOOK_RAY_GENERATION) || job->objects.n ? hooks_main_segment(job) : NULL;
+	const struct segment *best = hooks_has(job, HOOK_RAY_GENERATION) || job->objects.n ? job->hooked : NULL;
 
 	return best && secondary_space(job, best->view, 0) && segment->view != SCENE_NONE &&
 	       job->prepared.scene_views[best->view].space == job->prepared.scene_views[segment->view].space;
@@ -55,5 +55,5 @@ int hook_rays_run(struct job *job, const struct segment *segment, uint32_t n_cle
 	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	int err = segment_clear(job, segment, n_cleared);
 
-	return err || r.x1 == r.x0 || segment != hooks_main_segment(job) ? err : trace(job, segment, r);
+	return err || r.x1 == r.x0 || segment != job->hooked ? err : trace(job, segment, r);
 }

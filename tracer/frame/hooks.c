@@ -9,6 +9,11 @@ int hooks_has(const struct job *job, unsigned stages)
 	return job->options->hook && job->options->hook->stages & stages;
 }
 
+uint32_t hooks_row(const struct job *job)
+{
+	return job->scene->n_materials * job->options->hook->words;
+}
+
 /* Instances of segments of an eye space; 0: secondary rays meet none of them. */
 static uint32_t instances_in(const struct job *job, uint32_t space)
 {
@@ -19,12 +24,13 @@ static uint32_t instances_in(const struct job *job, uint32_t space)
 		const int is_in = p->scene_views[p->instances[i].view].space == space;
 
 		n += is_in;
-		met |= is_in && p->instances[i].flags & (INSTANCE_SECONDARY | INSTANCE_PROCEDURAL);
+		met |= is_in && p->instances[i].flags & INSTANCE_SECONDARY;
 	}
 	return met ? n : 0;
 }
 
-const struct segment *hooks_main_segment(const struct job *job)
+/* The first segment of the eye space of most instances; NULL: rays hit nothing in any. */
+static const struct segment *main_segment(const struct job *job)
 {
 	const struct segment *best = NULL;
 	uint32_t most = 0;
@@ -41,11 +47,6 @@ const struct segment *hooks_main_segment(const struct job *job)
 	return best;
 }
 
-uint32_t hooks_row(const struct job *job)
-{
-	return job->scene->n_materials * job->options->hook->words;
-}
-
 int hooks_place(struct job *job)
 {
 	const struct hook *hook = job->options->hook;
@@ -53,6 +54,7 @@ int hooks_place(struct job *job)
 	float *rows;
 	int err;
 
+	job->hooked = hooks_has(job, HOOK_RAY_GENERATION | HOOK_INTERSECTION) ? main_segment(job) : NULL;
 	if (!hook)
 		return 0;
 	if ((err = hook_check_parameters(hook, scene->parameters, scene->n_parameters)))

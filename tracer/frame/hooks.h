@@ -6,7 +6,7 @@
 /** 1 where the frame's hook has one of these stages. stages: HOOK_* */
 int hooks_has(const struct job *job, unsigned stages);
 
-/** Bring its parameters to the device: a row for each material, and one for rays that meet none. */
+/** Bring its parameters to the device: a row for each material, and one for rays that meet none. Finds job.hooked. */
 int hooks_place(struct job *job);
 
 /** Where the row of parameters starts that rays have which meet no material. */
@@ -27,9 +27,6 @@ int hooks_walk(struct job *job, uint32_t transport, uint32_t n);
 /** Light: of all n fragments, and of n hits of paths, to buffers.visibility: after their lights were asked. */
 int hooks_light(struct job *job, uint32_t transport, uint32_t n);
 int hooks_light_hits(struct job *job, uint32_t transport, uint32_t n);
-
-/** The first segment of the eye space that rays of hooks are in: that of most instances; NULL: rays hit nothing in any. */
-const struct segment *hooks_main_segment(const struct job *job);
 
 /** What n rays of hook_rays.h hit becomes their pixels' surface. */
 int hooks_see(struct job *job, uint32_t n);
