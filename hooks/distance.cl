@@ -1,28 +1,26 @@
 /*
- * A shape told by its distance alone, in place of what rules say `shape: 1` about (hooks/distance.look.yaml): a rounded frame of a box with a
+ * A shape told by its distance alone, in place of what rules say `shape: 1` about (hooks/distance.look.yaml): the frame of a box with a
  * ball that melts into it, fitted into the box of the mesh that was drawn. The ray steps as far as the distance says that nothing is
  * (J. C. Hart, "Sphere tracing", The Visual Computer 12, 1996).
  */
 #pragma relume parameter int shape = 0
 #pragma relume parameter float thickness = 0.12
-#pragma relume parameter float ball = 0.5
+#pragma relume parameter float ball = 0.85
 #pragma relume parameter float melt = 0.2
 
-/* I. Quilez' distance to the edges of a box of half size b, e thick. */
-static float frame_at(float4 p, float b, float e)
+/* A cube without what three square bars through it would take: at most as far as it is. */
+static float frame_at(float4 p, float half_size, float thickness)
 {
-	const float4 q = fabs(p) - b, r = fabs(q + e) - e;
-	const float x = length(max((float4)(q.x, r.y, r.z, 0.0f), 0.0f)) + min(max(q.x, max(r.y, r.z)), 0.0f);
-	const float y = length(max((float4)(r.x, q.y, r.z, 0.0f), 0.0f)) + min(max(r.x, max(q.y, r.z)), 0.0f);
-	const float z = length(max((float4)(r.x, r.y, q.z, 0.0f), 0.0f)) + min(max(r.x, max(r.y, q.z)), 0.0f);
+	const float4 q = fabs(p) - half_size;
+	const float cube = max(q.x, max(q.y, q.z)), bars = min(max(q.x, q.y), min(max(q.y, q.z), max(q.z, q.x)));
 
-	return min(x, min(y, z));
+	return max(cube, -bars - thickness);
 }
 
 /* In a cube from -1 to 1. */
 static float distance_at(float4 p, struct relume_parameters parameters)
 {
-	const float frame = frame_at(p, 0.95f - parameters.thickness, parameters.thickness) - 0.04f, ball = length(p) - parameters.ball;
+	const float frame = frame_at(p, 0.95f, 2.0f * parameters.thickness), ball = length(p) - parameters.ball;
 	const float h = clamp(0.5f + 0.5f * (ball - frame) / parameters.melt, 0.0f, 1.0f);
 
 	return mix(ball, frame, h) - parameters.melt * h * (1.0f - h);
