@@ -172,7 +172,7 @@ struct glsl_value glsl_builtin(struct glsl_writer *w, const struct glsl_symbol *
 	}
 	if (place != GLSL_NONE)
 		return glsl_row(w, s->type, place);
-	if (strcmp(name, "gl_ClipVertex") == 0) /* planes clip by the position in eye space that the clip position stands for */
+	if (strcmp(name, "gl_ClipVertex") == 0) /* not done (program_code.clips): planes clip by the position */
 		return glsl_fresh(w, s->type);
 	if (strcmp(name, "gl_FragData") == 0)
 		return data(w, s);

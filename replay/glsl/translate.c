@@ -80,37 +80,37 @@ static void place_all(struct glsl_writer *w)
 
 /* --- Stages ------------------------------------------------------------------------------------------------------------- */
 
-/* 1 where a node is what fixed function makes of a vertex. */
-static int is_fixed_position(const struct glsl_tree *tree, const struct glsl_node *n)
+/* 1 where a node is what fixed function makes of a vertex by a matrix of this name. */
+static int is_fixed_place(const struct glsl_tree *tree, const struct glsl_node *n, const char *matrix)
 {
 	const struct glsl_node *m, *v;
 
 	if (n->operation == GLSL_FTRANSFORM)
-		return 1;
+		return strcmp(matrix, "gl_ModelViewProjectionMatrix") == 0;
 	if (n->operation != GLSL_MATRIX_TIMES_VECTOR)
 		return 0;
 	m = &tree->nodes[tree->children[n->first]];
 	v = &tree->nodes[tree->children[n->first + 1]];
-	return m->operation == GLSL_SYMBOL && v->operation == GLSL_SYMBOL && strcmp(name_of(tree, m->value), "gl_ModelViewProjectionMatrix") == 0 &&
+	return m->operation == GLSL_SYMBOL && v->operation == GLSL_SYMBOL && strcmp(name_of(tree, m->value), matrix) == 0 &&
 	       strcmp(name_of(tree, v->value), "gl_Vertex") == 0;
 }
 
-/* 1 where all that happens to gl_Position is that main sets it so, whatever else there is. */
-static int keeps_position(const struct glsl_tree *tree)
+/* 1 where all that happens to a result is that main sets it so, whatever else there is. */
+static int keeps_place(const struct glsl_tree *tree, const char *result, const char *matrix)
 {
 	const struct glsl_node *body = &tree->nodes[tree->functions[tree->main].body];
 	uint32_t names = 0, kept = 0;
 
 	for (uint32_t i = 0; i < tree->n_nodes; i++)
-		names += tree->nodes[i].operation == GLSL_SYMBOL && strcmp(name_of(tree, tree->nodes[i].value), "gl_Position") == 0;
+		names += tree->nodes[i].operation == GLSL_SYMBOL && strcmp(name_of(tree, tree->nodes[i].value), result) == 0;
 	for (uint32_t i = 0; body->operation == GLSL_SEQUENCE && i < body->count; i++) {
 		const struct glsl_node *n = &tree->nodes[tree->children[body->first + i]];
 
 		if (n->operation == GLSL_RETURN || n->operation == GLSL_SELECTION || n->operation == GLSL_LOOP)
 			break; /* which may leave main */
 		kept += n->operation == GLSL_ASSIGN && n->value == GLSL_ASSIGN && tree->nodes[tree->children[n->first]].operation == GLSL_SYMBOL &&
-		        strcmp(name_of(tree, tree->nodes[tree->children[n->first]].value), "gl_Position") == 0 &&
-		        is_fixed_position(tree, &tree->nodes[tree->children[n->first + 1]]);
+		        strcmp(name_of(tree, tree->nodes[tree->children[n->first]].value), result) == 0 &&
+		        is_fixed_place(tree, &tree->nodes[tree->children[n->first + 1]], matrix);
 	}
 	return names == 1 && kept == 1;
 }
@@ -168,8 +168,10 @@ static void finish(struct glsl_writer *w)
 	name_lights(w);
 	if (is_vertex) {
 		code->outputs = (1u << N_SCENE_VERTEX_OUTPUTS) - 1;
-		if (keeps_position(w->tree))
+		if (keeps_place(w->tree, "gl_Position", "gl_ModelViewProjectionMatrix"))
 			code->outputs &= ~(1u << SCENE_RESULT_POSITION);
+		code->clips = is_written(w, "gl_ClipVertex") && (code->outputs >> SCENE_RESULT_POSITION & 1 ||
+		                                                 !keeps_place(w->tree, "gl_ClipVertex", "gl_ModelViewMatrix"));
 		if (!is_written(w, "gl_PointSize"))
 			code->outputs &= ~(1u << SCENE_RESULT_POINT_SIZE);
 	} else {

@@ -80,17 +80,22 @@ static const char *lack_of_shaders(const struct gls_state *st)
 	                                                                                        NULL;
 }
 
+/* What stands in the way of the programs in assembly that are current. */
+static const char *lack_of_assembly(const struct gls_state *st)
+{
+	const char *lack = st->a.programs.vertex ? lack_of(st, GL_VERTEX_PROGRAM_ARB) : NULL;
+
+	return !lack && st->a.programs.fragment ? lack_of(st, GL_FRAGMENT_PROGRAM_ARB) : lack;
+}
+
 const char *gls_program_lack(const struct gls_state *st)
 {
-	const char *lack = NULL;
+	const char *lack = st->program ? lack_of_shaders(st) : lack_of_assembly(st);
 
-	if (st->program)
-		return lack_of_shaders(st);
-	if (!lack && st->a.programs.vertex)
-		lack = lack_of(st, GL_VERTEX_PROGRAM_ARB);
-	if (!lack && st->a.programs.fragment)
-		lack = lack_of(st, GL_FRAGMENT_PROGRAM_ARB);
-	return lack;
+	if (lack || !st->program)
+		return lack;
+	return st->a.transform.clip_plane_mask && linked(st)->code[GLS_VERTEX_STAGE].clips ? "a shader sets gl_ClipVertex, by which clip planes do not clip" :
+	                                                                                    NULL;
 }
 
 unsigned gls_program_current(const struct gls_state *st, uint64_t keys[SCENE_DRAW_PROGRAMS])
@@ -135,12 +140,12 @@ int gls_program_runs_vertices(const struct gls_state *st, struct program_stage *
 {
 	if (st->program)
 		return runs_shaders(st, GLS_VERTEX_STAGE, stage);
-	return st->a.programs.vertex && !gls_program_lack(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
+	return st->a.programs.vertex && !lack_of_assembly(st) && runs(st, GL_VERTEX_PROGRAM_ARB, stage);
 }
 
 int gls_program_runs_fragments(const struct gls_state *st, struct program_stage *stage)
 {
 	if (st->program)
 		return runs_shaders(st, GLS_FRAGMENT_STAGE, stage);
-	return st->a.programs.fragment && !gls_program_lack(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
+	return st->a.programs.fragment && !lack_of_assembly(st) && runs(st, GL_FRAGMENT_PROGRAM_ARB, stage);
 }

@@ -36,8 +36,8 @@ static inline uint64_t gls_program_key(uint32_t target, uint32_t name)
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target);
 
 /**
- * What stands in the way of drawing with the programs that are current: a static string; NULL: nothing.
- * Draws are then rendered as fixed function.
+ * What is missing of draws with the programs that are current: a static string; NULL: nothing.
+ * Where a program cannot run, they are rendered as fixed function.
  */
 const char *gls_program_lack(const struct gls_state *st);
 

@@ -149,6 +149,44 @@ START_TEST(test_reasons)
 }
 END_TEST
 
+/* A place to clip by that is not fixed function's counts as missing while planes are enabled; its shader runs all the same. */
+START_TEST(test_clip_vertex)
+{
+	static const struct { const char *text; uint32_t missing; } texts[] = {
+		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; }", 0 },
+		{ "void main() { gl_Position = ftransform(); }", 0 },
+		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_Vertex; }", 1 },
+		{ "void main() { gl_Position = ftransform(); gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; gl_ClipVertex.x += 1.0; }", 1 },
+		{ "void main() { gl_Position = gl_Vertex; gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex; }", 1 },
+	};
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < sizeof(texts) / sizeof(texts[0]); i++) {
+		const uint64_t before = gl.x->counts.programs;
+
+		make_shader(&gl, 100 + i, GL_VERTEX_SHADER, texts[i].text);
+		gl_answered(&gl, 1 + i, "glCreateProgram", "");
+		gl_call(&gl, "glAttachShader", "uu", 1 + i, 100 + i);
+		gl_call(&gl, "glLinkProgram", "u", 1 + i);
+		gl_call(&gl, "glUseProgram", "u", 1 + i);
+		ck_assert_ptr_null(object(&gl, 1 + i)->stages.why);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+		ck_assert_uint_eq(gl.x->counts.programs, before);
+		gl_call(&gl, "glEnable", "e", GL_CLIP_PLANE0);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+		gl_call(&gl, "glDisable", "e", GL_CLIP_PLANE0);
+		ck_assert_uint_eq(gl.x->counts.programs - before, texts[i].missing);
+	}
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2 * sizeof(texts) / sizeof(texts[0]));
+	for (uint32_t i = 0; i < s->n_instances; i++)
+		ck_assert(s->materials[s->instances[i].material].vertex_program);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A program that was never linked is not used. */
 START_TEST(test_unlinked)
 {
@@ -220,4 +258,4 @@ START_TEST(test_results_in_blocks)
 }
 END_TEST
 
-GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_unlinked, test_attributes, test_results_in_blocks)
+GL_TESTS("shaders", test_objects, test_uniforms, test_scene, test_reasons, test_clip_vertex, test_unlinked, test_attributes, test_results_in_blocks)
