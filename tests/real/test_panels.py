@@ -5,7 +5,7 @@ The modes, functions, operands and terms of the specification's chapters, a pane
 Not among them: the colour maps of glDrawPixels (those of glTexImage2D are), and zooms of glCopyPixels that put a pixel's centre on an edge
 between two.
 """
-from helpers import check_alone, check_same_pictures, finish
+from helpers import AS_SHOWN, SCRATCH, check, check_alone, check_same_pictures, diff, finish, render
 
 PROGRAMS = {
     "light": ("attenuation", "spots", "terms", "shininess", "sides", "normals", "many lights", "flat shading"),
@@ -19,8 +19,20 @@ PROGRAMS = {
     "shader": ("functions", "statements", "state", "textures", "vertices", "scenes", "several buffers"),
 }
 
+
+def check_kernels(trace, number):
+    """A frame is as Mesa draws it whichever kernels trace it."""
+    for kernels in (("--device", "reference"), ("--kernels", "binary")):
+        folder = SCRATCH / kernels[1]
+        render(trace, folder, *AS_SHOWN, *kernels, "-f", number)
+        _, score = diff(trace, folder, "-f", number)
+        check(score["frames"][0]["failing_pixels"] == 0, f"frame {number} with {kernels[1]}: {score['frames'][0]['failing_pixels']} pixels fail")
+
+
 for name, frames in PROGRAMS.items():
     trace, _ = check_same_pictures(f"panels/{name}", frames)
     if "program" in name or name == "shader": # objects are in the index
         check_alone(trace, 1, 3)
+    if name == "vertex_program": # depths that are not the projection's
+        check_kernels(trace, "5")
 finish()

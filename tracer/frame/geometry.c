@@ -308,7 +308,9 @@ static int find_perspectives(struct job *job)
 
 	if (!err && changed)
 		err = frame_upload(job->tr, views, job->prepared.views, job->prepared.n_views);
-	return err || !changed ? err : run_vertices(job, 0, 0);
+	if (!err && changed)
+		err = run_vertices(job, 0, 0);
+	return err || !job->prepared.has_vertex_programs ? err : perspective_check_depths(job);
 }
 
 int geometry_place(struct job *job)

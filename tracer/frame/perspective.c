@@ -7,11 +7,14 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
+#include "kernels/camera/camera.h"
+#include "kernels/gl/vertex_program.h"
 #include "tracer/frame/frame.h"
 
 #define LEAST_FACTOR 0.2 /* cotangents of half the angle that a picture spans: 157 degrees, */
 #define MOST_FACTOR 20.0 /* 6 */
 #define MOST_W 1e15f /* beyond that nothing is drawn */
+#define MOST_ROUNDING 1e-5f /* of a depth, as a share of its position's largest number */
 #define USUAL_FACTOR 2.414213562 /* 45 degrees */
 
 /* What the draws of a view of the scene tell. */
@@ -101,17 +104,25 @@ static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], 
 	f->vertices = mesh->vertex_count;
 }
 
+/* The clip positions of a prepared instance; the caller frees them. */
+static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
+{
+	const struct geometry *g = &job->prepared.geometries[i];
+
+	*clip = calloc((size_t)g->vertex_count + 1, sizeof(**clip));
+	if (!*clip)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	return device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip, g->vertex_count * sizeof(**clip));
+}
+
 static int look_at(const struct job *job, uint32_t i, struct found *f)
 {
 	const struct prepared *p = &job->prepared;
 	const struct geometry *g = &p->geometries[i];
 	const struct scene_mesh *mesh = job->scene->meshes[job->scene->instances[p->instances[i].scene_instance].mesh];
-	float (*clip)[4] = calloc((size_t)g->vertex_count + 1, sizeof(*clip));
-	int err;
+	float (*clip)[4];
+	int err = read_clips(job, i, &clip);
 
-	if (!clip)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	err = device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(*clip), clip, g->vertex_count * sizeof(*clip));
 	for (uint32_t v = 0; v < g->vertex_count && !err; v++)
 		if (clip[v][3] > 0 && clip[v][3] < MOST_W) {
 			f->least_w = fminf(f->least_w, clip[v][3]);
@@ -179,5 +190,52 @@ int perspective_find(struct job *job, int *changed)
 		*changed |= mat4_invert(p->views[to].inverse, p->views[to].projection);
 	}
 	free(found);
+	return err;
+}
+
+/* 1 where a clip position's depth is not the one that the projection gives what has its x, y and w. */
+static int has_own_depth(const struct view *view, const float clip[4])
+{
+	const float *m = view->projection;
+	const struct vec4 at = v4_load(clip), eye = vertex_eye_from_clip(view, at);
+	const float depth = m[2] * eye.x + m[6] * eye.y + m[10] * eye.z + m[14] * eye.w;
+	const float largest = fmaxf(fmaxf(fabsf(at.x), fabsf(at.y)), fmaxf(fabsf(at.z), fabsf(at.w)));
+
+	return !(fabsf(depth - at.z) <= MOST_ROUNDING * largest);
+}
+
+/* *own: set where a prepared instance has such a depth; a view that was given its perspective has made-up depths, and does not count */
+static int look_at_depths(const struct job *job, uint32_t i, int *own)
+{
+	const struct prepared *p = &job->prepared;
+	const struct geometry *g = &p->geometries[i];
+	const struct scene_instance *from = &job->scene->instances[p->instances[i].scene_instance];
+	const struct view *view = &p->views[g->view];
+	float (*clip)[4];
+	int err;
+
+	if (!prepare_is_displaced(job->scene, from) || memcmp(view->projection, job->scene->views[from->view].projection, sizeof(view->projection)) != 0)
+		return 0;
+	err = read_clips(job, i, &clip);
+	for (uint32_t v = 0; v < g->vertex_count && !err && !*own; v++)
+		*own = has_own_depth(view, clip[v]);
+	free(clip);
+	return err;
+}
+
+int perspective_check_depths(struct job *job)
+{
+	struct prepared *p = &job->prepared;
+	int err = 0;
+
+	for (uint32_t k = 0; k < p->n_segments && !err; k++) {
+		struct segment *segment = &p->segments[k];
+		int own = 0;
+
+		for (uint32_t i = 0; i < segment->instance_count && segment->mode != CAMERA_COLUMN && !err && !own; i++)
+			err = look_at_depths(job, segment->instance_first + i, &own);
+		if (own)
+			segment->mode = CAMERA_COLUMN;
+	}
 	return err;
 }

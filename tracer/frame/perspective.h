@@ -12,3 +12,10 @@ struct job;
  * @return 0 or ERR_* (reported, but for ERR_MEMORY)
  */
 int perspective_find(struct job *job, int *changed);
+
+/**
+ * Let columns answer for segments in which a program gives vertices another depth than the projection: the nearest along a ray need not be the
+ * nearest by depth there. After perspective_find.
+ * @return 0 or ERR_* (reported, but for ERR_MEMORY)
+ */
+int perspective_check_depths(struct job *job);
