@@ -88,10 +88,28 @@ static const char *lack_of_assembly(const struct gls_state *st)
 	return !lack && st->a.programs.fragment ? lack_of(st, GL_FRAGMENT_PROGRAM_ARB) : lack;
 }
 
+static int has_text(const struct gls_state *st, uint32_t target)
+{
+	const struct gls_program *p = gls_program_bound(st, target);
+
+	return p && p->source;
+}
+
+int gls_program_is_refused(const struct gls_state *st, int is_rectangle)
+{
+	if (st->program)
+		return 0;
+	return (st->a.programs.fragment && !has_text(st, GL_FRAGMENT_PROGRAM_ARB)) ||
+	       (st->a.programs.vertex && !is_rectangle && !has_text(st, GL_VERTEX_PROGRAM_ARB));
+}
+
 const char *gls_program_lack(const struct gls_state *st)
 {
-	const char *lack = st->program ? lack_of_shaders(st) : lack_of_assembly(st);
+	const char *lack;
 
+	if (gls_program_is_refused(st, 0))
+		return NULL;
+	lack = st->program ? lack_of_shaders(st) : lack_of_assembly(st);
 	if (lack || !st->program)
 		return lack;
 	return st->a.transform.clip_plane_mask && linked(st)->code[GLS_VERTEX_STAGE].clips ? "a shader sets gl_ClipVertex, by which clip planes do not clip" :

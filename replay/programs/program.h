@@ -36,6 +36,12 @@ static inline uint64_t gls_program_key(uint32_t target, uint32_t name)
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target);
 
 /**
+ * 1 where OpenGL refuses to draw: a program in assembly is enabled that has no text. As in Mesa (22.3), rectangles of pixels need none for
+ * vertices.
+ */
+int gls_program_is_refused(const struct gls_state *st, int is_rectangle);
+
+/**
  * What is missing of draws with the programs that are current: a static string; NULL: nothing.
  * Where a program cannot run, they are rendered as fixed function.
  */

@@ -217,6 +217,34 @@ START_TEST(test_reasons)
 }
 END_TEST
 
+/* Nothing is drawn while a program is enabled that has no text; nothing of it is missing either. */
+START_TEST(test_no_text)
+{
+	static const uint32_t targets[] = { GL_VERTEX_PROGRAM_ARB, GL_FRAGMENT_PROGRAM_ARB };
+	static const uint8_t texel[4] = { 255, 0, 0, 255 };
+	struct gl gl = gl_open();
+	struct scene *s;
+
+	for (unsigned i = 0; i < 2; i++) {
+		gl_call(&gl, "glBindProgramARB", "eu", targets[i], 5 + i);
+		gl_call(&gl, "glEnable", "e", targets[i]);
+		gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+		gl_call(&gl, "glEnable", "e", GL_LIGHTING); /* what was collected is drawn */
+		ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+		gl_call(&gl, "glDrawPixels", "iieeb", 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, sizeof(texel), texel);
+		ck_assert_uint_eq(gl_error(&gl), i == 0 ? GL_NO_ERROR : GL_INVALID_OPERATION);
+		gl_call(&gl, "glDisable", "e", targets[i]);
+		gl_call(&gl, "glDisable", "e", GL_LIGHTING);
+	}
+	gl_call(&gl, "glRectf", "ffff", 0.0, 0.0, 1.0, 1.0);
+	s = gl_swap(&gl);
+	ck_assert_uint_eq(s->n_instances, 2); /* the first pixels and the last rectangle */
+	ck_assert_uint_eq(gl.x->counts.programs, 0);
+	scene_release(&s);
+	gl_close(&gl);
+}
+END_TEST
+
 /* A wrong text is an error, and leaves the one that was there. */
 START_TEST(test_wrong_texts)
 {
@@ -314,4 +342,4 @@ START_TEST(test_damaged_texts)
 }
 END_TEST
 
-GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_wrong_texts, test_damaged_texts)
+GL_TESTS("programs", test_objects, test_scene, test_vertices, test_vertex_arrays, test_enables, test_reasons, test_no_text, test_wrong_texts, test_damaged_texts)

@@ -27,7 +27,7 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	uint64_t keys[SCENE_DRAW_PROGRAMS];
 	unsigned n, added = 0;
 
-	if (!x->want)
+	if (!x->want || gls_refuses(x, st, gls_program_is_refused(st, e->rectangle != NULL), GL_INVALID_OPERATION))
 		return;
 	drawn = gls_shown_by_draw(x, st, e);
 	gls_units_update(x, st, &e->attribs->texturing);
