@@ -19,6 +19,7 @@
 #include "look/solid.h"
 #include "look/spare.h"
 #include "look/world.h"
+#include "scene/draw_list.h"
 
 /* Between ambient light and what a program rounds to 8 bits. */
 #define SHADE (2.0f / 255)
@@ -650,28 +651,29 @@ static int has_role(const struct applying *a, const struct scene_instance *in, c
 	return 0;
 }
 
+struct with_role {
+	const struct applying *a;
+	const char *role;
+};
+
+static int is_with_role(const void *user, const struct scene *scene, uint32_t i)
+{
+	const struct with_role *w = user;
+
+	return has_role(w->a, &scene->instances[i], w->role);
+}
+
 /* The draws of a role, as ranges, as many as there is room for. */
 static void list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
 {
-	const struct scene *s = a->scene;
-	uint32_t from = 0, end = 0;
-	size_t n = 0;
+	char *all = scene_draw_list(a->scene, is_with_role, &(struct with_role){ a, role });
+	size_t n = all ? strcspn(all, ",") : 0;
 
-	out[0] = 0;
-	for (uint32_t i = 0; i <= s->n_instances && n < TOLD_DRAWS - 24; i++) {
-		const int has = i < s->n_instances && has_role(a, &s->instances[i], role);
-		const uint32_t first = i < s->n_instances ? s->instances[i].draw : s->n_draws + 1;
-
-		if (end && (!has || first != end)) {
-			n += (size_t)snprintf(out + n, TOLD_DRAWS - n, "%s%u-%u", n ? "," : "", from, end - 1);
-			end = 0;
-		}
-		if (!has)
-			continue;
-		from = end ? from : first;
-		end = i + 1 < s->n_instances ? s->instances[i + 1].draw : s->n_draws + 1;
-		end = end > first ? end : first + 1;
-	}
+	while (all && all[n] && n < TOLD_DRAWS - 24)
+		n += 1 + strcspn(all + n + 1, ",");
+	memcpy(out, all ? all : "", n);
+	out[n] = 0;
+	free(all);
 }
 
 static int tell_one(const char *kind, const struct rule_reason *r, const char *what, int (*tell)(void *user, const char *text), void *user)

@@ -15,5 +15,5 @@ void gate_count_effects(struct gate_frame *f);
 /** Which draws hold the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_blame(const struct gate_frame *f);
 
-/** How well pixels agree whose draws ran a program, program by program (programs.c). @return 0 or ERR_SYSTEM (reported) */
+/** How well pixels agree where a program ran, program by program (programs.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_programs(const struct gate_frame *f);

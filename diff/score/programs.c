@@ -1,4 +1,4 @@
-/* How well pixels agree whose draws ran one of the application's own programs. */
+/* How well a frame's pixels agree where draws ran the application's own programs. */
 #include "diff/score/measures.h"
 
 #include <stdio.h>

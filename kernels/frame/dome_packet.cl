@@ -286,10 +286,7 @@ KERNEL_OF(float16) void plain_dome(KERNEL_ARGUMENTS(plain))
 
 	if (item >= plain_blocks(width, request.height) || blocks[item] == SCENE_NONE)
 		return;
-	for (uint i = 0; i < SHADE_TRIANGLES; i++)
-		kept.pack.lit[i].instance = SCENE_NONE;
-	for (uint i = 0; i < PACK_CUTS; i++)
-		kept.pack.cuts[i].instance = SCENE_NONE;
+	pack_keep_nothing(&kept.pack);
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
 		const uint lanes = plain_load_row(&a, 0, item, k, &row);
 

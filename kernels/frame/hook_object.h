@@ -79,20 +79,12 @@ static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_
 	GLOBAL const struct scene_material *m = &t->materials[g->material];
 	GLOBAL struct shaded_vertex *out = &a->made[g->vertex_first + number];
 	const struct vec4 eye = v4(at.x, at.y, at.z, 1.0f);
-	struct lit front, back;
 
 	v4_store(out->eye, eye);
 	v4_store(out->clip, m4_mul(a->views[g->view].projection, eye));
 	v3_store(out->normal, normal);
 	a->windows[g->vertex_first + number].w_inv = 0.0f; /* no place: point_shows_front goes by clip space */
-	front = vertex_color(t, g, out, number, 0, (const struct vec3 *)0);
-	back = m->lighting && m->two_side ? vertex_color(t, g, out, number, 1, (const struct vec3 *)0) : front;
-	v4_store(out->color[0], front.color);
-	v4_store(out->color[1], back.color);
-	v4_store(out->secondary[0], front.secondary);
-	v4_store(out->secondary[1], back.secondary);
-	out->lit[0] = m->surface.hidden & SCENE_UNSHADED ? 0u : front.lights;
-	out->lit[1] = m->surface.hidden & SCENE_UNSHADED ? 0u : back.lights;
+	vertex_store_colors(t, g, m, number, out);
 	out->fog_coord = M_ABS(eye.z);
 	out->size[0] = out->size[1] = 0.0f;
 	for (uint32_t i = 0u; i < m->unit_count; i++)

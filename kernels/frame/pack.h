@@ -55,6 +55,14 @@ struct pack_kept {
 	struct pack_lit lit[SHADE_TRIANGLES];
 };
 
+static inline void pack_keep_nothing(struct pack_kept *kept)
+{
+	for (uint i = 0; i < SHADE_TRIANGLES; i++)
+		kept->lit[i].instance = SCENE_NONE;
+	for (uint i = 0; i < PACK_CUTS; i++)
+		kept->cuts[i].instance = SCENE_NONE;
+}
+
 /* Sixteen numbers with the alignment of one: PoCL's vload16 and vstore16 take them one after the other. */
 typedef float16 pack_loose_floats __attribute__((aligned(4)));
 typedef uint16 pack_loose_uints __attribute__((aligned(4)));

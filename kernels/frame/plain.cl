@@ -244,10 +244,7 @@ static inline void do_block(const struct plain_arguments *a, const struct shade_
 	const int is_in_dome = a->dome.reach > 0;
 	uint empty = SCENE_NONE; /* where a row without fragments stands in the planes */
 
-	for (uint i = 0; i < SHADE_TRIANGLES; i++)
-		kept.pack.lit[i].instance = SCENE_NONE;
-	for (uint i = 0; i < PACK_CUTS; i++)
-		kept.pack.cuts[i].instance = SCENE_NONE;
+	pack_keep_nothing(&kept.pack);
 	for (uint k = 0; k < PLAIN_ROWS; k++) {
 		const uint lanes = plain_load_row(a, s->n_slots, item, k, &row);
 		struct pack_planes to;

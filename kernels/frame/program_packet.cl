@@ -16,10 +16,7 @@ struct program_kept {
 static inline void keep_nothing(struct program_kept *kept)
 {
 	kept->one.instance = SCENE_NONE;
-	for (uint i = 0; i < SHADE_TRIANGLES; i++)
-		kept->pack.lit[i].instance = SCENE_NONE;
-	for (uint i = 0; i < PACK_CUTS; i++)
-		kept->pack.cuts[i].instance = SCENE_NONE;
+	pack_keep_nothing(&kept->pack);
 }
 
 /* --- Lists ----------------------------------------------------------------------------------------------------------- */

@@ -64,9 +64,8 @@ KERNEL_OF(float16) void shade_packet(KERNEL_ARGUMENTS(shade))
 	if (first >= n)
 		return;
 	for (uint32_t i = 0u; i < SHADE_TRIANGLES; i++)
-		kept.one[i].instance = kept.pack.lit[i].instance = SCENE_NONE;
-	for (uint32_t i = 0u; i < PACK_CUTS; i++)
-		kept.pack.cuts[i].instance = SCENE_NONE;
+		kept.one[i].instance = SCENE_NONE;
+	pack_keep_nothing(&kept.pack);
 	find_left(&a, first, &left);
 	while (left.all)
 		shade_next(&a, &left, &kept);

@@ -63,6 +63,21 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	return lit;
 }
 
+/* Both sides' colours of a vertex that has its place and its normal. m: its material */
+static inline void vertex_store_colors(const struct tables *t, GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m, uint32_t v,
+                                       GLOBAL struct shaded_vertex *out)
+{
+	const struct lit front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
+	const struct lit back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;
+
+	v4_store(out->color[0], front.color);
+	v4_store(out->color[1], back.color);
+	v4_store(out->secondary[0], front.secondary);
+	v4_store(out->secondary[1], back.secondary);
+	out->lit[0] = m->surface.hidden & SCENE_UNSHADED ? 0u : front.lights;
+	out->lit[1] = m->surface.hidden & SCENE_UNSHADED ? 0u : back.lights;
+}
+
 /* Texture coordinate generation, sec. 2.11.4; `u` the unit vector from the eye to the vertex, `n` the eye normal. */
 static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32_t c, float coord, struct vec4 obj,
                                     struct vec4 eye, struct vec3 u, struct vec3 n)
@@ -131,7 +146,6 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 	struct vec4 obj = v4_load(t->attributes + g->position + v * 4u);
 	struct vec4 eye = m4_mul(g->eye_from_obj, obj), clip = m4_mul(g->clip_from_obj, obj);
 	struct vec3 normal = vertex_eye_normal(g, m, tables_normal(t, g, v));
-	struct lit front, back;
 
 	v4_store(out->eye, eye);
 	v4_store(out->clip, clip);
@@ -139,14 +153,7 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 	v3_store(out->normal, normal);
 	a->windows[item] = clip_window(view, clip, (float)a->height);
 
-	front = vertex_color(t, g, out, v, 0, (const struct vec3 *)0);
-	back = m->lighting && m->two_side ? vertex_color(t, g, out, v, 1, (const struct vec3 *)0) : front;
-	v4_store(out->color[0], front.color);
-	v4_store(out->color[1], back.color);
-	v4_store(out->secondary[0], front.secondary);
-	v4_store(out->secondary[1], back.secondary);
-	out->lit[0] = m->surface.hidden & SCENE_UNSHADED ? 0u : front.lights;
-	out->lit[1] = m->surface.hidden & SCENE_UNSHADED ? 0u : back.lights;
+	vertex_store_colors(t, g, m, v, out);
 	out->fog_coord = m->fog_coord_source == GL_FOG_COORD ? tables_fog_coord(t, g, v) : M_ABS(eye.z);
 	out->size[0] = vertex_point_size(m, eye);
 	out->size[1] = 0.0f;

@@ -1,4 +1,4 @@
-/* Programs whose loops reached SCENE_PROGRAM_STEPS: what they drew is not what they mean, and the frame says so. */
+/* Programs that SCENE_PROGRAM_STEPS ended: what they drew is not what they mean, and the frame says so. */
 #pragma once
 
 #include "tracer/frame/frame.h"

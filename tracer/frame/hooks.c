@@ -14,39 +14,6 @@ uint32_t hooks_row(const struct job *job)
 	return job->scene->n_materials * job->options->hook->words;
 }
 
-/* Instances of segments of an eye space; 0: secondary rays meet none of them. */
-static uint32_t instances_in(const struct job *job, uint32_t space)
-{
-	const struct prepared *p = &job->prepared;
-	uint32_t n = 0, met = 0;
-
-	for (uint32_t i = 0; i < p->n_instances; i++) {
-		const int is_in = p->scene_views[p->instances[i].view].space == space;
-
-		n += is_in;
-		met |= is_in && p->instances[i].flags & INSTANCE_SECONDARY;
-	}
-	return met ? n : 0;
-}
-
-/* The first segment of the eye space of most instances; NULL: rays hit nothing in any. */
-static const struct segment *main_segment(const struct job *job)
-{
-	const struct segment *best = NULL;
-	uint32_t most = 0;
-
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++) {
-		const struct segment *s = &job->prepared.segments[i];
-		const uint32_t n = s->view == SCENE_NONE ? 0 : instances_in(job, job->prepared.scene_views[s->view].space);
-
-		if (n > most) {
-			most = n;
-			best = s;
-		}
-	}
-	return best;
-}
-
 int hooks_place(struct job *job)
 {
 	const struct hook *hook = job->options->hook;
@@ -54,7 +21,7 @@ int hooks_place(struct job *job)
 	float *rows;
 	int err;
 
-	job->hooked = hooks_has(job, HOOK_RAY_GENERATION | HOOK_INTERSECTION) ? main_segment(job) : NULL;
+	job->hooked = hooks_has(job, HOOK_RAY_GENERATION | HOOK_INTERSECTION) ? prepare_main_segment(&job->prepared) : NULL;
 	if (!hook)
 		return 0;
 	if ((err = hook_check_parameters(hook, scene->parameters, scene->n_parameters)))

@@ -19,7 +19,8 @@
 struct beam {
 	const struct scene_light *light;
 	uint32_t instance;
-	float centre[3], radius;
+	struct vec3 centre;
+	float radius;
 };
 
 /* A photon's share of the light, for what is found of its way: its beam, and steradians or areas that it stands for. */
@@ -49,38 +50,38 @@ struct photons {
 
 /* --- Beams --------------------------------------------------------------------------------------------------------- */
 
-static void eye_position(const struct instance *instance, const float o[4], float out[3])
+static struct vec3 eye_position(const struct instance *instance, const float o[4])
 {
 	const float *m = instance->eye_from_obj;
+	float out[3];
 
 	for (int i = 0; i < 3; i++)
 		out[i] = (m[4 * i] * o[0] + m[4 * i + 1] * o[1] + m[4 * i + 2] * o[2]) / o[3] + m[4 * i + 3];
+	return v3_load(out);
 }
 
-static float distance2(const float a[3], const float b[3])
+static float length_of(struct vec3 v)
 {
-	return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+	return sqrtf(v3_dot(v, v));
 }
 
 /* The ball about an instance's vertices whose centre is that of their box. radius: receives 0 where there is none */
-static void ball_about(const struct scene_mesh *mesh, const struct instance *instance, float centre[3], float *radius)
+static struct vec3 ball_about(const struct scene_mesh *mesh, const struct instance *instance, float *radius)
 {
-	float lo[3] = { FLT_MAX, FLT_MAX, FLT_MAX }, hi[3] = { -FLT_MAX, -FLT_MAX, -FLT_MAX }, at[3], most = 0;
+	struct vec3 lo = v3(FLT_MAX, FLT_MAX, FLT_MAX), hi = v3_scale(lo, -1), centre;
+	float most = 0;
 
 	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		eye_position(instance, mesh->position + 4 * (size_t)v, at);
-		for (int i = 0; i < 3; i++) {
-			lo[i] = fminf(lo[i], at[i]);
-			hi[i] = fmaxf(hi[i], at[i]);
-		}
+		const struct vec3 at = eye_position(instance, mesh->position + 4 * (size_t)v);
+
+		lo = v3(fminf(lo.x, at.x), fminf(lo.y, at.y), fminf(lo.z, at.z));
+		hi = v3(fmaxf(hi.x, at.x), fmaxf(hi.y, at.y), fmaxf(hi.z, at.z));
 	}
-	for (int i = 0; i < 3; i++)
-		centre[i] = (lo[i] + hi[i]) / 2;
-	for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-		eye_position(instance, mesh->position + 4 * (size_t)v, at);
-		most = fmaxf(most, distance2(at, centre));
-	}
-	*radius = isfinite(most) ? sqrtf(most) : 0;
+	centre = v3_scale(v3_add(lo, hi), 0.5f);
+	for (uint32_t v = 0; v < mesh->vertex_count; v++)
+		most = fmaxf(most, length_of(v3_sub(eye_position(instance, mesh->position + 4 * (size_t)v), centre)));
+	*radius = isfinite(most) ? most : 0;
+	return centre;
 }
 
 static int is_same_light(const struct scene_light *a, const struct scene_light *b)
@@ -108,7 +109,7 @@ static int is_sent_to(const struct photons *p, const struct instance *instance)
 	       (s->reflect > 0 || s->transmit > 0) && !(s->hidden & SCENE_NEAR_MIRROR);
 }
 
-static int add_beams(struct photons *p, uint32_t number, const float centre[3], float radius)
+static int add_beams(struct photons *p, uint32_t number, struct vec3 centre, float radius)
 {
 	const struct scene *scene = p->job->scene;
 
@@ -121,7 +122,7 @@ static int add_beams(struct photons *p, uint32_t number, const float centre[3], 
 		if (!grown)
 			return err_report(ERR_SYSTEM, NULL, "out of memory");
 		p->beams = grown;
-		p->beams[p->n_beams++] = (struct beam){ &scene->lights[i], number, { centre[0], centre[1], centre[2] }, radius };
+		p->beams[p->n_beams++] = (struct beam){ &scene->lights[i], number, centre, radius };
 	}
 	return 0;
 }
@@ -135,12 +136,13 @@ static int find_beams(struct photons *p)
 	for (uint32_t i = 0; i < prepared->n_instances && !err; i++) {
 		const struct instance *instance = &prepared->instances[i];
 		const struct scene_mesh *mesh = p->job->scene->meshes[p->job->scene->instances[instance->scene_instance].mesh];
-		float centre[3], radius;
+		struct vec3 centre;
+		float radius;
 
 		if (!(instance->flags & INSTANCE_SECONDARY))
 			continue;
-		ball_about(mesh, instance, centre, &radius);
-		p->far = fmaxf(p->far, sqrtf(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]) + radius);
+		centre = ball_about(mesh, instance, &radius);
+		p->far = fmaxf(p->far, length_of(centre) + radius);
 		if (!is_sent_to(p, instance) || !(radius > 0))
 			continue;
 		p->smallest = fminf(p->smallest, radius);
@@ -151,70 +153,33 @@ static int find_beams(struct photons *p)
 
 /* --- Sending ------------------------------------------------------------------------------------------------------- */
 
-/* Two directions across a third. */
-static void across(const float d[3], float u[3], float v[3])
-{
-	const float helper[3] = { fabsf(d[0]) < 0.5f, fabsf(d[0]) >= 0.5f, 0 };
-	float length;
-
-	for (int i = 0; i < 3; i++)
-		u[i] = d[(i + 1) % 3] * helper[(i + 2) % 3] - d[(i + 2) % 3] * helper[(i + 1) % 3];
-	length = sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-	for (int i = 0; i < 3; i++)
-		u[i] /= length;
-	for (int i = 0; i < 3; i++)
-		v[i] = d[(i + 1) % 3] * u[(i + 2) % 3] - d[(i + 2) % 3] * u[(i + 1) % 3];
-}
-
-/* a + x u + y v */
-static void move_across(const float a[3], const float u[3], float x, const float v[3], float y, float out[3])
-{
-	for (int i = 0; i < 3; i++)
-		out[i] = a[i] + x * u[i] + y * v[i];
-}
-
 /* Parallel light: from beyond all surfaces, evenly over the ball's disk. @return the area that all photons of the beam share */
-static float send_parallel(const struct photons *p, const struct beam *b, float s, float t, struct ray *ray)
+static float send_parallel(const struct photons *p, const struct beam *b, const float at[2], struct ray *ray)
 {
-	const float *to = b->light->position_eye, length = sqrtf(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
-	const float r = b->radius * sqrtf(s), angle = 2 * (float)M_PI * t, back = 2 * p->far + b->radius;
-	float u[3], v[3], from[3];
+	const struct vec3 d = v3_scale(v3_normalize(v3_load(b->light->position_eye)), -1);
+	const struct vec3 on_disk = v3_add(b->centre, v3_scale(sample_disk(d, at[0], at[1]), b->radius));
 
-	for (int i = 0; i < 3; i++) {
-		ray->d[i] = -to[i] / length;
-		from[i] = b->centre[i] - back * ray->d[i];
-	}
-	across(ray->d, u, v);
-	move_across(from, u, r * cosf(angle), v, r * sinf(angle), ray->o);
+	v3_store(ray->d, d);
+	v3_store(ray->o, v3_sub(on_disk, v3_scale(d, 2 * p->far + b->radius)));
 	return (float)M_PI * b->radius * b->radius;
 }
 
 /* From a place, or a disk of the light's radius: evenly over the cone about the ball. @return its solid angle, weakened as a spot is */
 static float send_from_place(const struct beam *b, const float at[2][2], struct ray *ray)
 {
-	const float *l = b->light->position_eye, disk = fmaxf(b->light->radius, 0) * sqrtf(at[1][0]), turn = 2 * (float)M_PI * at[1][1];
-	float axis[3], u[3], v[3], distance, cosine, least, angle = 2 * (float)M_PI * at[0][1], sine;
+	const struct scene_light *l = b->light;
+	const struct vec3 middle = v3_scale(v3_load(l->position_eye), 1 / l->position_eye[3]);
+	const struct vec3 disk = sample_disk(v3_normalize(v3_sub(b->centre, middle)), at[1][0], at[1][1]);
+	const struct vec3 from = v3_add(middle, v3_scale(disk, fmaxf(l->radius, 0))), to = v3_sub(b->centre, from), axis = v3_normalize(to);
+	const float share = b->radius / fmaxf(length_of(to), FLT_MIN), least = share < 1 ? sqrtf(1 - share * share) : -1; /* within it: all around */
+	const float cosine = 1 - at[0][0] * (1 - least), sine = sqrtf(fmaxf(1 - cosine * cosine, 0)), turn = 2 * (float)M_PI * at[0][1];
+	struct vec3 u, v, d;
 
-	for (int i = 0; i < 3; i++) {
-		ray->o[i] = l[i] / l[3];
-		axis[i] = b->centre[i] - ray->o[i];
-	}
-	distance = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-	for (int i = 0; i < 3; i++)
-		axis[i] /= fmaxf(distance, FLT_MIN);
-	across(axis, u, v);
-	move_across(ray->o, u, disk * cosf(turn), v, disk * sinf(turn), ray->o);
-	distance = sqrtf(distance2(ray->o, b->centre));
-	for (int i = 0; i < 3; i++)
-		axis[i] = (b->centre[i] - ray->o[i]) / fmaxf(distance, FLT_MIN);
-	across(axis, u, v);
-	least = b->radius < distance ? sqrtf(1 - b->radius * b->radius / (distance * distance)) : -1; /* within it: all around */
-	cosine = 1 - at[0][0] * (1 - least);
-	sine = sqrtf(fmaxf(1 - cosine * cosine, 0));
-	for (int i = 0; i < 3; i++)
-		ray->d[i] = cosine * axis[i];
-	move_across(ray->d, u, sine * cosf(angle), v, sine * sinf(angle), ray->d);
-	return 2 * (float)M_PI * (1 - least) * light_spot(b->light, v3(-ray->d[0], -ray->d[1], -ray->d[2]));
+	sample_basis(axis, &u, &v);
+	d = v3_add(v3_scale(axis, cosine), v3_add(v3_scale(u, sine * cosf(turn)), v3_scale(v, sine * sinf(turn))));
+	v3_store(ray->o, from);
+	v3_store(ray->d, d);
+	return 2 * (float)M_PI * (1 - least) * light_spot(l, v3_scale(d, -1));
 }
 
 /* The photons of a pass, as many for each beam. */
@@ -234,7 +199,7 @@ static uint32_t make_photons(struct photons *p, uint32_t pass)
 			*ray = (struct ray){ .t_max = 1e30f };
 			p->sent[n].beam = b;
 			p->sent[n].share = (beam->light->position_eye[3] != 0 ? send_from_place(beam, (const float (*)[2])at, ray) :
-			                                                         send_parallel(p, beam, at[0][0], at[0][1], ray)) / (float)each;
+			                                                         send_parallel(p, beam, at[0], ray)) / (float)each;
 			p->paths[n] = (struct path){ .weight = { 1, 1, 1 }, .target = n, .kind = beam->instance, .medium = SCENE_NONE };
 		}
 	return n;
@@ -373,26 +338,6 @@ static void gather(const struct photons *p, const float *const planes[9], float 
 
 /* --- A frame ------------------------------------------------------------------------------------------------------- */
 
-/* The space of surfaces that most instances are in; NULL: there is none. */
-static const struct accel_space *main_space(const struct job *job)
-{
-	const struct accel_space *best = NULL;
-	uint32_t most = 0;
-
-	for (uint32_t s = 0; s < job->n_spaces; s++) {
-		uint32_t n = 0;
-
-		for (uint32_t i = 0; i < job->prepared.n_instances; i++)
-			n += job->prepared.instances[i].flags & INSTANCE_SECONDARY &&
-			     job->prepared.scene_views[job->prepared.instances[i].view].space == job->spaces[s].space;
-		if (n > most && !job->spaces[s].sky && job->spaces[s].n_nodes) {
-			most = n;
-			best = &job->spaces[s];
-		}
-	}
-	return best;
-}
-
 static int run_pass(struct photons *p, uint32_t pass)
 {
 	struct tracer *tr = p->job->tr;
@@ -439,7 +384,8 @@ int photons_add(struct job *job, struct image *img)
 {
 	static const char *const needed[9] = { "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B" };
 	static const char *const added[3] = { "caustics.R", "caustics.G", "caustics.B" };
-	struct photons p = { .job = job, .space = main_space(job) };
+	const struct segment *main = prepare_main_segment(&job->prepared);
+	struct photons p = { .job = job, .space = main ? secondary_space(job, main->view, 0) : NULL };
 	const float *planes[9];
 	float *out[3];
 	int err = 0;

@@ -552,3 +552,34 @@ void prepared_free(struct prepared *p)
 	free(p->skies);
 	memset(p, 0, sizeof(*p));
 }
+
+/* Instances of segments of an eye space; 0: secondary rays meet none of them. */
+static uint32_t instances_in(const struct prepared *p, uint32_t space)
+{
+	uint32_t n = 0, met = 0;
+
+	for (uint32_t i = 0; i < p->n_instances; i++) {
+		const int is_in = p->scene_views[p->instances[i].view].space == space;
+
+		n += is_in;
+		met |= is_in && p->instances[i].flags & INSTANCE_SECONDARY;
+	}
+	return met ? n : 0;
+}
+
+const struct segment *prepare_main_segment(const struct prepared *p)
+{
+	const struct segment *best = NULL;
+	uint32_t most = 0;
+
+	for (uint32_t i = 0; i < p->n_segments; i++) {
+		const struct segment *s = &p->segments[i];
+		const uint32_t n = s->view == SCENE_NONE ? 0 : instances_in(p, p->scene_views[s->view].space);
+
+		if (n > most) {
+			most = n;
+			best = s;
+		}
+	}
+	return best;
+}

@@ -67,6 +67,9 @@ void prepare_pad(struct prepared *p, uint32_t instance, const float (*positions)
 void prepare_shift(struct prepared *p, const float shift[2]);
 void prepared_free(struct prepared *p);
 
+/** The first segment of the eye space of most instances. @return NULL: rays hit nothing in any */
+const struct segment *prepare_main_segment(const struct prepared *p);
+
 /** Where a mesh's arrays lie among the words of its block, in a geometry's fields; relative to `base`. */
 void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometry *g);
 
