@@ -1,0 +1,236 @@
+#include "scene/repair/repair.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "scene/repair/doubles.h"
+#include "scene/repair/junctions.h"
+#include "scene/repair/shape.h"
+#include "scene/repair/turn.h"
+
+/* Edges that were cut may lie beside further corners. */
+enum { ROUNDS = 4 };
+
+/* --- What the mesh is now ------------------------------------------------------------------------------------------------------ */
+
+static double volume_of(const struct shape *s)
+{
+	const double *middle = s->n_points ? s->points[0] : NULL;
+	double sum = 0;
+
+	for (size_t f = 0; f < s->n_faces; f++) {
+		double normal[3];
+
+		if (s->faces[f].p[0] == SCENE_NONE)
+			continue;
+		shape_normal(s, &s->faces[f], normal);
+		for (int k = 0; k < 3; k++)
+			sum += normal[k] * (s->points[s->faces[f].p[0]][k] - middle[k]) / 6;
+	}
+	return sum;
+}
+
+static int tell(const struct shape *s)
+{
+	struct repair_found *found = s->found;
+	struct shape_edge *edges;
+	double longest = -1;
+	size_t n;
+	int err = shape_list_edges(s, &edges, &n), balance;
+
+	for (size_t first = 0, end; first < n && !err; first = end) {
+		const double *a = s->points[edges[first].a], *b = s->points[edges[first].b];
+		const double square = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+
+		end = shape_run_end(s, edges, n, first, &balance);
+		found->twisted += balance != 0 && balance % 2 == 0;
+		found->leaks += balance % 2 != 0;
+		if (balance % 2 == 0 || square <= longest)
+			continue;
+		longest = square;
+		for (int k = 0; k < 3; k++)
+			found->leak_at[k] = (float)(0.5 * (a[k] + b[k]));
+	}
+	found->closed = n > 0 && !found->leaks && !found->twisted;
+	found->volume = found->closed ? volume_of(s) : 0;
+	free(edges);
+	return err;
+}
+
+/* --- The mesh that comes of it --------------------------------------------------------------------------------------------------- */
+
+/* Where an array of a mesh is, and how many numbers a vertex has. */
+struct attribute {
+	const float **array;
+	size_t each;
+	int is_color; /* 1: flat shading takes one for all of a triangle */
+};
+
+enum { MOST_ATTRIBUTES = 5 + SCENE_MAX_UNITS + SCENE_MAX_GENERICS };
+
+/* All arrays but positions that the mesh has. @return how many */
+static size_t list_attributes(struct scene_mesh *mesh, struct attribute list[MOST_ATTRIBUTES])
+{
+	const struct attribute all[] = {
+		{ &mesh->normal, 3, 1 }, { &mesh->color, 4, 1 }, { &mesh->secondary, 4, 1 }, { &mesh->fog_coord, 1, 0 },
+		{ (const float **)&mesh->face, 2 * sizeof(struct scene_face) / sizeof(float), 1 },
+	};
+	size_t n = 0;
+
+	for (size_t i = 0; i < sizeof(all) / sizeof(*all); i++)
+		if (*all[i].array)
+			list[n++] = all[i];
+	for (int i = 0; i < SCENE_MAX_UNITS; i++)
+		if (mesh->texcoord[i])
+			list[n++] = (struct attribute){ &mesh->texcoord[i], 4, 0 };
+	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
+		if (mesh->generics[i])
+			list[n++] = (struct attribute){ &mesh->generics[i], 4, 0 };
+	return n;
+}
+
+static void fill_positions(const struct shape *s, float *out)
+{
+	const size_t n = s->mesh->vertex_count;
+
+	memcpy(out, s->mesh->position, 4 * n * sizeof(*out));
+	for (size_t v = 0; v < n + s->n_made; v++) {
+		const uint32_t point = v < n ? s->point_of[v] : s->made[v - n].point;
+
+		out[4 * v + 3] = 1;
+		for (size_t k = 0; k < 3 && point != SCENE_NONE; k++)
+			if ((double)out[4 * v + k] != s->points[point][k] || v >= n)
+				out[4 * v + k] = (float)s->points[point][k];
+	}
+}
+
+static void fill_attribute(const struct shape *s, const struct attribute *a, float *out)
+{
+	const size_t n = s->mesh->vertex_count;
+
+	memcpy(out, *a->array, a->each * n * sizeof(*out));
+	for (size_t i = 0; i < s->n_made; i++) {
+		const struct shape_made *m = &s->made[i];
+		const float *from = out + a->each * m->a, *to = out + a->each * m->b;
+
+		if (a->is_color && s->wants->flat)
+			from = to = out + a->each * m->like;
+		for (size_t k = 0; k < a->each; k++)
+			out[a->each * (n + i) + k] = from[k] + (to[k] - from[k]) * m->at;
+	}
+}
+
+static int build(const struct shape *s, struct scene_mesh **out)
+{
+	const size_t vertices = s->mesh->vertex_count + s->n_made;
+	const uint32_t wants = (uint32_t)(s->wants->turn | s->wants->clockwise << 1 | s->wants->flat << 2);
+	struct scene_mesh copy = *s->mesh, *made;
+	struct attribute list[MOST_ATTRIBUTES];
+	const size_t n = list_attributes(&copy, list);
+	size_t words = 4 * vertices + 4 * s->n_faces;
+	float *at;
+	uint32_t *index, bits;
+
+	for (size_t i = 0; i < n; i++)
+		words += list[i].each * vertices;
+	made = malloc(sizeof(*made) + words * sizeof(float));
+	if (!made)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	at = (float *)(made + 1);
+	fill_positions(s, at);
+	copy.position = at;
+	at += 4 * vertices;
+	for (size_t i = 0; i < n; i++) {
+		fill_attribute(s, &list[i], at);
+		*list[i].array = at;
+		at += list[i].each * vertices;
+	}
+	index = (uint32_t *)at;
+	copy.index = index;
+	copy.primitive_draw = s->mesh->primitive_draw ? index + 3 * s->n_faces : NULL;
+	for (size_t f = 0; f < s->n_faces; f++) {
+		memcpy(index + 3 * f, s->faces[f].v, 3 * sizeof(*index));
+		if (copy.primitive_draw)
+			index[3 * s->n_faces + f] = s->mesh->primitive_draw[s->faces[f].from];
+	}
+	copy.edge_flags = NULL; /* of polygons drawn as lines */
+	copy.crease = NULL;
+	copy.vertex_count = (uint32_t)vertices;
+	copy.primitive_count = (uint32_t)s->n_faces;
+	memcpy(&bits, &s->wants->weld, sizeof(bits));
+	copy.hash[0] ^= 0x7265706100000000u + wants; /* another mesh for all caches */
+	copy.hash[1] ^= bits;
+	*made = copy;
+	*out = made;
+	return 0;
+}
+
+/* --- All steps --------------------------------------------------------------------------------------------------------------------- */
+
+static int mend(struct shape *s)
+{
+	uint32_t junctions = 1;
+	int err = 0;
+
+	for (int round = 0; round < ROUNDS && junctions && !err; round++) {
+		err = junctions_mend(s, &junctions);
+		s->found->junctions += junctions;
+		if (!err && junctions)
+			err = doubles_drop(s);
+	}
+	return err ? err : doubles_drop_backs(s);
+}
+
+static int is_whole(const struct scene_mesh *mesh)
+{
+	if (mesh->kind != SCENE_TRIANGLES || !mesh->primitive_count)
+		return 0;
+	for (size_t v = 0; v < mesh->vertex_count; v++)
+		if (mesh->position[4 * v + 3] != 1)
+			return 0;
+	return 1;
+}
+
+/* 1 where an edge has not as many triangles one way as the other. */
+static int is_open(const struct shape *s, int *open)
+{
+	struct shape_edge *edges;
+	size_t n;
+	int err = shape_list_edges(s, &edges, &n), balance = 0;
+
+	for (size_t first = 0; first < n && !err && !balance;)
+		first = shape_run_end(s, edges, n, first, &balance);
+	*open = balance != 0;
+	free(edges);
+	return err;
+}
+
+int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out)
+{
+	struct shape s;
+	int err, open = 0;
+
+	*out = NULL;
+	*found = (struct repair_found){ .welded = 0 };
+	if (!is_whole(mesh))
+		return 0;
+	err = shape_init(&s, mesh, wants, found);
+	if (!err)
+		err = doubles_drop(&s);
+	if (!err)
+		err = is_open(&s, &open);
+	if (!err && open)
+		err = doubles_drop_narrow(&s);
+	if (!err && open)
+		err = mend(&s);
+	if (!err)
+		err = turn_outwards(&s, wants->turn);
+	if (!err)
+		err = tell(&s);
+	if (!err && (found->welded || found->junctions || found->dropped || found->turned))
+		err = build(&s, out);
+	shape_free(&s);
+	return err;
+}
