@@ -3,32 +3,8 @@
 #include <string.h>
 
 #include "replay/glsl/translate.h"
+#include "tests/fuzz/code_check.h"
 #include "tests/fuzz/target.h"
-
-/* n numbers from an operand on are there. */
-static int is_there(const struct program_code *code, uint32_t operand, uint32_t n)
-{
-	return operand >= SCENE_PROGRAM_CONSTANT ? operand - SCENE_PROGRAM_CONSTANT + n <= 4 * code->n_constants : operand + n <= code->n_registers;
-}
-
-static void check(const struct program_code *code, uint32_t first)
-{
-	for (uint32_t i = 0; i < code->n_instructions; i++) {
-		const struct scene_instruction *in = &code->instructions[i];
-		const uint32_t operands[3] = { in->a, in->b, in->c }, span = (in->c >> 16) * (in->c & 0xffff);
-		const int jumps = in->operation == SCENE_OP_JUMP || in->operation == SCENE_OP_JUMP_NONE;
-		const uint32_t results = in->operation == SCENE_OP_TEXTURE ? 4 : in->operation == SCENE_OP_STORE ? span : in->n;
-
-		if (in->operation >= N_SCENE_OPERATIONS || (jumps && in->to > code->n_instructions) || (in->operation == SCENE_OP_TEXTURE && in->b >= code->n_samplers))
-			abort();
-		if (!jumps && in->operation != SCENE_OP_KILL && in->operation != SCENE_OP_MASK && (in->to < first || in->to + results > code->n_registers))
-			abort();
-		for (unsigned k = 0; k < program_operands(in->operation); k++)
-			if (!is_there(code, operands[k], k == 0 && in->operation == SCENE_OP_TEXTURE ? 4 : k == 0 && in->operation == SCENE_OP_FETCH ? span + in->n - 1 :
-			                                 in->flags >> k & 1 ? in->n : 1))
-				abort();
-	}
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -47,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	sources.texts[stage] = texts;
 	sources.n_texts[stage] = 1;
 	if (!glsl_translate(&sources, code, &uniforms, &why) && !why)
-		check(&code[stage], stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR);
+		code_check(&code[stage], stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS : SCENE_PROGRAM_COLOR, code[stage].n_samplers);
 	for (unsigned i = 0; i < 2; i++)
 		program_code_free(&code[i]);
 	glsl_uniforms_free(&uniforms);

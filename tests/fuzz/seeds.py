@@ -1,6 +1,7 @@
 """What libFuzzer and mutants start from: files as Relume and others make them, one folder BUILD/fuzz/seeds_TARGET each."""
 import gzip
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -124,10 +125,18 @@ def pictures(build, traces, out):
             (out["oiio"] / made.name).write_bytes(b"\3" + made.read_bytes())
 
 
+def assembly():
+    """The texts of ARB assembly programs in tests' sources."""
+    for path in [*(ROOT / "tests/real/panels").glob("*.c"), ROOT / "tests/gl/test_programs.c"]:
+        literals = re.sub(r'"\s*\n\s*"', "", path.read_text())
+        for text in re.findall(r'"(!!ARB[vf]p1\.0(?:[^"\\]|\\.)*)"', literals):
+            yield text.replace("\\n", "\n")
+
+
 def make_seeds(build, folder):
     """Once; the folders' names end in the targets'."""
     names = ("calls", "replay", "container", "verbs", "index", "snapshot", "ref", "exr", "oiio", "look", "rules", "baseline", "json", "gltf", "tree",
-             "outcome", "farm", "recorder")
+             "outcome", "farm", "recorder", "glsl", "arb")
     out = {name: folder / f"seeds_{name}" for name in names}
     done = folder / "seeds_made"
     if done.exists():
@@ -161,6 +170,8 @@ def make_seeds(build, folder):
     pictures(build, traces, out)
     for number, calls in enumerate(read_pack(HERE / "kept_calls")[::5]):
         (out["gltf"] / str(number)).write_bytes(number.to_bytes(4, "little") + calls)
+    for number, text in enumerate(assembly()):
+        (out["arb"] / str(number)).write_bytes(bytes([text.startswith("!!ARBvp")]) + text.encode())
     (out["look"] / "all").write_bytes(LOOK)
     (out["rules"] / "all").write_bytes(RULES)
     (out["baseline"] / "all").write_bytes(BASELINE)
