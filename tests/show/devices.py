@@ -115,12 +115,15 @@ class Runner:
         return code, out, errors.read_text(errors="replace"), used
 
     def render(self, trace, frames, **more):
-        """Exit code, what was said last, processor time at the end of each frame and of all; {file or kernel: seconds} of what was built."""
+        """Exit code, what was said last, processor time at the end of each frame and of all; {file or kernel: seconds} of what was built.
+
+        Without the sandbox: the shim writes a file of its own.
+        """
         self.log.unlink(missing_ok=True)
         pictures = self.folder / "x"
         shutil.rmtree(pictures, ignore_errors=True)
-        code, lines, err, used = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "json", "-o",
-                                          pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()), **more)
+        code, lines, err, used = self.run(self.relume, "render", trace, "-f", ",".join(map(str, frames)), "-j", 1, "--progress", "json",
+                                          "--no-sandbox", "-o", pictures / "x.####.exr", *(("--kernels", self.family) if self.family else ()), **more)
         built = {}
         for line in self.log.read_text().splitlines() if self.log.exists() else ():
             how, seconds, kernels = (line + " ").split(" ", 2)
