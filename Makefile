@@ -28,7 +28,7 @@ LIBS := -Wl,--as-needed -lOpenEXRCore-3_1 -lOpenCL -lsnappy -lpng -lbrotlidec -l
 # The recorder is linked from few files, so that little of ours runs inside the traced program. Sizes are shared.
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
 RECORDER_GEN := tables/commands tables/enums thunks
-RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c capture/format/reserve.c) \
+RECORDER_OBJ := $(patsubst %.c,$(BUILD)/recorder/%.o,$(RECORDER_SRC) capture/format/sizes.c capture/format/reserve.c capture/format/ref_pack.c) \
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := replay/verbs/visual.c
 REPLAY_SRC := $(filter-out $(VISUAL_SRC),$(wildcard replay/*.c replay/*/*.c replay/*/*/*.c))
@@ -150,7 +150,7 @@ $(BUILD)/sanitized/%/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map $(BUI
 	@mkdir -p $(@D)
 	$(Q)cp $(BUILD)/relume $(@D)/relume
 	$(Q)$(CC) $(CPPFLAGS) $(SANITIZED_CFLAGS) -fsanitize=$* -shared -Wl,-Bsymbolic -Wl,--version-script=capture/gen/exports.map -o $@ \
-		$(RECORDER_SRC) capture/format/sizes.c $(patsubst %,$(BUILD)/recorder/gen/%.c,$(RECORDER_GEN)) -l:libsnappy.a -lstdc++ -ldl -pthread
+		$(RECORDER_SRC) capture/format/sizes.c capture/format/ref_pack.c $(patsubst %,$(BUILD)/recorder/gen/%.c,$(RECORDER_GEN)) -l:libsnappy.a -lstdc++ -ldl -pthread
 
 $(BUILD)/sanitized/%/threads: tests/trace/threads.c tests/trace/window.h
 	@mkdir -p $(@D)

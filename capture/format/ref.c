@@ -12,6 +12,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "base/part.h"
+#include "capture/format/ref_pack.h"
 
 enum { MAGIC_BYTES = 8, MAX_SIDE = 65536 };
 
@@ -39,7 +40,8 @@ static int list_records(struct ref_file *ref, uint64_t file_bytes)
 		if (fseeko(ref->stream, (off_t)at, SEEK_SET) || fread(&head, sizeof(head), 1, ref->stream) != 1)
 			return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
 		at += sizeof(head);
-		entry = (struct ref_entry){ (enum ref_kind)head.kind, head.width, head.height, head.frame, at, head.packed_bytes };
+		entry = (struct ref_entry){ (enum ref_kind)(head.kind & ~REF_CHANGED), head.width, head.height, head.frame, at, head.packed_bytes,
+		                            (head.kind & REF_CHANGED) != 0 };
 		if ((entry.kind != REF_COLOR && entry.kind != REF_DEPTH) || !entry.width || !entry.height ||
 		    entry.width > MAX_SIDE || entry.height > MAX_SIDE)
 			return err_report(ERR_INPUT, ref->path, "record %zu is damaged", ref->n_entries);
@@ -73,7 +75,7 @@ int ref_open(struct ref_file *ref, const char *path)
 		rc = err_report(ERR_INPUT, path, "cannot open: %s", strerror(errno));
 		goto fail;
 	}
-	if (fread(magic, sizeof(magic), 1, ref->stream) != 1 || memcmp(magic, REF_MAGIC, sizeof(magic)) != 0) {
+	if (fread(magic, sizeof(magic), 1, ref->stream) != 1 || (memcmp(magic, REF_MAGIC, sizeof(magic)) != 0 && memcmp(magic, REF_MAGIC_WHOLE, sizeof(magic)) != 0)) {
 		rc = err_report(ERR_INPUT, path, "not a file of reference frames");
 		goto fail;
 	}
@@ -143,22 +145,69 @@ static int damaged(const struct ref_file *ref, const struct ref_entry *entry)
 	return err_report(ERR_INPUT, ref->path, "the reference of frame %llu is damaged", (unsigned long long)entry->frame);
 }
 
-int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out)
+/*
+ * Xor a block's pixels to those in *out.
+ * planes: 1: the block holds four planes of bytes. out: NULL: receives them; whoever calls frees it. @return 0, ERR_INPUT or ERR_SYSTEM (reported)
+ */
+static int add_block(const struct ref_file *ref, const struct ref_entry *entry, uint64_t offset, uint64_t packed_bytes, int planes, uint32_t **out)
 {
-	size_t bytes = (size_t)entry->width * entry->height * 4, unpacked = 0;
-	char *packed = malloc(entry->packed_bytes ? entry->packed_bytes : 1), *pixels = NULL;
+	const size_t n = (size_t)entry->width * entry->height;
+	char *packed = malloc(packed_bytes ? packed_bytes : 1);
+	uint8_t *bytes = NULL;
+	size_t unpacked = 0;
 	int rc = 0;
 
 	if (!packed)
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-	else if (!read_at(fileno(ref->stream), entry->offset, packed, entry->packed_bytes) ||
-	         snappy_uncompressed_length(packed, entry->packed_bytes, &unpacked) != SNAPPY_OK || unpacked != bytes)
+	else if (!read_at(fileno(ref->stream), offset, packed, packed_bytes) ||
+	         snappy_uncompressed_length(packed, packed_bytes, &unpacked) != SNAPPY_OK || unpacked != 4 * n)
 		rc = damaged(ref, entry);
-	else if (!(pixels = malloc(bytes)))
+	else if (!(bytes = malloc(4 * n)) || !(*out = *out ? *out : calloc(n, sizeof(**out))))
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
-	else if (snappy_uncompress(packed, entry->packed_bytes, pixels, &unpacked) != SNAPPY_OK)
+	else if (snappy_uncompress(packed, packed_bytes, (char *)bytes, &unpacked) != SNAPPY_OK)
 		rc = damaged(ref, entry);
+	for (size_t i = 0; i < n && !rc; i++) {
+		uint32_t whole;
+
+		memcpy(&whole, bytes + 4 * i, sizeof(whole));
+		(*out)[i] ^= planes ? bytes[i] | (uint32_t)bytes[n + i] << 8 | (uint32_t)bytes[2 * n + i] << 16 | (uint32_t)bytes[3 * n + i] << 24 : whole;
+	}
+	free(bytes);
 	free(packed);
+	return rc;
+}
+
+/* The record that a changed one builds on. @return 0, or ERR_INPUT (reported) */
+static int find_base(const struct ref_file *ref, struct ref_entry *entry)
+{
+	const int fd = fileno(ref->stream);
+	struct ref_head head;
+	uint64_t base;
+
+	if (entry->packed_bytes < sizeof(base) || !read_at(fd, entry->offset, (char *)&base, sizeof(base)) || base >= entry->offset ||
+	    !read_at(fd, base, (char *)&head, sizeof(head)) || (head.kind & ~REF_CHANGED) != (uint32_t)entry->kind || head.width != entry->width ||
+	    head.height != entry->height || head.packed_bytes > entry->offset - base)
+		return damaged(ref, entry);
+	entry->offset = base + sizeof(head);
+	entry->packed_bytes = head.packed_bytes;
+	entry->is_changed = (head.kind & REF_CHANGED) != 0;
+	return 0;
+}
+
+int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **out)
+{
+	const size_t ahead = sizeof(uint64_t); /* of a changed block */
+	struct ref_entry at = *entry;
+	uint32_t *pixels = NULL;
+	int rc = 0;
+
+	for (unsigned changed = 0; at.is_changed && !rc; changed++) {
+		if (changed == REF_MOST_CHANGED || at.packed_bytes < ahead)
+			rc = damaged(ref, entry);
+		rc = rc ? rc : add_block(ref, entry, at.offset + ahead, at.packed_bytes - ahead, 1, &pixels);
+		rc = rc ? rc : find_base(ref, &at);
+	}
+	rc = rc ? rc : add_block(ref, entry, at.offset, at.packed_bytes, 0, &pixels);
 	if (rc)
 		free(pixels);
 	else
@@ -166,44 +215,56 @@ int ref_read(const struct ref_file *ref, const struct ref_entry *entry, void **o
 	return rc;
 }
 
-static int copy_record(struct ref_file *ref, const struct ref_entry *entry, uint64_t frame, FILE *out, const char *path)
+/* A file that is being written. */
+struct copy {
+	FILE *out;
+	const char *path;
+	uint64_t at;
+	struct ref_last last[2];
+	void *before[2]; /* the last records' pixels */
+};
+
+static int copy_record(const struct ref_file *ref, const struct ref_entry *entry, uint64_t frame, struct copy *c)
 {
-	struct ref_head head = { entry->kind, entry->width, entry->height, frame, entry->packed_bytes };
-	uint64_t left = entry->packed_bytes;
-	uint8_t bytes[1 << 16];
+	const struct ref_head head = { entry->kind, entry->width, entry->height, frame, 0 };
+	const size_t n = (size_t)entry->width * entry->height;
+	const unsigned k = entry->kind == REF_DEPTH;
+	uint8_t *planes = NULL, *record = NULL;
+	void *pixels = NULL;
+	size_t bytes = 0;
+	int rc = ref_read(ref, entry, &pixels);
 
-	if (fwrite(&head, sizeof(head), 1, out) != 1)
-		return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
-	if (fseeko(ref->stream, (off_t)entry->offset, SEEK_SET))
-		return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
-	while (left) {
-		size_t n = left < sizeof(bytes) ? (size_t)left : sizeof(bytes);
-
-		if (fread(bytes, 1, n, ref->stream) != n)
-			return err_report(ERR_INPUT, ref->path, "cannot read: %s", strerror(errno));
-		if (fwrite(bytes, 1, n, out) != n)
-			return err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
-		left -= n;
-	}
-	return 0;
+	if (!rc && (!(planes = malloc(4 * n)) || !(record = malloc(ref_pack_room(n))) ||
+	            !(bytes = ref_pack(&c->last[k], &head, c->at, pixels, c->before[k], planes, record))))
+		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
+	if (!rc && fwrite(record, 1, bytes, c->out) != bytes)
+		rc = err_report(ERR_SYSTEM, c->path, "cannot be written: %s", strerror(errno));
+	free(record);
+	free(planes);
+	free(c->before[k]);
+	c->before[k] = pixels;
+	c->at += bytes;
+	return rc;
 }
 
 int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path)
 {
+	struct copy c = { .path = path, .at = MAGIC_BYTES };
 	char part[PATH_MAX];
-	FILE *out;
 	int rc = part_begin(path, part, sizeof(part));
 
 	if (rc)
 		return rc;
-	out = fopen(part, "wb");
-	if (!out || fwrite(REF_MAGIC, MAGIC_BYTES, 1, out) != 1)
+	c.out = fopen(part, "wb");
+	if (!c.out || fwrite(REF_MAGIC, MAGIC_BYTES, 1, c.out) != 1)
 		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
 	for (size_t i = 0; i < ref->n_entries && !rc; i++)
 		if (ref->entries[i].frame >= first && ref->entries[i].frame <= last)
-			rc = copy_record(ref, &ref->entries[i], ref->entries[i].frame - first, out, path);
-	if (out && fclose(out) && !rc)
+			rc = copy_record(ref, &ref->entries[i], ref->entries[i].frame - first, &c);
+	if (c.out && fclose(c.out) && !rc)
 		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
+	free(c.before[0]);
+	free(c.before[1]);
 	if (rc)
 		part_drop(part);
 	return rc ? rc : part_finish(part, path);

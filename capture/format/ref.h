@@ -2,10 +2,12 @@
  * Reference frames: what the recorded program itself showed, read back just before each frame's end.
  *
  * File NAME.ref beside NAME.trace, little-endian:
- *   magic   8 bytes "RELREF1\n"
+ *   magic   8 bytes "RELREF2\n"; "RELREF1\n" where no record has REF_CHANGED
  *   record* u32 kind, u32 width, u32 height, u64 frame, u64 packed_bytes, then packed_bytes of one raw Snappy block
  * kind 1: colour, RGBA, 8 bits each; the mean of a pixel's samples, as the window shows it.
  * kind 2: window depth, one float each, [0,1]; with several samples what glReadPixels gives.
+ * Where kind has REF_CHANGED, packed_bytes begin with u64 base: where an earlier record of the same kind and size begins. The block
+ * then holds what has changed: pixels xor those of that record, first the lowest bytes of all of them, then the next ones, four times.
  * Rows run from the bottom row up, as GL delivers them, without padding. A frame's records follow each other. Frames ascend, but for
  * those that several threads ended at the same time. A file cut at any byte is valid up to the last whole record.
  */
@@ -14,7 +16,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define REF_MAGIC "RELREF1\n"
+#define REF_MAGIC "RELREF2\n"
+#define REF_MAGIC_WHOLE "RELREF1\n"
+#define REF_CHANGED 0x100u   /* added to a record's kind */
+#define REF_MOST_CHANGED 15u /* records that build one upon the other, after one that is whole */
 
 enum ref_kind { REF_COLOR = 1, REF_DEPTH = 2 };
 
@@ -29,7 +34,8 @@ struct ref_entry {
 	enum ref_kind kind;
 	uint32_t width, height;
 	uint64_t frame;
-	uint64_t offset, packed_bytes; /* of the Snappy block in the file */
+	uint64_t offset, packed_bytes; /* of what follows the head in the file */
+	int is_changed;                /* 1: REF_CHANGED */
 };
 
 struct ref_file {

@@ -5,12 +5,11 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <snappy-c.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "capture/format/ref.h"
+#include "capture/format/ref_pack.h"
 #include "capture/gl/context.h"
 #include "capture/gl/reading.h"
 #include "capture/stats.h"
@@ -20,23 +19,28 @@
 #include "capture/write/writer.h"
 #include "real.h"
 
+struct pages {
+	uint8_t *at;
+	size_t mapped;
+};
+
 static struct {
 	int color, depth;
 	_Atomic int failed;
 	uint64_t every;
 	char path[STATS_PATH_BYTES];
 	uint64_t bytes;
-	uint8_t *pixels; /* kept from frame to frame */
-	size_t pixels_bytes;
+	struct ref_last last[2];
+	struct pages before[2], planes, records; /* kept from frame to frame */
 	struct readback *idle;
 	pthread_mutex_t lock;
 } r = { .lock = PTHREAD_MUTEX_INITIALIZER };
 
-/* A frame's records, which wait for its number. */
+/* A frame's pixels, colour and depth, which wait for its number. */
 struct readback {
 	struct readback *next;
-	uint8_t *records; /* one or two: a head, packed pixels */
-	size_t mapped, bytes;
+	struct pages pixels[2];
+	uint32_t width[2], height[2]; /* 0: none */
 };
 
 static __thread struct readback *waiting __attribute__((tls_model("initial-exec")));
@@ -84,28 +88,16 @@ static void append(const void *data, size_t bytes)
 		r.bytes += bytes;
 }
 
-static void pack_record(enum ref_kind kind, int width, int height)
+static int make_room(struct pages *pages, size_t bytes)
 {
-	size_t bytes = (size_t)width * (size_t)height * 4, packed = snappy_max_compressed_length(bytes);
-	struct ref_head head = { kind, (uint32_t)width, (uint32_t)height, 0, 0 };
-	uint8_t *at;
-
-	if (!pages_grow(&waiting->records, &waiting->mapped, waiting->bytes + packed + sizeof(head))) {
-		fail("no memory", ENOMEM);
-		return;
-	}
-	at = waiting->records + waiting->bytes;
-	if (snappy_compress((char *)r.pixels, bytes, (char *)at + sizeof(head), &packed) != SNAPPY_OK) {
-		fail("no memory", ENOMEM);
-		return;
-	}
-	head.packed_bytes = packed;
-	memcpy(at, &head, sizeof(head));
-	waiting->bytes += packed + sizeof(head);
+	if (pages_grow(&pages->at, &pages->mapped, bytes))
+		return 1;
+	fail("no memory", ENOMEM);
+	return 0;
 }
 
-/* Begin the file, and make room for a frame's pixels and records. Returns 0, or -1. */
-static int make_ready(int width, int height)
+/* Begin the file. Returns 0, or -1. */
+static int make_ready(void)
 {
 	if (!waiting && (waiting = r.idle))
 		r.idle = waiting->next;
@@ -113,17 +105,25 @@ static int make_ready(int width, int height)
 		fail("no memory", ENOMEM);
 		return -1;
 	}
-	waiting->bytes = 0;
+	waiting->width[0] = waiting->width[1] = 0;
 	if (!r.path[0]) {
 		if (writer_sidecar(r.path, sizeof(r.path), ".ref"))
 			return -1;
 		append(REF_MAGIC, strlen(REF_MAGIC));
 	}
-	if (!pages_grow(&r.pixels, &r.pixels_bytes, (size_t)width * (size_t)height * 4)) {
-		fail("no memory", ENOMEM);
-		return -1;
-	}
 	return 0;
+}
+
+/* Room for a kind's pixels of the frame that waits; NULL: there is none (said) */
+static uint8_t *place_pixels(enum ref_kind kind, int width, int height)
+{
+	const unsigned k = kind == REF_DEPTH;
+
+	if (!make_room(&waiting->pixels[k], (size_t)width * (size_t)height * 4))
+		return NULL;
+	waiting->width[k] = (uint32_t)width;
+	waiting->height[k] = (uint32_t)height;
+	return waiting->pixels[k].at;
 }
 
 /* 1 where the window has a back buffer and yet is drawn to its front buffer. */
@@ -138,25 +138,23 @@ void reference_read(int width, int height, int unswapped)
 {
 	struct reading_state state = { 0 };
 	int saved = errno, list = context_has(HAS_FIXED_FUNCTION) ? context_get(GL_LIST_INDEX) : 0;
+	uint8_t *pixels;
 
 	/* A list that is being compiled would take the selection of the buffer. */
 	if (list || width <= 0 || height <= 0)
 		return;
 	pthread_mutex_lock(&r.lock);
-	if (make_ready(width, height))
+	if (make_ready())
 		goto done;
 	context_errors_before();
 	reading_begin(&state);
 	if (unswapped && draws_to_front())
 		real_glReadBuffer(GL_FRONT);
-	if (r.color && !r.failed) {
-		reading_colors(width, height, r.pixels);
-		pack_record(REF_COLOR, width, height);
-	}
-	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0) { /* OpenGL ES reads no depth */
-		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, r.pixels);
-		pack_record(REF_DEPTH, width, height);
-	}
+	if (r.color && !r.failed && (pixels = place_pixels(REF_COLOR, width, height)))
+		reading_colors(width, height, pixels);
+	if (r.depth && !r.failed && context_has(HAS_DESKTOP) && context_get(GL_DEPTH_BITS) > 0 && /* OpenGL ES reads no depth */
+	    (pixels = place_pixels(REF_DEPTH, width, height)))
+		real_glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels);
 	reading_end(&state);
 	context_errors_after();
 done:
@@ -164,22 +162,47 @@ done:
 	errno = saved;
 }
 
+/* Add a kind's record to r.records, which hold `bytes` so far, and keep its pixels for the next one. Returns its bytes; 0: no memory (said) */
+static size_t pack_record(struct readback *read, enum ref_kind kind, uint64_t frame, size_t bytes)
+{
+	const unsigned k = kind == REF_DEPTH;
+	const struct ref_head head = { kind, read->width[k], read->height[k], frame, 0 };
+	const size_t n = (size_t)head.width * head.height;
+	const struct pages pixels = read->pixels[k];
+	size_t more;
+
+	if (!make_room(&r.planes, 4 * n) || !make_room(&r.records, bytes + ref_pack_room(n)))
+		return 0;
+	more = ref_pack(&r.last[k], &head, r.bytes + bytes, (const uint32_t *)(const void *)pixels.at, (const uint32_t *)(const void *)r.before[k].at,
+	                r.planes.at, r.records.at + bytes);
+	if (!more)
+		fail("no memory", ENOMEM);
+	read->pixels[k] = r.before[k];
+	r.before[k] = pixels;
+	return more;
+}
+
+static void write_records(struct readback *read, uint64_t frame)
+{
+	size_t bytes = 0;
+
+	for (unsigned k = 0; k < 2 && !r.failed; k++)
+		if (read->width[k])
+			bytes += pack_record(read, k ? REF_DEPTH : REF_COLOR, frame, bytes);
+	if (bytes && !r.failed)
+		append(r.records.at, bytes);
+}
+
 void reference_write(uint64_t frame)
 {
 	struct readback *read = waiting;
-	struct ref_head head;
 	int saved = errno;
 
 	if (!read)
 		return;
-	for (size_t at = 0; at < read->bytes; at += sizeof(head) + head.packed_bytes) {
-		memcpy(&head, read->records + at, sizeof(head));
-		head.frame = frame - 1;
-		memcpy(read->records + at, &head, sizeof(head));
-	}
 	pthread_mutex_lock(&r.lock);
-	if (frame && read->bytes && reference_wanted(frame - 1))
-		append(read->records, read->bytes);
+	if (frame && reference_wanted(frame - 1))
+		write_records(read, frame - 1);
 	waiting = NULL;
 	read->next = r.idle;
 	r.idle = read;

@@ -62,7 +62,7 @@ static const char *foreign_kind(const uint8_t *head, size_t n)
 		{ "\x7f""ELF", 4, "a program" },
 		{ "#!", 2, "a script" },
 		{ "PK\x03\x04", 4, "a ZIP archive" },
-		{ "RELREF1\n", 8, "a file of reference frames (the trace lies beside it)" },
+		{ "RELREF", 6, "a file of reference frames (the trace lies beside it)" },
 		{ "\x28\xb5\x2f\xfd", 4, "a trace packed with zstd ('apitrace repack' with no option makes one that can be read)" },
 	};
 

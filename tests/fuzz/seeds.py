@@ -73,7 +73,8 @@ frames:
   - { frame: 2, width: 4, height: 3, file: frame.0002.exr, channels: "A:0123456789abcdef R:0123456789abcdef" }
 """
 # Two frames of 2 x 2 pixels, colour and depth (capture/format/ref.h); a block of Snappy's that is one literal.
-REF = b"RELREF1\n" + b"".join(struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16)) for frame in (3, 4) for kind in (1, 2))
+REF = b"RELREF2\n" + b"".join(struct.pack("<IIIQQ", kind, 2, 2, frame, 18) + b"\x10\x3c" + bytes(range(16)) for frame in (3, 4) for kind in (1, 2))
+REF += struct.pack("<IIIQQQ", 0x101, 2, 2, 5, 26, 8) + b"\x10\x3c" + bytes(range(16))
 # Memory of eight pages, the third of which is missing, and a call of each kind (fuzz_recorder.c).
 RECORDER = bytes([0xfb, *b"a text" * 20]).ljust(256, b"\0") + b"".join(
     struct.pack("<BBHi5i", what, wild, 8000, 300, 0x1908, 0x1401, 16, 16, 1) for what in range(8) for wild in (0, 1, 9))

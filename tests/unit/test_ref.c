@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include "base/err.h"
-#include "capture/format/ref.h"
+#include "capture/format/ref_pack.h"
 #include "tests/case.h"
 
 enum { WIDTH = 5, HEIGHT = 3, PIXEL_BYTES = WIDTH * HEIGHT * 4, N_FRAMES = 4 };
 
 static char path[] = "/tmp/relume-test-ref-XXXXXX";
-static uint8_t file[4096];
+static uint8_t file[32768];
 static size_t file_bytes;
 static size_t record_end[N_FRAMES * 2];
 
@@ -57,7 +57,7 @@ static void make_file(void)
 	float depth[WIDTH * HEIGHT];
 
 	file_bytes = 0;
-	memcpy(file, REF_MAGIC, 8);
+	memcpy(file, REF_MAGIC_WHOLE, 8);
 	file_bytes = 8;
 	for (int i = 0; i < N_FRAMES; i++) { /* frames 0, 3, 6, 9 as --ref-every 3 makes them */
 		fill_color(color, (uint64_t)i * 3);
@@ -134,6 +134,110 @@ START_TEST(test_cut_at_any_byte_keeps_whole_records)
 }
 END_TEST
 
+/* As the recorder writes: frames from `first` on, of two sizes and both kinds. at: receives where each frame's colours begin */
+static void make_changes(uint64_t n_frames, size_t at[])
+{
+	struct ref_last last[2] = { 0 };
+	uint32_t pixels[2][WIDTH * HEIGHT], before[2][WIDTH * HEIGHT];
+	uint8_t planes[PIXEL_BYTES], record[512];
+
+	memcpy(file, REF_MAGIC, 8);
+	file_bytes = 8;
+	ck_assert_uint_le(ref_pack_room(WIDTH * HEIGHT), sizeof(record));
+	for (uint64_t frame = 0; frame < n_frames; frame++) {
+		at[frame] = file_bytes;
+		fill_color((uint8_t *)pixels[0], frame);
+		fill_depth((float *)pixels[1], frame);
+		for (unsigned k = 0; k < 2; k++) {
+			const struct ref_head head = { k ? REF_DEPTH : REF_COLOR, frame % 10 == 9 ? HEIGHT : WIDTH, frame % 10 == 9 ? WIDTH : HEIGHT, frame, 0 };
+			const size_t bytes = ref_pack(&last[k], &head, file_bytes, pixels[k], before[k], planes, record);
+
+			ck_assert_uint_gt(bytes, sizeof(head));
+			memcpy(file + file_bytes, record, bytes);
+			file_bytes += bytes;
+		}
+		memcpy(before, pixels, sizeof(before));
+	}
+}
+
+static void check_frames(const struct ref_file *ref, uint64_t first, uint64_t n)
+{
+	uint8_t color[PIXEL_BYTES];
+	float depth[WIDTH * HEIGHT];
+	void *got;
+
+	for (uint64_t frame = 0; frame < n; frame++) {
+		const struct ref_entry *c = ref_find(ref, REF_COLOR, frame), *d = ref_find(ref, REF_DEPTH, frame);
+
+		fill_color(color, first + frame);
+		fill_depth(depth, first + frame);
+		ck_assert_int_eq(ref_read(ref, c, &got), 0);
+		ck_assert_mem_eq(got, color, PIXEL_BYTES);
+		free(got);
+		ck_assert_int_eq(ref_read(ref, d, &got), 0);
+		ck_assert_mem_eq(got, depth, PIXEL_BYTES);
+		free(got);
+	}
+}
+
+START_TEST(test_changes_read_back)
+{
+	char copy[] = "/tmp/relume-test-ref-copy-XXXXXX";
+	struct ref_file ref = { 0 };
+	size_t at[48], changed = 0;
+
+	make_changes(48, at);
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), 0);
+	ck_assert_uint_eq(ref.n_entries, 96);
+	for (size_t i = 0; i < ref.n_entries; i++)
+		changed += ref.entries[i].is_changed;
+	ck_assert_uint_gt(changed, 20);
+	ck_assert_uint_lt(changed, 90);
+	check_frames(&ref, 0, 48);
+
+	ck_assert_int_ge(close(mkstemp(copy)), 0);
+	ck_assert_int_eq(ref_copy(&ref, 5, 30, copy), 0);
+	ref_close(&ref);
+	ck_assert_int_eq(ref_open(&ref, copy), 0);
+	ck_assert_uint_eq(ref.n_entries, 52);
+	check_frames(&ref, 5, 26);
+	ref_close(&ref);
+	unlink(copy);
+}
+END_TEST
+
+START_TEST(test_bases_that_lie_are_refused)
+{
+	struct ref_file ref = { 0 };
+	size_t at[3];
+	uint64_t bases[4], kept;
+	void *got = NULL;
+
+	make_changes(3, at);
+	memcpy(&kept, file + at[2] + sizeof(struct ref_head), sizeof(kept));
+	ck_assert_uint_eq(kept, at[1]);
+	bases[0] = at[2];       /* itself */
+	bases[1] = at[1] + 1;   /* no head is there */
+	bases[2] = UINT64_MAX;
+	bases[3] = at[0] + sizeof(struct ref_head) + file[at[0] + 20]; /* the first depth */
+	for (unsigned i = 0; i < 4; i++) {
+		memcpy(file + at[2] + sizeof(struct ref_head), &bases[i], sizeof(kept));
+		write_file(file_bytes);
+		ck_assert_int_eq(ref_open(&ref, path), 0);
+		ck_assert_int_eq(ref_read(&ref, ref_find(&ref, REF_COLOR, 2), &got), ERR_INPUT);
+		ck_assert_ptr_null(got);
+		ref_close(&ref);
+	}
+	memcpy(file + at[2] + sizeof(struct ref_head), &kept, sizeof(kept));
+	file[at[0] + 1] = 1; /* the first record as a changed one: there is none before it */
+	write_file(file_bytes);
+	ck_assert_int_eq(ref_open(&ref, path), 0);
+	ck_assert_int_eq(ref_read(&ref, ref_find(&ref, REF_COLOR, 2), &got), ERR_INPUT);
+	ref_close(&ref);
+}
+END_TEST
+
 START_TEST(test_lies_are_refused)
 {
 	struct ref_file ref = { 0 };
@@ -174,6 +278,8 @@ int main(void)
 	close(fd);
 	tcase_add_test(tcase, test_reads_back_what_was_written);
 	tcase_add_test(tcase, test_cut_at_any_byte_keeps_whole_records);
+	tcase_add_test(tcase, test_changes_read_back);
+	tcase_add_test(tcase, test_bases_that_lie_are_refused);
 	tcase_add_test(tcase, test_lies_are_refused);
 	failed = run_case(tcase, "ref");
 	unlink(path);
