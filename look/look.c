@@ -15,6 +15,7 @@
 #include "look/gloss.h"
 #include "look/modelview.h"
 #include "look/plane.h"
+#include "look/repaired.h"
 #include "look/rules.h"
 #include "look/solid.h"
 #include "look/spare.h"
@@ -421,20 +422,67 @@ static float crease_of(const struct applying *a, const struct scene_instance *in
 	return angle;
 }
 
-/* Give faces that look round a mesh with further normals. m: the instance's material */
-static int smooth_instance(const struct applying *a, uint32_t i, struct scene_material *m)
+/* Give faces that look round a mesh with further normals. i: of the scene's instance; placed, m: what stands for it now, and its material */
+static int smooth_instance(const struct applying *a, uint32_t i, struct scene_instance *placed, struct scene_material *m)
 {
 	const struct scene_instance *in = &a->scene->instances[i];
 	const float angle = a->lights_change & 8 && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ? crease_of(a, in) : 0;
 	struct scene_mesh *mesh = NULL;
-	int err = angle > 0 ? crease_smooth(a->scene->meshes[in->mesh], m->shade_model == GL_FLAT, angle, &mesh) : 0;
+	int err = angle > 0 ? crease_smooth(a->out->meshes[placed->mesh], m->shade_model == GL_FLAT, angle, &mesh) : 0;
 
 	if (!mesh)
 		return err;
 	m->surface.hidden |= SCENE_CREASED;
-	a->out->instances[i].mesh = a->out->n_meshes;
+	placed->mesh = a->out->n_meshes;
 	a->out->meshes[a->out->n_meshes++] = mesh;
 	return 0;
+}
+
+/* How an instance's mesh is repaired. m: its material under the rules. @return 0: it is not */
+static int wants_repair(const struct applying *a, const struct scene_instance *in, const struct scene_material *m, struct repair_wants *wants)
+{
+	const struct repair_rule *rule = NULL;
+
+	for (uint32_t k = 0; k < a->rules->surfaces_count && a->look && a->look->repaired; k++)
+		if (a->rules->surfaces[k].repair && applies(a, in, k))
+			rule = a->rules->surfaces[k].repair;
+	return rule && repaired_wants(rule, a->scene, in, m, wants);
+}
+
+/*
+ * Let a repaired mesh stand for an instance where only the camera does not look: in a view of the same space that covers no pixel. The
+ * program's own stays for the camera alone.
+ */
+static int repair_instance(const struct applying *a, uint32_t i)
+{
+	struct scene *out = a->out;
+	struct scene_instance *own = &out->instances[i], *added = &out->instances[out->n_instances];
+	struct scene_material *m = &out->materials[out->n_materials];
+	const struct scene_mesh *mesh;
+	struct repair_wants wants;
+	struct repair_found found;
+	int err;
+
+	m[0] = m[1] = out->materials[own->material];
+	if (!wants_repair(a, &a->scene->instances[i], m, &wants))
+		return 0;
+	err = repaired_find(a->look->repaired, a->scene->meshes[a->scene->instances[i].mesh], &wants, &mesh, &found);
+	if (err || !mesh)
+		return err;
+	m[0].surface.hidden |= SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS;
+	*added = a->scene->instances[i];
+	added->mesh = out->n_meshes;
+	added->view += a->scene->n_views;
+	added->draw = out->n_draws;
+	added->first_primitive = out->n_primitives;
+	own->material = out->n_materials;
+	added->material = out->n_materials + 1;
+	out->n_materials += 2;
+	out->meshes[out->n_meshes++] = mesh;
+	out->n_primitives += mesh->primitive_count;
+	out->n_instances++;
+	out->n_views = 2 * a->scene->n_views;
+	return m[1].surface.hidden & SCENE_CREASED ? smooth_instance(a, i, added, &m[1]) : 0;
 }
 
 static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
@@ -486,7 +534,7 @@ static int change_instance(const struct applying *a, uint32_t i)
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
 		if (applies(a, in, k))
 			set_surface(&m->surface, &rules->surfaces[k], a->spare != NULL);
-	err = smooth_instance(a, i, m);
+	err = smooth_instance(a, i, &out->instances[i], m);
 	list_parameters(a, in, &m->surface);
 	m->surface.relit = m->lighting ? (uint32_t)(a->lights_change >> 1 & 1) || m->surface.light_unit || m->surface.hidden & SCENE_CREASED : m->surface.relit && a->lights_change & 1;
 	if (m->surface.hidden & SCENE_UNSHADED) {
@@ -519,17 +567,19 @@ static int copy_scene(struct applying *a)
 {
 	const struct scene *scene = a->scene;
 	struct scene *out = a->out;
+	const size_t copies = a->look && a->look->repaired ? 3 : 1; /* own, repaired, repaired and round */
 	size_t n = scene->n_instances, parameters = 0;
 
 	*out = *scene;
 	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
 		parameters += a->rules->surfaces[k].parameters_count * n;
 	out->parameters = malloc((a->rules->parameters_count + parameters + 1) * sizeof(*out->parameters));
-	out->instances = malloc((n + 1) * sizeof(*out->instances));
-	out->materials = malloc((scene->n_materials + n + 1) * sizeof(*out->materials));
+	out->instances = malloc((copies * n + 1) * sizeof(*out->instances));
+	out->materials = malloc((scene->n_materials + copies * n + 2) * sizeof(*out->materials));
+	out->views = malloc((2 * scene->n_views + (size_t)1) * sizeof(*out->views));
 	out->lights = malloc((scene->n_lights + (a->lights_change ? SCENE_MAX_LIGHTS * (n + 1) : 1)) * sizeof(*out->lights));
-	out->meshes = malloc((scene->n_meshes + n + 1) * sizeof(*out->meshes));
-	if (!out->instances || !out->materials || !out->lights || !out->meshes || !out->parameters) {
+	out->meshes = malloc((scene->n_meshes + copies * n + 1) * sizeof(*out->meshes));
+	if (!out->instances || !out->materials || !out->views || !out->lights || !out->meshes || !out->parameters) {
 		out->n_meshes = 0;
 		look_release(out);
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
@@ -539,6 +589,11 @@ static int copy_scene(struct applying *a)
 	out->n_shared_parameters = out->n_parameters;
 	if (n)
 		memcpy(out->instances, scene->instances, n * sizeof(*out->instances));
+	for (uint32_t v = 0; v < 2 * scene->n_views; v++) {
+		out->views[v] = scene->views[v % scene->n_views];
+		if (v >= scene->n_views) /* nobody looks through it (repair_instance) */
+			memset(out->views[v].scissor, 0, sizeof(out->views[v].scissor));
+	}
 	if (scene->n_materials)
 		memcpy(out->materials, scene->materials, scene->n_materials * sizeof(*out->materials));
 	if (scene->n_meshes)
@@ -606,6 +661,8 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	}
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++) {
 		err = change_instance(&a, i);
+		if (!err)
+			err = repair_instance(&a, i);
 		if (err)
 			look_release(out);
 	}
@@ -625,6 +682,7 @@ void look_release(struct scene *changed)
 	free(changed->meshes);
 	free(changed->instances);
 	free(changed->materials);
+	free(changed->views);
 	free(changed->lights);
 	free((void *)changed->parameters);
 	memset(changed, 0, sizeof(*changed));
@@ -632,7 +690,7 @@ void look_release(struct scene *changed)
 
 /* --- What rules say, for a report ------------------------------------------------------------------------------------ */
 
-enum { TOLD_BYTES = 250, TOLD_DRAWS = 90 };
+enum { TOLD_BYTES = 250, TOLD_DRAWS = 90, MOST_REPAIRS = 64 };
 
 /* 1 where a rule of surfaces before the k-th has its role: they are told together. */
 static int is_told(const struct rules *rules, uint32_t k)
@@ -700,6 +758,37 @@ static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const
 	return err;
 }
 
+/* The first instance of each repaired mesh, and what was done to it. */
+static int tell_repairs(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
+{
+	const struct scene *s = a->scene;
+	const struct scene_mesh *last = NULL;
+	int err = 0;
+
+	for (uint32_t i = 0, n = 0; i < s->n_instances && n < MOST_REPAIRS && !err && a->look && a->look->repaired; i++) {
+		const struct scene_instance *in = &s->instances[i];
+		char text[TOLD_BYTES], why[TOLD_BYTES - 50];
+		const struct scene_mesh *mesh;
+		struct repair_wants wants;
+		struct repair_found found;
+
+		struct scene_material m = s->materials[in->material];
+
+		for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
+			if (applies(a, in, k))
+				set_surface(&m.surface, &a->rules->surfaces[k], 1);
+		if (s->meshes[in->mesh] == last || !wants_repair(a, in, &m, &wants))
+			continue;
+		last = s->meshes[in->mesh];
+		err = repaired_find(a->look->repaired, last, &wants, &mesh, &found);
+		repaired_describe(&found, why, sizeof(why));
+		snprintf(text, sizeof(text), "surface\t%s\t1.00\t%u\t%s", found.closed ? "closed mesh" : "mesh that leaks", in->draw, why);
+		err = err ? err : tell(user, text);
+		n++;
+	}
+	return err;
+}
+
 static int tell_lights(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
 {
 	int err = 0;
@@ -731,6 +820,8 @@ int look_tell(const struct look *look, const struct scene *scene, int (*tell)(vo
 
 	if (!err)
 		err = tell_surfaces(&a, tell, user);
+	if (!err)
+		err = tell_repairs(&a, tell, user);
 	if (!err)
 		err = tell_lights(&a, tell, user);
 	free(a.in_plane);

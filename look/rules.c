@@ -7,6 +7,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "look/modelview.h"
+#include "look/repaired.h"
 #include "look/spare.h"
 #include "scene/release.h"
 #include "scene/scene.h"
@@ -49,6 +50,10 @@ static const cyaml_schema_value_t parameter_schema = { CYAML_VALUE_MAPPING(CYAML
 
 #define PARAMETERS(type) CYAML_FIELD_SEQUENCE("parameters", OPTIONAL_POINTER, type, parameters, &parameter_schema, 0, CYAML_UNLIMITED)
 
+static const cyaml_schema_field_t repair_fields[] = {
+	NUMBER(struct repair_rule, weld), TRUTH(struct repair_rule, turn), CYAML_FIELD_END
+};
+
 static const cyaml_schema_field_t surface_fields[] = {
 	REASON(struct surface_rule),
 	CYAML_FIELD_MAPPING_PTR("match", OPTIONAL_POINTER, struct surface_rule, match, match_fields),
@@ -56,7 +61,7 @@ static const cyaml_schema_field_t surface_fields[] = {
 	NUMBER(struct surface_rule, roughness), NUMBER(struct surface_rule, crease), NUMBERS(struct surface_rule, absorb, 3),
 	NUMBERS(struct surface_rule, emission, 3), TRUTH(struct surface_rule, shadows), TRUTH(struct surface_rule, mirrors),
 	TRUTH(struct surface_rule, near), TRUTH(struct surface_rule, shaded),
-	TEXT(struct surface_rule, passes),
+	TEXT(struct surface_rule, passes), CYAML_FIELD_MAPPING_PTR("repair", OPTIONAL_POINTER, struct surface_rule, repair, repair_fields),
 	TRUTH(struct surface_rule, lit), TRUTH(struct surface_rule, dome),
 	TRUTH(struct surface_rule, left_out), COUNT(struct surface_rule, lightmap), COUNT(struct surface_rule, shadow_unit),
 	TRUTH(struct surface_rule, solid), TRUTH(struct surface_rule, vertex_light),
@@ -150,6 +155,8 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 		err = check_number(path, list, i, "roughness", r->roughness, 0, 1);
 	if (!err)
 		err = check_number(path, list, i, "crease", r->crease, 0, 180);
+	if (!err && r->repair)
+		err = check_number(path, list, i, "weld", r->repair->weld, 0, REPAIR_MOST_WELD);
 	for (int c = 0; c < 3 && !err; c++) {
 		err = check_number(path, list, i, "absorb", r->absorb ? r->absorb + c : NULL, 0, 1e30f);
 		if (!err)
@@ -240,6 +247,8 @@ static int check_all(const char *path, struct look *look)
 		const struct match *m = rules->surfaces[i].match;
 
 		err = check_surface(path, &rules->surfaces[i], i);
+		if (!err && rules->surfaces[i].repair && !look->repaired)
+			err = repaired_create(&look->repaired);
 		if (err || !m || !m->draws)
 			continue;
 		err = read_draws(path, "surfaces", i, m->draws, &look->draws[i]);
@@ -309,6 +318,7 @@ void rules_free(struct look **look)
 		frame_list_free(&l->unseen[i].draws);
 		scene_release(&l->unseen[i].scene);
 	}
+	repaired_destroy(&l->repaired);
 	free(l->draws);
 	free(l->unseen);
 	config_free(&rules_schema, l->rules);

@@ -40,6 +40,9 @@
  *         lit: yes                   # takes the lights below where OpenGL does not light it
  *         crease: 40                 # of what OpenGL lights face by face: faces that meet at up to so many degrees look round, sharper
  *                                    # edges stay; [0,180], default 0. Edges, shadows' outlines and N stay; modes of paths do without
+ *         repair: { weld: 4e-6, turn: yes } # cracks of its mesh are closed for all rays but the camera's (scene/repair/repair.h): places nearer
+ *                                    # than this share of its size become one; corners on others' edges join them; with `turn`
+ *                                    # (default: where it transmits) faces look out of closed bodies, as glass must. {}: the defaults
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
  *                                    # frames with a `solid` mirror, if rules have one
@@ -119,6 +122,11 @@ struct parameter_rule {
 	uint32_t value_count;
 };
 
+struct repair_rule {
+	const float *weld;
+	const bool *turn;
+};
+
 struct surface_rule {
 	struct rule_reason reason;
 	struct match *match;
@@ -126,6 +134,7 @@ struct surface_rule {
 	const uint32_t *lightmap, *shadow_unit;
 	const bool *shadows, *mirrors, *near, *shaded, *lit, *dome, *left_out, *solid, *vertex_light;
 	const char *passes;
+	struct repair_rule *repair;
 	struct parameter_rule *parameters;
 	uint32_t parameters_count;
 };
@@ -185,6 +194,7 @@ struct scene;
 
 struct look {
 	struct rules *rules;
+	struct repaired *repaired; /* meshes (look/repaired.h); NULL: no rule repairs any */
 	struct frame_list *draws; /* [surfaces_count] */
 	struct unseen {
 		struct frame_list draws;

@@ -190,7 +190,7 @@ static const struct options_row rows[] = {
 	{ "clamp", 0, "X", "mode path: no bounce brings a sample more than X times white, but for one in a mirror or glass: that spares "
 	  "bright dots, and takes their light; 0: no bound (default 10)", options_real, AT(tracer.clamp), .low = 0, .high = 1e30 },
 	{ "reach", 0, "X", "how far the ao modes look, in units of eye space (default: without end)", take_length, AT(tracer.reach) },
-	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), lights added, moved, off or with a "
+	{ "look", 0, "FILE", "rules, YAML: what surfaces are made of, which flat faces are meant round (crease), which meshes have cracks (repair), lights added, moved, off or with a "
 	  "size (look/rules.h shows all keys); \"auto\": those that relume look finds", take_look, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "hook", 0, "FILE", "OpenCL C whose functions take the place of stages: ray_generation (other cameras), bounds and intersection (other shapes; "
 	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
