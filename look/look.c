@@ -20,6 +20,7 @@
 #include "look/solid.h"
 #include "look/spare.h"
 #include "look/world.h"
+#include "scene/repair/holds.h"
 #include "scene/draw_list.h"
 
 /* Between ambient light and what a program rounds to 8 bits. */
@@ -449,6 +450,17 @@ static int wants_repair(const struct applying *a, const struct scene_instance *i
 	return rule && repaired_wants(rule, a->scene, in, m, wants);
 }
 
+/* 1 where the viewer is not in a body. mesh: an instance's, closed */
+static int is_outside(const struct scene *s, const struct scene_instance *in, const struct scene_mesh *mesh)
+{
+	float obj_from_eye[16], viewer[4];
+
+	if (look_is_parallel(&s->views[in->view]) || !mat4_invert(obj_from_eye, in->modelview))
+		return 1;
+	mat4_transform(viewer, obj_from_eye, (const float[4]){ 0, 0, 0, 1 });
+	return !holds_place(mesh, viewer);
+}
+
 /*
  * Let a repaired mesh stand for an instance where only the camera does not look: in a view of the same space that covers no pixel. The
  * program's own stays for the camera alone.
@@ -469,7 +481,8 @@ static int repair_instance(const struct applying *a, uint32_t i)
 	err = repaired_find(a->look->repaired, a->scene->meshes[a->scene->instances[i].mesh], &wants, &mesh, &found);
 	if (err || !mesh)
 		return err;
-	m[0].surface.hidden |= SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS;
+	m[0].surface.hidden |= SCENE_HIDDEN_FROM_LIGHTS | SCENE_HIDDEN_FROM_MIRRORS |
+	                       (found.closed && found.turned && !m->cull_face && is_outside(a->scene, own, mesh) ? SCENE_ENTERED : 0);
 	*added = a->scene->instances[i];
 	added->mesh = out->n_meshes;
 	added->view += a->scene->n_views;

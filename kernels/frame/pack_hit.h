@@ -135,6 +135,12 @@ WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *co
 	return select((packf)(1), 0.5f * (across * across + along * along), passes);
 }
 
+/* As glass_enters. */
+WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
+{
+	return p->material->surface.hidden & SCENE_ENTERED ? (packi)(-1) : p->front;
+}
+
 /* As split_light. d: length as split_light takes it */
 WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct pack_vec d, struct pack_split *s)
 {
@@ -144,7 +150,7 @@ WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const s
 
 	s->normal = pack_normal(t, &q->p, &q->surface);
 	s->base = 1.0f - mirrored - through;
-	s->eta = select((packf)(glass_ior(m)), (packf)(1.0f / glass_ior(m)), q->p.front);
+	s->eta = select((packf)(glass_ior(m)), (packf)(1.0f / glass_ior(m)), pack_enters(&q->p));
 	s->cosine = pack_clamp01(-pack_dot(s->normal, d));
 	s->cosine_beyond = 0.0f;
 	if (through > 0.0f)
@@ -249,7 +255,7 @@ WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, cons
 	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) < 0.0f);
 	const uint material = (uint)(q->p.material - t->materials);
 
-	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, select((packu)(SCENE_NONE), (packu)(material), q->p.front), b);
+	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, select((packu)(SCENE_NONE), (packu)(material), pack_enters(&q->p)), b);
 }
 
 /* As glass_tint. from_vertices: as they are lit */

@@ -134,7 +134,7 @@ static inline struct split split_light(const struct point *p, struct vec3 d)
 	s.mirrored = clamp01(m->surface.reflect);
 	s.through = M_MIN(clamp01(m->surface.transmit), 1.0f - s.mirrored);
 	s.base = 1.0f - s.mirrored - s.through;
-	s.eta = p->front ? 1.0f / glass_ior(m) : glass_ior(m);
+	s.eta = glass_enters(p) ? 1.0f / glass_ior(m) : glass_ior(m);
 	s.cosine = clamp01(-v3_dot(point_normal(p), d));
 	s.cosine_beyond = 0.0f;
 	if (s.through > 0.0f)
@@ -149,7 +149,7 @@ static inline void branch_through(struct branches *b, const struct point *p, str
                                   struct vec3 weight, uint32_t kind)
 {
 	struct vec3 n = point_normal(p), plane = point_plane_normal(p), on;
-	GLOBAL struct ray *ray = branch(b, weight, kind, p->front ? (uint32_t)p->geometry->material : SCENE_NONE);
+	GLOBAL struct ray *ray = branch(b, weight, kind, glass_enters(p) ? (uint32_t)p->geometry->material : SCENE_NONE);
 
 	if (!ray)
 		return;

@@ -48,6 +48,12 @@ static inline float glass_ior(GLOBAL const struct scene_material *m)
 	return m->surface.ior > 0.0f ? m->surface.ior : 1.0f;
 }
 
+/* 1 where light that comes to a surface of glass from the side that is seen goes into the body. */
+static inline int glass_enters(const struct point *p)
+{
+	return p->front || p->material->surface.hidden & SCENE_ENTERED;
+}
+
 /* The colour of a surface that lets light through: half of it at each of the two surfaces of a body. */
 static inline struct vec3 glass_tint(const struct tables *t, const struct point *p, const struct texturing *texturing)
 {

@@ -46,6 +46,9 @@ whole, _, _ = picture("whole", 2, GLASS.format(""))
 for device in ("reference", "0"):
     broken, _, _ = picture("broken", 1, GLASS.format(""), device)
     mended, _, _ = picture("mended", 1, GLASS.format("    repair: {}\n"), device)
+    over, _, _ = picture("over", 3, GLASS.format("    repair: {}\n"), device)
+    check(most_apart(over, whole, "R") < 0.01 and most_apart(picture("inside", 3, GLASS.format(""), device)[0], whole, "R") > 0.2,
+          f"{device}: so is a die of which the viewer sees the backs: {most_apart(over, whole, 'R')}")
     same, _, _ = picture("same", 2, GLASS.format("    repair: {}\n"), device)
     check(most_apart(broken, whole, "refract.R") > 0.2, f"{device}: sides the wrong way round bend light the wrong way")
     check(most_apart(mended, whole, "refract.R") < 0.01 and most_apart(mended, whole, "R") < 0.01, f"{device}: repaired it is glass: {most_apart(mended, whole, 'refract.R')}")

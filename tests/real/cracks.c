@@ -1,7 +1,7 @@
 /*
  * A room without windows, seen from inside, and a lamp above its roof. Frame 0: the roof's halves meet in a T-junction, whose corner does not
  * lie quite on the edge, and light falls through. Frame 1: a die between the viewer and bright stripes; the faces that look away from him are
- * the wrong way round. Frame 2: the same die as it should be. Recorded by test_cracks.py.
+ * the wrong way round. Frame 2: the same die as it should be. Frame 3: all its faces are the wrong way round. Recorded by test_cracks.py.
  */
 #include "tests/trace/window.h"
 
@@ -48,8 +48,8 @@ static void draw_stripes(void)
 	glEnd();
 }
 
-/* Sides 1, 2 and 5 look away from the viewer; turned: they are clockwise. */
-static void draw_die(int turned)
+/* Sides 1, 2 and 5 look away from the viewer. turned: a bit for each side that is clockwise */
+static void draw_die(unsigned turned)
 {
 	static const int sides[6][4] = { { 4, 5, 7, 6 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 0, 2, 3, 1 } };
 
@@ -57,7 +57,7 @@ static void draw_die(int turned)
 	glBegin(GL_QUADS);
 	for (int i = 0; i < 6; i++)
 		for (int k = 0; k < 4; k++) {
-			const int c = sides[i][turned && (i == 1 || i == 2 || i == 5) ? 3 - k : k];
+			const int c = sides[i][turned >> i & 1 ? 3 - k : k];
 
 			glVertex3f(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
 		}
@@ -73,6 +73,7 @@ static void draw_die(int turned)
 int main(void)
 {
 	static const float lamp[4] = { 0.3f, 30, 0.2f, 1 };
+	static const unsigned turned[4] = { 0, 1 << 1 | 1 << 2 | 1 << 5, 0, 63 };
 
 	window_size[0] = 160;
 	window_size[1] = 120;
@@ -81,7 +82,7 @@ int main(void)
 	glMatrixMode(GL_PROJECTION);
 	glFrustum(-0.4, 0.4, -0.3, 0.3, 0.5, 50);
 	glMatrixMode(GL_MODELVIEW);
-	for (int frame = 0; frame < 3; frame++) {
+	for (int frame = 0; frame < 4; frame++) {
 		glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 		glLoadIdentity();
 		if (frame == 0) {
@@ -94,7 +95,7 @@ int main(void)
 		} else {
 			glTranslatef(0, 0, -3);
 			draw_stripes();
-			draw_die(frame == 1);
+			draw_die(turned[frame]);
 		}
 		end_frame();
 	}

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "scene/repair/holds.h"
 #include "scene/repair/repair.h"
 #include "tests/case.h"
 #include "tests/unit/broken.h"
@@ -91,6 +92,33 @@ START_TEST(test_whole)
 		ck_assert_double_eq_tol(found.volume, broken_volume(&b), 1e-9 * found.volume);
 		broken_free(&b);
 	}
+}
+END_TEST
+
+/* A ball in a ball, broken and repaired: places between them are inside, those in the hollow are not. */
+START_TEST(test_inside)
+{
+	const double how[3] = { 1, 1, 1 }, half[3] = { 0.5, 0.5, 0.5 };
+	const struct repair_wants wants = { .weld = REPAIR_WELD, .turn = 1 };
+	struct repair_found found;
+	struct scene_mesh *out;
+	struct broken b;
+
+	broken_init(&b, 3);
+	broken_rings(&b, 60, 60, 0, broken_on_ball, how);
+	broken_rings(&b, 60, 60, 0, broken_on_ball, half);
+	broken_cut(&b, 0.2);
+	ck_assert_int_eq(repair_mesh(broken_mesh(&b), &wants, &found, &out), 0);
+	ck_assert(out && found.closed && found.shells == 2 && found.turned);
+	for (int i = 0; i < 1000; i++) {
+		const float at[3] = { (float)(2.4 * broken_next(&b) - 1.2), (float)(2.4 * broken_next(&b) - 1.2), (float)(2.4 * broken_next(&b) - 1.2) };
+		const float far = sqrtf(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+
+		if (fabsf(far - 1) > 0.01f && fabsf(far - 0.5f) > 0.01f) /* faces lie a little within the balls */
+			ck_assert_int_eq(holds_place(out, at), far > 0.5f && far < 1);
+	}
+	free(out);
+	broken_free(&b);
 }
 END_TEST
 
@@ -227,6 +255,7 @@ int main(int argc, char **argv)
 	tcase_set_timeout(tests, 60);
 	tcase_add_test(tests, test_broken);
 	tcase_add_test(tests, test_whole);
+	tcase_add_test(tests, test_inside);
 	tcase_add_test(tests, test_openings);
 	tcase_add_test(tests, test_sheets);
 	tcase_add_test(tests, test_attributes);
