@@ -58,7 +58,8 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
 	const enum modelview_kind kind = modelview_kind_of(in->modelview);
 
 	*wants = (struct repair_wants){ .weld = rule->weld ? *rule->weld : REPAIR_WELD, .turn = rule->turn ? *rule->turn : m->surface.transmit > 0,
-		                        .clockwise = (m->front_face == GL_CW) != (kind == MODELVIEW_MIRRORED), .flat = m->shade_model == GL_FLAT };
+		                        .clockwise = (m->front_face == GL_CW) != (kind == MODELVIEW_MIRRORED), .merge = rule->merge && *rule->merge,
+		                        .flat = m->shade_model == GL_FLAT };
 	if (!wants->turn)
 		wants->clockwise = 0;
 	return solid_is(scene, in) && kind != MODELVIEW_SINGULAR && !m->vertex_program && m->polygon_mode_front == GL_FILL &&
@@ -123,8 +124,8 @@ int repaired_find(struct repaired *s, const struct scene_mesh *of, const struct 
 
 void repaired_describe(const struct repair_found *f, char *out, size_t room)
 {
-	const int n = snprintf(out, room, "%u vertices welded, %u places set into edges, %u triangles dropped, %u turned; ", f->welded, f->junctions, f->dropped,
-	                       f->turned);
+	const int n = snprintf(out, room, "%u vertices welded, %u places set into edges, %u triangles dropped, %u turned, %u places merged; ", f->welded, f->junctions,
+	                       f->dropped, f->turned, f->merged);
 
 	if (f->closed)
 		snprintf(out + n, room - (size_t)n, "closed");

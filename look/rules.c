@@ -51,7 +51,7 @@ static const cyaml_schema_value_t parameter_schema = { CYAML_VALUE_MAPPING(CYAML
 #define PARAMETERS(type) CYAML_FIELD_SEQUENCE("parameters", OPTIONAL_POINTER, type, parameters, &parameter_schema, 0, CYAML_UNLIMITED)
 
 static const cyaml_schema_field_t repair_fields[] = {
-	NUMBER(struct repair_rule, weld), TRUTH(struct repair_rule, turn), CYAML_FIELD_END
+	NUMBER(struct repair_rule, weld), TRUTH(struct repair_rule, turn), TRUTH(struct repair_rule, merge), CYAML_FIELD_END
 };
 
 static const cyaml_schema_field_t surface_fields[] = {

@@ -42,7 +42,8 @@
  *                                    # edges stay; [0,180], default 0. Edges, shadows' outlines and N stay; modes of paths do without
  *         repair: { weld: 4e-6, turn: yes } # cracks of its mesh are closed for all rays but the camera's (scene/repair/repair.h): places nearer
  *                                    # than this share of its size become one; corners on others' edges join them; with `turn`
- *                                    # (default: where it transmits) faces look out of closed bodies, as glass must. {}: the defaults
+ *                                    # (default: where it transmits) faces look out of closed bodies, as glass must; with `merge`
+ *                                    # triangles of one plane are fewer, where nothing shows. {}: the defaults
  *         dome: no                   # does not take the light of `sky` below
  *         left_out: yes              # a trick: only OpenGL's picture shows it; what is `modelview: mirrored` is left out only in
  *                                    # frames with a `solid` mirror, if rules have one
@@ -124,7 +125,7 @@ struct parameter_rule {
 
 struct repair_rule {
 	const float *weld;
-	const bool *turn;
+	const bool *turn, *merge;
 };
 
 struct surface_rule {

@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "scene/repair/doubles.h"
 #include "scene/repair/junctions.h"
+#include "scene/repair/merge.h"
 #include "scene/repair/shape.h"
 #include "scene/repair/turn.h"
 
@@ -61,36 +62,6 @@ static int tell(const struct shape *s)
 
 /* --- The mesh that comes of it --------------------------------------------------------------------------------------------------- */
 
-/* Where an array of a mesh is, and how many numbers a vertex has. */
-struct attribute {
-	const float **array;
-	size_t each;
-	int is_color; /* 1: flat shading takes one for all of a triangle */
-};
-
-enum { MOST_ATTRIBUTES = 5 + SCENE_MAX_UNITS + SCENE_MAX_GENERICS };
-
-/* All arrays but positions that the mesh has. @return how many */
-static size_t list_attributes(struct scene_mesh *mesh, struct attribute list[MOST_ATTRIBUTES])
-{
-	const struct attribute all[] = {
-		{ &mesh->normal, 3, 1 }, { &mesh->color, 4, 1 }, { &mesh->secondary, 4, 1 }, { &mesh->fog_coord, 1, 0 },
-		{ (const float **)&mesh->face, 2 * sizeof(struct scene_face) / sizeof(float), 1 },
-	};
-	size_t n = 0;
-
-	for (size_t i = 0; i < sizeof(all) / sizeof(*all); i++)
-		if (*all[i].array)
-			list[n++] = all[i];
-	for (int i = 0; i < SCENE_MAX_UNITS; i++)
-		if (mesh->texcoord[i])
-			list[n++] = (struct attribute){ &mesh->texcoord[i], 4, 0 };
-	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
-		if (mesh->generics[i])
-			list[n++] = (struct attribute){ &mesh->generics[i], 4, 0 };
-	return n;
-}
-
 static void fill_positions(const struct shape *s, float *out)
 {
 	const size_t n = s->mesh->vertex_count;
@@ -106,7 +77,7 @@ static void fill_positions(const struct shape *s, float *out)
 	}
 }
 
-static void fill_attribute(const struct shape *s, const struct attribute *a, float *out)
+static void fill_attribute(const struct shape *s, const struct shape_attribute *a, float *out)
 {
 	const size_t n = s->mesh->vertex_count;
 
@@ -125,10 +96,10 @@ static void fill_attribute(const struct shape *s, const struct attribute *a, flo
 static int build(const struct shape *s, struct scene_mesh **out)
 {
 	const size_t vertices = s->mesh->vertex_count + s->n_made;
-	const uint32_t wants = (uint32_t)(s->wants->turn | s->wants->clockwise << 1 | s->wants->flat << 2);
+	const uint32_t wants = (uint32_t)(s->wants->turn | s->wants->clockwise << 1 | s->wants->merge << 2 | s->wants->flat << 3);
 	struct scene_mesh copy = *s->mesh, *made;
-	struct attribute list[MOST_ATTRIBUTES];
-	const size_t n = list_attributes(&copy, list);
+	struct shape_attribute list[SHAPE_MOST_ATTRIBUTES];
+	const size_t n = shape_list_attributes(&copy, list);
 	size_t words = 4 * vertices + 4 * s->n_faces;
 	float *at;
 	uint32_t *index, bits;
@@ -160,8 +131,8 @@ static int build(const struct shape *s, struct scene_mesh **out)
 	copy.vertex_count = (uint32_t)vertices;
 	copy.primitive_count = (uint32_t)s->n_faces;
 	memcpy(&bits, &s->wants->weld, sizeof(bits));
-	copy.hash[0] ^= 0x7265706100000000u + wants; /* another mesh for all caches */
-	copy.hash[1] ^= bits;
+	copy.hash[0] = (copy.hash[0] ^ wants) * 0x9E3779B97F4A7C15u; /* another mesh for all caches, and so is that merged of this one */
+	copy.hash[1] = (copy.hash[1] ^ bits) * 0x9E3779B97F4A7C15u;
 	*made = copy;
 	*out = made;
 	return 0;
@@ -207,10 +178,45 @@ static int is_open(const struct shape *s, int *open)
 	return err;
 }
 
+/* All steps but merging. */
+static int close_cracks(struct shape *s)
+{
+	int open = 0, err = doubles_drop(s);
+
+	if (!err)
+		err = is_open(s, &open);
+	if (!err && open)
+		err = doubles_drop_narrow(s);
+	if (!err && open)
+		err = mend(s);
+	return err ? err : turn_outwards(s, s->wants->turn);
+}
+
+static int changes(const struct repair_found *found)
+{
+	return found->welded || found->junctions || found->dropped || found->turned || found->merged;
+}
+
+/* Merge what is closed already, in a mesh of its own as attributes of new vertices must be there. mesh: repaired or not; out: as for repair_mesh */
+static int merge(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out)
+{
+	struct repair_found again = { .welded = 0 };
+	struct shape s;
+	int err = shape_init(&s, mesh, wants, &again);
+
+	if (!err)
+		err = merge_flat(&s, &found->merged);
+	if (!err && found->merged)
+		err = build(&s, out);
+	shape_free(&s);
+	return err;
+}
+
 int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found, struct scene_mesh **out)
 {
+	struct scene_mesh *merged = NULL;
 	struct shape s;
-	int err, open = 0;
+	int err;
 
 	*out = NULL;
 	*found = (struct repair_found){ .welded = 0 };
@@ -218,19 +224,17 @@ int repair_mesh(const struct scene_mesh *mesh, const struct repair_wants *wants,
 		return 0;
 	err = shape_init(&s, mesh, wants, found);
 	if (!err)
-		err = doubles_drop(&s);
-	if (!err)
-		err = is_open(&s, &open);
-	if (!err && open)
-		err = doubles_drop_narrow(&s);
-	if (!err && open)
-		err = mend(&s);
-	if (!err)
-		err = turn_outwards(&s, wants->turn);
+		err = close_cracks(&s);
 	if (!err)
 		err = tell(&s);
-	if (!err && (found->welded || found->junctions || found->dropped || found->turned))
+	if (!err && changes(found))
 		err = build(&s, out);
 	shape_free(&s);
+	if (!err && wants->merge)
+		err = merge(*out ? *out : mesh, wants, found, &merged);
+	if (err || merged) {
+		free(*out);
+		*out = merged;
+	}
 	return err;
 }

@@ -8,6 +8,7 @@
  *               between the edge's two in all attributes.
  *   drop        Triangles without area, those narrower than the tolerance where the mesh has open edges, and those that are there twice.
  *   turn        On request: faces of a closed body look outwards, hollows inside it count; those of other meshes all to one side.
+ *   merge       On request: places go where triangles lie in one plane, or meet in a straight edge, and go on evenly (merge.h).
  *
  * Nothing else is filled: a real opening stays, and is told as a leak. Triangles with a corner that is no number stay as they are and count
  * for nothing. The idea of tracing edges for closed bodies, with junctions mended on the way, is seed B's (a thesis on scene management, 2008).
@@ -24,6 +25,7 @@ struct repair_wants {
 	float weld;    /* the tolerance: a share of the diagonal of the mesh's box; 0 joins equal positions only. At most REPAIR_MOST_WELD */
 	int turn;
 	int clockwise; /* 1: faces are seen clockwise from outside; else counter-clockwise */
+	int merge;
 	int flat;      /* 1: the last vertex of a triangle gives its colour, so new vertices take their triangle's */
 };
 
@@ -32,6 +34,7 @@ struct repair_found {
 	uint32_t welded;    /* vertices that moved */
 	uint32_t junctions; /* places that edges got as corners */
 	uint32_t dropped, turned; /* triangles */
+	uint32_t merged;    /* places that went */
 	uint32_t leaks;     /* edges of an odd number of triangles */
 	uint32_t twisted;   /* edges of an even number, of which not half run each way: neighbours look to different sides */
 	uint32_t shells;    /* parts that hang together by edges of two triangles */

@@ -101,3 +101,23 @@ double shape_normal(const struct shape *s, const struct shape_face *face, double
 	}
 	return sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
 }
+
+size_t shape_list_attributes(struct scene_mesh *mesh, struct shape_attribute list[SHAPE_MOST_ATTRIBUTES])
+{
+	const struct shape_attribute all[] = {
+		{ &mesh->normal, 3, 1 }, { &mesh->color, 4, 1 }, { &mesh->secondary, 4, 1 }, { &mesh->fog_coord, 1, 0 },
+		{ (const float **)&mesh->face, 2 * sizeof(struct scene_face) / sizeof(float), 1 },
+	};
+	size_t n = 0;
+
+	for (size_t i = 0; i < sizeof(all) / sizeof(*all); i++)
+		if (*all[i].array)
+			list[n++] = all[i];
+	for (int i = 0; i < SCENE_MAX_UNITS; i++)
+		if (mesh->texcoord[i])
+			list[n++] = (struct shape_attribute){ &mesh->texcoord[i], 4, 0 };
+	for (int i = 0; i < SCENE_MAX_GENERICS; i++)
+		if (mesh->generics[i])
+			list[n++] = (struct shape_attribute){ &mesh->generics[i], 4, 0 };
+	return n;
+}

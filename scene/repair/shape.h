@@ -38,6 +38,18 @@ struct shape_edge {
 	uint32_t use; /* 3 x face + the corner that it leaves */
 };
 
+/* Where an array of a mesh is, and how many numbers a vertex has. */
+struct shape_attribute {
+	const float **array;
+	size_t each;
+	int is_color; /* 1: flat shading takes one for all of a triangle */
+};
+
+enum { SHAPE_MOST_ATTRIBUTES = 5 + SCENE_MAX_UNITS + SCENE_MAX_GENERICS };
+
+/** All arrays but positions that a mesh has. @return how many */
+size_t shape_list_attributes(struct scene_mesh *mesh, struct shape_attribute list[SHAPE_MOST_ATTRIBUTES]);
+
 /** Triangles and places, each place welded. @return 0 or ERR_SYSTEM (reported); shape_free in any case */
 int shape_init(struct shape *s, const struct scene_mesh *mesh, const struct repair_wants *wants, struct repair_found *found);
 void shape_free(struct shape *s);

@@ -37,6 +37,8 @@ for device in ("reference", "0"):
     after, said, told = picture("after", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006 }\n", device)
     check(lit_floor(before) > 20 and lit_floor(after) == 0, f"{device}: {lit_floor(before)} pixels of the floor were lit through the roof, {lit_floor(after)} are")
     check(all(before[c] == after[c] for c in KEPT), f"{device}: OpenGL's picture and what the camera sees stay")
+    merged, _, said_so = picture("merged", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006, merge: yes }\n", device)
+    check(lit_floor(merged) == 0 and all(before[c] == merged[c] for c in KEPT) and " 0 places merged" not in said_so, f"{device}: nor with triangles of one plane merged")
 check("closed mesh" in told and "closed" in told and "leaks" not in said, f"the room is told to be closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
 tight, said, told = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
 check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance stays")

@@ -205,6 +205,47 @@ START_TEST(test_attributes)
 }
 END_TEST
 
+/* Boxes of many squares with cracks become few triangles, with texture coordinates that go on evenly; where those do not, or on round bodies, none go. */
+START_TEST(test_merge)
+{
+	for (uint64_t seed = 0; seed < 30; seed++) {
+		const struct repair_wants wants = { .weld = REPAIR_WELD, .turn = 1, .merge = 1 };
+		const uint32_t kind = seed % 3 == 0 ? 0 : 3;
+		struct repair_found found;
+		struct scene_mesh *out;
+		struct broken b;
+		float (*texcoord)[4];
+		double was, is;
+
+		broken_init(&b, seed);
+		broken_make(&b, kind);
+		broken_place(&b);
+		was = broken_volume(&b);
+		broken_cut(&b, kind == 0 ? 0 : 0.3);
+		broken_mesh(&b);
+		texcoord = calloc(b.n_points, sizeof(*texcoord));
+		for (uint32_t p = 0; p < b.n_points; p++)
+			for (int k = 0; k < 3; k++) {
+				texcoord[p][k] = (float)((b.points[p][0] + (k + 1) * b.points[p][1] - b.points[p][2]) / cbrt(was));
+				texcoord[p][k] += seed % 3 == 2 ? (float)broken_next(&b) : 0;
+			}
+		b.mesh.texcoord[0] = texcoord[0];
+		b.mesh.hash[0] = b.mesh.hash[1] = seed + 1;
+		ck_assert_int_eq(repair_mesh(&b.mesh, &wants, &found, &out), 0);
+		if (seed % 3 == 1) {
+			ck_assert_msg(out && out->primitive_count <= 16, "%u triangles of %u, %u places merged", out ? out->primitive_count : 0, b.n_triangles, found.merged);
+			ck_assert(is_closed(out, &is) && out->hash[0] != seed + 1 && out->hash[1] != seed + 1);
+			ck_assert_double_eq_tol(is, was, VOLUME * was);
+		} else {
+			ck_assert_uint_eq(found.merged, 0);
+		}
+		free(out);
+		free(texcoord);
+		broken_free(&b);
+	}
+}
+END_TEST
+
 /* A large mesh of corners of their own: what repair takes grows with its size, or little more. */
 START_TEST(test_large)
 {
@@ -259,6 +300,7 @@ int main(int argc, char **argv)
 	tcase_add_test(tests, test_openings);
 	tcase_add_test(tests, test_sheets);
 	tcase_add_test(tests, test_attributes);
+	tcase_add_test(tests, test_merge);
 	tcase_add_test(tests, test_large);
 	return run_case(tests, "repair");
 }
