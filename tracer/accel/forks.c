@@ -69,12 +69,14 @@ static void *work(void *arg)
 
 void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg)
 {
-	const long processors = sysconf(_SC_NPROCESSORS_ONLN);
 	pthread_t others[MAX_THREADS];
 	unsigned started = 0;
 
-	if (threads == 0)
+	if (threads == 0) { /* a file is read for that: not for each small mesh */
+		const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+
 		threads = processors < 1 ? 1 : (unsigned)processors;
+	}
 	forks->run = run;
 	forks->arg = arg;
 	for (unsigned i = 1; i < threads && i < MAX_THREADS; i++)

@@ -6,6 +6,7 @@
 #include "base/err.h"
 
 #define POOL_LEAST_WORDS ((size_t)1 << 20)
+#define STAGE_WORDS ((size_t)1 << 18) /* items are written to the device so many words at a time, or one by one where they are larger */
 
 struct pool_entry {
 	uint64_t hash[2];
@@ -52,21 +53,44 @@ static void forget_all(struct pool *pool)
 	pool->n_entries = pool->used = 0;
 }
 
-static int write_item(struct pool *pool, struct device *dev, const struct pool_item *item, pool_fill *fill)
-{
-	uint32_t *words = malloc(item->words * sizeof(*words));
-	int err;
+/* Items on their way to the device, one behind the other: each write costs a thread of the device that is woken and waited for. */
+struct stage {
+	uint32_t *words;
+	size_t room, n; /* words */
+};
 
-	if (!words)
-		return err_report(ERR_SYSTEM, NULL, "out of memory: %zu bytes", item->words * sizeof(*words));
-	fill(item->object, words);
-	err = device_write(dev, pool->buffer, pool->used * sizeof(*words), words, item->words * sizeof(*words));
-	free(words);
-	return err;
+/* Write what is staged: the last words that the pool uses. */
+static int write_stage(const struct pool *pool, struct device *dev, struct stage *stage)
+{
+	const size_t n = stage->n;
+
+	stage->n = 0;
+	return n == 0 ? 0 : device_write(dev, pool->buffer, (pool->used - n) * sizeof(*stage->words), stage->words, n * sizeof(*stage->words));
+}
+
+/* Take an item in behind all others. */
+static int add_item(struct pool *pool, struct device *dev, struct stage *stage, const struct pool_item *item, pool_fill *fill)
+{
+	int err = stage->n + item->words > stage->room ? write_stage(pool, dev, stage) : 0;
+
+	if (err)
+		return err;
+	if (item->words > stage->room) {
+		free(stage->words);
+		stage->room = item->words > STAGE_WORDS ? item->words : STAGE_WORDS;
+		stage->words = malloc(stage->room * sizeof(*stage->words));
+		if (!stage->words)
+			return err_report(ERR_SYSTEM, NULL, "out of memory: %zu bytes", stage->room * sizeof(*stage->words));
+	}
+	fill(item->object, stage->words + stage->n);
+	stage->n += item->words;
+	pool->used += item->words;
+	return 0;
 }
 
 int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, size_t n, pool_fill *fill)
 {
+	struct stage stage = { .words = NULL };
 	size_t missing = 0, total = 0;
 	int err = reserve_entries(pool, n);
 
@@ -92,15 +116,18 @@ int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, s
 	for (size_t i = 0; i < n && !err; i++) {
 		struct pool_entry *entry = find(pool, items[i].hash);
 
-		if (!entry->used && items[i].words)
-			err = write_item(pool, dev, &items[i], fill);
-		if (!entry->used && !err) {
+		if (!entry->used) {
 			*entry = (struct pool_entry){ { items[i].hash[0], items[i].hash[1] }, (uint32_t)pool->used, 1 };
-			pool->used += items[i].words;
 			pool->n_entries++;
+			err = items[i].words ? add_item(pool, dev, &stage, &items[i], fill) : 0;
 		}
 		items[i].place = entry->place;
 	}
+	if (!err)
+		err = write_stage(pool, dev, &stage);
+	free(stage.words);
+	if (err)
+		forget_all(pool); /* what has a place may not be there */
 	return err;
 }
 
