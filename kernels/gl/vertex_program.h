@@ -8,6 +8,9 @@
 #include "kernels/gl/program_texture.h"
 #include "kernels/gl/vertex.h"
 
+#define VERTEX_DEPTH_INSIDE 0.9999f   /* of w: a ray's end may round, */
+#define VERTEX_DEPTH_OUTSIDE 1.00001f /* and so may a vertex that lies upon it */
+
 /* One of scene_vertex_input's, of a vertex in the mesh. */
 static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v, uint32_t input)
 {
@@ -48,6 +51,23 @@ static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, s
 		return m4_mul(view->inverse, clip);
 	eye = v3_add(v3_add(v3_scale(y_w, clip.x - m[12]), v3_scale(v3_cross(w, x), clip.y - m[13])), v3_scale(v3_cross(x, y), clip.w - m[15]));
 	return v4(eye.x / determinant, eye.y / determinant, eye.z / determinant, 1.0f);
+}
+
+/*
+ * The place of a vertex that GL draws: it has to lie between the ends of the rays that look for it. A program that gives depths or a w of its
+ * own may have put it beyond them by x, y and w; then its own depth tells where on its line of sight it is.
+ */
+static inline struct vec4 vertex_drawn_eye(GLOBAL const struct view *view, struct vec4 clip)
+{
+	GLOBAL const float *m = view->projection;
+	const struct vec4 eye = vertex_eye_from_clip(view, clip);
+	const float depth = m[2] * eye.x + m[6] * eye.y + m[10] * eye.z + m[14] * eye.w, most = VERTEX_DEPTH_INSIDE * clip.w;
+	struct vec4 at;
+
+	if (!(clip.w > 0.0f && M_ABS(clip.z) <= clip.w && M_ABS(depth) > clip.w * VERTEX_DEPTH_OUTSIDE))
+		return eye;
+	at = m4_mul(view->inverse, v4(clip.x, clip.y, M_MIN(M_MAX(clip.z, -most), most), clip.w));
+	return at.w > 0.0f ? v4_scale(at, 1.0f / at.w) : eye;
 }
 
 /* 1 where two clip positions are one but for rounding. */
@@ -101,7 +121,7 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 		const struct vec4 clip = vertex_result(run, SCENE_RESULT_POSITION, k);
 
 		if (!vertex_is_same(v4_load(out->clip), clip)) { /* else fixed function's eye position is the better one */
-			v4_store(out->eye, vertex_eye_from_clip(view, clip));
+			v4_store(out->eye, vertex_drawn_eye(view, clip));
 			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* nobody knows how the program turned it: the triangle's counts */
 		}
 		v4_store(out->clip, clip);

@@ -264,6 +264,8 @@ static const char *const vertices[][2] = { /* of vertices, of fragments; NULL: f
 	{ "void main() { vec4 v = gl_Vertex * vec4(0.7, 0.7, 1.0, 1.0); if (v.y > 0.0) v.x *= 0.5; for (int i = 0; i < 3; i++) if (v.x > 0.0) v.z += 0.1; gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = vec4(v.xyz, 1.0); gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
 	{ "varying float c; void main() { c = gl_FrontMaterial.diffuse.r; gl_Position = vec4(gl_Vertex.xy * 0.8, 0.2, 1.0); }", "varying float c; void main() { gl_FragColor = vec4(c, 0.4, 0.7, 1.0); }" },
 	{ "void main() { gl_Position = ftransform(); gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0; }", "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, gl_TexCoord[0].st) * gl_Color; }" },
+	{ "void main() { vec4 v = gl_Vertex; v.w = 12.0; gl_Position = gl_ModelViewProjectionMatrix * v; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
+	{ "void main() { vec4 v = gl_Vertex; v.xyw *= 0.4; gl_Position = gl_ModelViewProjectionMatrix * v; gl_Position.z *= 0.1; gl_FrontColor = gl_Color; gl_TexCoord[0] = gl_MultiTexCoord0; }", NULL },
 };
 
 static void vertex(int i)
