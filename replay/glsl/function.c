@@ -41,11 +41,13 @@ static uint32_t sub(struct glsl_writer *w, uint32_t a, uint32_t b)
 	return to;
 }
 
+/* From the last number on, as Mesa adds them up. */
 static uint32_t dot(struct glsl_writer *w, const struct glsl_value *a, const struct glsl_value *b)
 {
-	uint32_t sum = mul(w, a->at[0], b->at[0]);
+	const uint32_t last = (a->n < b->n ? a->n : b->n) - 1;
+	uint32_t sum = mul(w, a->at[last], b->at[last]);
 
-	for (uint32_t i = 1; i < a->n && i < b->n; i++)
+	for (uint32_t i = last; i-- > 0;)
 		sum = mad(w, a->at[i], b->at[i], sum);
 	return sum;
 }

@@ -70,12 +70,13 @@ static struct glsl_value all_equal(struct glsl_writer *w, uint32_t type, const s
 	return v;
 }
 
+/* From the last number on, as Mesa adds them up. */
 static uint32_t dot(struct glsl_writer *w, const uint32_t *a, const uint32_t *b, uint32_t n)
 {
 	const uint32_t to = glsl_registers(w, 1);
 
-	for (uint32_t i = 0; i < n; i++)
-		glsl_write(w, i ? SCENE_OP_MAD : SCENE_OP_MULTIPLY, 0, to, 1, &a[i], &b[i], i ? &to : NULL);
+	for (uint32_t i = n; i-- > 0;)
+		glsl_write(w, i + 1 < n ? SCENE_OP_MAD : SCENE_OP_MULTIPLY, 0, to, 1, &a[i], &b[i], i + 1 < n ? &to : NULL);
 	return to;
 }
 

@@ -108,10 +108,10 @@ void emit_dot(struct emitter *e, const struct emit_target *to, const struct emit
 	const struct emit_target sum = { e->scratch, 1, 0 };
 	const struct emit_source four = emit_four(e->scratch), result = emit_splat(&four, 0), last = emit_splat(b, 3);
 
-	for (uint32_t i = 0; i < n; i++) {
+	for (uint32_t i = n; i-- > 0;) { /* Mesa (22.3.6) adds them up from the last on */
 		const struct emit_source x = emit_splat(a, i), y = emit_splat(b, i);
 
-		emit_vector(e, i ? SCENE_OP_MAD : SCENE_OP_MULTIPLY, &sum, &x, &y, i ? &result : NULL);
+		emit_vector(e, i + 1 < n ? SCENE_OP_MAD : SCENE_OP_MULTIPLY, &sum, &x, &y, i + 1 < n ? &result : NULL);
 	}
 	if (homogeneous)
 		emit_vector(e, SCENE_OP_ADD, &sum, &result, &last, NULL);
