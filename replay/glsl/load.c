@@ -5,7 +5,10 @@
 
 #include "base/beside.h"
 #include "base/err.h"
+#include "base/limits.h"
 #include "replay/glsl/tree.h"
+
+#define MOST_SECONDS 30 /* for a shader: large ones take some milliseconds, and macros may call for endless work */
 
 static struct {
 	pthread_once_t once;
@@ -31,6 +34,11 @@ static void load(void)
 
 int glsl_parse(const char *const *texts, uint32_t n, enum glsl_stage stage, struct glsl_tree *tree, const char **why)
 {
+	int err;
+
 	pthread_once(&bridge.once, load);
-	return bridge.parse ? bridge.parse(texts, n, stage, tree, why) : ERR_SYSTEM;
+	limits_read("the text of a shader", MOST_SECONDS);
+	err = bridge.parse ? bridge.parse(texts, n, stage, tree, why) : ERR_SYSTEM;
+	limits_read(NULL, 0);
+	return err;
 }
