@@ -134,6 +134,8 @@ VIEWERS = [
 GAMES = [
     Program("minetest", "minetest", ("minetest", "--go", "--name", "player", "--worldname", "world"), seconds=45, ref_every=5,
             files=((".minetest/worlds/world/world.mt", WORLD), (".minetest/minetest.conf", MINETEST)), group="games, GLSL"),
+    Program("openarena-opengl2", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl2", "+set", "r_mode",
+                                               "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50, group="games, GLSL"),
 ]
 GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL", "others"]
 # Those with shaders that need no model files.
