@@ -10,6 +10,8 @@
 #include "base/err.h"
 #include "base/folder.h"
 #include "base/queue.h"
+#include "look/camera/camera.h"
+#include "look/camera/elsewhere.h"
 #include "look/look.h"
 #include "look/unseen.h"
 #include "render/cryptomatte.h"
@@ -23,24 +25,37 @@
 #define MAX_WRITERS 8
 #define ENOUGH_BYTES ((uint64_t)1200 << 20) /* a third frame is not begun where it would take more, whatever --jobs says */
 
+/* A scene that one picture, or all of a turntable, are made of. */
+struct shared_scene {
+	struct scene *scene;
+	atomic_uint users;
+};
+
+/* A picture to be made. */
+struct shot {
+	struct shared_scene *of;
+	uint64_t number; /* in file names: the frame's, or the turntable's picture's */
+};
+
 /* What the threads of one pipeline share. */
 struct pipeline_state {
 	struct pipeline *p;
 	struct blas_cache *cache; /* BLASes that the workers share; NULL: there is only one */
-	struct queue scenes, pictures;
+	struct queue shots, pictures;
+	struct shared_scene *turned; /* of a turntable, once it is decoded; NULL */
 	pthread_mutex_t lock; /* of what follows, and of the progress */
 	atomic_int err;       /* the first failure */
 	int writer_said;      /* a writer has reported its failure */
-	struct worker *seats; /* [n_seats]; started as frames need them */
+	struct worker *seats; /* [n_seats]; started as pictures need them */
 	size_t n_seats, n_started;
 	unsigned workers;     /* neither ended nor failed, started or not */
 	unsigned at_work;     /* of these, started */
-	unsigned untraced;    /* scenes handed out and not yet traced */
-	unsigned in_flight;   /* scenes handed out and not yet on disk */
+	unsigned untraced;    /* pictures handed out and not yet traced */
+	unsigned in_flight;   /* pictures handed out and not yet on disk */
 	uint64_t frame_bytes; /* most memory that a frame in flight took so far; 0: not known yet */
 	uint64_t idle_bytes;  /* memory before the first frame */
 	pthread_cond_t landed;
-	int begun; /* a scene was handed out */
+	int begun; /* a picture was handed out */
 	/* For motion vectors: the frame that was decoded last, and those before frames that are handed out. */
 	struct vectors_frame *last;
 	uint64_t last_number;
@@ -73,10 +88,29 @@ static void fail(struct pipeline_state *state, int err)
 		state->err = err;
 	pthread_mutex_unlock(&state->lock);
 	watch_give_up(state->p->watch);
-	queue_close(&state->scenes);
+	queue_close(&state->shots);
 }
 
-/* A scene or picture is done with. */
+static void leave_scene(struct shared_scene **shared)
+{
+	struct shared_scene *s = *shared;
+
+	*shared = NULL;
+	if (!s || atomic_fetch_sub(&s->users, 1) != 1)
+		return;
+	scene_release(&s->scene);
+	free(s);
+}
+
+static void drop_shot(struct shot **shot)
+{
+	if (*shot)
+		leave_scene(&(*shot)->of);
+	free(*shot);
+	*shot = NULL;
+}
+
+/* A picture is done with, made or not. */
 static void land(struct pipeline_state *state)
 {
 	uint64_t now = watch_memory();
@@ -123,7 +157,7 @@ static void wait_for_memory(struct pipeline_state *state)
 
 static void *work(void *arg);
 
-/* Start another worker where scenes would wait for one. @return 0 or ERR_SYSTEM (reported): there is none at all */
+/* Start another worker where pictures would wait for one. @return 0 or ERR_SYSTEM (reported): there is none at all */
 static int call_worker(struct pipeline_state *state)
 {
 	int err = 0;
@@ -144,12 +178,18 @@ static int call_worker(struct pipeline_state *state)
 	return err;
 }
 
+/* The frame of the recording that a picture shows. */
+static uint64_t recorded_frame(const struct pipeline_state *state, uint64_t number)
+{
+	return camera_pictures(state->p->settings->camera) ? state->p->settings->turned : number;
+}
+
 static int is_there(const struct pipeline_state *state, uint64_t frame)
 {
 	char path[MAX_PATH_BYTES];
 
 	return state->p->settings->skip_existing && !frame_pattern_expand(state->p->settings->output, frame, path, sizeof(path)) &&
-	       stamp_check(&state->p->stamp, frame, path) == STAMP_SAME;
+	       stamp_check(&state->p->stamp, recorded_frame(state, frame), path) == STAMP_SAME;
 }
 
 /* Note where everything is in a frame, for the one after it. */
@@ -218,27 +258,56 @@ static void drop_earlier(struct pipeline_state *state, uint64_t frame)
 	free(e);
 }
 
-/* Replay up to a frame and hand out its scene. @return 1; 0: the recording ends before it; ERR_* */
-static int hand_out(struct pipeline_state *state, uint64_t frame)
+/* Replay up to a frame. @return 1; 0: the recording ends before it; ERR_* */
+static int go_to(struct pipeline_state *state, uint64_t frame)
 {
-	struct scene *scene = NULL;
-	int more = state->p->settings->motion ? note_earlier(state, frame) : 1;
+	const int more = state->p->settings->motion ? note_earlier(state, frame) : 1;
 
-	if (more == 1)
-		more = replay_seek(state->p->replay, frame);
+	return more == 1 ? replay_seek(state->p->replay, frame) : more;
+}
+
+/* The scene of the next frame, or the one that all pictures of a turntable are made of. @return 1; 0: the recording has ended; ERR_* */
+static int take_scene(struct pipeline_state *state, struct shared_scene **out)
+{
+	struct shared_scene *shared = state->turned ? state->turned : calloc(1, sizeof(*shared));
+	int more = 1;
+
+	if (!shared)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	shared->users++;
+	*out = shared;
+	if (state->turned)
+		return 1;
+	more = replay_next_frame(state->p->replay, 1, &shared->scene);
+	if (more == 1 && state->p->settings->motion && note_last(state, shared->scene))
+		more = ERR_SYSTEM;
+	if (more == 1 && camera_pictures(state->p->settings->camera)) {
+		shared->users++;
+		state->turned = shared;
+	}
+	return more;
+}
+
+/* Hand out a picture to be made. @return 1; 0: the recording ends before its frame; ERR_* */
+static int hand_out(struct pipeline_state *state, uint64_t number)
+{
+	int more = state->turned ? 1 : go_to(state, recorded_frame(state, number));
+	struct shot *shot;
+
 	if (more != 1)
 		return more;
 	wait_for_memory(state);
-	more = replay_next_frame(state->p->replay, 1, &scene);
-	if (more == 1 && state->p->settings->motion && note_last(state, scene))
-		more = ERR_SYSTEM;
+	shot = calloc(1, sizeof(*shot));
+	if (shot)
+		shot->number = number;
+	more = shot ? take_scene(state, &shot->of) : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (more == 1 && !state->begun++)
-		progress_start(state->p->progress, frame, progress_clock_s() - state->p->start_s);
+		progress_start(state->p->progress, number, progress_clock_s() - state->p->start_s);
 	if (more == 1 && call_worker(state))
 		more = ERR_SYSTEM;
-	if (more == 1 && queue_put(&state->scenes, scene))
+	if (more == 1 && queue_put(&state->shots, shot))
 		return 1;
-	scene_release(&scene);
+	drop_shot(&shot);
 	land(state);
 	return more;
 }
@@ -307,10 +376,32 @@ static int tell_role(void *user, const char *text)
 	return image_set_attribute(t->img, name, "%s", text);
 }
 
-/* The scene as the rules change it, traced. */
-static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, struct image *img)
+/* A scene traced as its camera sees it, the recorded one or another. */
+static int trace_seen(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number,
+                      const struct tracer_options *options, struct image *img)
 {
-	struct preview preview = { settings, scene->frame };
+	struct elsewhere elsewhere;
+	int err;
+
+	if (!settings->camera)
+		return tracer_render(tracer, scene, options, img);
+	err = elsewhere_make(settings->camera, settings->look, scene, (uint32_t)number, &elsewhere);
+	if (err)
+		return err;
+	err = tracer_render(tracer, &elsewhere.scene, options, img);
+	if (!err)
+		err = image_set_attribute(img, "relume:camera", "%s", elsewhere.told);
+	if (!err && elsewhere.without)
+		err_warn(settings->camera->path, "frame %llu: %u draws are left out: programs place their vertices, and nothing says where that is from elsewhere",
+		         (unsigned long long)scene->frame, elsewhere.without);
+	elsewhere_release(&elsewhere);
+	return err;
+}
+
+/* The scene as the rules change it, traced. number: of the picture */
+static int render_scene(const struct settings *settings, struct tracer *tracer, const struct scene *scene, uint64_t number, struct image *img)
+{
+	struct preview preview = { settings, number };
 	struct tracer_options options = settings->tracer;
 	struct scene whole = { .instances = NULL }, changed = { .instances = NULL };
 	struct spare found = { .bits = NULL };
@@ -319,12 +410,12 @@ static int render_scene(const struct settings *settings, struct tracer *tracer, 
 	options.preview = settings->preview ? preview_show : NULL;
 	options.preview_user = &preview;
 	if (options.mode == TRACER_GL)
-		return tracer_render(tracer, scene, &options, img);
+		return trace_seen(settings, tracer, scene, number, &options, img);
 	err = unseen_add(settings->look, scene, &whole);
 	if (!err)
 		err = look_apply(settings->look, whole.instances ? &whole : scene, &changed, &found);
 	if (!err)
-		err = tracer_render(tracer, &changed, &options, img);
+		err = trace_seen(settings, tracer, &changed, number, &options, img);
 	if (!err)
 		err = settings_denoise(settings, img);
 	if (!err)
@@ -356,24 +447,25 @@ static int tell_time(const struct scene *scene, struct image *img)
 	return scene->time_ns ? image_set_attribute(img, "relume:time", "%llu", (unsigned long long)scene->time_ns) : 0;
 }
 
-static enum outcome trace(struct worker *w, struct tracer *tracer, const struct scene *scene, struct picture *picture)
+static enum outcome trace(struct worker *w, struct tracer *tracer, const struct shot *shot, struct picture *picture)
 {
+	const struct scene *scene = shot->of->scene;
 	const struct settings *settings = w->state->p->settings;
 	double start = progress_clock_s();
 	int err, late;
 
-	picture->frame = scene->frame;
+	picture->frame = shot->number;
 	if (!scene->width || !scene->height) { /* no device can do that: the others go on */
 		err_report(ERR_SYSTEM, NULL, "frame %llu: %u x %u pixels cannot be rendered", (unsigned long long)scene->frame, scene->width,
 		           scene->height);
-		note(w->state, scene->frame, "failed", 0);
+		note(w->state, shot->number, "failed", 0);
 		return EMPTY;
 	}
-	watch_begin(w->state->p->watch, w->seat, scene->frame);
+	watch_begin(w->state->p->watch, w->seat, shot->number);
 	/* some need the whole planes */
 	picture->img.packers = w->state->p->display || settings->cryptomatte || settings->motion || settings->caustics || settings->denoise ? 0 : packer_count(w->state);
-	err = render_scene(settings, tracer, scene, &picture->img);
-	if (!err)
+	err = render_scene(settings, tracer, scene, shot->number, &picture->img);
+	if (!err && !w->state->turned)
 		err = tell_time(scene, &picture->img);
 	if (!err)
 		err = programs_tell(scene, &picture->img);
@@ -387,6 +479,10 @@ static enum outcome trace(struct worker *w, struct tracer *tracer, const struct 
 		return TRACED;
 	if (watch_is_over(w->state->p->watch))
 		return STOPPED;
+	if (err == ERR_INPUT) { /* the camera's file is not for this frame; others may do */
+		note(w->state, shot->number, "failed", picture->seconds);
+		return EMPTY;
+	}
 	return late ? LATE : BROKEN;
 }
 
@@ -398,8 +494,8 @@ static void give_up(struct pipeline_state *state, const struct picture *picture)
 	note(state, picture->frame, "failed", picture->seconds);
 }
 
-/* The device failed: others take the scene, or the run ends. */
-static void retire(struct pipeline_state *state, struct scene *scene)
+/* The device failed: others take the picture, or the run ends. */
+static void retire(struct pipeline_state *state, struct shot *shot)
 {
 	unsigned left;
 
@@ -409,14 +505,14 @@ static void retire(struct pipeline_state *state, struct scene *scene)
 	pthread_mutex_unlock(&state->lock);
 	if (left) {
 		err_warn(NULL, "frame %llu goes to another device or queue; this one is not used again",
-		         (unsigned long long)scene->frame);
-		queue_put_back(&state->scenes, scene);
+		         (unsigned long long)shot->number);
+		queue_put_back(&state->shots, shot);
 		if (call_worker(state))
 			fail(state, ERR_SYSTEM);
 		return;
 	}
 	fail(state, ERR_SYSTEM);
-	scene_release(&scene);
+	drop_shot(&shot);
 	land(state);
 }
 
@@ -430,8 +526,8 @@ static void add_undrawn(struct pipeline_state *state, const struct tracer *trace
 	pthread_mutex_unlock(&state->lock);
 }
 
-/* Trace one scene. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
-static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene)
+/* Make one picture. @return 1; 0: the device has failed, and this worker ends. *tracer may be NULL afterwards */
+static int work_on(struct worker *w, struct tracer **tracer, struct shot *shot)
 {
 	struct pipeline_state *state = w->state;
 	struct picture *picture = calloc(1, sizeof(*picture));
@@ -440,14 +536,14 @@ static int work_on(struct worker *w, struct tracer **tracer, struct scene *scene
 	if (!picture)
 		fail(state, err_report(ERR_SYSTEM, NULL, "out of memory"));
 	else if (!watch_is_over(state->p->watch))
-		outcome = trace(w, *tracer, scene, picture);
+		outcome = trace(w, *tracer, shot, picture);
 	if (outcome == BROKEN) {
 		free(picture);
-		retire(state, scene);
+		retire(state, shot);
 		return 0;
 	}
-	drop_earlier(state, scene->frame);
-	scene_release(&scene);
+	drop_earlier(state, shot->number);
+	drop_shot(&shot);
 	w->done += outcome == TRACED;
 	if (outcome == TRACED && queue_put(&state->pictures, picture))
 		return 1;
@@ -470,14 +566,14 @@ static void *work(void *arg)
 	struct worker *w = arg;
 	struct pipeline_state *state = w->state;
 	struct tracer *tracer = NULL;
-	struct scene *scene;
+	struct shot *shot;
 	unsigned left = 1;
 	int sound = 1;
 
 	if (start_tracer(w, &tracer))
 		fail(state, ERR_SYSTEM);
-	while (tracer && sound && (scene = queue_take(&state->scenes))) {
-		sound = work_on(w, &tracer, scene);
+	while (tracer && sound && (shot = queue_take(&state->shots))) {
+		sound = work_on(w, &tracer, shot);
 		pthread_mutex_lock(&state->lock);
 		state->untraced--;
 		pthread_mutex_unlock(&state->lock);
@@ -490,7 +586,7 @@ static void *work(void *arg)
 		left = --state->workers;
 	pthread_mutex_unlock(&state->lock);
 	if (!left)
-		queue_close(&state->scenes); /* nobody would take them */
+		queue_close(&state->shots); /* nobody would take them */
 	return NULL;
 }
 
@@ -595,11 +691,12 @@ static int start_and_join(struct pipeline_state *state, struct worker *workers, 
 	err = n_writers ? decode(state) : err_report(ERR_SYSTEM, NULL, "no thread can be started");
 	if (err)
 		fail(state, err);
-	queue_close(&state->scenes);
+	queue_close(&state->shots);
 	for (size_t i = 0; i < state->n_started; i++)
 		pthread_join(workers[i].thread, NULL);
-	for (struct scene *scene; (scene = queue_take(&state->scenes));)
-		scene_release(&scene); /* every worker was gone */
+	for (struct shot *shot; (shot = queue_take(&state->shots));)
+		drop_shot(&shot); /* every worker was gone */
+	leave_scene(&state->turned);
 	while (state->earlier)
 		drop_earlier(state, state->earlier->frame);
 	vectors_free(&state->last);
@@ -625,7 +722,7 @@ int pipeline_run(struct pipeline *p)
 	pthread_mutex_init(&state.lock, NULL);
 	pthread_cond_init(&state.landed, NULL);
 	if (!err)
-		err = queue_init(&state.scenes, n, n);
+		err = queue_init(&state.shots, n, n);
 	if (!err)
 		err = queue_init(&state.pictures, writer_count(), 0);
 	if (!err && n > 1)
@@ -646,7 +743,7 @@ int pipeline_run(struct pipeline *p)
 	for (size_t i = 0; workers && i < n; i++)
 		if (i >= p->n_devices && workers[i].dev)
 			device_close(&workers[i].dev);
-	queue_free(&state.scenes);
+	queue_free(&state.shots);
 	queue_free(&state.pictures);
 	pthread_cond_destroy(&state.landed);
 	pthread_mutex_destroy(&state.lock);

@@ -8,6 +8,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/verbs.h"
+#include "look/camera/camera.h"
 #include "render/look.h"
 #include "render/pipeline.h"
 #include "scene/program.h"
@@ -36,9 +37,29 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 		                  (unsigned long long)x->end, (unsigned long long)frame_list_last(&s->frames));
 	if (x->end == 0)
 		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
-	if (s->n_chunks)
+	if (s->n_chunks && !camera_pictures(s->camera))
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = frame_list_count(&s->frames, x->end);
+	return err;
+}
+
+/* Of a turntable: its pictures take the place of the frame that it shows. */
+static int list_pictures(struct settings *s, struct extent *x)
+{
+	char range[32];
+	int err;
+
+	if (x->short_of)
+		return 0;
+	if (x->total != 1 || !frame_list_next(&s->frames, 0, &s->turned))
+		return err_report(ERR_USAGE, s->camera->path, "a turntable shows one recorded frame; -f names it");
+	x->end = camera_pictures(s->camera);
+	snprintf(range, sizeof(range), "0-%u", camera_pictures(s->camera) - 1);
+	frame_list_free(&s->frames);
+	err = frame_list_parse(range, &s->frames);
+	if (!err && s->n_chunks)
+		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
+	x->total = err ? 0 : frame_list_count(&s->frames, x->end);
 	return err;
 }
 
@@ -55,7 +76,7 @@ static int rehearse(const struct settings *s, const struct stamp *stamp, uint64_
 		if (err)
 			return err;
 		printf("frame %llu: %s: %s\n", (unsigned long long)frame, path,
-		       words[s->skip_existing ? stamp_check(stamp, frame, path) : STAMP_MISSING]);
+		       words[s->skip_existing ? stamp_check(stamp, camera_pictures(s->camera) ? s->turned : frame, path) : STAMP_MISSING]);
 	}
 	return 0;
 }
@@ -207,6 +228,8 @@ static int render(struct settings *s)
 		err = choose_frames(s, p.replay, &x);
 	if (!err)
 		err = foretell(s, p.replay, x.end, &missing);
+	if (!err && camera_pictures(s->camera))
+		err = list_pictures(s, &x);
 	if (!err && s->look_auto && !s->dry_run)
 		err = look_study(s->trace, &(struct frame_list){ .n_ranges = 0 }, &s->look);
 	if (!err && !s->dry_run && s->tracer.mode != TRACER_GL)

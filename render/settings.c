@@ -10,6 +10,7 @@
 #include "base/options.h"
 #include "film/filter.h"
 #include "film/oidn.h"
+#include "look/camera/camera.h"
 #include "look/rules.h"
 #include "tracer/accel/builders.h"
 #include "tracer/hook/host.h"
@@ -117,6 +118,15 @@ static int take_hook(const struct options_row *row, const char *value, void *out
 	return hook_load(value, &s->hook);
 }
 
+static int take_camera(const struct options_row *row, const char *value, void *out)
+{
+	struct settings *s = out;
+
+	(void)row;
+	camera_free(&s->camera);
+	return camera_load(value, &s->camera);
+}
+
 static int take_accel(const struct options_row *row, const char *value, void *out)
 {
 	struct tracer_options *tracer = out;
@@ -196,6 +206,9 @@ static const struct options_row rows[] = {
 	  "modes whitted and path), any_hit, closest_hit, miss, light (modes whitted, diffuse and path). 'relume hook --check' tries them; "
 	  "hooks/README.md explains them", take_hook, .at = 0,
 	  .kind = PICTURE_FILE, .use = CONFINE_READS },
+	{ "camera", 0, "FILE", "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where they stand, or "
+	  "many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from 0). HUDs are left out. "
+	  "look/camera/camera.h shows all keys", take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	/* No hit depends on the tree that found it (kernels/rays/rays.h). */
 	{ "accel", 0, "KIND", "how trees of meshes are built: " TREE_BUILDERS(ACCEL_TEXT) "by default kd from where the program calls "
 	  "rtBuildKdTreeEXT, else bvh. What moves gets a binned one. The picture is the same",
@@ -320,6 +333,18 @@ static int check_denoised(struct settings *s)
 	return 0;
 }
 
+/* Whether what a camera needs is asked for, and nothing that it cannot have. */
+static int check_camera(const struct settings *s)
+{
+	if (!s->camera)
+		return 0;
+	if (s->motion)
+		return err_report(ERR_USAGE, NULL, "--camera: no motion is known from elsewhere (--aov motion)");
+	if (camera_is_in_world(s->camera) && !s->look && !s->look_auto)
+		return err_report(ERR_USAGE, s->camera->path, "space is world: --look with a list `world`, or --look auto, says where that is");
+	return 0;
+}
+
 static int check_preview(const struct settings *s)
 {
 	if (!s->preview)
@@ -379,8 +404,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (err)
 		return err;
 	s->trace = line.words[0];
-	if (!frame_pattern_has_number(s->output) &&
-	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last))
+	if (!frame_pattern_has_number(s->output) && (camera_pictures(s->camera) ||
+	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last)))
 		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
 		                  s->output);
 	if (!s->tracer.samples && (s->tracer.noise > 0 || s->tracer.seconds > 0))
@@ -391,6 +416,8 @@ int settings_parse(struct settings *s, int argc, char **argv)
 		err = check_hook(s);
 	if (!err)
 		err = check_caustics(s);
+	if (!err)
+		err = check_camera(s);
 	if (!err && s->denoise)
 		err = check_denoised(s);
 	if (!err && s->oidn)
@@ -415,6 +442,7 @@ void settings_free(struct settings *s)
 {
 	frame_list_free(&s->frames);
 	rules_free(&s->look);
+	camera_free(&s->camera);
 	hook_free(&s->hook);
 	free(s->aov);
 }

@@ -27,6 +27,8 @@ struct settings {
 	struct look *look;
 	struct hook *hook;      /* owned; NULL: none */
 	int look_auto;          /* 1: the rules are what a study of the recording finds */
+	struct camera *camera;  /* owned; NULL: the recorded one */
+	uint64_t turned;        /* of a turntable: the recorded frame; `frames` are its pictures (render.c) */
 	struct tracer_options tracer;
 	char *aov;                      /* owned: what of --aov the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that render/vectors.h adds */

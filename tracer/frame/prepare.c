@@ -8,8 +8,8 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 #include "kernels/camera/camera.h"
-#include "scene/backdrop.h"
 #include "scene/program.h"
+#include "scene/skies.h"
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
@@ -205,36 +205,6 @@ void prepare_pad(struct prepared *p, uint32_t i, const float (*positions)[4], ui
 	const float *clip = instance->flags & INSTANCE_BAKED ? p->views[g->view].projection : g->clip_from_obj;
 
 	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
-}
-
-/*
- * Which instances are skies: drawn in perspective before anything of their eye space that leaves depth, and leaving none themselves, so
- * that all else is in front of them. Depth that is cleared before the world is drawn is none (scene/backdrop.h).
- * @param skies  [n_instances], all 0; receives 1 for each
- */
-static int find_skies(const struct scene *scene, uint8_t *skies)
-{
-	uint32_t *space = malloc((scene->n_views + (size_t)1) * sizeof(*space)); /* the first view with the same one */
-	uint8_t *deep = calloc(scene->n_views + (size_t)1, 1);
-	const uint32_t backdrop = scene_backdrop(scene);
-
-	for (uint32_t v = 0; v < scene->n_views && space && deep; v++) {
-		space[v] = 0;
-		while (scene->views[space[v]].space != scene->views[v].space)
-			space[v]++;
-	}
-	for (uint32_t i = 0; i < scene->n_instances && space && deep; i++) {
-		const struct scene_instance *instance = &scene->instances[i];
-		const struct scene_material *m = &scene->materials[instance->material];
-
-		if (m->depth_test && m->depth_write && i >= backdrop)
-			deep[space[instance->view]] = 1;
-		skies[i] = !deep[space[instance->view]] && (m->color_mask & 7) && !m->stencil_test &&
-		           scene->views[instance->view].projection[11] != 0;
-	}
-	free(deep);
-	free(space);
-	return space && deep ? 0 : -1;
 }
 
 static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape)
@@ -497,7 +467,7 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
 	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
 	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
-	    !out->scene_views || !out->skies || find_skies(scene, out->skies) != 0)
+	    !out->scene_views || !out->skies || scene_find_skies(scene, out->skies) != 0)
 		goto fail;
 	n_cuts = cut_scene(scene, cuts);
 	for (uint32_t r = 0; r < n_cuts; r++) {
