@@ -32,9 +32,12 @@
 #define QUERY_TOUCH 1e-6f
 /*
  * By how much the direction to the nearest point may be wrong: where an edge is as near as a face but for rounding, the square root of
- * that. Steps towards a triangle are shorter by as much.
+ * that, over the distance. Steps towards a triangle are shorter by as much, and at least by QUERY_TURN.
  */
 #define QUERY_TURN 1e-3f
+#define QUERY_ROUNDING 5e-7f
+/* So far apart, as a share of the distance, may the point above a face lie from where weights of its corners say. */
+#define QUERY_APART 1e-5f
 #define QUERY_STEPS 64u
 
 /* A question on its way through the tree. */
@@ -157,8 +160,13 @@ static inline struct vec3 query_away(const struct query_triangle *t, struct vec3
 	if (n2 > 0.0f) {
 		const float u = query_dot(query_cross(from, t->e2), n) / n2, v = query_dot(query_cross(t->e1, from), n) / n2;
 
-		if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f)
-			query_take_nearer(v3_scale(n, query_dot(from, n) / n2), &best, &least);
+		if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f) {
+			const struct vec3 off = v3_sub(p, query_fma(t->e2, v, query_fma(t->e1, u, t->v0))), across = v3_scale(n, query_dot(from, n) / n2);
+			const struct vec3 apart = v3_sub(off, across);
+
+			/* A needle's normal is rounded to another one: its plane is nearer than any point of it. */
+			query_take_nearer(query_dot(apart, apart) <= QUERY_APART * QUERY_APART * query_dot(off, off) ? across : off, &best, &least);
+		}
 	}
 	return best;
 }
@@ -185,13 +193,15 @@ static inline void query_take_contact(struct query *q, float t, uint32_t primiti
 
 static inline void query_try_sphere(struct query *q, const struct query_triangle *triangle)
 {
-	const float touch = QUERY_TOUCH * (q->radius + q->extent), slower = QUERY_TURN * M_SQRT(query_dot(q->d, q->d));
+	const float touch = QUERY_TOUCH * (q->radius + q->extent), speed = M_SQRT(query_dot(q->d, q->d));
+	const float rounding = QUERY_ROUNDING * (query_extent(triangle->v0) + query_extent(triangle->e1) + query_extent(triangle->e2));
 	float t = 0.0f;
 
 	for (uint32_t i = 0; i < QUERY_STEPS && t <= q->far; i++) {
 		const struct vec3 away = query_away(triangle, v3_scale(q->d, t));
 		const float distance = M_SQRT(query_dot(away, away)), gap = distance - q->radius;
-		const float approach = slower * distance - query_dot(away, q->d);
+		const float turn = M_MAX(QUERY_TURN, M_SQRT(rounding / M_MAX(distance, 1e-30f)));
+		const float approach = turn * speed * distance - query_dot(away, q->d);
 
 		if (gap <= touch) {
 			query_take_contact(q, t, triangle->primitive);
