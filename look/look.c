@@ -20,8 +20,8 @@
 #include "look/solid.h"
 #include "look/spare.h"
 #include "look/world.h"
-#include "scene/repair/holds.h"
 #include "scene/draw_list.h"
+#include "scene/repair/holds.h"
 
 /* Between ambient light and what a program rounds to 8 bits. */
 #define SHADE (2.0f / 255)
@@ -784,18 +784,19 @@ static int tell_repairs(const struct applying *a, int (*tell)(void *user, const 
 		const struct scene_mesh *mesh;
 		struct repair_wants wants;
 		struct repair_found found;
-
 		struct scene_material m = s->materials[in->material];
 
+		if (s->meshes[in->mesh] == last)
+			continue;
 		for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
 			if (applies(a, in, k))
-				set_surface(&m.surface, &a->rules->surfaces[k], 1);
-		if (s->meshes[in->mesh] == last || !wants_repair(a, in, &m, &wants))
+				set_surface(&m.surface, &a->rules->surfaces[k], look_spares(a->look));
+		if (!wants_repair(a, in, &m, &wants))
 			continue;
 		last = s->meshes[in->mesh];
 		err = repaired_find(a->look->repaired, last, &wants, &mesh, &found);
 		repaired_describe(&found, why, sizeof(why));
-		snprintf(text, sizeof(text), "surface\t%s\t1.00\t%u\t%s", found.closed ? "closed mesh" : "mesh that leaks", in->draw, why);
+		snprintf(text, sizeof(text), "surface\t%s\t1.00\t%u\t%s", found.closed ? "closed mesh" : found.leaks ? "mesh that leaks" : "mesh", in->draw, why);
 		err = err ? err : tell(user, text);
 		n++;
 	}

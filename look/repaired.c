@@ -15,6 +15,8 @@
 /* Of all meshes in the store: those of programs that send new ones in every frame would fill any memory. */
 #define MOST_BYTES ((size_t)1 << 30)
 
+enum { MOST_WARNINGS = 4 };
+
 struct entry {
 	uint64_t hash[2]; /* of what it was */
 	struct repair_wants wants;
@@ -26,6 +28,7 @@ struct repaired {
 	pthread_mutex_t lock;
 	struct entry *entries;
 	size_t n, room, bytes;
+	unsigned n_leaking;
 	int is_full;
 };
 
@@ -66,11 +69,15 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
 	       m->polygon_mode_back == GL_FILL && !(m->surface.hidden & SCENE_LEFT_OUT);
 }
 
-static void warn(const struct scene_mesh *mesh, const struct repair_found *found)
+/* Of the first few meshes. */
+static void warn(struct repaired *s, const struct scene_mesh *mesh, const struct repair_found *found)
 {
 	const float *at = found->leak_at;
 
-	if (found->leaks)
+	s->n_leaking += found->leaks > 0;
+	if (found->leaks && s->n_leaking == MOST_WARNINGS + 1)
+		err_warn(NULL, "other meshes leak light, too; attributes relume:rule.N of the frames tell of them");
+	if (found->leaks && s->n_leaking <= MOST_WARNINGS)
 		err_warn(NULL, "mesh %016llx%016llx still leaks light at %u edges after its repair, the longest about %g %g %g (object space)",
 		         (unsigned long long)mesh->hash[1], (unsigned long long)mesh->hash[0], found->leaks, (double)at[0], (double)at[1], (double)at[2]);
 }
@@ -92,7 +99,7 @@ static int add(struct repaired *s, const struct scene_mesh *of, const struct rep
 		err = repair_mesh(of, wants, &made.found, &made.mesh);
 	if (err)
 		return err;
-	warn(of, &made.found);
+	warn(s, of, &made.found);
 	s->bytes += sizeof(made) + (made.mesh ? 64 * (size_t)made.mesh->vertex_count + 16 * (size_t)made.mesh->primitive_count : 0);
 	s->entries[s->n++] = made;
 	return 0;
@@ -127,7 +134,9 @@ void repaired_describe(const struct repair_found *f, char *out, size_t room)
 	const int n = snprintf(out, room, "%u vertices welded, %u places set into edges, %u triangles dropped, %u turned, %u places merged; ", f->welded, f->junctions,
 	                       f->dropped, f->turned, f->merged);
 
-	if (f->closed)
+	if (!f->shells)
+		snprintf(out, room, "not repaired");
+	else if (f->closed)
 		snprintf(out + n, room - (size_t)n, "closed");
 	else
 		snprintf(out + n, room - (size_t)n, "%u edges leak, the longest about %g %g %g, %u look two ways", f->leaks, (double)f->leak_at[0],

@@ -19,7 +19,7 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
                    struct repair_wants *wants);
 
 /**
- * A mesh repaired. What still leaks is told on standard error, once.
+ * A mesh repaired. What still leaks is told on standard error, of the first few meshes.
  * @param mesh  receives the repaired one, the store's; NULL: nothing is there to repair, or there is no room for more (told once)
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -22,7 +22,7 @@
 #define REPAIR_MOST_WELD 0.01f
 
 struct repair_wants {
-	float weld;    /* the tolerance: a share of the diagonal of the mesh's box; 0 joins equal positions only. At most REPAIR_MOST_WELD */
+	float weld;    /* the tolerance: a share of the diagonal of the mesh's box, and what floats round; 0: equal positions only. At most REPAIR_MOST_WELD */
 	int turn;
 	int clockwise; /* 1: faces are seen clockwise from outside; else counter-clockwise */
 	int merge;

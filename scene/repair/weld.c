@@ -9,7 +9,7 @@
 
 /* Along this direction few places of a mesh are side by side, as programs' walls and rows of vertices never stand across it. */
 static const double skew[3] = { 0.6270473, 0.5391827, 0.5623719 };
-/* What floats resolve, as a share of the largest coordinate. */
+/* What rounding to floats adds to a distance, as a share of the largest coordinate. */
 #define RESOLVED 2.4e-7
 
 /* A vertex on its way into a place. */
@@ -72,7 +72,7 @@ static uint32_t list_seats(struct shape *s, struct seat *seats)
 	for (int k = 0; k < 3 && n; k++)
 		square += (high[k] - low[k]) * (high[k] - low[k]);
 	s->size = sqrt(square);
-	s->tolerance = s->wants->weld > 0 ? fmax(fmin(s->wants->weld, REPAIR_MOST_WELD) * s->size, RESOLVED * most) : 0;
+	s->tolerance = s->wants->weld > 0 ? fmin(s->wants->weld, REPAIR_MOST_WELD) * s->size + RESOLVED * most : 0;
 	return n;
 }
 

@@ -194,12 +194,14 @@ static inline double broken_place(struct broken *b)
 		const double x = turns ? at[0] * cos(turn) - at[1] * sin(turn) : at[0], y = turns ? at[0] * sin(turn) + at[1] * cos(turn) : at[1], z = at[2];
 		const double placed[3] = { x, turns ? y * cos(tilt) - z * sin(tilt) : y, turns ? y * sin(tilt) + z * cos(tilt) : z };
 
-		for (int k = 0; k < 3; k++) {
+		for (int k = 0; k < 3; k++)
 			b->points[p][k] = (float)(scale * (placed[k] + away[k]));
-			low[k] = fmin(low[k], b->points[p][k]);
-			high[k] = fmax(high[k], b->points[p][k]);
-		}
 	}
+	for (uint32_t i = 0; i < 3 * b->n_triangles; i++) /* a grid has corners that no triangle has */
+		for (int k = 0; k < 3; k++) {
+			low[k] = fmin(low[k], b->points[b->index[i]][k]);
+			high[k] = fmax(high[k], b->points[b->index[i]][k]);
+		}
 	return sqrt(pow(high[0] - low[0], 2) + pow(high[1] - low[1], 2) + pow(high[2] - low[2], 2));
 }
 
