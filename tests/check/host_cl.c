@@ -300,6 +300,20 @@ cl_int clEnqueueReadBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, size_t 
 	return CL_SUCCESS;
 }
 
+void *clEnqueueMapBuffer(cl_command_queue q, cl_mem mem, cl_bool wait, cl_map_flags how, size_t offset, size_t bytes, cl_uint n,
+                         const cl_event *events, cl_event *event, cl_int *code)
+{
+	(void)q, (void)wait, (void)how, (void)n, (void)events, (void)event;
+	*code = offset > mem->bytes || bytes > mem->bytes - offset ? CL_INVALID_VALUE : CL_SUCCESS;
+	return *code == CL_SUCCESS ? mem->at + offset : NULL;
+}
+
+cl_int clEnqueueUnmapMemObject(cl_command_queue q, cl_mem mem, void *mapped, cl_uint n, const cl_event *events, cl_event *event)
+{
+	(void)q, (void)mem, (void)mapped, (void)n, (void)events, (void)event;
+	return CL_SUCCESS;
+}
+
 /* --- Programs ------------------------------------------------------------------------------------------------------ */
 
 cl_program clCreateProgramWithSource(cl_context c, cl_uint n, const char **texts, const size_t *lengths, cl_int *code)

@@ -116,6 +116,10 @@ OBJECT(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl
 OBJECT(cl_program, clCreateProgramWithBinary,
        (cl_context c, cl_uint n, const cl_device_id *d, const size_t *lengths, const unsigned char **binaries, cl_int *status, cl_int *code),
        c, n, d, lengths, binaries, status)
+CODE(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem m, void *mapped, cl_uint n, const cl_event *events, cl_event *event), q, m, mapped, n, events, event)
+OBJECT(void *, clEnqueueMapBuffer,
+       (cl_command_queue q, cl_mem m, cl_bool wait, cl_map_flags how, size_t at, size_t size, cl_uint n, const cl_event *events, cl_event *event, cl_int *code),
+       q, m, wait, how, at, size, n, events, event)
 OBJECT(cl_kernel, clCreateKernel, (cl_program p, const char *name, cl_int *code), p, name)
 
 /* --- Calls that a device answers otherwise ------------------------------------------------------------------------- */

@@ -161,8 +161,8 @@ END_TEST
 /* Rows that come in bands, packed by several threads, make the file that the whole picture makes. */
 START_TEST(test_bands)
 {
-	const uint32_t width = 50, height = 403, ends[] = { 7, 41, 105, 112, 290, 403 };
-	struct image img = make_image(width, height), band = { .width = width, .height = height, .packers = 3, .room = 200 };
+	const uint32_t width = 50, height = 403, ends[] = { 7, 9, 41, 105, 112, 115, 290, 403 };
+	struct image img = make_image(width, height), band = { .width = width, .height = height, .packers = 3 };
 	uint16_t *halves = image_add_halves(&img, "R");
 	long n1, n2;
 	char *a, *b;
@@ -175,10 +175,10 @@ START_TEST(test_bands)
 	image_add_channel(&band, "Z", 1);
 	image_add_halves(&band, "R");
 	for (size_t k = 0; k < sizeof(ends) / sizeof(ends[0]); k++) {
-		for (uint32_t y = k ? ends[k - 1] : 0; y < ends[k]; y++)
-			for (size_t i = 0; i < 3; i++)
-				memcpy(image_row(&band, i, y), image_row(&img, i, y), width * (i < 2 ? sizeof(float) : sizeof(uint16_t)));
-		ck_assert_int_eq(image_finish_rows(&band, ends[k]), 0);
+		const uint32_t first = k ? ends[k - 1] : 0;
+		const void *planes[] = { img.channels[0].values + first * width, img.channels[1].values + first * width, halves + first * width };
+
+		ck_assert_int_eq(image_take_rows(&band, planes, ends[k] - first), 0);
 	}
 	for (size_t i = 0; i < img.n_attributes; i++)
 		image_set_attribute(&band, img.attributes[i].name, "%s", img.attributes[i].text);

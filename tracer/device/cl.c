@@ -420,6 +420,24 @@ int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset
 	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "reading a buffer");
 }
 
+int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, const void **out)
+{
+	cl_int code;
+
+	*out = NULL;
+	if (bytes == 0)
+		return 0;
+	*out = clEnqueueMapBuffer(dev->queue, buffer->mem, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
+	return *out ? 0 : cl_report(&dev->common->said, code, "mapping a buffer");
+}
+
+int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *mapped)
+{
+	const cl_int code = mapped ? clEnqueueUnmapMemObject(dev->queue, buffer->mem, (void *)mapped, 0, NULL, NULL) : CL_SUCCESS;
+
+	return code == CL_SUCCESS ? 0 : cl_report(&dev->common->said, code, "unmapping a buffer");
+}
+
 int cl_finish(struct cl_device *dev)
 {
 	cl_int code = clFinish(dev->queue);

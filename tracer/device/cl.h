@@ -38,6 +38,8 @@ int cl_reserve(struct cl_device *dev, struct cl_buffer **buffer, size_t bytes);
 void cl_release(struct cl_device *dev, struct cl_buffer **buffer);
 int cl_write(struct cl_device *dev, struct cl_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int cl_read(struct cl_device *dev, const struct cl_buffer *buffer, size_t offset, void *data, size_t bytes);
+int cl_map(struct cl_device *dev, const struct cl_buffer *buffer, size_t bytes, const void **out);
+int cl_unmap(struct cl_device *dev, const struct cl_buffer *buffer, const void *mapped);
 int cl_finish(struct cl_device *dev);
 
 /** One argument of cl_run: a buffer, or a value where it is NULL. */

@@ -402,6 +402,27 @@ int device_read(struct device *dev, const struct device_buffer *buffer, size_t o
 	return err;
 }
 
+int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, const void **out)
+{
+	struct device_spent begun = begin(dev);
+	int err = 0;
+
+	if (device_is_interrupted(dev))
+		return ERR_SYSTEM;
+	if (dev->cl)
+		err = cl_map(dev->cl, buffer->cl, bytes, out);
+	else
+		*out = buffer->memory;
+	if (dev->profile)
+		end(&dev->profile->reads, &begun, bytes);
+	return err;
+}
+
+int device_unmap(struct device *dev, const struct device_buffer *buffer, const void *mapped)
+{
+	return dev->cl ? cl_unmap(dev->cl, buffer->cl, mapped) : 0;
+}
+
 int device_upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes)
 {
 	int err = device_reserve(dev, buffer, bytes);

@@ -157,6 +157,14 @@ void device_release(struct device *dev, struct device_buffer **buffer);
 int device_write(struct device *dev, struct device_buffer *buffer, size_t offset, const void *data, size_t bytes);
 int device_read(struct device *dev, const struct device_buffer *buffer, size_t offset, void *data, size_t bytes);
 
+/**
+ * Look at the first bytes of a buffer, all earlier kernels done; on a CPU without a copy. No kernel may write to it until
+ * device_unmap.
+ * @return 0 or ERR_SYSTEM (reported; nothing is mapped)
+ */
+int device_map(struct device *dev, const struct device_buffer *buffer, size_t bytes, const void **out);
+int device_unmap(struct device *dev, const struct device_buffer *buffer, const void *mapped);
+
 /** Reserve for so many bytes and write them to the buffer's start. */
 int device_upload(struct device *dev, struct device_buffer **buffer, const void *data, size_t bytes);
 

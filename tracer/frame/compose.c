@@ -8,7 +8,6 @@
 #include "kernels/frame/dome.h"
 #include "tracer/frame/dome.h"
 #include "tracer/frame/secondary.h"
-#include "tracer/image/pack.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
 	                               "layers", NULL };
@@ -95,16 +94,6 @@ static int run_compose(struct job *job, const struct compose_request *r)
 	return launch_compose(tr->dev, job->n_pixels, a);
 }
 
-/* The band's part of a plane from the device to its channel. */
-static int fetch(struct job *job, const struct channel *c, const struct compose_request *r, void *to)
-{
-	const struct frame_buffers *b = &job->tr->buffers;
-	size_t place = c->full ? r->float_plane[c->plane] : r->half_plane[c->plane];
-	size_t bytes = job->n_pixels * (c->full ? sizeof(float) : sizeof(uint16_t));
-
-	return device_read(job->tr->dev, c->full ? b->floats.buffer : b->halves.buffer, place * bytes, to, bytes);
-}
-
 /*
  * Eye space stands for the world. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in [0,1] with y
  * down. Both are for row vectors: their rows are our columns.
@@ -148,13 +137,12 @@ static int describe_image(const struct job *job, struct image *img)
 	return err ? err : describe_camera(job, img);
 }
 
-int compose_start(const struct job *job, uint32_t rows, struct image *img)
+int compose_start(const struct job *job, struct image *img)
 {
 	int err = 0;
 
 	img->width = job->width;
 	img->height = job->height;
-	img->room = rows + PACK_ROWS - 1;
 	for (size_t i = 0; i < N_CHANNELS && !err; i++) {
 		const struct channel *c = &channels[i];
 
@@ -178,14 +166,31 @@ int compose_reserve(struct job *job, struct compose_request *request)
 
 int compose_fetch(struct job *job, const struct compose_request *request, struct image *img)
 {
-	uint32_t row = job->height - job->row_first - job->n_rows;
+	const struct frame_buffers *b = &job->tr->buffers;
+	const void *halves, *floats, *planes[N_CHANNELS];
+	uint32_t n_halves, n_floats;
 	size_t n = 0;
-	int err = 0;
+	int err, unmapped;
 
-	for (size_t i = 0; i < N_CHANNELS && !err; i++)
-		if (compose_asks(job->options, channels[i].group))
-			err = fetch(job, &channels[i], request, image_row(img, n++, row));
-	return err ? err : image_finish_rows(img, row + job->n_rows);
+	request_of(job, &n_halves, &n_floats);
+	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * n_halves * sizeof(uint16_t), &halves);
+	if (err)
+		return err;
+	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * n_floats * sizeof(float), &floats);
+	if (!err) {
+		for (size_t i = 0; i < N_CHANNELS; i++) {
+			const struct channel *c = &channels[i];
+
+			if (compose_asks(job->options, c->group))
+				planes[n++] = c->full ? (const void *)((const float *)floats + request->float_plane[c->plane] * (size_t)job->n_pixels) :
+				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane] * (size_t)job->n_pixels);
+		}
+		err = image_take_rows(img, planes, job->n_rows);
+		unmapped = device_unmap(job->tr->dev, b->floats.buffer, floats);
+		err = err ? err : unmapped;
+	}
+	unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
+	return err ? err : unmapped;
 }
 
 int compose_band(struct job *job, struct image *img)

@@ -6,15 +6,14 @@
 
 /**
  * Give an empty image its size, the channels that are asked for, and attributes.
- * @param rows  of a band at most
  * @return 0 or ERR_SYSTEM (reported)
  */
-int compose_start(const struct job *job, uint32_t rows, struct image *img);
+int compose_start(const struct job *job, struct image *img);
 
 /** What the kernels are asked to make of a band, and room for its planes. @return 0 or ERR_SYSTEM (reported) */
 int compose_reserve(struct job *job, struct compose_request *request);
 
-/** Copy the band's planes from the device into what compose_start made. @return 0 or ERR_SYSTEM (reported) */
+/** Hand the band's planes to what compose_start made. @return 0 or ERR_SYSTEM (reported) */
 int compose_fetch(struct job *job, const struct compose_request *request, struct image *img);
 
 /**

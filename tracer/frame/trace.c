@@ -321,7 +321,7 @@ struct sampling {
 
 static int show_all(struct job *job, struct image *img)
 {
-	int err = compose_start(job, rows_of_band(job), img);
+	int err = compose_start(job, img);
 
 	job->pass = 0;
 	job->image = img;

@@ -178,7 +178,7 @@ int image_write_exr(const struct image *img, const char *path)
 	if (!img->pack)
 		err = pack_create(img, 1, &made);
 	if (made)
-		err = pack_until(made, img, img->height);
+		err = pack_until(made, img, NULL, 0, img->height);
 	if (!err)
 		err = part_begin(path, temporary, sizeof(temporary));
 	if (!err) {

@@ -41,7 +41,7 @@ static void *no_memory(const struct image *img, const char *name)
 /* Of a plane. */
 static size_t pixel_count(const struct image *img)
 {
-	size_t n = (size_t)img->width * (img->packers ? img->room : img->height);
+	size_t n = (size_t)img->width * (img->packers ? PACK_ROWS : img->height);
 
 	return n ? n : 1;
 }
@@ -86,37 +86,62 @@ uint16_t *image_add_halves(struct image *img, const char *name)
 	return channel->halves;
 }
 
-void *image_row(const struct image *img, size_t i, uint32_t row)
+static size_t row_bytes(const struct image *img, size_t i)
 {
-	const struct image_channel *channel = &img->channels[i];
-	const size_t at = (size_t)(row - img->first) * img->width;
-
-	return channel->halves ? (void *)(channel->halves + at) : (void *)(channel->values + at);
+	return img->width * (img->channels[i].halves ? sizeof(uint16_t) : sizeof(float));
 }
 
-int image_finish_rows(struct image *img, uint32_t end)
+/* n of some rows, the first `skip` left out, to row `at` of the image's planes. */
+static void keep_rows(struct image *img, const void *const *planes, uint32_t skip, uint32_t n, uint32_t at)
 {
-	uint32_t first;
+	for (size_t i = 0; i < img->n_channels && n; i++) {
+		const struct image_channel *channel = &img->channels[i];
+		char *own = channel->halves ? (char *)channel->halves : (char *)channel->values;
+		const size_t bytes = row_bytes(img, i);
+
+		memcpy(own + at * bytes, (const char *)planes[i] + skip * bytes, n * bytes);
+	}
+}
+
+/* Pack whole chunks of the rows: what was left of those before is filled up first. */
+static int pack_rows(struct image *img, const void *const *planes, uint32_t n)
+{
+	const uint32_t row = img->taken, end = row + n, left = row - img->first, lacks = left ? PACK_ROWS - left : 0;
+	const uint32_t head = lacks < n ? lacks : n;
 	int err = 0;
 
-	if (!img->packers)
-		return 0;
 	if (!img->pack)
 		err = pack_create(img, img->packers, &img->pack);
-	if (!err)
-		err = pack_until(img->pack, img, end);
 	if (err)
 		return err;
-	first = img->pack->n_packed * PACK_ROWS;
-	for (size_t i = 0; i < img->n_channels && first < end; i++) {
-		const size_t row = img->width * (img->channels[i].halves ? sizeof(uint16_t) : sizeof(float));
-
-		memmove(image_row(img, i, img->first), image_row(img, i, first), (end - first) * row);
+	keep_rows(img, planes, 0, head, left);
+	if (head)
+		err = pack_until(img->pack, img, NULL, 0, row + head);
+	if (!err && head < n)
+		err = pack_until(img->pack, img, planes, row, end);
+	if (err)
+		return err;
+	if (img->pack->n_packed * PACK_ROWS > img->first) {
+		img->first = img->pack->n_packed * PACK_ROWS;
+		keep_rows(img, planes, img->first - row, img->first < end ? end - img->first : 0, 0);
+	} else if (!left) {
+		keep_rows(img, planes, 0, n, 0);
 	}
-	img->first = first;
-	for (size_t i = 0; i < img->n_channels && end == img->height; i++)
-		free_planes(&img->channels[i]);
 	return 0;
+}
+
+int image_take_rows(struct image *img, const void *const *planes, uint32_t n)
+{
+	int err = 0;
+
+	if (img->packers)
+		err = pack_rows(img, planes, n);
+	else
+		keep_rows(img, planes, 0, n, img->taken);
+	img->taken += n;
+	for (size_t i = 0; i < img->n_channels && img->packers && img->taken == img->height; i++)
+		free_planes(&img->channels[i]);
+	return err;
 }
 
 float *image_values(const struct image *img, size_t i)

@@ -24,11 +24,11 @@ struct image_attribute {
 struct image {
 	uint32_t width, height;
 	/*
-	 * 0: planes hold the whole picture. Else rows come from the top, planes hold `room` of them from row `first` on, and so many
-	 * threads pack what is finished (image_finish_rows). Such an image can be written, and nothing else.
+	 * 0: planes hold the whole picture. Else so many threads pack rows as they come (image_take_rows), and planes hold those from row
+	 * `first` on that are too few to be packed. Such an image can be written, and nothing else.
 	 */
 	unsigned packers;
-	uint32_t first, room;
+	uint32_t first, taken; /* taken: so many rows have come, from the top */
 	struct pack *pack; /* owned; what has become of the rows above `first` */
 	struct image_channel *channels; /* owned, in the order they were added */
 	size_t n_channels;
@@ -48,14 +48,12 @@ float *image_add_channel(struct image *img, const char *name, int full_float);
 /** Add a channel of half floats, not set yet. @return its plane, as image_add_channel. Do not change it once floats were asked for */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
-/** Where a row of channel number i stands. */
-void *image_row(const struct image *img, size_t i, uint32_t row);
-
 /**
- * All rows above `end` are there. An image with packers packs them and moves what is left of them to the front of its planes.
+ * Take in the next n rows, from the top.
+ * @param planes  [n_channels] a channel's rows, one behind the other: halves where it has halves, else floats; not kept
  * @return 0 or ERR_SYSTEM (reported)
  */
-int image_finish_rows(struct image *img, uint32_t end);
+int image_take_rows(struct image *img, const void *const *planes, uint32_t n);
 
 /** The plane of a channel as floats. NULL: there is none of that name, or no memory (reported) */
 float *image_channel(const struct image *img, const char *name);

@@ -15,6 +15,7 @@ struct work {
 	struct pack *pack;
 	const struct image *img;
 	struct exr_plane *planes;
+	uint32_t first;   /* row that planes begin with */
 	atomic_uint next; /* chunk that nobody packs yet */
 	uint32_t last;    /* one behind */
 	atomic_int failed;
@@ -28,7 +29,7 @@ struct helper {
 
 static void pack_chunk(struct work *w, struct exr_packer *tools, uint32_t number)
 {
-	struct exr_rows rows = { w->planes, w->pack->n_channels, w->img->width, number * PACK_ROWS - w->img->first, PACK_ROWS };
+	struct exr_rows rows = { w->planes, w->pack->n_channels, w->img->width, number * PACK_ROWS - w->first, PACK_ROWS };
 	struct pack_chunk *chunk = &w->pack->chunks[number];
 
 	if (number * PACK_ROWS + rows.count > w->img->height)
@@ -95,9 +96,9 @@ void pack_destroy(struct pack **pack)
 	free(p);
 }
 
-int pack_until(struct pack *p, const struct image *img, uint32_t end)
+int pack_until(struct pack *p, const struct image *img, const void *const *planes, uint32_t first, uint32_t end)
 {
-	struct work w = { .pack = p, .img = img, .next = p->n_packed, .last = end == img->height ? p->n_chunks : end / PACK_ROWS };
+	struct work w = { .pack = p, .img = img, .first = planes ? first : img->first, .next = p->n_packed, .last = end == img->height ? p->n_chunks : end / PACK_ROWS };
 	struct helper helpers[MAX_HELPERS];
 	unsigned n = 1;
 
@@ -106,9 +107,12 @@ int pack_until(struct pack *p, const struct image *img, uint32_t end)
 	w.planes = calloc(p->n_channels, sizeof(*w.planes));
 	if (!w.planes)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (size_t i = 0; i < p->n_channels; i++)
-		w.planes[i] = (struct exr_plane){ p->sorted[i]->halves, p->sorted[i]->halves ? NULL : p->sorted[i]->values,
-			                          p->sorted[i]->full_float };
+	for (size_t i = 0; i < p->n_channels; i++) {
+		const struct image_channel *c = p->sorted[i];
+		const void *plane = planes ? planes[c - img->channels] : c->halves ? (const void *)c->halves : c->values;
+
+		w.planes[i] = (struct exr_plane){ c->halves ? plane : NULL, c->halves ? NULL : plane, c->full_float };
+	}
 	for (unsigned i = 0; i < p->threads; i++)
 		helpers[i] = (struct helper){ &w, &p->tools[i], 0 };
 	while (n < p->threads && n < w.last - p->n_packed && pthread_create(&helpers[n].thread, NULL, help, &helpers[n]) == 0)
