@@ -58,7 +58,7 @@ DEPS_deb := debhelper dpkg-dev fakeroot lintian
 
 # Programs of ours to record: plain OpenGL programs, built as anybody would build them.
 CORPUS := $(patsubst %.c,$(BUILD)/%,$(wildcard corpus/*.c corpus/es/*.c corpus/wayland/*.c)) $(BUILD)/corpus/rooms
-TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c tests/harness/fails.c) tests/bench/tiny.c tests/bench/translate.c tests/fuzz/drive.c tests/fuzz/make_seeds.c)
 
 all: $(BUILD)/relume $(BUILD)/librelume.so $(BUILD)/librelume-rays.so $(BUILD)/relume-oiio.so $(BUILD)/relume-glsl.so $(BUILD)/visual/libGL.so.1 $(CORPUS)
 
@@ -408,8 +408,8 @@ DEPS_piglit := piglit
 show-piglit-record show-piglit-parity: show-piglit-%: all $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) tests/show/piglit.py $(BUILD) $* $(ONLY)
 
-# The same of its tests of ARB programs and of GLSL, panels of ours, and what a frame of programs costs.
-show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/deps.piglit
+# The same of its tests of ARB programs and of GLSL, panels of ours, what programs cost; ONLY=real: programs of other people.
+show-programs: all $(HELPERS) $(CORPUS) $(BUILD)/tests/bench/translate $(BUILD)/deps.piglit
 	@tests/xvfb.sh $(PYTHON) -B tests/show/stages.py $(BUILD) $(ONLY)
 
 # Not part of `make show`: faults put into our own sources, one at a time, and the tests run: hours. It goes on where it was stopped.

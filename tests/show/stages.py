@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""tests/show/stages.py BUILD [panels|piglit|glsl|glsl-all|cost...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
+"""tests/show/stages.py BUILD [panels|piglit|glsl|cost|compile|glsl-all|real...] (`make show-programs`): vertices and fragments by programs, beside Mesa and beside fixed function.
 
-panels: tests/real/panels of programs, each instruction, binding, option and way in a panel: pixels that fail.
+panels: tests/real/panels of programs, each instruction, binding, option and way in a panel, ten frames: those that pass all gates.
 piglit: its tests of ARB_vertex_program and ARB_fragment_program: the last frame of each that passes on Mesa is scored, R1 to R3. Recordings
 lie in BUILD/show/stages, every outcome in BUILD/show/stages-*.tsv.
 glsl: the same of its shaders of GLSL 1.10 and 1.20 in the compatibility profile, one of ten; glsl-all, which has to be named: all 3,287.
+compile: from a pair of shaders' text to instructions.
+real, which has to be named (half an hour, the first time more): the sweep's programs that bring shaders, ten frames of each (tests/show/sweep.py).
 cost: a frame of the same knot, lit by fixed function and by programs: processor time, medians of runs side by side.
 Needs a display: run under tests/xvfb.sh.
 """
@@ -19,6 +21,8 @@ import sys
 import zlib
 
 import piglit
+import programs
+import sweep
 
 GROUPS = re.compile(r"spec@arb_(vertex|fragment)_program(_shadow)?@")
 LISTS = (("opengl", "gl"), ("shader", "shader"))
@@ -26,10 +30,16 @@ GLSL_VERSIONS = ("1.1", "1.2")
 GLSL_EVERY = 10
 PANELS = ("program", "vertex_program", "shader")
 WAYS = {"fixed": "fixed function", "vertex": "a vertex program", "fragment": "a fragment program", "glsl": "GLSL, per pixel"}
+PANEL_FRAMES = 10
 FRAMES = 8
 RUNS = 3
 BAR_PIGLIT = 0.9
 BAR_COST = 2
+BAR_COLD_MS = 1000
+BAR_WARM_MS = 10
+BAR_REAL = 0.9
+REAL_GROUPS = ("xscreensaver, GLSL", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL")
+REAL_NAMES = ("hyperspace",)  # rss-glx's
 
 
 def must(*command, **more):
@@ -47,14 +57,17 @@ def record(build, trace, *program):
 
 def score_panels(build, base):
     rows = []
+    os.environ["PANEL_FRAMES"] = str(PANEL_FRAMES)
     for name in PANELS:
         trace, frames = base / f"{name}.trace", base / name
         record(build, trace, build / "tests/real/panels" / name)
         must(build / "relume", "render", trace, "--mode", "gl", "--encoding", "display", "--force", "-o", frames / f"{name}.####.exr")
         done = subprocess.run([build / "relume", "diff", trace, frames, "--json", "-"], capture_output=True, text=True, check=False)
-        failing = [frame["failing_pixels"] for frame in json.loads(done.stdout)["frames"]]
-        rows.append({"what": f"panels/{name}: pixels that fail in {len(failing)} frames", "figure": sum(failing), "bar": "0", "peer": "Mesa llvmpipe",
-                     "passed": not any(failing)})
+        scored = json.loads(done.stdout)["frames"]
+        failing = sum(frame["failing_pixels"] for frame in scored)
+        good = sum(frame["outcome"] == "passed" for frame in scored)
+        rows.append({"what": f"panels/{name}: frames that pass all gates", "figure": f"{good} of {len(scored)}, {failing} pixels fail",
+                     "bar": str(PANEL_FRAMES), "peer": "Mesa llvmpipe", "passed": good == len(scored) >= PANEL_FRAMES})
     return rows
 
 
@@ -116,8 +129,30 @@ def score_cost(build, base):
              "passed": median[way] <= BAR_COST * median["fixed"]} for way in WAYS if way != "fixed"]
 
 
-PARTS = {"panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost}
-MORE_PARTS = {"glsl-all": score_all_glsl}  # told apart: an hour
+def score_compile(build, base):
+    """Each run is a process in which glslang has to prepare itself."""
+    took = [[float(ms) for ms in must(build / "tests/bench/translate").split()] for _ in range(RUNS)]
+    return [{"what": f"a pair of shaders, text to instructions, {what}", "figure": f"{median:.2f} ms", "bar": f"{bar} ms", "peer": None,
+             "passed": median <= bar}
+            for what, bar, median in zip(("cold", "warm"), (BAR_COLD_MS, BAR_WARM_MS), map(statistics.median, zip(*took)))]
+
+
+def score_real(build, base):
+    """Recordings and the lines of each are the sweep's."""
+    chosen = [p for p in programs.sweep() if p.group in REAL_GROUPS or p.name in REAL_NAMES]
+    lines = []
+    for program in chosen:
+        lines.append(sweep.score(build, program, build / "show" / "sweep" / program.name, PANEL_FRAMES, False))
+        print(f"{program.name}: {lines[-1].passed} of {lines[-1].frames} frames {lines[-1].missed} {lines[-1].note}"[:200], flush=True)
+    good, frames = (sum(getattr(line, what) for line in lines) for what in ("passed", "frames"))
+    unscored = sum(not line.frames for line in lines)
+    return [{"what": f"frames of {len(lines)} programs with shaders that pass all gates ({unscored} programs have none)",
+             "figure": f"{good} of {frames} ({100 * good / max(frames, 1):.1f} %)", "bar": f"{100 * BAR_REAL:.0f} %",
+             "peer": "Mesa llvmpipe, in the program", "passed": frames > 0 and not unscored and good >= BAR_REAL * frames}]
+
+
+PARTS = {"panels": score_panels, "piglit": score_piglit, "glsl": score_glsl, "cost": score_cost, "compile": score_compile}
+MORE_PARTS = {"glsl-all": score_all_glsl, "real": score_real}  # told apart: an hour
 
 
 def main(build, *parts):

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <stdlib.h>
+
 #include "tests/trace/window.h"
 
 enum { PANEL = 20, ACROSS = 16, DOWN = 12, PANELS = ACROSS * DOWN };
@@ -32,7 +34,8 @@ static inline float noise(unsigned i)
 	return (float)(i >> 8 & 0xffff) / 65536;
 }
 
-static inline void set_matrices(void)
+/* turn: the how manieth time the tables are drawn, each time from another side */
+static inline void set_matrices(int turn)
 {
 	glMatrixMode(GL_PROJECTION);
 	glLoadIdentity();
@@ -40,9 +43,10 @@ static inline void set_matrices(void)
 	glMatrixMode(GL_MODELVIEW);
 	glLoadIdentity();
 	glTranslatef(0, 0, -2.2f);
+	glRotatef(20 * (float)turn, 0.3f, 1, 0.2f);
 }
 
-static inline void draw_table(const struct table *t)
+static inline void draw_table(const struct table *t, int turn)
 {
 	expect(t->n <= PANELS, "the table has a panel for each row");
 	glViewport(0, 0, ACROSS * PANEL, DOWN * PANEL);
@@ -55,7 +59,7 @@ static inline void draw_table(const struct table *t)
 		glViewport(x, y, PANEL, PANEL);
 		glScissor(x, y, PANEL, PANEL);
 		glEnable(GL_SCISSOR_TEST);
-		set_matrices();
+		set_matrices(turn);
 		t->set(i);
 		t->draw(i);
 		glPopAttrib();
@@ -65,9 +69,11 @@ static inline void draw_table(const struct table *t)
 	}
 }
 
-/** Opens the window, and draws each table as a frame. */
+/** Opens the window, and draws each table as a frame; again, turned, until there are as many as PANEL_FRAMES in the environment asks for. */
 static inline void draw_tables(const struct table *tables, size_t n, void (*prepare)(void))
 {
+	const char *frames = getenv("PANEL_FRAMES");
+	const size_t most = frames ? (size_t)atoi(frames) : 0;
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None };
 
 	window_size[0] = ACROSS * PANEL;
@@ -75,8 +81,8 @@ static inline void draw_tables(const struct table *tables, size_t n, void (*prep
 	open_window_of(attributes);
 	if (prepare)
 		prepare();
-	for (size_t i = 0; i < n; i++) {
-		draw_table(&tables[i]);
+	for (size_t i = 0; i < n || i < most; i++) {
+		draw_table(&tables[i % n], (int)(i / n));
 		end_frame();
 	}
 	expect(glGetError() == GL_NO_ERROR, "no error");
