@@ -255,6 +255,22 @@ static void copies(void)
 	show(colors[1], 32, 16, 32, 32);
 }
 
+/* Blits between pixels: halved and turned over in another object, once more as large in the window, and cut by its border. */
+static void scaled(void)
+{
+	glBindFramebuffer(GL_FRAMEBUFFER, objects[1]);
+	panel(2, 2, 10, 1, 0, 1, 1);
+	panel(14, 6, 9, 0, 1, 0.5f, 1);
+	glBindFramebuffer(GL_READ_FRAMEBUFFER, objects[1]);
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, objects[0]);
+	glBlitFramebuffer(0, 0, 32, 32, 16, 0, 0, 16, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+	glBlitFramebuffer(4, 4, 24, 20, 0, 0, 36, 30, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+	glBlitFramebuffer(0, 0, 32, 32, 40, 60, 72, 40, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+	glBindFramebuffer(GL_FRAMEBUFFER, 0);
+	show(colors[0], 2, 34, 16, 16);
+}
+
 /* Loaded, scaled, added to, and given back through a scissor and a mask; sums are kept for the next frame. */
 static void sums(void)
 {
@@ -513,7 +529,7 @@ static void not_rendered(void)
 int main(void)
 {
 	static void (*const frames[])(void) = { stored_alpha, render_to_texture, depth_texture, copies, levels, layers, sums,
-		                              more_sums, several, floats,
+		                              more_sums, several, floats, scaled,
 		                              few_bits, not_rendered };
 	int attributes[] = { GLX_RGBA, GLX_DOUBLEBUFFER, GLX_ALPHA_SIZE, 1, GLX_DEPTH_SIZE, 1, GLX_STENCIL_SIZE, 1, GLX_ACCUM_RED_SIZE, 1,
 		             GLX_ACCUM_GREEN_SIZE, 1, GLX_ACCUM_BLUE_SIZE, 1, GLX_ACCUM_ALPHA_SIZE, 1, None };

@@ -1,5 +1,6 @@
 /* BlitFramebuffer (GL 3.0 sec. 4.3.2): a pixel rectangle that only the scissor touches. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "gl_tokens.h"
@@ -15,6 +16,7 @@
 struct blit {
 	int64_t from[4]; /* x0 y0 x1 y1, ascending */
 	float corner[2], zoom[2];
+	int64_t source[2], place[2], across[2]; /* as the call gives them: where both begin, how far the place goes */
 };
 
 static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
@@ -43,6 +45,45 @@ static void blit_one(struct gls_exec *x, struct gls_state *st, const struct blit
 		                   15);
 }
 
+/* What two neighbours hold of a point, whose pixels have their middles at halves: the lower one, and the share of the upper one. */
+static double find_lower(const struct blit *b, unsigned direction, uint32_t i, uint32_t size, size_t lower[2])
+{
+	const int64_t least = b->across[direction] < 0 ? b->across[direction] : 0;
+	const double from = (double)b->source[direction] + ((double)(least + (int64_t)i) + 0.5) / (double)b->zoom[direction] - 0.5;
+	const double at = fmin(fmax(from, 0), (double)size - 1);
+
+	lower[0] = (size_t)at;
+	lower[1] = lower[0] + 1 < size ? lower[0] + 1 : lower[0];
+	return at - (double)lower[0];
+}
+
+/* Colours between those of the nearest four pixels, one for each pixel of the place; at the picture's border those of its last ones. */
+static void blit_between(struct gls_exec *x, struct gls_state *st, const struct blit *b, uint32_t kind, const struct scene_picture *p)
+{
+	const uint32_t width = (uint32_t)llabs(b->across[0]), height = (uint32_t)llabs(b->across[1]);
+	const size_t bytes = kind == SCENE_FLOAT_PIXELS ? 16 : 4;
+	const float corner[2] = { (float)(b->place[0] + (b->across[0] < 0 ? b->across[0] : 0)), (float)(b->place[1] + (b->across[1] < 0 ? b->across[1] : 0)) };
+	uint8_t *texels = gls_scratch(x, (size_t)width * height * bytes);
+
+	for (uint32_t i = 0; texels && i < width * height; i++) {
+		size_t column[2], row[2];
+		const double u = find_lower(b, 0, i % width, p->width, column), v = find_lower(b, 1, i / width, p->height, row);
+		float near[4], mixed[4] = { 0 };
+
+		for (unsigned k = 0; k < 4; k++) {
+			gls_picture_color(p, row[k / 2] * p->width + column[k % 2], near);
+			for (unsigned c = 0; c < 4; c++)
+				mixed[c] += (float)((k % 2 ? u : 1 - u) * (k / 2 ? v : 1 - v)) * near[c];
+		}
+		if (kind == SCENE_FLOAT_PIXELS)
+			memcpy(texels + bytes * i, mixed, bytes);
+		for (unsigned c = 0; c < 4 && kind != SCENE_FLOAT_PIXELS; c++)
+			texels[4 * i + c] = (uint8_t)lrintf(255 * fminf(fmaxf(mixed[c], 0), 1));
+	}
+	if (texels)
+		gls_copy_rectangle(x, st, &(struct gls_rectangle){ kind, width, height, corner[0], corner[1], { 1, 1 }, texels }, 15);
+}
+
 /*
  * One direction (0: x, 1: y): the source in ascending order, where its lower end goes, and the magnification. The call gives both
  * ends of the source, then of the place, for x and y in turn.
@@ -56,7 +97,10 @@ static int find_span(const struct call *c, unsigned direction, struct blit *b)
 	b->from[direction + 2] = s0 < s1 ? s1 : s0;
 	b->corner[direction] = (float)(s0 < s1 ? d0 : d1);
 	b->zoom[direction] = s0 == s1 ? 0 : (float)(d1 - d0) / (float)(s1 - s0);
-	return s0 != s1 && d0 != d1 && b->from[direction + 2] - b->from[direction] <= GLS_MAX_RECTANGLE;
+	b->source[direction] = s0;
+	b->place[direction] = d0;
+	b->across[direction] = d1 - d0;
+	return s0 != s1 && d0 != d1 && llabs(d1 - d0) <= GLS_MAX_RECTANGLE && b->from[direction + 2] - b->from[direction] <= GLS_MAX_RECTANGLE;
 }
 
 GLS_HANDLER(glBlitFramebuffer, OBJECT)
@@ -65,14 +109,16 @@ GLS_HANDLER(glBlitFramebuffer, OBJECT)
 	uint32_t mask = arg_u(c, 8);
 	const struct scene_picture *p;
 	struct gls_frame *drawn;
+	int between;
 
 	if (!find_span(c, 0, &b) || !find_span(c, 1, &b) || !x->want)
 		return;
-	if (arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1))
-		gls_unsupported(x, "linear filtering: the nearest pixel is taken");
-	drawn = gls_shown_by_blit(x, st);
+	between = arg_u(c, 9) == GL_LINEAR && (fabsf(b.zoom[0]) != 1 || fabsf(b.zoom[1]) != 1);
+	drawn = between ? NULL : gls_shown_by_blit(x, st);
 	p = gls_read_screen(x, st, NULL);
-	if (p && mask & GL_COLOR_BUFFER_BIT)
+	if (p && mask & GL_COLOR_BUFFER_BIT && between)
+		blit_between(x, st, &b, gls_color_pixels(x, st), p);
+	else if (p && mask & GL_COLOR_BUFFER_BIT)
 		blit_one(x, st, &b, gls_color_pixels(x, st), p);
 	gls_shown_end(x, st, drawn);
 	if (!p)
