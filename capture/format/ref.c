@@ -14,7 +14,7 @@
 #include "base/part.h"
 #include "capture/format/ref_pack.h"
 
-enum { MAGIC_BYTES = 8, MAX_SIDE = 65536 };
+enum { MAX_SIDE = 65536 };
 
 static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 {
@@ -30,7 +30,7 @@ static int add_entry(struct ref_file *ref, const struct ref_entry *entry)
 /* Reads records up to the last whole one; a cut is no error. */
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
-	uint64_t at = MAGIC_BYTES;
+	uint64_t at = REF_MAGIC_BYTES;
 	struct ref_head head;
 	int rc;
 
@@ -61,9 +61,14 @@ static int compare_entries(const void *one, const void *other)
 	return a->frame != b->frame ? (a->frame > b->frame) - (a->frame < b->frame) : (a->offset > b->offset) - (a->offset < b->offset);
 }
 
+int ref_begins(const void *head)
+{
+	return memcmp(head, REF_MAGIC, REF_MAGIC_BYTES) == 0 || memcmp(head, REF_MAGIC_WHOLE, REF_MAGIC_BYTES) == 0;
+}
+
 int ref_open(struct ref_file *ref, const char *path)
 {
-	char magic[MAGIC_BYTES];
+	char magic[REF_MAGIC_BYTES];
 	off_t end;
 	int rc;
 
@@ -75,7 +80,7 @@ int ref_open(struct ref_file *ref, const char *path)
 		rc = err_report(ERR_INPUT, path, "cannot open: %s", strerror(errno));
 		goto fail;
 	}
-	if (fread(magic, sizeof(magic), 1, ref->stream) != 1 || (memcmp(magic, REF_MAGIC, sizeof(magic)) != 0 && memcmp(magic, REF_MAGIC_WHOLE, sizeof(magic)) != 0)) {
+	if (fread(magic, sizeof(magic), 1, ref->stream) != 1 || !ref_begins(magic)) {
 		rc = err_report(ERR_INPUT, path, "not a file of reference frames");
 		goto fail;
 	}
@@ -249,14 +254,14 @@ static int copy_record(const struct ref_file *ref, const struct ref_entry *entry
 
 int ref_copy(struct ref_file *ref, uint64_t first, uint64_t last, const char *path)
 {
-	struct copy c = { .path = path, .at = MAGIC_BYTES };
+	struct copy c = { .path = path, .at = REF_MAGIC_BYTES };
 	char part[PATH_MAX];
 	int rc = part_begin(path, part, sizeof(part));
 
 	if (rc)
 		return rc;
 	c.out = fopen(part, "wb");
-	if (!c.out || fwrite(REF_MAGIC, MAGIC_BYTES, 1, c.out) != 1)
+	if (!c.out || fwrite(REF_MAGIC, REF_MAGIC_BYTES, 1, c.out) != 1)
 		rc = err_report(ERR_SYSTEM, path, "cannot be written: %s", strerror(errno));
 	for (size_t i = 0; i < ref->n_entries && !rc; i++)
 		if (ref->entries[i].frame >= first && ref->entries[i].frame <= last)

@@ -18,6 +18,7 @@
 
 #define REF_MAGIC "RELREF2\n"
 #define REF_MAGIC_WHOLE "RELREF1\n"
+#define REF_MAGIC_BYTES 8
 #define REF_CHANGED 0x100u   /* added to a record's kind */
 #define REF_MOST_CHANGED 15u /* records that build one upon the other, after one that is whole */
 
@@ -44,6 +45,9 @@ struct ref_file {
 	struct ref_entry *entries; /* all whole records, by frames */
 	size_t n_entries;
 };
+
+/** 1 where a file that begins so has reference frames. @param head  [REF_MAGIC_BYTES] */
+int ref_begins(const void *head);
 
 /**
  * Open a reference file and list its records (pixels are not read yet).

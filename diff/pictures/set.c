@@ -210,7 +210,7 @@ static int is_ref(const char *path)
 {
 	uint8_t head[8];
 
-	return read_head(path, head) && memcmp(head, REF_MAGIC, sizeof(head)) == 0;
+	return read_head(path, head) && ref_begins(head);
 }
 
 int set_open(const char *where, struct set *out)

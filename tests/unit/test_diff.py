@@ -178,7 +178,7 @@ class Diff(unittest.TestCase):
 
     def test_reference_file(self):
         depth = struct.pack("<f", 1.0) * (WIDTH * HEIGHT)
-        data = b"RELREF1\n" + b"".join(ref_color(n, picture(n)) + ref_record(2, n, depth) for n in range(1, 5))
+        data = b"RELREF2\n" + b"".join(ref_color(n, picture(n)) + ref_record(2, n, depth) for n in range(1, 5))
         (self.dir / "t.ref").write_bytes(data)
         (self.dir / "t.trace").write_bytes(b"")
         self.diff(self.dir / "t.ref", self.traced, expect=0)
