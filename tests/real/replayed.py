@@ -11,25 +11,56 @@ import struct
 import subprocess
 import sys
 
-REF_COLOR, REF_DEPTH = 1, 2
+REF_COLOR, REF_DEPTH, REF_CHANGED = 1, 2, 0x100
+HEAD = struct.Struct("<IIIQQ")  # kind, width, height, frame, packed bytes: capture/format/ref.h
+
+
+def unpack(packed, size):
+    pixels = ctypes.create_string_buffer(size)
+    got = ctypes.c_size_t(size)
+    if ctypes.CDLL("libsnappy.so.1").snappy_uncompress(packed, ctypes.c_size_t(len(packed)), pixels, ctypes.byref(got)):
+        sys.exit("a record of reference frames does not unpack")
+    return pixels.raw
+
+
+def changed(before, planes):
+    """Pixels of which four planes of bytes tell what has changed."""
+    n = len(planes) // 4
+    changes = bytearray(len(planes))
+    for k in range(4):
+        changes[k::4] = planes[k * n:(k + 1) * n]
+    return (int.from_bytes(before, "little") ^ int.from_bytes(changes, "little")).to_bytes(len(planes), "little")
 
 
 def records(path, wanted):
     """(frame, width, height, bytes with the bottom row first) of a .ref file's records of one kind."""
-    snappy = ctypes.CDLL("libsnappy.so.1")
     with open(path, "rb") as stream:
         data = stream.read()
-    at = 8
-    while at + 28 <= len(data):
-        kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
-        at += 28
-        if kind == wanted and at + size <= len(data):
-            pixels = ctypes.create_string_buffer(width * height * 4)
-            got = ctypes.c_size_t(len(pixels))
-            if snappy.snappy_uncompress(data[at:at + size], ctypes.c_size_t(size), pixels, ctypes.byref(got)):
-                sys.exit(f"frame {frame} of {path} does not unpack")
-            yield frame, width, height, pixels.raw
-        at += size
+    at, last = 8, (0, b"")  # where the last record of this kind begins, and its pixels
+    while at + HEAD.size <= len(data):
+        kind, width, height, frame, size = HEAD.unpack_from(data, at)
+        begin, at = at, at + HEAD.size + size
+        if kind & ~REF_CHANGED != wanted or at > len(data):
+            continue
+        block = data[begin + HEAD.size:at]
+        if kind & REF_CHANGED:
+            if int.from_bytes(block[:8], "little") != last[0]:
+                sys.exit(f"frame {frame} of {path} builds on another record than the last one of its kind")
+            pixels = changed(last[1], unpack(block[8:], width * height * 4))
+        else:
+            pixels = unpack(block, width * height * 4)
+        last = begin, pixels
+        yield frame, width, height, pixels
+
+
+def whole_record(kind, frame, width, height, pixels):
+    """A record that holds all its pixels."""
+    snappy = ctypes.CDLL("libsnappy.so.1")
+    snappy.snappy_max_compressed_length.restype = ctypes.c_size_t
+    size = ctypes.c_size_t(snappy.snappy_max_compressed_length(ctypes.c_size_t(len(pixels))))
+    packed = ctypes.create_string_buffer(size.value)
+    snappy.snappy_compress(pixels, ctypes.c_size_t(len(pixels)), packed, ctypes.byref(size))
+    return HEAD.pack(kind, width, height, frame, size.value) + packed.raw[:size.value]
 
 
 def reference_frames(path):

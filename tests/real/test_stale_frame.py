@@ -5,13 +5,13 @@ import json
 import os
 import pathlib
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 
+from replayed import REF_COLOR, REF_DEPTH, records, whole_record
+
 RELUME = os.environ["RELUME"]
-HEADER = struct.Struct("<IIIQQ")  # kind, width, height, frame, packed bytes: capture/format/ref.h
 FRAMES = 24  # glxgears turns by the clock: on a fast machine neighbouring frames are nearly the same picture
 STALE, SHOWN = FRAMES - 1, 1
 
@@ -19,15 +19,6 @@ STALE, SHOWN = FRAMES - 1, 1
 def relume(*args, display=False):
     words = (["tests/xvfb.sh"] if display else []) + [RELUME, *map(str, args)]
     return subprocess.run(words, capture_output=True, text=True, timeout=200)
-
-
-def read_records(path):
-    data, at = path.read_bytes(), 8
-    while at + HEADER.size <= len(data):
-        kind, width, height, frame, packed = HEADER.unpack_from(data, at)
-        at += HEADER.size
-        yield kind, width, height, frame, data[at:at + packed]
-        at += packed
 
 
 def main():
@@ -41,13 +32,9 @@ def main():
                      relume("render", trace, "-f", f"0,2,{STALE}", "-o", out / "g.####.exr"), relume("diff", trace, out, "-f", f"0,2,{STALE}")):
             assert done.returncode == 0, done.stdout + done.stderr
 
-        records = list(read_records(ref))
-        pixels = {(kind, frame): packed for kind, _, _, frame, packed in records}
-        with ref.open("wb") as f:
-            f.write(b"RELREF1\n")
-            for kind, width, height, frame, packed in records:
-                packed = pixels[kind, SHOWN if frame == STALE else frame]
-                f.write(HEADER.pack(kind, width, height, frame, len(packed)) + packed)
+        shown = {kind: {frame: picture for frame, *picture in records(ref, kind)} for kind in (REF_COLOR, REF_DEPTH)}
+        ref.write_bytes(b"RELREF2\n" + b"".join(whole_record(kind, frame, *shown[kind][SHOWN if frame == STALE else frame])
+                                                for frame in shown[REF_COLOR] for kind in shown))
 
         done = relume("diff", trace, out, "-f", f"0,2,{STALE}", "--json", "-")
         assert done.returncode == 1, done.stdout + done.stderr

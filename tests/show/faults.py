@@ -19,8 +19,10 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
+sys.path.insert(0, str(ROOT / "tests/real"))
 from edit_trace import Trace  # noqa: E402
 import exr_numpy as exr  # noqa: E402
+from replayed import REF_COLOR, records  # noqa: E402
 
 FRAME = 1
 FLOOR, BOX, SPHERE, PYRAMID, FENCE, PANES = 2, 3, 4, 5, 6, (7, 8)  # draw numbers; 1 is the clear, blending concerns two
@@ -393,16 +395,10 @@ class Suite:
 
     def reference(self):
         """The reference frame as codes, from the .ref file."""
-        import struct
-        from mutate import unpack_block
-        data, at = (self.trace.with_suffix(".ref")).read_bytes(), 8
-        while True:
-            kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
-            at += 28
-            if kind == 1 and frame == FRAME:
-                rgba = numpy.frombuffer(bytes(unpack_block(data[at:at + size])), "u1").reshape(height, width, 4)
-                return rgba[::-1, :, :3]
-            at += size
+        for frame, width, height, pixels in records(self.trace.with_suffix(".ref"), REF_COLOR):
+            if frame == FRAME:
+                return numpy.frombuffer(pixels, "u1").reshape(height, width, 4)[::-1, :, :3]
+        sys.exit(f"{self.trace}: no reference of frame {FRAME}")
 
     def score(self, reference, file, more=(), baseline=True):
         """One frame as --json has it, and the exit code. Gate V knows frames of a changed trace where the trace names the reference."""

@@ -12,7 +12,6 @@ import pathlib
 import re
 import shutil
 import statistics
-import struct
 import subprocess
 import sys
 
@@ -24,9 +23,9 @@ import flip_evaluator
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
-sys.path.insert(0, str(ROOT / "tests/fuzz"))
+sys.path.insert(0, str(ROOT / "tests/real"))
 import exr_numpy as exr  # noqa: E402
-from mutate import unpack_block  # noqa: E402
+from replayed import REF_COLOR, records  # noqa: E402
 
 MS_WEIGHTS = (0.0448, 0.2856, 0.3001, 0.2363, 0.1333)
 SPEED_RUNS = 3
@@ -47,15 +46,8 @@ def must(*command, **more):
 
 def last_reference(path):
     """The last colour frame of a .ref file, as codes."""
-    data, at, found = path.read_bytes(), 8, None
-    while at + 28 <= len(data):
-        kind, width, height, _, size = struct.unpack_from("<IIIQQ", data, at)
-        if kind == 1:
-            found = (at + 28, size, width, height)
-        at += 28 + size
-    at, size, width, height = found
-    rgba = numpy.frombuffer(bytes(unpack_block(data[at:at + size])), "u1").reshape(height, width, 4)
-    return rgba[::-1, :, :3].copy()
+    *_, (_, width, height, pixels) = records(path, REF_COLOR)
+    return numpy.frombuffer(pixels, "u1").reshape(height, width, 4)[::-1, :, :3].copy()
 
 
 def changed_copies(codes):

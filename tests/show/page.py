@@ -9,7 +9,6 @@ import json
 import pathlib
 import re
 import shutil
-import struct
 import subprocess
 import sys
 import time
@@ -18,10 +17,10 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/show"))
-sys.path.insert(0, str(ROOT / "tests/fuzz"))
+sys.path.insert(0, str(ROOT / "tests/real"))
 import browser  # noqa: E402
 from exr_numpy import write_png  # noqa: E402
-from mutate import unpack_block  # noqa: E402
+from replayed import REF_COLOR, records  # noqa: E402
 
 N_FRAMES, N_DAMAGED = 1000, 200
 BAR_OPEN_S, BAR_MB = 3, 80
@@ -39,14 +38,8 @@ def chromium(work, page, *options):
 
 
 def colors(path):
-    data, at = path.read_bytes(), 8
-    while at + 28 <= len(data):
-        kind, width, height, frame, size = struct.unpack_from("<IIIQQ", data, at)
-        at += 28
-        if kind == 1:
-            rgba = numpy.frombuffer(bytes(unpack_block(data[at:at + size])), "u1").reshape(height, width, 4)
-            yield frame, rgba[::-1, :, :3].copy()
-        at += size
+    for frame, width, height, pixels in records(path, REF_COLOR):
+        yield frame, numpy.frombuffer(pixels, "u1").reshape(height, width, 4)[::-1, :, :3].copy()
 
 
 def open_page(work, report, name):

@@ -13,7 +13,6 @@ Needs a display: run under tests/xvfb.sh.
 """
 import ast
 import collections
-import ctypes
 import gzip
 import hashlib
 import json
@@ -26,6 +25,9 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "real"))
+from replayed import REF_COLOR, records  # noqa: E402
 
 PIGLIT = next(iter(pathlib.Path("/usr/lib").glob("*/piglit")), pathlib.Path("/usr/lib/piglit"))
 GROUPS = re.compile(
@@ -150,19 +152,7 @@ def write_table(path, columns, rows):
 
 def one_colour(path, frame):
     """1 where a reference frame shows one colour only."""
-    snappy = ctypes.CDLL("libsnappy.so.1")
-    data, at = path.read_bytes(), 8
-    while at + 28 <= len(data):
-        kind, width, height = (int.from_bytes(data[at + i:at + i + 4], "little") for i in (0, 4, 8))
-        number, size = (int.from_bytes(data[at + i:at + i + 8], "little") for i in (12, 20))
-        at += 28
-        if kind == 1 and number == frame:
-            pixels = ctypes.create_string_buffer(width * height * 4)
-            got = ctypes.c_size_t(len(pixels))
-            snappy.snappy_uncompress(data[at:at + size], size, pixels, ctypes.byref(got))
-            return pixels.raw[:len(pixels)] == pixels.raw[:4] * (width * height)
-        at += size
-    return False
+    return any(number == frame and pixels == pixels[:4] * (width * height) for number, width, height, pixels in records(path, REF_COLOR))
 
 
 def score(build, work, row):

@@ -42,6 +42,7 @@ def list_references(path):
             kind, _, _, frame, packed = REF_HEADER.unpack(header)
             if file.tell() + packed > size:
                 break
+            kind &= 0xff  # what is above says how pixels are packed
             if kind == 1:
                 frames.append(frame)
             depth = depth or kind == 2
