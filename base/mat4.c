@@ -129,6 +129,14 @@ void mat4_transform(float out[4], const float m[16], const float v[4])
 	memcpy(out, p, sizeof(p));
 }
 
+void mat4_turn(float out[3], const float m[16], const float v[3])
+{
+	float turned[4];
+
+	mat4_transform(turned, m, (const float[4]){ v[0], v[1], v[2], 0 });
+	memcpy(out, turned, 3 * sizeof(*out));
+}
+
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16])
 {
 	float p[4];

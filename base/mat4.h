@@ -24,5 +24,8 @@ int mat4_invert(float out[16], const float m[16]);
 /** out = M v. */
 void mat4_transform(float out[4], const float m[16], const float v[4]);
 
+/** Turn a direction: out = M (v, 0), without its last number. out may be v. */
+void mat4_turn(float out[3], const float m[16], const float v[3]);
+
 /** out = v M: with the inverse matrix, how a plane equation is transformed (sec. 2.12). */
 void mat4_transform_plane(float out[4], const float plane[4], const float inverse[16]);

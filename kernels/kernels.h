@@ -411,7 +411,7 @@ typedef float element_float;
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) X(plain) X(clear) X(resolve) X(merge_samples) X(add_pass) X(compose) \
 	HOOK_LISTS(X)
 
-/* Kernels for hooks. Each has a kernel of its name, whose body is KERNEL_ITEMS. */
+/* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
 #define HOOK_LISTS(X) \
 	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit) X(hook_walk) X(hook_light) \
 	X(hook_light_hit) X(hook_bounds) X(hook_intersect) X(hook_occlude)

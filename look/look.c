@@ -188,11 +188,9 @@ static void place_light(const struct applying *a, const struct light_rule *r, fl
 
 static void turn_spot(const struct applying *a, const struct light_rule *r, float out[3])
 {
-	float towards[4] = { r->spot->direction[0], r->spot->direction[1], r->spot->direction[2], 0 };
-
+	memcpy(out, r->spot->direction, 3 * sizeof(*out));
 	if (is_in_world(r))
-		mat4_transform(towards, a->eye_from_world, (const float[4]){ towards[0], towards[1], towards[2], 0 });
-	memcpy(out, towards, 3 * sizeof(*out));
+		mat4_turn(out, a->eye_from_world, out);
 }
 
 /* How large it is, or that nothing stops it. */

@@ -178,18 +178,12 @@ static int call_worker(struct pipeline_state *state)
 	return err;
 }
 
-/* The frame of the recording that a picture shows. */
-static uint64_t recorded_frame(const struct pipeline_state *state, uint64_t number)
-{
-	return camera_pictures(state->p->settings->camera) ? state->p->settings->turned : number;
-}
-
 static int is_there(const struct pipeline_state *state, uint64_t frame)
 {
 	char path[MAX_PATH_BYTES];
 
 	return state->p->settings->skip_existing && !frame_pattern_expand(state->p->settings->output, frame, path, sizeof(path)) &&
-	       stamp_check(&state->p->stamp, recorded_frame(state, frame), path) == STAMP_SAME;
+	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
 }
 
 /* Note where everything is in a frame, for the one after it. */
@@ -291,7 +285,7 @@ static int take_scene(struct pipeline_state *state, struct shared_scene **out)
 /* Hand out a picture to be made. @return 1; 0: the recording ends before its frame; ERR_* */
 static int hand_out(struct pipeline_state *state, uint64_t number)
 {
-	int more = state->turned ? 1 : go_to(state, recorded_frame(state, number));
+	int more = state->turned ? 1 : go_to(state, settings_recorded_frame(state->p->settings, number));
 	struct shot *shot;
 
 	if (more != 1)

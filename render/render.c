@@ -76,7 +76,7 @@ static int rehearse(const struct settings *s, const struct stamp *stamp, uint64_
 		if (err)
 			return err;
 		printf("frame %llu: %s: %s\n", (unsigned long long)frame, path,
-		       words[s->skip_existing ? stamp_check(stamp, camera_pictures(s->camera) ? s->turned : frame, path) : STAMP_MISSING]);
+		       words[s->skip_existing ? stamp_check(stamp, settings_recorded_frame(s, frame), path) : STAMP_MISSING]);
 	}
 	return 0;
 }

@@ -431,6 +431,11 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	return err;
 }
 
+uint64_t settings_recorded_frame(const struct settings *s, uint64_t number)
+{
+	return camera_pictures(s->camera) ? s->turned : number;
+}
+
 int settings_denoise(const struct settings *s, struct image *img)
 {
 	if (!s->denoise)

@@ -51,6 +51,9 @@ struct settings {
 int settings_parse(struct settings *s, int argc, char **argv);
 void settings_free(struct settings *s);
 
+/** The frame of the recording that a picture shows: its own, or that of a turntable. */
+uint64_t settings_recorded_frame(const struct settings *s, uint64_t number);
+
 /** Take the noise out of a frame, where that is asked for. @return 0 or ERR_SYSTEM (reported) */
 int settings_denoise(const struct settings *s, struct image *img);
 

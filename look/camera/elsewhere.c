@@ -193,14 +193,6 @@ static void set_view(const struct making *m, struct scene_view *view, const int3
 	}
 }
 
-static void turn(const float m[16], float v[3])
-{
-	float at[4];
-
-	mat4_transform(at, m, (const float[4]){ v[0], v[1], v[2], 0 });
-	memcpy(v, at, 3 * sizeof(*v));
-}
-
 static void set_unit(const struct viewpoint *v, struct scene_unit *unit)
 {
 	float turned[16];
@@ -224,14 +216,14 @@ static void move_state(const struct making *m)
 			              out->lights[i].position_eye[3] };
 
 		mat4_transform(out->lights[i].position_eye, v->camera_from_eye, at);
-		turn(v->camera_from_eye, out->lights[i].spot_direction_eye);
+		mat4_turn(out->lights[i].spot_direction_eye, v->camera_from_eye, out->lights[i].spot_direction_eye);
 	}
 	for (uint32_t i = 0; i < out->n_materials; i++)
 		for (int p = 0; p < SCENE_MAX_CLIP_PLANES; p++)
 			mat4_transform_plane(out->materials[i].clip_plane_eye[p], out->materials[i].clip_plane_eye[p], v->eye_from_camera);
 	for (uint32_t i = 0; i < out->n_units; i++)
 		set_unit(v, &out->units[i]);
-	turn(v->camera_from_eye, out->dome.up_eye);
+	mat4_turn(out->dome.up_eye, v->camera_from_eye, out->dome.up_eye);
 }
 
 /* Draws that are seen from there, in their order. */

@@ -28,7 +28,7 @@ struct elsewhere {
 
 /**
  * @param scene   under its rules (look/look.h)
- * @param look    whose world counts; NULL: none
+ * @param look    its world counts; NULL: none
  * @param number  of a turntable's picture
  * @param out     elsewhere_release before the scene is released
  * @return 0; ERR_INPUT (reported): the file cannot be meant for this scene; ERR_SYSTEM (reported)

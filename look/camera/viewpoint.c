@@ -48,14 +48,6 @@ static void move_place(const float m[16], const float from[3], float out[3])
 	memcpy(out, at, 3 * sizeof(*out));
 }
 
-static void turn(const float m[16], const float from[3], float out[3])
-{
-	float at[4];
-
-	mat4_transform(at, m, (const float[4]){ from[0], from[1], from[2], 0 });
-	memcpy(out, at, 3 * sizeof(*out));
-}
-
 /* Eye space from that of a camera at a place; and back. @return 0: `up` lies along the line of sight, or there is none */
 static int stand(const float place[3], const float forward[3], const float up[3], float eye_from[16], float from_eye[16])
 {
@@ -199,7 +191,7 @@ static void go_around(const struct camera *camera, uint32_t number, struct stanc
 		return;
 	mat4_rotation(rotation, (float)degrees, axis[0], axis[1], axis[2]);
 	subtract(s->place, s->at, arm);
-	turn(rotation, arm, arm);
+	mat4_turn(arm, rotation, arm);
 	for (int k = 0; k < 3; k++)
 		s->place[k] = s->at[k] + arm[k];
 }
@@ -214,7 +206,7 @@ static void find_stance(const struct camera *camera, const float space[16], cons
 		move_place(space, k->place, out->place);
 	else
 		memcpy(out->place, v->eye_from_recorded + 12, sizeof(out->place));
-	turn(space, k->up ? k->up : (const float[3]){ 0, 1, 0 }, out->up);
+	mat4_turn(out->up, space, k->up ? k->up : (const float[3]){ 0, 1, 0 });
 	if (at)
 		move_place(space, at, out->at);
 	else if (k->turntable)
@@ -273,7 +265,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	out->is_moved = memcmp(moved, mat4_identity, sizeof(moved)) != 0;
 	memcpy(out->sky_from_eye, out->camera_from_eye, sizeof(out->sky_from_eye));
 	memset(out->sky_from_eye + 12, 0, 3 * sizeof(float));
-	turn(out->camera_from_eye, out->eye_from_recorded + 12, moved);
+	mat4_turn(moved, out->camera_from_eye, out->eye_from_recorded + 12);
 	for (int i = 0; i < 3; i++)
 		out->sky_from_eye[12 + i] = 0.0f - moved[i];
 	out->was_parallel = look_is_parallel(&scene->views[out->main_view]);

@@ -20,7 +20,7 @@ struct viewpoint {
 };
 
 /**
- * @param look    whose world counts; NULL: none
+ * @param look    its world counts; NULL: none
  * @param number  of a turntable's picture
  * @return 0; ERR_INPUT (reported): the file cannot be meant for this scene. main_view is SCENE_NONE where the scene shows nothing in space
  */

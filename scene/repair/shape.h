@@ -60,7 +60,7 @@ int shape_list_edges(const struct shape *s, struct shape_edge **edges, size_t *n
 /** The end of the run of equal edges that begins at `first`. balance: those that run from a to b, less those from b to a */
 size_t shape_run_end(const struct shape *s, const struct shape_edge *edges, size_t n, size_t first, int *balance);
 
-/** Drop faces whose mark is not 0. marks: [n_faces] */
+/** Drop marked faces. marks: [n_faces], not 0: marked */
 void shape_drop(struct shape *s, const uint8_t *marks);
 
 /** Twice the area as a normal, to the side from which the face is seen counter-clockwise. @return its length */

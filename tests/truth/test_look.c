@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "tests/case.h"
+#include "tests/said.h"
 #include "tests/truth/scenes.h"
 #include "look/look.h"
 #include "look/rules.h"
@@ -17,19 +18,13 @@ static char path[] = "/tmp/relume-look-XXXXXX", said[1000];
 /* Load text as a file; what was reported lands in `said`. */
 static int load(const char *text, struct look **out)
 {
-	FILE *f = fopen(path, "w"), *log = tmpfile();
-	int kept = dup(2), err;
+	struct said reported;
+	int err;
 
-	ck_assert(f && log && kept >= 0);
-	fputs(text, f);
-	fclose(f);
-	dup2(fileno(log), 2);
+	said_write_file(path, text);
+	reported = said_begin();
 	err = rules_load(path, out);
-	dup2(kept, 2);
-	close(kept);
-	rewind(log);
-	said[fread(said, 1, sizeof(said) - 1, log)] = '\0';
-	fclose(log);
+	said_end(&reported, said, sizeof(said));
 	return err;
 }
 
@@ -75,7 +70,7 @@ static void make_squares(struct made *t, struct scene_draw *draws)
 		made_add_square(t, i % 2 ? plain : lit, (float[3]){ i < 2 ? -0.5f : 0.5f, i % 2 ? -0.5f : 0.5f, -10 }, right,
 		                 up, 0.5f, 1);
 		t->meshes[i].hash[1] = (uint64_t)6 << 32 | i; /* named below */
-		draws[i + 1] = (struct scene_draw){ i < 2 ? "glCallList" : "glEnd", i, i < 2 ? 7 : 0 };
+		draws[i + 1] = (struct scene_draw){ .call = i < 2 ? "glCallList" : "glEnd", .call_number = i, .list = i < 2 ? 7 : 0 };
 	}
 	t->scene.draws = draws;
 }

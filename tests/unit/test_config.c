@@ -1,6 +1,5 @@
 /* Configuration files: what is wrong is named with its line, and never half taken. */
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,6 +7,7 @@
 #include "base/config.h"
 #include "base/err.h"
 #include "tests/case.h"
+#include "tests/said.h"
 
 struct rule {
 	char *match;
@@ -39,19 +39,13 @@ static char path[] = "/tmp/relume-config-XXXXXX", said[1000];
 /** Load text as a file; what was reported lands in `said`. */
 static int load(const char *text, void **out)
 {
-	FILE *f = fopen(path, "w"), *log = tmpfile();
-	int kept = dup(2), err;
+	struct said reported;
+	int err;
 
-	ck_assert(f && log && kept >= 0);
-	fputs(text, f);
-	fclose(f);
-	dup2(fileno(log), 2);
+	said_write_file(path, text);
+	reported = said_begin();
 	err = config_load(path, &schema, out);
-	dup2(kept, 2);
-	close(kept);
-	rewind(log);
-	said[fread(said, 1, sizeof(said) - 1, log)] = '\0';
-	fclose(log);
+	said_end(&reported, said, sizeof(said));
 	return err;
 }
 

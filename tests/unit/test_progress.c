@@ -1,31 +1,22 @@
 /* base/progress and base/err: what goes to standard error, off a terminal. (The bar: tests/real/test_progress.py.) */
 #include "base/progress.h"
 
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "base/err.h"
 #include "tests/case.h"
+#include "tests/said.h"
 
 static char captured[2048];
 
 /** Send standard error to a file while `body` runs; what it wrote is in `captured`. */
 static void capture_stderr(void (*body)(void))
 {
-	FILE *file = tmpfile();
-	int saved = dup(STDERR_FILENO);
+	struct said said;
 
-	ck_assert(file && saved >= 0);
 	fflush(stderr);
-	dup2(fileno(file), STDERR_FILENO);
+	said = said_begin();
 	body();
 	fflush(stderr);
-	dup2(saved, STDERR_FILENO);
-	close(saved);
-	rewind(file);
-	captured[fread(captured, 1, sizeof(captured) - 1, file)] = '\0';
-	fclose(file);
+	said_end(&said, captured, sizeof(captured));
 }
 
 static void run_known_total(void)
