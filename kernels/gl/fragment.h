@@ -150,38 +150,36 @@ static inline struct vec4 point_unit_coord(const struct tables *t, const struct 
 	return point_texcoord_at(planes, (float)w->x + quad->middle, (float)(w->height - 1u - w->row) + quad->middle);
 }
 
-/* Their slopes. c: at the point; planes: as above */
+/* Their slopes. planes: as above */
 static inline struct texture_slope point_unit_slope(const struct tables *t, const struct point *p, uint32_t i,
-                                                    const struct point_window *w, struct point_quad *quad, struct vec4 c,
-                                                    const struct point_planes *planes)
+                                                    const struct point_window *w, struct point_quad *quad, const struct point_planes *planes)
 {
 	GLOBAL const struct texture_image *image = &t->textures[t->units[p->material->unit_first + i].texture];
 	const uint32_t number = (uint32_t)quad->y << 16 | (uint32_t)quad->x, slot = w->x / 2u % POINT_KEPT_QUADS;
-	/* On a cube each pixel has slopes of its own. */
-	const int keeps = w->kept && i == 0u && w->setup && image->target != GL_TEXTURE_CUBE_MAP;
+	const int own = image->target == GL_TEXTURE_CUBE_MAP, keeps = w->kept && i == 0u && w->setup && !own;
+	const float x = own ? (float)w->x : quad->x, right = x + (own && w->x & 1u ? -1.0f : 1.0f);
+	const float y = own ? (float)(w->height - 1u - w->row) : quad->y, below = y + (own && (w->height - 1u - w->row) & 1u ? -1.0f : 1.0f);
 	struct texture_slope slope;
 
 	if (keeps && w->kept->quad[slot] == number)
 		return w->kept->slope[slot];
 	if (w->setup) {
-		slope = texture_slope(image, c, point_texcoord_at(planes, quad->x + quad->middle, quad->y + quad->middle),
-		                      point_texcoord_at(planes, quad->x + 1.0f + quad->middle, quad->y + quad->middle),
-		                      point_texcoord_at(planes, quad->x + quad->middle, quad->y + 1.0f + quad->middle));
+		slope = texture_slope(image, point_texcoord_at(planes, x + quad->middle, y + quad->middle),
+		                      point_texcoord_at(planes, right + quad->middle, y + quad->middle),
+		                      point_texcoord_at(planes, x + quad->middle, below + quad->middle));
 		if (keeps) {
 			w->kept->quad[slot] = number;
 			w->kept->slope[slot] = slope;
 		}
 		return slope;
 	}
-	if (!quad->have_weights) {
-		float x = quad->x + 0.5f, y = (float)w->height - (quad->y + 0.5f);
-
-		point_weights_at(p, w->view, x, y, quad->weight[0]);
-		point_weights_at(p, w->view, x + 1.0f, y, quad->weight[1]);
-		point_weights_at(p, w->view, x, y - 1.0f, quad->weight[2]);
-		quad->have_weights = 1;
+	if (own || !quad->have_weights) {
+		point_weights_at(p, w->view, x + 0.5f, (float)w->height - (y + 0.5f), quad->weight[0]);
+		point_weights_at(p, w->view, right + 0.5f, (float)w->height - (y + 0.5f), quad->weight[1]);
+		point_weights_at(p, w->view, x + 0.5f, (float)w->height - (below + 0.5f), quad->weight[2]);
+		quad->have_weights = !own;
 	}
-	return texture_slope(image, c, point_texcoord(t, p, i, quad->weight[0]), point_texcoord(t, p, i, quad->weight[1]),
+	return texture_slope(image, point_texcoord(t, p, i, quad->weight[0]), point_texcoord(t, p, i, quad->weight[1]),
 	                     point_texcoord(t, p, i, quad->weight[2]));
 }
 
@@ -206,7 +204,7 @@ static inline void point_texture(const struct tables *t, const struct point *p, 
 		struct vec4 c = point_unit_coord(t, p, i, w, &quad, &planes);
 
 		if (have_slope)
-			slope = point_unit_slope(t, p, i, w, &quad, c, &planes);
+			slope = point_unit_slope(t, p, i, w, &quad, &planes);
 		texturing->sample[unit->unit] = texture_sample(t, unit, c, have_slope ? &slope : (const struct texture_slope *)0);
 	}
 	texturing->fog_factor = m->fog ? point_fog(p) : 1.0f;

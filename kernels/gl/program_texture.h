@@ -43,6 +43,7 @@ static inline void program_bias(struct texture_slope *slope, float bias)
 static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags, const struct vec4 *quad,
                                         uint32_t k, float level)
 {
+	const uint32_t at = t->textures[unit->texture].target == GL_TEXTURE_CUBE_MAP ? k : 0u;
 	struct texture_slope slope;
 
 	if (!texture_needs_slope(t, unit))
@@ -50,7 +51,7 @@ static inline struct vec4 program_texel(const struct tables *t, GLOBAL const str
 	slope.right = v4(1.0f, 0.0f, 0.0f, 0.0f);
 	slope.down = v4(0.0f, 1.0f, 0.0f, 0.0f);
 	if (!(flags & SCENE_TEXTURE_LEVEL))
-		slope = texture_slope(&t->textures[unit->texture], quad[k], quad[0], quad[1], quad[2]);
+		slope = texture_slope(&t->textures[unit->texture], quad[at], quad[at ^ 1u], quad[at ^ 2u]);
 	if (flags & (SCENE_TEXTURE_BIASED | SCENE_TEXTURE_LEVEL))
 		program_bias(&slope, level);
 	return texture_sample(t, unit, quad[k], &slope);

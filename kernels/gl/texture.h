@@ -352,18 +352,20 @@ static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, fl
 }
 
 /*
- * Slopes from the coordinates at a quad's upper left pixel and at its neighbours to the right and below, before division
- * by q. llvmpipe takes them once for each 2x2 quad; on a cube each pixel (own) has the slopes of its own face.
+ * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe takes them
+ * once for each quad, at its upper left pixel; on a cube each pixel has its own, of its own face, row and column.
+ *
+ * @param right  the pixel beside it, below: the one below or above it
  */
-static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 own, struct vec4 at,
-                                                 struct vec4 right, struct vec4 below)
+static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at, struct vec4 right,
+                                                 struct vec4 below)
 {
 	struct vec4 size = v4((float)image->width, (float)image->height, (float)image->depth, 0.0f);
 	struct texture_slope slope;
 
 	if (image->target == GL_TEXTURE_CUBE_MAP) {
-		slope.right = texture_cube_slope(own, v4_sub(right, at), size.x);
-		slope.down = texture_cube_slope(own, v4_sub(below, at), size.x);
+		slope.right = texture_cube_slope(at, v4_sub(right, at), size.x);
+		slope.down = texture_cube_slope(at, v4_sub(below, at), size.x);
 		return slope;
 	}
 	if (image->target == GL_TEXTURE_RECTANGLE)

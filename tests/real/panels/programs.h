@@ -5,7 +5,7 @@
 
 #include "panels.h"
 
-static GLuint images[6]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths */
+static GLuint images[7]; /* of two dimensions with all levels, nearest, a cube, of one dimension, of three, depths, a cube with all levels */
 
 static inline void fill(unsigned char *texels, unsigned n, unsigned seed)
 {
@@ -24,7 +24,7 @@ static inline void make_images(void)
 	unsigned char texels[32 * 32 * 4];
 
 	fill(texels, sizeof(texels), 7);
-	glGenTextures(6, images);
+	glGenTextures(7, images);
 	glBindTexture(GL_TEXTURE_2D, images[0]);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
 	for (int level = 0; level < 6; level++)
@@ -46,6 +46,11 @@ static inline void make_images(void)
 	set_filter(GL_TEXTURE_2D, GL_NEAREST);
 	glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_R_TO_TEXTURE);
 	glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 8, 8, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_BYTE, texels);
+	glBindTexture(GL_TEXTURE_CUBE_MAP, images[6]);
+	glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+	for (int level = 0; level < 5; level++)
+		for (unsigned face = 0; face < 6; face++)
+			glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA, 16 >> level, 16 >> level, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels + 64 * face);
 }
 
 /* State that programs read, none of it as it begins. */

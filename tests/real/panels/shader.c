@@ -204,15 +204,15 @@ static const char *const textures[] = {
 	"shadow2D(s, vec3(a.xy, 0.5))", "shadow2D(s, abs(a.xyz))", "shadow2DProj(s, abs(a))", "texture2D(t0, texture2D(t0, b.xy).xy)",
 	"texture2D(t0, a.xy * a.xy)", "texture2D(t0, gl_FragCoord.xy * 0.03)", "a.x > 0.2 ? texture2D(t0, a.xy) : texture2D(t1, b.xy)",
 	"mix(texture2D(t0, a.xy), texture2D(t1, b.xy), a.z)", "pick(t0, a.xy)", "pick(t1, b.yx)", "texture2D(many[1], a.xy) + texture2D(many[0], a.xy) * 0.5",
-	"vec4(texture2D(t0, a.xy).aaa, 1.0)",
+	"vec4(texture2D(t0, a.xy).aaa, 1.0)", "textureCube(f, a.xyz)", "textureCube(f, a.xyz * abs(b.yxz) + 0.3)", "textureCube(f, reflect(normalize(a.xyz), b.xyz))",
 };
 
 /* Each unit has its image, and each sampler its unit. */
 static void bind_images(void)
 {
-	static const GLenum targets[6] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_2D };
+	static const GLenum targets[7] = { GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP };
 
-	for (int unit = 0; unit < 6; unit++) {
+	for (int unit = 0; unit < 7; unit++) {
 		glActiveTexture(GL_TEXTURE0 + unit);
 		glBindTexture(targets[unit], images[unit]);
 	}
@@ -221,9 +221,9 @@ static void bind_images(void)
 
 static void name_images(void)
 {
-	static const char *const names[6] = { "t0", "t1", "c", "d", "e", "s" };
+	static const char *const names[7] = { "t0", "t1", "c", "d", "e", "s", "f" };
 
-	for (int unit = 0; unit < 6; unit++)
+	for (int unit = 0; unit < 7; unit++)
 		set_int(names[unit], unit);
 	glUniform1iv(glGetUniformLocation(current, "many"), 2, (const int[2]){ 1, 0 });
 }
@@ -233,7 +233,7 @@ static void texture(int i)
 	char text[1024];
 
 	snprintf(text, sizeof(text),
-	         "#version 120\nuniform sampler2D t0, t1, many[2]; uniform samplerCube c; uniform sampler1D d; uniform sampler3D e; uniform sampler2DShadow s;\n"
+	         "#version 120\nuniform sampler2D t0, t1, many[2]; uniform samplerCube c, f; uniform sampler1D d; uniform sampler3D e; uniform sampler2DShadow s;\n"
 	         "vec4 pick(sampler2D t, vec2 x) { return texture2D(t, x * 0.5).bgra; }\n"
 	         "void main() { vec4 a = gl_TexCoord[0], b = gl_TexCoord[1]; gl_FragColor = %s; }", textures[i]);
 	shade(NULL, text);
