@@ -36,17 +36,22 @@ enum {
 struct sandbox {
 	int ruleset;
 	uint32_t handled;
+	int err; /* 0 or ERR_SYSTEM (reported) */
 };
 
 /* --- Files -------------------------------------------------------------------------------------------------------------- */
 
-static void grant(const struct sandbox *s, const char *path, uint32_t rights)
+/* What is not there, or not ours to open, is passed over. Without what is there libraries crash that count on it. */
+static void grant(struct sandbox *s, const char *path, uint32_t rights)
 {
 	struct landlock_path_beneath_attr rule = { .parent_fd = open(path, O_PATH | O_CLOEXEC) };
 	struct stat st;
 
-	if (rule.parent_fd < 0)
+	if (rule.parent_fd < 0) {
+		if (!s->err && (errno == EMFILE || errno == ENFILE || errno == ENOMEM))
+			s->err = err_report(ERR_SYSTEM, path, "cannot be kept while files are confined: %s", strerror(errno));
 		return;
+	}
 	if (fstat(rule.parent_fd, &st) == 0) {
 		rule.allowed_access = rights & s->handled & (S_ISDIR(st.st_mode) ? ~0u : OF_FILES);
 		syscall(SYS_landlock_add_rule, s->ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
@@ -54,7 +59,7 @@ static void grant(const struct sandbox *s, const char *path, uint32_t rights)
 	close(rule.parent_fd);
 }
 
-static void grant_folder_of(const struct sandbox *s, const char *file, uint32_t rights)
+static void grant_folder_of(struct sandbox *s, const char *file, uint32_t rights)
 {
 	const char *slash = strrchr(file, '/');
 	char folder[PATH_MAX];
@@ -66,7 +71,7 @@ static void grant_folder_of(const struct sandbox *s, const char *file, uint32_t 
 }
 
 /* NAME.trace: NAME.ref and NAME.trace.index, which is made where it is missing or older than the recording or this program. */
-static void grant_beside(const struct sandbox *s, const char *trace)
+static void grant_beside(struct sandbox *s, const char *trace)
 {
 	const char *dot = strrchr(trace, '.');
 	struct stat recording, index, own;
@@ -83,7 +88,7 @@ static void grant_beside(const struct sandbox *s, const char *trace)
 }
 
 /* A folder of output, made where it is missing: Landlock knows only what is there. */
-static void grant_made(const struct sandbox *s, const char *folder, int is_cache)
+static void grant_made(struct sandbox *s, const char *folder, int is_cache)
 {
 	char parent[PATH_MAX];
 
@@ -94,7 +99,7 @@ static void grant_made(const struct sandbox *s, const char *folder, int is_cache
 }
 
 /* is_dry: 1: nothing is written */
-static void grant_file(const struct sandbox *s, const struct confine_file *file, int is_dry)
+static void grant_file(struct sandbox *s, const struct confine_file *file, int is_dry)
 {
 	const int is_there = access(file->path, F_OK) == 0;
 	const char *slash = strrchr(file->path, '/');
@@ -124,7 +129,7 @@ static void grant_file(const struct sandbox *s, const struct confine_file *file,
 }
 
 /* Folders of a list as in PATH, and of what links there point to. */
-static void grant_list(const struct sandbox *s, const char *list)
+static void grant_list(struct sandbox *s, const char *list)
 {
 	char *copy = list ? strdup(list) : NULL, *rest = copy;
 
@@ -144,7 +149,7 @@ static void grant_list(const struct sandbox *s, const char *list)
 }
 
 /* What every process reads: libraries, their settings, what the system says of itself. */
-static void grant_system(const struct sandbox *s)
+static void grant_system(struct sandbox *s)
 {
 	static const char *const reads[] = { "/usr", "/lib", "/lib64", "/opt", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d",
 		                             "/etc/alternatives", "/etc/localtime", "/etc/locale.alias", "/etc/debian_version", "/etc/os-release", "/etc/OpenCL", "/proc/self", "/proc/cpuinfo",
@@ -167,7 +172,7 @@ static void grant_system(const struct sandbox *s)
 /* --- OpenCL ------------------------------------------------------------------------------------------------------------- */
 
 /* A folder in the user's caches, or where a variable of the implementation says. */
-static void grant_cache(const struct sandbox *s, const char *variable, const char *name, int make)
+static void grant_cache(struct sandbox *s, const char *variable, const char *name, int make)
 {
 	const char *said = getenv(variable), *caches = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
 	char path[PATH_MAX];
@@ -186,7 +191,7 @@ static void grant_cache(const struct sandbox *s, const char *variable, const cha
 }
 
 /* Folders of the libraries that *.icd files of a folder name. */
-static void grant_vendors(const struct sandbox *s, const char *folder)
+static void grant_vendors(struct sandbox *s, const char *folder)
 {
 	char pattern[PATH_MAX], library[PATH_MAX], real[PATH_MAX];
 	glob_t found;
@@ -206,7 +211,7 @@ static void grant_vendors(const struct sandbox *s, const char *folder)
 }
 
 /* PoCL links kernels with ld. A program can be started where its file and its loader may be. */
-static void grant_linker(const struct sandbox *s)
+static void grant_linker(struct sandbox *s)
 {
 	static const char *const programs[] = { "/usr/bin/ld", "/usr/bin/ld.bfd", "/usr/bin/ld.lld", "/lib64/ld-linux-x86-64.so.2",
 		                                "/lib/ld-linux-aarch64.so.1" };
@@ -215,7 +220,7 @@ static void grant_linker(const struct sandbox *s)
 		grant(s, programs[i], LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE);
 }
 
-static void grant_devices(const struct sandbox *s)
+static void grant_devices(struct sandbox *s)
 {
 	static const char *const patterns[] = { "/dev/nvidia*", "/dev/dri", "/dev/kfd", "/dev/shm", "/dev/accel" };
 	glob_t found;
@@ -297,7 +302,7 @@ static int begin(struct sandbox *s)
 	return s->ruleset < 0;
 }
 
-void confine_to(const struct confine_file *files, size_t n, enum confine_kind kind)
+int confine_to(const struct confine_file *files, size_t n, enum confine_kind kind)
 {
 	struct sandbox s = { .ruleset = -1 };
 	char own[PATH_MAX];
@@ -316,11 +321,15 @@ void confine_to(const struct confine_file *files, size_t n, enum confine_kind ki
 		for (size_t i = 0; i < n; i++)
 			grant_file(&s, &files[i], is_dry);
 	}
+	if (s.err)
+		goto done;
 	if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && s.ruleset >= 0 && syscall(SYS_landlock_restrict_self, s.ruleset, 0) != 0)
 		err_warn(NULL, "files cannot be confined: %s", strerror(errno));
-	if (s.ruleset >= 0)
-		close(s.ruleset);
 	refuses = refuse_calls(kind);
 	if (refuses)
 		err_warn(NULL, "calls cannot be confined: %s", strerror(-refuses));
+done:
+	if (s.ruleset >= 0)
+		close(s.ruleset);
+	return s.err;
 }

@@ -35,5 +35,6 @@ struct confine_file {
 /**
  * Give up all else. System libraries and their settings can still be read. "-" and what does not exist are passed over.
  * A folder that was made for it, and is left empty, goes again at exit.
+ * @return 0, or ERR_SYSTEM (reported) where something that is there cannot be kept for lack of descriptors or memory
  */
-void confine_to(const struct confine_file *files, size_t n, enum confine_kind kind);
+int confine_to(const struct confine_file *files, size_t n, enum confine_kind kind);

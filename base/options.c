@@ -195,10 +195,11 @@ static void limit(const struct confine_file *files, size_t n, enum confine_kind 
 		limits_begin(recording, &limits);
 }
 
-void options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also)
+int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also)
 {
 	struct confine_file files[OPTIONS_MAX_ROWS + MOST_WORDS + 1];
 	size_t n = 0;
+	int err;
 
 	for (size_t i = 0; i < table->n_rows; i++)
 		if (line->given[i] && table->rows[i].use)
@@ -208,10 +209,11 @@ void options_confine(const struct options_table *table, const struct options_lin
 	if (also)
 		files[n++] = (struct confine_file){ also, CONFINE_READS };
 	if (no_sandbox)
-		return;
-	confine_to(files, n, kind);
-	if (kind == CONFINE_READER || kind == CONFINE_TRACER)
+		return 0;
+	err = confine_to(files, n, kind);
+	if (!err && (kind == CONFINE_READER || kind == CONFINE_TRACER))
 		limit(files, n, kind);
+	return err;
 }
 
 /* --- Values -------------------------------------------------------------------------------------------------------- */

@@ -77,8 +77,9 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
  * Keep the files that a command line names, and what verbs of this kind need; give up the rest, and begin limits, unless --no-sandbox was given. Before the first
  * thread is started.
  * @param also  one more that is read; NULL: none
+ * @return 0 or ERR_SYSTEM (reported)
  */
-void options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also);
+int options_confine(const struct options_table *table, const struct options_line *line, enum confine_kind kind, const char *also);
 
 /** Report what the verb takes. @return ERR_USAGE */
 int options_misuse(const struct options_table *table);

@@ -129,8 +129,8 @@ int bisect_main(int argc, char **argv)
 		return err > 0 ? 0 : -err;
 	if (!o.most)
 		return -err_report(ERR_USAGE, NULL, "--most 0 shows nothing");
-	options_confine(&table, &line, CONFINE_TRACER, NULL);
 	o.good = line.words[0];
 	o.bad = line.words[1];
-	return bisect(&o);
+	err = options_confine(&table, &line, CONFINE_TRACER, NULL);
+	return err ? -err : bisect(&o);
 }

@@ -219,7 +219,7 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 	if (!err && *settings && !o->baseline)
 		o->baseline = score_rules_baseline(*settings);
 	if (!err)
-		options_confine(&table, line, CONFINE_SCORER, o->baseline);
+		err = options_confine(&table, line, CONFINE_SCORER, o->baseline);
 	if (!err && o->reference)
 		err = set_open(o->reference, ref);
 	if (!err)

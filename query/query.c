@@ -311,7 +311,7 @@ int query_main(int argc, char **argv)
 	if (!rc && !o.most)
 		rc = err_report(ERR_USAGE, "--most", "at least 1");
 	if (!rc)
-		options_confine(&table, &line, CONFINE_TRACER, NULL);
+		rc = options_confine(&table, &line, CONFINE_TRACER, NULL);
 	if (!rc)
 		rc = query(&o, line.words[0], line.n_words > 1 ? line.words[1] : NULL);
 	return rc > 0 ? 0 : -rc;

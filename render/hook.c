@@ -98,8 +98,9 @@ static void try_apart(void *user)
 	struct tracer *tracer = NULL;
 	int err;
 
-	options_confine(&table, t->line, CONFINE_TRACER, NULL); /* here: who waits must be able to end this process */
-	err = device_open(t->device, 0, &dev);
+	err = options_confine(&table, t->line, CONFINE_TRACER, NULL); /* here: who waits must be able to end this process */
+	if (!err)
+		err = device_open(t->device, 0, &dev);
 	if (!err)
 		err = device_take_hook(dev, t->hook);
 	if (!err)

@@ -131,7 +131,7 @@ int look_main(int argc, char **argv)
 	int err = options_parse(&table, argc, argv, &asked, &line);
 
 	if (!err)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		err = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!err)
 		err = study_trace(line.words[0], &asked.frames, &study);
 	if (!err)

@@ -427,7 +427,7 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (!err)
 		err = name_settings(s, &line);
 	if (!err)
-		options_confine(&table, &line, CONFINE_TRACER, NULL);
+		err = options_confine(&table, &line, CONFINE_TRACER, NULL);
 	return err;
 }
 

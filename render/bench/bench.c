@@ -108,8 +108,7 @@ static int parse(int argc, char **argv, struct options *o)
 		return err_report(ERR_USAGE, NULL, "--repeat takes 1 to %d", MAX_REPEATS);
 	if (o->trace && o->kinds)
 		return err_report(ERR_USAGE, NULL, "--accel measures a scene of its own, no recording");
-	options_confine(&table, &line, CONFINE_TRACER, NULL);
-	return 0;
+	return options_confine(&table, &line, CONFINE_TRACER, NULL);
 }
 
 static int measure(struct bench *b, struct figure *f, size_t repeats)

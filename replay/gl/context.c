@@ -166,8 +166,10 @@ int gls_state_init(struct gls_state *st)
 	memset(st, 0, sizeof(*st));
 	st->attrib_stack = calloc(GLS_MAX_ATTRIB_DEPTH, sizeof(*st->attrib_stack));
 	st->client_stack = calloc(GLS_MAX_ATTRIB_DEPTH, sizeof(*st->client_stack));
-	if (!st->attrib_stack || !st->client_stack)
+	if (!st->attrib_stack || !st->client_stack) {
+		gls_state_free(st);
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a context");
+	}
 	init_attribs(&st->a);
 	init_stack(&st->modelview, GLS_MAX_MATRICES);
 	init_stack(&st->projection, GLS_MAX_MATRICES);

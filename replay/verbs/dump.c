@@ -47,7 +47,7 @@ int dump_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = trace_reader_open(&reader, line.words[0], NULL);
 	if (rc)

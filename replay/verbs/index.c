@@ -87,7 +87,7 @@ int index_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = player_open(&player, line.words[0]);
 	if (!rc)

@@ -229,7 +229,7 @@ int info_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = replay_open(&rp, line.words[0]);
 	if (rc)

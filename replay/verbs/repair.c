@@ -96,7 +96,7 @@ int repair_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = repair(line.words[0], o.new);
 	return rc > 0 ? 0 : -rc;

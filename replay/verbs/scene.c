@@ -36,7 +36,7 @@ int scene_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc)
 		rc = replay_one_frame(line.words[0], o.frame, &scene);
 	if (!rc && o.json)

@@ -210,7 +210,7 @@ int trim_main(int argc, char **argv)
 	int rc = options_parse(&table, argc, argv, &t, &line);
 
 	if (!rc)
-		options_confine(&table, &line, CONFINE_READER, NULL);
+		rc = options_confine(&table, &line, CONFINE_READER, NULL);
 	if (!rc) {
 		t.path = line.words[0];
 		rc = trim(&t);

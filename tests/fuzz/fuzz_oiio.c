@@ -18,8 +18,8 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 	(void)argc;
 	(void)argv;
-	if (!getenv("FUZZ_FREE")) /* libFuzzer's merge starts itself */
-		confine_to(files, sizeof(files) / sizeof(files[0]), CONFINE_READER);
+	if (!getenv("FUZZ_FREE") /* libFuzzer's merge starts itself */ && confine_to(files, sizeof(files) / sizeof(files[0]), CONFINE_READER))
+		return 1;
 	return freopen("/dev/null", "w", stdout) ? 0 : 1;
 }
 

@@ -2,6 +2,9 @@
  * Preloaded. Makes one call of the system fail: INJECT="CLASS:N" the Nth of a class (from 1) that the command or the recorder makes itself,
  * "CLASS:N+" that one and all after it. What libraries do for themselves is left alone. INJECT_COUNT names a file that receives a line
  * "CLASS COUNT" for each class as the process ends.
+ *
+ * Memory is taken from the next library that has it: LeakSanitizer's, if that is preloaded after this one. INJECT_SPARED holds its
+ * suppressions, since a confined command cannot read them from a file.
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -29,8 +32,6 @@ static int and_on, count_fd = -1;
 static uintptr_t ranges[4][2];
 static int n_ranges;
 
-extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t), *__libc_memalign(size_t, size_t);
-
 static int take_range(struct dl_phdr_info *info, size_t size, void *first)
 {
 	char own[4096];
@@ -48,6 +49,19 @@ static int take_range(struct dl_phdr_info *info, size_t size, void *first)
 		}
 	return 0;
 }
+
+/* What LeakSanitizer asks the program: suppressions, and whether to look for no leaks (a linker that a driver starts is not ours). */
+const char *__lsan_default_suppressions(void);
+int __lsan_is_turned_off(void);
+
+const char *__lsan_default_suppressions(void)
+{
+	const char *text = getenv("INJECT_SPARED");
+
+	return text ? text : "";
+}
+
+int __lsan_is_turned_off(void) { return !n_ranges; }
 
 static void begin(void) __attribute__((constructor));
 static void begin(void)
@@ -99,14 +113,30 @@ static int fails(enum class class, const void *by)
 #define BY __builtin_return_address(0)
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-void *malloc(size_t n) { return fails(MEMORY, BY) ? NULL : __libc_malloc(n); }
-void *calloc(size_t n, size_t size) { return fails(MEMORY, BY) ? NULL : __libc_calloc(n, size); }
-void *realloc(void *p, size_t n) { return fails(MEMORY, BY) ? NULL : __libc_realloc(p, n); }
-void *aligned_alloc(size_t to, size_t n) { return fails(MEMORY, BY) ? NULL : __libc_memalign(to, n); }
+/* The same, found once: memory is asked for often. */
+static __typeof__(&malloc) next_malloc;
+static __typeof__(&calloc) next_calloc;
+static __typeof__(&realloc) next_realloc;
+static __typeof__(&aligned_alloc) next_aligned_alloc;
+static void find_next(void)
+{
+	if (next_aligned_alloc)
+		return;
+	next_malloc = REAL(malloc);
+	next_calloc = REAL(calloc);
+	next_realloc = REAL(realloc);
+	next_aligned_alloc = REAL(aligned_alloc);
+}
+#define NEXT(name) (find_next(), next_##name)
+
+void *malloc(size_t n) { return fails(MEMORY, BY) ? NULL : NEXT(malloc)(n); }
+void *calloc(size_t n, size_t size) { return fails(MEMORY, BY) ? NULL : NEXT(calloc)(n, size); }
+void *realloc(void *p, size_t n) { return fails(MEMORY, BY) ? NULL : NEXT(realloc)(p, n); }
+void *aligned_alloc(size_t to, size_t n) { return fails(MEMORY, BY) ? NULL : NEXT(aligned_alloc)(to, n); }
 char *strdup(const char *text)
 {
 	const size_t n = strlen(text) + 1;
-	char *out = fails(MEMORY, BY) ? NULL : __libc_malloc(n);
+	char *out = fails(MEMORY, BY) ? NULL : NEXT(malloc)(n);
 
 	return out ? memcpy(out, text, n) : NULL;
 }

@@ -3,8 +3,8 @@
 
 The nth malloc, read, write, mmap, open and thread that the command makes itself fails (tests/real/inject_shim.c), for every n of a small
 index, info, scene, trim, render and diff; once, and from there on. The command must then do without, with the same result; or end with
-code 3 or 5 and one line that says why. No file is left half-written. The recorder under the same shim: the program's own pictures and its
-exit code do not change. (OpenCL's calls: show-device-faults.)
+code 3 or 5 and one line that says why. No file is left half-written, and no memory behind: all runs have LeakSanitizer, where gcc brings it.
+The recorder under the same shim: the program's own pictures and its exit code do not change. (OpenCL's calls: show-device-faults.)
 """
 import argparse
 import concurrent.futures
@@ -17,7 +17,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "tests/show"))
+sys.path[:0] = [str(ROOT / "tests/show"), str(ROOT / "tests")]
+import run as runner  # noqa: E402
 from table import Shown  # noqa: E402
 
 CLASSES = ("malloc", "read", "write", "mmap", "open", "thread")
@@ -41,6 +42,12 @@ CASES = [
 ]
 
 
+def leak_sanitizer():
+    """Its library, to be preloaded; None: there is none."""
+    said = subprocess.run(["gcc", "-print-file-name=liblsan.so"], capture_output=True, text=True, check=False).stdout.strip()
+    return pathlib.Path(said) if "/" in said else None
+
+
 def digest(path):
     text = path.read_bytes()
     if path.suffix in (".json", ".xml", ".html"):  # how long it took, and where
@@ -54,7 +61,8 @@ def plain(out):
 
 class Trial:
     def __init__(self, build, inputs):
-        self.relume, self.shim, self.inputs = (build / "relume").resolve(), (build / "tests/real/inject_shim.so").resolve(), inputs
+        self.build, self.relume, self.shim, self.inputs = build.resolve(), (build / "relume").resolve(), (build / "tests/real/inject_shim.so").resolve(), inputs
+        self.spared = (ROOT / "tests/lsan.supp").read_text()
 
     def run(self, case, inject=None, count=None, cache=None):
         """(exit code, stdout, stderr, {file: digest}, names of other files)"""
@@ -64,7 +72,9 @@ class Trial:
             if case.name != "index":
                 shutil.copy2(self.inputs / "x.trace.index", work)
             words = {"@trace": "x.trace", "@frames": "../frames", "@ref": "../x.ref"}
-            env = {**os.environ, "XDG_CACHE_HOME": str(cache or self.inputs / "cache"), "LD_PRELOAD": str(self.shim), "TMPDIR": folder}
+            env = {**runner.environment(self.build, folder), "XDG_CACHE_HOME": str(cache or self.inputs / "cache"),
+                   "LD_PRELOAD": " ".join(str(p) for p in (self.shim, leak_sanitizer()) if p), "INJECT_SPARED": self.spared,
+                   "LSAN_OPTIONS": "exitcode=0:print_suppressions=0"}
             if inject:
                 env["INJECT"] = inject
             if count:
@@ -86,6 +96,8 @@ class Trial:
             return "hangs"
         if code not in (good[0], 3, 5):
             return f"exit code {code}: {err.decode(errors='replace')[-300:]}"
+        if b"detected memory leaks" in err:
+            return f"exit code {code}, and leaks: {err.decode(errors='replace')[:900]}"
         if others:
             return f"leaves {others}"
         if case.name == "diff" and code == 3:  # a frame that cannot be read is a result

@@ -63,7 +63,8 @@ static void answer(const char *path, int pipe)
 	FILE *out = fdopen(pipe, "wb");
 	int64_t err;
 
-	confine_to(&file, 1, CONFINE_READER);
+	if (confine_to(&file, 1, CONFINE_READER))
+		return;
 	limit(RLIMIT_CPU, MOST_SECONDS);
 	limit(RLIMIT_CORE, 0);
 #ifndef __SANITIZE_ADDRESS__ /* which maps terabytes */
