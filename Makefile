@@ -309,9 +309,9 @@ show:
 
 DEPS_parity := xdotool inventor-clients inventor-data inventor-demo billard-gl gltron neverball openarena crrcsim rss-glx \
 	xscreensaver-gl xscreensaver-gl-extra
-DEPS_sweep := xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
-	geomview g3dviewer openscad mm3d meshlab avogadro pymol minetest minetest-data
-DEPS_sweep-record := $(DEPS_sweep)
+DEPS_sweep = xdotool xscreensaver-gl xscreensaver-gl-extra rss-glx inventor-clients inventor-data inventor-demo openscenegraph \
+	geomview g3dviewer openscad mm3d meshlab avogadro pymol minetest minetest-data $(shell $(PYTHON) -B tests/show/more_programs.py)
+DEPS_sweep-record = $(DEPS_sweep)
 DEPS_crashes := extremetuxracer foobillardplus
 DEPS_cryptomatte := blender python3-numpy
 DEPS_devices := python3-venv oclgrind mesa-opencl-icd mesa-utils neverball xdotool xscreensaver-gl

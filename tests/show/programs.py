@@ -10,6 +10,8 @@ import math
 import pathlib
 import subprocess
 
+import more_programs
+
 WINDMILL = "/usr/share/doc/inventor-demo/src/apps/examples/Mentor/01.1.Windmill.iv"
 
 
@@ -94,6 +96,7 @@ def sweep():
     programs.append(Program("geomview", "geomview", ("geomview", "-wpos", "640,480@100,100", DODECAHEDRON),
                             seconds=15, ref_every=1, group="others"))
     programs.append(Program("g3dviewer", "g3dviewer", ("g3dviewer",), seconds=15, ref_every=1, group="others"))
+    programs += more_programs.more(Program)
     return sorted(programs, key=lambda p: GROUPS.index(p.group))
 
 
@@ -137,7 +140,8 @@ GAMES = [
     Program("openarena-opengl2", "openarena", ("openarena", "+set", "r_fullscreen", "0", "+set", "cl_renderer", "opengl2", "+set", "r_mode",
                                                "3", "+set", "sv_pure", "0", "+devmap", "oa_dm1"), seconds=50, group="games, GLSL"),
 ]
-GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL", "others"]
+GROUPS = ["xscreensaver, fixed function", "xscreensaver, GLSL", "rss-glx", "Inventor", "OpenSceneGraph", "Qt 5 viewers", "games, GLSL", "others",
+          *more_programs.GROUPS]
 # Those with shaders that need no model files.
 OSG_EXAMPLES = ("osgforest", "osgparametric", "osgparticleshader", "osgshaders", "osgshaderterrain", "osgshadow", "osgsimpleshaders",
                 "osgvertexprogram", "osgwidgetshader")

@@ -50,6 +50,14 @@ def list_references(path):
     return frames, depth
 
 
+def drag(x, y, to_x, to_y, n=20):
+    """Press the left button at a place, and let it go at another one, n moves and two seconds later."""
+    subprocess.run(["xdotool", "mousemove", str(x), str(y), "mousedown", "1"], check=False)
+    for i in range(1, n + 1):
+        subprocess.run(["xdotool", "mousemove", str(x + (to_x - x) * i // n), str(y + (to_y - y) * i // n), "sleep", str(2 / n)], check=False)
+    subprocess.run(["xdotool", "mouseup", "1"], check=False)
+
+
 def send(steps):
     """Do what a person would: see tests/show/programs.py."""
     subprocess.run(["xdotool", "mousemove", "400", "300"], check=False)
@@ -59,8 +67,12 @@ def send(steps):
             time.sleep(float(value))
         elif what == "key":
             subprocess.run(["xdotool", "key", "--delay", "120", value], check=False)
+        elif what in ("keydown", "keyup"):
+            subprocess.run(["xdotool", what, value], check=False)
         elif what == "click":
             subprocess.run(["xdotool", "mousemove", *value.split(), "click", "1"], check=False)
+        elif what == "drag":
+            drag(*map(int, value.split()))
         elif what == "type":
             subprocess.run(["xdotool", "type", value], check=False)
         else:
