@@ -104,11 +104,11 @@ $(BUILD)/librelume.so: $(RECORDER_OBJ) capture/gen/exports.map
 		-o $@ $(RECORDER_OBJ) -l:libsnappy.a -ldl -pthread
 
 # The recorder for programs of 32 bits, beside the other one where the loader looks for either (capture/record.c).
-DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386
+DEPS_i386 := gcc-multilib g++-multilib libsnappy-dev:i386 libx11-6:i386 libgl1:i386 libgl1-mesa-dri:i386 libglu1-mesa:i386 libglut3.12:i386
 I386_CFLAGS = $(filter-out $(SANFLAGS),$(ALL_CFLAGS)) -m32 -D_FILE_OFFSET_BITS=64 -Wno-psabi -I$(BUILD)/recorder/gen -fvisibility=hidden
 I386_OBJ := $(patsubst $(BUILD)/recorder/%,$(BUILD)/i386/%,$(RECORDER_OBJ))
 LIBRELUMES := $(BUILD)/lib/i386-linux-gnu/librelume.so $(BUILD)/lib/x86_64-linux-gnu/librelume.so
-i386: $(LIBRELUMES) $(BUILD)/i386/windows
+i386: $(LIBRELUMES) $(addprefix $(BUILD)/i386/,windows two_triangles spheres tricks)
 
 # Packages of both architectures have one version. Nothing that is installed may go for that: apt then says what is in the way.
 $(BUILD)/deps.i386: Makefile
@@ -116,9 +116,10 @@ $(BUILD)/deps.i386: Makefile
 	@if [ "$$(dpkg-query -W -f '$${db:Status-Status}\n' $(DEPS_i386) 2>/dev/null | grep -cx installed)" != $(words $(DEPS_i386)) ]; then \
 		echo "installing from Debian, i386 added: $(DEPS_i386) (see $@.log)"; \
 		[ "$$(id -u)" = 0 ] || sudo=sudo; \
+		had=$$(dpkg --print-foreign-architectures | grep -cx i386); \
 		{ $$sudo dpkg --add-architecture i386 && $$sudo apt-get -q update && \
 			DEBIAN_FRONTEND=noninteractive $$sudo apt-get -q -y --no-remove --no-install-recommends install $(DEPS_i386); } \
-			>$@.log 2>&1 || { tail -n 20 $@.log; exit 1; }; \
+			>$@.log 2>&1 || { tail -n 20 $@.log; [ $$had = 1 ] || $$sudo dpkg --remove-architecture i386; exit 1; }; \
 	fi
 	@touch $@
 
@@ -139,10 +140,28 @@ $(BUILD)/lib/x86_64-linux-gnu/librelume.so: $(BUILD)/librelume.so
 	@mkdir -p $(@D)
 	$(Q)ln -sf ../../librelume.so $@
 
-# A program for its test.
+# Programs for its test and for show-reach.
 $(BUILD)/i386/windows: tests/real/windows.c tests/trace/window.h | $(BUILD)/deps.i386
 	@mkdir -p $(@D)
 	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -DGL_GLEXT_PROTOTYPES -I. -o $@ $< -l:libGL.so.1 -l:libX11.so.6 -lm -pthread
+
+$(BUILD)/i386/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
+	@mkdir -p $(@D)
+	$(Q)$(CC) -m32 -std=c11 $(WARNINGS) -O2 -D_GNU_SOURCE -o $@ $< -l:libglut.so.3.12 -l:libGLU.so.1 -l:libGL.so.1 -lm
+
+# Programs of Windows, for Wine: corpus programs as they are, and one of their own kind of windows.
+DEPS_windows := gcc-mingw-w64-x86-64 wine wine64
+WINDOWS := $(addprefix $(BUILD)/windows/,two_triangles.exe spheres.exe tricks.exe wgl.exe)
+MINGW = x86_64-w64-mingw32-gcc -std=gnu11 $(WARNINGS) -O2 -ffp-contract=off
+windows: $(WINDOWS)
+
+$(BUILD)/windows/wgl.exe: tests/real/wgl.c | $(BUILD)/deps.windows
+	@mkdir -p $(@D)
+	$(Q)$(MINGW) -o $@ $< -lopengl32 -lgdi32
+
+$(BUILD)/windows/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h | $(BUILD)/deps.windows
+	@mkdir -p $(@D)
+	$(Q)$(MINGW) -Icorpus/windows -o $@ $< -lglu32 -lopengl32 -lgdi32
 
 # The recorder alone with a sanitizer, for the threads test: it then needs a program that brings the sanitizer's runtime.
 SANITIZED_CFLAGS = -std=c11 $(WARNINGS) -O1 -g -fPIC -pthread -fvisibility=hidden -fno-omit-frame-pointer -I$(BUILD)/recorder/gen
@@ -298,8 +317,9 @@ picture: all $(BUILD)/deps.picture
 # Figures beside their bars: each show-NAME writes $(BUILD)/show/NAME.json, and fails where its bar does not hold. DEPS_NAME is what
 # must be installed for it alone, NEEDS_NAME what must be built; those ON_SCREEN need a display.
 SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build show-host show-metrics show-batch-faults show-device-faults
-SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path photons reduce relit replay rooms sandbox sanitize seek \
+SCRIPTS := bisect crashes cryptomatte devices export farm faults flaky frames fuzz hooks inject kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms sandbox sanitize seek \
 	film soak sweep sweep-record thesis
+SCRIPT_reach := classes# reach.py is of show-tests
 SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
 ON_SCREEN := crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
@@ -333,6 +353,7 @@ NEEDS_kill = $(HELPERS)
 NEEDS_oclgrind := $(BUILD)/tests/bench/tiny
 NEEDS_overhead = $(HELPERS)
 NEEDS_photons := $(BUILD)/tests/truth/test_caustics
+NEEDS_reach = $(WINDOWS)
 NEEDS_rooms := $(BUILD)/tests/unit/test_repair
 NEEDS_sandbox = $(HELPERS)
 NEEDS_mutants = $(HELPERS) $(BUILD)/tests/fuzz/drive $(BUILD)/tests/fuzz/make_seeds
@@ -505,7 +526,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: picture all i386 deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs show-tests show-fresh \
+.PHONY: picture all i386 windows deps pages install uninstall deb check demo show $(SHOWS) bench show-piglit-record show-piglit-parity show-programs show-tests show-fresh \
 	golden-update clean FORCE
 .SECONDARY: # keep the objects of tests
 -include $(HELPERS:=.d) $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(GLSL_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d) $(I386_OBJ:.o=.d) $(TESTS:=.d) $(CORPUS:=.d) $(BENCHES:=.d) $(BUILD)/tests/bench/embree_build.d \

@@ -22,7 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#if __has_include("../capture/relume.h")
+#if __has_include("../capture/relume.h") && !defined(_WIN32)
 #include "../capture/relume.h"
 #else
 enum { RT_MATTE_EXT, RT_MIRROR_EXT, RT_GLASS_EXT };
