@@ -79,7 +79,7 @@ static uint32_t arc_tangent(struct glsl_writer *w, uint32_t x)
 {
 	static const double factors[] = { 0.0536813784310406, -0.1173503194786851, 0.1938924977115610, -0.3326756418091246, 0.9999793128310355 };
 	const uint32_t far = one(w, SCENE_OP_ABSOLUTE, x), limit = num(w, 1);
-	const uint32_t u = mul(w, two(w, SCENE_OP_MINIMUM, far, limit), one(w, SCENE_OP_RECIPROCAL, two(w, SCENE_OP_MAXIMUM, far, limit)));
+	const uint32_t u = two(w, SCENE_OP_DIVIDE, two(w, SCENE_OP_MINIMUM, far, limit), two(w, SCENE_OP_MAXIMUM, far, limit));
 	const uint32_t square = mul(w, u, u);
 	uint32_t sum = num(w, -0.0121323213173444);
 
@@ -115,7 +115,7 @@ static uint32_t of_one(struct glsl_writer *w, uint32_t operation, uint32_t x)
 	case GLSL_DEGREES: return mul(w, x, num(w, 180 / M_PI));
 	case GLSL_SIN: return one(w, SCENE_OP_SINE, x);
 	case GLSL_COS: return one(w, SCENE_OP_COSINE, x);
-	case GLSL_TAN: return mul(w, one(w, SCENE_OP_SINE, x), one(w, SCENE_OP_RECIPROCAL, one(w, SCENE_OP_COSINE, x)));
+	case GLSL_TAN: return two(w, SCENE_OP_DIVIDE, one(w, SCENE_OP_SINE, x), one(w, SCENE_OP_COSINE, x));
 	case GLSL_ASIN: return arc_sine(w, x, 0.086566724, -0.03102955);
 	case GLSL_ACOS: return sub(w, num(w, M_PI_2), arc_sine(w, x, 0.08132463, -0.02363318));
 	case GLSL_ATAN: return arc_tangent(w, x);
@@ -123,14 +123,14 @@ static uint32_t of_one(struct glsl_writer *w, uint32_t operation, uint32_t x)
 	case GLSL_COSH: return hyperbolic(w, x, 1);
 	case GLSL_TANH:
 		y = two(w, SCENE_OP_MINIMUM, two(w, SCENE_OP_MAXIMUM, x, num(w, -10)), num(w, 10));
-		return mul(w, hyperbolic(w, y, -1), one(w, SCENE_OP_RECIPROCAL, hyperbolic(w, y, 1)));
+		return two(w, SCENE_OP_DIVIDE, hyperbolic(w, y, -1), hyperbolic(w, y, 1));
 	case GLSL_ASINH:
 		y = one(w, SCENE_OP_ABSOLUTE, x);
 		return mul(w, sign_of(w, x), logarithm(w, add(w, y, one(w, SCENE_OP_SQUARE_ROOT, mad(w, x, x, num(w, 1))))));
 	case GLSL_ACOSH: return logarithm(w, add(w, x, one(w, SCENE_OP_SQUARE_ROOT, mad(w, x, x, num(w, -1)))));
 	case GLSL_ATANH:
-		y = one(w, SCENE_OP_RECIPROCAL, sub(w, num(w, 1), x));
-		return mul(w, num(w, 0.5), logarithm(w, mul(w, add(w, num(w, 1), x), y)));
+		y = two(w, SCENE_OP_DIVIDE, add(w, num(w, 1), x), sub(w, num(w, 1), x));
+		return mul(w, num(w, 0.5), logarithm(w, y));
 	case GLSL_EXP: return exponential(w, x);
 	case GLSL_LOG: return logarithm(w, x);
 	case GLSL_EXP2: return one(w, SCENE_OP_EXP2, x);
@@ -189,9 +189,9 @@ static uint32_t of_several(struct glsl_writer *w, const struct glsl_node *node, 
 			return glsl_one(w, SCENE_OP_CHOOSE, z, y, x);
 		return mad(w, y, z, mul(w, x, sub(w, unit, z)));
 	case GLSL_SMOOTH_STEP:
-		t = mul(w, sub(w, z, x), one(w, SCENE_OP_RECIPROCAL, sub(w, y, x)));
+		t = two(w, SCENE_OP_DIVIDE, sub(w, z, x), sub(w, y, x));
 		t = two(w, SCENE_OP_MINIMUM, two(w, SCENE_OP_MAXIMUM, t, zero), unit);
-		return mul(w, mul(w, t, t), sub(w, num(w, 3), mul(w, num(w, 2), t)));
+		return mul(w, t, mul(w, t, sub(w, num(w, 3), mul(w, num(w, 2), t))));
 	default: return GLSL_NONE;
 	}
 }

@@ -29,13 +29,10 @@ struct glsl_value glsl_by_component(struct glsl_writer *w, enum scene_operation 
 
 static struct glsl_value divide(struct glsl_writer *w, uint32_t type, const struct glsl_value *a, const struct glsl_value *b)
 {
-	struct glsl_value v;
+	const struct glsl_value v = glsl_by_component(w, SCENE_OP_DIVIDE, 0, type, a, b);
 
-	if (glsl_type_of(w, type)->kind == GLSL_FLOAT) {
-		v = glsl_by_component(w, SCENE_OP_RECIPROCAL, 0, b->type, b, NULL);
-		return glsl_by_component(w, SCENE_OP_MULTIPLY, 0, type, a, &v);
-	}
-	v = glsl_by_component(w, SCENE_OP_DIVIDE, 0, type, a, b);
+	if (glsl_type_of(w, type)->kind == GLSL_FLOAT)
+		return v;
 	return glsl_by_component(w, SCENE_OP_TRUNCATE, 0, type, &v, NULL);
 }
 

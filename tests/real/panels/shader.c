@@ -87,6 +87,7 @@ static const char *const functions[] = {
 	"a.x > 0.0 ? a : b", "vec4(a.x > b.x && a.y > b.y, a.x > b.x || a.y > b.y, a.x > b.x ^^ a.y > b.y, !(a.x > b.x))",
 	"vec4(float(int(a.x * 7.0) / 2), float(7 / int(1.0 + p.x)), float(int(a.y * 9.0) * 2 - 3), 0.5)", "vec4(floor(a) == floor(b), floor(a.xy) != floor(b.xy), a.x == a.x, false)",
 	"float(true) * a", "clamp(p, 0.3, 1.0) * sign(b)",
+	"fract(a / p * 1048576.0)", "fract(smoothstep(-0.5, 1.6, a) * 1048576.0)", /* to the last bit */
 };
 
 static void function(int i)
