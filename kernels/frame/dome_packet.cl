@@ -165,24 +165,24 @@ static inline uint look_lanes(const struct plain_arguments *a, const struct shad
 	struct pack_lit_here here;
 	struct pack_surface surface;
 	struct looks own;
-	struct pack p;
+	struct pack *p = &kept->last;
 	packi done;
 
-	p.material = &t->materials[g->material];
-	p.view = &a->views[g->view];
-	lanes = pack_place(s, &row->list, lanes, 1, kept, &p);
+	p->material = &t->materials[g->material];
+	p->view = &a->views[g->view];
+	lanes = pack_place(s, &row->list, lanes, 1, kept, p);
 	if (!lanes)
 		return 0;
-	pack_surface(t, &p, &surface);
-	if (a->n_slots && p.material->surface.relit)
-		pack_lit_here(s, &row->list, &p, &surface, lanes, &here);
+	pack_surface(t, p, &surface);
+	if (a->n_slots && p->material->surface.relit)
+		pack_lit_here(s, &row->list, p, &surface, lanes, &here);
 	if (a->n_slots)
-		plain_send_rays(a, row, &p, &surface, p.material->surface.relit ? here.lights : pack_lights(t, &p), lanes);
+		plain_send_rays(a, row, p, &surface, p->material->surface.relit ? here.lights : pack_lights(t, p), lanes);
 	else
 		pack_measure(&surface);
-	if (!(p.material->surface.hidden & SCENE_DOME_LIT))
+	if (!(p->material->surface.hidden & SCENE_DOME_LIT))
 		return lanes;
-	look_around(&d, &p, a->height, &surface, &own);
+	look_around(&d, p, a->height, &surface, &own);
 	done = pack_mask(lanes);
 	looks->o = pack_choose(looks->o, own.o, done);
 	for (uint i = 0; i < 3; i++)

@@ -22,6 +22,7 @@ struct pack_list {
 struct pack {
 	__global const struct scene_material *material;
 	__global const struct view *view;
+	uint instance, primitive; /* the one whole triangle that pack_place has found them in, kept for the next ones; SCENE_NONE: none */
 	packi x, row;             /* pixels, row 0 at the top */
 	int uniform;              /* all lie in the same triangle */
 	packi cut, front;         /* all ones: leaves the view volume; shows its front */
@@ -51,12 +52,14 @@ struct pack_lit {
 };
 
 struct pack_kept {
+	struct pack last;
 	struct pack_cut cuts[PACK_CUTS];
 	struct pack_lit lit[SHADE_TRIANGLES];
 };
 
 static inline void pack_keep_nothing(struct pack_kept *kept)
 {
+	kept->last.instance = kept->last.primitive = SCENE_NONE;
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept->lit[i].instance = SCENE_NONE;
 	for (uint i = 0; i < PACK_CUTS; i++)
@@ -148,19 +151,20 @@ static inline uint pack_next(struct pack_left *left, uint *item)
 
 /* --- Loading ------------------------------------------------------------------------------------------------------- */
 
+/* Whether some lanes lie in one triangle. */
+WIDE_VECTORS static inline int pack_is_in(const struct pack_list *list, uint lanes, uint instance, uint primitive)
+{
+	const packi differ = (*(const pack_loose_uints *)list->primitive != primitive) | (*(const pack_loose_uints *)list->instance != instance);
+
+	return !(lanes & pack_bits(differ));
+}
+
 /* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
-static inline void pack_load(const struct tables *t, uint width, uint height, const struct pack_list *list, uint lanes, struct pack *p)
+static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes, struct pack *p)
 {
 	const uint first = popcount((lanes & -lanes) - 1);
-	packu pixel;
 
-	p->uniform = 1;
-	for (uint left = lanes; left; left &= left - 1) {
-		const uint lane = popcount((left & -left) - 1);
-
-		p->uniform &= list->primitive[lane] == list->primitive[first] && list->instance[lane] == list->instance[first];
-	}
-	pixel = vload16(0, list->pixel);
+	p->uniform = pack_is_in(list, lanes, list->instance[first], list->primitive[first]);
 	for (uint lane = 0; lane < (p->uniform ? 1 : PACK_SIZE); lane++) {
 		const uint from = lanes >> lane & 1 ? lane : first, primitive = list->primitive[from];
 		__global const struct geometry *g = &t->geometries[list->instance[from]];
@@ -178,14 +182,27 @@ static inline void pack_load(const struct tables *t, uint width, uint height, co
 	}
 	if (p->uniform)
 		p->cut = p->cut.s0;
-	p->b1 = vload16(0, list->b1);
-	p->b2 = vload16(0, list->b2);
-	p->depth = vload16(0, list->depth);
+}
+
+/* And their pixels. */
+WIDE_VECTORS static inline void pack_load_pixels(uint width, uint height, const struct pack_list *list, struct pack *p)
+{
+	const packu pixel = *(const pack_loose_uints *)list->pixel;
+
+	p->b1 = *(const pack_loose_floats *)list->b1;
+	p->b2 = *(const pack_loose_floats *)list->b2;
+	p->depth = *(const pack_loose_floats *)list->depth;
 	p->row = convert_int16(convert_float16(pixel) / (float)width);
 	p->x = as_int16(pixel) - p->row * (int)width;
 	p->row += (p->x < 0) - (p->x >= (int)width); /* the quotient may be off by one; true is -1 */
 	p->x = as_int16(pixel) - p->row * (int)width;
 	p->row = (int)height - 1 - p->row;
+}
+
+static inline void pack_load(const struct tables *t, uint width, uint height, const struct pack_list *list, uint lanes, struct pack *p)
+{
+	pack_load_triangles(t, list, lanes, p);
+	pack_load_pixels(width, height, list, p);
 }
 
 /* Of a table of four numbers each, the lanes' entries; one for all in a uniform pack. */
@@ -418,16 +435,14 @@ static inline void pack_locate(const struct tables *t, __global const struct win
 	pack_weigh(p);
 }
 
-/* Find the lanes' places in their triangles. @return the lanes that have one: others lie in slivers */
-static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time, struct pack_kept *kept,
-                              struct pack *p)
+/* The corners and edges of the lanes' triangles. @return the lanes of which a part of the triangle covers the pixel */
+static inline uint pack_find(const struct shade_arguments *a, const struct pack_list *list, uint lanes, struct pack_kept *kept, struct pack *p)
 {
-	pack_load(&a->tables, a->width, a->height, list, lanes, p);
 	pack_window(&a->tables, a->windows, p);
 	pack_corners(a, p);
 	for (int k = 0; k < 3; k++)
 		p->corner1[k] = p->corner2[k] = 0.0f;
-	vstore16((packu)(0), 0, p->part);
+	*(pack_loose_uints *)p->part = 0;
 	for (uint left = lanes & pack_bits(p->cut); left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
@@ -444,6 +459,27 @@ static inline uint pack_place(const struct shade_arguments *a, const struct pack
 			lanes &= ~same;
 	}
 	pack_edges_of(p->px, p->py, &p->edges);
+	return lanes;
+}
+
+/*
+ * Find the lanes' places in their triangles.
+ * p: with material and view, and with instance and primitive: those of the last ones, or SCENE_NONE
+ * @return the lanes that have one: others lie in slivers
+ */
+static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time, struct pack_kept *kept,
+                              struct pack *p)
+{
+	const uint first = popcount((lanes & -lanes) - 1);
+	const int is_known = p->primitive != SCENE_NONE && pack_is_in(list, lanes, p->instance, p->primitive);
+
+	pack_load_pixels(a->width, a->height, list, p);
+	if (!is_known) {
+		pack_load_triangles(&a->tables, list, lanes, p);
+		lanes = pack_find(a, list, lanes, kept, p);
+		p->instance = list->instance[first];
+		p->primitive = p->uniform && !p->cut.s0 ? list->primitive[first] : SCENE_NONE;
+	}
 	lanes &= pack_bits(fabs(p->edges.area) > 1.0e-6f);
 	if (first_time)
 		pack_unsnap(p, a->bits);

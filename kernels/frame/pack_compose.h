@@ -218,15 +218,13 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	pack_store_half(to, COMPOSE_REFRACT + c, refract);
 }
 
-/* The same; what no effect changes goes a shorter way. */
-WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, int c, const struct pack_planes *to)
+/* The same; what no effect changes goes a shorter way. nudged: compose_nudged; first, exact: as pack_compose_channel takes them */
+WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, packf nudged, packf first, packf exact, int c,
+                                                   const struct pack_planes *to)
 {
 	const packi gl = as_int16(p->gl[c]);
 	const packi changed = (gl ^ as_int16(p->shadowed[c])) | (gl ^ as_int16(p->direct[c])) | (gl ^ as_int16(p->mirrored[c])) |
 	                      (gl ^ as_int16(p->beauty[c]));
-	const packf nudged = pack_nudged(p->gl[c]);
-	const packf first = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged;
-	const packf exact = to->request->display ? first : pack_linear(first);
 
 	if (to->request->normals || any_pack((changed != 0) | (p->gl[c] != p->gl[c])))
 		pack_compose_channel(p, nudged, first, exact, c, to);
@@ -239,8 +237,17 @@ WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, 
 /* All planes. */
 WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, const struct pack_planes *to)
 {
+	packf nudged[3], first[3], exact[3];
+
+	for (int c = 0; c < 3; c++) {
+		nudged[c] = pack_nudged(p->gl[c]);
+		first[c] = to->request->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : nudged[c];
+		exact[c] = first[c];
+	}
+	if (!to->request->display)
+		pack_linear3(exact);
 	for (int c = 0; c < 3; c++)
-		pack_compose_color(p, c, to);
+		pack_compose_color(p, nudged[c], first[c], exact[c], c, to);
 	pack_store_half(to, COMPOSE_BEAUTY + 3, p->drawn);
 	pack_store_half(to, COMPOSE_GL + 3, p->gl[3]);
 	for (int i = 0; i < 3; i++) {

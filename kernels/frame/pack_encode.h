@@ -34,6 +34,16 @@ WIDE_VECTORS static inline packf pack_linear(packf display)
 	return pack_signed(select(x * 0.0773993808f, y, x > 0.04045f), display);
 }
 
+/* Of three at once, which overlap: each is a long chain of steps. */
+WIDE_VECTORS static inline void pack_linear3(packf *c)
+{
+	const packf first = pack_linear(c[0]), second = pack_linear(c[1]), third = pack_linear(c[2]);
+
+	c[0] = first;
+	c[1] = second;
+	c[2] = third;
+}
+
 /* As encode_display. */
 WIDE_VECTORS static inline packf pack_display(packf linear)
 {

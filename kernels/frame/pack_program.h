@@ -504,6 +504,7 @@ static inline uint pack_program_across(const struct shade_arguments *a, const st
 		}
 		for (uint lane = 0; lane < PACK_SIZE; lane++)
 			pack_copy_lane(list, from[min(lane / 4, n - 1)], lane, &quads);
+		p->primitive = SCENE_NONE; /* programs have moved it */
 		own &= pack_place(a, &quads, 0xffff, unplaced, kept, p);
 		if (own)
 			pack_run_program(a, &quads, p, own, program, kept, runs);
@@ -530,6 +531,7 @@ static inline uint pack_program(const struct shade_arguments *a, const struct pa
 	p.view = &a->views[g->view];
 	if (m->fragment_program && program.head->across)
 		return pack_program_across(a, list, lanes, unplaced, &program, kept, runs, &p);
+	p.primitive = SCENE_NONE;
 	lanes = pack_place(a, list, lanes, unplaced, kept, &p);
 	if (lanes && m->fragment_program)
 		pack_run_program(a, list, &p, lanes, &program, kept, runs);

@@ -432,26 +432,26 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	__global const struct scene_material *m = &t->materials[g->material];
 	struct pack_color from_vertices, secondary, color, direct, albedo;
 	struct pack_texturing texturing;
-	struct pack p;
+	struct pack *p = &kept->last;
 	packu lights;
 
-	p.material = m;
-	p.view = &a->views[g->view];
-	lanes = pack_place(a, list, lanes, a->n_slots == 0, kept, &p);
+	p->material = m;
+	p->view = &a->views[g->view];
+	lanes = pack_place(a, list, lanes, a->n_slots == 0, kept, p);
 	if (!lanes)
 		return 0;
-	pack_texture(a, list, &p, lanes, kept, &texturing);
+	pack_texture(a, list, p, lanes, kept, &texturing);
 	if (a->n_slots && !m->surface.relit) {
-		pack_between_relit(a, list, &p, lanes, kept, &from_vertices, &secondary);
+		pack_between_relit(a, list, p, lanes, kept, &from_vertices, &secondary);
 	} else {
-		pack_lit_from_vertices(t, &p, &from_vertices, &secondary);
+		pack_lit_from_vertices(t, p, &from_vertices, &secondary);
 	}
-	color = pack_finish(t, &p, &texturing, &from_vertices, &secondary);
+	color = pack_finish(t, p, &texturing, &from_vertices, &secondary);
 	for (int i = 0; i < 3; i++)
 		color.c[i] = pack_nudge(color.c[i]);
-	lights = pack_lights(t, &p);
-	direct = stage_is_path(a->transport) ? pack_direct_light(a, list, &p, lanes, &texturing, &from_vertices, &secondary, &lights) :
-	                                       pack_direct(a, list, &p, lanes, &texturing, &color, &lights);
+	lights = pack_lights(t, p);
+	direct = stage_is_path(a->transport) ? pack_direct_light(a, list, p, lanes, &texturing, &from_vertices, &secondary, &lights) :
+	                                       pack_direct(a, list, p, lanes, &texturing, &color, &lights);
 	for (uint left = a->n_slots ? lanes : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 
@@ -462,16 +462,16 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	for (int i = 0; i < 3; i++)
 		albedo.c[i] = 0.0f;
 	if (a->albedo)
-		albedo = pack_albedo(t, list, &p, lanes, &texturing, &from_vertices);
-	lights = (lights & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p.front) & SHADED_FRONT);
+		albedo = pack_albedo(t, list, p, lanes, &texturing, &from_vertices);
+	lights = (lights & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p->front) & SHADED_FRONT);
 	for (uint left = lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];
 		__global struct fragment *f = &a->fragments[list->item[lane]];
 
-		f->b1 = LANE(p.b1, float, lane);
-		f->b2 = LANE(p.b2, float, lane);
-		f->depth = out->depth = LANE(p.depth, float, lane);
+		f->b1 = LANE(p->b1, float, lane);
+		f->b2 = LANE(p->b2, float, lane);
+		f->depth = out->depth = LANE(p->depth, float, lane);
 		pack_store_relit(out, lane, &color, &direct);
 		for (int i = 0; i < 4; i++)
 			out->gl[i] = LANE(color.c[i], float, lane);

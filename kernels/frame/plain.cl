@@ -92,48 +92,50 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	struct pack_color lit, secondary, color, shadowed, direct;
 	struct pack_texturing texturing;
 	struct pack_surface surface;
-	struct pack p;
-	packu lights;
+	struct pack *p = &kept->last;
+	const int sends = a->n_slots && !s->n_slots;
+	packu lights = 0;
 	packi show;
 
-	p.material = &t->materials[g->material];
-	p.view = &a->views[g->view];
-	lanes = pack_place(s, &row->list, lanes, 1, kept, &p);
+	p->material = &t->materials[g->material];
+	p->view = &a->views[g->view];
+	lanes = pack_place(s, &row->list, lanes, 1, kept, p);
 	if (!lanes)
 		return 0;
-	show = pack_mask(lanes) & shows(a, p.material, p.depth);
-	pack_texture(s, &row->list, &p, lanes, kept, &texturing);
-	pack_lit_from_vertices(t, &p, &lit, &secondary);
-	if (p.material->fragment_program) {
+	show = pack_mask(lanes) & shows(a, p->material, p->depth);
+	pack_texture(s, &row->list, p, lanes, kept, &texturing);
+	pack_lit_from_vertices(t, p, &lit, &secondary);
+	if (p->material->fragment_program) {
 		take_color(a->shaded[row->base].gl, 4, lanes, &color);
 	} else {
-		color = pack_finish(t, &p, &texturing, &lit, &secondary);
+		color = pack_finish(t, p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
 			color.c[i] = pack_nudge(color.c[i]);
 	}
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE) {
-		const struct pack_color albedo = pack_albedo(t, &row->list, &p, lanes, &texturing, &lit);
+		const struct pack_color albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
 
 		for (int i = 0; i < 3; i++)
 			pack_put(&row->pixels.albedo[i], albedo.c[i], show);
 	}
 	shadowed = color;
-	if (stage_is_by_program(s, p.material, g->flags)) {
+	if (stage_is_by_program(s, p->material, g->flags)) {
 		take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &shadowed);
-	} else if (lanes & row->dimmed && !p.material->surface.relit) {
-		pack_between_relit(s, &row->list, &p, lanes & row->dimmed, kept, &lit, &secondary);
-		lit = pack_finish(t, &p, &texturing, &lit, &secondary);
+	} else if (lanes & row->dimmed && !p->material->surface.relit) {
+		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
+		lit = pack_finish(t, p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
 			shadowed.c[i] = select(color.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
 	}
-	lights = pack_lights(t, &p);
-	direct = pack_direct(s, &row->list, &p, lanes, &texturing, &shadowed, &lights);
-	put_colors(&row->pixels, &p, &color, &shadowed, &direct, show);
-	if (pack_wants_surface(&a->request) || (a->n_slots && !s->n_slots))
-		pack_surface(t, &p, &surface);
-	put_surface(a, row, &p, &surface, show);
-	if (a->n_slots && !s->n_slots)
-		plain_send_rays(a, row, &p, &surface, lights, lanes);
+	if (sends)
+		lights = pack_lights(t, p);
+	direct = pack_direct(s, &row->list, p, lanes, &texturing, &shadowed, &lights);
+	put_colors(&row->pixels, p, &color, &shadowed, &direct, show);
+	if (pack_wants_surface(&a->request) || sends)
+		pack_surface(t, p, &surface);
+	put_surface(a, row, p, &surface, show);
+	if (sends)
+		plain_send_rays(a, row, p, &surface, lights, lanes);
 	return lanes;
 }
 

@@ -29,11 +29,11 @@ WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, 
 
 	pack_gather_from(words, place, first);
 	pack_gather_from(words, place + 2, last);
-	vstore16(as_uint16(first[1]), 0, list->instance);
-	vstore16(as_uint16(first[2]), 0, list->primitive);
-	vstore16(first[3], 0, list->b1);
-	vstore16(last[2], 0, list->b2);
-	vstore16(last[3], 0, list->depth);
+	*(pack_loose_uints *)list->instance = as_uint16(first[1]);
+	*(pack_loose_uints *)list->primitive = as_uint16(first[2]);
+	*(pack_loose_floats *)list->b1 = first[3];
+	*(pack_loose_floats *)list->b2 = last[2];
+	*(pack_loose_floats *)list->depth = last[3];
 	return pack_bits(as_uint16(first[0]) != SCENE_NONE);
 }
 
@@ -42,8 +42,8 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 	const struct camera_rectangle r = a->rectangle;
 	uint lanes = 0;
 
-	vstore16(row->base + as_uint16(PACK_LANES), 0, row->list.item);
-	vstore16(a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES), 0, row->list.pixel);
+	*(pack_loose_uints *)row->list.item = row->base + as_uint16(PACK_LANES);
+	*(pack_loose_uints *)row->list.pixel = a->first_pixel + row->y * a->width + row->x + as_uint16(PACK_LANES);
 	if ((int)row->y >= r.y0 && (int)row->y < r.y1 && (int)row->x >= r.x0 && (int)(row->x + PACK_SIZE) <= r.x1)
 		return load_whole_row(a, row, &row->list);
 	for (uint lane = 0; lane < PACK_SIZE; lane++) {
